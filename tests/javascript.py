@@ -1,4 +1,6 @@
-"""Runs what the library prints as JavaScript, in node or in headless Chromium, whichever is there."""
+"""Runs what the library prints as JavaScript, in node or in headless Chromium,
+whichever is there.
+"""
 
 import base64
 import functools
@@ -42,19 +44,35 @@ def answers(printed, cases):
     with tempfile.TemporaryDirectory() as folder:
         if engine() == "node":
             file = Path(folder, "printed.js")
-            file.write_text(printed + _HARNESS.format(**plain, give="process.stdout.write(btoa(text))"), encoding="utf-8")
+            file.write_text(
+                printed + _HARNESS.format(**plain, give="process.stdout.write(btoa(text))"),
+                encoding="utf-8",
+            )
             command = ["node", str(file)]
         else:
             file = Path(folder, "printed.html")
             script = printed + _HARNESS.format(**plain, give="document.title = btoa(text)")
-            file.write_text(f"<!DOCTYPE html><title></title><script>{script}</script>", encoding="utf-8")
-            command = [engine(), *CHROMIUM, f"--user-data-dir={folder}/profile", "--dump-dom", file.as_uri()]
+            file.write_text(
+                f"<!DOCTYPE html><title></title><script>{script}</script>", encoding="utf-8"
+            )
+            command = [
+                engine(),
+                *CHROMIUM,
+                f"--user-data-dir={folder}/profile",
+                "--dump-dom",
+                file.as_uri(),
+            ]
         done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
-    found = done.stdout if engine() == "node" else html.unescape(re.search("<title>(.*?)</title>", done.stdout)[1])
+    found = (
+        done.stdout
+        if engine() == "node"
+        else html.unescape(re.search("<title>(.*?)</title>", done.stdout)[1])
+    )
     return np.frombuffer(base64.b64decode(found), dtype="<f8").reshape(len(cases), -1)
 
 
 CHROMIUM = [
-    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking",
     "--disable-component-update", "--disable-sync",
 ]  # fmt: skip

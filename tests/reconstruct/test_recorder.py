@@ -1,4 +1,6 @@
-"""The pulse of a recorder: totals and direction of a known shape, polarity, whether it ended, files, and every refusal."""
+"""The pulse of a recorder: totals and direction of a known shape, polarity, whether it ended,
+files, and every refusal.
+"""
 
 import copy
 import math
@@ -24,11 +26,16 @@ def haversine(time, length=0.11):
 
 
 def test_totals_of_a_known_pulse():
-    """Integrated by hand: the whole of it at its end, the direction from both components, the time of the last sample in it."""
-    pulse = recorded_pulse(TIME, -40 * KMH * haversine(TIME), 12 * KMH * haversine(TIME), polarity="49 CFR 563")
+    """Integrated by hand: the whole of it at its end, the direction from both components, the time
+    of the last sample in it.
+    """
+    pulse = recorded_pulse(
+        TIME, -40 * KMH * haversine(TIME), 12 * KMH * haversine(TIME), polarity="49 CFR 563"
+    )
     assert pulse.ended
     assert pulse.delta_v_forward == pytest.approx(-40 * KMH, rel=1e-14)
-    # Pushed to the right, positive by Part 563: struck from the front left, which is negative as a PDOF.
+    # Pushed to the right, positive by Part 563: struck from the front left, which is negative as a
+    # PDOF.
     assert pulse.delta_v_left == pytest.approx(-12 * KMH, rel=1e-14)
     assert pulse.pdof == pytest.approx(-math.atan2(12, 40), rel=1e-14)
     assert pulse.delta_v == pytest.approx(math.hypot(40, 12) * KMH, rel=1e-14)
@@ -37,7 +44,9 @@ def test_totals_of_a_known_pulse():
     assert pulse.error_left == pytest.approx(1.2 * KMH, rel=1e-14)
     assert pulse.q.delta_v.m_as("km/h") == pytest.approx(math.hypot(40, 12), rel=1e-14)
     # The other polarity is the other side.
-    mirrored = recorded_pulse(TIME, -40 * KMH * haversine(TIME), 12 * KMH * haversine(TIME), polarity="ISO 8855")
+    mirrored = recorded_pulse(
+        TIME, -40 * KMH * haversine(TIME), 12 * KMH * haversine(TIME), polarity="ISO 8855"
+    )
     assert mirrored.delta_v_left == -pulse.delta_v_left
     assert mirrored.pdof == -pulse.pdof
     for twin in (pickle.loads(pickle.dumps(pulse)), copy.deepcopy(pulse)):
@@ -50,25 +59,35 @@ def test_totals_of_a_known_pulse():
         "Recorded pulse", "delta-V", "delta-V forward", "delta-V left", "PDOF", "duration", "ended",
         "recorded time", "recorded forward", "recorded left",
     ]  # fmt: skip
-    assert re.search(r"delta-V forward +-40.0 km/h, within 4.0 km/h\n", str(pulse.summary("metric")))
+    assert re.search(
+        r"delta-V forward +-40.0 km/h, within 4.0 km/h\n", str(pulse.summary("metric"))
+    )
     assert re.search(r"ended +yes\nrecorded time +0 to 0.250 s\n", str(pulse.summary()))
     assert "to -0 m" not in repr(pulse)
 
 
 def test_the_signs_are_those_of_an_impact():
-    """The recorder of a car that was struck, by Part 563, gives the components and the PDOF that the impact has."""
+    """The recorder of a car that was struck, by Part 563, gives the components and the PDOF that
+    the impact has.
+    """
     car = col.Vehicle(mass=1500.0, yaw_inertia=math.inf, x=0.0, y=0.0, heading=2.0, vx=3.0)
     other = col.Vehicle(mass=1800.0, yaw_inertia=math.inf, x=-4.0, y=1.0, heading=0.1, vx=20.0)
     side = col.eccentric(other, car, 0.1, normal=0.0, point=(-2.0, 0.2), friction=0.4).b
     shape = haversine(TIME)
-    pulse = recorded_pulse(TIME, side.delta_v_forward * shape, -side.delta_v_left * shape, polarity="49 CFR 563")
+    pulse = recorded_pulse(
+        TIME, side.delta_v_forward * shape, -side.delta_v_left * shape, polarity="49 CFR 563"
+    )
     assert pulse.delta_v_left == pytest.approx(side.delta_v_left, rel=1e-14)
     assert pulse.pdof == pytest.approx(side.pdof, rel=1e-14)
 
 
-@pytest.mark.parametrize(("stop", "ended"), [(0.06, False), (0.09, False), (0.11, False), (0.12, True), (0.25, True)])
+@pytest.mark.parametrize(
+    ("stop", "ended"), [(0.06, False), (0.09, False), (0.11, False), (0.12, True), (0.25, True)]
+)
 def test_whether_it_ended(stop, ended):
-    """The last 20 ms change 40 km/h by 4.4 up to 110 ms, by 0.4 up to 120 (0.8 is the limit of 49 CFR 563.5)."""
+    """The last 20 ms change 40 km/h by 4.4 up to 110 ms, by 0.4 up to 120 (0.8 is the limit of 49
+    CFR 563.5).
+    """
     time = TIME[stop + 1e-9 >= TIME]
     change = 40 * (haversine(time[-1:]) - haversine(time[-1:] - 0.02))[0]
     assert (change <= 0.8) == ended
@@ -76,9 +95,13 @@ def test_whether_it_ended(stop, ended):
         pulse = recorded_pulse(time, -40 * KMH * haversine(time), polarity="49 CFR 563")
         assert (pulse.evidence[0].mean, pulse.evidence[1]) == (pulse.delta_v_forward, None)
         assert pulse.evidence[0].sd == pytest.approx(4 * KMH / math.sqrt(3), rel=1e-14)
-        assert pulse.inputs("b")["delta_v_forward_b"].support == pytest.approx((-44 * KMH, -36 * KMH), rel=1e-12)
+        assert pulse.inputs("b")["delta_v_forward_b"].support == pytest.approx(
+            (-44 * KMH, -36 * KMH), rel=1e-12
+        )
         return
-    with pytest.warns(col.OutOfRangeWarning, match="while delta-V still changes.*is a lower bound") as caught:
+    with pytest.warns(
+        col.OutOfRangeWarning, match="while delta-V still changes.*is a lower bound"
+    ) as caught:
         pulse = recorded_pulse(time, -40 * KMH * haversine(time), polarity="49 CFR 563")
     assert caught[0].message.code == "pulse_cut"
     assert caught[0].filename == __file__
@@ -93,14 +116,22 @@ def test_whether_it_ended(stop, ended):
 
 
 def test_a_cut_pulse_is_evidence_of_at_least_so_much():
-    """In a posterior it only rules out less: with a flat prior what is left lies beyond the bound, to its error."""
+    """In a posterior it only rules out less: with a flat prior what is left lies beyond the bound,
+    to its error.
+    """
     time = TIME[TIME <= 0.0601]
     with pytest.warns(col.OutOfRangeWarning):
-        pulse = recorded_pulse(time, -40 * KMH * haversine(time), 9 * KMH * haversine(time), polarity="ISO 8855")
+        pulse = recorded_pulse(
+            time, -40 * KMH * haversine(time), 9 * KMH * haversine(time), polarity="ISO 8855"
+        )
     forward, left = pulse.evidence
     unknowns = {"forward": uncertainty.Uniform(-20.0, 0.0), "left": uncertainty.Uniform(-5.0, 5.0)}
     found = posterior(
-        lambda forward, left: {"f": forward, "l": left}, unknowns, {"f": forward, "l": left}, samples=1024, seed=1
+        lambda forward, left: {"f": forward, "l": left},
+        unknowns,
+        {"f": forward, "l": left},
+        samples=1024,
+        seed=1,
     )
     assert found["forward"].interval(0.99)[1] < pulse.delta_v_forward + 3 * pulse.error_forward
     assert found["forward"].mean == pytest.approx((pulse.delta_v_forward - 20.0) / 2, abs=0.5)
@@ -108,13 +139,24 @@ def test_a_cut_pulse_is_evidence_of_at_least_so_much():
 
 
 def test_it_goes_into_speeds():
-    """Its inputs have the names of the arguments; their middles are the answer of the components."""
-    pulse = recorded_pulse(TIME, -6.0 * haversine(TIME), -1.0 * haversine(TIME), polarity="49 CFR 563")
+    """Its inputs have the names of the arguments; their middles are the answer of the
+    components.
+    """
+    pulse = recorded_pulse(
+        TIME, -6.0 * haversine(TIME), -1.0 * haversine(TIME), polarity="49 CFR 563"
+    )
     inputs = pulse.inputs("a")
     assert list(inputs) == ["delta_v_forward_a", "delta_v_left_a"]
     a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.0, heading=0.0)
     b = col.Vehicle(mass=1300.0, yaw_inertia=2000.0, x=2.0, y=0.8)
-    contact = {"course_a": 0.0, "course_b": 1.4, "restitution": 0.1, "normal": 0.0, "point": (0.0, 0.4), "friction": math.inf}
+    contact = {
+        "course_a": 0.0,
+        "course_b": 1.4,
+        "restitution": 0.1,
+        "normal": 0.0,
+        "point": (0.0, 0.4),
+        "friction": math.inf,
+    }
     (found,) = speeds(a, b, **contact, **{name: one.mean for name, one in inputs.items()})
     assert found.a.delta_v_left == pytest.approx(1.0, rel=1e-12)
     # A small component is known to half the step of 1 km/h at best.
@@ -128,13 +170,23 @@ def test_it_goes_into_speeds():
 
 
 def test_files(tmp_path):
-    """A CSV with its units in the header reads as the arrays do; a byte order mark and empty lines do not matter."""
+    """A CSV with its units in the header reads as the arrays do; a byte order mark and empty lines
+    do not matter.
+    """
     registry = pint.get_application_registry()
     forward, lateral = -40 * haversine(TIME), 12 * haversine(TIME)
     path = tmp_path / "pulse.csv"
-    rows = [f"{1000 * t!r},{f!r}, {s!r}" for t, f, s in zip(TIME.tolist(), forward.tolist(), lateral.tolist(), strict=True)]
-    path.write_text("\n".join(["\ufefftime [ms],longitudinal [km/h],lateral [km/h]", *rows, "", ""]), encoding="utf-8")
-    by_arrays = recorded_pulse(registry.Quantity(1000 * TIME, "ms"), registry.Quantity(forward, "km/h"), registry.Quantity(lateral, "km/h"), polarity="49 CFR 563")  # fmt: skip
+    rows = [
+        f"{1000 * t!r},{f!r}, {s!r}"
+        for t, f, s in zip(TIME.tolist(), forward.tolist(), lateral.tolist(), strict=True)
+    ]
+    path.write_text(
+        "\n".join(["\ufefftime [ms],longitudinal [km/h],lateral [km/h]", *rows, "", ""]),
+        encoding="utf-8",
+    )
+    by_arrays = recorded_pulse(registry.Quantity(1000 * TIME, "ms"),
+        registry.Quantity(forward, "km/h"), registry.Quantity(lateral, "km/h"),
+            polarity="49 CFR 563")  # fmt: skip
     for given in (path, str(path)):
         by_file = recorded_pulse(given, polarity="49 CFR 563")
         assert by_file.delta_v_left == pytest.approx(by_arrays.delta_v_left, rel=1e-14)
@@ -171,7 +223,9 @@ REFUSALS = [
 
 
 @pytest.mark.parametrize(
-    ("code", "given", "options", "said"), REFUSALS, ids=[f"{i}-{row[0]}" for i, row in enumerate(REFUSALS)]
+    ("code", "given", "options", "said"),
+    REFUSALS,
+    ids=[f"{i}-{row[0]}" for i, row in enumerate(REFUSALS)],
 )
 def test_refusals(code, given, options, said):
     """Each names the argument and what to write."""

@@ -1,4 +1,6 @@
-"""``Page``: headings, sentences, equations and tables, printed as Markdown with LaTeX or as plain text."""
+"""``Page``: headings, sentences, equations and tables, printed as Markdown with LaTeX or as plain
+text.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,11 @@ class Page:
     """The parts written so far, and the printed conversion factors by the units they convert."""
 
     def __init__(
-        self, system: System, latex: bool, deviations: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]
+        self,
+        system: System,
+        latex: bool,
+        deviations: Mapping[str, float],
+        ranges: Mapping[str, tuple[float, float]],
     ) -> None:
         self.system, self.latex, self.deviations, self.ranges = system, latex, deviations, ranges
         self.parts: list[str] = []
@@ -53,7 +59,10 @@ class Page:
         else:
             widths = [max(map(len, column)) for column in zip(HEAD, *body, strict=True)]
             rule = tuple("-" * width for width in widths)
-            padded = ((part.ljust(width) for part, width in zip(line, widths, strict=True)) for line in (HEAD, rule, *body))
+            padded = (
+                (part.ljust(width) for part, width in zip(line, widths, strict=True))
+                for line in (HEAD, rule, *body)
+            )
             lines = ["  ".join(line).rstrip() for line in padded]
         self.parts.append("\n".join(lines))
 
@@ -62,7 +71,9 @@ class Page:
         self.parts.append("\n".join(f"- {line}" for line in lines))
 
     def name(self, text: str) -> str:
-        """A user's name: unchanged in plain text, escaped in Markdown so that none of its characters is markup."""
+        """A user's name: unchanged in plain text, escaped in Markdown so that none of its
+        characters is markup.
+        """
         plain = " ".join(text.split())
         return _MARKS.sub(r"\\\1", plain) if self.latex else plain
 
@@ -79,14 +90,18 @@ class Page:
 
     def number(self, value: float, kind: str) -> str:
         """A number of the working within a sentence, with its unit."""
-        return self.system.working(value, kind) + (self.system.unit(kind) if math.isfinite(value) else "")
+        return self.system.working(value, kind) + (
+            self.system.unit(kind) if math.isfinite(value) else ""
+        )
 
     def shown(self, symbol: Symbol) -> str:
         """A symbol and its number within a sentence."""
         return f"{self.symbol(symbol)} = {self.number(symbol.value, symbol.kind)}"
 
     def answer(self, name: str, value: float, kind: str) -> str:
-        """An answer, rounded to its standard deviation where one is known for the attribute of this name, or with its range."""
+        """An answer, rounded to its standard deviation where one is known for the attribute of this
+        name, or with its range.
+        """
         printed = self.system.answer(value, kind, self.deviations.get(name))
         if name not in self.ranges:
             return printed + clock(name, value)
@@ -94,14 +109,17 @@ class Page:
         return f"{printed} ({low.removesuffix(self.system.unit(kind))} to {high})"
 
     def equation(self, caption: str, left: Symbol, right: Expression) -> None:
-        """Write symbol = formula = numbers = value: the result's own number, which the formula must give.
+        """Write symbol = formula = numbers = value: the result's own number, which the formula must
+        give.
 
         A formula that is the symbol itself, as the magnitude of one component is, is not repeated.
         """
         printed = self.system.working(left.value, left.kind)
         (numbers,), fits = self._in_numbers([(right, left.value)], left.kind, right.size)
         symbol, formula = self._in_symbols(left), self._in_symbols(right)
-        lines = [formula] * (formula not in (symbol, printed)) + [numbers] * (numbers not in (formula, printed))
+        lines = [formula] * (formula not in (symbol, printed)) + [numbers] * (
+            numbers not in (formula, printed)
+        )
         self._lines(caption, symbol, [*lines, printed + self._unit(left.kind)], fits=fits)
 
     def let(self, caption: str, latex: str, kind: str, formula: Expression) -> Symbol:
@@ -111,14 +129,31 @@ class Page:
         return symbol
 
     def balance(self, caption: str, left: Expression, right: Expression, kind: str) -> None:
-        """Write a balance, formula = formula: in symbols, in numbers, and the value of both sides."""
+        """Write a balance, formula = formula: in symbols, in numbers, and the value of
+        both sides.
+        """
         sides = (left, right)
-        numbers, fits = self._in_numbers([(side, side.value) for side in sides], kind, left.size + right.size)
-        values = " = ".join(self.system.working(side.value, kind) for side in sides) + self._unit(kind)
-        self._lines(caption, self._in_symbols(left), [self._in_symbols(right)], [" = ".join(numbers), values], fits)
+        numbers, fits = self._in_numbers(
+            [(side, side.value) for side in sides], kind, left.size + right.size
+        )
+        values = " = ".join(self.system.working(side.value, kind) for side in sides) + self._unit(
+            kind
+        )
+        self._lines(
+            caption,
+            self._in_symbols(left),
+            [self._in_symbols(right)],
+            [" = ".join(numbers), values],
+            fits,
+        )
 
     def collected(
-        self, caption: str, row: tuple[float, float, float], symbols: tuple[Symbol, Symbol], kind: str, more: int = 0
+        self,
+        caption: str,
+        row: tuple[float, float, float],
+        symbols: tuple[Symbol, Symbol],
+        kind: str,
+        more: int = 0,
     ) -> None:
         """Write number = numbers times unknown symbols; the numbers are in the units printed."""
         times, right = r"\," if self.latex else " * ", ""
@@ -129,14 +164,27 @@ class Page:
             right += f" {mark} {part}" if right else f"{mark}{part}"
         unknown = " and ".join(self.system.label(symbol.kind) for symbol in symbols)
         left = self.system.figures(row[0], more=more)
-        self._lines(f"{caption}, in {self.system.label(kind)}, with the unknowns in {unknown}", left, [right])
+        self._lines(
+            f"{caption}, in {self.system.label(kind)}, with the unknowns in {unknown}",
+            left,
+            [right],
+        )
 
-    def figures_to_solve(self, rows: Sequence[tuple[float, float, float]], unknowns: tuple[Symbol, Symbol]) -> int:
-        """The additional figures that two linear equations need for their printed numbers to have the printed solution."""
+    def figures_to_solve(
+        self, rows: Sequence[tuple[float, float, float]], unknowns: tuple[Symbol, Symbol]
+    ) -> int:
+        """The additional figures that two linear equations need for their printed numbers to have
+        the printed solution.
+        """
         for more in range(_MOST + 1):
-            (p, a, b), (q, c, d) = ([float(self.system.figures(number, more=more)) for number in row] for row in rows)
+            (p, a, b), (q, c, d) = (
+                [float(self.system.figures(number, more=more)) for number in row] for row in rows
+            )
             solved = ((p * d - q * b) / (a * d - b * c), (a * q - c * p) / (a * d - b * c))
-            if all(self._comes_to(one, by.value, by.kind, by.size) for one, by in zip(solved, unknowns, strict=True)):
+            if all(
+                self._comes_to(one, by.value, by.kind, by.size)
+                for one, by in zip(solved, unknowns, strict=True)
+            ):
                 return more
         return 0
 
@@ -147,16 +195,25 @@ class Page:
     def _in_symbols(self, formula: Expression) -> str:
         return formula.write(Pen(self.latex)).text
 
-    def _in_numbers(self, sides: Sequence[tuple[Expression, float]], kind: str, size: float) -> tuple[list[str], bool]:
-        """Formulas in numbers with enough figures that they give the printed value; and whether any do."""
+    def _in_numbers(
+        self, sides: Sequence[tuple[Expression, float]], kind: str, size: float
+    ) -> tuple[list[str], bool]:
+        """Formulas in numbers with enough figures that they give the printed value; and whether any
+        do.
+        """
         for more in (*range(_MOST + 1), 0):
             pen = Pen(self.latex, self.system, more)
             found = [side.write(pen).converted(self.system.unit_of(kind), pen) for side, _ in sides]
-            fits = all(self._comes_to(one.worth, value, kind, size) for one, (_, value) in zip(found, sides, strict=True))
+            fits = all(
+                self._comes_to(one.worth, value, kind, size)
+                for one, (_, value) in zip(found, sides, strict=True)
+            )
             if fits:
                 break
         for one, number, other in pen.conversions:
-            self.conversions[one, other] = max(self.conversions.get((one, other), ""), number, key=len)
+            self.conversions[one, other] = max(
+                self.conversions.get((one, other), ""), number, key=len
+            )
         return [one.text for one in found], fits
 
     def _comes_to(self, worth: float, value: float, kind: str, size: float) -> bool:
@@ -164,14 +221,28 @@ class Page:
         if not math.isfinite(value):
             return True  # "infinite" and "not known" promise no figures
         printed = float(self.system.working(value, kind))
-        # A little more than half a unit, for the rounding of a value midway between two printed numbers.
+        # A little more than half a unit, for the rounding of a value midway between two printed
+        # numbers.
         return abs(worth - printed) <= self.system.half_unit(value, kind, size) * (1.0 + 1e-9)
 
-    def _lines(self, caption: str, left: str, chain: Sequence[str], below: Sequence[str] = (), fits: bool = True) -> None:
-        """Lines with the left side once, its equals below each other, and other equations ``below``."""
+    def _lines(
+        self,
+        caption: str,
+        left: str,
+        chain: Sequence[str],
+        below: Sequence[str] = (),
+        fits: bool = True,
+    ) -> None:
+        """Lines with the left side once, its equals below each other, and other equations
+        ``below``.
+        """
         if not self.latex:
             pad = " " * (len(left) + 2)
-            lines = [f"  {left} = {chain[0]}", *(f"{pad} = {line}" for line in chain[1:]), *(f"  {line}" for line in below)]
+            lines = [
+                f"  {left} = {chain[0]}",
+                *(f"{pad} = {line}" for line in chain[1:]),
+                *(f"  {line}" for line in below),
+            ]
             self.parts.append("\n".join([f"{caption}:", *lines]))
         else:
             lines = [f"{left} &= {chain[0]}", *(f"&= {line}" for line in chain[1:])]
@@ -182,6 +253,6 @@ class Page:
         if not fits:
             # Otherwise the line would seem to be wrong.
             self.say(
-                "In this form the numbers cancel, or are too far apart for it: what is printed last is the result's own, "
-                "worked out in a form that keeps its digits."
+                "In this form the numbers cancel, or are too far apart for it: what is printed "
+                "last is the result's own, worked out in a form that keeps its digits."
             )

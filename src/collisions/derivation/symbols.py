@@ -31,7 +31,9 @@ _PLAIN = {
 
 
 class Symbol(Expression):
-    """A quantity with its symbol, its value in SI and its kind; the plain text of the symbol follows from its LaTeX."""
+    """A quantity with its symbol, its value in SI and its kind; the plain text of the symbol
+    follows from its LaTeX.
+    """
 
     def __init__(self, latex: str, value: Any, kind: str, text: str = "") -> None:
         self.latex, self.text, self.kind = latex, text or _plain_symbol(latex), kind
@@ -54,7 +56,9 @@ class Symbol(Expression):
 
 @cache
 def _plain_symbol(latex: str) -> str:
-    r"""A symbol in plain text: ``\bar{I}_A`` is I_A, ``v_{An}'`` is v'_An, ``\Delta v_A`` is dv_A, ``\omega_A^0`` is w0_A."""
+    r"""A symbol in plain text: ``\bar{I}_A`` is I_A, ``v_{An}'`` is v'_An, ``\Delta v_A`` is dv_A,
+    ``\omega_A^0`` is w0_A.
+    """
     text = re.sub(r"\\(?:bar|mathrm)(?=\{)|[{}]", "", latex)
     for command, plain in _PLAIN.items():
         text = text.replace(command, plain)
@@ -82,7 +86,9 @@ class Body:
 
     @property
     def outside(self) -> tuple[Any, Any, Any] | None:
-        """The impulse on it from outside, along x and y and about the centre of mass; None if there is none."""
+        """The impulse on it from outside, along x and y and about the centre of mass; None if there
+        is none.
+        """
         parts = self.side.outside_x, self.side.outside_y, self.side.outside_yaw
         return parts if any(parts) else None
 
@@ -107,16 +113,21 @@ class Body:
         """The arm from the pivot of a pinned body to its centre of mass, along a scene axis."""
         pivot_x, pivot_y = self.start.pivot or (0.0, 0.0)
         center, pivot = (self.start.x, pivot_x) if axis == "x" else (self.start.y, pivot_y)
-        return Symbol(rf"d_{{{self.label}{axis}}}", math.nan if center is None else center - pivot, "length")
+        return Symbol(
+            rf"d_{{{self.label}{axis}}}", math.nan if center is None else center - pivot, "length"
+        )
 
     def along(self, direction: str, when: str = BEFORE, contact: bool = False) -> Symbol:
-        """Component "x", "y", "n" or "t" of the velocity of its centre of mass, or of the place at the contact."""
+        """Component "x", "y", "n" or "t" of the velocity of its centre of mass, or of the place at
+        the contact.
+        """
         state, point, index = self.state(when), self.impact.point, f"{self.label}{direction}"
         vx, vy = state.velocity_at(point) if contact and point is not None else (state.vx, state.vy)
         nx, ny = self.impact.normal
         value = {"x": vx, "y": vy, "n": nx * vx + ny * vy, "t": nx * vy - ny * vx}[direction]
         if contact and when == COMPRESSED:
-            # The paper has u with and without a bar; without bars the place at the contact needs another symbol.
+            # The paper has u with and without a bar; without bars the place at the contact needs
+            # another symbol.
             return Symbol(f"u_{{{index}}}", value, "speed", f"c0_{index}")
         if contact:
             return Symbol(f"c_{{{index}}}{_PRIME[when]}", value, "speed")
@@ -129,8 +140,14 @@ class Body:
         return Symbol(f"v_{self.label}{_PRIME[when]}", self.along("n", when).value, "speed")
 
     def axis(self, name: str, when: str = BEFORE) -> Symbol:
-        """Velocity of its centre of mass along a scene axis, by the symbol that the derivation has for it."""
-        lined = self.impact.model == "linear_central" and self.impact.normal == (1.0, 0.0) and name == "x"
+        """Velocity of its centre of mass along a scene axis, by the symbol that the derivation has
+        for it.
+        """
+        lined = (
+            self.impact.model == "linear_central"
+            and self.impact.normal == (1.0, 0.0)
+            and name == "x"
+        )
         return self.straight(when) if lined else self.along(name, when)
 
     def spin(self, when: str = BEFORE) -> Symbol:
@@ -164,7 +181,10 @@ class Symbols:
         self.loss = Symbol(r"\Delta E", impact.energy_loss, "energy")
         self.loss_n = Symbol(r"\Delta E_n", impact.energy_loss_normal, "energy")
         self.loss_t = Symbol(r"\Delta E_t", impact.energy_loss_tangential, "energy")
-        self.nx, self.ny = (Symbol(f"n_{axis}", part, "number") for axis, part in zip("xy", impact.normal, strict=True))
+        self.nx, self.ny = (
+            Symbol(f"n_{axis}", part, "number")
+            for axis, part in zip("xy", impact.normal, strict=True)
+        )
 
     def relative(self, direction: str, when: str = BEFORE, contact: bool = False) -> Expression:
         """Velocity of B relative to A, of the centres of mass or at the contact."""
@@ -179,14 +199,20 @@ class Symbols:
         return _weighed((1.0, self.nx, y), (-1.0, self.ny, x))
 
     def scene(self, axis: str, n: Expression, t: Expression) -> Expression:
-        """The component along a scene axis of a vector that is known along the normal and the tangent."""
+        """The component along a scene axis of a vector that is known along the normal and the
+        tangent.
+        """
         if axis == "x":
             return _weighed((1.0, self.nx, n), (-1.0, self.ny, t))
         return _weighed((1.0, self.ny, n), (1.0, self.nx, t))
 
     def impulse(self, axis: str) -> Symbol:
         """Component of the impulse on B in scene axes."""
-        return Symbol(f"P_{axis}", self.impact.b.impulse_x if axis == "x" else self.impact.b.impulse_y, "impulse")
+        return Symbol(
+            f"P_{axis}",
+            self.impact.b.impulse_x if axis == "x" else self.impact.b.impulse_y,
+            "impulse",
+        )
 
 
 def _weighed(*terms: tuple[float, Symbol, Expression]) -> Expression:

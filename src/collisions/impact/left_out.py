@@ -1,4 +1,6 @@
-"""``left_out``: what the impulse idealisation neglects, tyre forces and the movement of the vehicles during the contact."""
+"""``left_out``: what the impulse idealisation neglects, tyre forces and the movement of the
+vehicles during the contact.
+"""
 
 from __future__ import annotations
 
@@ -31,12 +33,15 @@ from .side import Side
 _MOMENTS = (0.125, 0.375, 0.625, 0.875)
 
 
-# Part of the tyre impulse that is tried, small enough that the regime does not change; a power of 2 to avoid rounding.
+# Part of the tyre impulse that is tried, small enough that the regime does not change; a power of 2
+# to avoid rounding.
 _LITTLE = 2.0**-6
 
 
 class Pull(NamedTuple):
-    """What its own tyres would do to the velocity of a free vehicle over the contact, and the most they can do to this one."""
+    """What its own tyres would do to the velocity of a free vehicle over the contact, and the most
+    they can do to this one.
+    """
 
     x: Any
     y: Any
@@ -44,7 +49,9 @@ class Pull(NamedTuple):
 
     @classmethod
     def of(cls, side: Side, restitution: Any, most: Any) -> Pull:
-        """``most`` is the change of velocity of a free body by tyres that pull one way throughout."""
+        """``most`` is the change of velocity of a free body by tyres that pull one way
+        throughout.
+        """
         before, change_x, change_y = side.before, side.delta_vx, side.delta_vy
         most = select(numeric(before.mass).isfinite(before.mass), most, 0.0)
         x: Any = 0.0
@@ -57,17 +64,23 @@ class Pull(NamedTuple):
             x, y = x - vx / speed / len(_MOMENTS), y - vy / speed / len(_MOMENTS)
         if before.pivot is None:
             return cls(most * x, most * y, most)
-        arm_x, arm_y = needed(before, "x", "left_out") - before.pivot[0], needed(before, "y", "left_out") - before.pivot[1]
+        arm_x, arm_y = (
+            needed(before, "x", "left_out") - before.pivot[0],
+            needed(before, "y", "left_out") - before.pivot[1],
+        )
         square = arm_x * arm_x + arm_y * arm_y
         # A pinned body without an inertia has no result anyway.
         inertia = math.inf if before.yaw_inertia is None else before.yaw_inertia
         turning = before.mass / (inertia + before.mass * square)
-        # For wheels at the radius of gyration k from the centre, the mean distance from the pivot is at most hypot(arm, k).
+        # For wheels at the radius of gyration k from the centre, the mean distance from the pivot
+        # is at most hypot(arm, k).
         return cls(most * x, most * y, most * (turning * square) ** 0.5)
 
 
 def with_tyres(impact: Impact, pulls: tuple[Pull, Pull]) -> list[Any]:
-    """Change of each vehicle's delta-V by the tyres of both, as impulses from outside, which the eccentric model takes."""
+    """Change of each vehicle's delta-V by the tyres of both, as impulses from outside, which the
+    eccentric model takes.
+    """
     inputs, point = impact.inputs, impact.point
     central = impact.model != ECCENTRIC.name
     changes: dict[str, Any] = {"model": ECCENTRIC.name, "law": inputs.law or BRACH}
@@ -78,7 +91,9 @@ def with_tyres(impact: Impact, pulls: tuple[Pull, Pull]) -> list[Any]:
         changes[f"outside_{label}"] = (given[0] + mass * pull.x, given[1] + mass * pull.y, given[2])
         if point is not None and body.x is not None and body.y is not None and np.any(central):
             # A central model knows no levers.
-            x, y = (select(central, *places) for places in zip(point, (body.x, body.y), strict=True))
+            x, y = (
+                select(central, *places) for places in zip(point, (body.x, body.y), strict=True)
+            )
             changes[label] = body.replace(x=x, y=y)
     again = solve_changed(impact, **changes)
     return [
@@ -93,7 +108,9 @@ def finite_mass(body: Vehicle) -> Any:
 
 
 def with_motion(impact: Impact, time: Any) -> list[Any]:
-    """Change of delta-V of each vehicle with the geometry of later in the contact; None without a geometry."""
+    """Change of delta-V of each vehicle with the geometry of later in the contact; None without a
+    geometry.
+    """
     point, placed = impact.point, impact.model == ECCENTRIC.name
     if point is None or placed is False:
         return [None] * 2
@@ -101,9 +118,12 @@ def with_motion(impact: Impact, time: Any) -> list[Any]:
         return [math.nan] * 2
     bodies, turns, places, fixed = [], [], [], []
     passed = pulse.mean_passed(impact.restitution)
-    # Halfway from the mean that the force sees, T ((1 - m) v + (m - q) change) with m and q the means of the share that has
-    # passed and of its square, to the end, T (v + m change).
-    by_was, by_change = 1.0 - 0.5 * passed, passed - 0.5 * pulse.mean_square_passed(impact.restitution)
+    # Halfway from the mean that the force sees, T ((1 - m) v + (m - q) change) with m and q the
+    # means of the share that has passed and of its square, to the end, T (v + m change).
+    by_was, by_change = (
+        1.0 - 0.5 * passed,
+        passed - 0.5 * pulse.mean_square_passed(impact.restitution),
+    )
     for side in (impact.a, impact.b):
         before = side.before
         dx, dy, turn = (
@@ -131,7 +151,10 @@ def with_motion(impact: Impact, time: Any) -> list[Any]:
         impact,
         a=bodies[0],
         b=bodies[1],
-        point=tuple(was + on_a * by_a + (1.0 - on_a) * by_b for was, by_a, by_b in zip(point, *places, strict=True)),
+        point=tuple(
+            was + on_a * by_a + (1.0 - on_a) * by_b
+            for was, by_a, by_b in zip(point, *places, strict=True)
+        ),
         normal=_turned(*impact.normal, (1.0 - on_a) * turns[0] + on_a * turns[1]),
     )
     return [
@@ -156,26 +179,30 @@ class LeftOutSide(Shown):
     Attributes
     ----------
     tyre_impulse_bound : float or array [N*s]
-        The largest impulse that tyres sliding throughout can give: drag x weight x duration; 0 for an infinite mass.
+        The largest impulse that tyres sliding throughout can give: drag x weight x duration; 0 for
+        an infinite mass.
     tyre_delta_v_bound, tyre_share_bound : float or array [m/s], [-]
-        The change of velocity of the centre of mass due to that impulse, and its share. For a pinned vehicle it is no bound but
-        an estimate, since it is not known how far from the pivot its wheels are: they are taken to be at the radius of gyration
-        from the centre of mass, with all forces at right angles to their arms. Wheels that lie farther out can give more.
+        The change of velocity of the centre of mass due to that impulse, and its share. For a
+        pinned vehicle it is no bound but an estimate, since it is not known how far from the pivot
+        its wheels are: they are taken to be at the radius of gyration from the centre of mass, with
+        all forces at right angles to their arms. Wheels that lie farther out can give more.
     tyre_impulse, tyre_impulse_x, tyre_impulse_y : float or array [N*s]
-        Estimate of the impulse, its magnitude and its components along scene x and y: the tyres act against the motion of the
-        centre of mass, as that changes during the contact.
+        Estimate of the impulse, its magnitude and its components along scene x and y: the tyres act
+        against the motion of the centre of mass, as that changes during the contact.
     tyre_delta_v, tyre_share : float or array [m/s], [-]
-        Estimate of how far the delta-V vector moves due to the tyres of both vehicles and the response of the contact to them;
-        it may therefore exceed the bound, which is for the vehicle's own tyres.
+        Estimate of how far the delta-V vector moves due to the tyres of both vehicles and the
+        response of the contact to them; it may therefore exceed the bound, which is for the
+        vehicle's own tyres.
     displacement_x, displacement_y : float or array [m]
         Displacement of the centre of mass during the contact.
     rotation : float or array [rad]
         Rotation during the contact, counter-clockwise.
     geometry_delta_v, geometry_share : float or array [m/s], [-]
-        Estimate of how far the delta-V vector moves because positions and normal change during the contact, if those of the
-        impact are the ones at first contact; None for the central models, which have no geometry, and for any impact without a
-        point. In a batch of ``solve`` with a point it is NaN where a central model answered. It is also NaN where there is no
-        answer with the geometry of later in the contact, mostly because the bodies then part.
+        Estimate of how far the delta-V vector moves because positions and normal change during the
+        contact, if those of the impact are the ones at first contact; None for the central models,
+        which have no geometry, and for any impact without a point. In a batch of ``solve`` with a
+        point it is NaN where a central model answered. It is also NaN where there is no answer with
+        the geometry of later in the contact, mostly because the bodies then part.
     """
 
     _title = "Left out for one vehicle"
@@ -206,8 +233,9 @@ class LeftOut(Shown):
     drag : float or array [-]
         Drag factor of the tyres on the ground, as given.
     mutual_crush : float or array [m]
-        Largest distance by which the contact points pass into each other along the normal, both vehicles together. NaN for an
-        incomplete impact, in which the bodies pass each other or tear.
+        Largest distance by which the contact points pass into each other along the normal, both
+        vehicles together. NaN for an incomplete impact, in which the bodies pass each other or
+        tear.
     residual_crush : float or array [m]
         The same at separation.
     contact_slide : float or array [m]
@@ -228,7 +256,9 @@ class LeftOut(Shown):
 
     @property
     def outside_a(self) -> tuple[Value, Value]:
-        """The estimated impulse of A's tyres (x, y) [N*s], to be given to ``eccentric`` or ``solve`` as ``outside_a``."""
+        """The estimated impulse of A's tyres (x, y) [N*s], to be given to ``eccentric`` or
+        ``solve`` as ``outside_a``.
+        """
         return self.a.tyre_impulse_x, self.a.tyre_impulse_y
 
     @property
@@ -239,11 +269,13 @@ class LeftOut(Shown):
 
 @computing
 def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 0.7) -> LeftOut:
-    """Estimate what an impact that takes no time and has no tyres leaves out, to judge whether the idealisation fits the case.
+    """Estimate what an impact that takes no time and has no tyres leaves out, to judge whether the
+    idealisation fits the case.
 
-    An impulse acts at one instant and one place; a real contact takes about 0.1 s, in which the tyres act too, and the vehicles
-    move and turn. The bound on the tyres needs only drag and duration; the rest is estimated from the states before and after,
-    with the spring pulse as the contact force, which ``plot.force_time`` draws: a quarter of a sine up to the end of
+    An impulse acts at one instant and one place; a real contact takes about 0.1 s, in which the
+    tyres act too, and the vehicles move and turn. The bound on the tyres needs only drag and
+    duration; the rest is estimated from the states before and after, with the spring pulse as the
+    contact force, which ``plot.force_time`` draws: a quarter of a sine up to the end of
     compression, and one down that takes e times as long.
 
     Parameters
@@ -253,14 +285,16 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
     duration : float, str, Quantity or array [s]
         Duration of the contact, >= 0: 0.05 to 0.15 s for cars, the softer the longer.
     drag : float, str, Quantity or array
-        Drag factor of the tyres of both vehicles on the ground, >= 0: a plain number, or a deceleration such as
-        ``"6.9 m/s**2"``. 0.7 is locked wheels on a dry road; wheels that roll along their heading have hardly any.
+        Drag factor of the tyres of both vehicles on the ground, >= 0: a plain number, or a
+        deceleration such as ``"6.9 m/s**2"``. 0.7 is locked wheels on a dry road; wheels that roll
+        along their heading have hardly any.
 
     Returns
     -------
     LeftOut
-        In a batch a case that was refused is NaN, and so is the effect of geometry in one that would be refused when shifted.
-        An impact of ``solve`` is solved again by the model that answered it.
+        In a batch a case that was refused is NaN, and so is the effect of geometry in one that
+        would be refused when shifted. An impact of ``solve`` is solved again by the model that
+        answered it.
 
     Raises
     ------
@@ -269,62 +303,78 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
 
     Notes
     -----
-    Let s be the share of the impulse that has passed: with constant geometry every velocity of a body is its value before plus
-    s times its change. The spring pulse is the force of a linear spring that unloads along a stiffer one. Over a duration T it
-    has s = (1 - cos(pi (1 + e) t/(2 T)))/(1 + e) up to the end of compression at T/(1 + e), and a mean of s over time of
-    m = (1 - 2 (1 - e)/pi)/(1 + e): 0.36 if plastic, 1/2 if elastic. The rest follows, all derived here:
+    Let s be the share of the impulse that has passed: with constant geometry every velocity of a
+    body is its value before plus s times its change. The spring pulse is the force of a linear
+    spring that unloads along a stiffer one. Over a duration T it has s = (1 - cos(pi (1 + e) t/(2
+    T)))/(1 + e) up to the end of compression at T/(1 + e), and a mean of s over time of m = (1 - 2
+    (1 - e)/pi)/(1 + e): 0.36 if plastic, 1/2 if elastic. The rest follows, all derived here:
 
-    - displacement and rotation are T times the sum of the velocity before and m times its change; so is the slide, which is
-      exact if the slip does not end during the contact;
-    - mutual crush is 2 c T/(pi (1 + e)) for a closing speed c: 0.64 c T if plastic, 0.32 c T if elastic; with a constant force
-      it would be c T/(2 (1 + e)). At separation 2 (1 - e) c T/pi of it is left;
-    - the tyre impulse is drag x weight x T times the mean over time of the direction opposite to the motion of the centre of
-      mass. It moves delta-V together with the response of the contact to it, as ``outside_a`` and ``outside_b`` do: restitution
-      still ends the impact with e times the closing speed. In line against a wall, nothing of it is left;
-    - for the geometry, the impact is solved again with every position and angle halfway between its mean while the force acts,
-      which is where the impulse works, and its value at the end, T (v + m delta_v) further on, which is where restitution
-      holds. The contact point moves with the mean of the two places that met, the normal turns with the mean of the rotations;
-      with a fixed body the normal stays, and the point moves with the other body.
+    - displacement and rotation are T times the sum of the velocity before and m times its change;
+      so is the slide, which is exact if the slip does not end during the contact;
+    - mutual crush is 2 c T/(pi (1 + e)) for a closing speed c: 0.64 c T if plastic, 0.32 c T if
+      elastic; with a constant force it would be c T/(2 (1 + e)). At separation 2 (1 - e) c T/pi of
+      it is left;
+    - the tyre impulse is drag x weight x T times the mean over time of the direction opposite to
+      the motion of the centre of mass. It moves delta-V together with the response of the contact
+      to it, as ``outside_a`` and ``outside_b`` do: restitution still ends the impact with e times
+      the closing speed. In line against a wall, nothing of it is left;
+    - for the geometry, the impact is solved again with every position and angle halfway between its
+      mean while the force acts, which is where the impulse works, and its value at the end, T (v +
+      m delta_v) further on, which is where restitution holds. The contact point moves with the mean
+      of the two places that met, the normal turns with the mean of the rotations; with a fixed body
+      the normal stays, and the point moves with the other body.
 
-    Measured against ``time_resolved`` (benchmarks/time_resolved.py), over 150 random impacts of two cars without spin that
-    close at 2 to 28 m/s, with a friction of 0.2 to 0.8 and a restitution of 0 to 0.4, for vehicles whose delta-V changes by
-    more than 2 percent: the estimate is 0.71 to 1.25 of the change due to tyres in 9 of 10, 0.05 to 1.56 in all; and 0.90 to
-    1.59 of that due to geometry in 9 of 10, 0.81 to 1.69 in all. Over as many impacts with a friction of 0 to 0.1 it is worse:
-    0.69 to 1.29 of the change due to tyres in 9 of 10, 0.05 to 2.43 in all; and 1.02 to 2.06 of that due to geometry in 9 of
-    10, 0.68 to 2.41 in all. Elsewhere (a higher restitution, spin before, a pivot) it has not been measured. No change of the
-    yaw rates is given, as it depends on which vehicle carries the contact.
+    Measured against ``time_resolved`` (benchmarks/time_resolved.py), over 150 random impacts of two
+    cars without spin that close at 2 to 28 m/s, with a friction of 0.2 to 0.8 and a restitution of
+    0 to 0.4, for vehicles whose delta-V changes by more than 2 percent: the estimate is 0.71 to
+    1.25 of the change due to tyres in 9 of 10, 0.05 to 1.56 in all; and 0.90 to 1.59 of that due to
+    geometry in 9 of 10, 0.81 to 1.69 in all. Over as many impacts with a friction of 0 to 0.1 it is
+    worse: 0.69 to 1.29 of the change due to tyres in 9 of 10, 0.05 to 2.43 in all; and 1.02 to 2.06
+    of that due to geometry in 9 of 10, 0.68 to 2.41 in all. Elsewhere (a higher restitution, spin
+    before, a pivot) it has not been measured. No change of the yaw rates is given, as it depends on
+    which vehicle carries the contact.
 
-    Positions at maximum engagement, as found for a real crash, leave 0.23 to 0.72 of the effect of geometry in five impacts of
-    that benchmark; ``geometry_share`` is then what taking those of first contact would cost. Also left out here: the turning
-    moment of the tyres, load and suspension, and crush that moves the centre of mass.
+    Positions at maximum engagement, as found for a real crash, leave 0.23 to 0.72 of the effect of
+    geometry in five impacts of that benchmark; ``geometry_share`` is then what taking those of
+    first contact would cost. Also left out here: the turning moment of the tyres, load and
+    suspension, and crush that moves the centre of mass.
 
     Examples
     --------
-    The bound on tyres in rear-end impacts at 2 and at 20 m/s; the rotation in a T-bone, and what motion does to its delta-V:
+    The bound on tyres in rear-end impacts at 2 and at 20 m/s; the rotation in a T-bone, and what
+    motion does to its delta-V:
 
     >>> import collisions as col
     >>> for speed in (2.0, 20.0):
     ...     a, b = col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1500.0)
     ...     found = col.left_out(col.linear_central(a, b, restitution=0.4))
     ...     side = found.b
-    ...     print(f"{side.tyre_delta_v_bound:.2f} m/s, {side.tyre_share_bound:.0%} of it; crush {found.mutual_crush:.2f} m")
+    ...     print(
+    ...         f"{side.tyre_delta_v_bound:.2f} m/s, {side.tyre_share_bound:.0%} of it; crush {found.mutual_crush:.2f} m"
+    ...     )
     0.69 m/s, 49% of it; crush 0.09 m
     0.69 m/s, 5% of it; crush 0.91 m
     >>> a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=20.0, x=-2.2, y=0.0)
     >>> b = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=0.8, y=-1.0)
     >>> impact = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5)
     >>> found = col.left_out(impact, duration="100 ms")
-    >>> print(f"{found.b.q.rotation.to('deg'):.0f~P}, delta-V moves by {found.b.geometry_share:.0%}")
+    >>> print(
+    ...     f"{found.b.q.rotation.to('deg'):.0f~P}, delta-V moves by {found.b.geometry_share:.0%}"
+    ... )
     -10 deg, delta-V moves by 9%
     """
     reader = ArgumentReader()
     if isinstance(impact, Impact) and impact.pulse is not None:
         text = (
-            "impact was followed in time, so an impulse left nothing out of it; its pulse and a.tyre_loss have what came about"
+            "impact was followed in time, so an impulse left nothing out of it; its pulse and "
+            "a.tyre_loss have what came about"
         )
         reader.refuse(InputError(text, code="takes_time", argument="impact"))
     elif not isinstance(impact, Impact):
-        text = f"impact must be an Impact, got {type(impact).__name__}; write left_out(collisions.eccentric(...))"
+        text = (
+            f"impact must be an Impact, got {type(impact).__name__}; write "
+            "left_out(collisions.eccentric(...))"
+        )
         reader.refuse(InputError(text, code="not_an_impact", argument="impact"))
     with callers_options():
         time = read_duration(reader, duration)
@@ -333,7 +383,10 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
     given = {"impact": impact.closing_speed, "duration": time, "drag": pull}
     shape, dtype = broadcast(given), precision(given.values())
     time, pull = widened((time, pull), given.values())
-    beyond, texts = np.isinf(_extent(impact, time, pull)) & np.logical_not(impact.refused), impact.inputs.texts
+    beyond, texts = (
+        np.isinf(_extent(impact, time, pull)) & np.logical_not(impact.refused),
+        impact.inputs.texts,
+    )
     if shape is None:
         if beyond:
             raise out_of_range()
@@ -358,24 +411,35 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
             if value is not None:
                 whole[name].reshape(-1)[block] = value
     there = {name: value for name, value in whole.items() if value is not None}
-    return _assembled(whole | settle(there, {"duration": time, "drag": pull}, shape, [("out_of_range", beyond)]), texts)
+    return _assembled(
+        whole | settle(there, {"duration": time, "drag": pull}, shape, [("out_of_range", beyond)]),
+        texts,
+    )
 
 
 def _estimated(impact: Impact, time: Any, drag: Any) -> dict[str, Any]:
-    """The fields of ``LeftOut`` by name, those of its sides prefixed "a." or "b."; NaN where refused."""
+    """The fields of ``LeftOut`` by name, those of its sides prefixed "a." or "b."; NaN where
+    refused.
+    """
     with np.errstate(all="ignore"):
         e, most = impact.restitution, drag * GRAVITY * time
         pulls = Pull.of(impact.a, e, most), Pull.of(impact.b, e, most)
         # A refused single case cannot be solved again.
         tyres = [math.nan] * 2 if impact.refused is True else with_tyres(impact, pulls)
         moved = with_motion(impact, time)
-        passed, crush = pulse.mean_passed(e), pulse.greatest_crush(e) * (impact.closing_speed * time)
+        passed, crush = (
+            pulse.mean_passed(e),
+            pulse.greatest_crush(e) * (impact.closing_speed * time),
+        )
         found = {
             "duration": time,
             "drag": drag,
             "mutual_crush": crush,
             "residual_crush": (1.0 - e) * (1.0 + e) * crush,
-            "contact_slide": (impact.slip_before + passed * (impact.slip_after - impact.slip_before)) * time,
+            "contact_slide": (
+                impact.slip_before + passed * (impact.slip_after - impact.slip_before)
+            )
+            * time,
         }
         for label, pull, by_tyres, by_motion in zip("ab", pulls, tyres, moved, strict=True):
             side = getattr(impact, label)
@@ -397,17 +461,29 @@ def _estimated(impact: Impact, time: Any, drag: Any) -> dict[str, Any]:
                 "geometry_share": None if by_motion is None else _share(by_motion, delta_v),
             }
             found |= {f"{label}.{name}": value for name, value in of_side.items()}
-        return {name: None if value is None else select(impact.refused, math.nan, value) for name, value in found.items()}
+        return {
+            name: None if value is None else select(impact.refused, math.nan, value)
+            for name, value in found.items()
+        }
 
 
 def _extent(impact: Impact, time: Any, drag: Any) -> Any:
-    """An upper bound of tyre impulses, distances, rotations and 1 over a mass; infinite where one may overflow."""
+    """An upper bound of tyre impulses, distances, rotations and 1 over a mass; infinite where one
+    may overflow.
+    """
     states = (impact.a.before, impact.a.after, impact.b.before, impact.b.after)
     with np.errstate(all="ignore"):
         most = drag * GRAVITY * time
-        reach = sum(time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states)
-        contact = time * (abs(impact.closing_speed) + abs(impact.slip_before) + abs(impact.slip_after))
-        held = sum(most * finite_mass(side.before) + 1.0 / side.before.mass for side in (impact.a, impact.b))
+        reach = sum(
+            time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states
+        )
+        contact = time * (
+            abs(impact.closing_speed) + abs(impact.slip_before) + abs(impact.slip_after)
+        )
+        held = sum(
+            most * finite_mass(side.before) + 1.0 / side.before.mass
+            for side in (impact.a, impact.b)
+        )
         return most + reach + contact + held
 
 
@@ -415,10 +491,18 @@ def _assembled(found: dict[str, Any], texts: tuple[str, ...]) -> LeftOut:
     """A ``LeftOut`` from its fields by name, in the units of these texts."""
     lock(found)
     a, b = (
-        in_units_of(LeftOutSide(**{name[2:]: value for name, value in found.items() if name.startswith(f"{label}.")}), texts)
+        in_units_of(
+            LeftOutSide(
+                **{name[2:]: value for name, value in found.items() if name.startswith(f"{label}.")}
+            ),
+            texts,
+        )
         for label in "ab"
     )
-    return in_units_of(LeftOut(**{name: value for name, value in found.items() if "." not in name}, a=a, b=b), texts)
+    return in_units_of(
+        LeftOut(**{name: value for name, value in found.items() if "." not in name}, a=a, b=b),
+        texts,
+    )
 
 
 def _share(part: Any, whole: Any) -> Any:

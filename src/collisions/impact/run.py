@@ -1,4 +1,6 @@
-"""Solves validated inputs: single cases, or batches in blocks, with errors and warnings for refused cases and energy gains."""
+"""Solves validated inputs: single cases, or batches in blocks, with errors and warnings for refused
+cases and energy gains.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,14 @@ from ..kernels.elementwise import (
     without_length,
 )
 from ..kernels.status import Answer, Passed, Status
-from ..messages.errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, NoImpactError, NoSolutionError
+from ..messages.errors import (
+    CollisionsError,
+    CollisionsWarning,
+    EnergyGainWarning,
+    InputError,
+    NoImpactError,
+    NoSolutionError,
+)
 from ..messages.progress import reporter
 from ..messages.warning import warn_of_cases
 from ..quantities.units import shown
@@ -50,7 +59,9 @@ def solve_inputs(
         check_options(on_failure, threads, progress)
     if inputs.shape is not None:
         if model is TIME_RESOLVED:
-            raw: Any = solve_cases_in_time(inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress))
+            raw: Any = solve_cases_in_time(
+                inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress)
+            )
         else:
             raw = solve_cases((model,), None, inputs, inputs.shape, threads, progress, carrying)
         say_of_cases(inputs, raw, on_failure)
@@ -65,7 +76,9 @@ def solve_inputs(
     if raw.status > Status.ENERGY_GAIN:
         if on_failure != "nan":
             raise refusal(inputs, raw)
-        return Passed(raw.status) if model is TIME_RESOLVED else _REFUSED._replace(status=raw.status)
+        return (
+            Passed(raw.status) if model is TIME_RESOLVED else _REFUSED._replace(status=raw.status)
+        )
     if raw.status == Status.ENERGY_GAIN:
         _warn_of_gain(f"the impact gains {-raw.energy_loss:.6g} J of energy", -raw.energy_loss)
     return raw
@@ -85,7 +98,10 @@ def solve_cases(
     from ..engine.batch import Work, solve_cases
 
     cases, eps = cases_of(inputs, shape, threads)
-    works = [Work(model.kernel, (*model.settings(inputs, carrying), eps), model.numbers(inputs)) for model in models]
+    works = [
+        Work(model.kernel, (*model.settings(inputs, carrying), eps), model.numbers(inputs))
+        for model in models
+    ]
     return solve_cases(works, which, cases, reporter(progress))
 
 
@@ -101,14 +117,25 @@ def cases_of(inputs: Inputs, shape: tuple[int, ...], threads: int) -> tuple[Any,
 
 def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> None:
     """Raise for an option that no solver knows."""
-    if on_failure is not None and not (isinstance(on_failure, str) and on_failure in ("raise", "nan")):
+    if on_failure is not None and not (
+        isinstance(on_failure, str) and on_failure in ("raise", "nan")
+    ):
         raise InputError(
-            f"on_failure must be None, 'raise' or 'nan', got {shown(on_failure)}", code="bad_option", argument="on_failure"
+            f"on_failure must be None, 'raise' or 'nan', got {shown(on_failure)}",
+            code="bad_option",
+            argument="on_failure",
         )
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
-        raise InputError(f"threads must be a whole number from 1, got {shown(threads)}", code="bad_option", argument="threads")
+        raise InputError(
+            f"threads must be a whole number from 1, got {shown(threads)}",
+            code="bad_option",
+            argument="threads",
+        )
     if progress is not None and not isinstance(progress, bool) and not callable(progress):
-        text = f"progress must be a function of (done, total), or True for a bar, got {type(progress).__name__}"
+        text = (
+            "progress must be a function of (done, total), or True for a bar, got "
+            f"{type(progress).__name__}"
+        )
         raise InputError(text, code="bad_option", argument="progress")
 
 
@@ -119,7 +146,9 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
         for name in DOMAINS:
             if getattr(body, name) != getattr(body, name):
                 return InputError(
-                    f"{side}.{name} is NaN: the state of a case that was refused", code="not_finite", argument=name
+                    f"{side}.{name} is NaN: the state of a case that was refused",
+                    code="not_finite",
+                    argument=name,
                 )
     status: Status = raw.status
     nx, ny = inputs.normal
@@ -131,22 +160,38 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
         case Status.SEPARATING | Status.GRAZING:
             extra["closing_speed"] = raw.closing_speed
             if raw.closing_speed > 0.0:
-                text = f"no impact: the impulses from outside part the bodies, which approach at {raw.closing_speed:.6g} m/s"
+                text = (
+                    "no impact: the impulses from outside part the bodies, which approach at "
+                    f"{raw.closing_speed:.6g} m/s"
+                )
                 return error_of(
-                    status, f"{text}, by more than restitution does; check the signs of outside_a and outside_b", **extra
+                    status,
+                    f"{text}, by more than restitution does; check the signs of outside_a and "
+                    "outside_b",
+                    **extra,
                 )
         case Status.RATIO_JAMS:
             coupling = raw.coupling
-            limit = -1.0 / (raw.effective_mass * coupling) if coupling else math.copysign(math.inf, inputs.rule_value)
+            limit = (
+                -1.0 / (raw.effective_mass * coupling)
+                if coupling
+                else math.copysign(math.inf, inputs.rule_value)
+            )
             values |= {"limit": limit, "side": "less" if limit > 0.0 else "greater"}
             extra["limit"] = limit
         case Status.SPINNING:
             turning = [(with_name(side, body), body.yaw_rate) for side, body in bodies]
-            values["motion"] = " and ".join(f"{who} has yaw_rate = {rate:.6g} rad/s" for who, rate in turning if rate != 0.0)
+            values["motion"] = " and ".join(
+                f"{who} has yaw_rate = {rate:.6g} rad/s" for who, rate in turning if rate != 0.0
+            )
             extra["argument"] = "yaw_rate"
         case Status.TRANSVERSE:
             across = [(side, nx * body.vy - ny * body.vx) for side, body in bodies]
-            values["motion"] = ", ".join(f"{side} moves at {speed:.6g} m/s across it" for side, speed in across if speed != 0.0)
+            values["motion"] = ", ".join(
+                f"{side} moves at {speed:.6g} m/s across it"
+                for side, speed in across
+                if speed != 0.0
+            )
             extra["argument"] = "normal"
     return error_of(status, status.message.format(**values), **extra)
 
@@ -154,12 +199,21 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
 def error_of(status: int, text: str, **fields: Any) -> CollisionsError:
     """The error for a status, of the class that its ``about`` names."""
     outcome = Status(status)
-    kind = {"impact": NoImpactError, "solution": NoSolutionError, "input": InputError}[outcome.about]
+    kind = {"impact": NoImpactError, "solution": NoSolutionError, "input": InputError}[
+        outcome.about
+    ]
     return kind(text, code=outcome.label, **fields)
 
 
-def say_of_cases(inputs: Inputs, raw: Any, on_failure: Any, one: Callable[[Callable[[Any], Any]], Any] | None = None) -> None:
-    """Raise for, or warn of, the refused cases of a batch; warn of energy gains. ``one`` solves a single case."""
+def say_of_cases(
+    inputs: Inputs,
+    raw: Any,
+    on_failure: Any,
+    one: Callable[[Callable[[Any], Any]], Any] | None = None,
+) -> None:
+    """Raise for, or warn of, the refused cases of a batch; warn of energy gains. ``one`` solves a
+    single case.
+    """
     status = raw.status
     worst = status.max(initial=Status.OK)
     if worst == Status.OK:
@@ -172,7 +226,9 @@ def say_of_cases(inputs: Inputs, raw: Any, on_failure: Any, one: Callable[[Calla
     gaining = status == Status.ENERGY_GAIN
     if gaining.any():
         most = float(-raw.energy_loss[gaining].min())
-        _warn_of_gain(f"{int(gaining.sum())} of {status.size} cases gain energy, up to {most:.6g} J", most)
+        _warn_of_gain(
+            f"{int(gaining.sum())} of {status.size} cases gain energy, up to {most:.6g} J", most
+        )
 
 
 def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='raise'") -> None:
@@ -188,7 +244,9 @@ def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='rai
 
 
 def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
-    """The reader's checks of scalars, as checks of the input arrays; vehicles come first, as they are made first."""
+    """The reader's checks of scalars, as checks of the input arrays; vehicles come first, as they
+    are made first.
+    """
     from ..engine.batch import Check
 
     found: list[Check] = []
@@ -204,26 +262,48 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
         if vehicle.pivot is not None:
             add_arrays(FINITE, *vehicle.pivot)
             inertia = () if vehicle.yaw_inertia is None else (vehicle.yaw_inertia,)
-            found.append(Check(((either_infinite, Status.PINNED_INFINITE),), (vehicle.mass, *inertia)))
-            motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y, *vehicle.pivot)
+            found.append(
+                Check(((either_infinite, Status.PINNED_INFINITE),), (vehicle.mass, *inertia))
+            )
+            motion = (
+                vehicle.vx,
+                vehicle.vy,
+                vehicle.yaw_rate,
+                vehicle.x,
+                vehicle.y,
+                *vehicle.pivot,
+            )
             if vehicle.x is not None and vehicle.y is not None:
                 # A float32 velocity is no more accurate in float64.
                 own = rounding(eps, vehicle.vx, vehicle.vy)
-                found.append(Check(((partial(not_about_pivot, eps=own), Status.PINNED_VELOCITY),), motion))
+                found.append(
+                    Check(((partial(not_about_pivot, eps=own), Status.PINNED_VELOCITY),), motion)
+                )
     add_arrays(restitution_domain(inputs.incomplete), inputs.restitution)
     if any(isinstance(part, np.ndarray) for part in inputs.normal):
         add_arrays(FINITE, *inputs.normal)
-        found.append(Check(((without_length, Status.ZERO_NORMAL),), inputs.normal, all_with_length, implied=True))
+        found.append(
+            Check(
+                ((without_length, Status.ZERO_NORMAL),),
+                inputs.normal,
+                all_with_length,
+                implied=True,
+            )
+        )
     add_arrays(FINITE, *(inputs.point or ()), *(inputs.outside_a or ()), *(inputs.outside_b or ()))
     add_arrays(RULES[inputs.rule].domain, inputs.rule_value)
     for name, domains in TIME_DOMAINS.items():
         given = getattr(inputs, name)
-        for part, domain in zip(given if isinstance(given, tuple) else (given,), domains, strict=False):
+        for part, domain in zip(
+            given if isinstance(given, tuple) else (given,), domains, strict=False
+        ):
             add_arrays(domain, part)
     return found
 
 
-def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], Any]], Any] | None) -> CollisionsError:
+def _first_refusal(
+    inputs: Inputs, status: Any, one: Callable[[Callable[[Any], Any]], Any] | None
+) -> CollisionsError:
     """The error of the first refused case, found by solving it by itself."""
     index, place = first_case(status > Status.ENERGY_GAIN)
 
@@ -241,7 +321,8 @@ def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], A
 
 def _warn_of_gain(what: str, gain: float) -> None:
     text = (
-        f"{what}: this restitution and tangential impulse cannot occur together without a source of energy; lower the "
-        f"restitution or the ratio, or take law='kudlich-slibar' with friction="
+        f"{what}: this restitution and tangential impulse cannot occur together without a source "
+        "of energy; lower the restitution or the ratio, or take law='kudlich-slibar' with "
+        "friction="
     )
     warn_of_cases(EnergyGainWarning(text, code="energy_gain", gain=gain))

@@ -1,8 +1,10 @@
-"""One step of a contact that takes time: force over penetration, friction, tyres, and bodies that move and turn meanwhile.
+"""One step of a contact that takes time: force over penetration, friction, tyres, and bodies that
+move and turn meanwhile.
 
-Each step is a half drift, the impulses of the contact, and a half drift (position Verlet); the impulse of the tyres comes
-between two steps. It changes motions by equal and opposite impulses at one point, so momentum is kept to rounding, and the
-energies are those of the same steps. All in units of the contact: its effective mass, closing speed and nominal duration.
+Each step is a half drift, the impulses of the contact, and a half drift (position Verlet); the
+impulse of the tyres comes between two steps. It changes motions by equal and opposite impulses at
+one point, so momentum is kept to rounding, and the energies are those of the same steps. All in
+units of the contact: its effective mass, closing speed and nominal duration.
 """
 
 from math import inf
@@ -20,7 +22,9 @@ Wheels: TypeAlias = tuple[tuple[float, float], ...]
 
 
 class Spring(NamedTuple):
-    """Force over penetration while it grows: ``force`` at first, ``soft`` per length up to the ``knee``, then ``stiff``."""
+    """Force over penetration while it grows: ``force`` at first, ``soft`` per length up to the
+    ``knee``, then ``stiff``.
+    """
 
     force: Any
     soft: Any
@@ -32,16 +36,17 @@ class Spring(NamedTuple):
         first = select(depth < self.knee, depth, self.knee)
         then = depth - first
         at_knee = self.force + self.soft * first
-        return at_knee + self.stiff * then, first * (self.force + 0.5 * self.soft * first) + then * (
-            at_knee + 0.5 * self.stiff * then
-        )
+        return at_knee + self.stiff * then, first * (
+            self.force + 0.5 * self.soft * first
+        ) + then * (at_knee + 0.5 * self.stiff * then)
 
 
 class Body(NamedTuple):
-    """What does not change of a body: how it gives way, its lever, half its wheelbase and half its track, and its tyres.
+    """What does not change of a body: how it gives way, its lever, half its wheelbase and half its
+    track, and its tyres.
 
-    ``grip`` is the force of one wheel, ``cap`` the impulse for its speed that no tyre exceeds: with more, the four together
-    could turn the motion round.
+    ``grip`` is the force of one wheel, ``cap`` the impulse for its speed that no tyre exceeds: with
+    more, the four together could turn the motion round.
     """
 
     per_mass: Any
@@ -57,7 +62,9 @@ class Body(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """Velocity, way since the start, turn since the start as its cosine and sine, and what the tyres have done."""
+    """Velocity, way since the start, turn since the start as its cosine and sine, and what the
+    tyres have done.
+    """
 
     vx: Any
     vy: Any
@@ -74,7 +81,9 @@ class Motion(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """What does not change of the contact; ``on_a`` and ``turn_a`` are the shares of A in carrying the point and the normal."""
+    """What does not change of the contact; ``on_a`` and ``turn_a`` are the shares of A in carrying
+    the point and the normal.
+    """
 
     restitution: Any
     friction: Any
@@ -87,7 +96,9 @@ class Contact(NamedTuple):
 
 
 class Passing(NamedTuple):
-    """How far the contact has come: turn of the normal, penetration and the deepest one, impulse on B, work along n and t."""
+    """How far the contact has come: turn of the normal, penetration and the deepest one, impulse on
+    B, work along n and t.
+    """
 
     c: Any = 1.0
     s: Any = 0.0
@@ -116,7 +127,9 @@ class Place(NamedTuple):
 
 
 def force_back(spring: Spring, e: Any, depth: Any, deepest: Any) -> tuple[Any, Any]:
-    """Force on the way back, or where it is deeper than ever, and the penetration at which the bodies part."""
+    """Force on the way back, or where it is deeper than ever, and the penetration at which the
+    bodies part.
+    """
     most, work = spring.at(deepest)
     way = 2.0 * e * e * work / select(most > 0.0, most, 1.0)
     # 0.0 at the end of a plastic contact, whose way back has no length.
@@ -132,12 +145,19 @@ def turned(c: Any, s: Any, half: Any) -> tuple[Any, Any]:
     return c - (versed * c + sine * s), s - (versed * s - sine * c)
 
 
-def place_of(contact: Contact, a: Body, b: Body, on_a: Motion, on_b: Motion, passing: Passing) -> Place:
-    """Normal and levers of this moment: the point is carried by the places of both bodies that met."""
+def place_of(
+    contact: Contact, a: Body, b: Body, on_a: Motion, on_b: Motion, passing: Passing
+) -> Place:
+    """Normal and levers of this moment: the point is carried by the places of both
+    bodies that met.
+    """
     ax, ay = on_a.c * a.rx - on_a.s * a.ry, on_a.s * a.rx + on_a.c * a.ry
     bx, by = on_b.c * b.rx - on_b.s * b.ry, on_b.s * b.rx + on_b.c * b.ry
     # From the place on A to the place on B.
-    apart_x, apart_y = (on_b.dx - on_a.dx) + ((bx - b.rx) - (ax - a.rx)), (on_b.dy - on_a.dy) + ((by - b.ry) - (ay - a.ry))
+    apart_x, apart_y = (
+        (on_b.dx - on_a.dx) + ((bx - b.rx) - (ax - a.rx)),
+        (on_b.dy - on_a.dy) + ((by - b.ry) - (ay - a.ry)),
+    )
     off_a, off_b = 1.0 - contact.on_a, contact.on_a
     return Place(
         passing.c * contact.nx - passing.s * contact.ny,
@@ -152,7 +172,10 @@ def place_of(contact: Contact, a: Body, b: Body, on_a: Motion, on_b: Motion, pas
 def approach(place: Place, on_a: Motion, on_b: Motion) -> tuple[Any, Any]:
     """Closing speed, and slip of B relative to A."""
     nx, ny, ax, ay, bx, by = place
-    ux, uy = (on_b.vx - on_b.spin * by) - (on_a.vx - on_a.spin * ay), (on_b.vy + on_b.spin * bx) - (on_a.vy + on_a.spin * ax)
+    ux, uy = (
+        (on_b.vx - on_b.spin * by) - (on_a.vx - on_a.spin * ay),
+        (on_b.vy + on_b.spin * bx) - (on_a.vy + on_a.spin * ax),
+    )
     return -(nx * ux + ny * uy), nx * uy - ny * ux
 
 
@@ -169,11 +192,19 @@ def compliance(place: Place, a: Body, b: Body) -> tuple[Any, Any, Any]:
 
 
 def braked(body: Body, motion: Motion, time: Any, wheels: Wheels) -> Motion:
-    """The motion after the tyres have slid for a time; each pulls against its own motion and cannot turn it round."""
+    """The motion after the tyres have slid for a time; each pulls against its own motion and cannot
+    turn it round.
+    """
     if not wheels:
         return motion
-    ahead_x, ahead_y = motion.c * body.ahead_x - motion.s * body.ahead_y, motion.s * body.ahead_x + motion.c * body.ahead_y
-    left_x, left_y = motion.c * body.left_x - motion.s * body.left_y, motion.s * body.left_x + motion.c * body.left_y
+    ahead_x, ahead_y = (
+        motion.c * body.ahead_x - motion.s * body.ahead_y,
+        motion.s * body.ahead_x + motion.c * body.ahead_y,
+    )
+    left_x, left_y = (
+        motion.c * body.left_x - motion.s * body.left_y,
+        motion.s * body.left_x + motion.c * body.left_y,
+    )
     x: Any = 0.0
     y: Any = 0.0
     yaw: Any = 0.0
@@ -186,9 +217,13 @@ def braked(body: Body, motion: Motion, time: Any, wheels: Wheels) -> Motion:
         hold = select(most < cap * speed, most / select(speed > 0.0, speed, 1.0), cap)
         x, y, yaw = x - hold * ux, y - hold * uy, yaw - hold * (wx * uy - wy * ux)
     after = motion._replace(
-        vx=motion.vx + body.per_mass * x, vy=motion.vy + body.per_mass * y, spin=motion.spin + body.per_inertia * yaw
+        vx=motion.vx + body.per_mass * x,
+        vy=motion.vy + body.per_mass * y,
+        spin=motion.spin + body.per_inertia * yaw,
     )
-    work = 0.5 * (x * (motion.vx + after.vx) + y * (motion.vy + after.vy) + yaw * (motion.spin + after.spin))
+    work = 0.5 * (
+        x * (motion.vx + after.vx) + y * (motion.vy + after.vy) + yaw * (motion.spin + after.spin)
+    )
     return after._replace(
         tyre_x=motion.tyre_x + x,
         tyre_y=motion.tyre_y + y,
@@ -200,17 +235,31 @@ def braked(body: Body, motion: Motion, time: Any, wheels: Wheels) -> Motion:
 def drifted(motion: Motion, time: Any) -> Motion:
     """The motion some time later, with the velocities that it has."""
     c, s = turned(motion.c, motion.s, 0.5 * time * motion.spin)
-    return motion._replace(dx=motion.dx + time * motion.vx, dy=motion.dy + time * motion.vy, c=c, s=s)
+    return motion._replace(
+        dx=motion.dx + time * motion.vx, dy=motion.dy + time * motion.vy, c=c, s=s
+    )
 
 
-def _drifted(contact: Contact, on_a: Motion, on_b: Motion, passing: Passing, time: Any) -> tuple[Motion, Motion, Passing]:
+def _drifted(
+    contact: Contact, on_a: Motion, on_b: Motion, passing: Passing, time: Any
+) -> tuple[Motion, Motion, Passing]:
     spin = contact.turn_a * on_a.spin + (1.0 - contact.turn_a) * on_b.spin
     c, s = turned(passing.c, passing.s, 0.5 * time * spin)
     return drifted(on_a, time), drifted(on_b, time), passing._replace(c=c, s=s)
 
 
-def _pushed(body: Body, motion: Motion, x: Any, y: Any, arm: tuple[Any, Any], per_time: Any, tyres: tuple[Any, Any]) -> Motion:
-    """The motion after an impulse, and the square of its largest acceleration so far, by that and by the force of the tyres."""
+def _pushed(
+    body: Body,
+    motion: Motion,
+    x: Any,
+    y: Any,
+    arm: tuple[Any, Any],
+    per_time: Any,
+    tyres: tuple[Any, Any],
+) -> Motion:
+    """The motion after an impulse, and the square of its largest acceleration so far, by that and
+    by the force of the tyres.
+    """
     ax, ay = body.per_mass * (x * per_time + tyres[0]), body.per_mass * (y * per_time + tyres[1])
     square = ax * ax + ay * ay
     return motion._replace(
@@ -234,7 +283,9 @@ def advance(
     wheels_a: Wheels,
     wheels_b: Wheels,
 ) -> tuple[Motion, Motion, Passing]:
-    """One step of a contact that is still active: ``engaging`` up to maximum engagement, and else of the way back."""
+    """One step of a contact that is still active: ``engaging`` up to maximum engagement, and else
+    of the way back.
+    """
     active, crush, deepest = passing.active, passing.crush, passing.deepest
     step = contact.step if engaging else contact.step_back
     if not engaging:
@@ -255,20 +306,29 @@ def advance(
     closing, slip = approach(place, on_a, on_b)
     k_nn, k_nt, k_tt = compliance(place, a, b)
     depth = crush + 0.5 * step * closing
-    force = spring.at(depth)[0] if engaging else force_back(spring, contact.restitution, depth, deepest)[0]
+    force = (
+        spring.at(depth)[0]
+        if engaging
+        else force_back(spring, contact.restitution, depth, deepest)[0]
+    )
 
     coupled, held = abs(k_nt), contact.friction * k_tt
     opposes = (coupled > held) & (slip * k_nt < 0.0)
     turn = select(opposes, abs(slip) / select(opposes, coupled + held, 1.0), inf)
 
     def tangential(normal: Any) -> tuple[Any, Any]:
-        wanted, most = -(slip + k_nt * normal) / select(k_tt > 0.0, k_tt, inf), contact.friction * normal
+        wanted, most = (
+            -(slip + k_nt * normal) / select(k_tt > 0.0, k_tt, inf),
+            contact.friction * normal,
+        )
         limited = select(wanted > most, most, select(wanted < -most, -most, wanted))
         # Friction that cannot hold turns with the slip, within the step.
         turns = turn < normal
         turning = contact.friction * (normal - 2.0 * select(turns, turn, 0.0))
         turning = select(k_nt < 0.0, turning, -turning)
-        return select(turns, turning, limited), (wanted <= most) & (wanted >= -most) & (turns ^ True)
+        return select(turns, turning, limited), (wanted <= most) & (wanted >= -most) & (
+            turns ^ True
+        )
 
     part: Any = 1.0
     normal = force * step

@@ -1,4 +1,6 @@
-"""The time-resolved impact: the contact set up in its own units, its start found, stepped through, and answered in SI."""
+"""The time-resolved impact: the contact set up in its own units, its start found, stepped through,
+and answered in SI.
+"""
 
 from collections.abc import Callable
 from functools import lru_cache
@@ -26,7 +28,8 @@ from .contact_step import (
 from .elementwise import first_status, select
 from .status import EPS, Passed, Status
 
-# How often the start is corrected, and how near the last correction has to be, in closing speed times duration and in radians.
+# How often the start is corrected, and how near the last correction has to be, in closing speed
+# times duration and in radians.
 _CORRECTIONS, _NEAR = 20, 1e-6
 # The start is first looked for roughly, with few steps.
 _COARSE, _ROUGHLY = 0.08, 3e-3
@@ -45,7 +48,9 @@ Run = Callable[[Fixed, Moving, bool, Any], Moving]
 
 
 class Settings(NamedTuple):
-    """What is the same of all cases: geometry, steps a nominal duration, kind of stiffness, and the wheels of A and B."""
+    """What is the same of all cases: geometry, steps a nominal duration, kind of stiffness, and the
+    wheels of A and B.
+    """
 
     geometry: str
     steps: int
@@ -55,7 +60,9 @@ class Settings(NamedTuple):
 
 
 def wheels_of(heading: Any, drag: Any) -> Wheels:
-    """The wheels of a vehicle: none without drag; all of its weight at the centre of mass without a heading."""
+    """The wheels of a vehicle: none without drag; all of its weight at the centre of mass without a
+    heading.
+    """
     return () if isinstance(drag, float) and drag == 0.0 else _ONE if heading is None else _FOUR
 
 
@@ -75,9 +82,9 @@ def time_resolved(
 ) -> Passed:
     """Solve one case of floats, or a block of arrays, as ``run`` does; SI in and out.
 
-    ``stiffness`` is what ``settings.stiffness`` says: the nominal duration, a stiffness, or force at no crush and stiffness of
-    A and of B (infinite if rigid). ``bodies`` have mass, inertia, velocity, yaw rate, position, and cosine and sine of the
-    heading, or None.
+    ``stiffness`` is what ``settings.stiffness`` says: the nominal duration, a stiffness, or force
+    at no crush and stiffness of A and of B (infinite if rigid). ``bodies`` have mass, inertia,
+    velocity, yaw rate, position, and cosine and sine of the heading, or None.
     """
     e, (nx, ny), steps = restitution, normal, run(settings)
     own = [_own(body, *point) for body in bodies]
@@ -92,7 +99,15 @@ def time_resolved(
     force = deceleration * (duration / closing)
     (a, on_a), (b, on_b) = (
         (
-            _scaled(body, numbers[7], mass, length, force, 0.5 * (wheelbase / length), 0.5 * (track / length)),
+            _scaled(
+                body,
+                numbers[7],
+                mass,
+                length,
+                force,
+                0.5 * (wheelbase / length),
+                0.5 * (track / length),
+            ),
             Motion(motion.vx / closing, motion.vy / closing, motion.spin * duration),
         )
         for body, motion, numbers in ((a, on_a, bodies[0]), (b, on_b, bodies[1]))
@@ -113,23 +128,43 @@ def time_resolved(
     )
     # Broadcast, so that all that moves has the shape of the cases.
     zero = 0.0 * (
-        closing + contact.step_back + a.per_mass + b.per_mass + contact.friction + on_a.vx + on_b.vx + a.grip + b.grip
+        closing
+        + contact.step_back
+        + a.per_mass
+        + b.per_mass
+        + contact.friction
+        + on_a.vx
+        + on_b.vx
+        + a.grip
+        + b.grip
     )
     start = [Motion(*(value + zero for value in motion)) for motion in (on_a, on_b)]
     none = zero != zero
-    passing = Passing(*(zero for _ in Passing._fields))._replace(c=1.0 + zero, sticks=none, active=none ^ True)
+    passing = Passing(*(zero for _ in Passing._fields))._replace(
+        c=1.0 + zero, sticks=none, active=none ^ True
+    )
     moving: Moving = start[0], start[1], passing
     converged: Any = True
     if settings.geometry == "maximum_engagement":
-        (contact, a, b), converged = _start(spring, contact, a, b, moving, steps, (closing_speed > 0.0) & yields)
+        (contact, a, b), converged = _start(
+            spring, contact, a, b, moving, steps, (closing_speed > 0.0) & yields
+        )
     fixed = spring, contact, a, b
     first = place_of(contact, a, b, *moving)
     closing_before, slip_before = approach(first, *moving[:2])
-    moving = *moving[:2], moving[2]._replace(closing=closing_before, active=(closing_before > 0.0) & converged)
+    moving = (
+        *moving[:2],
+        moving[2]._replace(closing=closing_before, active=(closing_before > 0.0) & converged),
+    )
     engaged = steps(fixed, moving, True, None if note is None else note.append)
     _, parting = force_back(spring, e, engaged[2].crush, engaged[2].deepest)
     more = (engaged[2].crush > parting) & (engaged[2].time < LONGEST)
-    moving = steps(fixed, (*engaged[:2], engaged[2]._replace(active=more)), False, None if note is None else note.append)
+    moving = steps(
+        fixed,
+        (*engaged[:2], engaged[2]._replace(active=more)),
+        False,
+        None if note is None else note.append,
+    )
     passing = moving[2]
     owed = select(passing.owed > 0.0, passing.owed, 0.0)
     on_a, on_b = after = (
@@ -165,12 +200,22 @@ def time_resolved(
     }
     there = place_of(contact, a, b, *engaged)
     found["common_velocity"] = closing * (
-        there.nx * (engaged[0].vx - engaged[0].spin * there.ay) + there.ny * (engaged[0].vy + engaged[0].spin * there.ax)
+        there.nx * (engaged[0].vx - engaged[0].spin * there.ay)
+        + there.ny * (engaged[0].vy + engaged[0].spin * there.ax)
     )
-    for label, sign, body, before, most_engaged, end in zip("ab", (-1.0, 1.0), (a, b), start, engaged, after, strict=False):
-        for prefix, motion, at in (("compression", most_engaged, engaged[2]), ("delta", end, passing)):
-            found[f"{prefix}_vx_{label}"] = body.per_mass * (sign * at.impulse_x + motion.tyre_x) * closing
-            found[f"{prefix}_vy_{label}"] = body.per_mass * (sign * at.impulse_y + motion.tyre_y) * closing
+    for label, sign, body, before, most_engaged, end in zip(
+        "ab", (-1.0, 1.0), (a, b), start, engaged, after, strict=False
+    ):
+        for prefix, motion, at in (
+            ("compression", most_engaged, engaged[2]),
+            ("delta", end, passing),
+        ):
+            found[f"{prefix}_vx_{label}"] = (
+                body.per_mass * (sign * at.impulse_x + motion.tyre_x) * closing
+            )
+            found[f"{prefix}_vy_{label}"] = (
+                body.per_mass * (sign * at.impulse_y + motion.tyre_y) * closing
+            )
             found[f"{prefix}_yaw_rate_{label}"] = (motion.spin - before.spin) / duration
         found[f"tyre_impulse_x_{label}"] = end.tyre_x * impulse
         found[f"tyre_impulse_y_{label}"] = end.tyre_y * impulse
@@ -190,17 +235,27 @@ def time_resolved(
         (passing.time >= LONGEST, Status.ENDLESS_CONTACT),
     )
     if note and status == Status.OK:
-        found["history"] = _history(note, spring, e, start, closing, duration, length, impulse / duration)
+        found["history"] = _history(
+            note, spring, e, start, closing, duration, length, impulse / duration
+        )
     return Passed(status=status, **found)
 
 
-def _history(note: list[tuple[float, ...]], spring: Spring, e: float, start: list[Motion], *units: float) -> tuple[Any, ...]:
-    """Time, force, crush, delta-V of A and B, and their yaw rates, at the start and after every step."""
+def _history(
+    note: list[tuple[float, ...]], spring: Spring, e: float, start: list[Motion], *units: float
+) -> tuple[Any, ...]:
+    """Time, force, crush, delta-V of A and B, and their yaw rates, at the start and after every
+    step.
+    """
     closing, duration, length, newton = units
-    on_a, on_b, passing = _moving_of(np.array([(*start[0], *start[1], *Passing()), *note], dtype=np.float64).T)
+    on_a, on_b, passing = _moving_of(
+        np.array([(*start[0], *start[1], *Passing()), *note], dtype=np.float64).T
+    )
     crush, deepest = passing.crush, passing.deepest
     with np.errstate(all="ignore"):
-        force = np.where(crush < deepest, force_back(spring, e, crush, deepest)[0], spring.at(deepest)[0])
+        force = np.where(
+            crush < deepest, force_back(spring, e, crush, deepest)[0], spring.at(deepest)[0]
+        )
     if e == 0.0 or crush[-1] < deepest[-1]:
         force[-1] = 0.0
     return (
@@ -215,17 +270,27 @@ def _history(note: list[tuple[float, ...]], spring: Spring, e: float, start: lis
 def _moving_of(numbers: Any) -> Moving:
     """What moves, from its numbers in a row."""
     count = len(Motion._fields)
-    return Motion(*numbers[:count]), Motion(*numbers[count : 2 * count]), Passing(*numbers[2 * count :])
+    return (
+        Motion(*numbers[:count]),
+        Motion(*numbers[count : 2 * count]),
+        Passing(*numbers[2 * count :]),
+    )
 
 
 def _own(body: tuple[Any, ...], px: Any, py: Any) -> tuple[Body, Motion]:
     """A body and its motion in SI, without what only tyres need."""
     mass, inertia, vx, vy, spin, x, y, *_ = body
-    return Body(1.0 / mass, 1.0 / inertia, px - x, py - y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), Motion(vx, vy, spin)
+    return Body(1.0 / mass, 1.0 / inertia, px - x, py - y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), Motion(
+        vx, vy, spin
+    )
 
 
-def _scaled(body: Body, heading: Any, mass: Any, length: Any, force: Any, ahead: Any, left: Any) -> Body:
-    """The body in units of the contact, with its wheels; ``force`` is what the tyres hold of its weight, over its mass."""
+def _scaled(
+    body: Body, heading: Any, mass: Any, length: Any, force: Any, ahead: Any, left: Any
+) -> Body:
+    """The body in units of the contact, with its wheels; ``force`` is what the tyres hold of its
+    weight, over its mass.
+    """
     if heading is None:
         heading, ahead, left = (1.0, 0.0), 0.0, 0.0
     cos, sin = heading
@@ -246,8 +311,12 @@ def _scaled(body: Body, heading: Any, mass: Any, length: Any, force: Any, ahead:
     )
 
 
-def _spring(kind: str, given: tuple[Any, ...], e: Any, mass: Any, closing: Any) -> tuple[Any, Spring]:
-    """The nominal duration, which is that of a linear spring with the same largest force, and the spring in its units."""
+def _spring(
+    kind: str, given: tuple[Any, ...], e: Any, mass: Any, closing: Any
+) -> tuple[Any, Spring]:
+    """The nominal duration, which is that of a linear spring with the same largest force, and the
+    spring in its units.
+    """
     swing = 0.5 * pi * (1.0 + e)
     linear = Spring(0.0, swing * swing, inf, 0.0)
     if kind == "duration":
@@ -264,19 +333,25 @@ def _spring(kind: str, given: tuple[Any, ...], e: Any, mass: Any, closing: Any) 
     energy = mass * closing * closing
     squared = low * low + first * energy
     at_high = high * high
-    squared = select(squared <= at_high, squared, at_high + both * (energy - (at_high - low * low) / first))
+    squared = select(
+        squared <= at_high, squared, at_high + both * (energy - (at_high - low * low) / first)
+    )
     most = squared**0.5
     duration = swing * (mass * closing / most)
     unit, length = duration / (mass * closing), closing * duration
-    return duration, Spring(low * unit, first * (length * unit), (high - low) / first / length, both * (length * unit))
+    return duration, Spring(
+        low * unit, first * (length * unit), (high - low) / first / length, both * (length * unit)
+    )
 
 
 def _start(
     spring: Spring, contact: Contact, a: Body, b: Body, moving: Moving, run: Run, usable: Any
 ) -> tuple[tuple[Contact, Body, Body], Any]:
-    """Levers, headings and normal at first contact for which those given are reached at maximum engagement.
+    """Levers, headings and normal at first contact for which those given are reached at maximum
+    engagement.
 
-    What the bodies move and turn until then is guessed, and corrected by what they do, with the step of a secant.
+    What the bodies move and turn until then is guessed, and corrected by what they do, with the
+    step of a secant.
     """
     on_a, on_b, passing = moving
     names = ("dx", "dy", "c", "s")
@@ -290,9 +365,16 @@ def _start(
             start = _moved_back(contact._replace(step=step), a, b, guess)
             closing, _ = approach(place_of(*start, *moving), on_a, on_b)
             end = run(
-                (spring, *start), (on_a, on_b, passing._replace(closing=closing, active=(closing > 0.0) & left)), True, None
+                (spring, *start),
+                (on_a, on_b, passing._replace(closing=closing, active=(closing > 0.0) & left)),
+                True,
+                None,
             )
-            reached = [*(getattr(one, name) for one in end[:2] for name in names), end[2].c, end[2].s]
+            reached = [
+                *(getattr(one, name) for one in end[:2] for name in names),
+                end[2].c,
+                end[2].s,
+            ]
             off = [new - old for new, old in zip(reached, guess, strict=True)]
             far: Any = sum(abs(one) for one in off)
             left = left & (((far <= enough) & (closing > 0.0)) ^ True)
@@ -321,7 +403,9 @@ def put(parts: Any, some: Any, new: Any) -> Any:
     return whole
 
 
-def _secant(reached: list[Any], off: list[Any], off_before: list[Any], reached_before: list[Any]) -> list[Any]:
+def _secant(
+    reached: list[Any], off: list[Any], off_before: list[Any], reached_before: list[Any]
+) -> list[Any]:
     """The next guess, from where the last two led and by how much they missed."""
     change = [now - then for now, then in zip(off, off_before, strict=True)]
     square: Any = sum(part * part for part in change)
@@ -332,7 +416,9 @@ def _secant(reached: list[Any], off: list[Any], off_before: list[Any], reached_b
 
 
 def _moved_back(contact: Contact, a: Body, b: Body, moved: list[Any]) -> tuple[Contact, Body, Body]:
-    """Geometry at first contact from that at maximum engagement, by what moves and turns between them."""
+    """Geometry at first contact from that at maximum engagement, by what moves and turns between
+    them.
+    """
     turned = []
     for body, (dx, dy, c, s) in ((a, moved[:4]), (b, moved[4:8])):
         size = (c * c + s * s) ** 0.5
@@ -375,7 +461,14 @@ def float_run(settings: Settings, compiled: Callable[..., Any]) -> Run:
         if not moving[2].active:
             return moving
         step = _loop(compiled, (engaging, moves, *wheels))
-        return _moving_of(step([v for part in fixed for v in part], [v for part in moving for v in part], most, note))
+        return _moving_of(
+            step(
+                [v for part in fixed for v in part],
+                [v for part in moving for v in part],
+                most,
+                note,
+            )
+        )
 
     return run
 
@@ -392,7 +485,11 @@ def block_run(settings: Settings) -> Run:
                 break
             if 2 * count < active.size and active.size > _LEAST:
                 # Most have ended: go on without them.
-                whole: Moving = put(moving, active, run(cases_of(fixed, active), cases_of(moving, active), engaging, note))
+                whole: Moving = put(
+                    moving,
+                    active,
+                    run(cases_of(fixed, active), cases_of(moving, active), engaging, note),
+                )
                 return whole
             moving = advance(*fixed, *moving, engaging, moves, settings.wheels_a, settings.wheels_b)
         return moving

@@ -1,4 +1,6 @@
-"""``warn`` attributes a warning to the caller's own line; ``quietly`` silences warnings about refused cases."""
+"""``warn`` attributes a warning to the caller's own line; ``quietly`` silences warnings about
+refused cases.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,8 @@ from typing import Any, TypeAlias
 
 from .errors import CollisionsWarning
 
-# Of samples of one: what a warning says without its numbers, its class and code, and how many cases it is of.
+# Of samples of one: what a warning says without its numbers, its class and code, and how many cases
+# it is of.
 Noted: TypeAlias = tuple[str, type[CollisionsWarning], str, int]
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 _sampling: ContextVar[list[Noted] | None] = ContextVar("sampling", default=None)
@@ -28,7 +31,9 @@ def warn(warning: CollisionsWarning) -> None:
 
 
 def warn_of_cases(warning: CollisionsWarning, count: int = 0, sentence: str = "") -> None:
-    """Warn of what some cases show, unless within ``quietly``; of samples of one case, number and sentence are noted."""
+    """Warn of what some cases show, unless within ``quietly``; of samples of one case, number and
+    sentence are noted.
+    """
     noted = _sampling.get()
     if not _quiet.get():
         warn(warning)
@@ -37,14 +42,18 @@ def warn_of_cases(warning: CollisionsWarning, count: int = 0, sentence: str = ""
 
 
 def warn_of_samples(warning: CollisionsWarning) -> None:
-    """Warn of what matters only where the cases are samples of one case: within ``quietly(noted)``."""
+    """Warn of what matters only where the cases are samples of one case: within
+    ``quietly(noted)``.
+    """
     if _sampling.get() is not None:
         warn(warning)
 
 
 @contextmanager
 def quietly(noted: list[Noted] | None = None) -> Iterator[None]:
-    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``noted`` they are samples of one case."""
+    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``noted`` they
+    are samples of one case.
+    """
     token, sampled = _quiet.set(True), _sampling.set(noted)
     try:
         yield

@@ -11,7 +11,8 @@ from ..messages.errors import InputError
 
 
 class Document(str):
-    """The text of a page: a ``str`` that a notebook shows as a page, and that ``save`` writes to a file.
+    """The text of a page: a ``str`` that a notebook shows as a page, and that ``save`` writes to a
+    file.
 
     Attributes
     ----------
@@ -32,7 +33,8 @@ class Document(str):
         Parameters
         ----------
         path : str or path
-            An existing file is replaced. Only a page of HTML may have a name that ends in .html or .htm.
+            An existing file is replaced. Only a page of HTML may have a name that ends in .html or
+            .htm.
 
         Returns
         -------
@@ -46,11 +48,14 @@ class Document(str):
             The file cannot be written.
         """
         target = Path(path)
-        kind, suffix = {"html": ("HTML", ".html"), "markdown": ("Markdown", ".md")}.get(self.form, ("plain text", ".txt"))
+        kind, suffix = {"html": ("HTML", ".html"), "markdown": ("Markdown", ".md")}.get(
+            self.form, ("plain text", ".txt")
+        )
         if self.form != "html" and target.suffix.lower() in (".html", ".htm"):
             instead = str(target.with_suffix(suffix))
             raise InputError(
-                f"path ends in {target.suffix}, but this page is {kind}, not HTML; write save({instead!r})",
+                f"path ends in {target.suffix}, but this page is {kind}, not HTML; write "
+                f"save({instead!r})",
                 code="bad_option",
                 argument="path",
             )
@@ -58,10 +63,16 @@ class Document(str):
             target.write_text(self, encoding="utf-8", newline="\n")
         except FileNotFoundError as error:
             folder = str(target.parent)
-            text = f"there is no folder {folder!r}; make it first, by pathlib.Path({folder!r}).mkdir(parents=True), to save"
+            text = (
+                f"there is no folder {folder!r}; make it first, by "
+                f"pathlib.Path({folder!r}).mkdir(parents=True), to save"
+            )
             raise FileNotFoundError(error.errno, text, str(target)) from None
         except IsADirectoryError as error:
-            text = f"this is a folder; name a file in it, such as {str(target / f'report{suffix}')!r}, in place of"
+            text = (
+                "this is a folder; name a file in it, such as "
+                f"{str(target / f'report{suffix}')!r}, in place of"
+            )
             raise IsADirectoryError(error.errno, text, str(target)) from None
         return target
 
@@ -69,7 +80,10 @@ class Document(str):
         # In a frame: the page has a style of its own, which is not that of the notebook.
         if self.form != "html":
             return None
-        return f'<iframe srcdoc="{escape(self)}" style="width:100%;height:64em;max-height:95vh;border:1px solid #ccc"></iframe>'
+        return (
+            f'<iframe srcdoc="{escape(self)}" '
+            'style="width:100%;height:64em;max-height:95vh;border:1px solid #ccc"></iframe>'
+        )
 
     def _repr_markdown_(self) -> str | None:
         return str(self) if self.form == "markdown" else None

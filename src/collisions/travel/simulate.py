@@ -1,4 +1,6 @@
-"""``simulate``: a vehicle on four wheels from separation to rest, so that places of rest are evidence of its motion."""
+"""``simulate``: a vehicle on four wheels from separation to rest, so that places of rest are
+evidence of its motion.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,8 @@ _MARKS = 0.9
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class SimulatedPath(Shown):
-    """The motion of a vehicle from separation to rest, by ``simulate``; arrays are over moments, then over cases of a batch.
+    """The motion of a vehicle from separation to rest, by ``simulate``; arrays are over moments,
+    then over cases of a batch.
 
     Attributes
     ----------
@@ -47,8 +50,9 @@ class SimulatedPath(Shown):
     heading : array [rad]
         Counted on through full turns.
     marks : tuple of pairs of arrays [m]
-        For each wheel (front left, front right, rear left, rear right), x and y of its track where the tyre slides and so
-        leaves a mark, that is where it uses 90 % of the friction or more; NaN elsewhere.
+        For each wheel (front left, front right, rear left, rear right), x and y of its track where
+        the tyre slides and so leaves a mark, that is where it uses 90 % of the friction or more;
+        NaN elsewhere.
     rest : Vehicle
         The vehicle at rest.
     """
@@ -69,7 +73,10 @@ class SimulatedPath(Shown):
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         # The marks are for drawing; the end is what is compared with the scene.
         yield from (row for row in Shown._values(self, prefix) if row[0] != "marks")
-        yield from ((f"rest.{name}", getattr(self.rest, name), UNITS[name]) for name in ("x", "y", "heading"))
+        yield from (
+            (f"rest.{name}", getattr(self.rest, name), UNITS[name])
+            for name in ("x", "y", "heading")
+        )
 
 
 @hinted
@@ -86,31 +93,36 @@ def simulate(
     limit: Input = "30 s",
     moments: int = 101,
 ) -> SimulatedPath:
-    """The motion of a vehicle from separation to rest on four wheels, each with its own friction, braking and slip.
+    """The motion of a vehicle from separation to rest on four wheels, each with its own friction,
+    braking and slip.
 
-    The vehicle moves in the plane under the forces of its tyres. Each wheel carries a quarter of the weight. The force of a
-    tyre is within the friction ellipse: at most ``friction`` times its load across the wheel and ``lock`` times that along it;
-    of the forces in the ellipse, it is the one that does the most work against the slip. ``path`` does the same, but here the
-    yaw adds to the slip of each wheel. For a locked wheel, the ellipse is a circle: full friction against the slip. For a
-    rolling wheel, the side force is limited by the slip angle a, after Fiala::
+    The vehicle moves in the plane under the forces of its tyres. Each wheel carries a quarter of
+    the weight. The force of a tyre is within the friction ellipse: at most ``friction`` times its
+    load across the wheel and ``lock`` times that along it; of the forces in the ellipse, it is the
+    one that does the most work against the slip. ``path`` does the same, but here the yaw adds to
+    the slip of each wheel. For a locked wheel, the ellipse is a circle: full friction against the
+    slip. For a rolling wheel, the side force is limited by the slip angle a, after Fiala::
 
         z = min(1, cornering |tan(a)| / (3 friction));    force across <= friction * load * (1 - (1 - z)**3)
 
     Parameters
     ----------
     vehicle : Vehicle
-        At separation, with yaw inertia, position and heading, and free to move. Arrays in it are many cases.
+        At separation, with yaw inertia, position and heading, and free to move. Arrays in it are
+        many cases.
     friction : float, str, Quantity or array
         Friction of locked tyres on the ground, > 0.
     lock : float, str, Quantity or array, or a list of four
-        Braking along the wheels as a fraction of that of locked wheels, from damage, brakes or an engaged gear: 0 if a wheel
-        rolls freely, 1 if it is locked. One for all, or front left, front right, rear left, rear right.
+        Braking along the wheels as a fraction of that of locked wheels, from damage, brakes or an
+        engaged gear: 0 if a wheel rolls freely, 1 if it is locked. One for all, or front left,
+        front right, rear left, rear right.
     wheelbase, track : float, str, Quantity or array [m]
         Distances between the wheels. The centre of mass is midway.
     steer : float, str, Quantity or array [rad]
         Steer angle of both front wheels, positive to the left.
     surfaces : sequence of (corners, friction), optional
-        Areas with a different friction, each with three or more corners [m] in order. The first that a wheel is in counts.
+        Areas with a different friction, each with three or more corners [m] in order. The first
+        that a wheel is in counts.
     cornering : float, str, Quantity or array
         Cornering stiffness of a tyre over its load, per radian.
     limit : float, str, Quantity or array [s]
@@ -130,7 +142,8 @@ def simulate(
     MissingInputError
         The vehicle has no yaw inertia, position or heading.
     NoSolutionError
-        The vehicle is not at rest within ``limit``, for example because no wheel is braked and it rolls on.
+        The vehicle is not at rest within ``limit``, for example because no wheel is braked and it
+        rolls on.
 
     Warns
     -----
@@ -141,20 +154,24 @@ def simulate(
 
     Notes
     -----
-    Fiala's side force (VDI-Z. 96 (1954) 973) as a share of the friction is what SMAC uses (McHenry, SAE 730980), which has a
-    friction circle and a given braking force; at partial braking, the force along the wheel is smaller here at large slip
-    angles, as in the drag of ``path`` and of CRASH. The difference amounts to one of ``lock``, which is uncertain anyway. For
-    ``cornering``, 16 to 17 % of the load per degree, or 9.5 per radian, is typical of cars (m-smac, tire properties).
+    Fiala's side force (VDI-Z. 96 (1954) 973) as a share of the friction is what SMAC uses (McHenry,
+    SAE 730980), which has a friction circle and a given braking force; at partial braking, the
+    force along the wheel is smaller here at large slip angles, as in the drag of ``path`` and of
+    CRASH. The difference amounts to one of ``lock``, which is uncertain anyway. For ``cornering``,
+    16 to 17 % of the load per degree, or 9.5 per radian, is typical of cars (m-smac, tire
+    properties).
 
-    The model holds for cars that stay on their wheels on level ground: load transfer, suspension, rollover, kerbs, furrowing in
-    soft ground, other vehicles, driving forces and air resistance are left out, and ``friction`` is the same at every speed.
-    Near rest, a rolling tyre is stiffer sideways than in reality.
+    The model holds for cars that stay on their wheels on level ground: load transfer, suspension,
+    rollover, kerbs, furrowing in soft ground, other vehicles, driving forces and air resistance are
+    left out, and ``friction`` is the same at every speed. Near rest, a rolling tyre is stiffer
+    sideways than in reality.
 
-    The integration is of orders 5 and 4 with its own step for each case, in a time that slows down with the vehicle, in which
-    the end of the motion is regular; once the motion is down to 0.001 of the initial one, the rest is a straight line. So it
-    ends at rest, without chatter. Only a wheel that nearly stands still, at 0.001 of the speed of the vehicle, has less than
-    its full force. In all, the place of rest is off by at most 1e-3 of the distance travelled and the heading by 1e-3 rad,
-    mostly by a hundredth of that; places in between by 2 mm.
+    The integration is of orders 5 and 4 with its own step for each case, in a time that slows down
+    with the vehicle, in which the end of the motion is regular; once the motion is down to 0.001 of
+    the initial one, the rest is a straight line. So it ends at rest, without chatter. Only a wheel
+    that nearly stands still, at 0.001 of the speed of the vehicle, has less than its full force. In
+    all, the place of rest is off by at most 1e-3 of the distance travelled and the heading by 1e-3
+    rad, mostly by a hundredth of that; places in between by 2 mm.
 
     Examples
     --------
@@ -181,31 +198,56 @@ def simulate(
     if isinstance(lock, (list, tuple)):
         locks = dict(zip(_LOCKS, lock, strict=False))
         if len(lock) != len(WHEELS):
-            text = f"lock is a list of {len(lock)}; give one value for all wheels, or four: {', '.join(WHEELS)}"
+            text = (
+                f"lock is a list of {len(lock)}; give one value for all wheels, or four: "
+                f"{', '.join(WHEELS)}"
+            )
             reader.refuse(ShapeError(text, code="bad_shape", argument="lock"))
-    numbers = {name: one_value(reader, value, "", name, UNIT_INTERVAL) for name, value in locks.items()}
+    numbers = {
+        name: one_value(reader, value, "", name, UNIT_INTERVAL) for name, value in locks.items()
+    }
     numbers["steer"] = one_value(reader, steer, "rad", "steer")
-    sizes = {"wheelbase": (wheelbase, "m"), "track": (track, "m"), "cornering": (cornering, ""), "limit": (limit, "s")}
-    positive = {name: one_value(reader, value, unit, name, POSITIVE_FINITE) for name, (value, unit) in sizes.items()}
+    sizes = {
+        "wheelbase": (wheelbase, "m"),
+        "track": (track, "m"),
+        "cornering": (cornering, ""),
+        "limit": (limit, "s"),
+    }
+    positive = {
+        name: one_value(reader, value, unit, name, POSITIVE_FINITE)
+        for name, (value, unit) in sizes.items()
+    }
     if not is_whole(moments) or not 2 <= moments <= _MOST_MOMENTS:
         text = f"moments must be a whole number from 2 to {_MOST_MOMENTS}, got {shown(moments)}"
         reader.refuse(InputError(text, code="bad_option", argument="moments"))
     if not isinstance(vehicle, Vehicle):
         reader.refuse(not_a_vehicle("vehicle", vehicle))
     elif vehicle.pivot is not None:
-        text = "vehicle is on a pivot; simulate takes one that is free: write vehicle.replace(pivot=None)"
+        text = (
+            "vehicle is on a pivot; simulate takes one that is free: write "
+            "vehicle.replace(pivot=None)"
+        )
         reader.refuse(InputError(text, code="pinned", argument="vehicle"))
     reader.close()
     if isinstance(vehicle.mass, float) and math.isinf(vehicle.mass):
-        raise NoSolutionError("the mass of the vehicle is infinite, which friction does not stop", code="infinite_mass")
+        raise NoSolutionError(
+            "the mass of the vehicle is infinite, which friction does not stop",
+            code="infinite_mass",
+        )
     body = {name: needed(vehicle, name, "simulate") for name in ("mass", "yaw_inertia", *_MOTION)}
     named = body | ground | numbers | positive
     shape = broadcast(named)
-    flat = {name: np.broadcast_to(np.asarray(value, float), shape or ()).ravel() for name, value in named.items()}
+    flat = {
+        name: np.broadcast_to(np.asarray(value, float), shape or ()).ravel()
+        for name, value in named.items()
+    }
     with np.errstate(all="ignore"):
         wheels, start = _prepared(flat, [corners for corners, _ in areas])
         blocks = [slice(i, i + _BLOCK) for i in range(0, start.shape[1] or 1, _BLOCK)]
-        parts = [_way(wheels.of(cases), start[:, cases], flat["limit"][cases], moments) for cases in blocks]
+        parts = [
+            _way(wheels.of(cases), start[:, cases], flat["limit"][cases], moments)
+            for cases in blocks
+        ]
         way, ended = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
     if shape is None:
         _refuse_one(*map(float, (*ended[:, 0], flat["limit"][0])))
@@ -213,24 +255,37 @@ def simulate(
     else:
         limits = flat["limit"].reshape(shape)
         checks = [
-            ("not_positive", ~np.greater(number, 0.0)) for number in (body["mass"], body["yaw_inertia"], *positive.values())
+            ("not_positive", ~np.greater(number, 0.0))
+            for number in (body["mass"], body["yaw_inertia"], *positive.values())
         ]
         checks += [("infinite_mass", np.isinf(body["mass"]))]
         checks += [("bad_friction", np.less(mu, 0.0)) for mu in ground.values()]
         time, speed = ended.reshape(2, *shape)
-        checks += [("out_of_range", ~np.isfinite(time)), ("never_stops", time >= limits), ("no_convergence", speed > 0.0)]
-        finite = {name: number for name, number in named.items() if name not in ("mass", "yaw_inertia")}
+        checks += [
+            ("out_of_range", ~np.isfinite(time)),
+            ("never_stops", time >= limits),
+            ("no_convergence", speed > 0.0),
+        ]
+        finite = {
+            name: number for name, number in named.items() if name not in ("mass", "yaw_inertia")
+        }
         # 0, or NaN where a case is refused.
-        still = write_locked(settle(np.zeros(shape), finite, shape, checks).astype(precision(named.values())))
+        still = write_locked(
+            settle(np.zeros(shape), finite, shape, checks).astype(precision(named.values()))
+        )
         found = (way.reshape(len(way), moments, *shape) + still).astype(still.dtype)
     time, x, y, heading, *tracks = write_locked(tuple(found))
     end = {"x": x[-1], "y": y[-1], "heading": heading[-1]}
-    state = {name: getattr(vehicle, name) for name in NAMES} | dict.fromkeys(("vx", "vy", "yaw_rate"), still)
+    state = {name: getattr(vehicle, name) for name in NAMES} | dict.fromkeys(
+        ("vx", "vy", "yaw_rate"), still
+    )
     state |= {name: float(part) if shape is None else part for name, part in end.items()}
     marks = tuple(zip(tracks[::2], tracks[1::2], strict=True))
     texts = texts_of(vehicle.given)
     rest = vehicle_of(state, given=Texts(units=texts))
-    return in_units_of(SimulatedPath(time=time, x=x, y=y, heading=heading, marks=marks, rest=rest), texts)
+    return in_units_of(
+        SimulatedPath(time=time, x=x, y=y, heading=heading, marks=marks, rest=rest), texts
+    )
 
 
 def _prepared(flat: dict[str, Any], corners: Sequence[Any]) -> tuple[Wheels, Any]:
@@ -251,34 +306,61 @@ def _prepared(flat: dict[str, Any], corners: Sequence[Any]) -> tuple[Wheels, Any
         gyration=flat["mass"] / flat["yaw_inertia"],
         areas=[(area, flat[f"surfaces[{i}]"]) for i, area in enumerate(corners)],
     )
-    rows = [flat["vx"], flat["vy"], flat["yaw_rate"] * reach, flat["x"], flat["y"], flat["heading"], 0.0 * reach]
+    rows = [
+        flat["vx"],
+        flat["vy"],
+        flat["yaw_rate"] * reach,
+        flat["x"],
+        flat["y"],
+        flat["heading"],
+        0.0 * reach,
+    ]
     start = np.array(rows)
     # Refused cases need not be followed.
-    start[:3, ~((wheels.friction >= 0.0) & np.all((wheels.lock >= 0.0) & (wheels.lock <= 1.0), axis=0))] = 0.0
+    start[
+        :3,
+        ~((wheels.friction >= 0.0) & np.all((wheels.lock >= 0.0) & (wheels.lock <= 1.0), axis=0)),
+    ] = 0.0
     return wheels, start
 
 
 def _way(wheels: Wheels, start: Any, limit: Any, moments: int) -> tuple[Any, Any]:
-    """Time, place, heading and marks of some cases at equal steps of time; and the time and speed at which each ended."""
+    """Time, place, heading and marks of some cases at equal steps of time; and the time and speed
+    at which each ended.
+    """
     states, slopes = integrate(wheels, start, limit)
     at, cases = states[:, 6], np.arange(start.shape[1])
     time = np.linspace(0.0, 1.0, moments)[:, None] * at[-1]
-    after = np.array([np.searchsorted(at[:, i], time[:, i], side="right") for i in cases], dtype=int).reshape(-1, moments).T
+    after = (
+        np.array([np.searchsorted(at[:, i], time[:, i], side="right") for i in cases], dtype=int)
+        .reshape(-1, moments)
+        .T
+    )
     # Steps beyond the first that ends there repeat it.
     after = np.minimum(after, np.argmax(at >= at[-1], axis=0))
     before = np.maximum(after - 1, 0)
     width = at[after, cases] - at[before, cases]
     share = ((time - at[before, cases]) / np.where(width > 0.0, width, 1.0))[..., None]
-    (p, q), (u, v) = ([part[which, :6, cases] for which in (before, after)] for part in (states, slopes))
+    (p, q), (u, v) = (
+        [part[which, :6, cases] for which in (before, after)] for part in (states, slopes)
+    )
     # The cubic with the values and slopes at both ends of the step.
     bend = (1.0 - 2.0 * share) * (q - p) + width[..., None] * ((share - 1.0) * u + share * v)
-    vx, vy, turn, *place = np.moveaxis((1.0 - share) * p + share * q + share * (share - 1.0) * bend, -1, 0)
+    vx, vy, turn, *place = np.moveaxis(
+        (1.0 - share) * p + share * q + share * (share - 1.0) * bend, -1, 0
+    )
     # At the last moment the vehicle stands, with the marks that it came with.
     motion = [np.concatenate([part[:-1], part[-2:-1]]).ravel() for part in (vx, vy, turn)]
     every = wheels.of(np.tile(cases, moments))
     speed, (x, y, heading) = size(motion), [part.ravel() for part in place]
-    *_, used = every.forces(motion[0] / speed, motion[1] / speed, motion[2] / speed / every.reach, x, y, heading)
-    tracks = np.where(used[:, None] >= _MARKS, np.stack(every.places(x, y, np.cos(heading), np.sin(heading)), axis=1), np.nan)
+    *_, used = every.forces(
+        motion[0] / speed, motion[1] / speed, motion[2] / speed / every.reach, x, y, heading
+    )
+    tracks = np.where(
+        used[:, None] >= _MARKS,
+        np.stack(every.places(x, y, np.cos(heading), np.sin(heading)), axis=1),
+        np.nan,
+    )
     found = np.concatenate([np.stack([time, *place]), tracks.reshape(2 * len(WHEELS), *time.shape)])
     return found, np.stack([at[-1], size(states[-1])])
 
@@ -289,8 +371,9 @@ def _refuse_one(time: float, speed: float, limit: float) -> None:
         raise out_of_range()
     if time >= limit or speed > 0.0:
         raise NoSolutionError(
-            f"the vehicle is not at rest after {min(time, limit):.6g} s: friction or lock slow it too little (a wheel of lock "
-            f"0 rolls on), limit is too short, or it spins too fast to be followed",
+            f"the vehicle is not at rest after {min(time, limit):.6g} s: friction or lock slow "
+            "it too little (a wheel of lock 0 rolls on), limit is too short, or it spins too "
+            "fast to be followed",
             code="never_stops" if time >= limit else "no_convergence",
             speed=speed,
         )
@@ -302,10 +385,15 @@ def _read_surfaces(reader: ArgumentReader, surfaces: Any) -> list[tuple[Any, Any
     for i, area in enumerate(surfaces if isinstance(surfaces, (list, tuple)) else [surfaces]):
         corners = area[0] if isinstance(area, (list, tuple)) and len(area) == 2 else None
         if not isinstance(corners, (list, tuple)) or len(corners) < 3:
-            text = f"surfaces[{i}] must be a pair of corners, three or more (x, y) in a list, and friction; got {shown(area)}"
+            text = (
+                f"surfaces[{i}] must be a pair of corners, three or more (x, y) in a list, and "
+                f"friction; got {shown(area)}"
+            )
             reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))
             continue
-        places = [reader.pair(place, "m", f"surfaces[{i}][0][{j}]") for j, place in enumerate(corners)]
+        places = [
+            reader.pair(place, "m", f"surfaces[{i}][0][{j}]") for j, place in enumerate(corners)
+        ]
         if any(isinstance(part, np.ndarray) for place in places for part in place):
             text = f"surfaces[{i}] has an array among its corners; they are the same for every case"
             reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))
