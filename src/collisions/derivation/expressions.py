@@ -62,7 +62,7 @@ class System(Numbers):
         if not math.isfinite(value):
             return "not known" if math.isnan(value) else "infinite"
         number = self.converted(value, kind)
-        return "0" if _is_zero(value, kind) else self.figures(number, decimals_of(kind, self.name), more)
+        return "0" if is_zero(value, kind) else self.figures(number, decimals_of(kind, self.name), more)
 
     def figures(self, number: float, least: int | None = None, more: int = 0) -> str:
         """A number, exact if six figures hold it, else to four figures, with ``least`` decimals and at most two more."""
@@ -78,7 +78,7 @@ class System(Numbers):
         For a number that is 0, it is that of ``size``, the size of the terms that cancelled.
         """
         scale = self.scale(kind)
-        if _is_zero(value, kind) and 0.0 < size < math.inf:
+        if is_zero(value, kind) and 0.0 < size < math.inf:
             promised = _decimals(size * scale, None)
         else:
             promised = _decimals(value * scale, decimals_of(kind, self.name))
@@ -92,7 +92,8 @@ def _unit(label: str, scale: float) -> Unit:
     return Unit(scale, ((label[2:], -1.0),) if label.startswith("1/") else ((label, 1.0),))
 
 
-def _is_zero(value: float, kind: str) -> bool:
+def is_zero(value: float, kind: str) -> bool:
+    """Whether an SI number is so small for its kind that it is rounding, and printed as 0."""
     return abs(value) <= _ZERO.get(kind, _ZERO_OF_OTHERS)
 
 
