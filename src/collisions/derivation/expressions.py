@@ -318,7 +318,9 @@ class Function(Expression):
 
     def __init__(self, name: str, inner: Expression) -> None:
         self.name, self.inner = name, inner
-        size = math.sqrt(inner.size) if name == "sqrt" else 1.0 + inner.size if name in ("cos", "sin") else inner.size
+        # An angle of many turns has the rounding of that many.
+        of_angle = max(1.0, inner.size / math.tau)
+        size = math.sqrt(inner.size) if name == "sqrt" else of_angle if name in ("cos", "sin") else inner.size
         super().__init__(_FUNCTIONS[name](inner.value), size)
 
     def write(self, pen: Pen) -> Written:

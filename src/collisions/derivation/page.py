@@ -112,7 +112,7 @@ class Page:
 
     def let(self, caption: str, latex: str, kind: str, formula: Expression) -> Symbol:
         """Write what a new symbol stands for; gives the symbol."""
-        symbol = Symbol(latex, formula.value, kind)
+        symbol = Symbol(latex, formula.value, kind, size=formula.size)
         self.equation(caption, symbol, formula)
         return symbol
 
@@ -133,15 +133,17 @@ class Page:
         for difference in differs:
             self._say_difference(difference)
 
-    def at_most(self, text: str, *ordered: tuple[Expression, Expression]) -> None:
-        """Write a sentence that rests on the first of each of these pairs not being above the second."""
-        for low, high in ordered:
-            size = max(low.size, high.size)
-            if low.value - high.value > _WRONG * size:
-                one, other = (f"{self._in_symbols(side)} = {side.value:.6g}" for side in (low, high))
-                text = f"that {one} is at most {other}"
-                raise _defect(text, f"{text}, which it is not", (low.value - high.value) / size)
-        self.say(text)
+    def check(self, caption: str, left: Symbol, right: Expression) -> None:
+        """Compare a number of the result with a formula for it that the page need not show."""
+        self._say_difference(self._compared(caption, left, right, left.kind))
+
+    def at_most(self, low: Expression, high: Expression) -> None:
+        """Compare what the next sentence rests on: the first is not above the second."""
+        size = max(low.size, high.size)
+        if low.value - high.value > _WRONG * size:
+            one, other = (f"{self._in_symbols(side)} = {side.value:.6g}" for side in (low, high))
+            what = f"that {one} is at most {other}, in SI"
+            raise _defect(what, f"{what}, which it is not", (low.value - high.value) / size)
 
     def collected(
         self, caption: str, row: tuple[float, float, float], symbols: tuple[Symbol, Symbol], kind: str, more: int = 0
@@ -188,9 +190,7 @@ class Page:
             if result != own:
                 break
         more = min(more + 2, _MOST)
-        result, own = (
-            self.system.working(side.value, kind, more) + self.system.unit(kind) for side in (left, right)
-        )
+        result, own = (self.system.working(side.value, kind, more) + self.system.unit(kind) for side in (left, right))
         if share > _WRONG:
             raise _defect(caption, f"{caption}: the result has {result}, its formula gives {own}", share)
         return (
