@@ -51,7 +51,22 @@ class Unit(NamedTuple):
 
 
 class System(Numbers):
-    """Formats numbers in one system of units: as results and, with more figures, in the working."""
+    """Formats numbers in one system of units: as results and, with more figures, in the working.
+
+    Parameters
+    ----------
+    system : {"si", "metric", "us"}
+    in_degrees : iterable of str
+        Of "angle" and "yaw rate", the kinds that are written in degrees in "si" too.
+    """
+
+    def __init__(self, system: str, in_degrees: Iterable[str] = ()) -> None:
+        super().__init__(system)
+        self.in_degrees = frozenset(in_degrees)
+
+    def _decimals_of(self, kind: str) -> int | None:
+        """The decimals of a result of this kind."""
+        return decimals_of(kind, self.system_of(kind))
 
     def unit_of(self, kind: str) -> Unit:
         """The unit of a kind of quantity."""
@@ -62,7 +77,7 @@ class System(Numbers):
         if not math.isfinite(value):
             return "not known" if math.isnan(value) else "infinite"
         number = self.converted(value, kind)
-        return "0" if is_zero(value, kind) else self.figures(number, decimals_of(kind, self.name), more)
+        return "0" if is_zero(value, kind) else self.figures(number, self._decimals_of(kind), more)
 
     def figures(self, number: float, least: int | None = None, more: int = 0) -> str:
         """A number, exact if six figures hold it, else to four figures, with ``least`` decimals and at most two more."""
@@ -81,7 +96,7 @@ class System(Numbers):
         if is_zero(value, kind) and 0.0 < size < math.inf:
             promised = _decimals(size * scale, None)
         else:
-            promised = _decimals(value * scale, decimals_of(kind, self.name))
+            promised = _decimals(value * scale, self._decimals_of(kind))
         return 0.5 * 10.0 ** -max(len(self.working(value, kind).partition(".")[2]), promised)
 
 

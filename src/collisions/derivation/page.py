@@ -150,8 +150,8 @@ class Page:
     ) -> None:
         """Write number = numbers times unknown symbols; the numbers are in the units printed."""
         parts = [factor * self.system.converted(by.value, by.kind) for factor, by in zip(row[1:], symbols, strict=True)]
-        size = max(map(abs, (row[0], *parts)))
-        share = abs(row[0] - sum(parts)) / size if size else 0.0
+        largest = max(map(abs, (row[0], *parts)))
+        share = abs(row[0] - sum(parts)) / largest if largest else 0.0
         if share > _WRONG:
             raise _defect(caption, f"{caption}: the sides are {row[0]:.9g} and {sum(parts):.9g}", share)
         times, right = r"\," if self.latex else " * ", ""
