@@ -1,7 +1,6 @@
 """Refusals, and warnings of solvers, name values in the units that the inputs were given in; fields of an error stay SI."""
 
 import re
-import warnings
 
 import numpy as np
 import pytest
@@ -57,8 +56,8 @@ REFUSED = {
         "vb_after - va_after is 2 mph",
     ),
     "central, two": (
-        lambda: rc.central("3400 lb", "2900 lb", va="30 mph", va_after="20 mph", energy_loss="5000 ft*lbf"),
-        " mph",
+        lambda: rc.central("3400 lb", "2900 lb", vb="5 mph", va_after="16.1905 mph", energy_loss="31391 ft*lbf"),
+        "mph with e",
     ),
     "planar, together": (
         lambda: rc.planar(a(vx="30 mph"), b(), restitution=0.1, **CONTACT),
@@ -74,32 +73,20 @@ REFUSED = {
     ),
     "speeds": (
         lambda: rc.speeds(
-            a(), b(), course_a="0 deg", course_b="90 deg", speed_b="20 mph", delta_v_a="900 mph", energy_loss=None,
-            restitution=0.1, **(CONTACT | {"normal": "180 deg"}),
+            a(), b(), course_a="0 deg", course_b="180 deg", speed_b="60 mph", energy_loss="1 ft*lbf", restitution=0.1,
+            forward_only=True, **CONTACT,
         ),
-        "speed_b = 20 mph and delta_v_a = 900 mph",
+        "fit speed_b = 60 mph and energy_loss = 1 ft·lbf with this",
     ),
+    # 1.8 = g (1 + e) / 2 with 0.3 below 3 m/s and 0.1 above.
     "inline": (
-        lambda: rc.inline_closing_speed(
-            "1500 lb", "1500 lb", lambda v: np.where(v < 2.0, 0.9, np.where(v < 3.0, 0.5, 0.1)), delta_v_a="3 mph"
-        ),
-        " mph",
+        lambda: rc.inline_closing_speed("2000 lb", "2000 lb", lambda v: 0.3 if v < 3 else 0.1, delta_v_a=f"{1.8 / MPH} mph"),
+        f"at closing speeds of {3.6 / 1.3 / MPH:.6g} mph and {3.6 / 1.1 / MPH:.6g} mph",
     ),
 }  # fmt: skip
 
 
-def refused(call):
-    """The error of a call."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", col.CollisionsWarning)
-        try:
-            found = call()
-        except col.CollisionsError as error:
-            return error
-    pytest.skip(f"answered: {found!r}")
-
-
-@pytest.mark.parametrize("name", sorted(set(REFUSED) - {"central, two", "inline", "speeds"}))
+@pytest.mark.parametrize("name", sorted(REFUSED))
 def test_a_refusal_speaks_the_units_of_the_inputs(name):
     """mph, feet and degrees; no number in SI."""
     call, said = REFUSED[name]
@@ -107,14 +94,6 @@ def test_a_refusal_speaks_the_units_of_the_inputs(name):
         call()
     assert said in str(caught.value)
     assert not SI.search(str(caught.value)), str(caught.value)
-
-
-@pytest.mark.parametrize("name", ["central, two", "inline", "speeds"])
-def test_what_is_ambiguous_too(name):
-    call, said = REFUSED[name]
-    error = refused(call)
-    assert said in str(error)
-    assert not SI.search(str(error)), str(error)
 
 
 def test_the_fields_stay_si():

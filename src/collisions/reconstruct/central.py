@@ -27,6 +27,8 @@ from .common import Cases, exactly, finish, input_faults, read_amounts, read_mas
 _ALONG_X: Any = (1.0, 0.0)
 _FRICTIONLESS: Any = 0.0
 _MOST_ROUNDING = 0.01  # of e: the largest excess beyond 0 and 1 that is taken for rounding
+# The texts of these are kept with the vehicles.
+_OF_VEHICLES = ("mass_a", "mass_b", "va", "vb", "heading_a", "heading_b")
 _STEP = 1e-6  # relative, for the sensitivity: between the rounding of a quotient and the curvature of a square root
 
 
@@ -51,6 +53,8 @@ def central(
     vb_after: Input | None = None,
     restitution: Input | None = None,
     energy_loss: Input | None = None,
+    heading_a: Input | None = None,
+    heading_b: Input | None = None,
     incomplete: bool = False,
     on_failure: OnFailure | None = None,
 ) -> Impact:
@@ -73,6 +77,9 @@ def central(
         Coefficient of restitution, 0 to 1.
     energy_loss : float, str, Quantity or array [J], optional
         Energy dissipated, >= 0: what remains lost after restitution, not the energy absorbed at maximum crush.
+    heading_a, heading_b : float, str, Quantity or array [rad], optional
+        Where each vehicle points, counter-clockwise from the line from A to B: 0 for a car struck from behind or that strikes
+        with its front, "180 deg" for one met head-on. They decide nothing; delta-V forward and PDOF need them.
     incomplete : bool, optional
         Whether the restitution may be negative (above -1), as for ``linear_central``. Both velocities before and the energy
         loss then leave its sign open, and there are two answers.
@@ -127,14 +134,26 @@ def central(
             numbers[name] = reader.number(value, "", name, restitution_domain(incomplete))
         else:
             numbers |= read_amounts(reader, {name: value})
+    headings = {
+        label: None if heading is None else reader.number(heading, "rad", f"heading_{label}")
+        for label, heading in (("a", heading_a), ("b", heading_b))
+    }
     check_flag(reader, "incomplete", incomplete)
     reader.close()
+    pointing = {f"heading_{label}": heading for label, heading in headings.items() if heading is not None}
     with np.errstate(all="ignore"):
-        return _answer(Cases.of(numbers), numbers, tuple(given), reader.texts, on_failure, incomplete)
+        cases = Cases.of(numbers | pointing)
+        return _answer(cases, numbers, pointing, tuple(given), reader.texts, on_failure, incomplete)
 
 
 def _answer(
-    cases: Cases, numbers: dict[str, Any], known: tuple[str, ...], texts: dict[str, str], on_failure: Any, incomplete: bool
+    cases: Cases,
+    numbers: dict[str, Any],
+    headings: dict[str, Any],
+    known: tuple[str, ...],
+    texts: dict[str, str],
+    on_failure: Any,
+    incomplete: bool,
 ) -> Impact:
     arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
     candidates = _candidates(arrays, cases.eps, incomplete)
@@ -157,11 +176,12 @@ def _answer(
         still: Any = 0.0 if np.all(keep) else cases.where(keep, 0.0)
         bodies = []
         for label, speed in (("a", found.va), ("b", found.vb)):
-            given = {name: texts[key] for name, key in (("mass", f"mass_{label}"), ("vx", f"v{label}")) if key in texts}
-            body = Vehicle(mass=numbers[f"mass_{label}"])
+            own = (("mass", f"mass_{label}"), ("vx", f"v{label}"), ("heading", f"heading_{label}"))
+            given = {name: texts[key] for name, key in own if key in texts}
+            body = Vehicle(mass=numbers[f"mass_{label}"], heading=headings.get(f"heading_{label}"))
             bodies.append(moved(body, cases.where(keep, speed), still, still, given))
         e = cases.where(keep, found.restitution)
-        others = {name: text for name, text in texts.items() if name not in ("mass_a", "mass_b", "va", "vb")} or None
+        others = {name: text for name, text in texts.items() if name not in _OF_VEHICLES} or None
         contact = _ALONG_X, FRICTION, _FRICTIONLESS, None, None, others
         return Inputs("linear_central", bodies[0], bodies[1], e, *contact, incomplete=incomplete)
 
@@ -181,7 +201,7 @@ def _answer(
         )
 
     def solve_case(index: tuple[int, ...]) -> Impact:
-        of_case: dict[str, Any] = {name: cases.one(value, index) for name, value in arrays.items()}
+        of_case: dict[str, Any] = {name: cases.one(value, index) for name, value in (arrays | headings).items()}
         return central(**of_case, incomplete=incomplete)
 
     origin = origin_of(found, which, np.where(ambiguous, len(candidates), 1), np.equal(status, Status.OK))
