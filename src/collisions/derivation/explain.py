@@ -251,23 +251,23 @@ def impact_inputs(impact: Impact) -> Iterator[tuple[str, str, tuple[str, ...], t
         if vehicle.pivot is not None:
             yield label, "pivot O (x, y)", ("pivot[0]", "pivot[1]"), vehicle.pivot, "length"
     yield "contact", "normal, direction from A into B", ("normal",), (impact.normal_angle,), "angle"
-    if impact.point is not None and impact.model in PLACED:
-        yield "contact", "contact point (x, y)", ("point[0]", "point[1]"), impact.point, "length"
+    # With ``solve`` the model taken may leave out some of what decided which was taken.
+    if impact.inputs.point is not None and impact.inputs.model in (*PLACED, "solve"):
+        yield "contact", "contact point (x, y)", ("point[0]", "point[1]"), impact.inputs.point, "length"
     yield "contact", "restitution e", ("restitution",), (impact.restitution,), "number"
     for label, pushed in (("a", impact.inputs.outside_a), ("b", impact.inputs.outside_b)):
         if pushed is not None and any(pushed):
             what, name = f"impulse on {label.upper()} from outside", f"outside_{label}"
             yield "contact", f"{what} (x, y)", (f"{name}[0]", f"{name}[1]"), (pushed[0], pushed[1]), "impulse"
             yield "contact", f"{what}, about its centre of mass", (f"{name}[2]",), (pushed[2],), "angular momentum"
-    if impact.model != "linear_central":
+    if impact.inputs.model != "linear_central":
         rule = impact.inputs.rule
         yield "contact", RULES[rule].meaning, (rule,), (impact.inputs.rule_value,), "number"
-    if impact.model == "time_resolved":
-        for name, (what, kinds) in _IN_TIME.items():
-            given = getattr(impact.inputs, name)
-            for at, part in enumerate(given if isinstance(given, tuple) else () if given is None else (given,)):
-                names = (f"{name}[{at}]" if isinstance(given, tuple) else name,)
-                yield "contact", what.split("; ")[at], names, (part,), kinds[at]
+    for name, (what, kinds) in _IN_TIME.items():
+        given = getattr(impact.inputs, name)
+        for at, part in enumerate(given if isinstance(given, tuple) else () if given is None else (given,)):
+            names = (f"{name}[{at}]" if isinstance(given, tuple) else name,)
+            yield "contact", what.split("; ")[at], names, (part,), kinds[at]
 
 
 def _inputs(page: Page, impact: Impact) -> None:
