@@ -461,6 +461,11 @@ def unequal_impulses(share):
     return reconstruct.friction(a, b, a.replace(vx=10.0), b.replace(vx=10.0 * (1.0 - share)), normal=0.0)
 
 
+def separating_slowly(condition):
+    """The separation is the difference of two velocities of 10 m/s, so their sum over it is this condition."""
+    return reconstruct.central(1500.0, 1200.0, va_after=10.0, vb_after=10.0 + 20.0 / condition, restitution=0.2)
+
+
 def nearly_stuck(share):
     """An end of a slide whose slip is this share of 2 mu Pn K_tt, between the slips before that both ways to slide lead to."""
     e, mu, closing = 0.2, 0.3, 20.0
@@ -651,6 +656,7 @@ WARNINGS = [
         1e3, 1e3, course_a=0.0, course_b=math.pi - x, course_a_after=0.1, course_b_after=-0.1, speed_a_after=9.0, speed_b_after=1.0),
         below=True),
     Warned("courses of two speeds by a recorder", math.radians(10.0), CONDITION, "nearly_collinear", by_courses_apart, below=True),
+    Warned("separation after, of rounding", 1e6, CONDITION, "ill_conditioned", separating_slowly),
     Warned("impulses of A and B", 0.1, CONDITION, "momentum_mismatch", unequal_impulses),
     Warned("slip after of a slide", 0.05, CONDITION, "nearly_sticking", nearly_stuck, below=True),
     Warned("impulse beside the edge of the friction", 0.1, CONDITION, "may_slide", beside_a_slide, below=True),
