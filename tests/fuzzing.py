@@ -128,7 +128,9 @@ def arguments(name: str) -> frozenset[str]:
     """The arguments of a public function, method or class that callers make, with those that ** stands for."""
     value = public()[name]
     if inspect.isclass(value):
-        made = issubclass(value, Exception) or (" Parameters\n" in (value.__doc__ or "") and name not in _ONLY_GIVEN)
+        made = issubclass(value, Exception) or (
+            "\nParameters\n" in inspect.cleandoc(value.__doc__ or "") and name not in _ONLY_GIVEN
+        )
         if not made:
             return frozenset()
     parameters = inspect.signature(getattr(value, "__func__", value)).parameters
