@@ -351,7 +351,7 @@ def test_two_answers_are_told_apart():
         ("0.4\n", '"0.1 .. 0.3"\n[fit.observed]\n"a.delta_v" = 3\n', 'fit.observed."a.delta_v": observed."a.delta_v" is a number without its error; give "value +/- error" or the pair [value, error]'),
         ("restitution = 0.4", "restitution = 0.1\nnormal = [1, 2, 3]", "linear_central: normal must be an angle or a list [x, y], got 3 components"),
 
-        ("80 km/h", "-80 km/h", "linear_central: no impact: the bodies move apart along the normal, closing speed -22.2222 m/s; the normal must point from A into B, given [1, 0]; if A and B were meant the other way round, exchange them or write normal = [-1, 0]"),
+        ("80 km/h", "-80 km/h", "linear_central: no impact: the bodies move apart along the normal, closing speed -80 km/h; the normal must point from A into B, given [1, 0]; if A and B were meant the other way round, exchange them or write normal = [-1, 0]"),
         ("0.4", "1.4", "linear_central.restitution: restitution must be from 0 to 1, got 1.4"),
         ("0.4", "[0.4, 0.5]", "linear_central.restitution: takes one value"),
         ("0.4", "{ travel.sped = { distance = 1 } }", "linear_central.restitution: is a table that names no function"),

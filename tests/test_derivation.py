@@ -410,7 +410,7 @@ def test_random_scenes_hold_too(equations):
 
 def test_a_wrong_line_would_be_seen():
     """The check of printed lines fails on a number that is off by one in its last figure."""
-    text = explain(example_3(), form="text")
+    text = explain(example_3(), form="text", units="si")
     assert check_lines(text) > 20
     wrong = text.replace("= 8.559 m/s", "= 8.560 m/s", 1)
     assert wrong != text
@@ -428,7 +428,7 @@ def test_example_1():
 
 def test_example_2_reads_like_the_paper():
     """Momentum first, then v'_A, then e: 7.82 m/s (cut off, not rounded, in the paper), 28.15 km/h and 0.40."""
-    text = explain(example_2(), form="text")
+    text = explain(example_2(), form="text", units="si")
     lines = (
         "m_A * v_A + m_B * v_B = m_A * v'_A + m_B * v'_B",
         # With 22.22 and 16.67, as in the paper, the sides would come to 24442 and 24447.
@@ -461,7 +461,7 @@ def test_example_2_forwards_cites_every_equation_of_its_section():
 
 def test_example_3_reads_like_the_paper():
     """(20), (21) and their solution: 60000, 3600, 5333, 13.33, 5.47 rad/s, 8.55 m/s, 31 km/h."""
-    text = explain(example_3(), form="text")
+    text = explain(example_3(), form="text", units="si")
     lines = (
         "900 * 4 * 16.6667 = 900 * 4 * 8.55856 - 5333.33 * (-5.47297)",
         "60000 = 60000 kg*m**2/s",
@@ -848,7 +848,7 @@ def test_a_refused_impact_is_refused_again():
     ("arguments", "code", "said"),
     [
         ({"units": "imperial"}, "bad_option", "'si', 'metric' or 'us'"),
-        ({"units": None}, "bad_option", "units"),
+        ({"units": True}, "bad_option", "units"),
         ({"form": "html"}, "bad_option", "'markdown', 'text'"),
         ({"impact": 3.0}, "not_an_impact", "got float"),
         ({"impact": col.Vehicle(mass=1.0)}, "not_an_impact", "got Vehicle"),
@@ -945,7 +945,7 @@ def test_kinetic_energies_are_worked_out_and_say_whether_they_turn():
     after = impact.b.after
     size = 0.5 * 1200 * (after.vx**2 + after.vy**2) + 0.5 * 1900 * after.yaw_rate**2
     assert f"= {size:.0f} J" in text.partition("Kinetic energy of B after")[2].partition("Check")[0]
-    third = explain(example_3(), form="text")
+    third = explain(example_3(), form="text", units="si")
     assert "B rests before: T_B = 0 J." in third
     assert "T_A = 1 / 2 * m_A * v_Ax**2" in third
     assert "B has an infinite mass and rests after, so it has no kinetic energy." in explain(example_1(), form="text")
@@ -1169,7 +1169,7 @@ def test_momentum_tells_its_headings():
     assert f"{pdof:.0f} deg ({hour} o'clock)" == answer(text, "A", "PDOF (0 from ahead, positive clockwise)")
     assert "PDOF_B" not in text
     assert "Closing speed of the centres along the normal phi (definition):" in text
-    outside = explain(MOMENTA[1], form="text")
+    outside = explain(MOMENTA[1], form="text", units="si")
     assert answer(outside, "both", "impulse from outside, along x") == "300 N*s"
     assert (MOMENTA[1].outside_impulse_x, MOMENTA[1].outside_impulse_y) == (300.0, -100.0)
     assert (solution.outside_impulse_x, solution.heading_b, MOMENTA[1].normal_angle) == (None, None, None)
@@ -1255,3 +1255,52 @@ def test_a_fourth_rule_is_not_explained_as_friction(friction, value, monkeypatch
     assert "friction" not in text.lower()
     assert exact(equations) >= 6
     assert check_lines(text) >= 5
+
+
+def crossing(**changes):
+    """Planar momentum as a US case has it."""
+    given = {"course_a": "0 deg", "course_b": "90 deg", "course_a_after": "25 deg", "course_b_after": "40 deg"}
+    given |= {"speed_a_after": "25 mph", "speed_b_after": "30 mph", "heading_a": "0 deg"}
+    return reconstruct.momentum("3400 lb", "2900 lb", **(given | changes))
+
+
+def test_the_units_are_those_of_the_inputs():
+    """As in a summary and a report; with a system named, those, and without any unit SI."""
+    us = explain(crossing(), form="text")
+    assert us == explain(crossing(), form="text", units="us")
+    assert answer(us, "A", "speed after") == "25 mph"
+    assert answer(us, "A", "course after") == "25 deg"
+    metric = explain(example_2(), form="text")
+    assert metric == explain(example_2(), form="text", units="metric")
+    bare = col.linear_central(col.Vehicle(mass=1100.0, vx=20.0), col.Vehicle(mass=900.0), 0.1)
+    assert explain(bare) == explain(bare, units="si")
+    fit = FITS[0]
+    assert explain(fit) == explain(fit, units="si")
+
+
+def test_angles_given_in_degrees_are_printed_in_degrees():
+    """Beside speeds in m/s too, of which no system has both; a yaw rate is in the unit that it was given in."""
+    si = {"speed_a_after": "10 m/s", "speed_b_after": "12 m/s"}
+    found = reconstruct.momentum(
+        1500, 1300, course_a="0 deg", course_b="90 deg", course_a_after="25 deg", course_b_after=0.7, **si
+    )
+    text = explain(found, form="text")
+    assert answer(text, "A", "course after") == "25 deg"
+    assert answer(text, "B", "course after") == "40.11 deg"
+    assert answer(text, "B", "speed after") == "12 m/s"
+    assert " rad" not in text
+    assert check_lines(text) >= 5
+    assert answer(explain(found, form="text", units="si"), "A", "course after") == "0.4363 rad"
+    turning = {"mass": 1500, "yaw_inertia": 2500, "x": -2.0, "y": 0.3, "vx": "14 m/s", "heading": "30 deg"}
+    b = col.Vehicle(mass=1200, yaw_inertia=1900, x=2.0, y=0.0)
+    for rate, unit in (("20 deg/s", "deg/s"), (0.3, "rad/s")):
+        a = col.Vehicle(yaw_rate=rate, **turning)
+        text = explain(col.eccentric(a, b, 0.2, normal=0.0, point=(0.0, 0.1), friction=0.4), form="text")
+        assert answer(text, "A", "yaw rate after").endswith(unit)
+        assert answer(text, "A", "heading") == "30 deg"
+        assert check_lines(text) >= 20
+    # What turned was given in degrees per second, directions were not.
+    text = explain(col.eccentric(col.Vehicle(**{**turning, "heading": 0.5}, yaw_rate="20 deg/s"), b, 0.2, normal=0.1, point=(0.0, 0.1),
+                                 friction=0.4), form="text")  # fmt: skip
+    assert answer(text, "A", "heading") == "0.5 rad"
+    assert answer(text, "A", "yaw rate") == "20 deg/s"

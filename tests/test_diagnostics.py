@@ -1561,3 +1561,24 @@ def test_a_bare_whole_angle_is_asked_about(normal, asks):
     assert [finding.measured for finding in found] == ([] if asks is None else [asks])
     if found:
         assert f"were {normal:.0f} degrees meant?" in found[0].sentence
+
+
+def motorcycle(x, point):
+    """A motorcycle that runs into a car with its front wheel, 1.34 m ahead of its centre of mass."""
+    a = col.Vehicle(mass="550 lb", yaw_inertia="900 lb*ft**2", x=x, y=0.0, vx="40 mph")
+    b = col.Vehicle(mass="3400 lb", yaw_inertia="60000 lb*ft**2", x="3 ft", y="1 ft")
+    return col.eccentric(a, b, 0.1, normal="0 deg", point=point, friction=0.4)
+
+
+def test_places_with_units_are_not_suspected_of_being_feet():
+    """Three radii of gyration are 1.2 m of a motorcycle, less than its front wheel is ahead."""
+    origin = ("0 ft", "0 ft")
+    assert not [one for one in diagnose(motorcycle("-4.4 ft", origin)) if one.code == "suspect_lever"]
+    (bare,) = [one for one in diagnose(motorcycle(-1.34, origin)) if one.code == "suspect_lever"]
+    assert "check units (feet?) and origin" in bare.sentence
+    (far,) = [one for one in diagnose(motorcycle("-44 ft", origin)) if one.code == "suspect_lever"]
+    assert far.limit == 10.0
+    assert far.sentence.endswith("check positions and origin")
+    assert [one for one in diagnose(motorcycle("-4.4 ft", (0.5, 0.0))) if one.code == "suspect_lever"]
+    # 0 is 0 in every unit.
+    assert not [one for one in diagnose(motorcycle("-4.4 ft", ("0 ft", 0.0))) if one.code == "suspect_lever"]

@@ -784,3 +784,42 @@ def test_a_separation_of_one_unit_in_the_last_place_is_warned_of(batch):
     assert [one.message.code for one in caught] == ["ill_conditioned"]
     assert np.max(found.reconstruction.condition) > 1e15
     assert ("1 of 2 cases" in str(caught[0].message)) is batch
+
+
+def test_headings_give_what_is_seen_from_a_vehicle():
+    """A head-on impact: the force comes from ahead for both, and the whole delta-V is backwards."""
+    found = col.reconstruct.central(
+        "1500 kg", "1200 kg", va="50 km/h", vb="-20 km/h", restitution=0.1, heading_a="0 deg", heading_b="180 deg"
+    )
+    for side in (found.a, found.b):
+        assert side.pdof == pytest.approx(0.0, abs=1e-12)
+        assert side.delta_v_forward == pytest.approx(-side.delta_v, rel=1e-12)
+    assert dict(found.b.before.given)["heading"] == "180 deg"
+    plain = col.reconstruct.central("1500 kg", "1200 kg", va="50 km/h", vb="-20 km/h", restitution=0.1)
+    assert (found.a.after.vx, found.b.after.vx, found.energy_loss) == (plain.a.after.vx, plain.b.after.vx, plain.energy_loss)
+    assert found.reconstruction.condition == plain.reconstruction.condition
+    assert plain.a.pdof is None
+    again = col.Impact.from_dict(found.to_dict())
+    assert again == found
+    assert again.a.before.heading == 0.0
+
+
+def test_headings_of_a_batch_and_of_its_refused_case():
+    headings = np.array([0.0, math.pi, 0.1])
+    with pytest.warns(col.CollisionsWarning, match="1 of 3 cases were refused"):
+        found = col.reconstruct.central(
+            1500.0, 1200.0, va=np.array([10.0, 9.0, -1.0]), vb=0.0, restitution=0.1, heading_a=headings
+        )
+    assert found.a.pdof[:2] == pytest.approx([0.0, math.pi], abs=1e-12)
+    with pytest.raises(col.NoImpactError, match=r"^case 2: "):
+        col.reconstruct.central(
+            1500.0, 1200.0, va=np.array([10.0, 9.0, -1.0]), vb=0.0, restitution=0.1, heading_a=headings, on_failure="raise"
+        )
+    only = col.reconstruct.central(1500.0, 1200.0, va=10.0, vb=0.0, restitution=0.1, heading_b=headings)
+    assert only.inputs.shape == (3,)
+
+
+@pytest.mark.parametrize("bad", ["3 m", math.nan, "east"])
+def test_a_heading_that_cannot_be_read_is_named(bad):
+    with pytest.raises(col.InputError, match="heading_b"):
+        col.reconstruct.central(1500.0, 1200.0, va=10.0, vb=0.0, restitution=0.1, heading_b=bad)

@@ -968,3 +968,33 @@ def test_sensitivities_of_a_batch_are_equal_by_value():
     assert one.__ne__(twin) is False
     assert one != single
     assert single != one
+
+
+@pytest.mark.parametrize("course", ["0 deg", 0.0, "360 deg", math.tau])
+def test_what_a_right_angle_leaves_is_no_sensitivity(course):
+    """Turning the course of A does not move A's own speed where B's is across it: exactly 0, and nothing that rounding left."""
+    found = reconstruct.momentum(
+        1500, 1300, course_a=course, course_b="90 deg", course_a_after="25 deg", course_b_after="40 deg", speed_a_after=10.0,
+        speed_b_after=12.0,
+    )  # fmt: skip
+    assert found.sensitivity["speed_a"]["course_a"] == 0.0
+    assert found.sensitivity["speed_b"]["course_b"] == 0.0
+    assert math.copysign(1.0, found.sensitivity["speed_a"]["course_a"]) == 1.0
+    # d v_B / d course_a = -v_A / 1 at right angles, in closed form: m_B v_B = momentum across A's course.
+    moved = -1500 * found.speed_a / 1300
+    assert found.sensitivity["speed_b"]["course_a"] == pytest.approx(moved, rel=1e-12)
+
+
+def test_a_report_has_sensitivities_per_degree():
+    """In SI too, without powers of ten."""
+    import collisions as col
+
+    found = reconstruct.momentum(
+        1500, 1300, course_a=0.0, course_b="90 deg", course_a_after="25 deg", course_b_after="40 deg", speed_a_after=10.0,
+        speed_b_after=12.0,
+    )  # fmt: skip
+    rows = [line for line in col.report(found, form="markdown", units="si").splitlines() if "moved by course" in line]
+    assert len(rows) == 8
+    assert all(line.endswith(" m/s per ° |") for line in rows)
+    assert sum(" 0 m/s per" in line for line in rows) == 2
+    assert not any("e-1" in line for line in rows)

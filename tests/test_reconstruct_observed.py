@@ -477,7 +477,7 @@ def test_absorbed_is_not_dissipated():
 
 def test_a_function_is_met_more_than_once():
     """Every closing speed is given; 1.8 = g (1 + e) / 2 with 0.3 below 3 m/s and 0.1 above."""
-    with pytest.raises(col.AmbiguousSolutionError, match=r"2\.76923 and 3\.27273 m/s") as caught:
+    with pytest.raises(col.AmbiguousSolutionError, match=r"2\.76923 m/s and 3\.27273 m/s") as caught:
         reconstruct.inline_closing_speed(1000, 1000, lambda v: 0.3 if v < 3 else 0.1, delta_v_a=1.8)
     assert caught.value.solutions == pytest.approx((3.6 / 1.3, 3.6 / 1.1), rel=1e-12)
     assert caught.value.code == "ambiguous"

@@ -468,7 +468,7 @@ def test_a_measured_slip_that_may_be_none_is_said_loudly(digits):
     assert abs(found.slip_before - end.slip_before) > 1.0
     # The written digits move the slip by their half units at both contact points, a few of them; the jump is tens of m/s.
     assert found.reconstruction.condition > 1.0 / (5.0 * 10.0**-digits)
-    low, high = map(float, re.search(r"anything between (\S+) and (\S+) m/s", str(caught[0].message)).groups())
+    low, high = map(float, re.search(r"anything between (\S+) m/s and (\S+) m/s", str(caught[0].message)).groups())
     assert low < end.slip_before < high
     for rule in ({"friction": math.inf}, {"friction": None, "critical_fraction": 1.0}):
         with pytest.raises(col.NoSolutionError, match="ends without slip, but the slip after is") as refused:

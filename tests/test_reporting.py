@@ -593,7 +593,7 @@ def test_the_derivation_is_that_of_explain(impacts):
     impact = impacts["pinned"]
     assert explain(impact, form="text", units="metric") in Page(report(impact, derivation=True, figures=False)).of("pre")
     text = report(impact, form="markdown", units="si", derivation=True)
-    assert explain(impact).split("\n## Given\n")[1].split("\n## ")[0].strip() in text
+    assert explain(impact, units="si").split("\n## Given\n")[1].split("\n## ")[0].strip() in text
 
 
 @pytest.mark.parametrize(
@@ -969,7 +969,7 @@ def test_a_deviation_stands_only_beside_the_mean_of_its_propagation(away, centre
     stated = f"{number} ± 0.50 m/s" if centred else f"{number} m/s ({low:.2f} to {high:.2f} m/s)"
     page = report(impact, form="markdown", units="si", uncertainty=known)
     assert ("contact", "closing speed", stated) in rows(section(page, "Results"))
-    steps = explain(impact, uncertainty=known)
+    steps = explain(impact, units="si", uncertainty=known)
     assert ("A range in brackets holds 95 percent of the propagation" in page) is not centred
     assert ("A range in brackets holds 95 percent of the propagation" in steps) is not centred
     assert stated in steps

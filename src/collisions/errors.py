@@ -66,6 +66,14 @@ class AmbiguousSolutionError(NoSolutionError):
     """More than one answer fits; all of them are in ``solutions``."""
 
 
+class InternalError(CollisionsError, RuntimeError):
+    """A defect of this library, which it found itself: two numbers that must agree do not.
+
+    Neither number may be used. ``fields`` has what was compared: for a line of ``explain`` its ``equation`` and ``share``,
+    the difference over the largest term.
+    """
+
+
 class CollisionsWarning(_Carrying, UserWarning):
     """Base of every warning given by this library; carries ``code`` and ``fields`` like the errors."""
 

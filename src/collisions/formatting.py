@@ -73,12 +73,19 @@ class Numbers:
     # The kind that numbers are taken to be of if their SI unit is none of those in the table of kinds.
     unlisted: str | None = None
 
+    # The kinds that are written in degrees whatever the system, as the inputs were.
+    in_degrees: frozenset[str] = frozenset()
+
     def __init__(self, system: str) -> None:
         self.name = system
 
+    def system_of(self, kind: str) -> str:
+        """The system that a kind is written in: "metric" has the degrees of what "si" has in radians."""
+        return "metric" if kind in self.in_degrees and self.name == "si" else self.name
+
     def label(self, kind: str) -> str:
         """The unit of a kind, as pint writes it."""
-        return unit_of(kind, self.name)
+        return unit_of(kind, self.system_of(kind))
 
     def unit(self, kind: str) -> str:
         """The unit behind a number, with the space before it."""
@@ -87,7 +94,7 @@ class Numbers:
 
     def scale(self, kind: str) -> float:
         """The factor from SI to the unit of this kind."""
-        return scale_of(kind, self.name)
+        return scale_of(kind, self.system_of(kind))
 
     def converted(self, value: float, kind: str) -> float:
         """An SI value of this kind in the unit it is written in."""
@@ -117,7 +124,7 @@ class Numbers:
             spread = self.converted(deviation, kind)
             decimals = places(spread, 2)
             return f"{rounded(number, decimals)} ± {rounded(spread, decimals)}{unit}"
-        known = decimals_of(kind, self.name)
+        known = decimals_of(kind, self.system_of(kind))
         figures = places(number, _FIGURES) if number else 0
         return rounded(number, figures if known is None else known) + unit
 

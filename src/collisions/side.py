@@ -415,10 +415,13 @@ def beside(sides: Sequence[Side], numbers: Cells) -> list[Part]:
         return [(label, *(text(side, name) for side in sides)) for name, label in labels.items()]
 
     columns = tuple(map(title_of, sides))
+    # What is seen from a vehicle needs its heading: without any, rows of it would say nothing.
+    pointing = any(side.before.heading is not None for side in sides)
+    change = {name: label for name, label in _CHANGE.items() if pointing or name == "delta_v"}
     return [
         Part(rows(lambda side, name: _of_state(side.before, name, numbers), state), "Before", columns),
         Part(rows(lambda side, name: _of_state(side.after, name, numbers), state), "After", columns),
-        Part(rows(lambda side, name: _of_change(side, name, numbers), _CHANGE), "Delta-V", columns),
+        Part(rows(lambda side, name: _of_change(side, name, numbers), change), "Delta-V", columns),
     ]
 
 

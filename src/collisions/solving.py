@@ -27,6 +27,7 @@ from .kernels.elementwise import (
 from .kernels.status import Answer, Passed, Status
 from .models import TIME_RESOLVED, Model, float_function, kind_of, model_of, read_again
 from .progress import reporter
+from .summary import Sentences, said
 from .units import shown
 from .vehicle import DOMAINS, with_name
 from .warning import warn_of_cases
@@ -67,7 +68,8 @@ def solve_inputs(
             raise refusal(inputs, raw)
         return Passed(raw.status) if model is TIME_RESOLVED else _REFUSED._replace(status=raw.status)
     if raw.status == Status.ENERGY_GAIN:
-        _warn_of_gain(f"the impact gains {-raw.energy_loss:.6g} J of energy", -raw.energy_loss, None, inputs)
+        gained = said(-raw.energy_loss, "energy", inputs.texts)
+        _warn_of_gain(f"the impact gains {gained} of energy", -raw.energy_loss, None, inputs)
     return raw
 
 
@@ -122,7 +124,8 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
                 )
     status: Status = raw.status
     nx, ny = inputs.normal
-    values: dict[str, Any] = {"closing_speed": raw.closing_speed, "model": inputs.model}
+    say = Sentences(inputs.texts)
+    values: dict[str, Any] = {"closing_speed": say(raw.closing_speed, "speed"), "model": inputs.model}
     values |= {"rule": inputs.rule, "value": inputs.rule_value}
     values |= {"nx": nx, "ny": ny, "opposite_x": 0.0 - nx, "opposite_y": 0.0 - ny}
     extra: dict[str, Any] = {}
@@ -130,7 +133,7 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
         case Status.SEPARATING | Status.GRAZING:
             extra["closing_speed"] = raw.closing_speed
             if raw.closing_speed > 0.0:
-                text = f"no impact: the impulses from outside part the bodies, which approach at {raw.closing_speed:.6g} m/s"
+                text = f"no impact: the impulses from outside part the bodies, which approach at {values['closing_speed']}"
                 check = "check the signs of outside_a and outside_b"
                 if LAWS[inputs.law or BRACH].energetic and inputs.restitution >= 0.0:
                     why = f"so law={inputs.law!r} finds no compression that it could give back a part of"
@@ -142,12 +145,14 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
             values |= {"limit": limit, "side": "less" if limit > 0.0 else "greater"}
             extra["limit"] = limit
         case Status.SPINNING:
-            turning = [(with_name(side, body), body.yaw_rate) for side, body in bodies]
-            values["motion"] = " and ".join(f"{who} has yaw_rate = {rate:.6g} rad/s" for who, rate in turning if rate != 0.0)
+            turning = [(side, body) for side, body in bodies if body.yaw_rate != 0.0]
+            rates = [f"{with_name(side, body)} has yaw_rate = {say(body.yaw_rate, 'yaw rate')}" for side, body in turning]
+            values["motion"] = " and ".join(rates)
             extra["argument"] = "yaw_rate"
         case Status.TRANSVERSE:
             across = [(side, nx * body.vy - ny * body.vx) for side, body in bodies]
-            values["motion"] = ", ".join(f"{side} moves at {speed:.6g} m/s across it" for side, speed in across if speed != 0.0)
+            moving = [(side, say(speed, "speed")) for side, speed in across if speed != 0.0]
+            values["motion"] = ", ".join(f"{side} moves at {speed} across it" for side, speed in moving)
             extra["argument"] = "normal"
     return error_of(status, status.message.format(**values), **extra)
 
@@ -173,7 +178,8 @@ def say_of_cases(inputs: Inputs, raw: Any, on_failure: Any, one: Callable[[Calla
     gaining = status == Status.ENERGY_GAIN
     if gaining.any():
         most, count = float(-raw.energy_loss[gaining].min()), int(gaining.sum())
-        _warn_of_gain(f"{count} of {status.size} cases gain energy, up to {most:.6g} J", most, count, inputs)
+        largest = said(most, "energy", inputs.texts)
+        _warn_of_gain(f"{count} of {status.size} cases gain energy, up to {largest}", most, count, inputs)
 
 
 def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='raise'") -> None:

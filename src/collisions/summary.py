@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Sequence
+from functools import cached_property
 from itertools import zip_longest
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .formatting import KIND_OF, Numbers, check_system, clock, in_words, number_with_unit
-from .units import system_given
+from .units import kinds_in_degrees, system_given
 
 _LARGEST = 1e9  # beyond it numbers are written with a power of ten
 _SHORT = 30  # characters of a cell that is a number, and not a sentence
@@ -109,10 +110,34 @@ def cells(units: Any, texts: Iterable[Any] = ()) -> Cells:
     return Cells(units)
 
 
+class Sentences:
+    """How sentences about a case write its numbers: called with an SI number and its kind, in the units of the inputs.
+
+    Parameters
+    ----------
+    texts : iterable
+        What the inputs were given as; the texts with units among it are read when the first number is written.
+    """
+
+    def __init__(self, texts: Iterable[Any] = ()) -> None:
+        self._texts = texts
+
+    @cached_property
+    def _system(self) -> Cells:
+        given = [text for text in self._texts if isinstance(text, str)]
+        system = cells(None, given)
+        system.in_degrees = frozenset(kinds_in_degrees(given))
+        return system
+
+    def __call__(self, value: float, kind: str, figures: int = 6) -> str:
+        # A number that is too large for the unit stays as it is: the sentence is about something else.
+        system = self._system if math.isfinite(value * self._system.scale(kind)) else Cells("si")
+        return f"{value * system.scale(kind) + 0.0:.{figures}g}{system.unit(kind)}"
+
+
 def said(value: float, kind: str, texts: Iterable[Any], figures: int = 6) -> str:
     """A number in a sentence, in the units that the inputs were given in."""
-    system = cells(None, texts)
-    return f"{system.converted(value, kind):.{figures}g}{system.unit(kind)}"
+    return Sentences(texts)(value, kind, figures)
 
 
 def spoken_system(texts: Iterable[Any]) -> str:

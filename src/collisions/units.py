@@ -271,6 +271,19 @@ def system_given(texts: Iterable[str]) -> str:
     return "si"
 
 
+def kinds_in_degrees(texts: Iterable[str]) -> set[str]:
+    """Which of "angle" and "yaw rate" these texts with units have in degrees."""
+    found = set()
+    for text in texts:
+        try:
+            names = {str(name) for name in parse(text, _ANY_KIND, "")._units}
+        except UnitsError:
+            continue
+        if "degree" in names:
+            found.add("yaw rate" if names & {"second", "minute", "hour"} else "angle")
+    return found
+
+
 def _systems(text: str) -> set[str]:
     """The systems of units that a text may be in, and "speed" if it is one."""
     try:

@@ -42,7 +42,8 @@ def velocity_before(page: Page, body: Body, s: Symbols) -> None:
     """The velocity of the centre of mass before, along n and t."""
     n, t, x, y = (body.along(direction) for direction in "ntxy")
     if body.start.speed == 0.0:
-        page.say(f"The velocity of {body.label} before is 0: {page.shown(n)} and {page.shown(t)}.")
+        text = f"The velocity of {body.label} before is 0: {page.shown(n)} and {page.shown(t)}."
+        page.fact(text, (n, ZERO), (t, ZERO))
         return
     page.equation(f"Velocity of {body.label} before, along the normal", n, s.dot(x, y))
     page.equation(f"Velocity of {body.label} before, along the tangent", t, s.cross(x, y))
@@ -52,7 +53,8 @@ def velocity_after(page: Page, body: Body, s: Symbols, periods: Sequence[tuple[s
     """The velocity of the centre of mass after: along n by periods (caption, start, end, impulse), along t, x and y."""
     n, t, x, y = (body.along(direction, AFTER) for direction in "ntxy")
     if body.fixed:
-        page.say(f"{body.label} has an infinite mass and keeps its velocity: {page.shown(n)} and {page.shown(t)}.")
+        text = f"{body.label} has an infinite mass and keeps its velocity: {page.shown(n)} and {page.shown(t)}."
+        page.fact(text, (n, body.along("n")), (t, body.along("t")))
         return
     for caption, start, end, impulse in periods:
         found = body.along("n", start).plus(body.sign, impulse / body.mass)
@@ -64,7 +66,7 @@ def velocity_after(page: Page, body: Body, s: Symbols, periods: Sequence[tuple[s
     page.equation(along_t if isinstance(found, Sum) else f"{along_t}, as before", t, found)
     if s.impact.normal == (1.0, 0.0):
         same = " and ".join(f"{page.symbol(one)} = {page.shown(other)}" for one, other in ((x, n), (y, t)))
-        page.say(f"The normal is the x axis and the tangent the y axis, so {same}.")
+        page.fact(f"The normal is the x axis and the tangent the y axis, so {same}.", (x, n), (y, t))
     else:
         page.equation(f"Velocity of {body.label} after, along x", x, s.scene("x", n, t))
         page.equation(f"Velocity of {body.label} after, along y", y, s.scene("y", n, t))
@@ -78,6 +80,7 @@ def impulses(page: Page, s: Symbols, k: Mobility) -> None:
         _by_rule(page, s, k)
         compressed = (s.closing + k.push[0]) / k.normal if s.law.energetic else None
     if not s.impact.complete:
+        page.at_most(s.separation, ZERO)
         page.say("The impact is incomplete: it ends in the period of deformation, while the contact points still approach.")
         return
     page.equation("Impulse of the period of deformation, area A1", s.compression, compressed or s.normal / (1.0 + s.e))
@@ -115,11 +118,14 @@ def _by_energy(page: Page, s: Symbols, k: Mobility) -> Expression | None:
             first_t = ZERO.plus(way, mu * first)
             stops = w.value > -max(e.value, 0.0) * g.value or soft.value < 0.0
     if not stops:
+        page.at_most(ZERO, ZERO.plus(-way, s.slip_after))
         page.say("The slip goes on to the end, so the impulse ratio stays.")
         page.equation("Normal impulse", s.normal, (1.0 + e) * g / soft)
         page.equation("Tangential impulse", s.tangential, ZERO.plus(way, mu * s.normal))
         return g / soft
     holds = s.impact.regime == "sticking" or abs(coupling.value) <= mu.value * k.tangential.value
+    if holds and not endless:
+        page.at_most(Function("abs", coupling), mu * k.tangential)
     ratio = -(coupling / k.tangential) if holds else ZERO.plus(-1.0 if coupling.value > 0.0 else 1.0, mu)
     then = "it sticks" if holds else "it slides on, the way that the normal impulse pushes it"
     ratio = page.let(f"Once the slip has stopped {then}: impulse ratio from there", "\\mu_2", "number", ratio)
@@ -157,7 +163,9 @@ def _by_rule(page: Page, s: Symbols, k: Mobility) -> None:
             "not defined."
         )
     if rule == IMPULSE_RATIO:
-        page.say(f"The impulse ratio was given: {page.shown(s.ratio)}, tangential over normal, signed.")
+        stated = Symbol(r"\mu_P", value, "number")
+        text = f"The impulse ratio was given: {page.shown(s.ratio)}, tangential over normal, signed."
+        page.fact(text, (s.ratio, stated))
     elif rule not in (FRICTION, CRITICAL_FRACTION):
         given = f"The {RULES[rule].meaning} was given: {page.name(rule)} = {page.number(value, 'number')}"
         page.say(f"{given}. With the impulse that just stops the slip it makes the impulse ratio {page.shown(s.ratio)}.")
@@ -166,7 +174,7 @@ def _by_rule(page: Page, s: Symbols, k: Mobility) -> None:
             FRICTION: "Without friction the impulse is along the normal alone, as in the paper",
             CRITICAL_FRACTION: "A critical fraction of 0 leaves no tangential impulse",
         }
-        page.say(f"{why[rule]}: {page.shown(s.tangential)}.")
+        page.fact(f"{why[rule]}: {page.shown(s.tangential)}.", (s.tangential, ZERO))
         page.equation("Normal impulse", s.normal, change / k.normal)
         return
     else:
@@ -216,14 +224,20 @@ def _sticks(page: Page, s: Symbols, normal: Symbol, tangential: Symbol) -> bool:
     sticks: bool = s.impact.regime == "sticking"
     allowed = f"The friction allows |{page.symbol(s.ratio)}| up to {page.shown(mu)}"
     if sticks and math.isinf(mu.value):
+        page.at_most(ZERO, normal)
         page.say("The friction has no bound and this impulse pushes, so the contact sticks: it is the impulse.")
     elif sticks:
+        page.at_most(ZERO, normal)
+        page.at_most(Function("abs", tangential), mu * normal)
         page.say(
             f"{allowed}. The critical ratio is within that and the impulse pushes, so the contact sticks: it is the impulse."
         )
     else:
         pulls = f"the impulse without slip would have to pull ({page.shown(normal)})"
         why = "the critical ratio is beyond it" if normal.value > 0.0 else pulls
+        if normal.value > 0.0:
+            page.at_most(mu * normal, Function("abs", tangential))
+        page.at_most(ZERO, tangential if s.ratio.value >= 0.0 else -tangential)
         page.say(
             f"{allowed}, and {why}, so the contact slides. The impulse ratio is the bound with the sign of "
             f"{page.symbol(tangential)} ({page.number(tangential.value, 'impulse')})."
@@ -239,7 +253,8 @@ def energy(page: Page, s: Symbols) -> None:
         # The sum needs no path, its parts do.
         whole = HALF * (s.closing - s.separation) * s.normal - HALF * s.tangential * (s.slip + s.slip_after)
         page.equation("Energy lost, by the impulse at the mean of the contact velocities", s.loss, whole)
-        page.say(f"Of that the work of friction takes {page.shown(s.loss_t)}, the normal {page.shown(s.loss_n)}.")
+        text = f"Of that the work of friction takes {page.shown(s.loss_t)}, the normal {page.shown(s.loss_n)}."
+        page.fact(text, (s.loss, s.loss_n + s.loss_t))
     else:
         page.equation("Energy lost along the normal, (8) at the contact", s.loss_n, HALF * (1.0 - s.e) * s.closing * s.normal)
         if s.tangential.value != 0.0:
@@ -269,7 +284,7 @@ def kinetic_energies(page: Page, s: Symbols, lost: Symbol | None = None) -> None
         symbol = Symbol(f"T_{body.label}{prime}", value, "energy")
         terms.append((sign, symbol))
         if formula is ZERO:
-            page.say(f"{body.label} rests {when}: {page.shown(symbol)}.")
+            page.fact(f"{body.label} rests {when}: {page.shown(symbol)}.", (symbol, ZERO))
         else:
             turning = ", of translation and rotation" if body.state(when).yaw_rate else ""
             page.equation(f"Kinetic energy of {body.label} {when}{turning}", symbol, formula)
@@ -305,24 +320,31 @@ def motions(page: Page, s: Symbols) -> None:
         "Delta-V is the change of velocity of the centre of mass. The PDOF is where the impulse on a vehicle comes from, seen "
         "from that vehicle: 0 from ahead, positive clockwise. Directions are counted counter-clockwise from the x axis."
     )
+    for axis in "xy":
+        page.check(f"Impulse on B, along {axis}", s.impulse(axis), s.scene(axis, s.normal, s.tangential))
     # The impulse on a body of infinite mass is known from the other body.
     for body in sorted(s.bodies, key=lambda body: body.fixed):
         if body.fixed:
-            page.say(f"{body.label} has an infinite mass, so its delta-V is 0.")
+            page.fact(f"{body.label} has an infinite mass, so its delta-V is 0.", (body.delta_v(), ZERO))
         else:
-            _delta_v(page, body)
+            _delta_v(page, s, body)
         _pdof(page, s, body)
         _speed_and_course(page, body)
 
 
-def _delta_v(page: Page, body: Body) -> None:
+def _delta_v(page: Page, s: Symbols, body: Body) -> None:
     label, parts = body.label, (body.delta_v("x"), body.delta_v("y"))
     for axis, part in zip("xy", parts, strict=True):
         before, after = body.axis(axis), body.axis(axis, AFTER)
         if before.value == 0.0 and after.value == 0.0:
-            page.say(f"{label} does not move along {axis}, before or after: {page.shown(after)} and {page.shown(part)}.")
+            text = f"{label} does not move along {axis}, before or after: {page.shown(after)} and {page.shown(part)}."
+            page.fact(text, (part, ZERO))
         else:
             page.equation(f"Delta-V of {label} along {axis} (definition)", part, after - before)
+        if not body.pinned and s.impact.pulse is None:
+            # From the velocities it has their rounding; from the impulse it has none but its own.
+            pushed = ZERO.plus(body.sign, s.impulse(axis)) + (body.pushed(axis) if body.outside else ZERO)
+            page.check(f"Delta-V of {label} along {axis}, from the impulse", part, pushed / body.mass)
     page.equation(f"Delta-V of {label} (definition)", body.delta_v(), magnitude(*parts))
     if body.start.heading is not None:
         psi = Symbol(rf"\psi_{label}", body.start.heading, "angle")

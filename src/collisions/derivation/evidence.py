@@ -145,7 +145,7 @@ def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
         moment = m.outside["y"] * Function("cos", across) - m.outside["x"] * Function("sin", across)
         found = found.plus(1.0 if when == "after" else -1.0, moment)
     if found is ZERO:
-        page.say(f"Nothing else has momentum across it: {page.shown(m.speed[name])}.")
+        page.fact(f"Nothing else has momentum across it: {page.shown(m.speed[name])}.", (m.speed[name], ZERO))
         return
     caption = f"Speed of {name[6].upper()} {when}, by the momentum across {page.symbol(across)}"
     page.equation(caption, m.speed[name], found / (mass * Function("sin", m.course[name] - across)))

@@ -19,7 +19,7 @@ from ..settings import callers_options, computing
 from ..solving import error_of
 from ..uncertainty.distributions import Interval
 from ..uncertainty.result import Output, Propagation, ends_of, varies
-from ..units import shown
+from ..units import kinds_in_degrees, shown, system_given
 from .contact import motions, normal
 from .evidence import MOMENTUM_ANSWERS, fit, momentum
 from .expressions import System
@@ -102,15 +102,17 @@ _IMPACT_ANSWERS |= {name: ("contact", *row) for name, row in _CONTACT.items()}
 def explain(
     impact: Impact | MomentumSolution | Fit,
     *,
-    units: UnitSystem = "si",
+    units: UnitSystem | None = None,
     form: Form = "markdown",
     uncertainty: Propagation | Mapping[str, Any] | None = None,
 ) -> Document:
     """The derivation of an answer, step by step, with its numbers.
 
-    Every line has a formula, the same formula with numbers, and the number of the result. Nothing is solved again, and a
-    formula that did not give the result's number would say so. Equation numbers, such as (5), are those of "Application of
-    Impulse Momentum Theory to Vehicle Collisions". An energy gain comes first.
+    Every line has a formula, the same formula with numbers, and the number of the result. Nothing is solved again; every
+    formula is worked out with all digits and compared with the result. From a difference of 1e-6 of the largest term on, which
+    ordinary impacts do not reach by far, both numbers are printed; beyond 1e-3 there is no page, but an error. Equation
+    numbers, such as (5), are those of "Application of Impulse Momentum Theory to Vehicle Collisions". An energy gain comes
+    first.
 
     The working prints a number in full if six figures hold it, else to four figures (with all that stand before the decimal
     point; small speeds, angles, lengths and ratios have two decimals more than an answer). Where a line needs more figures than
@@ -126,8 +128,9 @@ def explain(
         and the sources of their errors, but not the model, which is code. The numbers that ``crush_energy`` and ``travel``
         return do not hold what they were worked out from; for their formulas see ``help(collisions.travel.speed)`` and so on.
     units : {"si", "metric", "us"}, optional
-        "si": m/s, rad, rad/s, J. "metric": km/h, deg, deg/s, kJ. "us": mph, lb, ft, deg, deg/s, ft*lbf. Conversion factors
-        within a line are listed at the end.
+        By default those that the inputs were given in, as for ``summary``; otherwise SI, with the angles in degrees that were
+        given so. "si": m/s, rad, rad/s, J. "metric": km/h, deg, deg/s, kJ. "us": mph, lb, ft, deg, deg/s, ft*lbf. Conversion
+        factors within a line are listed at the end.
     form : {"markdown", "text"}, optional
         Markdown with LaTeX between dollar signs, or plain text.
     uncertainty : Propagation, or dict of float, str or Quantity, optional
@@ -148,6 +151,9 @@ def explain(
         A batch: explain one case of it.
     InputError, NoImpactError, NoSolutionError
         An argument that cannot be used, or an impact that was refused (the status says why).
+    InternalError
+        The result and a formula for it contradict each other, by more than 1e-3 of the largest term: a defect of the library,
+        of which neither the result nor its derivation may be used.
 
     Examples
     --------
@@ -160,10 +166,11 @@ def explain(
     >>> print(page[page.index("Restitution"):page.index("What follows")].rstrip())
     Restitution, as in (9):
       e = (v'_B - v'_A) / (v_A - v_B)
-        = (16.667 - 7.8283) / (22.222 - 0)
+        = (60 - 28.18) / (80 - 0)
         = 0.3977
     """
-    check_system(units)
+    if units is not None:
+        check_system(units)
     if not isinstance(form, str) or form not in get_args(Form):
         raise InputError(
             f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}", code="bad_option", argument="form"
@@ -173,7 +180,7 @@ def explain(
         raise no_uncertainty()
     with callers_options():
         deviations, ranges = ({}, {}) if uncertainty is None else _spread(uncertainty, impact)
-    page = Page(System(units), form == "markdown", deviations, ranges)
+    page = Page(_system(units, impact._texts()), form == "markdown", deviations, ranges)
     if isinstance(impact, Fit):
         page.title("Fit to evidence, step by step")
         fit(page, impact)
@@ -187,6 +194,14 @@ def explain(
         _impact(page, impact)
     _notes(page, uncertainty, of_impact=not isinstance(impact, Fit))
     return page.text()
+
+
+def _system(units: UnitSystem | None, texts: Iterable[Any]) -> System:
+    """How numbers are written: in the system named or, for None, as the inputs were given."""
+    if units is not None:
+        return System(units)
+    given = [text for text in texts if isinstance(text, str)]
+    return System(system_given(given), kinds_in_degrees(given))
 
 
 def no_uncertainty(kind: str = "Fit") -> InputError:
@@ -236,23 +251,23 @@ def impact_inputs(impact: Impact) -> Iterator[tuple[str, str, tuple[str, ...], t
         if vehicle.pivot is not None:
             yield label, "pivot O (x, y)", ("pivot[0]", "pivot[1]"), vehicle.pivot, "length"
     yield "contact", "normal, direction from A into B", ("normal",), (impact.normal_angle,), "angle"
-    if impact.point is not None and impact.model in PLACED:
-        yield "contact", "contact point (x, y)", ("point[0]", "point[1]"), impact.point, "length"
+    # With ``solve`` the model taken may leave out some of what decided which was taken.
+    if impact.inputs.point is not None and impact.inputs.model in (*PLACED, "solve"):
+        yield "contact", "contact point (x, y)", ("point[0]", "point[1]"), impact.inputs.point, "length"
     yield "contact", "restitution e", ("restitution",), (impact.restitution,), "number"
     for label, pushed in (("a", impact.inputs.outside_a), ("b", impact.inputs.outside_b)):
         if pushed is not None and any(pushed):
             what, name = f"impulse on {label.upper()} from outside", f"outside_{label}"
             yield "contact", f"{what} (x, y)", (f"{name}[0]", f"{name}[1]"), (pushed[0], pushed[1]), "impulse"
             yield "contact", f"{what}, about its centre of mass", (f"{name}[2]",), (pushed[2],), "angular momentum"
-    if impact.model != "linear_central":
+    if impact.inputs.model != "linear_central":
         rule = impact.inputs.rule
         yield "contact", RULES[rule].meaning, (rule,), (impact.inputs.rule_value,), "number"
-    if impact.model == "time_resolved":
-        for name, (what, kinds) in _IN_TIME.items():
-            given = getattr(impact.inputs, name)
-            for at, part in enumerate(given if isinstance(given, tuple) else () if given is None else (given,)):
-                names = (f"{name}[{at}]" if isinstance(given, tuple) else name,)
-                yield "contact", what.split("; ")[at], names, (part,), kinds[at]
+    for name, (what, kinds) in _IN_TIME.items():
+        given = getattr(impact.inputs, name)
+        for at, part in enumerate(given if isinstance(given, tuple) else () if given is None else (given,)):
+            names = (f"{name}[{at}]" if isinstance(given, tuple) else name,)
+            yield "contact", what.split("; ")[at], names, (part,), kinds[at]
 
 
 def _inputs(page: Page, impact: Impact) -> None:

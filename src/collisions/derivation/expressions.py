@@ -51,7 +51,22 @@ class Unit(NamedTuple):
 
 
 class System(Numbers):
-    """Formats numbers in one system of units: as results and, with more figures, in the working."""
+    """Formats numbers in one system of units: as results and, with more figures, in the working.
+
+    Parameters
+    ----------
+    system : {"si", "metric", "us"}
+    in_degrees : iterable of str
+        Of "angle" and "yaw rate", the kinds that are written in degrees in "si" too.
+    """
+
+    def __init__(self, system: str, in_degrees: Iterable[str] = ()) -> None:
+        super().__init__(system)
+        self.in_degrees = frozenset(in_degrees)
+
+    def _decimals_of(self, kind: str) -> int | None:
+        """The decimals of a result of this kind."""
+        return decimals_of(kind, self.system_of(kind))
 
     def unit_of(self, kind: str) -> Unit:
         """The unit of a kind of quantity."""
@@ -62,7 +77,7 @@ class System(Numbers):
         if not math.isfinite(value):
             return "not known" if math.isnan(value) else "infinite"
         number = self.converted(value, kind)
-        return "0" if _is_zero(value, kind) else self.figures(number, decimals_of(kind, self.name), more)
+        return "0" if is_zero(value, kind) else self.figures(number, self._decimals_of(kind), more)
 
     def figures(self, number: float, least: int | None = None, more: int = 0) -> str:
         """A number, exact if six figures hold it, else to four figures, with ``least`` decimals and at most two more."""
@@ -78,10 +93,10 @@ class System(Numbers):
         For a number that is 0, it is that of ``size``, the size of the terms that cancelled.
         """
         scale = self.scale(kind)
-        if _is_zero(value, kind) and 0.0 < size < math.inf:
+        if is_zero(value, kind) and 0.0 < size < math.inf:
             promised = _decimals(size * scale, None)
         else:
-            promised = _decimals(value * scale, decimals_of(kind, self.name))
+            promised = _decimals(value * scale, self._decimals_of(kind))
         return 0.5 * 10.0 ** -max(len(self.working(value, kind).partition(".")[2]), promised)
 
 
@@ -92,7 +107,8 @@ def _unit(label: str, scale: float) -> Unit:
     return Unit(scale, ((label[2:], -1.0),) if label.startswith("1/") else ((label, 1.0),))
 
 
-def _is_zero(value: float, kind: str) -> bool:
+def is_zero(value: float, kind: str) -> bool:
+    """Whether an SI number is so small for its kind that it is rounding, and printed as 0."""
     return abs(value) <= _ZERO.get(kind, _ZERO_OF_OTHERS)
 
 
@@ -317,7 +333,9 @@ class Function(Expression):
 
     def __init__(self, name: str, inner: Expression) -> None:
         self.name, self.inner = name, inner
-        size = math.sqrt(inner.size) if name == "sqrt" else 1.0 + inner.size if name in ("cos", "sin") else inner.size
+        # An angle of many turns has the rounding of that many.
+        of_angle = max(1.0, inner.size / math.tau)
+        size = math.sqrt(inner.size) if name == "sqrt" else of_angle if name in ("cos", "sin") else inner.size
         super().__init__(_FUNCTIONS[name](inner.value), size)
 
     def write(self, pen: Pen) -> Written:

@@ -60,9 +60,10 @@ def _against_fixed(page: Page, s: Symbols) -> None:
     """Impulse, and velocity after, of a body that hits one of infinite mass."""
     wall, hit = (s.a, s.b) if s.a.fixed else (s.b, s.a)
     v, wall_v = hit.straight(), wall.straight()
-    page.say(
+    page.fact(
         f"{wall.label} has an infinite mass: it keeps its velocity ({page.shown(wall.straight(AFTER))}), so both share "
-        f"{page.symbol(wall_v)} at the end of compression (3), and the mass that the contact feels is {page.symbol(hit.mass)}."
+        f"{page.symbol(wall_v)} at the end of compression (3), and the mass that the contact feels is {page.symbol(hit.mass)}.",
+        (wall.straight(AFTER), wall_v),
     )
     number, change = ("(5)", v - wall_v) if hit is s.a else ("(6)", wall_v - v)
     page.equation(f"Impulse of the compression period, area A1 (3), on {hit.label}", s.compression, hit.mass * change)
@@ -188,8 +189,9 @@ def eccentric(page: Page, s: Symbols) -> None:
         if body.start.speed != 0.0 or body.start.yaw_rate != 0.0:
             body.at_contact(page, BEFORE, f"Velocity of {body.label} at the contact")
         else:
-            n, t = (page.shown(body.along(direction, contact=True)) for direction in "nt")
-            page.say(f"{body.label} is at rest at the contact too: {n} and {t}.")
+            n, t = (body.along(direction, contact=True) for direction in "nt")
+            text = f"{body.label} is at rest at the contact too: {page.shown(n)} and {page.shown(t)}."
+            page.fact(text, (n, ZERO), (t, ZERO))
     page.equation("Closing speed", s.closing, a.along("n", contact=True) - b.along("n", contact=True))
     page.equation("Slip, of B relative to A", s.slip, s.relative("t", contact=True))
     page.heading("Impulse")
@@ -321,7 +323,8 @@ def _moved(page: Page, body: Lever, s: Symbols) -> None:
         along_n = [(f"Velocity of the centre of mass of {label} after, along the normal", BEFORE, AFTER, s.normal)]
     velocity_after(page, body, s, along_n)
     if not body.turns:
-        page.say(f"{label} has an infinite yaw inertia and keeps its yaw rate ({page.shown(body.spin())}).")
+        text = f"{label} has an infinite yaw inertia and keeps its yaw rate ({page.shown(body.spin())})."
+        page.fact(text, (body.spin(AFTER), body.spin()))
     elif s.tangential.value != 0.0 or whole:
         caption = f"Yaw rate of {label} after, (13) and (15) with the whole moment"
         page.equation(caption, body.spin(AFTER), body.spin() + body.torque(s) / body.resistance)

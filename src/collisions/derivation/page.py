@@ -7,12 +7,16 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from ..document import Document
+from ..errors import InternalError
 from ..formatting import clock, typeset
-from .expressions import Expression, Pen, System
+from .expressions import Direction, Expression, Pen, System, is_zero
 from .symbols import Symbol
 
 # The most figures a line may add to those of the working; with them it has every digit of a float.
 _MOST = 12
+# By which share of its largest term a formula may differ from the result. Rounding stays far below the first (1e-9 in
+# ordinary scenes); from there both numbers are printed. Beyond the second one of the two is wrong.
+_DIFFERS, _WRONG = 1e-6, 1e-3
 # The columns of every table.
 HEAD = ("of", "quantity", "value")
 _MARKS = re.compile(r"([\\`*_{}\[\]<>$|#~])")
@@ -98,29 +102,58 @@ class Page:
 
         A formula that is the symbol itself, as the magnitude of one component is, is not repeated.
         """
+        differs = self._compared(caption, left, right, left.kind)
         printed = self.system.working(left.value, left.kind)
         (numbers,), fits = self._in_numbers([(right, left.value)], left.kind, right.size)
         symbol, formula = self._in_symbols(left), self._in_symbols(right)
         lines = [formula] * (formula not in (symbol, printed)) + [numbers] * (numbers not in (formula, printed))
-        self._lines(caption, symbol, [*lines, printed + self._unit(left.kind)], fits=fits)
+        self._lines(caption, symbol, [*lines, printed + self._unit(left.kind)], fits=fits or bool(differs))
+        self._say_difference(differs)
 
     def let(self, caption: str, latex: str, kind: str, formula: Expression) -> Symbol:
         """Write what a new symbol stands for; gives the symbol."""
-        symbol = Symbol(latex, formula.value, kind)
+        symbol = Symbol(latex, formula.value, kind, size=formula.size)
         self.equation(caption, symbol, formula)
         return symbol
 
     def balance(self, caption: str, left: Expression, right: Expression, kind: str) -> None:
         """Write a balance, formula = formula: in symbols, in numbers, and the value of both sides."""
+        differs = self._compared(caption, left, right, kind)
         sides = (left, right)
         numbers, fits = self._in_numbers([(side, side.value) for side in sides], kind, left.size + right.size)
         values = " = ".join(self.system.working(side.value, kind) for side in sides) + self._unit(kind)
-        self._lines(caption, self._in_symbols(left), [self._in_symbols(right)], [" = ".join(numbers), values], fits)
+        below = [" = ".join(numbers), values]
+        self._lines(caption, self._in_symbols(left), [self._in_symbols(right)], below, fits or bool(differs))
+        self._say_difference(differs)
+
+    def fact(self, text: str, *equal: tuple[Symbol, Expression]) -> None:
+        """Write a sentence that says of each of these symbols that it has the value beside it."""
+        differs = [self._compared(text, symbol, value, symbol.kind) for symbol, value in equal]
+        self.say(text)
+        for difference in differs:
+            self._say_difference(difference)
+
+    def check(self, caption: str, left: Symbol, right: Expression) -> None:
+        """Compare a number of the result with a formula for it that the page need not show."""
+        self._say_difference(self._compared(caption, left, right, left.kind))
+
+    def at_most(self, low: Expression, high: Expression) -> None:
+        """Compare what the next sentence rests on: the first is not above the second."""
+        size = max(low.size, high.size)
+        if low.value - high.value > _WRONG * size:
+            one, other = (f"{self._in_symbols(side)} = {side.value:.6g}" for side in (low, high))
+            what = f"that {one} is at most {other}, in SI"
+            raise _defect(what, f"{what}, which it is not", (low.value - high.value) / size)
 
     def collected(
         self, caption: str, row: tuple[float, float, float], symbols: tuple[Symbol, Symbol], kind: str, more: int = 0
     ) -> None:
         """Write number = numbers times unknown symbols; the numbers are in the units printed."""
+        parts = [factor * self.system.converted(by.value, by.kind) for factor, by in zip(row[1:], symbols, strict=True)]
+        largest = max(map(abs, (row[0], *parts)))
+        share = abs(row[0] - sum(parts)) / largest if largest else 0.0
+        if share > _WRONG:
+            raise _defect(caption, f"{caption}: the sides are {row[0]:.9g} and {sum(parts):.9g}", share)
         times, right = r"\," if self.latex else " * ", ""
         for factor, symbol in zip(row[1:], symbols, strict=True):
             name, size = self._in_symbols(symbol), self.system.figures(abs(factor), more=more)
@@ -143,6 +176,31 @@ class Page:
     def text(self) -> Document:
         """The whole page."""
         return Document("\n\n".join(self.parts) + "\n", "markdown" if self.latex else "text")
+
+    def _compared(self, caption: str, left: Expression, right: Expression, kind: str) -> str:
+        """Compare both sides of an equation: a sentence where they differ by more than rounding does, else "".
+
+        Where they differ by more than digits that cancelled can explain, the result or its derivation is wrong.
+        """
+        share = _share_apart(left, right, kind)
+        if not share > _DIFFERS:
+            return ""
+        for more in range(_MOST + 1):
+            result, own = (self.system.working(side.value, kind, more) for side in (left, right))
+            if result != own:
+                break
+        more = min(more + 2, _MOST)
+        result, own = (self.system.working(side.value, kind, more) + self.system.unit(kind) for side in (left, right))
+        if share > _WRONG:
+            raise _defect(caption, f"{caption}: the result has {result}, its formula gives {own}", share)
+        return (
+            f"The two sides differ: the number of the result is {result}, and the formula, worked out with all digits, gives "
+            f"{own}. That is {share:.1e} of the largest term, more than the rounding of an ordinary impact."
+        )
+
+    def _say_difference(self, difference: str) -> None:
+        if difference:
+            self.stress(difference)
 
     def _in_symbols(self, formula: Expression) -> str:
         return formula.write(Pen(self.latex)).text
@@ -185,3 +243,27 @@ class Page:
                 "In this form the numbers cancel, or are too far apart for it: what is printed last is the result's own, "
                 "worked out in a form that keeps its digits."
             )
+
+
+def _share_apart(left: Expression, right: Expression, kind: str) -> float:
+    """The difference of two sides over their largest term; NaN if a formula has no value, as its divisor cancelled."""
+    off = left.value - right.value
+    if left.value == right.value or is_zero(off, kind) or (math.isnan(left.value) and math.isnan(right.value)):
+        return 0.0
+    if math.isfinite(right.value) and not math.isfinite(left.value):
+        return math.inf
+    if isinstance(right, Direction):
+        # One direction has many angles.
+        off = math.remainder(off, math.tau)
+    return abs(off) / max(left.size, right.size)
+
+
+def _defect(equation: str, what: str, share: float) -> InternalError:
+    return InternalError(
+        f"this result and its derivation contradict each other: {what}. They differ by {share:.2g} of the largest term, and "
+        f"rounding does not do that: it is a defect of this library, in the result or in its derivation. Use neither of them, "
+        f"and report it with the record of the result, result.to_dict()",
+        code="contradicts_derivation",
+        equation=equation,
+        share=share,
+    )

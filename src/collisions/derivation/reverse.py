@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from ..impact import Impact
 from ..kernels.central import shares
 from ..provenance import KNOWN, Reconstruction, how_many
-from .expressions import HALF, ONE, Expression, root
+from .expressions import HALF, ONE, ZERO, Expression, root
 from .models import Lever, impulse_in_scene_axes
 from .page import Page
 from .symbols import AFTER, Symbol, Symbols
@@ -85,7 +85,8 @@ def _central(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
     for symbol, own, other in ((share["a"], a, b), (share["b"], b, a)):
         caption = f"Share of {own.label} in the change of relative velocity"
         if a.fixed or b.fixed:
-            page.say(f"{caption}, as one mass is infinite: {page.shown(symbol)}.")
+            share_of_all = ZERO if own.fixed else ONE
+            page.fact(f"{caption}, as one mass is infinite: {page.shown(symbol)}.", (symbol, share_of_all))
         else:
             page.equation(caption, symbol, other.mass / (a.mass + b.mass))
     if len(given) == 1:
@@ -115,7 +116,9 @@ def _last_velocity(page: Page, s: Symbols, v: Mapping[str, Symbol], missing: str
     """Write the fourth velocity, from momentum or from a body at rest that nothing moves."""
     a, b = s.bodies
     if a.fixed or b.fixed:
-        page.say(f"A mass is infinite, so the velocity of that body is the same before and after. {page.shown(v[missing])}.")
+        text = f"A mass is infinite, so the velocity of that body is the same before and after. {page.shown(v[missing])}."
+        kept = "a" if a.fixed else "b"
+        page.fact(text, (v[f"v{kept}_after"], v[f"v{kept}"]))
         return
     before, after = (a.mass * v[f"va{when}"] + b.mass * v[f"vb{when}"] for when in ("", "_after"))
     page.balance("Momentum is conserved (2)", before, after, "impulse")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 from ..impact import Impact
@@ -31,11 +31,14 @@ _PLAIN = {
 
 
 class Symbol(Expression):
-    """A quantity with its symbol, its value in SI and its kind; the plain text of the symbol follows from its LaTeX."""
+    """A quantity with its symbol, its value in SI and its kind; the plain text of the symbol follows from its LaTeX.
 
-    def __init__(self, latex: str, value: Any, kind: str, text: str = "") -> None:
+    ``size`` is that of the largest terms the value was found from, where they are larger than itself.
+    """
+
+    def __init__(self, latex: str, value: Any, kind: str, text: str = "", size: float = 0.0) -> None:
         self.latex, self.text, self.kind = latex, text or _plain_symbol(latex), kind
-        super().__init__(float(value), abs(float(value)))
+        super().__init__(float(value), max(abs(float(value)), size))
 
     def unless_zero(self) -> Expression:
         """The symbol, or ZERO, which is not written, if that is its value."""
@@ -115,18 +118,41 @@ class Body:
         vx, vy = state.velocity_at(point) if contact and point is not None else (state.vx, state.vy)
         nx, ny = self.impact.normal
         value = {"x": vx, "y": vy, "n": nx * vx + ny * vy, "t": nx * vy - ny * vx}[direction]
+        size, turning = self._largest
+        size += turning * self._reach((self.start.x, self.start.y)) if contact else 0.0
         if contact and when == COMPRESSED:
             # The paper has u with and without a bar; without bars the place at the contact needs another symbol.
-            return Symbol(f"u_{{{index}}}", value, "speed", f"c0_{index}")
+            return Symbol(f"u_{{{index}}}", value, "speed", f"c0_{index}", size)
         if contact:
-            return Symbol(f"c_{{{index}}}{_PRIME[when]}", value, "speed")
+            return Symbol(f"c_{{{index}}}{_PRIME[when]}", value, "speed", size=size)
         base = "u" if when == COMPRESSED else "v"
         bar = rf"\bar{{{base}}}" if self.impact.model in PLACED else base
-        return Symbol(f"{bar}_{{{index}}}{_PRIME[when]}", value, "speed")
+        return Symbol(f"{bar}_{{{index}}}{_PRIME[when]}", value, "speed", size=size)
+
+    @cached_property
+    def _largest(self) -> tuple[float, float]:
+        """Speed and yaw rate of the largest terms that the motions were found from: the rounding left in them is of these.
+
+        The two parts of an impulse may nearly cancel in the moment, so each counts.
+        """
+        impact, states = self.impact, (self.start, self.state(AFTER))
+        impulse = abs(float(impact.normal_impulse)) + abs(float(impact.tangential_impulse))
+        speed = max(math.hypot(state.vx, state.vy) for state in states) + impulse / self.start.mass
+        turning = max(abs(state.yaw_rate) for state in states)
+        inertia = self.start.yaw_inertia
+        if impact.model in PLACED and inertia:
+            turning += impulse * self._reach(self.start.pivot or (self.start.x, self.start.y)) / inertia
+        return tuple(size if math.isfinite(size) else 0.0 for size in (speed, turning))  # type: ignore[return-value]
+
+    def _reach(self, center: tuple[Any, Any]) -> float:
+        """Distance of the contact from a place of the body; 0 where one of them is not known."""
+        point = self.impact.point
+        return 0.0 if point is None or center[0] is None else math.hypot(point[0] - center[0], point[1] - center[1])
 
     def straight(self, when: str = BEFORE) -> Symbol:
         """Velocity along the line of a linear impact, which needs no component in its symbol."""
-        return Symbol(f"v_{self.label}{_PRIME[when]}", self.along("n", when).value, "speed")
+        along = self.along("n", when)
+        return Symbol(f"v_{self.label}{_PRIME[when]}", along.value, "speed", size=along.size)
 
     def axis(self, name: str, when: str = BEFORE) -> Symbol:
         """Velocity of its centre of mass along a scene axis, by the symbol that the derivation has for it."""
@@ -136,7 +162,8 @@ class Body:
     def spin(self, when: str = BEFORE) -> Symbol:
         """Yaw rate."""
         mark = "^0" if when == COMPRESSED else _PRIME[when]
-        return Symbol(rf"\omega_{self.label}{mark}", self.state(when).yaw_rate, "yaw rate")
+        _, size = self._largest
+        return Symbol(rf"\omega_{self.label}{mark}", self.state(when).yaw_rate, "yaw rate", size=size)
 
     def delta_v(self, axis: str = "") -> Symbol:
         """A component of its delta-V in scene axes, or its magnitude if no axis is named."""

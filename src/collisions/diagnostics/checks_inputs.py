@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 from ..drag import HIGHEST_DRAG
-from ..inputs import PLACED
+from ..inputs import PLACED, Inputs
 from ..reference import CONTACT_DURATION
 from ..vehicle import Vehicle
 from .case import Case, ImpactCase, MomentumCase, off_by
@@ -88,7 +89,11 @@ def suspect_inertia_high(case: ImpactCase) -> Iterator[Measured]:
 
 @finding(
     "distance of the contact point from the centre of mass",
-    above("three radii of gyration of the vehicle, or 10 m where its yaw inertia is not known or infinite", "m"),
+    above(
+        "three radii of gyration of the vehicle, or 10 m where its yaw inertia is not known or infinite, or where the "
+        "places were given with their unit",
+        "m",
+    ),
     (
         "set here: the corner of a rectangle is 1.7 of its radii away, and a centre of mass may be off the middle; 10 m is "
         "half a road train; feet or cm as m, or two origins mixed"
@@ -101,9 +106,22 @@ def suspect_lever(case: ImpactCase) -> Iterator[Measured]:
         if point is not None and vehicle.x is not None and vehicle.y is not None and not math.isinf(vehicle.mass):
             lever = math.hypot(point[0] - vehicle.x, point[1] - vehicle.y)
             far = case.text(lever, "length")
-            sentence = f"the contact point is {far} from the centre of mass of {who}; check units (feet?) and origin"
+            stated = _has_units(vehicle, "x", "y") and _has_units(case.answer.inputs, "point")
+            doubt = "positions and origin" if stated else "units (feet?) and origin"
+            sentence = f"the contact point is {far} from the centre of mass of {who}; check {doubt}"
             rounding = off_by(vehicle.x, vehicle.y, *point)
-            yield Measured(lever, sentence, label, limit=_longest_lever(vehicle), rounding=rounding)
+            limit = _FURTHEST if stated else _longest_lever(vehicle)
+            yield Measured(lever, sentence, label, limit=limit, rounding=rounding)
+
+
+def _has_units(whole: Vehicle | Inputs, *names: str) -> bool:
+    """Whether these places were given with a unit, so that they are not feet read as metres; 0 needs none."""
+    given = whole.given or {}
+    parts: dict[str, Any] = {}
+    for name in names:
+        value = getattr(whole, name)
+        parts |= {f"{name}[{i}]": part for i, part in enumerate(value)} if isinstance(value, tuple) else {name: value}
+    return any(name in given for name in parts) and all(value == 0.0 or name in given for name, value in parts.items())
 
 
 def _longest_lever(vehicle: Vehicle) -> float:
@@ -122,8 +140,10 @@ def suspect_distance(case: ImpactCase) -> Iterator[Measured]:
     if case.answer.point is None and len(places) == 2 and not any(math.isinf(vehicle.mass) for vehicle in vehicles):
         distance = math.dist(*places)
         far = case.text(distance, "length")
-        sentence = f"the centres of mass are {far} apart at the impact; check units (feet?) and origin"
-        longest = sum(_longest_lever(vehicle) for vehicle in vehicles)
+        stated = all(_has_units(vehicle, "x", "y") for vehicle in vehicles)
+        doubt = "positions and origin" if stated else "units (feet?) and origin"
+        sentence = f"the centres of mass are {far} apart at the impact; check {doubt}"
+        longest = 2.0 * _FURTHEST if stated else sum(_longest_lever(vehicle) for vehicle in vehicles)
         yield Measured(distance, sentence, limit=longest, rounding=off_by(*places[0], *places[1]))
 
 

@@ -17,9 +17,9 @@ from ..kernels.elementwise import restitution_domain
 from ..kernels.reverse import VELOCITIES, allowed_losses, inline_speeds, moving_apart
 from ..kernels.status import Status
 from ..provenance import Reconstruction
-from ..quantities import show
 from ..reading import ArgumentReader
 from ..solving import error_of
+from ..summary import Sentences
 from ..units import Input
 from ..vehicle import Vehicle, moved
 from .common import Cases, exactly, finish, input_faults, read_amounts, read_masses, run_forward, warn_of_condition
@@ -27,6 +27,8 @@ from .common import Cases, exactly, finish, input_faults, read_amounts, read_mas
 _ALONG_X: Any = (1.0, 0.0)
 _FRICTIONLESS: Any = 0.0
 _MOST_ROUNDING = 0.01  # of e: the largest excess beyond 0 and 1 that is taken for rounding
+# The texts of these are kept with the vehicles.
+_OF_VEHICLES = ("mass_a", "mass_b", "va", "vb", "heading_a", "heading_b")
 _STEP = 1e-6  # relative, for the sensitivity: between the rounding of a quotient and the curvature of a square root
 
 
@@ -51,6 +53,8 @@ def central(
     vb_after: Input | None = None,
     restitution: Input | None = None,
     energy_loss: Input | None = None,
+    heading_a: Input | None = None,
+    heading_b: Input | None = None,
     incomplete: bool = False,
     on_failure: OnFailure | None = None,
 ) -> Impact:
@@ -73,6 +77,9 @@ def central(
         Coefficient of restitution, 0 to 1.
     energy_loss : float, str, Quantity or array [J], optional
         Energy dissipated, >= 0: what remains lost after restitution, not the energy absorbed at maximum crush.
+    heading_a, heading_b : float, str, Quantity or array [rad], optional
+        Where each vehicle points, counter-clockwise from the line from A to B: 0 for a car struck from behind or that strikes
+        with its front, "180 deg" for one met head-on. They decide nothing; delta-V forward and PDOF need them.
     incomplete : bool, optional
         Whether the restitution may be negative (above -1), as for ``linear_central``. Both velocities before and the energy
         loss then leave its sign open, and there are two answers.
@@ -127,14 +134,26 @@ def central(
             numbers[name] = reader.number(value, "", name, restitution_domain(incomplete))
         else:
             numbers |= read_amounts(reader, {name: value})
+    headings = {
+        label: None if heading is None else reader.number(heading, "rad", f"heading_{label}")
+        for label, heading in (("a", heading_a), ("b", heading_b))
+    }
     check_flag(reader, "incomplete", incomplete)
     reader.close()
+    pointing = {f"heading_{label}": heading for label, heading in headings.items() if heading is not None}
     with np.errstate(all="ignore"):
-        return _answer(Cases.of(numbers), numbers, tuple(given), reader.texts, on_failure, incomplete)
+        cases = Cases.of(numbers | pointing)
+        return _answer(cases, numbers, pointing, tuple(given), reader.texts, on_failure, incomplete)
 
 
 def _answer(
-    cases: Cases, numbers: dict[str, Any], known: tuple[str, ...], texts: dict[str, str], on_failure: Any, incomplete: bool
+    cases: Cases,
+    numbers: dict[str, Any],
+    headings: dict[str, Any],
+    known: tuple[str, ...],
+    texts: dict[str, str],
+    on_failure: Any,
+    incomplete: bool,
 ) -> Impact:
     arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
     candidates = _candidates(arrays, cases.eps, incomplete)
@@ -157,22 +176,24 @@ def _answer(
         still: Any = 0.0 if np.all(keep) else cases.where(keep, 0.0)
         bodies = []
         for label, speed in (("a", found.va), ("b", found.vb)):
-            given = {name: texts[key] for name, key in (("mass", f"mass_{label}"), ("vx", f"v{label}")) if key in texts}
-            body = Vehicle(mass=numbers[f"mass_{label}"])
+            own = (("mass", f"mass_{label}"), ("vx", f"v{label}"), ("heading", f"heading_{label}"))
+            given = {name: texts[key] for name, key in own if key in texts}
+            body = Vehicle(mass=numbers[f"mass_{label}"], heading=headings.get(f"heading_{label}"))
             bodies.append(moved(body, cases.where(keep, speed), still, still, given))
         e = cases.where(keep, found.restitution)
-        others = {name: text for name, text in texts.items() if name not in ("mass_a", "mass_b", "va", "vb")} or None
+        others = {name: text for name, text in texts.items() if name not in _OF_VEHICLES} or None
         contact = _ALONG_X, FRICTION, _FRICTIONLESS, None, None, others
         return Inputs("linear_central", bodies[0], bodies[1], e, *contact, incomplete=incomplete)
 
     def refusal() -> CollisionsError:
+        say = Sentences(texts.values())
         if status != Status.AMBIGUOUS:
-            return _refusal(status, found, arrays, incomplete)
+            return _refusal(status, found, arrays, incomplete, say)
         solutions = tuple(
             run_forward(partial(inputs_of, one), Status.OK, origin_of(one, np.intp(i), len(candidates)))
             for i, one in enumerate(candidates)
         )
-        both = " or ".join(f"va = {s.a.before.vx:.6g} m/s with e = {s.restitution:.4g}" for s in solutions)
+        both = " or ".join(f"va = {say(s.a.before.vx, 'speed')} with e = {s.restitution:.4g}" for s in solutions)
         return AmbiguousSolutionError(
             f"two impacts fit {', '.join(known)}: {both}; both are in .solutions, and a velocity of the other kind decides",
             code="ambiguous",
@@ -180,7 +201,7 @@ def _answer(
         )
 
     def solve_case(index: tuple[int, ...]) -> Impact:
-        of_case: dict[str, Any] = {name: cases.one(value, index) for name, value in arrays.items()}
+        of_case: dict[str, Any] = {name: cases.one(value, index) for name, value in (arrays | headings).items()}
         return central(**of_case, incomplete=incomplete)
 
     origin = origin_of(found, which, np.where(ambiguous, len(candidates), 1), np.equal(status, Status.OK))
@@ -249,28 +270,28 @@ def _faults(known: dict[str, Any], found: Candidate) -> list[tuple[Any, int]]:
     ]
 
 
-def _refusal(status: int, found: Candidate, numbers: dict[str, Any], incomplete: bool) -> CollisionsError:
+def _refusal(status: int, found: Candidate, numbers: dict[str, Any], incomplete: bool, say: Sentences) -> CollisionsError:
     closing, e = float(found.closing), float(found.restitution)
     known = {name: float(value) for name, value in numbers.items() if not name.startswith("mass")}
-    units = {"energy_loss": "J", "restitution": ""}
-    given = ", ".join(f"{name} = {show(value, units.get(name, 'm/s'))}" for name, value in known.items())
+    kinds = {"energy_loss": "energy", "restitution": "number"}
+    given = ", ".join(f"{name} = {say(value, kinds.get(name, 'speed'))}" for name, value in known.items())
     along = "velocities are counted along the line from A to B, A behind"
     match status:
         case Status.SEPARATING:
-            speed = "no approach" if np.isnan(closing) else f"a closing speed of {closing:.6g} m/s"
+            speed = "no approach" if np.isnan(closing) else f"a closing speed of {say(closing, 'speed')}"
             text = f"{given} mean {speed}, so the bodies moved apart; {along}: change the signs, or exchange A and B"
         case Status.NO_CLOSING:
             text = f"{given} mean a closing speed of 0, so there was no impact; {along}"
         case Status.NOT_SEPARATING:
             text = (
                 f"{given} mean that the bodies still approach after the impact (restitution {e:.4g}): one of them would pass "
-                f"through the other; {along}{_allowed_losses(numbers, incomplete)}"
+                f"through the other; {along}{_allowed_losses(numbers, incomplete, say)}"
             )
             if not incomplete and e > -1.0:
                 text += "; if they passed or tore before they had a common velocity, write incomplete=True"
         case Status.INVERSE_E0:
             apart = known["vb_after"] - known["va_after"]
-            differs = f" (here vb_after - va_after is {apart:.6g} m/s, which contradicts that)" if apart else ""
+            differs = f" (here vb_after - va_after is {say(apart, 'speed')}, which contradicts that)" if apart else ""
             text = (
                 f"{given}: after a plastic impact (restitution = 0) both have one velocity{differs}, and nothing is left of "
                 f"the closing speed; give energy_loss, va or vb instead of restitution"
@@ -285,18 +306,20 @@ def _refusal(status: int, found: Candidate, numbers: dict[str, Any], incomplete:
         case Status.UNDETERMINED:
             text = f"{given} fit any closing speed; give another velocity"
         case _:
-            text = _contradiction(given, known, e, numbers, incomplete)
+            text = _contradiction(given, known, e, numbers, incomplete, say)
     return error_of(status, text, restitution=e, closing_speed=closing)
 
 
-def _contradiction(given: str, known: dict[str, float], e: float, numbers: dict[str, Any], incomplete: bool) -> str:
+def _contradiction(
+    given: str, known: dict[str, float], e: float, numbers: dict[str, Any], incomplete: bool, say: Sentences
+) -> str:
     """The contradiction between the known values, and its size."""
     names = [name for name in VELOCITIES if name in known]
     if "energy_loss" not in known and len(names) == 2:
         apart = known[names[0]] - known[names[1]]
         return (
             f"{given}: with these masses and this restitution {names[0]} and {names[1]} are equal in every impact, and here "
-            f"they differ by {apart:.6g} m/s"
+            f"they differ by {say(apart, 'speed')}"
         )
     if len(names) == 1:
         return f"{given}: an elastic impact (restitution = 1) loses no energy; give energy_loss = 0 and two velocities"
@@ -304,14 +327,15 @@ def _contradiction(given: str, known: dict[str, float], e: float, numbers: dict[
         return f"{given} mean a restitution of {e:.6g}, above 1: the impact would gain energy; check masses and signs"
     return (
         f"no impact fits {given}: with these masses and velocities the energy_loss cannot be as given"
-        f"{_allowed_losses(numbers, incomplete)}"
+        f"{_allowed_losses(numbers, incomplete, say)}"
     )
 
 
-def _allowed_losses(numbers: dict[str, Any], incomplete: bool) -> str:
+def _allowed_losses(numbers: dict[str, Any], incomplete: bool, say: Sentences) -> str:
     """The range of energy losses that the masses and two velocities allow with e from 0 to 1, if an energy was given."""
     share_a, share_b, reduced, _ = shares(numbers["mass_a"], numbers["mass_b"])
     least, most = allowed_losses(numbers, share_a, share_b, reduced)
     if "energy_loss" not in numbers or np.isnan(least) or incomplete:
         return ""
-    return f"; they allow at least {least:.6g} J" + ("" if np.isinf(most) else f" and at most {most:.6g} J")
+    above = "" if np.isinf(most) else f" and at most {say(float(most), 'energy')}"
+    return f"; they allow at least {say(float(least), 'energy')}{above}"

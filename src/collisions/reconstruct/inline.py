@@ -16,6 +16,7 @@ from ..kernels.reverse import changing_speed, energy_of_speeds, losing_speed
 from ..kernels.status import Status
 from ..reading import ArgumentReader
 from ..solving import error_of, warn_of_refusals
+from ..summary import Sentences
 from ..units import Input, Value
 from .common import ASK_ALONE, PAIRS, Cases, exactly, input_faults, read_amounts, read_masses
 from .restitution_roots import RestitutionOf, crossings
@@ -94,7 +95,7 @@ def inline_closing_speed(
     reader.close()
     cases = Cases.of(numbers)
     if callable(restitution):
-        return _with_function(cases, kind, numbers, RestitutionOf(restitution, cases))
+        return _with_function(cases, kind, numbers, RestitutionOf(restitution, cases), Sentences(reader.texts.values()))
     return _with_number(cases, kind, numbers)
 
 
@@ -139,7 +140,7 @@ def _with_number(cases: Cases, kind: str, numbers: dict[str, Any], found: Any = 
     return answer
 
 
-def _with_function(cases: Cases, kind: str, numbers: dict[str, Any], function: RestitutionOf) -> Value:
+def _with_function(cases: Cases, kind: str, numbers: dict[str, Any], function: RestitutionOf, say: Sentences) -> Value:
     if cases.shape is None:
         _with_number(cases, kind, numbers)  # refuses inputs that are wrong whatever the restitution
     shape = cases.shape or ()
@@ -168,7 +169,7 @@ def _with_function(cases: Cases, kind: str, numbers: dict[str, Any], function: R
         raise NoSolutionError("no closing speed has the restitution that leads to it", code="contradictory")
     if len(answers) > 1:
         raise AmbiguousSolutionError(
-            f"the function of restitution is met at closing speeds of {' and '.join(f'{g:.6g}' for g in answers)} m/s",
+            f"the function of restitution is met at closing speeds of {' and '.join(say(g, 'speed') for g in answers)}",
             code="ambiguous",
             solutions=answers,
         )

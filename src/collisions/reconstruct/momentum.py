@@ -34,6 +34,7 @@ from .momentum_solution import MomentumSolution, Sensitivity
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
 _COURSES = ("course_a", "course_b", "course_a_after", "course_b_after")
+_NO_COSINE = 8.0 * EPS  # of the cosine of a right angle: rounding of the courses, in radians, and of their difference
 
 
 @hinted
@@ -353,7 +354,13 @@ def _sensitivity(known: _Known, speeds: dict[str, Any], unknown: list[tuple[str,
             c, s = other.course.direction
             row["outside_impulse_x"], row["outside_impulse_y"] = s, -c
         across = wanted.mass * turns[name][1]
-        found[name] = {label: known.cases.where(sure, np.divide(-wanted.sign * cross, across)) for label, cross in row.items()}
+        largest = {label: abs(term.mass * speeds[label]) for label, term in moving.items()}
+        for label, most in largest.items():
+            # What the cosine of a right angle leaves is rounding, and no sensitivity.
+            course = label.replace("speed", "course")
+            row[course] = np.where(abs(row[course]) <= _NO_COSINE * most, 0.0, row[course])
+        by_input = {label: np.divide(-wanted.sign * cross, across) + 0.0 for label, cross in row.items()}
+        found[name] = {label: known.cases.where(sure, moved) for label, moved in by_input.items()}
     return found
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,7 +20,8 @@ from ..inputs import Inputs, body_numbers, read_inputs
 from ..kernels.contact_laws import BRACH, FRICTION
 from ..kernels.elementwise import either_infinite, not_about_pivot, rounding
 from ..solving import error_of, warn_of_refusals
-from ..units import Input, Pair, Value
+from ..summary import Sentences
+from ..units import Input, Pair, Value, texts_of
 from ..vehicle import Vehicle, needed, not_a_vehicle, numbers_of, without_turning
 from ..warning import warn
 from .common import ASK_ALONE, NUMBERS, Cases, forward, input_faults
@@ -92,7 +94,7 @@ def restitution(
         closing = before.closing_speed
         found = (0.0 - after.closing_speed) / np.where(closing > 0.0, closing, np.nan)
         status = cases.first_status((*faults, (cases.beyond(found), Status.OUT_OF_RANGE)))
-        _check(cases, status, before)
+        _check(cases, status, before, _as_given(bodies))
         answer = np.where(np.equal(status, Status.OK), found, np.nan)
         # The velocities themselves are rounded, so an e of exactly 0 or 1 may come out slightly outside.
         error = 4.0 * cases.eps * (before.speeds + after.speeds) / closing
@@ -172,7 +174,7 @@ def friction(
         normal_part, tangential_part = nx * px + ny * py, nx * py - ny * px
         too_large = cases.beyond(tangential_part / normal_part)
         status = cases.first_status((*faults, (normal_part <= 0.0, Status.NOT_SEPARATING), (too_large, Status.OUT_OF_RANGE)))
-        _check(cases, status, before)
+        _check(cases, status, before, _as_given(bodies))
         sure = np.equal(status, Status.OK)
         on_a = [-mass_a * part for part in change_a]
         on_b = [mass_b * part for part in change_b]
@@ -316,7 +318,12 @@ def _warn_of_restitution(answer: Any, below: Any, above: Any, batch: bool) -> No
     warn(OutOfRangeWarning(f"the observed restitution {text}", code="observed_restitution", value=worst, counts=counts))
 
 
-def _check(cases: Cases, status: Any, before: _Moment) -> None:
+def _as_given(bodies: Mapping[str, Any]) -> Sentences:
+    """How sentences about these vehicles write numbers."""
+    return Sentences([text for body in bodies.values() for text in texts_of(body.given)])
+
+
+def _check(cases: Cases, status: Any, before: _Moment, say: Sentences) -> None:
     """Raise the refusal of a single case, or warn of the refused cases of a batch."""
     if cases.shape is not None:
         if np.any(status > Status.ENERGY_GAIN):
@@ -328,9 +335,9 @@ def _check(cases: Cases, status: Any, before: _Moment) -> None:
         )
     elif status in (Status.SEPARATING, Status.NO_CLOSING):
         speed, error = float(before.closing_speed), 4.0 * cases.eps * float(before.speeds)
-        what = f"closing speed {speed:.6g} m/s along the normal, which must point from A into B"
+        what = f"closing speed {say(speed, 'speed')} along the normal, which must point from A into B"
         if 0.0 < abs(speed) <= error:
-            what = f"closing speed {speed:.3g} m/s, which cannot be told from rounding, up to {error:.3g} m/s"
+            what = f"closing speed {say(speed, 'speed', 3)}, which cannot be told from rounding, up to {say(error, 'speed', 3)}"
         raise NoImpactError(
             f"the bodies did not approach before the impact: {what}; without closing there is nothing to compare the "
             f"separation with",

@@ -10,6 +10,7 @@ import numpy as np
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR, LAWS
 from ..kernels.eccentric import recoil, response
 from ..kernels.status import EPS, Status
+from ..summary import Sentences
 from .common import NUMBERS, forward
 
 _NEARLY_PLASTIC = 0.01  # of the closing speed: what measured motions may still approach after a plastic impact
@@ -49,6 +50,8 @@ class End:
         incomplete: bool,
     ) -> None:
         self.numbers = numbers
+        # How messages write numbers.
+        self.say = Sentences()
         self.kind, self.rule, self.law, self.pinned, self.incomplete = kind, rule, law, pinned, incomplete
         self.known, self.bound = numbers[kind], numbers[rule]
         # Whether all that the rule allows is sticking, and whether it allows it at all.

@@ -31,6 +31,7 @@ from ..kernels.status import Status
 from ..provenance import Reconstruction
 from ..reading import ArgumentReader
 from ..solving import error_of
+from ..summary import Sentences
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle, moved
 from ..warning import warn_of_cases
@@ -174,6 +175,7 @@ def planar(
     pinned = a_after.pivot is not None, b_after.pivot is not None
     with np.errstate(all="ignore"):
         end = End(arrays, kind, inputs.rule, inputs.law or BRACH, pinned, cases.eps, incomplete)
+        end.say = Sentences((*inputs.texts, *reader.texts.values()))
         return _answer(cases, end, replace(inputs, given={**reader.texts, **(inputs.given or {})}), regime, on_failure)
 
 
@@ -268,17 +270,18 @@ def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
         most = float(np.max(np.where(pressed, end.approach, 0.0)))
         what = "the contact points still approach after the impact"
         taken = "taken as 0, a plastic impact, and the motions after changed by as much"
-        text = f"{cases.how_many(pressed)}{what}, by up to {most:.3g} m/s: {taken}"
+        text = f"{cases.how_many(pressed)}{what}, by up to {end.say(most, 'speed', 3)}: {taken}"
         warning: CollisionsWarning = OutOfRangeWarning(text, code="nearly_plastic", approach=most)
         warn_of_cases(warning, {f"{what}, by no more than rounding: {taken}": cases.number(pressed)})
     if np.any(nearly):
         low, high = end.slip_range()
         single = cases.shape is None
-        where = _interval(float(low), float(high), " m/s") if single else "in a wide range"
+        where = _interval(float(low), float(high), end.say) if single else "in a wide range"
         which = "is that end of the range" if single and np.isinf(high - low) else "follows the sign of that slip"
         least = float(np.min(np.where(nearly, abs(end.slip), np.inf)))
         text = (
-            f"{cases.how_many(nearly)}the slip after the impact, {least:.3g} m/s, is so small that it may be none: then the "
+            f"{cases.how_many(nearly)}the slip after the impact, "
+            f"{end.say(least, 'speed', 3)}, is so small that it may be none: then the "
             f"contact stuck, and the slip before was anything {where}. The answer {which}; carry all digits, or decide with "
             f"impulse_ratio= of either sign"
         )
@@ -289,11 +292,12 @@ def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
         warn_of_cases(warning, {sentence: cases.number(nearly)})
 
 
-def _interval(low: float, high: float, unit: str = "") -> str:
-    """An interval in words; "" for all numbers."""
+def _interval(low: float, high: float, say: Sentences | None = None) -> str:
+    """An interval in words, of speeds where it is said how they are written; "" for all numbers."""
+    least, most = (f"{end:.4g}" if say is None else say(end, "speed", 4) for end in (low, high))
     if math.isinf(low):
-        return "" if math.isinf(high) else f"below {high:.4g}{unit}"
-    return f"above {low:.4g}{unit}" if math.isinf(high) else f"between {low:.4g} and {high:.4g}{unit}"
+        return "" if math.isinf(high) else f"below {most}"
+    return f"above {least}" if math.isinf(high) else f"between {least} and {most}"
 
 
 def _refusal(status: int, end: End, regime: str | None, regimes: list[str], solutions: tuple[Impact, ...]) -> CollisionsError:
@@ -302,7 +306,8 @@ def _refusal(status: int, end: End, regime: str | None, regimes: list[str], solu
     match status:
         case Status.AMBIGUOUS_INVERSE:
             each = " or ".join(
-                f"{how} with impulse ratio {impact.impulse_ratio:.4g} from a closing speed of {impact.closing_speed:.6g} m/s"
+                f"{how} with impulse ratio {impact.impulse_ratio:.4g} from a closing speed of "
+                f"{end.say(impact.closing_speed, 'speed')}"
                 for how, impact in zip(regimes, solutions, strict=True)
             )
             deciding = " or ".join(f"regime={how!r}" for how in regimes if regimes.count(how) == 1)
@@ -352,7 +357,8 @@ def _stuck(end: End, slip: float, ends: int) -> str:
     # At rest the slip before is lost under the other law too.
     other = f", or law={KUDLICH_SLIBAR!r} if that is the model" if end.law == BRACH and abs(end.separation) > end.noise else ""
     return (
-        f"the contact ended without slip (slip after {slip:.3g} m/s, no more than rounding leaves), and under {end.law!r} any "
+        f"the contact ended without slip (slip after "
+        f"{end.say(slip, 'speed', 3)}, no more than rounding leaves), and under {end.law!r} any "
         f"slip before may end so: the motion across the normal is lost. {held}What decides is impulse_ratio=, the tangential "
         f"over the normal impulse{f' ({allowed})' if allowed else ''}{other}"
     )
@@ -363,21 +369,26 @@ def _not_parting(end: End, separation: float) -> str:
     if end.kind == "restitution" and abs(separation) <= rounding:
         return (
             f"whether the contact points part after the impact cannot be told from rounding: separation speed "
-            f"{separation:.3g} m/s, of which rounding may be {rounding:.3g} m/s. The restitution says nothing of the closing "
+            f"{end.say(separation, 'speed', 3)}, of which rounding may be "
+            f"{end.say(rounding, 'speed', 3)}. The restitution says nothing of the closing "
             f"speed then; give {_instead(end)} instead"
         )
     why = f"; for a plastic impact give {_instead(end)}"
     if end.kind != "restitution":
-        why = f", and more than a hundredth of the closing speed of {float(end.closing):.6g} m/s; check the motions after"
+        why = (
+            f", and more than a hundredth of the closing speed of "
+            f"{end.say(float(end.closing), 'speed')}; check the motions after"
+        )
     return (
-        f"the contact points do not part after the impact: separation speed {separation:.6g} m/s along the normal, which must "
+        f"the contact points do not part after the impact: separation speed "
+        f"{end.say(separation, 'speed')} along the normal, which must "
         f"point from A into B{why}"
     )
 
 
 def _contradiction(end: End, separation: float, slip: float, regime: str | None) -> str:
     """The reason why no origin fits, and a remedy."""
-    here = f"separation speed {separation:.6g} m/s, slip after {slip:.6g} m/s"
+    here = f"separation speed {end.say(separation, 'speed')}, slip after {end.say(slip, 'speed')}"
     given, known, bound = f"{end.rule}={float(end.bound):g}", float(end.known), float(end.bound)
     free = "give a finite friction=, or impulse_ratio="
     origins = end.origins(None)
@@ -390,12 +401,14 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
         )
     if end.always_sticks():
         return (
-            f"with this {end.rule} a contact under {end.law!r} ends without slip, but the slip after is {slip:.6g} m/s; if "
+            f"with this {end.rule} a contact under {end.law!r} ends without slip, but the slip after is "
+            f"{end.say(slip, 'speed')}; if "
             f"that is an error of measurement, the contact stuck and its motion across the normal is lost; {free}"
         )
     if end.kind == "closing_speed" and separation > known:
         return (
-            f"the contact points part faster than they met: {here}, closing_speed={known:.6g} m/s; give at least the "
+            f"the contact points part faster than they met: {here}, closing_speed="
+            f"{end.say(known, 'speed')}; give at least the "
             f"separation speed, or restitution= instead"
         )
     if end.always_sticks(KUDLICH_SLIBAR):
@@ -414,10 +427,13 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
         least = min((end.elastic_loss(ratio) for ratio in ratios if either or ratio * slip <= 0.0), default=0.0)
         if least > known:
             return (
-                f"energy_loss={known:.6g} J is less than an impact with {given} loses that ends so ({here}); give at least "
-                f"{least:.7g} J, or restitution= or closing_speed= instead"
+                f"energy_loss="
+                f"{end.say(known, 'energy')} is less than an impact with {given} loses that ends so ({here}); give at least "
+                f"{end.say(float(least), 'energy', 7)}, or restitution= or closing_speed= instead"
             )
+    kind = {"energy_loss": "energy", "closing_speed": "speed"}.get(end.kind, "number")
     return (
-        f"no motion before ends so under {end.law!r} with {given} and {end.kind}={known:g}: {here}; check the normal and the "
+        f"no motion before ends so under {end.law!r} with {given} and {end.kind}="
+        f"{end.say(known, kind)}: {here}; check the normal and the "
         f"motions after{', or give friction= or impulse_ratio=' if end.rule == CRITICAL_FRACTION else ''}"
     )

@@ -18,10 +18,9 @@ from ..impact import Impact
 from ..inputs import Inputs, Law, check_flag, read_inputs
 from ..kernels.contact_laws import BRACH, LAWS
 from ..kernels.status import EPS, Status
-from ..quantities import show
 from ..reading import ArgumentReader
 from ..solving import error_of, warn_of_refusals
-from ..summary import said
+from ..summary import Sentences, said
 from ..units import Input, Pair
 from ..vehicle import Vehicle, missing, moved
 from ..warning import warn_of_cases, warn_of_samples
@@ -396,7 +395,7 @@ def _answers(
     for root, there in found or [(NO_ROOT, nowhere)]:
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
-            raise _refusal(scene, status, known, function, forward_only)
+            raise _refusal(scene, status, known, function, forward_only, Sentences(inputs.texts))
         origin = cases.provenance("speeds", scene.names, root.condition, count)
         impact = run_forward(partial(inputs_of, root), status, origin, None if cases.shape is None else "nan")
         for label, speed in zip("AB", root[:2], strict=True):
@@ -434,11 +433,11 @@ def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> N
 
 
 def _refusal(
-    scene: Scene, status: int, known: dict[str, Any], function: RestitutionOf | None, forward_only: bool
+    scene: Scene, status: int, known: dict[str, Any], function: RestitutionOf | None, forward_only: bool, say: Sentences
 ) -> CollisionsError:
     """The error for a single case without a solution."""
     names = " and ".join(known)
-    values = {name: f"{name} = {show(value, 'J' if name == 'energy_loss' else 'm/s')}" for name, value in known.items()}
+    values = {name: f"{name} = {say(value, 'energy' if name == 'energy_loss' else 'speed')}" for name, value in known.items()}
     speed_is_known = scene.kinds[0].startswith("speed")
     forward = ", none of them backwards," if forward_only else ""
     (ax, ay), (bx, by) = ([scene.numbers[f"course_{label}[{i}]"] for i in range(2)] for label in "ab")

@@ -36,6 +36,7 @@ from .render import Sheet, given_as, plain
 _COMES_OUT, _TOGETHER = 1e-6, 0.02
 # Components of delta-V are measured: if more are given than are needed, they are met only as well as they agree.
 _RECORDED = 0.3
+_DEGREE = math.degrees(1.0)
 # What the damage shows, by the option that says it: what it is of, in words, and its kind.
 EVIDENCE = {
     "crush_energy": ("damage", "crush energy, both vehicles", "energy"),
@@ -253,8 +254,10 @@ def momentum(sheet: Sheet, solution: MomentumSolution, options: Mapping[str, Any
     for answer, row in solution.sensitivity.items():
         for name, value in row.items():
             kind = {"mass": "mass", "speed": "speed", "course": "angle", "outside": "impulse"}[name.partition("_")[0]]
-            by = value * of_speed / system.scale(kind)
-            moved = f"{f'{by:+.3g}' if by else '0'} {system.label('speed')} per {typeset(system.label(kind))}"
+            # Nobody errs by a radian: per degree in every system.
+            scale, unit = (_DEGREE, "°") if kind == "angle" else (system.scale(kind), typeset(system.label(kind)))
+            by = value * of_speed / scale
+            moved = f"{f'{by:+.3g}' if by else '0'} {system.label('speed')} per {unit}"
             rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
     sheet.table(rows)
 
