@@ -70,7 +70,7 @@ def crashes(count: int, seed: int) -> list[Crash]:
         warnings.simplefilter("ignore", col.CollisionsWarning)
         impact = col.eccentric(a, b, RESTITUTION.quantile(draw(size=n)), **contact, on_failure="nan")
         ways = [
-            travel.simulate(side.after, friction=friction, lock=lock, moments=301)
+            travel.simulate(side.after, travel.Tyres(friction, lock, wheelbase=2.7, track=1.5), moments=301)
             for side, lock in zip((impact.a, impact.b), locks, strict=True)
         ]
     lengths = [np.sum(np.hypot(np.diff(way.x, axis=0), np.diff(way.y, axis=0)), axis=0) for way in ways]

@@ -565,9 +565,14 @@ def run_out():
     scene_axes(ax, (11.5, -3.2), 1.5)
 
     crab = np.linspace(-180.0, 180.0, 721)
+
+    def braked(lock, angle):
+        along = np.minimum(lock, np.abs(np.cos(angle)))
+        return along * np.abs(np.cos(angle)) + np.sqrt(1.0 - along**2) * np.abs(np.sin(angle))
+
     for part, style in ((0.0, (0, (1, 1.5))), (0.3, "-"), (0.6, (0, (5, 2))), (1.0, (0, (7, 2, 1, 2)))):
         angle = np.radians(crab)
-        drag.plot(crab, np.hypot(np.sin(angle), part * np.cos(angle)), color=INK, lw=1.5, ls=style, label=f"lock {part:g}")
+        drag.plot(crab, braked(part, angle), color=INK, lw=1.5, ls=style, label=f"lock {part:g}")
     for angle, found, mu in zip(run.crab_angles, run.drags, friction, strict=True):
         drag.plot(np.degrees(angle), found / mu, "o", color=B, ms=7, zorder=5)
     drag.set(xlim=(-180, 180), ylim=(0, 1.05), xticks=range(-180, 181, 60))

@@ -81,7 +81,7 @@ def test_every_status_says_its_family():
     families = {
         "impact": "SEPARATING GRAZING NO_CLOSING",
         "input": "OUT_OF_RANGE NOT_FINITE NOT_POSITIVE BAD_RESTITUTION BAD_FRICTION BAD_FRACTION ZERO_NORMAL PINNED_INFINITE "
-        "PINNED_VELOCITY SPINNING TRANSVERSE NEGATIVE_SIZE",
+        "PINNED_VELOCITY SPINNING TRANSVERSE NEGATIVE_SIZE WHEEL_LIFTS",
     }
     of = {name: family for family, names in families.items() for name in names.split()}
     for status in Status:

@@ -7,6 +7,7 @@ import warnings
 import pytest
 
 import collisions as col
+from collisions import travel
 from collisions.derivation import explain
 from collisions.diagnostics import LIMITS
 from collisions.inputs import ARGUMENTS, CRUSH_UNITS, UNITS
@@ -14,6 +15,7 @@ from collisions.kernels.contact_laws import LAWS, RULES
 
 # Of every input two values, told apart in print from all other numbers, and what has to be given with it to time_resolved.
 LASTING = {"duration": 0.1013}
+TYRES = travel.Tyres(0.6713, (0.1719, 0.2317, 0.3137, 0.4179), 2.7139, 1.5317, steer=0.0917, cornering=8.317, height=0.5179)
 CRUSH = (41237.0, 612370.0, 1.5173)
 VALUES = {
     "restitution": (0.2371, 0.3719, LASTING),
@@ -82,6 +84,8 @@ def asked(solver, law, rule, name, value):
         del found["duration"]
     if solver == "time_resolved" or (solver == "solve" and name == "drag"):
         found |= VALUES[name][2]
+    if solver == "eccentric" and name == "duration":
+        found["tyres_a"] = TYRES
     return found | {name: value}
 
 
@@ -173,6 +177,35 @@ def test_an_input_is_used_or_refused(solver, law, rule, name):
         return
     assert results(found) != results(beside), f"{solver} does not use {name}"
     check_said(found, name, parts(one), beside)
+
+
+@pytest.mark.parametrize("label", ["a", "b"])
+@pytest.mark.parametrize("name", TYRES.named)
+@pytest.mark.parametrize(
+    "solver",
+    ["eccentric", pytest.param("solve", marks=pytest.mark.slow), pytest.param("time_resolved", marks=pytest.mark.slow)],
+)
+def test_every_number_of_tyres_is_used_and_said(solver, name, label):
+    """Both vehicles move and are steered, so that no force of a wheel is 0."""
+    value = TYRES.named[name]
+    changed = {"lock": [0.777 if name == f"lock[{i}]" else lock for i, lock in enumerate(TYRES.lock)]}
+    moved = TYRES.replace(**(changed if "lock" in name else {name: 1.139 * value}))
+    arguments = contact(solver, "brach", "friction") | LASTING
+    a, b = bodies(solver)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        found, beside = (
+            getattr(col, solver)(a, b.replace(vx=-3.0, vy=4.0, yaw_rate=0.5), **arguments, **{f"tyres_{label}": one})
+            for one in (TYRES, moved)
+        )
+    assert results(found) != results(beside)
+    for form in ("text", "markdown"):
+        assert not printed(explain(found, units="si", form=form), (value,)), (name, form)
+    page = col.report(found, form="markdown", units="si", figures=False)
+    assert not printed(page.partition("## Record")[0], (value,))
+    record = found.to_dict()
+    assert col.Impact.from_dict(json.loads(json.dumps(record))) == found
+    assert not printed(json.dumps(record["inputs"]), (value,))
 
 
 @pytest.mark.parametrize("name", ["point", "duration", "drag", "friction"])

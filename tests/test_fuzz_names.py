@@ -1023,28 +1023,39 @@ def speed_error(points: list[Any], path: dict[str, Any]) -> float:
     return math.sqrt(total)
 
 
-@fuzzes("travel.simulate", "travel.SimulatedPath", "travel.SimulatedPath.summary", "plot.path", share=0.2)
+@fuzzes(
+    "travel.Tyres", "travel.Tyres.replace", "travel.Tyres.summary", "travel.simulate", "travel.SimulatedPath",
+    "travel.SimulatedPath.at", "travel.SimulatedPath.summary", "plot.path", share=0.2,
+)  # fmt: skip
 def test_simulated_travel(case: Case) -> None:
     """One vehicle or many from separation to rest: at rest, or refused."""
     mass = case.number("mass")
     # A lorry with the yaw inertia of a wheelbarrow takes ten thousand steps.
     body = vehicle(case, mass=mass, yaw_inertia=mass * case.uniform(0.5, 4.0))
-    ground: dict[str, Any] = {"friction": case.value("drag"), "lock": case.option(case.value("lock"), [case.value("lock")] * 4)}
+    given: dict[str, Any] = {"friction": case.value("drag"), "lock": case.option(case.value("lock"), [case.value("lock")] * 4)}
+    size = case.choice(("wheelbase", "wheelbase", "distance"))
+    given |= {"wheelbase": case.value(size), "track": case.value(size)}
     if case.maybe(0.3):
-        size = case.choice(("wheelbase", "wheelbase", "distance"))
-        ground |= {"steer": case.value("heading"), "wheelbase": case.value(size), "track": case.value(size)}
+        given |= {"steer": case.value("heading"), "height": case.option(None, 0.4)}
+    tyres = case.call("travel.Tyres", travel.Tyres, **case.spoil(given))
+    if isinstance(tyres, travel.Tyres):
+        case.must("travel.Tyres.replace", tyres.replace)
+        assert str(case.must("travel.Tyres.summary", tyres.summary, case.choice(UNIT_SYSTEMS)))
+        case.look(tyres)
+    ground: dict[str, Any] = {}
     if case.maybe(0.2):
         corners = [case.pair("x") for _ in range(case.choice((2, 3, 3, 4, 5)))]
         ground["surfaces"] = case.option([(corners, case.value("drag"))], case.garbage())
     if case.maybe(0.2):
-        ground["cornering"] = case.option(case.uniform(2.0, 30.0), case.value("drag"))
-    ground |= {"moments": case.option(2, 9), "limit": case.option("5 s", "60 s", "60 s")}
+        ground["slope"] = case.option((0.02, "1 %"), case.garbage())
+    ground |= {"moments": case.option(2, 9), "tolerance": case.option(1e-4, 1e-5)}
     # What hardly slows takes ten thousand steps, and is refused for it as after fifteen hundred.
     with mock.patch.object(motion_of_wheels, "_MOST_STEPS", 10_000 if case.maybe(0.01) else 1_500):
-        found = case.call("travel.simulate", travel.simulate, body, **case.spoil(ground))
+        found = case.call("travel.simulate", travel.simulate, body, tyres, **case.spoil(ground))
     if isinstance(found, travel.SimulatedPath):
         assert np.all(np.diff(found.time, axis=0)[~np.isnan(np.diff(found.time, axis=0))] >= 0.0)
         assert str(case.must("travel.SimulatedPath.summary", found.summary, case.choice(UNIT_SYSTEMS)))
+        case.must("travel.SimulatedPath.at", found.at, 0.3)
         case.look(found, frozenset({"travel.SimulatedPath.marks", "Vehicle.course", "Vehicle.yaw_inertia"}))
         if case.maybe(0.2):
             outlines = {f"outline_{v}": outline(case) if case.maybe(0.3) else None for v in "ab"}

@@ -14,6 +14,7 @@ from test_travel import slide
 TENTH = 0.1 / math.sqrt(3.0)  # standard deviation of a reading that may be off by 0.1 m, evenly
 ERRORS = {"point_error": TENTH, "heading_error": "3 deg"}
 GROUND = {"friction": 0.7, "lock": 0.2}
+TYRES = travel.Tyres(0.7, 0.6, wheelbase=2.7, track=1.5)
 NAMES = ("speed", "course", "yaw_rate")
 TRUTH = np.array([18.0, 0.4, 3.0])
 
@@ -119,12 +120,12 @@ def test_windows_and_errors_of_a_batch(body):
 def test_a_fast_yaw_is_warned_of():
     """Above 0.5 of the speed over 1.5 m; the drag is then that of wheels which slip less than these did, as simulate shows."""
     car = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, x=0.0, y=0.0, heading=0.0, vx=12.0, yaw_rate=5.0)
-    way = travel.simulate(car, friction=0.7, lock=0.6, moments=31)
+    way = travel.simulate(car, TYRES, moments=31)
     points, headings = np.column_stack([way.x, way.y])[::2], way.heading[::2]
     with pytest.warns(col.OutOfRangeWarning, match=r"the yaw alone makes the wheels slip at more than 0\.5 of the speed"):
         run = travel.path(points, headings, friction=0.7, lock=0.6)
     assert 1.03 * 12.0 < run.speed < 1.15 * 12.0
-    slower = travel.simulate(car.replace(yaw_rate=1.0), friction=0.7, lock=0.6, moments=31)
+    slower = travel.simulate(car.replace(yaw_rate=1.0), TYRES, moments=31)
     run = travel.path(np.column_stack([slower.x, slower.y])[::2], slower.heading[::2], friction=0.7, lock=0.6)
     assert run.speed == pytest.approx(12.0, rel=0.01)
 

@@ -867,7 +867,7 @@ def test_labels_of_random_scenes_leave_everything_else_alone(seed):
         if picture == "scene":
             plot.scene(impact, **OUTLINES, axes=axes, units=rng.choice(SYSTEMS))
         else:
-            ways = [travel.simulate(side.after, friction=0.7, lock=0.4) for side in (impact.a, impact.b)]
+            ways = [travel.simulate(side.after, travel.Tyres(0.7, 0.4, 2.7, 1.5)) for side in (impact.a, impact.b)]
             plot.path(*ways, **OUTLINES, axes=axes, units=rng.choice(SYSTEMS))
         assert covering(axes)[1] == []
 
@@ -1630,7 +1630,9 @@ def test_evidence_that_cannot_be_drawn(two_speeds):
 @pytest.mark.parametrize("units", SYSTEMS)
 def test_the_way_to_rest_is_drawn_where_it_was(units):
     """Way, marks and both outlines in the units of the axes; the one at rest is filled and stands where the vehicle rests."""
-    ways = [travel.simulate(side.after, friction=0.7, lock=0.4) for side in (IMPACTS["sticking"].a, IMPACTS["sticking"].b)]
+    ways = [
+        travel.simulate(side.after, travel.Tyres(0.7, 0.4, 2.7, 1.5)) for side in (IMPACTS["sticking"].a, IMPACTS["sticking"].b)
+    ]
     axes = plot.path(*ways, outline_a=(4.4, 1.8), outline_b=(4.1, 1.7), units=units)
     metre = UREG("1 m").m_as(SHOWN[units]["length"])
     drawn = {}
@@ -1656,17 +1658,17 @@ def test_the_way_to_rest_is_drawn_where_it_was(units):
 
 def test_a_way_is_drawn_in_the_units_of_its_vehicle():
     car = col.Vehicle(mass="3300 lb", yaw_inertia="57000 lb*ft**2", x="0 ft", y="0 ft", heading=0, vx="30 mph")
-    way = travel.simulate(car, friction=0.7, lock=0.3)
+    way = travel.simulate(car, travel.Tyres(0.7, 0.3, 2.7, 1.5))
     assert plot.path(way).get_xlabel() == "x [ft]"
     assert plot.path(way, units="metric").get_xlabel() == "x [m]"
 
 
 def test_a_way_that_cannot_be_drawn_and_one_without_length():
     """Another object, a batch, an outline without a path; a vehicle that stands is shown with room about it."""
-    still = travel.simulate(A.replace(vx=0.0), friction=0.7, lock=1.0)
+    still = travel.simulate(A.replace(vx=0.0), travel.Tyres(0.7, 1.0, 2.7, 1.5))
     axes = plot.path(still)
     assert axes.get_xlim()[1] - axes.get_xlim()[0] >= 4.0
-    many = travel.simulate(A.replace(vx=np.array([3.0, 4.0])), friction=0.7, lock=1.0)
+    many = travel.simulate(A.replace(vx=np.array([3.0, 4.0])), travel.Tyres(0.7, 1.0, 2.7, 1.5))
     for arguments, options, code, said in (
         ((IMPACTS["sticking"],), {}, "bad_option", "travel.simulate"),
         ((still, A), {}, "bad_option", "path_b"),

@@ -98,6 +98,7 @@ def together(found, moves):
 def test_rounding_is_within_its_promise(monkeypatch, family, moves):
     """Every contact by itself, and as a case of a block of arrays."""
     monkeypatch.setattr("collisions.contact_time._FEW", 0)
+    monkeypatch.setattr("collisions.kernels.time_resolved._LEAST", 0)
     found = contacts(family, moves)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.CollisionsWarning)

@@ -187,7 +187,8 @@ def path(**numbers: Any) -> Any:
 
 def simulate(**numbers: Any) -> Any:
     vehicle = col.Vehicle(**{name: numbers.pop(name) for name in (*BODY_AT_REST, "vx", "vy", "yaw_rate")})
-    rest = travel.simulate(vehicle, **numbers, moments=2).rest
+    slope = numbers.pop("slope[0]", 0.0), numbers.pop("slope[1]", 0.0)
+    rest = travel.simulate(vehicle, travel.Tyres(**numbers), slope=slope, moments=2).rest
     return {"x": rest.x, "y": rest.y, "heading": rest.heading, "speed": rest.speed}
 
 
@@ -448,10 +449,11 @@ def calls() -> Iterator[tuple[str, Call]]:
     ground = {"friction": 0.7, "lock": 0.3, "grade": 0.02, "end_speed": 2.0}
     yield "path", Call(path, {**places, **ground}, ({"heading[1]": 4.0}, {"x[1]": 0.0, "y[1]": 0.0}, {"friction": 1e308}))
     car = {"mass": 1500.0, "yaw_inertia": 2400.0, "x": 1.0, "y": 2.0, "heading": 0.3, "vx": 6.0, "vy": 1.0, "yaw_rate": 1.0}
-    wheels = {"friction": 0.7, "lock": 1.0, "steer": 0.1, "limit": 5.0}
+    size = {"wheelbase": 2.7, "track": 1.5, "height": 0.5}
+    wheels = {"friction": 0.7, "lock": 1.0, "steer": 0.1, **size, "slope[0]": 0.01, "slope[1]": 0.0}
     yield (
         "simulate",
-        Call(simulate, {**car, **wheels}, ({"friction": 0.0}, {"limit": 0.1}, {"mass": math.inf})),
+        Call(simulate, {**car, **wheels}, ({"friction": 0.0}, {"slope[0]": 0.9}, {"height": 2.0}, {"mass": math.inf})),
     )
     yield (
         "reference.restitution",

@@ -6,67 +6,105 @@ import pickle
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import collisions as col
 from collisions import reconstruct, travel
+from collisions.travel import motion
 
 G = travel.GRAVITY
 CAR = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, x=0.0, y=0.0, heading=0.0, vx=14.0)
-WHEELS = [(1.35, 0.75), (1.35, -0.75), (-1.35, 0.75), (-1.35, -0.75)]
 ARM = math.hypot(1.35, 0.75)
 # The promise of the docstring, for the place of rest over the way and for the heading [rad].
 PROMISE = 1e-3
 
 
-def tyre(along, across, lock, friction, cornering=9.5):
-    """Force over load of one wheel, as the docstring has it, by the angle of slip; nothing where the wheel stands."""
-    speed = math.hypot(along, across)
-    if speed == 0.0:
-        return 0.0, 0.0
-    most = abs(across) / math.hypot(across, lock * along) if across else 0.0
-    z = min(1.0, cornering * abs(math.tan(math.atan2(across, abs(along)))) / (3.0 * friction))
-    if 1.0 - (1.0 - z) ** 3 < most:
-        share = 1.0 - (1.0 - z) ** 3
-        return -friction * lock * math.sqrt(1.0 - share**2) * math.copysign(1.0, along), -friction * share * math.copysign(
-            1.0, across
-        )
-    drag = math.hypot(across, lock * along)
-    return -friction * lock**2 * along / drag, -friction * across / drag
+STANDING = 0.02
 
 
-def accelerations(state, lock, steer, friction, mass=1500.0, inertia=2400.0):
-    """Of the centre of mass and in yaw, wheel by wheel; ``friction`` a function of the place of a wheel."""
+def counted(speed):
+    """The slip that a wheel counts with, as the docstring has it; speeds are over that of the vehicle."""
+    return np.where(speed < STANDING, (STANDING + speed**2 / STANDING) / 2.0, speed)
+
+
+def accelerations(state, tyres, ground, slope=(0.0, 0.0), mass=1500.0, inertia=2400.0):
+    """Of the centre of mass and in yaw, by angles of slip; ``ground`` gives the friction at places of the wheels."""
     vx, vy, w, x, y, heading = state
-    c, s = math.cos(heading), math.sin(heading)
-    fx = fy = moment = 0.0
-    for i, (a, b) in enumerate(WHEELS):
-        turned = steer if i < 2 else 0.0
-        rx, ry = c * a - s * b, s * a + c * b
-        ux, uy = vx - w * ry, vy + w * rx
-        ct, st = math.cos(heading + turned), math.sin(heading + turned)
-        f, q = tyre(ct * ux + st * uy, ct * uy - st * ux, lock[i], friction(x + rx, y + ry))
-        px, py = (f * ct - q * st) * mass * G / 4, (f * st + q * ct) * mass * G / 4
-        fx, fy, moment = fx + px, fy + py, moment + rx * py - ry * px
-    return fx / mass, fy / mass, moment / inertia
+    length, width = tyres["wheelbase"], tyres["track"]
+    a, b = np.array([1, 1, -1, -1]) * length / 2, np.array([1, -1, 1, -1]) * width / 2
+    steer = heading + np.array([1, 1, 0, 0]) * tyres.get("steer", 0.0)
+    rx, ry = a * math.cos(heading) - b * math.sin(heading), a * math.sin(heading) + b * math.cos(heading)
+    speed = math.sqrt(vx**2 + vy**2 + (w * math.hypot(length, width) / 2) ** 2)
+    ux, uy = (vx - w * ry) / speed, (vy + w * rx) / speed
+    along, across = np.cos(steer) * ux + np.sin(steer) * uy, np.cos(steer) * uy - np.sin(steer) * ux
+    mu, lock = ground(x + rx, y + ry), np.broadcast_to(tyres["lock"], 4)
+    loads, height = np.ones(4), tyres.get("height", 0.0)
+    for _ in range(100 if height else 1):
+        brake = np.where((lock >= 1.0) | (mu == 0.0), 1.0, lock * tyres["friction"] / np.maximum(mu * loads, 1e-9))
+        x_part = np.clip(along / counted(np.hypot(along, across)), -brake, brake)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            z = np.fmin(1.0, tyres.get("cornering", 9.5) * np.abs(across / along) / (3.0 * mu))
+        rest = np.sqrt(np.maximum(0.0, 1.0 - x_part**2))
+        most = np.minimum(np.minimum(rest, 1.0 - (1.0 - z) ** 3), np.abs(across) / counted(np.abs(across)))
+        y_part = np.sign(across) * most
+        px = -mu * loads * (np.cos(steer) * x_part - np.sin(steer) * y_part) / 4
+        py = -mu * loads * (np.sin(steer) * x_part + np.cos(steer) * y_part) / 4
+        ahead, aside = ((math.cos(turned) * px + math.sin(turned) * py).sum() for turned in (heading, heading + math.pi / 2))
+        before = loads
+        loads = 1.0 - 2.0 * height * (np.sign(a) * ahead / length + np.sign(b) * aside / width)
+        if np.max(np.abs(loads - before)) < 1e-9:
+            break
+    yaw = float((rx * py - ry * px).sum()) * mass * G / inertia
+    return (px.sum() - slope[0]) * G, (py.sum() - slope[1]) * G, yaw
 
 
-def integrated(start, lock, steer=0.0, friction=lambda x, y: 0.7, step=1e-3):
-    """Classical Runge-Kutta in seconds; shorter steps where the motion is slow. At 1e-3 m/s it counts as rest."""
+def integrated(start, tyres, surfaces=None, slope=(0.0, 0.0), rtol=1e-8, nearest=0.25):
+    """scipy's integration over time divided by speed, until 1e-3 of the speed is left; place and heading of rest, way, time.
 
-    def rates(state):
-        return np.array([*accelerations(state, lock, steer, friction), *state[:3]])
+    What is left, a millionth of the way, goes on straight. ``nearest`` [m] is the longest way in a step.
+    """
+    reach = math.hypot(tyres["wheelbase"], tyres["track"]) / 2
 
-    state, time, track = np.array(start, float), 0.0, []
-    while (size := math.hypot(state[0], state[1], ARM * state[2])) > 1e-3:
-        track.append((time, *state))
-        h = min(step, 3e-3 * size)
-        k1 = rates(state)
-        k2 = rates(state + h / 2 * k1)
-        k3 = rates(state + h / 2 * k2)
-        k4 = rates(state + h * k3)
-        state = state + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-        time += h
-    return state, time, np.array(track)
+    def ground(px, py):
+        mu = np.full(4, tyres["friction"])
+        for corners, other in reversed(surfaces or []):
+            (x0, y0), (x1, y1) = np.min(corners, axis=0), np.max(corners, axis=0)
+            mu = np.where((px > x0) & (px < x1) & (py > y0) & (py < y1), other, mu)
+        return mu
+
+    def speed_of(state):
+        return math.sqrt(state[0] ** 2 + state[1] ** 2 + (reach * state[2]) ** 2)
+
+    first = speed_of(start)
+
+    def rates(_, state):
+        size = speed_of(state)
+        forced = accelerations(state[:6], tyres, ground, slope)
+        # Over the first speed, so that one tolerance does for all.
+        return size * np.array([*forced, *state[:3], 1.0, math.hypot(state[0], state[1])]) / first
+
+    def slow(_, state):
+        return speed_of(state) - 1e-3 * first
+
+    slow.terminal = True
+    longest = nearest / first if surfaces else np.inf
+    scale = np.array([first, first, first / reach, first**2 / G, first**2 / G, 1.0, first / G, first**2 / G])
+    end = solve_ivp(
+        rates, (0.0, 1e4), [*start, 0.0, 0.0], rtol=rtol, atol=1e-2 * rtol * scale, max_step=longest, events=slow, method="RK45"
+    )
+    assert end.status == 1
+    state = end.y[:, -1]
+    forced = np.array(accelerations(state[:6], tyres, ground, slope))
+    weights = np.array([1.0, 1.0, reach**2])
+    left = -(weights * state[:3] ** 2).sum() / (weights * state[:3] * forced).sum()
+    return state[3:6] + 0.5 * left * state[:3], state[7], state[6] + left, end
+
+
+def drive(vehicle, *, friction=0.7, lock=1.0, wheelbase=2.7, track=1.5, surfaces=None, slope=(0, 0), **options):
+    """``simulate`` with the tyres of a car."""
+    rest = {name: options.pop(name) for name in ("steer", "cornering", "height") if name in options}
+    tyres = travel.Tyres(friction, lock, wheelbase, track, **rest)
+    return travel.simulate(vehicle, tyres, surfaces=surfaces, slope=slope, **options)
 
 
 def moving(vx, vy, yaw_rate, heading=0.0):
@@ -79,7 +117,7 @@ def moving(vx, vy, yaw_rate, heading=0.0):
 @pytest.mark.parametrize("heading", [0.0, 0.7, math.pi / 2, -2.5])
 def test_a_straight_skid_on_locked_wheels(heading):
     """Whatever the heading, v**2 / (2 g mu) along the course in v / (g mu); 5e-7 is the force that a slow wheel lacks."""
-    path = travel.simulate(CAR.replace(heading=heading), friction=0.7, lock=1)
+    path = drive(CAR.replace(heading=heading), friction=0.7, lock=1)
     assert path.rest.x == pytest.approx(14.0**2 / (2 * G * 0.7), rel=2e-6)
     assert path.time[-1] == pytest.approx(14.0 / (G * 0.7), rel=2e-6)
     assert path.rest.y == pytest.approx(0.0, abs=1e-9)
@@ -91,7 +129,7 @@ def test_a_straight_skid_on_locked_wheels(heading):
 @pytest.mark.parametrize(("lock", "arm"), [(1.0, ARM), (0.0, 1.35)])
 def test_a_spin_on_the_spot(lock, arm):
     """Locked wheels drag at their arm, free ones, which slide sideways, at half the wheelbase: w**2 I / (2 mu m g arm)."""
-    path = travel.simulate(moving(0.0, 0.0, -5.0), friction=0.7, lock=lock)
+    path = drive(moving(0.0, 0.0, -5.0), friction=0.7, lock=lock)
     assert path.rest.heading == pytest.approx(-25.0 * 2400.0 / (2 * 0.7 * 1500.0 * G * arm), rel=2e-6)
     assert path.time[-1] == pytest.approx(5.0 * 2400.0 / (0.7 * 1500.0 * G * arm), rel=2e-6)
     assert math.hypot(path.rest.x, path.rest.y) < 1e-9
@@ -101,7 +139,7 @@ def test_a_spin_on_the_spot(lock, arm):
 def test_without_yaw_the_drag_is_that_of_path(lock, degrees):
     """A body that cannot turn, at a crab angle where the tyre slides: at first its force along the course is that of ``path``."""
     heading = math.radians(degrees)
-    path = travel.simulate(CAR.replace(heading=heading, yaw_inertia=math.inf), friction=0.7, lock=lock, moments=3001)
+    path = drive(CAR.replace(heading=heading, yaw_inertia=math.inf), friction=0.7, lock=lock, moments=3001)
     slowed = -np.diff(path.x[:3], 2)[0] / path.time[1] ** 2 / G
     run = travel.path([(0, 0), (1, 0)], [heading] * 2, friction=0.7, lock=lock)
     # Second differences of 3000 moments: the acceleration changes by 1e-3 in one of them.
@@ -117,7 +155,7 @@ def test_a_rolling_wheel_recovers_as_fiala_has_it():
     cornering, mu, v = 9.5, 0.7, 10.0
     first = 0.6 * 3 * mu / cornering * v
     start = moving(v, first, 0.0).replace(yaw_inertia=math.inf)
-    path = travel.simulate(start, friction=mu, lock=0.02, limit=600, moments=20_001)
+    path = drive(start, friction=mu, lock=0.02, moments=20_001)
     z = np.linspace(0.1, 0.6, 20_001)
     rate = cornering * G / v * (z - z**2 + z**3 / 3)
     wanted = float(np.sum((1 / rate[1:] + 1 / rate[:-1]) / 2 * np.diff(z)))
@@ -130,69 +168,242 @@ def test_a_rolling_wheel_recovers_as_fiala_has_it():
 # An independent integration, and energy
 
 CASES = {
-    "locked": (13.0, 3.0, 4.0, 0.3, (1.0,) * 4, 0.0),
-    "half": (13.0, -4.0, -3.0, 0.0, (0.4,) * 4, 0.0),
+    "locked": (13.0, 3.0, 4.0, 0.3, 1.0, 0.0),
+    "half": (13.0, -4.0, -3.0, 0.0, 0.4, 0.0),
     "one jammed": (12.0, 2.0, 3.5, -0.4, (1.0, 0.08, 0.08, 0.08), 0.0),
     "steered": (15.0, 0.0, 0.5, 0.0, (0.3, 0.3, 0.15, 0.15), 0.2),
     "backward": (-8.0, 1.0, 2.0, 0.2, (0.2, 0.5, 0.2, 0.5), -0.1),
 }
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", CASES)
-def test_an_independent_integration_comes_to_the_same_rest(name):
-    """Another method in another variable, wheel by wheel: the promised place and heading; on the way 2 mm and 1 mrad."""
-    vx, vy, w, heading, lock, steer = CASES[name]
-    end, time, track = integrated((vx, vy, w, 0.0, 0.0, heading), lock, steer)
-    path = travel.simulate(moving(vx, vy, w, heading), friction=0.7, lock=list(lock), steer=steer)
-    way = float(np.sum(np.hypot(*np.diff(track[:, 4:6], axis=0).T)))
-    assert math.dist((path.rest.x, path.rest.y), end[3:5]) < PROMISE * way
-    assert path.rest.heading == pytest.approx(end[5], abs=PROMISE)
+def scene(number):
+    """A random scene: every kind of lock, steer, area, height and slope."""
+    generator = np.random.default_rng(number)
+    start = [*(generator.uniform(4.0, 16.0) * np.array([1.0, 0.0])), *generator.normal(0.0, [3.0, 2.0])]
+    vx, vy, w = start[0], start[2], start[3]
+    kind = number % 4
+    lock = (
+        float(generator.uniform(0.15, 1.0)), 1.0, generator.choice([0.05, 0.1, 0.4, 1.0], 4), generator.uniform(0.1, 1.0, 4)
+    )[kind]  # fmt: skip
+    tyres = {"friction": float(generator.uniform(0.4, 0.9)), "lock": lock, "wheelbase": 2.6, "track": 1.5}
+    if number % 5 == 1:
+        tyres["steer"] = float(generator.uniform(-0.4, 0.4))
+    if number % 5 == 2:
+        tyres["height"] = float(generator.uniform(0.3, 0.6))
+    if number % 7 == 0:
+        tyres["cornering"] = float(generator.uniform(6.0, 12.0))
+    surfaces = None
+    if number % 3 == 1:
+        x, y = generator.uniform(1.0, 12.0), generator.uniform(-8.0, 0.0)
+        sizes = generator.uniform(1.0, 8.0, 2)
+        corners = [(x, y), (x + sizes[0], y), (x + sizes[0], y + sizes[1]), (x, y + sizes[1])]
+        surfaces = [(corners, float(generator.uniform(0.05, 0.9)))]
+    slope = tuple(generator.uniform(-0.03, 0.03, 2)) if number % 6 == 5 else (0.0, 0.0)
+    return (vx, vy, w, 0.0, 0.0, float(generator.normal())), tyres, surfaces, slope
+
+
+@pytest.mark.parametrize("number", [*range(12), *(pytest.param(i, marks=pytest.mark.slow) for i in range(12, 300))])
+def test_an_independent_integration_comes_to_the_same_rest(number):
+    """scipy's method in another variable, by angles, wheel by wheel: the promised place and heading, for 300 random scenes."""
+    start, tyres, surfaces, slope = scene(number)
+    (x, y, heading), way, time, _ = integrated(start, tyres, surfaces, slope)
+    vehicle = moving(*start[:3], start[5])
+    lock = tyres["lock"] if np.ndim(tyres["lock"]) == 0 else list(tyres["lock"])
+    path = drive(vehicle, **{**tyres, "lock": lock}, surfaces=surfaces, slope=slope)
+    assert math.dist((path.rest.x, path.rest.y), (x, y)) < PROMISE * way
+    assert path.rest.heading == pytest.approx(heading, abs=PROMISE)
     assert path.time[-1] == pytest.approx(time, rel=1e-3)
-    for found, column, within in ((path.x, 4, 2e-3), (path.y, 5, 2e-3), (path.heading, 6, 1e-3)):
-        assert found[:-1] == pytest.approx(np.interp(path.time[:-1], track[:, 0], track[:, column]), abs=within + PROMISE)
 
 
-@pytest.mark.slow
-def test_an_area_of_grass_against_an_independent_integration():
-    """Wheels that leave the road one after the other, onto friction 0.35."""
-    corners = [(6.0, -50.0), (60.0, -50.0), (60.0, 50.0), (6.0, 50.0)]
-    end, _, _ = integrated(
-        (13.0, 1.0, 2.0, 0.0, 0.0, 0.0), (1.0,) * 4, friction=lambda x, y: 0.35 if x > 6.0 else 0.7, step=2e-3
-    )
-    path = travel.simulate(moving(13.0, 1.0, 2.0), friction=0.7, lock=1, surfaces=[(corners, 0.35)])
-    # The other integration steps over the edge, up to 26 mm late, where 0.35 of the friction is lost: 0.1 % of its way.
-    assert math.dist((path.rest.x, path.rest.y), end[3:5]) < 2e-3 * 20.0
-    assert path.rest.heading == pytest.approx(end[5], abs=5e-3)
-    assert path.rest.x > 1.2 * travel.simulate(moving(13.0, 1.0, 2.0), friction=0.7, lock=1).rest.x
+@pytest.mark.parametrize("name", CASES)
+def test_places_and_velocities_on_the_way(name):
+    """Against the same integration: within 2 mm and 1 mrad beside the promise, and velocities within 0.01 m/s; ``at`` too."""
+    vx, vy, w, heading, lock, steer = CASES[name]
+    tyres = {"friction": 0.7, "lock": lock, "wheelbase": 2.7, "track": 1.5, "steer": steer}
+    *_, end = integrated((vx, vy, w, 0.0, 0.0, heading), tyres)
+    path = drive(moving(vx, vy, w, heading), lock=list(np.broadcast_to(lock, 4)), steer=steer, moments=301)
+    within = {"x": 2e-3, "y": 2e-3, "heading": 1e-3, "vx": 1e-2, "vy": 1e-2, "yaw_rate": 1e-2}
+    times = path.time[path.time < end.y[6, -1]]
+    for row, column in (("vx", 0), ("vy", 1), ("yaw_rate", 2), ("x", 3), ("y", 4), ("heading", 5)):
+        wanted = np.interp(times, end.y[6], end.y[column])
+        # The steps of the other are joined by straight lines.
+        finest = np.max(np.abs(np.diff(end.y[column]))) ** 2
+        assert getattr(path, row)[: len(times)] == pytest.approx(wanted, abs=within[row] + PROMISE + 0.2 * finest), row
+    for moment in (0.0, 0.37, 0.5 * path.time[-1], path.time[-1], 99.0):
+        there = path.at(moment)
+        for row in within:
+            assert getattr(there, row) == pytest.approx(np.interp(moment, path.time, getattr(path, row)), abs=3e-3), row
+    assert path.at(99.0) == path.rest
+    assert path.at("0 s").vx == pytest.approx(vx)
 
 
-@pytest.mark.parametrize("name", [*list(CASES)[:2], *(pytest.param(name, marks=pytest.mark.slow) for name in list(CASES)[2:])])
+@pytest.mark.parametrize("name", CASES)
 def test_the_tyres_take_the_energy_that_there_was(name):
-    """The work of the forces along the path that was found: kinetic energy to 0.3 %, for the trapezes of 2000 moments."""
+    """The work of the forces along the path that was found is the kinetic energy, which never rises."""
     vx, vy, w, heading, lock, steer = CASES[name]
     start = moving(vx, vy, w, heading)
-    path = travel.simulate(start, friction=0.7, lock=list(lock), steer=steer, moments=2001)
-    motion = [np.gradient(part, path.time) for part in (path.x, path.y, path.heading)]
+    path = drive(start, lock=list(np.broadcast_to(lock, 4)), steer=steer, moments=2001)
+    tyres = {"friction": 0.7, "lock": lock, "wheelbase": 2.7, "track": 1.5, "steer": steer}
+    motion = np.array([path.vx, path.vy, path.yaw_rate, path.x, path.y, path.heading])
+    energy = 750.0 * (motion[0] ** 2 + motion[1] ** 2) + 1200.0 * motion[2] ** 2
+    assert np.all(np.diff(energy) <= 1e-9 * energy[0])
     power = []
-    for state in zip(*motion, path.x, path.y, path.heading, strict=True):
-        ax, ay, turning = accelerations(state, lock, steer, lambda x, y: 0.7)
+    for state in motion[:, :-1].T:
+        ax, ay, turning = accelerations(state, tyres, lambda x, y: np.full(4, 0.7))
         power.append(-1500.0 * (ax * state[0] + ay * state[1]) - 2400.0 * turning * state[2])
-    work = float(np.sum((np.array(power)[1:] + np.array(power)[:-1]) / 2 * np.diff(path.time)))
-    assert work == pytest.approx(start.kinetic_energy, rel=3e-3)
+    power = np.array([*power, 0.0])
+    work = float(np.sum((power[1:] + power[:-1]) / 2 * np.diff(path.time)))
+    assert work == pytest.approx(start.kinetic_energy, rel=1e-3)
+
+
+# Areas and slopes
+
+STRIP = [(11.5, -9.0), (14.5, -9.0), (14.5, 9.0), (11.5, 9.0)]
+
+
+def test_a_strip_of_ice_is_not_stepped_over():
+    """Locked wheels at 30 m/s over 3 m of no friction: each axle skids 3 m less of it, so that the rest is 3 m further."""
+    car = CAR.replace(vx=30.0)
+    plain, iced = drive(car), drive(car, surfaces=[(STRIP, 0.0)])
+    assert plain.rest.x == pytest.approx(30.0**2 / (2 * G * 0.7), rel=1e-12)
+    assert round(plain.rest.x, 3) == 65.553
+    assert round(iced.rest.x, 3) == 68.553
+    assert iced.rest.x - plain.rest.x == pytest.approx(3.0, abs=1e-4)
+
+
+def in_closed_form(vx, friction, strips):
+    """Where a car on locked wheels comes to rest straight ahead: the energy that each axle takes over each strip."""
+
+    def taken(x):
+        total = 0.0
+        for axle in (1.35, -1.35):
+            total += friction * x
+            for low, high, mu in strips:
+                total += (mu - friction) * max(0.0, min(x + axle, high) - max(axle, low))
+        return G * total / 2
+
+    low, high = 0.0, 1e4
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if taken(middle) < 0.5 * vx**2 else (low, middle)
+    return low
+
+
+def test_straight_skids_over_strips_in_closed_form():
+    """400 random ones, in one batch and some alone: to a hundred-thousandth of the way, where the promise is a thousandth."""
+    generator = np.random.default_rng(7)
+    vx, friction, mu = generator.uniform(3, 35, 400), generator.uniform(0.3, 0.9, 400), generator.uniform(0, 1, (2, 400))
+    edges = [(3.0, 3.7), (9.0, 12.0)]
+    surfaces = [([(a, -9), (b, -9), (b, 9), (a, 9)], part) for (a, b), part in zip(edges, mu, strict=True)]
+    path = drive(CAR.replace(vx=vx), friction=friction, surfaces=surfaces, moments=2)
+    for i in range(400):
+        strips = [(a, b, part[i]) for (a, b), part in zip(edges, mu, strict=True)]
+        wanted = in_closed_form(vx[i], friction[i], strips)
+        assert path.rest.x[i] == pytest.approx(wanted, rel=1e-5), i
+        if i % 40 == 0:
+            one = [(corners, float(part[i])) for corners, part in surfaces]
+            alone = drive(CAR.replace(vx=float(vx[i])), friction=float(friction[i]), surfaces=one, moments=2)
+            assert alone.rest.x == pytest.approx(wanted, rel=1e-5)
+
+
+def test_marks_end_at_edges():
+    """Wheels of lock 0.4 that are locked on ice alone, straight ahead: marks at the moments on the ice, by each wheel's place."""
+    path = drive(CAR.replace(vx=20.0), lock=0.4, surfaces=[(STRIP, 0.1)], moments=2001)
+    for (x, _), place in zip(path.marks, (1.35, 1.35, -1.35, -1.35), strict=True):
+        on = (path.x + place > 11.5) & (path.x + place < 14.5)
+        assert on.sum() > 20
+        assert np.array_equal(np.isfinite(x), on)
+
+
+@pytest.mark.parametrize("rise", [0.05, -0.05, 0.12])
+@pytest.mark.parametrize("course", [0.0, 2.1])
+def test_a_skid_on_a_slope(rise, course):
+    """Straight up or down: the distance of ``travel.distance`` with that grade, in whatever direction."""
+    slope = (rise * math.cos(course), rise * math.sin(course))
+    car = CAR.replace(vx=14.0 * math.cos(course), vy=14.0 * math.sin(course), heading=0.4)
+    path = drive(car, slope=slope)
+    found = math.hypot(path.rest.x, path.rest.y)
+    assert found == pytest.approx(travel.distance(14.0, drag=0.7, grade=rise), rel=1e-6)
+
+
+def test_a_slope_that_the_brakes_do_not_hold_is_refused():
+    """A car that stops uphill and rolls back, one that speeds up, and one that stands; across the slope it holds."""
+    for car in (CAR, CAR.replace(vx=-14.0), CAR.replace(vx=0.0), CAR.replace(yaw_rate=1.0)):
+        with pytest.raises(col.NoSolutionError, match="slope") as caught:
+            drive(car, lock=0.05, slope=(0.1, 0.0))
+        assert caught.value.code == "never_stops"
+    assert drive(CAR.replace(vx=0.0), lock=0.15, slope=(0.1, 0.0)).rest.x == 0.0
+    assert drive(CAR.replace(vx=0.0, heading=math.pi / 2), lock=0.05, slope=(0.1, 0.0)).rest.x == 0.0
+    vx = np.array([14.0, 14.0, 0.0])
+    with pytest.warns(col.CollisionsWarning, match="1 of 3"):
+        path = drive(CAR.replace(vx=vx), lock=np.array([0.05, 0.3, 0.3]), slope=(0.1, 0.0), moments=2)
+    assert np.isfinite(path.rest.x).tolist() == [False, True, True]
+
+
+def test_load_transfer_moves_the_rest_of_spins_only():
+    """Locked wheels straight ahead use the whole friction under any load; spun, the rest moves by some percent."""
+    assert drive(CAR, height=0.55).rest.x == pytest.approx(drive(CAR).rest.x, rel=1e-9)
+    spun = moving(12.0, 2.0, 4.0)
+    plain, high, low = (drive(spun, lock=0.3, height=height, tolerance=1e-9) for height in (None, 0.55, 1e-9))
+    assert 1e-3 < math.dist((plain.rest.x, plain.rest.y), (high.rest.x, high.rest.y)) / plain.rest.x < 0.15
+    assert (low.rest.x, low.rest.heading) == pytest.approx((plain.rest.x, plain.rest.heading), rel=1e-5)
+
+
+def test_a_braked_wheel_that_stands_does_not_chatter():
+    """A car that turns about its jammed wheel, and cars let on their brakes: a few hundred steps, not thousands."""
+    generator = np.random.default_rng(2)
+    most = 0
+    counted_steps = motion._of_floats
+
+    for _ in range(60):
+        vx, vy, w = generator.normal(0.0, [4.0, 3.0, 4.0])
+        # One wheel at least that is held; a car that hardly slows takes many steps because it goes far.
+        lock = generator.permuted([1.0, *generator.choice([0.0, 0.05, 0.5, 1.0], 3)]).tolist()
+        steps = 0
+
+        def counting(settings):
+            step, forced = counted_steps(settings)
+
+            def one(numbers):
+                nonlocal steps
+                steps += 1
+                return step(numbers)
+
+            return one, forced
+
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(motion, "_of_floats", counting)
+            drive(moving(vx, vy, w), lock=lock, moments=2)
+        most = max(most, steps)
+    assert most < 1000
+
+
+def test_all_cases_of_a_long_run_keep_the_promise(request):
+    """The default tolerance against a hundred times tighter steps, with and without areas."""
+    generator = np.random.default_rng(11)
+    count = 100
+    cars = CAR.replace(
+        vx=generator.uniform(3, 18, count), vy=generator.normal(0, 3, count), yaw_rate=generator.normal(0, 2.5, count),
+        heading=generator.normal(0, 1, count),
+    )  # fmt: skip
+    lock = [generator.uniform(0.05, 1.0, count) for _ in range(4)]
+    for surfaces in (None, [(STRIP, 0.15)]):
+        fine, plain = (drive(cars, lock=lock, surfaces=surfaces, tolerance=tol) for tol in (5e-9, 5e-7))
+        way = np.hypot(np.diff(fine.x, axis=0), np.diff(fine.y, axis=0)).sum(axis=0)
+        off = np.hypot(fine.rest.x - plain.rest.x, fine.rest.y - plain.rest.y) / way
+        assert np.max(off) < PROMISE
+        assert np.max(np.abs(fine.rest.heading - plain.rest.heading)) < PROMISE
 
 
 def test_the_scene_may_be_turned_moved_and_mirrored():
     """Places turn with it; a mirror exchanges left and right wheels."""
     vx, vy, w, heading, lock, steer = CASES["one jammed"]
-    here = travel.simulate(moving(vx, vy, w, heading), friction=0.7, lock=list(lock), steer=steer)
-    there = travel.simulate(
+    here = drive(moving(vx, vy, w, heading), friction=0.7, lock=list(lock), steer=steer)
+    there = drive(
         moving(-vy, vx, w, heading + math.pi / 2).replace(x=500.0, y=-200.0), friction=0.7, lock=list(lock), steer=steer
     )
     assert (there.rest.x - 500.0, there.rest.y + 200.0) == pytest.approx((-here.rest.y, here.rest.x), abs=1e-6)
-    mirrored = travel.simulate(
-        moving(vx, -vy, -w, -heading), friction=0.7, lock=[lock[1], lock[0], lock[3], lock[2]], steer=-steer
-    )
+    mirrored = drive(moving(vx, -vy, -w, -heading), friction=0.7, lock=[lock[1], lock[0], lock[3], lock[2]], steer=-steer)
     assert (mirrored.rest.x, -mirrored.rest.y, -mirrored.rest.heading) == pytest.approx(
         (here.rest.x, here.rest.y, here.rest.heading), abs=1e-9
     )
@@ -200,11 +411,11 @@ def test_the_scene_may_be_turned_moved_and_mirrored():
 
 def test_mass_does_not_matter_but_its_share_in_the_inertia_does():
     """Friction is in proportion to mass; extremes of it and of the speed, whose rest is in proportion to its square."""
-    one = travel.simulate(moving(10.0, 2.0, 3.0), friction=0.7, lock=0.5)
+    one = drive(moving(10.0, 2.0, 3.0), friction=0.7, lock=0.5)
     for factor in (1e-150, 1e150):
         other = moving(10.0, 2.0, 3.0).replace(mass=1500.0 * factor, yaw_inertia=2400.0 * factor)
-        assert travel.simulate(other, friction=0.7, lock=0.5).rest.x == pytest.approx(one.rest.x, rel=1e-9)
-    tiny = travel.simulate(moving(1e-60, 0.0, 0.0), friction=0.7, lock=1)
+        assert drive(other, friction=0.7, lock=0.5).rest.x == pytest.approx(one.rest.x, rel=1e-9)
+    tiny = drive(moving(1e-60, 0.0, 0.0), friction=0.7, lock=1)
     assert tiny.rest.x == pytest.approx(1e-120 / (2 * G * 0.7), rel=1e-5)
 
 
@@ -214,21 +425,21 @@ def test_mass_does_not_matter_but_its_share_in_the_inertia_does():
 @pytest.mark.slow
 def test_marks_are_left_where_a_tyre_slides():
     """Locked wheels mark all their way, at their places; free ones only where they slide across."""
-    path = travel.simulate(CAR, friction=0.7, lock=[1, 0.05, 0.05, 0.05])
+    path = drive(CAR, friction=0.7, lock=[1, 0.05, 0.05, 0.05])
     (fx, fy), (gx, _), *_ = path.marks
     c, s = np.cos(path.heading), np.sin(path.heading)
     assert fx == pytest.approx(path.x + 1.35 * c - 0.75 * s, abs=1e-12)
     assert fy == pytest.approx(path.y + 1.35 * s + 0.75 * c, abs=1e-12)
     assert np.isnan(gx).any()
-    straight = travel.simulate(CAR, friction=0.7, lock=0.05, limit=60)
+    straight = drive(CAR, friction=0.7, lock=0.05)
     assert all(np.isnan(part).all() for mark in straight.marks for part in mark)
-    broadside = travel.simulate(CAR.replace(heading=math.pi / 2, yaw_inertia=math.inf), friction=0.7, lock=0.05)
+    broadside = drive(CAR.replace(heading=math.pi / 2, yaw_inertia=math.inf), friction=0.7, lock=0.05)
     assert all(np.isfinite(part).all() for mark in broadside.marks for part in mark)
 
 
 def test_a_simulated_path_is_a_frozen_record_with_units():
     """Locked arrays of the moments, a Vehicle at rest that counts its turns, pickles."""
-    path = travel.simulate(moving(9.0, 0.0, 9.0).replace(name="A"), friction=0.6, lock=0.6, moments=7)
+    path = drive(moving(9.0, 0.0, 9.0).replace(name="A"), friction=0.6, lock=0.6, moments=7)
     assert path.time.shape == path.x.shape == path.marks[3][1].shape == (7,)
     assert (path.time[0], path.x[0], path.heading[0]) == (0.0, 0.0, 0.0)
     assert (path.rest.x, path.rest.y, path.rest.heading) == (path.x[-1], path.y[-1], path.heading[-1])
@@ -250,7 +461,7 @@ def test_a_simulated_path_is_a_frozen_record_with_units():
 
 def test_a_vehicle_at_rest_stays():
     """No time passes."""
-    path = travel.simulate(moving(0.0, 0.0, 0.0), friction=0.7, lock=0)
+    path = drive(moving(0.0, 0.0, 0.0), friction=0.7, lock=0)
     assert path.time.tolist() == path.x.tolist() == [0.0] * 101
     assert path.rest == moving(0.0, 0.0, 0.0)
 
@@ -261,12 +472,12 @@ def test_a_batch_is_its_cases_and_refused_ones_are_nan():
     friction = np.array([0.7, 0.5, 0.7, 0.7, 0.0, -0.7])
     jammed = np.array([0.5, 1.0, 1.5, 0.5, 0.5, 0.5])
     with pytest.warns(col.CollisionsWarning, match="8 of 12 cases") as caught:
-        path = travel.simulate(moving(vx, 1.0, w), friction=friction, lock=[jammed, 0.3, 0.3, 0.3], moments=11)
+        path = drive(moving(vx, 1.0, w), friction=friction, lock=[jammed, 0.3, 0.3, 0.3], moments=11)
     assert caught[0].message.fields["counts"] == {"not_finite": 2, "bad_friction": 2, "bad_fraction": 2, "never_stops": 2}
     assert path.x.shape == path.marks[0][0].shape == (11, 2, 6)
     assert path.rest.x.shape == (2, 6)
     for i, j in np.ndindex(2, 2):
-        alone = travel.simulate(
+        alone = drive(
             moving(float(vx[j]), 1.0, float(w[i, 0])),
             friction=float(friction[j]),
             lock=[float(jammed[j]), 0.3, 0.3, 0.3],
@@ -281,21 +492,21 @@ def test_a_batch_is_its_cases_and_refused_ones_are_nan():
 
 def test_arrays_stay_what_they_are():
     """float32 stays float32, an empty batch is an answer."""
-    assert travel.simulate(CAR.replace(vx=np.float32([3.0, 4.0])), friction=0.7, lock=1).rest.x.dtype == np.float32
-    empty = travel.simulate(CAR.replace(vx=np.array([])), friction=0.7, lock=1, moments=5)
+    assert drive(CAR.replace(vx=np.float32([3.0, 4.0])), friction=0.7, lock=1).rest.x.dtype == np.float32
+    empty = drive(CAR.replace(vx=np.array([])), friction=0.7, lock=1, moments=5)
     assert (empty.x.shape, empty.rest.x.shape) == ((5, 0), (0,))
 
 
 def test_units_of_every_kind():
     """Texts and Quantities give the same rest."""
-    wanted = travel.simulate(moving(10.0, 1.0, 2.0), friction=0.6, lock=0.4, wheelbase=2.6, track=1.6, steer=0.1)
-    found = travel.simulate(
+    wanted = drive(moving(10.0, 1.0, 2.0), friction=0.6, lock=0.4, wheelbase=2.6, track=1.6, steer=0.1)
+    found = drive(
         moving("36 km/h", "1 m/s", 2.0), friction="60 %", lock=["40 %"] * 4, wheelbase="260 cm", track="1600 mm",
-        steer=f"{math.degrees(0.1)} deg", limit="1 min",
+        steer=f"{math.degrees(0.1)} deg",
     )  # fmt: skip
     assert (found.rest.x, found.rest.y, found.rest.heading) == pytest.approx(
-        (wanted.rest.x, wanted.rest.y, wanted.rest.heading), rel=1e-9
-    )
+        (wanted.rest.x, wanted.rest.y, wanted.rest.heading), rel=1e-6
+    )  # numbers that differ in their last digit may take other steps
 
 
 # Evidence for fit
@@ -305,10 +516,10 @@ def test_units_of_every_kind():
 def test_places_of_rest_are_evidence_for_fit():
     """Speed, course and yaw rate at separation from the place and heading of rest and the friction, within their errors."""
     truth = moving(12.0, 3.0, 2.5)
-    rest = travel.simulate(truth, friction=0.7, lock=0.5, moments=2).rest
+    rest = drive(truth, friction=0.7, lock=0.5, moments=2).rest
 
     def model(vx, vy, yaw_rate):
-        end = travel.simulate(CAR.replace(vx=vx, vy=vy, yaw_rate=yaw_rate), friction=0.7, lock=0.5, moments=2).rest
+        end = drive(CAR.replace(vx=vx, vy=vy, yaw_rate=yaw_rate), friction=0.7, lock=0.5, moments=2).rest
         return {"x": end.x, "y": end.y, "heading": end.heading}
 
     priors = {name: col.uncertainty.Normal(mean, 1.0) for name, mean in (("vx", 11.5), ("vy", 2.5), ("yaw_rate", 2.0))}
@@ -327,14 +538,16 @@ def test_places_of_rest_are_evidence_for_fit():
     [
         (CAR, {"friction": -0.7}, "bad_friction", "friction must be >= 0, got -0.7"),
         (CAR, {"friction": math.nan}, "not_finite", "friction"),
-        (CAR, {"friction": 0.0}, "never_stops", "friction or lock slow it too little"),
-        (
-            CAR,
-            {"lock": 0.0},
-            "never_stops",
-            "not at rest after 30 s: friction or lock slow it too little (a wheel of lock 0 rolls on)",
-        ),
-        (CAR, {"lock": 0.5, "limit": "1 s"}, "never_stops", "not at rest after 1 s"),
+        (CAR, {"friction": 0.0}, "never_stops", "nothing slows it, since friction or lock are 0"),
+        (CAR.replace(yaw_rate=2.0), {"friction": 0.0}, "never_stops", "nothing slows it, since friction or lock are 0"),
+        (CAR, {"lock": 0.0}, "never_stops", "nothing slows it, since friction or lock are 0 (a wheel of lock 0 rolls on)"),
+        (CAR.replace(vy=2.0, yaw_rate=2.0), {"lock": 0.0}, "never_stops", "a wheel of lock 0 rolls on"),
+        (CAR.replace(vx=0.01), {"lock": 0.0}, "never_stops", "a wheel of lock 0 rolls on"),
+        (CAR, {"friction": 0.0, "lock": 0.5, "surfaces": [(STRIP, 0.7)]}, "bad_friction", "the friction of the common ground"),
+        (CAR, {"height": 0.6, "surfaces": [(STRIP, 1.2)]}, "wheel_lifts", "a wheel lifts off"),
+        (CAR, {"slope": 0.05}, "bad_shape", "slope must be a pair"),
+        (CAR, {"tolerance": 1.0}, "bad_option", "tolerance must be one number from 1e-10 to 0.01, got 1.0"),
+        (CAR, {"tolerance": np.ones(2)}, "bad_option", "tolerance must be one number"),
         (CAR, {"lock": 1.1}, "bad_fraction", "lock must be from 0 to 1, got 1.1"),
         (CAR, {"lock": math.nan}, "bad_fraction", "lock must be from 0 to 1"),
         (CAR, {"lock": [1, 1, 1, -1]}, "bad_fraction", "lock[3] must be from 0 to 1"),
@@ -346,7 +559,6 @@ def test_places_of_rest_are_evidence_for_fit():
         (CAR, {"track": -math.inf}, "not_positive", "track must be > 0, got -inf"),
         (CAR, {"steer": math.nan}, "not_finite", "steer is NaN"),
         (CAR, {"cornering": 0}, "not_positive", "cornering must be > 0"),
-        (CAR, {"limit": "5 m"}, "bad_units", "limit"),
         (CAR, {"moments": 1}, "bad_option", "moments must be a whole number from 2 to 100000, got 1"),
         (CAR, {"moments": 10.0}, "bad_option", "got 10.0"),
         (CAR, {"surfaces": 0.7}, "bad_shape", "surfaces[0] must be a pair of corners"),
@@ -359,13 +571,13 @@ def test_places_of_rest_are_evidence_for_fit():
         (CAR.replace(mass=math.inf), {}, "infinite_mass", "infinite"),
         (CAR.replace(pivot=(0.0, 5.0), vx=0.0), {}, "pinned", "is on a pivot"),
         ("car", {}, "not_a_vehicle", "vehicle must be a Vehicle, got str"),
-        (CAR.replace(vx=1e200), {}, "never_stops", "not at rest"),
+        (CAR.replace(vx=1e200), {}, "out_of_range", "too large"),
     ],
 )
 def test_refused_simulations(vehicle, options, code, said):
     """No path comes of them, and the message says what to write."""
     with pytest.raises(col.CollisionsError) as caught:
-        travel.simulate(vehicle, **{"friction": 0.7, "lock": 1, **options})
+        drive(vehicle, **{"friction": 0.7, "lock": 1, **options})
     assert caught.value.code == code
     assert said in str(caught.value)
     assert isinstance(caught.value, ValueError)
@@ -374,8 +586,12 @@ def test_refused_simulations(vehicle, options, code, said):
 def test_all_wrong_arguments_are_named_at_once():
     """One error, one line for each."""
     with pytest.raises(col.InputError) as caught:
-        travel.simulate("x", friction="y", lock=2, wheelbase=-1, track="z", steer="north", limit=-1, moments=0)
-    for name in ("friction", "lock", "wheelbase", "track", "steer", "limit", "moments", "vehicle"):
+        travel.Tyres("y", 2, -1, "z", steer="north", cornering=-1)
+    for name in ("friction", "lock", "wheelbase", "track", "steer", "cornering"):
+        assert f"\n- {name}" in str(caught.value)
+    with pytest.raises(col.InputError) as caught:
+        travel.simulate("x", 0.7, slope=("a", 0), moments=0, tolerance=-1)
+    for name in ("slope", "moments", "tolerance", "vehicle", "tyres"):
         assert f"\n- {name}" in str(caught.value)
 
 

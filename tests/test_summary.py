@@ -346,7 +346,7 @@ def test_a_run_out_speaks_the_units_of_its_survey():
     run = travel.path(places, ["0 deg", "40 deg", "80 deg"], friction=0.7, lock=0.3)
     assert "mph" in str(run.summary())
     vehicle = col.Vehicle(mass="3400 lb", yaw_inertia=2500.0, x="0 ft", y=0.0, heading=0.0, vx=10.0, vy=1.0)
-    rolled = travel.simulate(vehicle, friction=0.7, lock=0.5, moments=2)
+    rolled = travel.simulate(vehicle, travel.Tyres(0.7, 0.5, 2.7, 1.5), moments=2)
     assert "3400 lb" in str(rolled.rest.summary())
 
 
@@ -475,7 +475,7 @@ def test_tables_show_courses_and_pdof_across_180_degrees():
 
 def test_a_path_over_time_shows_how_far_it_turned():
     vehicle = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=0.0, y=0.0, heading="-170 deg", vx=15.0, vy=0.0, yaw_rate=4.0)
-    path = travel.simulate(vehicle, friction=0.7, lock=1.0, moments=4)
+    path = travel.simulate(vehicle, travel.Tyres(0.7, 1.0, 2.7, 1.5), moments=4)
     low, high = np.degrees([path.heading.min(), path.heading.max()])
     assert f"{low:.0f} to {high:.0f}°" in str(path.summary())
 

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
 
 from . import pulse
+from .contact_time import read_tyres
 from .drag import GRAVITY, USUAL_DURATION, read_drag, read_duration
-from .during_contact import Pull, finite_mass, with_motion, with_tyres
+from .during_contact import Pull, by_wheels, finite_mass, with_motion, with_tyres
 from .errors import InputError
 from .impact import Impact, part_of_impact
+from .inputs import part_of
 from .kernels.batch import flat, precision
 from .kernels.elementwise import select
 from .quantities import Shown, hypot, in_units_of, lock
 from .reading import ArgumentReader, broadcast, widened
-from .settings import callers_options, computing
+from .settings import Default, callers_options, computing
 from .travel.surfaces import out_of_range, settle
+from .tyres import Tyres
 from .units import Input, Value, shown
 from .warning import quietly
 
@@ -123,6 +127,8 @@ def left_out(
     *,
     duration: Input = USUAL_DURATION,
     drag: Input = 0.7,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
     geometry: Literal["maximum_engagement", "first_contact"] = "maximum_engagement",
 ) -> LeftOut:
     """Estimate what an impact that takes no time and has no tyres leaves out, to judge whether the idealisation fits the case.
@@ -140,8 +146,12 @@ def left_out(
         Duration of the contact, >= 0: 0.05 to 0.15 s for cars, the softer the longer.
     drag : float, str, Quantity or array [-]
         Drag factor of the tyres of both vehicles on the ground, >= 0: a plain number, or a deceleration such as
-        ``"6.9 m/s**2"``. 0.7 is locked wheels on a dry road, and any wheels that are pushed sideways; wheels that are not
-        braked have hardly any as long as the vehicle moves and is pushed along its heading.
+        ``"6.9 m/s**2"``. 0.7 is locked wheels on a dry road. It stands for wheels that slide whatever way they go; those that
+        roll hardly resist along themselves, and sideways with their full friction: give ``tyres_a`` and ``tyres_b``.
+    tyres_a, tyres_b : travel.Tyres, optional
+        The wheels of each vehicle in place of the drag, which then counts for neither: the impulse of the tyres is then that
+        which ``eccentric`` takes with them, and its bound that of their friction. Of an impact that has its tyres none are
+        left out; the duration is then that of the impact, unless another is given.
     geometry : {"maximum_engagement", "first_contact"}
         When the positions, the point and the normal of the impact are those of the vehicles, as for ``time_resolved``: as
         everywhere at maximum engagement, at which damage is matched, or at first contact.
@@ -228,6 +238,10 @@ def left_out(
     elif not isinstance(impact, Impact):
         text = f"impact must be an Impact, got {type(impact).__name__}; write left_out(collisions.eccentric(...))"
         reader.refuse(InputError(text, code="not_an_impact", argument="impact"))
+    tyres: dict[str, Any] = {}
+    if isinstance(impact, Impact):
+        bodies = impact.a.before, impact.b.before
+        tyres = read_tyres(reader, "left_out", *bodies, {"tyres_a": tyres_a, "tyres_b": tyres_b})
     with callers_options():
         time = read_duration(reader, duration)
         pull = read_drag(reader, drag, "drag")
@@ -235,19 +249,28 @@ def left_out(
         known = " or ".join(map(repr, _GEOMETRIES))
         text = f"geometry must be {known}, which says when the positions of the impact are those, got {shown(geometry)}"
         reader.refuse(InputError(text, code="bad_option", argument="geometry"))
+    if tyres.keys() and impact.inputs.tyres:
+        if tyres_a is not None or tyres_b is not None:
+            text = "impact has its tyres, so they are not left out of it; leave tyres_a and tyres_b out, or write again()"
+            reader.refuse(InputError(text, code="bad_combination", argument="tyres_a"))
+        pull = 0.0
+        if isinstance(duration, Default):
+            time = impact.inputs.duration
     reader.close()
     given = {"impact": impact.closing_speed, "duration": time, "drag": pull}
+    own = {name: one for name, one in tyres.items() if one is not None}
+    given |= {f"{name}.{inner}": value for name, one in own.items() for inner, value in one.named.items()}
     shape, dtype = broadcast(given), precision(given.values())
-    time, pull = widened((time, pull), given.values())
+    time, pull = widened((time, pull), (impact.closing_speed, time, pull))
     beyond, texts = np.isinf(_extent(impact, time, pull)) & np.logical_not(impact.refused), impact.inputs.texts
     if shape is None:
         if beyond:
             raise out_of_range()
-        return _assembled(_estimated(impact, time, pull, geometry), texts)
+        return _assembled(_estimated(impact, time, pull, own, geometry), texts)
     size = math.prod(shape)
     whole: dict[str, Any] = {}
     if size <= _BLOCK:
-        for name, value in _estimated(impact, time, pull, geometry).items():
+        for name, value in _estimated(impact, time, pull, own, geometry).items():
             whole[name] = value if value is None else np.broadcast_to(value, shape).astype(dtype)
     for start in range(0, size if size > _BLOCK else 0, _BLOCK):
         block = slice(start, min(start + _BLOCK, size))
@@ -258,7 +281,7 @@ def left_out(
         # The impact itself gave the warnings about its cases.
         with quietly():
             some = part_of_impact(impact, cut, on_failure="nan")
-        for name, value in _estimated(some, cut(time), cut(pull), geometry).items():
+        for name, value in _estimated(some, cut(time), cut(pull), part_of(own, cut), geometry).items():
             if name not in whole:
                 whole[name] = None if value is None else np.empty(shape, dtype=dtype)
             if value is not None:
@@ -267,11 +290,13 @@ def left_out(
     return _assembled(whole | settle(there, {"duration": time, "drag": pull}, shape, [("out_of_range", beyond)]), texts)
 
 
-def _estimated(impact: Impact, time: Any, drag: Any, geometry: str) -> dict[str, Any]:
+def _estimated(impact: Impact, time: Any, drag: Any, wheels: Mapping[str, Tyres], geometry: str) -> dict[str, Any]:
     """The fields of ``LeftOut`` by name, those of its sides prefixed "a." or "b."; NaN where refused."""
     with np.errstate(all="ignore"):
         e, most = impact.restitution, drag * GRAVITY * time
         pulls = Pull.of(impact.a, e, most), Pull.of(impact.b, e, most)
+        if wheels:
+            pulls = by_wheels(impact, time, wheels, pulls)
         # A refused single case cannot be solved again.
         tyres = [math.nan] * 2 if impact.refused is True else with_tyres(impact, pulls)
         moved = with_motion(impact, time, geometry)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -12,13 +13,16 @@ import numpy as np
 from .directions import from_radians
 from .drag import GRAVITY, read_drag, read_duration
 from .errors import InputError, MissingInputError, ShapeError
-from .inputs import CRUSH_UNITS, STIFFNESSES, Inputs, body_numbers, read_inputs
+from .inputs import CRUSH_UNITS, NO_IMPULSE, OUTSIDE, STIFFNESSES, TYRES, Inputs, body_numbers, named_numbers, read_inputs
 from .kernels.contact_laws import BRACH
-from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE
-from .kernels.status import Passed, Status
+from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE, select
+from .kernels.status import Answer, Passed, Status, WithTyres
+from .pulse import passed
 from .quantities import lock
 from .reading import ArgumentReader, is_whole
+from .tyres import Tyres, kernel_numbers, not_tyres
 from .units import shown
+from .vehicle import Vehicle, missing
 
 Geometry: TypeAlias = Literal["maximum_engagement", "first_contact", "fixed"]
 # Of its numbers, those that have to be above 0; the others may be 0.
@@ -62,29 +66,62 @@ def read_contact_time(
         reader.refuse(InputError(text, code="bad_option", argument="steps"))
     else:
         found["steps"] = int(found["steps"])
-    found |= read_times(reader, {name: value for name, value in extra.items() if name not in _SIZES or value is not None})
-    found = _SIZES | found
+    found |= read_tyres(reader, "time_resolved", a, b, extra)
+    times = {name: value for name, value in extra.items() if name not in _SIZES or value is not None}
+    if found["tyres_a"] is None and found["tyres_b"] is None:
+        found |= _SIZES
+    elif times["drag"] is None or (type(times["drag"]) is float and times["drag"] == 0.0):
+        del times["drag"]
+    found |= read_times(reader, times)
     arguments = a, b, restitution, normal, point, (friction, None, None), BRACH
-    beside = [part for name in DOMAINS for part in (found[name] if isinstance(found[name], tuple) else (found[name],))]
+    given_numbers = [found.get(name) for name in DOMAINS]
+    beside = [part for value in given_numbers for part in (value if isinstance(value, tuple) else (value,))]
+    beside += [part for label in "ab" if found[f"tyres_{label}"] for part in found[f"tyres_{label}"].named.values()]
     inputs = read_inputs("time_resolved", arguments, reader.problems, beside)
     given = {**(inputs.given or {}), **reader.texts} or None
     return replace(inputs, given=given, **found)
 
 
-def read_least_time(reader: ArgumentReader, duration: Any, drag: Any) -> dict[str, Any]:
-    """Duration and drag as ``solve`` takes them, both optional: without a duration there is no contact that takes time."""
-    if duration is None and drag is not None:
-        text = f"drag = {shown(drag)} needs a duration, in which the tyres slide; write duration='100 ms', or leave drag out"
+def read_tyres(reader: ArgumentReader, model: str, a: Any, b: Any, extra: dict[str, Any]) -> dict[str, Any]:
+    """The tyres of both vehicles, where given; they stand in place of a drag, and their wheels along the heading."""
+    found: dict[str, Any] = {}
+    for label, vehicle in (("a", a), ("b", b)):
+        name = f"tyres_{label}"
+        found[name] = extra.get(name)
+        if found[name] is None:
+            continue
+        if not isinstance(found[name], Tyres):
+            reader.refuse(not_tyres(name, found[name]))
+            found[name] = None
+        elif isinstance(vehicle, Vehicle) and vehicle.heading is None and not np.all(np.isinf(vehicle.mass)):
+            reader.refuse(missing(vehicle, "heading", f"{model} with {name}", label))
+    stray = {name: extra.get(name) for name in ("drag", *_SIZES)}
+    stray = {name: given for name, given in stray.items() if not (given is None or (type(given) is float and given == 0.0))}
+    if stray and any(tyres is not None for tyres in found.values()):
+        text = (
+            f"give {' and '.join(stray)} or tyres, not both: tyres_a and tyres_b have friction, braking, wheelbase "
+            "and track of the wheels of each vehicle; one without tyres is not held"
+        )
+        reader.refuse(InputError(text, code="bad_combination", argument=next(iter(stray))))
+    return found
+
+
+def read_least_time(reader: ArgumentReader, a: Any, b: Any, duration: Any, drag: Any, tyres: tuple[Any, Any]) -> dict[str, Any]:
+    """Duration and drag or tyres as ``solve`` takes them, all optional: without a duration no contact takes time."""
+    found = read_tyres(reader, "solve", a, b, {**dict(zip(TYRES, tyres, strict=True)), "drag": drag})
+    if duration is None:
+        what = f"drag = {shown(drag)} needs" if drag is not None else "tyres need"
+        text = f"{what} a duration, in which the tyres act; write duration='100 ms', or leave them out"
         reader.refuse(InputError(text, code="one_stiffness", argument="duration"))
     given = {name: value for name, value in (("duration", duration), ("drag", drag)) if value is not None}
-    return read_times(reader, given) if "duration" in given else {}
+    return found | (read_times(reader, given) if "duration" in given else {})
 
 
 def timed(inputs: Inputs, steps: int = _STEPS) -> Inputs:
     """What ``solve`` was given as inputs of ``time_resolved``."""
-    drag: Any = 0.0 if inputs.drag is None else inputs.drag
+    drag: Any = 0.0 if inputs.drag is None and not inputs.tyres else inputs.drag
     own: dict[str, Any] = {"law": None, "tolerance": None, "given": None, "contact_velocity": None}
-    own |= {**_SIZES, "geometry": "maximum_engagement"}
+    own |= {**({} if inputs.tyres else _SIZES), "geometry": "maximum_engagement"}
     return replace(inputs, model="time_resolved", drag=drag, steps=steps, **own)
 
 
@@ -122,6 +159,139 @@ def _read_crush(reader: ArgumentReader, value: Any, name: str) -> Any:
         reader.number(part, unit, f"{name}[{at}]", domain)
         for at, (part, unit, domain) in enumerate(zip(value, CRUSH_UNITS, DOMAINS[name], strict=True))
     )
+
+
+def crushes(inputs: Inputs) -> dict[str, tuple[Any, ...]]:
+    """A, B and width of the crush stiffness, by vehicle, "a" and "b", of those that have one."""
+    found = {"a": inputs.crush_a, "b": inputs.crush_b}
+    return {label: crush for label, crush in found.items() if crush is not None}
+
+
+def residual_crushes(inputs: Inputs, peak_force: Any) -> dict[str, Any]:
+    """By vehicle what is left of its crush, in CRASH's meaning: 0 where the largest crush was not beyond A/B."""
+    found = {}
+    for label, (begins, growth, width) in crushes(inputs).items():
+        left = (peak_force / width - begins) / growth
+        found[label] = select(left < 0.0, 0.0 * left, left)
+    return found
+
+
+def tyres_numbers(inputs: Inputs, label: str, cut: Callable[[Any], Any]) -> Any:
+    """The tyres of a vehicle as the kernels take them; where there is only a drag, those of wheels that slide."""
+    from .kernels.tyre import Tyres as Numbers
+
+    tyres = getattr(inputs, f"tyres_{label}")
+    if tyres is None:
+        drag, *sizes = (0.0 if one is None else cut(one) for one in (inputs.drag, inputs.wheelbase, inputs.track))
+        return Numbers((1.0,) * 4, drag, 0.0, *(0.5 * size for size in sizes))
+    named = {name: cut(value) for name, value in tyres.named.items()}
+    return kernel_numbers(named, np if any(isinstance(value, np.ndarray) for value in named.values()) else math)
+
+
+def wheels_that_roll(tyres: Tyres) -> Any:
+    """The settings of the kernel for these tyres."""
+    from .kernels.contact_step import Rolling
+
+    return Rolling(tyres.steered, tyres.transfers)
+
+
+def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
+    """The answer of an impulse, with that of the tyres during its contact as one from outside.
+
+    Solved twice: without the tyres for the motion before and after, between which their force is taken, and with what they
+    give. ``solve`` solves inputs, quietly or not.
+    """
+    bare = _alike(inputs, tyres_a=None, tyres_b=None, duration=None, given=None)
+    first = solve(bare, True)
+    pushes = {label: held_impulse(inputs, first, label) for label in "ab"}
+    outside: dict[str, Any] = {
+        name: tuple(one + more for one, more in zip(getattr(inputs, name) or NO_IMPULSE, pushes[name[-1]], strict=True))
+        for name in OUTSIDE
+    }
+    # A case that has no answer without tyres is refused for that.
+    with np.errstate(all="ignore"):
+        refused = first.status > Status.ENERGY_GAIN
+        outside = {name: tuple(select(refused, 0.0, part) for part in parts) for name, parts in outside.items()}
+        if inputs.shape is not None:
+            # As precise as what they are worked out from.
+            from .kernels.batch import precision
+
+            dtype = precision(named_numbers(inputs).values())
+            outside = {
+                name: tuple(part.astype(dtype) if isinstance(part, np.ndarray) else part for part in parts)
+                for name, parts in outside.items()
+            }
+    raw = solve(_alike(inputs, tyres_a=None, tyres_b=None, duration=None, **outside), False)
+    found: dict[str, Any] = {}
+    with np.errstate(all="ignore"):
+        answered = 0.0 * raw.normal_impulse
+        for label, body in (("a", inputs.a), ("b", inputs.b)):
+            push = [part + answered for part in pushes[label]]
+            means = (
+                was + 0.5 * getattr(raw, f"delta_{name}_{label}")
+                for name, was in (("vx", body.vx), ("vy", body.vy), ("yaw_rate", body.yaw_rate))
+            )
+            names = ("tyre_impulse_x", "tyre_impulse_y", "tyre_moment")
+            found |= {f"{name}_{label}": part for name, part in zip(names, push, strict=True)}
+            found[f"tyre_loss_{label}"] = answered + 0.0 - sum(part * mean for part, mean in zip(push, means, strict=True))
+    if inputs.shape is not None:
+        found = {name: np.asarray(value, raw.delta_vx_a.dtype) for name, value in found.items()}
+    return WithTyres(*(getattr(raw, name) for name in Answer._fields), **lock(found))
+
+
+def _alike(inputs: Inputs, **changes: Any) -> Inputs:
+    """The inputs with some changed; a single case stays one."""
+    other = replace(inputs, **changes)
+    if inputs.shape is None:
+        vars(other)["shape"] = None
+    return other
+
+
+def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any]:
+    """Impulse of the tyres of one vehicle during the contact, and its moment about the centre of mass."""
+    tyres, body = inputs.tyres.get(label), getattr(inputs, label)
+    if tyres is None or body.heading is None:
+        return NO_IMPULSE
+    from .kernels.held import held
+
+    changes = [getattr(answer, f"delta_{name}_{label}") for name in ("vx", "vy", "yaw_rate")]
+    inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
+    numbers = [body.mass, inertia, *from_radians(body.heading), body.vx, body.vy, body.yaw_rate, *changes]
+    numbers += [passed(inputs.restitution, 0.5), inputs.duration, GRAVITY]
+    own = tyres_numbers(inputs, label, lambda value: value)
+    numbers += [*own.locks, *own[1:]]
+    settings = tyres.steered, tyres.transfers
+    found = _held_function(*settings)(numbers) if inputs.shape is None else None
+    if found is None:
+        with np.errstate(all="ignore"):
+            found = held(*(value if inputs.shape is None else np.asarray(value, np.float64) for value in numbers), *settings)
+    return tuple(found)
+
+
+@lru_cache(maxsize=8)
+def _held_function(steered: bool, transfers: bool) -> Callable[[Any], Any]:
+    """``held`` compiled for plain floats."""
+    from .kernels.floats import compile_for_floats
+    from .kernels.held import NUMBERS, held
+
+    return compile_for_floats(held, tuple(f"[{at}]" for at in range(NUMBERS)), (steered, transfers))
+
+
+def read_lasting(reader: ArgumentReader, model: str, a: Any, b: Any, duration: Any, tyres: tuple[Any, Any]) -> dict[str, Any]:
+    """Duration and tyres of an impulse with those of its wheels: both, or neither."""
+    given = dict(zip(TYRES, tyres, strict=True))
+    found = read_tyres(reader, model, a, b, given)
+    if duration is None:
+        text = "tyres need a duration, over which they act; write duration='100 ms'"
+        reader.refuse(MissingInputError(text, code="one_stiffness", argument="duration"))
+        return found
+    if tyres == (None, None):
+        text = (
+            f"{model} takes a duration for tyres_a and tyres_b alone, and neither was given; give travel.Tyres, or use "
+            "time_resolved"
+        )
+        reader.refuse(InputError(text, code="bad_combination", argument="duration"))
+    return found | read_times(reader, {"duration": duration})
 
 
 def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) -> Passed:
@@ -187,29 +357,31 @@ def _arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
     from .kernels import time_resolved as kernel
 
     contact = inputs.point or (0.0, 0.0)
-    kind = "duration" if inputs.duration is not None else "stiffness" if inputs.stiffness is not None else "crush"
-    if kind == "crush":
-        parts = []
-        for crush in (inputs.crush_a, inputs.crush_b):
-            force, growth, width = (math.inf, math.inf, 1.0) if crush is None else map(cut, crush)
-            parts += [force * width, growth * width]
-        stiffness: tuple[Any, ...] = tuple(parts)
-    else:
-        stiffness = (cut(inputs.duration if kind == "duration" else inputs.stiffness),)
+    spring = cut(inputs.stiffness if inputs.duration is None else inputs.duration)
+    if spring is None:
+        # The force is the same on both, so that what each gives way adds up.
+        growths = [growth * width for _, growth, width in (map(cut, crush) for crush in crushes(inputs).values())]
+        spring = growths[0] if len(growths) == 1 else growths[0] / (1.0 + growths[0] / growths[1])
     bodies = []
     for body in (inputs.a, inputs.b):
         heading = None if body.heading is None else from_radians(cut(body.heading))
         bodies.append((*map(cut, body_numbers(body, inputs.point)[:7]), heading))
-    wheels = (kernel.wheels_of(body.heading, inputs.drag) for body in (inputs.a, inputs.b))
+    wheels = [
+        kernel.wheels_of(body.heading, 0.0 if inputs.drag is None else inputs.drag)
+        if tyres is None
+        else wheels_that_roll(tyres)
+        for body, tyres in ((inputs.a, inputs.tyres_a), (inputs.b, inputs.tyres_b))
+    ]
     return {
         "restitution": cut(inputs.restitution),
         "normal": tuple(map(cut, inputs.normal)),
         "friction": cut(inputs.rule_value),
         "point": tuple(map(cut, contact)),
-        "deceleration": cut(inputs.drag) * GRAVITY,
-        "wheelbase": cut(inputs.wheelbase),
-        "track": cut(inputs.track),
-        "stiffness": stiffness,
+        "gravity": GRAVITY,
+        "tyres": tuple(tyres_numbers(inputs, label, cut) for label in "ab"),
+        "spring": spring,
         "bodies": tuple(bodies),
-        "settings": kernel.Settings(inputs.geometry or "maximum_engagement", inputs.steps or _STEPS, kind, *wheels),
+        "settings": kernel.Settings(
+            inputs.geometry or "maximum_engagement", inputs.steps or _STEPS, inputs.duration is not None, *wheels
+        ),
     }

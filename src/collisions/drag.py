@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
-from .errors import ShapeError, UnitsError
-from .kernels.elementwise import FINITE, Domain
+from .errors import InputError, ShapeError, UnitsError
+from .kernels.elementwise import FINITE, UNCHECKED, Domain
 from .reading import ArgumentReader, at_least_zero, warn_if_large
 from .settings import Default
 from .units import is_quantity, shown
@@ -41,6 +42,19 @@ def read_drag(reader: ArgumentReader, value: Any, name: str) -> Any:
     why = "it says how much the ground slows the vehicle, whatever way it goes"
     read = at_least_zero(reader, read, value, name, "negative_drag", why)
     warn_if_large(value, read, HIGHEST_DRAG, name, "a fraction of gravity", "m/s**2", "%")
+    return read
+
+
+def read_friction(reader: ArgumentReader, value: Any, name: str) -> Any:
+    """The friction of locked tyres, >= 0 and finite."""
+    wrong = len(reader.problems)
+    read = one_value(reader, value, "", name, UNCHECKED)
+    if len(reader.problems) > wrong:
+        return read
+    if isinstance(read, float) and not math.isfinite(read):
+        return reader.refuse(InputError(f"{name} must be finite, got {shown(value)}", code="not_finite", argument=name))
+    read = at_least_zero(reader, read, value, name, "bad_friction", "its direction is worked out")
+    warn_if_large(value, read, HIGHEST_DRAG, name, "a fraction of the load", "%")
     return read
 
 

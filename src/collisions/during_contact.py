@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import pulse
+from .contact_time import held_impulse
 from .directions import from_radians
-from .impact import Impact, solve_changed
+from .drag import GRAVITY
+from .impact import Impact, answer_of, solve_changed
 from .kernels.contact_laws import BRACH
 from .kernels.elementwise import select, turning_velocity
 from .models import ECCENTRIC, LINEAR
 from .quantities import hypot, numeric
 from .side import Side
+from .tyres import Tyres
 from .vehicle import Vehicle, needed
 
 # Midpoints of equal time intervals, as shares of the duration.
@@ -29,6 +34,7 @@ class Pull(NamedTuple):
     x: Any
     y: Any
     most: Any
+    yaw: Any = 0.0
 
     @classmethod
     def of(cls, side: Side, restitution: Any, most: Any) -> Pull:
@@ -54,6 +60,22 @@ class Pull(NamedTuple):
         return cls(most * x, most * y, most * (turning * square) ** 0.5)
 
 
+def by_wheels(impact: Impact, time: Any, tyres: Mapping[str, Tyres], pulls: tuple[Pull, Pull]) -> tuple[Pull, Pull]:
+    """What wheels that roll, brake and steer do over the contact, as ``eccentric`` takes them; none where there are none."""
+    inputs = replace(impact.inputs, tyres_a=tyres.get("tyres_a"), tyres_b=tyres.get("tyres_b"), duration=time)
+    found = []
+    for label, body, pull in zip("ab", (inputs.a, inputs.b), pulls, strict=True):
+        own = inputs.tyres.get(label)
+        if own is None:
+            found.append(Pull(0.0 * pull.x, 0.0 * pull.y, 0.0 * pull.most))
+            continue
+        mass = finite_mass(body)
+        x, y, yaw = (part / select(mass > 0.0, mass, 1.0) for part in held_impulse(inputs, answer_of(impact), label))
+        drag = select(mass > 0.0, 1.0, 0.0) * own.friction * GRAVITY * time
+        found.append(Pull(x, y, Pull.of(getattr(impact, label), inputs.restitution, drag).most, yaw))
+    return found[0], found[1]
+
+
 def with_tyres(impact: Impact, pulls: tuple[Pull, Pull]) -> list[Any]:
     """Change of each vehicle's delta-V by the tyres of both, as impulses from outside, which the eccentric model takes."""
     inputs, point = impact.inputs, impact.point
@@ -63,7 +85,7 @@ def with_tyres(impact: Impact, pulls: tuple[Pull, Pull]) -> list[Any]:
     for label, pull in zip("ab", pulls, strict=True):
         body, given = getattr(inputs, label), getattr(inputs, f"outside_{label}") or (0.0, 0.0, 0.0)
         mass = _LITTLE * finite_mass(body)
-        changes[f"outside_{label}"] = (given[0] + mass * pull.x, given[1] + mass * pull.y, given[2])
+        changes[f"outside_{label}"] = (given[0] + mass * pull.x, given[1] + mass * pull.y, given[2] + mass * pull.yaw)
         if point is not None and body.x is not None and body.y is not None and np.any(central):
             # A central model knows no levers.
             x, y = (select(central, *places) for places in zip(point, (body.x, body.y), strict=True))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
 
 import numpy as np
 
+from .contact_time import residual_crushes
 from .directions import angle_of
 from .errors import InputError, NoSolutionError, Status
 from .inputs import ARGUMENTS, STIFFNESSES, Inputs, Law, ModelName, OnFailure, index_of, part_of, part_of_inputs
@@ -378,12 +379,14 @@ class Impact(Frozen, Summarized):
         passed = self._passed
         if passed is None:
             return None
-        from .pulse import Pulse
+        from .pulse import CURVES, Pulse
 
+        found = {f.name: getattr(passed, f.name) for f in fields(Pulse) if f.name in Passed._fields}
+        left = {f"residual_crush_{label}": part for label, part in residual_crushes(self.inputs, passed.peak_force).items()}
+        if left:
+            found |= left | {"residual_crush": sum(left.values())}
         curves = () if passed.history is None else passed.history
-        names = [f.name for f in fields(Pulse)]
-        pulse = Pulse(**{name: getattr(passed, name) for name in names[:5]}, **dict(zip(names[5:], curves, strict=False)))
-        return in_units_of(pulse, self._texts())
+        return in_units_of(Pulse(**lock(found), **dict(zip(CURVES, curves, strict=False))), self._texts())
 
     @derived()
     def status(self) -> Status:

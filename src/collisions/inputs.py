@@ -18,6 +18,8 @@ from .kernels.elementwise import restitution_domain
 from .quantities import lock, same
 from .reading import OUTSIDE_UNITS, ArgumentReader, broadcast, is_whole, largest
 from .settings import units_required
+from .tyres import NAMES as TYRE_NUMBERS
+from .tyres import Tyres, tyres_with
 from .units import Value, has_unit, is_quantity, shown, texts_of
 from .vehicle import NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, with_name, without_turning
 
@@ -31,17 +33,18 @@ _ALONG_X = (1.0, 0.0)
 _new = object.__new__
 # Of a crush stiffness: force at no crush and its growth with crush, each for a width, and the width.
 CRUSH_UNITS = ("N/m", "N/m**2", "m")
-_NO_IMPULSE = (0.0, 0.0, 0.0)
+NO_IMPULSE = (0.0, 0.0, 0.0)
 OUTSIDE = ("outside_a", "outside_b")
+TYRES = ("tyres_a", "tyres_b")
 _SLIP = (*RULES, "law", "incomplete")
 STIFFNESSES = ("duration", "stiffness", "crush_a", "crush_b")
 # By solver, its arguments beyond vehicles, restitution and normal.
 ARGUMENTS = {
     "linear_central": ("incomplete",),
     "oblique_central": _SLIP,
-    "eccentric": (*_SLIP, "point", *OUTSIDE),
-    "solve": (*_SLIP, "point", *OUTSIDE, "tolerance", "duration", "drag"),
-    "time_resolved": (FRICTION, "point", *STIFFNESSES, "drag", "wheelbase", "track", "geometry", "steps"),
+    "eccentric": (*_SLIP, "point", *OUTSIDE, "duration", *TYRES),
+    "solve": (*_SLIP, "point", *OUTSIDE, "tolerance", "duration", "drag", *TYRES),
+    "time_resolved": (FRICTION, "point", *STIFFNESSES, "drag", "wheelbase", "track", *TYRES, "geometry", "steps"),
 }
 # The models that need places, and the solvers that take pinned bodies.
 PLACED, _PINNED = ("eccentric", "time_resolved"), ("eccentric", "solve")
@@ -78,7 +81,7 @@ class Inputs:
         Impulse on A and on B from other things than the contact, along x and y, and about the centre of mass.
     contact_velocity : tuple of float or array [m/s], optional
         From a reverse solver: closing speed and slip before, to more digits than the rounded motions would give.
-    duration, stiffness, crush_a, crush_b, drag, wheelbase, track, geometry, steps
+    duration, stiffness, crush_a, crush_b, drag, wheelbase, track, tyres_a, tyres_b, geometry, steps
         As for ``time_resolved``.
     """
 
@@ -106,6 +109,8 @@ class Inputs:
     incomplete: bool = False
     outside_a: tuple[Value, ...] | None = field(default=None, metadata={"unit": OUTSIDE_UNITS})
     outside_b: tuple[Value, ...] | None = field(default=None, metadata={"unit": OUTSIDE_UNITS})
+    tyres_a: Tyres | None = None
+    tyres_b: Tyres | None = None
 
     @cached_property
     def shape(self) -> tuple[int, ...] | None:
@@ -120,8 +125,19 @@ class Inputs:
 
     @property
     def texts(self) -> tuple[Any, ...]:
-        """What was given with a unit, as texts, by the vehicles too."""
-        return *texts_of(self.a.given), *texts_of(self.b.given), *texts_of(self.given)
+        """What was given with a unit, as texts, by the vehicles and tyres too."""
+        found = *texts_of(self.a.given), *texts_of(self.b.given), *texts_of(self.given)
+        return *found, *(text for one in self.tyres.values() for text in one.given.values())
+
+    @property
+    def pushed(self) -> bool:
+        """Whether impulses other than that of the contact act in the same instant: given ones, or those of tyres."""
+        return self.outside_a is not None or (self.model != "time_resolved" and bool(self.tyres))
+
+    @property
+    def tyres(self) -> dict[str, Tyres]:
+        """The tyres by vehicle, "a" and "b", of those that have some."""
+        return {label: one for label, one in (("a", self.tyres_a), ("b", self.tyres_b)) if one is not None}
 
     def __eq__(self, other: object) -> bool:
         """Whether all values are equal; the texts they were given as do not count."""
@@ -150,6 +166,8 @@ def named_numbers(inputs: Inputs) -> dict[str, Any]:
             found[name] = value
     for label, vehicle in (("a", inputs.a), ("b", inputs.b)):
         found |= {f"{label}.{name}": value for name, value in numbers_of(vehicle).items()}
+    for label, tyres in inputs.tyres.items():
+        found |= {f"tyres_{label}.{name}": value for name, value in tyres.named.items()}
     return found
 
 
@@ -168,8 +186,9 @@ def part_of_inputs(inputs: Inputs, take: Callable[[Any], Any]) -> Inputs:
         try:
             return part_of(value, take)
         except InputError as error:
-            named = error.fields | {"vehicle": label}
-            raise type(error)(f"{with_name(label, value)}: {error}", code=error.code, **named) from None
+            named = error.fields | {"vehicle": label[-1]}
+            who = with_name(label, value) if isinstance(value, Vehicle) else label
+            raise type(error)(f"{who}: {error}", code=error.code, **named) from None
 
     return Inputs(**{f.name: taken(f.name, getattr(inputs, f.name)) for f in fields(inputs)})
 
@@ -180,6 +199,8 @@ def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
         return take(whole)
     if isinstance(whole, Vehicle):
         return vehicle_of({name: part_of(getattr(whole, name), take) for name in NAMES}, given=whole.given)
+    if isinstance(whole, Tyres):
+        return tyres_with({name: part_of(getattr(whole, name), take) for name in TYRE_NUMBERS}, whole)
     if isinstance(whole, Mapping):
         return {name: part_of(value, take) for name, value in whole.items()}
     if isinstance(whole, tuple):
@@ -295,7 +316,7 @@ def read_inputs(
     vehicles = (number for vehicle in (a, b) if isinstance(vehicle, Vehicle) for number in numbers_of(vehicle).values())
     pushes: dict[str, Any] = dict(zip(OUTSIDE, (outside_a, outside_b), strict=True))
     if outside_a is not None or outside_b is not None:
-        pushes = {name: _NO_IMPULSE if given is None else reader.impulse(given, name) for name, given in pushes.items()}
+        pushes = {name: NO_IMPULSE if given is None else reader.impulse(given, name) for name, given in pushes.items()}
     of_contact = e, value, *(contact or ()), *(pushes["outside_a"] or ()), *(pushes["outside_b"] or ())
     unit: Any = direction(reader, normal, "normal", chain(of_contact, vehicles, beside))
     lawful, _, _ = _TAKES[model]

@@ -12,12 +12,12 @@ import numpy as np
 
 from .contact_time import timed
 from .formatting import Numbers
-from .inputs import Inputs, ModelName, first_case, lacking, missing_numbers, named_numbers, part_of, part_of_inputs
+from .inputs import NO_IMPULSE, Inputs, ModelName, first_case, lacking, missing_numbers, named_numbers, part_of, part_of_inputs
 from .kernels.contact_laws import BRACH, FRICTION, LAWS
 from .kernels.elementwise import larger, select
 from .kernels.floats import compile_for_floats
 from .kernels.model_error import ECCENTRIC, LACKING, Known, least_model
-from .kernels.status import EPS, Passed, Status
+from .kernels.status import EPS, Passed, Status, WithTyres
 from .models import MODELS, TIME_RESOLVED, in_form, model_of, read_again
 from .progress import halves, reporter
 from .quantities import Shown, derived, lock, numeric, same
@@ -34,7 +34,7 @@ _LAST, _ROUGH = len(MODELS), 25
 # Safety factor on an error against that.
 _MARGIN = 1.15
 _SI = Numbers("si")
-_PIVOT, _OUTSIDE = "a body that turns about a pivot", "an impulse from outside"
+_PIVOT, _OUTSIDE, _TYRES = "a body that turns about a pivot", "an impulse from outside", "what tyres do during the contact"
 
 
 class ByModel(Mapping[str, Any]):
@@ -159,9 +159,16 @@ def choose(inputs: Inputs, threads: int = 1, progress: Any = None) -> tuple[Mode
         _predicted=(predicted[0], predicted[1]),
         _missing=missing,
         _lacks=bool(np.any(lacks)) if shape else lacks,
-        _beyond=_PIVOT if a.pivot is not None or b.pivot is not None else "" if inputs.outside_a is None else _OUTSIDE,
+        _beyond=_beyond_impulses(inputs),
     )
     return (choice, lacks) if inputs.duration is None else _with_time(inputs, choice, lacks)
+
+
+def _beyond_impulses(inputs: Inputs) -> str:
+    """What of the inputs no central model can hold."""
+    if inputs.a.pivot is not None or inputs.b.pivot is not None:
+        return _PIVOT
+    return _OUTSIDE if inputs.outside_a is not None else _TYRES if inputs.tyres else ""
 
 
 def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelChoice, Any]:
@@ -169,7 +176,7 @@ def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelCh
     why = ""
     if inputs.rule != FRICTION:
         why = f"{_IN_TIME} takes friction, and {inputs.rule} was given"
-    elif choice._beyond:
+    elif choice._beyond in (_PIVOT, _OUTSIDE):
         why = f"{_IN_TIME} takes no {'body with a pivot' if choice._beyond == _PIVOT else 'impulse from outside'}"
     elif np.any(np.less(inputs.restitution, 0.0)):
         why = f"{_IN_TIME} takes no incomplete impact"
@@ -200,7 +207,8 @@ def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelCh
         which, errors = which.astype(np.uint8), tuple(errors_of)
     unknown = (which == _LAST) if choice._missing else False
     untimed = "" if answered is not False else f"{_IN_TIME} has no answer: {Status(rough.status).sentence}"
-    return replace(choice, _which=which, _predicted=errors, _timed=answered, _untimed=untimed), lacks | unknown
+    beyond = "" if answered is not False else choice._beyond
+    return replace(choice, _beyond=beyond, _which=which, _predicted=errors, _timed=answered, _untimed=untimed), lacks | unknown
 
 
 def _apart(inputs: Inputs, answer: Any, other: Any) -> Any:
@@ -264,6 +272,8 @@ def solve_least(
     used = [model for at, model in enumerate(MODELS) if np.any(which == at)] or [MODELS[ECCENTRIC]]
     models, numbers = ([in_form(used[0], inputs)], None) if len(used) == 1 else (MODELS, which)
     raw = solve_cases(models, numbers, inputs, shape, threads, report)
+    if inputs.tyres:
+        raw = _held(inputs, raw, np.broadcast_to(which == ECCENTRIC, shape), threads)
     if np.any(late):
         raw = _in_time(inputs, raw, replace(choice, _which=which), np.broadcast_to(late, shape), threads)
 
@@ -274,6 +284,21 @@ def solve_least(
     chosen = choice
     say_of_cases(inputs, raw, on_failure, one)
     return raw, choice
+
+
+def _held(inputs: Inputs, raw: Any, some: Any, threads: int) -> WithTyres:
+    """The answers of a batch with those of some cases, of the eccentric model, with what their tyres do."""
+    found: dict[str, Any] = {}
+    for name in WithTyres._fields:
+        value = getattr(raw, name, 0.0 * raw.normal_impulse)
+        found[name] = np.array(np.broadcast_to(value, some.shape), dtype=np.asarray(value).dtype)
+    if np.any(some):
+        part = part_of_inputs(inputs, lambda value: np.broadcast_to(value, some.shape)[some])
+        with quietly():
+            held = solve_inputs(MODELS[ECCENTRIC], replace(part, model=_ECCENTRIC, tolerance=None), "nan", threads)
+        for name, value in found.items():
+            value[some] = getattr(held, name)
+    return WithTyres(**lock(found))
 
 
 def _in_time(inputs: Inputs, raw: Any, choice: ModelChoice, late: Any, threads: int) -> Passed:
@@ -294,7 +319,8 @@ def _in_time(inputs: Inputs, raw: Any, choice: ModelChoice, late: Any, threads: 
     if LAWS[inputs.law or BRACH].energetic:
         found["separation_speed"] = select(choice._which == 0, found["separation_speed"], raw.separation_speed)
         found |= {"compression_impulse": impulse, "energy_absorbed": loss}
-    found |= {name: 0.0 * raw.normal_impulse for name in Passed._fields if name.startswith("tyre")}
+    nothing = 0.0 * raw.normal_impulse
+    found |= {name: getattr(raw, name, nothing) for name in Passed._fields if name.startswith("tyre")}
     for name in Passed._fields[:-1]:
         value = found.get(name, getattr(raw, name, math.nan))
         kind = raw.status.dtype if name == "status" else np.bool_ if name == "sticks" else raw.closing_speed.dtype
@@ -336,7 +362,7 @@ def _predicted(inputs: Inputs, missing: tuple[str, ...], shape: tuple[int, ...] 
     """The model's number, and the errors of the central models; infinite with a pivot or an impulse from outside."""
     a, b, placed, tolerance = inputs.a, inputs.b, inputs.point is not None, inputs.tolerance
     pinned = a.pivot is not None, b.pivot is not None
-    if shape is None and not missing and inputs.outside_a is None:
+    if shape is None and not missing and not inputs.pushed:
         found = _float_function(inputs.rule, inputs.law, pinned)(vars(inputs))
         if found is not None:
             return found
@@ -345,9 +371,11 @@ def _predicted(inputs: Inputs, missing: tuple[str, ...], shape: tuple[int, ...] 
         inertias=(a.yaw_inertia is not None, b.yaw_inertia is not None),
         all=not missing,
         pinned=pinned,
-        outside=inputs.outside_a is not None,
+        outside=inputs.pushed,
     )
-    numbers = (*MODELS[ECCENTRIC].numbers(inputs), *(inputs.outside_a or ()), *(inputs.outside_b or ()))
+    numbers = MODELS[ECCENTRIC].numbers(inputs)
+    if inputs.pushed:
+        numbers = (*numbers, *(inputs.outside_a or NO_IMPULSE), *(inputs.outside_b or NO_IMPULSE))
     if shape is None:
         return least_model(*numbers, tolerance, inputs.rule, inputs.law, known, EPS)
     # Batches only, so the float precision is found as for batches of one model.

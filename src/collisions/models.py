@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from .contact_time import DOMAINS, read_contact_time, read_least_time, solve_case_in_time
+from .contact_time import DOMAINS, read_contact_time, read_lasting, read_least_time, solve_case_in_time
 from .errors import InputError
-from .inputs import OUTSIDE, Arguments, Inputs, body_numbers, first_case, read_inputs
+from .inputs import OUTSIDE, TYRES, Arguments, Inputs, body_numbers, first_case, read_inputs
 from .kernels.central import from_closing_speed, linear_central, oblique_central
 from .kernels.contact_laws import BRACH, RULES
 from .kernels.eccentric import eccentric, from_contact_velocity, with_outside
@@ -106,7 +106,7 @@ TIME_RESOLVED = Model(
     (),
     lambda *kind: (),
     "Time-resolved: the contact is followed in small steps. A spring along the normal takes up the approach and gives back the "
-    "share of its work that the restitution squared says; Coulomb friction acts along the tangent, tyres slide on the ground, "
+    "share of its work that the restitution squared says; Coulomb friction acts along the tangent, tyres act on the ground, "
     "and places and normal move with the vehicles.",
 )
 BY_NAME = {model.name: model for model in (*MODELS, TIME_RESOLVED)}
@@ -147,10 +147,22 @@ def in_form(model: Model, inputs: Inputs) -> Model:
     return model if inputs.outside_a is None else _WITH_OUTSIDE
 
 
-def read_for_solve(arguments: Arguments, tolerance: Any, duration: Any, drag: Any, **more: Any) -> Inputs:
+def read_lasting_impulse(arguments: Arguments, duration: Any, tyres: tuple[Any, Any], **more: Any) -> Inputs:
+    """Read the arguments of ``eccentric`` with tyres."""
+    reader = ArgumentReader()
+    times = read_lasting(reader, ECCENTRIC.name, *arguments[:2], duration, tyres)
+    inputs = read_inputs(ECCENTRIC.name, arguments, reader.problems, **more)
+    return replace(inputs, given={**(inputs.given or {}), **reader.texts} or None, **times)
+
+
+def read_for_solve(
+    arguments: Arguments, tolerance: Any, duration: Any, drag: Any, tyres: tuple[Any, Any], **more: Any
+) -> Inputs:
     """Read the arguments of ``solve``."""
     reader = ArgumentReader()
-    times = {} if duration is None and drag is None else read_least_time(reader, duration, drag)
+    times = {}
+    if not (duration is None and drag is None and tyres == (None, None)):
+        times = read_least_time(reader, *arguments[:2], duration, drag, tyres)
     if not (type(tolerance) is float and 0.0 <= tolerance < math.inf):
         tolerance = _read_tolerance(reader, tolerance)
     inputs = read_inputs("solve", arguments, reader.problems, **more)
@@ -173,12 +185,15 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     contact = 0.0 if unknown else e, inputs.normal, inputs.point
     more = {name: getattr(inputs, name) for name in ("incomplete", *OUTSIDE)}
     arguments = inputs.a, inputs.b, *contact, tangential, BRACH if inputs.law is None else inputs.law
+    tyres = inputs.tyres_a, inputs.tyres_b
     with in_si():
         if inputs.model == TIME_RESOLVED.name:
-            extra = {name: getattr(inputs, name) for name in (*DOMAINS, "geometry", "steps")}
+            extra = {name: getattr(inputs, name) for name in (*DOMAINS, *TYRES, "geometry", "steps")}
             again = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
         elif inputs.model == "solve":
-            again = read_for_solve(arguments, inputs.tolerance, inputs.duration, inputs.drag, **more)
+            again = read_for_solve(arguments, inputs.tolerance, inputs.duration, inputs.drag, tyres, **more)
+        elif inputs.model == ECCENTRIC.name and (tyres != (None, None) or inputs.duration is not None):
+            again = read_lasting_impulse(arguments, inputs.duration, tyres, **more)
         else:
             again = read_inputs(inputs.model, arguments, **more)
     return replace(

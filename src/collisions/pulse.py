@@ -9,7 +9,7 @@ up, when the closing speed has fallen to -e times what it was. ``share`` is a sh
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
@@ -35,6 +35,11 @@ class Pulse(Shown):
         Largest distance by which the contact points passed into each other along the normal, both vehicles together.
     peak_acceleration_a, peak_acceleration_b : float or array [m/s**2]
         Largest acceleration of the centre of mass, from contact and tyres.
+    residual_crush_a, residual_crush_b : float or array [m], optional
+        With ``crush_a`` or ``crush_b``, what is left of the crush of the vehicle, as it is measured on it: that at the largest
+        force less A/B. 0 where the contact was too light to leave any; None for a vehicle without a crush stiffness.
+    residual_crush : float or array [m], optional
+        The sum of both.
     time, force, crush : array [s], [N], [m]
         Values at the start and after every step; None for a batch, where ``impact.case(i).pulse`` has those of a case.
     delta_v_a, delta_v_b : array [m/s]
@@ -50,6 +55,9 @@ class Pulse(Shown):
     max_crush: Value = field(metadata={"unit": "m"})
     peak_acceleration_a: Value = field(metadata={"unit": "m/s**2"})
     peak_acceleration_b: Value = field(metadata={"unit": "m/s**2"})
+    residual_crush: Value | None = field(default=None, metadata={"unit": "m"})
+    residual_crush_a: Value | None = field(default=None, metadata={"unit": "m"})
+    residual_crush_b: Value | None = field(default=None, metadata={"unit": "m"})
     time: Any = field(default=None, metadata={"unit": "s"})
     force: Any = field(default=None, metadata={"unit": "N"})
     crush: Any = field(default=None, metadata={"unit": "m"})
@@ -57,6 +65,10 @@ class Pulse(Shown):
     delta_v_b: Any = field(default=None, metadata={"unit": "m/s"})
     yaw_rate_a: Any = field(default=None, metadata={"unit": "rad/s"})
     yaw_rate_b: Any = field(default=None, metadata={"unit": "rad/s"})
+
+
+CURVES = tuple(f.name for f in fields(Pulse) if f.type == "Any")
+"""The fields of a ``Pulse`` that have a value for every step."""
 
 
 def rise(share: Any) -> Any:

@@ -23,7 +23,7 @@ class SideQuantities:
     at_compression: VehicleQuantities
     delta_v = delta_v_at = delta_v_forward = delta_v_left = delta_vx = delta_vy = delta_yaw_rate = gamma = _QUANTITY
     impulse_direction = impulse_x = impulse_y = kinetic_energy_change = moment_arm = normal_arm = pdof = _QUANTITY
-    pdof_clock = pivot_impulse_x = pivot_impulse_y = tyre_impulse_x = tyre_impulse_y = tyre_loss = _QUANTITY
+    pdof_clock = pivot_impulse_x = pivot_impulse_y = tyre_impulse_x = tyre_impulse_y = tyre_loss = tyre_moment = _QUANTITY
     outside_x = outside_y = outside_yaw = outside_work = _QUANTITY
 
 
@@ -54,3 +54,9 @@ class RunOutQuantities:
 
     course = course_difference = course_error = crab_angles = distance = drags = speed = speed_error = _QUANTITY
     speeds = straight_course = time = yaw_rate = yaw_rate_error = _QUANTITY
+
+
+class TyresQuantities:
+    """Those of ``Tyres``."""
+
+    cornering = friction = height = lock = locks = named = steer = steered = track = transfers = wheelbase = _QUANTITY

@@ -14,16 +14,19 @@ from .directions import direction
 from .errors import InputError, Status
 from .formatting import KIND_OF
 from .inputs import ARGUMENTS, OUTSIDE, UNITS, Inputs
+from .inputs import TYRES as TYRES_OF
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import UNCHECKED
 from .model_choice import ModelChoice
 from .models import read_again
 from .provenance import KNOWN, Reconstruction
-from .pulse import Pulse
+from .pulse import CURVES, Pulse
 from .quantities import attributes, lock, same, unit_of
 from .reading import ArgumentReader
 from .side import Side
 from .summary import Cells, cells
+from .tyres import NAMES as TYRES
+from .tyres import Tyres
 from .units import Texts, shown
 from .vehicle import DOMAINS, NAMES, Vehicle, moved, vehicle_of, with_given
 
@@ -57,6 +60,7 @@ def _inputs(inputs: Inputs) -> dict[str, Any]:
         "a": _vehicle_inputs(inputs.a),
         "b": _vehicle_inputs(inputs.b),
         **{name: _given_input(texts, name, getattr(inputs, name), unit) for name, unit in UNITS.items()},
+        **{name: tyres_record(getattr(inputs, name)) for name in TYRES_OF},
         "normal": text if as_text else strict(inputs.normal),
         "bare_normal": strict(inputs.bare_normal),
         "rule_value": _given(texts.pop(inputs.rule, None), inputs.rule_value, ""),
@@ -78,6 +82,21 @@ def _vehicle_inputs(vehicle: Vehicle) -> dict[str, Any]:
         del found["vx"], found["vy"]
         found |= polar
     return found
+
+
+def tyres_record(tyres: Tyres | None) -> dict[str, Any] | None:
+    """The arguments of tyres, each as the text it was given as or else in SI."""
+    return None if tyres is None else {name: strict(tyres.as_given(name)) for name in TYRES}
+
+
+def tyres_of(found: Mapping[str, Any] | None) -> Tyres | None:
+    """The tyres of a record, validated like a caller's."""
+    if found is None:
+        return None
+    if found.keys() != set(TYRES):
+        raise bad_record(f"tyres have {', '.join(TYRES)}, and it has {', '.join(map(str, found))}")
+    values = {name: _read(value) for name, value in found.items()}
+    return Tyres(**values)
 
 
 def _velocity(polar: Mapping[str, str]) -> tuple[Any, Any]:
@@ -128,6 +147,7 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             given["normal"] = reader.number(_read(found["bare_normal"]), "", "bare_normal")
             reader.close()
         numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS)}
+        numbers |= {name: tyres_of(found[name]) for name in TYRES_OF}
         inputs = Inputs(model=model, a=a, b=b, rule=rule, law=law, given=given, contact_velocity=velocity, **numbers)
         inputs = read_again(inputs, found=origin is not None)
         _check_texts(found, inputs, record["results"])
@@ -274,8 +294,8 @@ def _add(found: dict[str, tuple[Any, str | None]], name: str, value: Any, unit: 
         found[f"{name}.condition"] = value.condition, ""
         found[f"{name}.answers"] = value.answers, None
     elif isinstance(value, Pulse):
-        for field in fields(value)[:5]:
-            found[f"{name}.{field.name}"] = getattr(value, field.name), unit_of(Pulse, field.name)
+        numbers = {f.name: getattr(value, f.name) for f in fields(value) if f.name not in CURVES}
+        found |= {f"{name}.{inner}": (part, unit_of(Pulse, inner)) for inner, part in numbers.items() if part is not None}
     elif isinstance(value, ModelChoice):
         found[f"{name}.tolerance"] = value.tolerance, "m/s"
         found |= {f"{name}.errors.{model}": (error, "m/s") for model, error in value.errors.items()}

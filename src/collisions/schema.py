@@ -10,7 +10,7 @@ from typing import Any, get_args
 from .contact_time import Geometry
 from .errors import Status
 from .impact import Impact
-from .inputs import ARGUMENTS, PLACED, UNITS, Inputs
+from .inputs import ARGUMENTS, PLACED, TYRES, UNITS, Inputs
 from .kernels.contact_laws import LAWS, RULES
 from .models import BY_NAME
 from .provenance import Reconstruction
@@ -18,6 +18,7 @@ from .pulse import Pulse
 from .quantities import attributes, unit_of
 from .records import FORMAT, OF_SOME
 from .side import Side
+from .tyres import Tyres
 from .vehicle import DOMAINS, Vehicle
 
 __all__ = ["impact_schema"]
@@ -83,6 +84,7 @@ def impact_schema() -> dict[str, Any]:
                     "tolerance": {**_VALUE, "description": "[m/s]"},
                 }
             ),
+            "tyres": _tyres(),
             "pulse": _closed({f.name: _field(f) for f in fields(Pulse)}),
             "reconstruction": _closed({f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)}),
         },
@@ -101,6 +103,7 @@ def _inputs() -> dict[str, Any]:
             "a": vehicle,
             "b": vehicle,
             **{name: _input(name) for name in UNITS},
+            **{name: _or_null({"$ref": "#/$defs/tyres"}, "The wheels of a vehicle.") for name in TYRES},
             "geometry": {"enum": [*get_args(Geometry), None], "description": "Of time_resolved: what the positions are."},
             "steps": {"type": ["integer", "null"], "description": "Of time_resolved: steps a nominal duration."},
             "normal": {"anyOf": [_PAIR, _TEXT], "description": "Unit vector from A into B, or its angle as given."},
@@ -152,6 +155,13 @@ def _vehicle_inputs() -> dict[str, Any]:
         "oneOf": [{"required": ["vx", "vy"]}, {"required": ["speed", "course"]}],
         "dependentRequired": {"speed": ["course"], "course": ["speed"]},
     }
+
+
+def _tyres() -> dict[str, Any]:
+    """The arguments of tyres."""
+    found = {f.name: {**_GIVEN, "description": f"[{f.metadata['unit']}]"} for f in fields(Tyres)}
+    four = {"type": "array", "items": _GIVEN, "minItems": 4, "maxItems": 4}
+    return _closed(found | {"lock": {"anyOf": [_GIVEN, four]}, "height": _or_null(_GIVEN, "[m]")})
 
 
 def _input(name: str) -> dict[str, Any]:

@@ -201,13 +201,18 @@ class Side(Frozen, Summarized):
 
     @derived("N*s")
     def tyre_impulse_x(self) -> Value:
-        """Impulse of the tyres on this vehicle during a time-resolved contact, along scene x [N*s]; otherwise 0."""
+        """Impulse of the tyres on this vehicle during a contact that lasts, along scene x [N*s]; otherwise 0."""
         return self._passed("tyre_impulse_x")
 
     @derived("N*s")
     def tyre_impulse_y(self) -> Value:
-        """Impulse of the tyres on this vehicle during a time-resolved contact, along scene y [N*s]; otherwise 0."""
+        """Impulse of the tyres on this vehicle during a contact that lasts, along scene y [N*s]; otherwise 0."""
         return self._passed("tyre_impulse_y")
+
+    @derived("kg*m**2/s")
+    def tyre_moment(self) -> Value:
+        """Moment of the impulse of the tyres about the centre of mass [N*m*s], counter-clockwise; otherwise 0."""
+        return self._passed("tyre_moment")
 
     @derived("J")
     def tyre_loss(self) -> Value:
@@ -225,7 +230,8 @@ class Side(Frozen, Summarized):
             return self._work() - self.tyre_loss
         ux, uy, dux, duy = self._at_contact(self._change())
         by_contact = self.impulse_x * (ux + 0.5 * dux) + self.impulse_y * (uy + 0.5 * duy)
-        return by_contact if self._outside() is None else by_contact + self.outside_work
+        by_contact = by_contact if self._outside() is None else by_contact + self.outside_work
+        return by_contact - self.tyre_loss if self._inputs.tyres else by_contact
 
     @derived("N*s")
     def outside_x(self) -> Value:
@@ -374,7 +380,10 @@ class Side(Frozen, Summarized):
         if self.before.pivot is None:
             return 0.0 * impulse + 0.0
         outside = self._outside()
-        return self.before.mass * dv - (impulse if outside is None else impulse + outside[axis])
+        pushed = impulse if outside is None else impulse + outside[axis]
+        if self._inputs.tyres:
+            pushed = pushed + (self.tyre_impulse_y if axis else self.tyre_impulse_x)
+        return self.before.mass * dv - pushed
 
     def __repr__(self) -> str:
         return f"<{'ab'[self._index]}: delta_v={show(self.delta_v, 'm/s')}, after={self.after!r}>"

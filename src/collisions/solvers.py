@@ -10,10 +10,21 @@ from .hints import hinted, no_argument, open_to_hints
 from .impact import Impact, build, solved
 from .inputs import Law, OnFailure, plain_inputs, read_inputs
 from .kernels.contact_laws import FRICTION
-from .models import ECCENTRIC, LINEAR, OBLIQUE, TIME_RESOLVED, Model, float_function, in_form, read_for_solve
+from .models import (
+    ECCENTRIC,
+    LINEAR,
+    OBLIQUE,
+    TIME_RESOLVED,
+    Model,
+    float_function,
+    in_form,
+    read_for_solve,
+    read_lasting_impulse,
+)
 from .progress import Progress
 from .quantities import in_units_of
 from .solving import solve_inputs
+from .tyres import Tyres
 from .units import Impulse, Input, Pair
 from .vehicle import Vehicle
 
@@ -26,6 +37,7 @@ _ELSEWHERE = {
     **dict.fromkeys(("friction", "impulse_ratio", "critical_fraction", "law"), "oblique_central and eccentric have it"),
     **dict.fromkeys(("point", "outside_a", "outside_b"), "eccentric has it"),
     **dict.fromkeys(("duration", "stiffness", "crush_a", "crush_b", "drag"), "time_resolved has it"),
+    **dict.fromkeys(("tyres_a", "tyres_b"), "eccentric and time_resolved have it"),
 }
 
 
@@ -189,6 +201,9 @@ def eccentric(
     incomplete: bool = False,
     outside_a: Impulse | None = None,
     outside_b: Impulse | None = None,
+    duration: Input | None = None,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
@@ -230,6 +245,13 @@ def eccentric(
         ground: its components along the scene axes at the centre of mass, and its moment about it. ``left_out`` estimates that
         of the tyres. The impulse is a given number; an object that stops a vehicle with whatever impulse that takes, such as a
         kerb of unknown impulse, is to be solved as a second impact, against a barrier.
+    duration : float, str, Quantity or array [s], optional
+        How long the contact lasts, for the impulse of the tyres; with ``tyres_a`` or ``tyres_b``.
+    tyres_a, tyres_b : travel.Tyres, optional
+        The wheels of each vehicle, which then needs a ``heading``. Their mean force is worked out from the motion without
+        them, before, half-way through and after the contact (Simpson's rule); times the duration it acts as an impulse from
+        outside, ``impact.a.tyre_impulse_x``, and the impact is solved once more. This costs two calls; the motion during the
+        contact, which ``time_resolved`` has too, is left out.
     incomplete, on_failure, threads, progress
         As for ``linear_central``.
 
@@ -275,6 +297,11 @@ def eccentric(
     if unknown:
         raise no_argument("eccentric()", signature(eccentric).parameters, unknown, _ELSEWHERE)
     tangential = friction, impulse_ratio, critical_fraction
+    if duration is not None or tyres_a is not None or tyres_b is not None:
+        arguments = a, b, restitution, normal, point, tangential, law
+        more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
+        inputs = read_lasting_impulse(arguments, duration, (tyres_a, tyres_b), **more)
+        return build(inputs, solve_inputs(ECCENTRIC, inputs, on_failure, threads, progress))
     outside = None if outside_a is outside_b is None else (outside_a, outside_b)
     return _solve(
         ECCENTRIC, a, b, restitution, normal, point, tangential, law, incomplete, on_failure, threads, progress, outside
@@ -295,6 +322,8 @@ def time_resolved(
     crush_a: tuple[Input, Input, Input] | None = None,
     crush_b: tuple[Input, Input, Input] | None = None,
     drag: Input = 0.0,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
     geometry: Geometry = "maximum_engagement",
     steps: int = 100,
     wheelbase: Input | None = None,
@@ -311,8 +340,7 @@ def time_resolved(
     tangent Coulomb friction acts, and sticks where it can. The tyres slide on the ground. Meanwhile the vehicles move and turn:
     point and normal move with the mean of both vehicles; against a fixed body the point moves with the vehicle, and the normal
     with the fixed body. The model is valid for what ``eccentric`` leaves out of a single contact patch with a single direction:
-    low speeds, sideswipes, large vehicles. Crush that moves the centre of mass, roll, pitch and rolling wheels are left out
-    here too.
+    low speeds, sideswipes, large vehicles. Crush that moves the centre of mass, roll and pitch are left out here too.
 
     Parameters
     ----------
@@ -334,19 +362,29 @@ def time_resolved(
     stiffness : float, str, Quantity or array [N/m]
         Stiffness of both vehicles together, force over penetration.
     crush_a, crush_b : tuple (A [N/m], B [N/m**2], width [m])
-        Crush stiffness coefficients as in CRASH: the force per width is A + B times the crush. One is enough, and the other
-        vehicle is then rigid; with both, the force is common to them, and each gives way only above its own A. Exactly one of
-        duration, stiffness and crush must be given.
+        Crush stiffness coefficients as in CRASH, where A + B C is the force per width that leaves a crush C behind. While it
+        acts the structure gives way by C + A/B, so the force grows from 0 with B times that, and up to the largest force it
+        takes up what ``reconstruct.crush_energy`` says of the crush that is left, ``pulse.residual_crush_a``. That is 0 where
+        the force stays below A. One is enough, and the other vehicle is then rigid; with both, the force is common to them.
+        Exactly one of duration, stiffness and crush must be given.
     drag : float, str, Quantity or array [-]
-        Drag factor of the tyres on the ground, >= 0, as for ``left_out``: 0.7 is locked wheels on a dry road; 0 means no tyre
-        forces.
+        The rough form of tyres: all wheels of both vehicles slide, with this drag factor against their motion, whatever way
+        they go, as for ``left_out``: 0.7 is locked wheels on a dry road; 0 means no tyre forces. It leaves out that wheels
+        which roll hardly resist along themselves and resist sideways with their full friction: in a T-bone no drag comes
+        nearer to rolling wheels than 4 to 9 percent of delta-V. Give ``tyres_a`` and ``tyres_b`` where wheels roll.
+    tyres_a, tyres_b : travel.Tyres, optional
+        The wheels of each vehicle, in place of a drag: rolling, braked or steered, with the tyre force that
+        ``travel.simulate`` has on the way to rest. A vehicle with tyres needs a ``heading``; one without has no tyre forces.
     geometry : {"maximum_engagement", "first_contact", "fixed"}
         The moment to which the given positions belong. Maximum engagement is what all other solvers take; the start of the
-        contact is then searched for. "fixed" leaves everything where it is.
+        contact is then searched for, until the places reached are within 0.003 of closing speed times duration of those given
+        (in sum; 3 mm at 10 m/s and 0.1 s; with n steps that times (100/n)**3, but at most 0.01). Over 1,000 random impacts of
+        cars this moves delta-V by 0.0006 m/s in the median, 0.003 in 9 of 10, and 0.02 at most. Where it cannot be reached the
+        case is refused. "fixed" leaves everything where it is.
     steps : int
         Steps per nominal duration, which is that of a linear spring with the same largest force.
     wheelbase, track : float, str, Quantity or array [m], optional
-        The same for both vehicles, with the centre of mass in the middle; 2.7 m and 1.5 m if not given.
+        With a drag, the same for both vehicles, with the centre of mass in the middle; 2.7 m and 1.5 m if not given.
     on_failure, threads, progress
         As for ``linear_central``.
 
@@ -403,7 +441,8 @@ def time_resolved(
     if unknown:
         raise no_argument("time_resolved()", signature(time_resolved).parameters, unknown, _ELSEWHERE)
     spring = {"duration": duration, "stiffness": stiffness, "crush_a": crush_a, "crush_b": crush_b}
-    others = {"drag": drag, "wheelbase": wheelbase, "track": track, "geometry": geometry, "steps": steps}
+    others: dict[str, Any] = {"drag": drag, "wheelbase": wheelbase, "track": track, "geometry": geometry, "steps": steps}
+    others |= {"tyres_a": tyres_a, "tyres_b": tyres_b}
     inputs = read_contact_time(a, b, restitution, normal, point, friction, spring | others)
     return build(inputs, solve_inputs(TIME_RESOLVED, inputs, on_failure, threads, progress))
 
@@ -426,6 +465,8 @@ def required_model(
     tolerance: Input = 0.0,
     duration: Input | None = None,
     drag: Input | None = None,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
 ) -> ModelChoice:
     """The simplest model whose answer stays within a tolerance of the eccentric one, or of the contact in time.
 
@@ -453,8 +494,9 @@ def required_model(
     tolerance : float, str, Quantity or array [m/s]
         Largest error that is accepted, >= 0. With 0 the eccentric model is required, even where a simpler one would be exact;
         with ``duration`` it is ``time_resolved``, unless that is not a candidate or has no answer.
-    duration, drag
-        As for ``time_resolved``, optional; without ``drag`` there are no tyre forces.
+    duration, drag, tyres_a, tyres_b
+        As for ``time_resolved``, optional; without ``drag`` or tyres there are no tyre forces. With tyres the eccentric model
+        has them too, as ``eccentric`` does, and the central ones have not.
 
     Returns
     -------
@@ -479,7 +521,7 @@ def required_model(
     """
     arguments = a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-    inputs = read_for_solve(arguments, tolerance, duration, drag, **more)
+    inputs = read_for_solve(arguments, tolerance, duration, drag, (tyres_a, tyres_b), **more)
     from .model_choice import choose
 
     return in_units_of(choose(inputs)[0], inputs.texts)
@@ -503,6 +545,8 @@ def solve(
     tolerance: Input = 0.0,
     duration: Input | None = None,
     drag: Input | None = None,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
@@ -525,6 +569,8 @@ def solve(
     duration, drag : float, str, Quantity or array [s], [-], optional
         Duration of the contact and drag of the tyres, as for ``required_model``; a time-resolved contact is solved in 100
         steps.
+    tyres_a, tyres_b : travel.Tyres, optional
+        The wheels of each vehicle in place of a drag, as for ``required_model``.
     incomplete, outside_a, outside_b, on_failure, threads, progress
         As for ``eccentric``.
 
@@ -552,7 +598,7 @@ def solve(
         raise no_argument("solve()", signature(solve).parameters, unknown, _ELSEWHERE)
     arguments = a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-    inputs = read_for_solve(arguments, tolerance, duration, drag, **more)
+    inputs = read_for_solve(arguments, tolerance, duration, drag, (tyres_a, tyres_b), **more)
     return solved(inputs, on_failure, threads, progress)
 
 

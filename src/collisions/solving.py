@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from .contact_time import DOMAINS as TIME_DOMAINS
-from .contact_time import solve_case_in_time, solve_cases_in_time
+from .contact_time import solve_case_in_time, solve_cases_in_time, with_tyres
 from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, NoImpactError, NoSolutionError
 from .inputs import Inputs, first_case, named_numbers, part_of_inputs
 from .kernels.contact_laws import BRACH, LAWS, RULES
@@ -25,12 +27,15 @@ from .kernels.elementwise import (
     without_length,
 )
 from .kernels.status import Answer, Passed, Status
-from .models import TIME_RESOLVED, Model, float_function, kind_of, model_of, read_again
+from .models import TIME_RESOLVED, Model, float_function, in_form, kind_of, model_of, read_again
 from .progress import reporter
+from .quantities import lock
 from .summary import Sentences, said
+from .tyres import DOMAINS as TYRE_DOMAINS
+from .tyres import could_lift
 from .units import shown
 from .vehicle import DOMAINS, with_name
-from .warning import warn_of_cases
+from .warning import quietly, warn_of_cases
 
 _REFUSED = Answer(*[False if name == "sticks" else math.nan for name in Answer._fields])
 
@@ -49,9 +54,24 @@ def solve_inputs(
     """
     if on_failure is not None or progress is not None or type(threads) is not int or threads != 1:
         check_options(on_failure, threads, progress)
+    if inputs.tyres_a is not None or inputs.tyres_b is not None:
+        if model.name == "eccentric":
+
+            def solve(one: Inputs, quiet: bool) -> Any:
+                quiet = quiet or inputs.shape is not None
+                with quietly() if quiet else nullcontext():
+                    return solve_inputs(in_form(model, one), one, "nan" if quiet else on_failure, threads, progress, carrying)
+
+            raw: Any = with_tyres(inputs, solve)
+            if inputs.shape is not None:
+                raw = _where_tyres_hold(inputs, raw)
+                say_of_cases(inputs, raw, on_failure)
+            return raw
+        if model is not TIME_RESOLVED:
+            inputs = replace(inputs, tyres_a=None, tyres_b=None, duration=None)
     if inputs.shape is not None:
         if model is TIME_RESOLVED:
-            raw: Any = solve_cases_in_time(inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress))
+            raw = solve_cases_in_time(inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress))
         else:
             raw = solve_cases((model,), None, inputs, inputs.shape, threads, progress, carrying)
         say_of_cases(inputs, raw, on_failure)
@@ -224,11 +244,43 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
         found.append(Check(((without_length, Status.ZERO_NORMAL),), inputs.normal, all_with_length, implied=True))
     add_arrays(FINITE, *(inputs.point or ()), *(inputs.outside_a or ()), *(inputs.outside_b or ()))
     add_arrays(RULES[inputs.rule].domain, inputs.rule_value)
+    found += _tyre_checks(inputs)
     for name, domains in TIME_DOMAINS.items():
         given = getattr(inputs, name)
         for part, domain in zip(given if isinstance(given, tuple) else (given,), domains, strict=False):
             add_arrays(domain, part)
     return found
+
+
+def _tyre_checks(inputs: Inputs) -> list[Any]:
+    """The same of the tyres."""
+    from .kernels.batch import Check
+
+    found = []
+    for tyres in inputs.tyres.values():
+        for name, value in tyres.named.items():
+            domain = TYRE_DOMAINS[name.partition("[")[0]]
+            if isinstance(value, np.ndarray):
+                found.append(Check(domain.faults, (value,), domain.holds))
+        lifted = tyres.friction, 0.0 if tyres.height is None else tyres.height, tyres.wheelbase, tyres.track
+        if any(isinstance(value, np.ndarray) for value in lifted):
+            found.append(Check(((could_lift, Status.WHEEL_LIFTS),), lifted))
+    return found
+
+
+def _where_tyres_hold(inputs: Inputs, raw: Any) -> Any:
+    """The answers of a batch with NaN where a number of the tyres cannot be used, or what they give is beyond all numbers."""
+    with np.errstate(all="ignore"):
+        status = raw.status.copy()
+        for check in reversed(_tyre_checks(inputs)):
+            fault = np.broadcast_to(check.fault(*check.values), status.shape)
+            np.copyto(status, fault, where=np.not_equal(fault, Status.OK), casting="unsafe")
+    refused = status > Status.ENERGY_GAIN
+    if not refused.any():
+        return raw
+    found = {name: np.where(refused, name != "sticks" and math.nan, getattr(raw, name)) for name in raw._fields[1:]}
+    kinds = {name: value.astype(getattr(raw, name).dtype) for name, value in found.items()}
+    return raw._replace(status=lock(status), **lock(kinds))
 
 
 def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], Any]], Any] | None) -> CollisionsError:

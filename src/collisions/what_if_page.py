@@ -120,6 +120,13 @@ def what_if(
         raise InputError(
             f"what_if has no page for {impact.model}; solve the case by eccentric", code="bad_option", argument="impact"
         )
+    if impact.inputs.tyres and impact.model == "eccentric":
+        raise InputError(
+            "what_if has no page for an impact with tyres, whose force it would not work out again; write impact.again("
+            "tyres_a=None, tyres_b=None, duration=None), with what they give as outside_a and outside_b",
+            code="bad_option",
+            argument="impact",
+        )
     sliders = _sliders(impact, ranges)
     reader, given = ArgumentReader(), {"a": outline_a, "b": outline_b}
     read = {label: None if one is None else read_outline(reader, one, f"outline_{label}") for label, one in given.items()}

@@ -152,7 +152,8 @@ def on_the_ground() -> float:
     one: float = travel.speed("12 m", drag=0.7, grade="-2 %", end_speed=speed)
     run_out = travel.path([(0.0, 0.0), (5.0, 1.0)], ["0 deg", 0.3], friction=0.7, lock=1, point_error="0.1 m", heading_error=0)
     lasts: float = travel.time(20, drag=0.7) + travel.distance(speed, drag="6.5 m/s**2")
-    rest = travel.simulate(a, friction=0.7, lock=[1, 0.1, 0.1, "10 %"], steer="3 deg").rest.speed
+    tyres = travel.Tyres(0.7, [1, 0.1, 0.1, "10 %"], "2.7 m", 1.5, steer="3 deg")
+    rest = travel.simulate(a, tyres, slope=("2 %", 0.0)).at("1 s").speed + tyres.replace(height=0.5).wheelbase
     return one + lasts + run_out.speed + rest + travel.speed([10.0, 5.0], drag=[0.7, 0.3])
 
 

@@ -361,7 +361,7 @@ def _pdof(page: Page, s: Symbols, body: Body) -> None:
     if body.start.heading is None or side.pdof is None or math.isnan(side.pdof):
         return
     other = s.b if label == "A" else s.a
-    other_push = s.impact.pulse is not None or s.impact.inputs.outside_a is not None
+    other_push = s.impact.pulse is not None or s.impact.inputs.pushed
     if not body.fixed and not body.pinned and not other_push:
         caption = f"Direction of the impulse on {label}, which is that of its delta-V (definition)"
         pushed = Direction(body.delta_v("x"), body.delta_v("y"))

@@ -49,6 +49,19 @@ _IN_TIME = {
     "wheelbase": ("wheelbase of both vehicles", ("length",)),
     "track": ("track of both vehicles", ("length",)),
 }
+_TYRES = {
+    "friction": ("friction on the ground", "number"),
+    "lock": ("braking (lock), as a share of what locks them", "number"),
+    "lock[0]": ("braking (lock), front left", "number"),
+    "lock[1]": ("braking (lock), front right", "number"),
+    "lock[2]": ("braking (lock), rear left", "number"),
+    "lock[3]": ("braking (lock), rear right", "number"),
+    "wheelbase": ("wheelbase", "length"),
+    "track": ("track", "length"),
+    "steer": ("steer angle of the front wheels", "angle"),
+    "cornering": ("cornering stiffness over the load, per radian", "number"),
+    "height": ("height of the centre of mass", "length"),
+}
 _VEHICLE = {
     "mass": ("mass", "mass"),
     "vx": ("velocity along x", "speed"),
@@ -263,11 +276,19 @@ def impact_inputs(impact: Impact) -> Iterator[tuple[str, str, tuple[str, ...], t
     if impact.inputs.model != "linear_central":
         rule = impact.inputs.rule
         yield "contact", RULES[rule].meaning, (rule,), (impact.inputs.rule_value,), "number"
-    for name, (what, kinds) in _IN_TIME.items():
-        given = getattr(impact.inputs, name)
-        for at, part in enumerate(given if isinstance(given, tuple) else () if given is None else (given,)):
-            names = (f"{name}[{at}]" if isinstance(given, tuple) else name,)
-            yield "contact", what.split("; ")[at], names, (part,), kinds[at]
+    if impact.inputs.model != "eccentric":
+        for name, (what, kinds) in _IN_TIME.items():
+            given = getattr(impact.inputs, name)
+            for at, part in enumerate(given if isinstance(given, tuple) else () if given is None else (given,)):
+                names = (f"{name}[{at}]" if isinstance(given, tuple) else name,)
+                yield "contact", what.split("; ")[at], names, (part,), kinds[at]
+    elif impact.inputs.tyres:
+        yield "contact", "duration, for the tyres", ("duration",), (impact.inputs.duration or 0.0,), "duration"
+    if impact.inputs.model in (*PLACED, "solve"):
+        for label, tyres in impact.inputs.tyres.items():
+            for name, value in tyres.named.items():
+                what, kind = _TYRES[name]
+                yield "contact", f"tyres of {label.upper()}: {what}", (f"tyres_{label}.{name}",), (value,), kind
 
 
 def _inputs(page: Page, impact: Impact) -> None:

@@ -196,7 +196,7 @@ def eccentric(page: Page, s: Symbols) -> None:
     page.equation("Slip, of B relative to A", s.slip, s.relative("t", contact=True))
     page.heading("Impulse")
     impulses(page, s, _mobility(page, s, levers)._replace(push=_from_outside(page, s, levers)))
-    if s.impact.inputs.outside_a is not None and not (a.pinned or b.pinned):
+    if s.impact.inputs.pushed and not (a.pinned or b.pinned):
         impulse_in_scene_axes(page, s)
     page.heading("Motions after")
     for body in levers:
@@ -217,11 +217,14 @@ def time_resolved(page: Page, s: Symbols) -> None:
     """A contact in steps: its sums are not printed, but what they balance is."""
     steps = s.impact.inputs.steps or 100
     geometry = (s.impact.inputs.geometry or "maximum_engagement").replace("_", " ")
+    wheels = "each wheel slides with the drag given"
+    if s.impact.inputs.tyres:
+        wheels = "wheels roll, brake and steer as the tyres given say, within the friction of the ground"
     page.heading("Time-resolved impact")
     page.say(
         "The contact was followed in steps, which are too many for a page. Along the normal a force grows with the penetration "
-        "and gives back the share e squared of the work it took; along the tangent friction acts as Coulomb's; each wheel "
-        f"slides with the drag given. Geometry: {geometry}; {steps} steps in a nominal duration. "
+        "and gives back the share e squared of the work it took; along the tangent friction acts as Coulomb's; "
+        f"{wheels}. Geometry: {geometry}; {steps} steps in a nominal duration. "
         f"The impulse on B is the sum over all steps: {page.shown(s.normal)} along the normal, {page.shown(s.tangential)} "
         "along the tangent. What follows are its balances."
     )
@@ -255,9 +258,14 @@ def _from_outside(page: Page, s: Symbols, levers: Sequence[Lever]) -> tuple[Expr
         if body.outside is None:
             continue
         label, (j_x, j_y) = body.label, (body.pushed(axis) for axis in "xy")
-        page.say(
-            f"From outside an impulse acts on {label}: {page.shown(j_x)}, {page.shown(j_y)}, with {page.shown(body.moment)}."
-        )
+        whence = "From outside an impulse acts"
+        if s.impact.inputs.tyres:
+            given = "" if s.impact.inputs.outside_a is None else ", with the impulse from outside that was given,"
+            whence = (
+                "The tyres, by their mean force before, half-way through and after the contact times its duration"
+                f"{given} act as an impulse"
+            )
+        page.say(f"{whence} on {label}: {page.shown(j_x)}, {page.shown(j_y)}, with {page.shown(body.moment)}.")
         page.equation(f"Impulse from outside on {label}, along the normal", body.pushed("n"), s.dot(j_x, j_y))
         page.equation(f"Impulse from outside on {label}, along the tangent", body.pushed("t"), s.cross(j_x, j_y))
         for at, (direction, name, lever, sign) in enumerate((("n", "normal", body.t, -1.0), ("t", "tangent", body.n, 1.0))):
@@ -353,7 +361,7 @@ def _turned_about_pivot(page: Page, body: Lever, s: Symbols) -> None:
 def _moments_about_pivot(page: Page, s: Symbols, levers: Sequence[Lever]) -> None:
     """Equations (20) and (21) of Example 3: both bodies as one system about the pivot of one of them, without friction."""
     body, other = sorted(levers, key=lambda body: not body.pinned)
-    if not body.pinned or other.pinned or other.fixed or s.tangential.value != 0.0 or s.impact.inputs.outside_a is not None:
+    if not body.pinned or other.pinned or other.fixed or s.tangential.value != 0.0 or s.impact.inputs.pushed:
         return
     page.heading("Check by moments about the pivot, as in Example 3")
     page.say(
@@ -387,7 +395,7 @@ def _restitution(page: Page, s: Symbols, levers: tuple[Lever, Lever]) -> None:
         page.equation("Separation speed", s.separation, s.relative("n", AFTER, True))
         return
     page.balance("Restitution at the contact (11)", s.relative("n", AFTER, True), s.e * closing, "speed")
-    if s.impact.inputs.outside_a is not None or not s.impact.complete:
+    if s.impact.inputs.pushed or not s.impact.complete:
         return
     # From the body that changes more; if they are equal, max takes A.
     body = max(levers, key=lambda body: abs(body.along("n", AFTER, True).value - body.along("n", contact=True).value))

@@ -85,8 +85,13 @@ class Body:
 
     @property
     def outside(self) -> tuple[Any, Any, Any] | None:
-        """The impulse on it from outside, along x and y and about the centre of mass; None if there is none."""
-        parts = self.side.outside_x, self.side.outside_y, self.side.outside_yaw
+        """The impulse on it from outside and of tyres, along x and y and about its centre of mass; None if there is none."""
+        side = self.side
+        parts = side.outside_x, side.outside_y, side.outside_yaw
+        # A contact followed in time has the work of its tyres apart from that of impulses from outside.
+        if self.impact.pulse is None and self.impact.inputs.tyres:
+            x, y, yaw = parts
+            parts = x + side.tyre_impulse_x, y + side.tyre_impulse_y, yaw + side.tyre_moment
         return parts if any(parts) else None
 
     def pushed(self, direction: str) -> Symbol:

@@ -84,7 +84,7 @@ def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
 )
 def tyre_impulse(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
-        if isinstance(case, ImpactCase) and case.answer.inputs.drag and case.left_out is None:
+        if isinstance(case, ImpactCase) and (case.answer.inputs.tyres or (case.answer.inputs.drag and case.left_out is None)):
             continue
         if isinstance(case, ImpactCase) and case.left_out is not None:
             left = getattr(case.left_out, label)

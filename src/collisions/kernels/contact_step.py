@@ -5,10 +5,12 @@ between two steps. It changes motions by equal and opposite impulses at one poin
 energies are those of the same steps. All in units of the contact: its effective mass, closing speed and nominal duration.
 """
 
+from collections.abc import Iterator
 from math import inf
 from typing import Any, NamedTuple, TypeAlias
 
 from .elementwise import select
+from .tyre import CORNERS, STANDING, Tyres, wheel_forces
 
 # After so many nominal durations a contact is not waited for any longer.
 LONGEST = 3.0
@@ -16,31 +18,21 @@ LONGEST = 3.0
 _LEFT = 1e-9
 
 
-Wheels: TypeAlias = tuple[tuple[float, float], ...]
+class Rolling(NamedTuple):
+    """That the wheels roll, brake and steer as those of a run-out do; settings of ``wheel_forces``."""
+
+    steered: bool
+    transfers: bool
 
 
-class Spring(NamedTuple):
-    """Force over penetration while it grows: ``force`` at first, ``soft`` per length up to the ``knee``, then ``stiff``."""
-
-    force: Any
-    soft: Any
-    knee: Any
-    stiff: Any
-
-    def at(self, depth: Any) -> tuple[Any, Any]:
-        """Force and work at a penetration that has not been larger before."""
-        first = select(depth < self.knee, depth, self.knee)
-        then = depth - first
-        at_knee = self.force + self.soft * first
-        return at_knee + self.stiff * then, first * (self.force + 0.5 * self.soft * first) + then * (
-            at_knee + 0.5 * self.stiff * then
-        )
+# Of wheels that slide whatever way they move, where each is: ahead and left by half the wheelbase and half the track.
+Wheels: TypeAlias = tuple[tuple[float, float], ...] | Rolling
 
 
 class Body(NamedTuple):
-    """What does not change of a body: how it gives way, its lever, half its wheelbase and half its track, and its tyres.
+    """What does not change of a body: how it gives way, its lever, its heading, and its tyres, as ``Tyres`` have them.
 
-    ``grip`` is the force of one wheel, ``cap`` the impulse for its speed that no tyre exceeds: with more, the four together
+    ``grip`` is the load of one wheel, ``cap`` the impulse for its speed that no tyre exceeds: with more, the four together
     could turn the motion round.
     """
 
@@ -48,12 +40,28 @@ class Body(NamedTuple):
     per_inertia: Any
     rx: Any
     ry: Any
-    ahead_x: Any
-    ahead_y: Any
-    left_x: Any
-    left_y: Any
-    grip: Any
-    cap: Any
+    cos: Any = 1.0
+    sin: Any = 0.0
+    grip: Any = 0.0
+    cap: Any = 0.0
+    front_left: Any = 1.0
+    front_right: Any = 1.0
+    rear_left: Any = 1.0
+    rear_right: Any = 1.0
+    friction: Any = 0.0
+    cornering: Any = 0.0
+    ahead: Any = 0.0
+    left: Any = 0.0
+    steer_cos: Any = 1.0
+    steer_sin: Any = 0.0
+    over_ahead: Any = 0.0
+    over_left: Any = 0.0
+
+    @property
+    def tyres(self) -> Tyres:
+        """As the force of the tyres takes them."""
+        locks = self.front_left, self.front_right, self.rear_left, self.rear_right
+        return Tyres(locks, *self[12:])
 
 
 class Motion(NamedTuple):
@@ -74,8 +82,12 @@ class Motion(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """What does not change of the contact; ``on_a`` and ``turn_a`` are the shares of A in carrying the point and the normal."""
+    """What does not change of the contact: a spring of this stiffness, which gives back a share of its work.
 
+    ``on_a`` and ``turn_a`` are the shares of A in carrying the point and the normal.
+    """
+
+    stiffness: Any
     restitution: Any
     friction: Any
     nx: Any
@@ -115,14 +127,13 @@ class Place(NamedTuple):
     by: Any
 
 
-def force_back(spring: Spring, e: Any, depth: Any, deepest: Any) -> tuple[Any, Any]:
+def force_back(contact: Contact, depth: Any, deepest: Any) -> tuple[Any, Any]:
     """Force on the way back, or where it is deeper than ever, and the penetration at which the bodies part."""
-    most, work = spring.at(deepest)
-    way = 2.0 * e * e * work / select(most > 0.0, most, 1.0)
+    way = contact.restitution * contact.restitution * deepest
     # 0.0 at the end of a plastic contact, whose way back has no length.
     share = 1.0 - (deepest - depth) / select(way > 0.0, way, 1.0)
-    back = select((share > 0.0) & (way > 0.0), share * most, 0.0)
-    return select(depth > deepest, spring.at(depth)[0], back), deepest - way
+    back = select((share > 0.0) & (way > 0.0), share * deepest, 0.0)
+    return contact.stiffness * select(depth > deepest, depth, back), deepest - way
 
 
 def turned(c: Any, s: Any, half: Any) -> tuple[Any, Any]:
@@ -169,22 +180,20 @@ def compliance(place: Place, a: Body, b: Body) -> tuple[Any, Any, Any]:
 
 
 def braked(body: Body, motion: Motion, time: Any, wheels: Wheels) -> Motion:
-    """The motion after the tyres have slid for a time; each pulls against its own motion and cannot turn it round."""
+    """The motion after the tyres have acted for a time; each pulls against its own motion and cannot turn it round."""
     if not wheels:
         return motion
-    ahead_x, ahead_y = motion.c * body.ahead_x - motion.s * body.ahead_y, motion.s * body.ahead_x + motion.c * body.ahead_y
-    left_x, left_y = motion.c * body.left_x - motion.s * body.left_y, motion.s * body.left_x + motion.c * body.left_y
-    x: Any = 0.0
-    y: Any = 0.0
+    # In the axes of the vehicle.
+    cos, sin = motion.c * body.cos - motion.s * body.sin, motion.s * body.cos + motion.c * body.sin
+    velocity = cos * motion.vx + sin * motion.vy, cos * motion.vy - sin * motion.vx
+    cap = select(time > 0.0, body.cap, 0.0)
+    pulls = _rolling if isinstance(wheels, Rolling) else _sliding
+    forward: Any = 0.0
+    left: Any = 0.0
     yaw: Any = 0.0
-    most = (4.0 / len(wheels)) * (body.grip * time)
-    cap = select(time > 0.0, (4.0 / len(wheels)) * body.cap, 0.0)
-    for ahead, left in wheels:
-        wx, wy = ahead * ahead_x + left * left_x, ahead * ahead_y + left * left_y
-        ux, uy = motion.vx - motion.spin * wy, motion.vy + motion.spin * wx
-        speed = (ux * ux + uy * uy) ** 0.5
-        hold = select(most < cap * speed, most / select(speed > 0.0, speed, 1.0), cap)
-        x, y, yaw = x - hold * ux, y - hold * uy, yaw - hold * (wx * uy - wy * ux)
+    for (ahead, aside), (along, across) in pulls(body, *velocity, motion.spin, time, cap, wheels):
+        forward, left, yaw = forward + along, left + across, yaw + (ahead * across - aside * along)
+    x, y = cos * forward - sin * left, sin * forward + cos * left
     after = motion._replace(
         vx=motion.vx + body.per_mass * x, vy=motion.vy + body.per_mass * y, spin=motion.spin + body.per_inertia * yaw
     )
@@ -195,6 +204,40 @@ def braked(body: Body, motion: Motion, time: Any, wheels: Wheels) -> Motion:
         tyre_yaw=motion.tyre_yaw + yaw,
         tyre_work=motion.tyre_work + work,
     )
+
+
+def _sliding(body: Body, forward: Any, left: Any, spin: Any, time: Any, cap: Any, wheels: Any) -> Iterator[Any]:
+    """Place and impulse of each wheel, which has its whole friction against its motion, whatever way that is."""
+    share = 4.0 / len(wheels)
+    most, cap = share * (body.friction * (body.grip * time)), share * cap
+    for ahead, aside in wheels:
+        at = ahead * body.ahead, aside * body.left
+        ux, uy = forward - spin * at[1], left + spin * at[0]
+        speed = (ux * ux + uy * uy) ** 0.5
+        hold = select(most < cap * speed, most / select(speed > 0.0, speed, 1.0), cap)
+        yield at, (-hold * ux, -hold * uy)
+
+
+def _rolling(body: Body, forward: Any, left: Any, spin: Any, time: Any, cap: Any, wheels: Any) -> Iterator[Any]:
+    """The same of wheels that roll, brake and steer, with the force that they have in a run-out."""
+    tyres, here = body.tyres, (body.friction,) * len(CORNERS)
+    reach = spin * spin * (body.ahead * body.ahead + body.left * body.left)
+    speed = (forward * forward + left * left + reach) ** 0.5
+    standing = STANDING * select(speed > 0.0, speed, 1.0)
+    # On one ground and under the loads at rest, what a brake holds is its lock.
+    brakes = None if wheels.transfers else list(tyres.locks)
+    forces = wheel_forces(tyres, here, forward, left, spin, standing, **wheels._asdict(), brakes=brakes)
+    most = body.friction * (body.grip * time)
+    for (ahead, aside, _), (along, across, load) in zip(CORNERS, forces, strict=True):
+        at = ahead * body.ahead, aside * body.left
+        x, y = (most * load) * along, (most * load) * across
+        takes = -(x * (forward - spin * at[1]) + y * (left + spin * at[0]))
+        square = x * x + y * y
+        # As much as would stop the motion along it, and none if it does not act against that.
+        stops = cap * select(takes > 0.0, takes, 0.0)
+        less = stops < square
+        share = select(less, stops / select(less, square, 1.0), 1.0)
+        yield at, (share * x, share * y)
 
 
 def drifted(motion: Motion, time: Any) -> Motion:
@@ -222,7 +265,6 @@ def _pushed(body: Body, motion: Motion, x: Any, y: Any, arm: tuple[Any, Any], pe
 
 
 def advance(
-    spring: Spring,
     contact: Contact,
     a: Body,
     b: Body,
@@ -239,7 +281,7 @@ def advance(
     step = contact.step if engaging else contact.step_back
     if not engaging:
         # The last step ends where the force does.
-        _, parting = force_back(spring, contact.restitution, crush, deepest)
+        _, parting = force_back(contact, crush, deepest)
         left = crush - parting
         last = (passing.closing < 0.0) & (left < -passing.closing * step)
         step = select(last, left / select(last, -passing.closing, 1.0), step)
@@ -255,7 +297,7 @@ def advance(
     closing, slip = approach(place, on_a, on_b)
     k_nn, k_nt, k_tt = compliance(place, a, b)
     depth = crush + 0.5 * step * closing
-    force = spring.at(depth)[0] if engaging else force_back(spring, contact.restitution, depth, deepest)[0]
+    force = contact.stiffness * depth if engaging else force_back(contact, depth, deepest)[0]
 
     coupled, held = abs(k_nt), contact.friction * k_tt
     opposes = (coupled > held) & (slip * k_nt < 0.0)
@@ -299,7 +341,7 @@ def advance(
     if engaging:
         still = active & (ends ^ True)
     else:
-        _, parting = force_back(spring, contact.restitution, crush, deepest)
+        _, parting = force_back(contact, crush, deepest)
         still = active & (crush - parting > _LEFT * (deepest - parting))
     time = passing.time + took
     passing = passing._replace(

@@ -140,7 +140,8 @@ class Status(IntEnum):
         "the contact does not end within three times its nominal duration: the bodies stay together, pushed or held by tyres; "
         "give a shorter duration, less drag, or a higher restitution",
     )
-    NEGATIVE_SIZE = _Outcome(31, "input", "a drag or a stiffness is below 0")
+    NEGATIVE_SIZE = _Outcome(31, "input", "a drag, a stiffness or a height is below 0")
+    WHEEL_LIFTS = _Outcome(32, "input", "at this height of its centre of mass a vehicle could lift a wheel off the ground")
 
     @property
     def label(self) -> str:
@@ -176,6 +177,43 @@ class Answer(NamedTuple):
     delta_yaw_rate_b: Any = 0.0
     # Of a law with a separation speed of its own.
     separation_speed: Any = 0.0
+
+
+class WithTyres(NamedTuple):
+    """An ``Answer`` of which a part is due to tyres, and what they did."""
+
+    status: Any
+    closing_speed: Any
+    slip_before: Any
+    slip_after: Any
+    normal_impulse: Any
+    tangential_impulse: Any
+    compression_impulse: Any
+    no_slip_normal: Any
+    no_slip_tangential: Any
+    sticks: Any
+    effective_mass: Any
+    coupling: Any
+    energy_loss_normal: Any
+    energy_loss_tangential: Any
+    energy_loss: Any
+    impulse_x: Any
+    impulse_y: Any
+    delta_vx_a: Any
+    delta_vy_a: Any
+    delta_yaw_rate_a: Any
+    delta_vx_b: Any
+    delta_vy_b: Any
+    delta_yaw_rate_b: Any
+    separation_speed: Any
+    tyre_impulse_x_a: Any
+    tyre_impulse_y_a: Any
+    tyre_moment_a: Any
+    tyre_loss_a: Any
+    tyre_impulse_x_b: Any
+    tyre_impulse_y_b: Any
+    tyre_moment_b: Any
+    tyre_loss_b: Any
 
 
 class Passed(NamedTuple):

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from functools import lru_cache
-from math import inf, pi
+from math import nan, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +14,6 @@ from .contact_step import (
     Motion,
     Passing,
     Place,
-    Spring,
     Wheels,
     advance,
     approach,
@@ -25,39 +24,41 @@ from .contact_step import (
 )
 from .elementwise import first_status, select
 from .status import EPS, Passed, Status
+from .tyre import Tyres
 
-# How often the start is corrected, and how near the last correction has to be, in closing speed times duration and in radians.
-_CORRECTIONS, _NEAR = 20, 1e-6
-# The start is first looked for roughly, with few steps.
-_COARSE, _ROUGHLY = 0.08, 3e-3
+# How often the start is corrected with all steps. How near what is reached has to be to the places given, in closing speed
+# times duration and in radians: at 100 steps, and at most. By the cube of the steps it stays below their own error.
+_CORRECTIONS, _NEAR, _NEAREST = 20, 3e-3, 1e-2
+# Before that it is corrected with these parts of the steps; with fewer a contact is not followed.
+_PARTS, _FEWEST = (0.05, 0.1, 0.2), 5
 # A friction whose product with a force of 0 is 0.
 _MOST_FRICTION = 1e150
 # Rounding of a sum over the steps of a contact, as a share.
 _ROUNDED = 1e-12
-# Blocks of fewer cases are not made smaller.
+# So few cases are followed one by one.
 _LEAST = 32
 _FOUR: Wheels = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
 _ONE: Wheels = ((0.0, 0.0),)
-_FIXED = (Spring, Contact, Body, Body)
+_FIXED = (Contact, Body, Body)
 _MOVING = (Motion, Motion, Passing)
 
 Moving = tuple[Motion, Motion, Passing]
-Fixed = tuple[Spring, Contact, Body, Body]
+Fixed = tuple[Contact, Body, Body]
 Run = Callable[[Fixed, Moving, bool, Any], Moving]
 
 
 class Settings(NamedTuple):
-    """What is the same of all cases: geometry, steps a nominal duration, kind of stiffness, and the wheels of A and B."""
+    """What is the same of all cases: geometry, steps a nominal duration, whether that is given, and the wheels of A and B."""
 
     geometry: str
     steps: int
-    stiffness: str
+    timed: bool
     wheels_a: Wheels
     wheels_b: Wheels
 
 
 def wheels_of(heading: Any, drag: Any) -> Wheels:
-    """The wheels of a vehicle: none without drag; all of its weight at the centre of mass without a heading."""
+    """The wheels of a vehicle that slide: none without drag; all of its weight at the centre of mass without a heading."""
     return () if isinstance(drag, float) and drag == 0.0 else _ONE if heading is None else _FOUR
 
 
@@ -66,10 +67,9 @@ def time_resolved(
     normal: tuple[Any, Any],
     friction: Any,
     point: tuple[Any, Any],
-    deceleration: Any,
-    wheelbase: Any,
-    track: Any,
-    stiffness: tuple[Any, ...],
+    gravity: float,
+    tyres: tuple[Tyres, Tyres],
+    spring: Any,
     bodies: tuple[tuple[Any, ...], tuple[Any, ...]],
     settings: Settings,
     run: Callable[[Settings], Run],
@@ -77,9 +77,8 @@ def time_resolved(
 ) -> Passed:
     """Solve one case of floats, or a block of arrays, as ``run`` does; SI in and out.
 
-    ``stiffness`` is what ``settings.stiffness`` says: the nominal duration, a stiffness, or force at no crush and stiffness of
-    A and of B (infinite if rigid). ``bodies`` have mass, inertia, velocity, yaw rate, position, and cosine and sine of the
-    heading, or None.
+    ``spring`` is the nominal duration or a stiffness, as ``settings.timed`` says. ``bodies`` have mass, inertia, velocity, yaw
+    rate, position, and cosine and sine of the heading, or None.
     """
     e, (nx, ny), steps = restitution, normal, run(settings)
     own = [_own(body, *point) for body in bodies]
@@ -89,21 +88,23 @@ def time_resolved(
     k_nn, k_nt, k_tt = compliance(place, a, b)
     yields = k_nn > (64.0 * EPS) ** 2 * (k_nn + k_tt)
     mass, closing = 1.0 / select(yields, k_nn, 1.0), select(closing_speed > 0.0, closing_speed, 1.0)
-    duration, spring = _spring(settings.stiffness, stiffness, e, mass, closing)
+    swing = 0.5 * pi * (1.0 + e)
+    duration = spring if settings.timed else swing * (mass / spring) ** 0.5
     length = closing * duration
-    force = deceleration * (duration / closing)
+    weight = gravity * (duration / closing)
     (a, on_a), (b, on_b) = (
         (
-            _scaled(body, numbers[7], mass, length, force, 0.5 * (wheelbase / length), 0.5 * (track / length)),
+            scaled(body, numbers[7], mass, length, weight, held),
             Motion(motion.vx / closing, motion.vy / closing, motion.spin * duration),
         )
-        for body, motion, numbers in ((a, on_a, bodies[0]), (b, on_b, bodies[1]))
+        for body, motion, numbers, held in ((a, on_a, bodies[0], tyres[0]), (b, on_b, bodies[1], tyres[1]))
     )
     step = 1.0 / settings.steps
     back = e**0.5 * step
     soonest = 0.6 * e / (1.0 + e)
     fixed_a, fixed_b = ((body.per_mass == 0.0) & (body.per_inertia == 0.0) for body in (a, b))
     contact = Contact(
+        swing * swing,
         e,
         select(friction < _MOST_FRICTION, friction, _MOST_FRICTION),
         nx,
@@ -114,22 +115,23 @@ def time_resolved(
         step_back=select(back < soonest, back, soonest),
     )
     # Broadcast, so that all that moves has the shape of the cases.
-    zero = 0.0 * (
-        closing + contact.step_back + a.per_mass + b.per_mass + contact.friction + on_a.vx + on_b.vx + a.grip + b.grip
-    )
+    zero = 0.0 * (closing + contact.step_back + contact.friction + on_a.vx + on_b.vx + sum((*a, *b)))
     start = [Motion(*(value + zero for value in motion)) for motion in (on_a, on_b)]
     none = zero != zero
     passing = Passing(*(zero for _ in Passing._fields))._replace(c=1.0 + zero, sticks=none, active=none ^ True)
     moving: Moving = start[0], start[1], passing
+    begun = (contact, a, b), moving
     converged: Any = True
     if settings.geometry == "maximum_engagement":
-        (contact, a, b), converged = _start(spring, contact, a, b, moving, steps, (closing_speed > 0.0) & yields)
-    fixed = spring, contact, a, b
+        begun, engaged, converged = _found(*begun, steps, (closing_speed > 0.0) & yields, settings.steps, note)
+    fixed, moving = begun
+    contact, a, b = fixed
     first = place_of(contact, a, b, *moving)
     closing_before, slip_before = approach(first, *moving[:2])
-    moving = *moving[:2], moving[2]._replace(closing=closing_before, active=(closing_before > 0.0) & converged)
-    engaged = steps(fixed, moving, True, None if note is None else note.append)
-    _, parting = force_back(spring, e, engaged[2].crush, engaged[2].deepest)
+    if settings.geometry != "maximum_engagement":
+        moving = *moving[:2], passing._replace(closing=closing_before, active=closing_before > 0.0)
+        engaged = steps(fixed, moving, True, None if note is None else note.append)
+    _, parting = force_back(contact, engaged[2].crush, engaged[2].deepest)
     more = (engaged[2].crush > parting) & (engaged[2].time < LONGEST)
     moving = steps(fixed, (*engaged[:2], engaged[2]._replace(active=more)), False, None if note is None else note.append)
     passing = moving[2]
@@ -141,7 +143,8 @@ def time_resolved(
     separating, slip_after = approach(place_of(contact, a, b, on_a, on_b, passing), on_a, on_b)
     if note:
         note[-1] = (*on_a, *on_b, *passing)
-    most, absorbed = spring.at(passing.deepest)
+    most = contact.stiffness * passing.deepest
+    absorbed = 0.5 * most * passing.deepest
     impulse, energy = mass * closing, mass * closing * closing
     x, y = passing.impulse_x * impulse, passing.impulse_y * impulse
     found: dict[str, Any] = {
@@ -198,18 +201,18 @@ def time_resolved(
         (loss < -_ROUNDED * absorbed, Status.ENERGY_GAIN),
     )
     if note and status <= Status.ENERGY_GAIN:
-        found["history"] = _history(note, spring, e, start, closing, duration, length, impulse / duration)
+        found["history"] = _history(note, contact, start, closing, duration, length, impulse / duration)
     return Passed(status=status, **found)
 
 
-def _history(note: list[tuple[float, ...]], spring: Spring, e: float, start: list[Motion], *units: float) -> tuple[Any, ...]:
+def _history(note: list[tuple[float, ...]], contact: Contact, start: list[Motion], *units: float) -> tuple[Any, ...]:
     """Time, force, crush, delta-V of A and B, and their yaw rates, at the start and after every step."""
     closing, duration, length, newton = units
     on_a, on_b, passing = _moving_of(np.array([(*start[0], *start[1], *Passing()), *note], dtype=np.float64).T)
     crush, deepest = passing.crush, passing.deepest
     with np.errstate(all="ignore"):
-        force = np.where(crush < deepest, force_back(spring, e, crush, deepest)[0], spring.at(deepest)[0])
-    if e == 0.0 or crush[-1] < deepest[-1]:
+        force = np.where(crush < deepest, force_back(contact, crush, deepest)[0], contact.stiffness * deepest)
+    if contact.restitution == 0.0 or crush[-1] < deepest[-1]:
         force[-1] = 0.0
     return (
         passing.time * duration,
@@ -229,86 +232,77 @@ def _moving_of(numbers: Any) -> Moving:
 def _own(body: tuple[Any, ...], px: Any, py: Any) -> tuple[Body, Motion]:
     """A body and its motion in SI, without what only tyres need."""
     mass, inertia, vx, vy, spin, x, y, *_ = body
-    return Body(1.0 / mass, 1.0 / inertia, px - x, py - y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), Motion(vx, vy, spin)
+    return Body(1.0 / mass, 1.0 / inertia, px - x, py - y), Motion(vx, vy, spin)
 
 
-def _scaled(body: Body, heading: Any, mass: Any, length: Any, force: Any, ahead: Any, left: Any) -> Body:
-    """The body in units of the contact, with its wheels; ``force`` is what the tyres hold of its weight, over its mass."""
+def scaled(body: Body, heading: Any, mass: Any, length: Any, weight: Any, tyres: Tyres) -> Body:
+    """The body in units of the contact, with its wheels; ``weight`` is that of a unit of mass."""
+    ahead, left = tyres.ahead / length, tyres.left / length
     if heading is None:
         heading, ahead, left = (1.0, 0.0), 0.0, 0.0
-    cos, sin = heading
     per_mass, per_inertia = body.per_mass * mass, body.per_inertia * ((mass * length) * length)
     moves = per_mass > 0.0
     turning = (ahead * ahead + left * left) * per_inertia
-    return Body(
-        per_mass,
-        per_inertia,
-        body.rx / length,
-        body.ry / length,
-        ahead_x=ahead * cos,
-        ahead_y=ahead * sin,
-        left_x=-left * sin,
-        left_y=left * cos,
-        grip=select(moves, 0.25 * force / select(moves, per_mass, 1.0), 0.0),
-        cap=select(moves, 0.25 / select(moves, per_mass + turning, 1.0), 0.0),
-    )
+    grip = select(moves, 0.25 * weight / select(moves, per_mass, 1.0), 0.0)
+    cap = select(moves, 0.25 / select(moves, per_mass + turning, 1.0), 0.0)
+    numbers = grip, cap, *tyres.locks, *tyres._replace(ahead=ahead, left=left)[1:]
+    return Body(*(per_mass, per_inertia, body.rx / length, body.ry / length, *heading, *numbers))
 
 
-def _spring(kind: str, given: tuple[Any, ...], e: Any, mass: Any, closing: Any) -> tuple[Any, Spring]:
-    """The nominal duration, which is that of a linear spring with the same largest force, and the spring in its units."""
-    swing = 0.5 * pi * (1.0 + e)
-    linear = Spring(0.0, swing * swing, inf, 0.0)
-    if kind == "duration":
-        return given[0], linear
-    if kind == "stiffness":
-        return swing * (mass / given[0]) ** 0.5, linear
-    force_a, stiff_a, force_b, stiff_b = given
-    swap = force_b < force_a
-    low, high = select(swap, force_b, force_a), select(swap, force_a, force_b)
-    first, second = select(swap, stiff_b, stiff_a), select(swap, stiff_a, stiff_b)
-    # Both in series, each giving way only above its own force; a rigid one never does.
-    alone = second == inf
-    both = select(alone, first, first / (1.0 + first / select(alone, 1.0, second)))
-    energy = mass * closing * closing
-    squared = low * low + first * energy
-    at_high = high * high
-    squared = select(squared <= at_high, squared, at_high + both * (energy - (at_high - low * low) / first))
-    most = squared**0.5
-    duration = swing * (mass * closing / most)
-    unit, length = duration / (mass * closing), closing * duration
-    return duration, Spring(low * unit, first * (length * unit), (high - low) / first / length, both * (length * unit))
+def _found(
+    fixed: Fixed, moving: Moving, run: Run, usable: Any, steps: int, note: list[tuple[float, ...]] | None
+) -> tuple[tuple[Fixed, Moving], Moving, Any]:
+    """The geometry at first contact for which that given is reached at maximum engagement, with the motions there.
 
-
-def _start(
-    spring: Spring, contact: Contact, a: Body, b: Body, moving: Moving, run: Run, usable: Any
-) -> tuple[tuple[Contact, Body, Body], Any]:
-    """Levers, headings and normal at first contact for which those given are reached at maximum engagement.
-
-    What the bodies move and turn until then is guessed, and corrected by what they do, with the step of a secant.
+    What the bodies move and turn until then is guessed, and corrected by what they do, with the step of a secant: first with
+    few steps, as their error hardly matters, then with more, and with all until what is reached is near enough.
     """
     on_a, on_b, passing = moving
     names = ("dx", "dy", "c", "s")
     guess = [*(getattr(one, name) for one in (on_a, on_b) for name in names), passing.c, passing.s]
-    usable = usable & (passing.closing == passing.closing)
-    for step, enough in ((max(_COARSE, contact.step), _ROUGHLY), (contact.step, _NEAR)):
-        left, trial, older = usable, guess, None
-        for _ in range(_CORRECTIONS):
-            # Of a block only the cases that have not arrived are followed again.
-            guess = [select(left, new, old) for new, old in zip(trial, guess, strict=True)]
-            start = _moved_back(contact._replace(step=step), a, b, guess)
-            closing, _ = approach(place_of(*start, *moving), on_a, on_b)
-            end = run(
-                (spring, *start), (on_a, on_b, passing._replace(closing=closing, active=(closing > 0.0) & left)), True, None
-            )
-            reached = [*(getattr(one, name) for one in end[:2] for name in names), end[2].c, end[2].s]
-            off = [new - old for new, old in zip(reached, guess, strict=True)]
-            far: Any = sum(abs(one) for one in off)
-            left = left & (((far <= enough) & (closing > 0.0)) ^ True)
-            if not np.any(left):
-                break
-            trial = reached if older is None else _secant(reached, off, *older)
-            older = off, reached
-    return _moved_back(contact, a, b, guess), usable & (left ^ True)
+    left: Any = usable & (passing.closing == passing.closing)
+    older: tuple[list[Any], list[Any]] | None = None
+
+    def followed(step: Any) -> tuple[Fixed, Moving, Any, list[Any], list[Any]]:
+        """Start, end, whether they approach there, what is reached, and what by rights should be the next guess."""
+        nonlocal older
+        start = _moved_back(fixed[0]._replace(step=step), *fixed[1:], guess)
+        closing, _ = approach(place_of(*start, *moving), on_a, on_b)
+        before = passing._replace(closing=closing, active=(closing > 0.0) & left)
+        end = run(start, (on_a, on_b, before), True, None if note is None else note.append)
+        reached = [*(getattr(one, name) for one in end[:2] for name in names), end[2].c, end[2].s]
+        off = [new - old for new, old in zip(reached, guess, strict=True)]
+        trial = reached if older is None else _secant(reached, off, *older)
+        older = off, reached
+        return start, end, closing > 0.0, off, trial
+
+    fewest = max(_FEWEST / _PARTS[0] / steps, 1.0)
+    for part in _PARTS:
+        if part * fewest < 0.5:
+            *_, guess = followed(1.0 / (part * fewest * steps))
+    near = min(_NEAR * (100.0 / steps) ** 3.0, _NEAREST)
+    begun: Fixed | None = None
+    engaged = moving
+    for _ in range(_CORRECTIONS):
+        if note is not None:
+            note.clear()
+        start, end, approaching, off, trial = followed(fixed[0].step)
+        # Of a block only the cases that have not arrived are followed again.
+        begun, engaged = (start, end) if begun is None else (_where(left, start, begun), _where(left, end, engaged))
+        far: Any = sum(abs(one) for one in off)
+        left = left & (((far <= near) & approaching) ^ True)
+        if not np.any(left):
+            break
+        guess = [select(left, new, old) for new, old in zip(trial, guess, strict=True)]
+    return (begun or fixed, moving), engaged, usable & (left ^ True)
+
+
+def _where(some: Any, new: Any, old: Any) -> Any:
+    """The new parts of some cases, and the old ones of the others."""
+    if isinstance(new, tuple):
+        parts = (_where(some, *pair) for pair in zip(new, old, strict=True))
+        return type(new)(*parts) if hasattr(new, "_fields") else tuple(parts)
+    return new if new is old else select(some, new, old)
 
 
 def cases_of(parts: Any, some: Any) -> Any:
@@ -356,10 +350,8 @@ def _moved_back(contact: Contact, a: Body, b: Body, moved: list[Any]) -> tuple[C
         body._replace(
             rx=point_x + rx,
             ry=point_y + ry,
-            ahead_x=c * body.ahead_x + s * body.ahead_y,
-            ahead_y=c * body.ahead_y - s * body.ahead_x,
-            left_x=c * body.left_x + s * body.left_y,
-            left_y=c * body.left_y - s * body.left_x,
+            cos=c * body.cos + s * body.sin,
+            sin=c * body.sin - s * body.cos,
         )
         for body, rx, ry, c, s in turned
     ]
@@ -391,8 +383,8 @@ def float_run(settings: Settings) -> Run:
 
 
 def block_run(settings: Settings) -> Run:
-    """Step through a block of arrays, until the last case ends."""
-    moves = settings.geometry != "fixed"
+    """Step through a block of arrays, and through its last cases one by one."""
+    moves, one = settings.geometry != "fixed", float_run(settings)
 
     def run(fixed: Fixed, moving: Moving, engaging: bool, note: Any) -> Moving:
         for _ in range(40 * settings.steps):
@@ -400,7 +392,9 @@ def block_run(settings: Settings) -> Run:
             count = np.count_nonzero(active)
             if not count:
                 break
-            if 2 * count < active.size and active.size > _LEAST:
+            if count <= _LEAST:
+                return _one_by_one(one, fixed, moving, engaging)
+            if 2 * count < active.size:
                 # Most have ended: go on without them.
                 whole: Moving = put(moving, active, run(cases_of(fixed, active), cases_of(moving, active), engaging, note))
                 return whole
@@ -408,3 +402,29 @@ def block_run(settings: Settings) -> Run:
         return moving
 
     return run
+
+
+def _one_by_one(run: Run, fixed: Fixed, moving: Moving, engaging: bool) -> Moving:
+    """Step through the active cases of a block as floats."""
+    lost = Motion(*[nan] * len(Motion._fields))
+    nowhere: Moving = lost, lost, Passing(*[nan] * len(Passing._fields))._replace(sticks=False, active=False)
+
+    def ended(at: Any) -> Moving:
+        try:
+            return run(_case_of(fixed, at), _case_of(moving, at), engaging, None)
+        except ArithmeticError:
+            # As where arrays are divided by 0.
+            return nowhere
+
+    some = np.flatnonzero(moving[2].active)
+    numbers = zip(*([value for part in one for value in part] for one in map(ended, some)), strict=True)
+    whole: Moving = put(moving, some, _moving_of([np.array(column) for column in numbers]))
+    return whole
+
+
+def _case_of(parts: Any, at: Any) -> Any:
+    """One case of the arrays in a tuple, as floats and truths."""
+    if isinstance(parts, tuple):
+        values = (_case_of(part, at) for part in parts)
+        return type(parts)(*values) if hasattr(parts, "_fields") else tuple(values)
+    return parts[at].item() if isinstance(parts, np.ndarray) else parts

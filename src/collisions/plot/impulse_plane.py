@@ -11,6 +11,7 @@ import numpy as np
 from ..formatting import UnitSystem
 from ..hints import hinted
 from ..impact import Impact, answer_of, solved
+from ..inputs import OUTSIDE, TYRES
 from ..kernels.contact_laws import BRACH, IMPULSE_RATIO, LAWS
 from ..kernels.status import EPS
 from ..model_choice import until_compressed
@@ -98,7 +99,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     names = ["normal_impulse", "tangential_impulse"]
     compressed = [part * factor for part in until_compressed(impact.inputs, raw, impact.choice, names)]
     ends = closing, closing + impact.separation_speed * factor
-    if impact.inputs.outside_a is not None:
+    if impact.inputs.pushed:
         # The contact began at another closing speed, so the lines go where the actual impulses ended.
         ends = k_nn * compressed[0] + k_nt * compressed[1], k_nn * normal + k_nt * tangential
     cone = not plain and _draw_friction(axes, impact, right)
@@ -119,7 +120,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     if not plain:
         k_tt = _tangential_yield(impact)
         slip = impact.slip_before * factor
-        if impact.inputs.outside_a is not None:
+        if impact.inputs.pushed:
             slip = impact.slip_after * factor - k_nt * normal - k_tt * tangential
         if energetic and impact.regime in ("sticking", "reversing"):
             path.insert(1, _where_slip_stops(impact, slip, k_nt, k_tt))
@@ -192,7 +193,8 @@ def _tangential_yield(impact: Impact) -> float:
     # With this sign the contact cannot jam.
     ratio: Any = math.copysign(1.0, coupling)
     with quietly():
-        contact: Any = {"rule": IMPULSE_RATIO, "rule_value": ratio, "law": BRACH, "outside_a": None, "outside_b": None}
+        contact: Any = {"rule": IMPULSE_RATIO, "rule_value": ratio, "law": BRACH}
+        contact |= dict.fromkeys((*OUTSIDE, *TYRES, "duration"))
         other = solved(replace(impact.inputs, model="eccentric", **contact), on_failure="nan")
     slip_change = other.slip_after - other.slip_before - coupling * other.normal_impulse
     return float(np.divide(slip_change, other.tangential_impulse))

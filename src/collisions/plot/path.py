@@ -65,7 +65,8 @@ def path(
     >>> import collisions as col
     >>> from collisions import plot, travel
     >>> car = col.Vehicle(mass=1500, yaw_inertia=2400, x=0, y=0, heading=0, vx="50 km/h", yaw_rate="150 deg/s")
-    >>> axes = plot.path(travel.simulate(car, friction=0.7, lock=0.3), outline_a=(4.4, 1.8), units="metric")
+    >>> tyres = travel.Tyres(friction=0.7, lock=0.3, wheelbase=2.7, track=1.5)
+    >>> axes = plot.path(travel.simulate(car, tyres), outline_a=(4.4, 1.8), units="metric")
     >>> axes.get_xlabel()
     'x [m]'
     """
@@ -111,7 +112,7 @@ def _one(way: Any, name: str) -> SimulatedPath:
     if not isinstance(way, SimulatedPath):
         raise InputError(
             f"{name} must be a path of travel.simulate, got {shown(way)} of type {type(way).__name__}; write "
-            f"plot.path(travel.simulate(impact.a.after, ...), travel.simulate(impact.b.after, ...))",
+            f"plot.path(travel.simulate(impact.a.after, tyres), travel.simulate(impact.b.after, tyres))",
             code="bad_option",
             argument=name,
         )

@@ -57,6 +57,10 @@ _GEOMETRIES = {
     "first_contact": "those given are of first contact.",
     "fixed": "they stay where they are during the contact.",
 }
+_TYRES = (
+    "their mean force before, half-way through and after the contact, times its duration, acts as an impulse from outside; "
+    "wheels roll, brake and steer, with the force that they have on the way to rest."
+)
 _RANGE = (
     reference.RESTITUTION_FIT,
     reference.RESTITUTION_LOW_SPEED,
@@ -88,6 +92,9 @@ def inputs(sheet: Sheet, impact: Impact, options: Mapping[str, Any], notes: Mapp
     for of, quantity, names, numbers, kind in impact_inputs(impact):
         vehicle = vehicles.get(of)
         texts = (impact.inputs.given if vehicle is None else vehicle.given) or {}
+        if names[0].startswith("tyres_"):
+            wheels = impact.inputs.tyres.items()
+            texts = {f"tyres_{label}.{one}": text for label, own in wheels for one, text in own.given.items()}
         name = f"{of} ({plain(vehicle.name)})" if vehicle is not None and vehicle.name not in ("", of) else of
         note = notes.get(key_of(of, names))
         value = _input(sheet, impact, vehicle, dict(zip(names, numbers, strict=True)), kind, texts)
@@ -302,12 +309,18 @@ def assumptions(
     outside = ", unless an impulse from outside is given" if impact.inputs.outside_a is not None else ""
     if found is None:
         lines.append(("Places:", _GEOMETRIES[impact.inputs.geometry or "maximum_engagement"]))
+        if impact.inputs.tyres:
+            lines.append(("Tyres:", "wheels roll, brake and steer, with the force that they have on the way to rest."))
         if impact.inputs.drag and any(vehicle.heading is None for vehicle in vehicles):
             lines.append(("Tyres:", "a vehicle without a heading is held at its centre of mass, where tyres cannot turn it."))
     else:
+        left = "the forces of the tyres"
+        if impact.inputs.tyres and impact.model == "eccentric":
+            lines.append(("Tyres:", _TYRES))
+            left = "other forces of the ground"
         instant = (
             "it acts in an instant, along one normal that points from A into B. Positions, masses and inertias do not change "
-            f"while it acts; the forces of the tyres and all others{pivots} are left out{outside}."
+            f"while it acts; {left} and all others{pivots} are left out{outside}."
         )
         lines.append(("Impulse:", instant))
     lines.append(("Axes:", "x and y lie in the road plane; angles and yaw are positive counter-clockwise, seen from above."))
@@ -326,14 +339,16 @@ def assumptions(
     time, drag = f"{float(found.duration):g} s", f"{float(found.drag):g}"
     bounded = any(vehicle.pivot is None and math.isfinite(float(vehicle.mass)) for vehicle in vehicles)
     but = ", except what is marked as a bound" if bounded else ""
-    sheet.say(f"What the model leaves out, for a contact of {time} and tyres with a drag factor of {drag} (estimates{but}):")
+    held = impact.inputs.tyres and impact.model == "eccentric"
+    tyres = "beside the tyres, which are in it" if held else f"and tyres with a drag factor of {drag}"
+    sheet.say(f"What the model leaves out, for a contact of {time} {tyres} (estimates{but}):")
     crush = "not known: the impact is incomplete"
     if impact.complete:
         crush = sheet.system.answer(float(found.mutual_crush), "length")
     rows = [
         ("contact", "duration taken", _with(time, notes.get("duration"))),
-        ("contact", "drag of the tyres taken", _with(drag, notes.get("drag"))),
-        *(("contact", what, text) for what, text in _published(impact, "drag")),
+        *([] if held else [("contact", "drag of the tyres taken", _with(drag, notes.get("drag")))]),
+        *([] if held else [("contact", what, text) for what, text in _published(impact, "drag")]),
         ("contact", "maximum mutual crush", crush),
         ("contact", "sliding along the contact", sheet.system.answer(float(found.contact_slide), "length")),
     ]
@@ -353,11 +368,15 @@ def _pulse(sheet: Sheet, impact: Impact) -> None:
         ("contact", "largest force along the normal", answer(float(found.peak_force), "force")),
         ("contact", "mutual crush, at its most", answer(float(found.max_crush), "length")),
     ]
+    for index, left in enumerate((found.residual_crush_a, found.residual_crush_b)):
+        if left is not None:
+            text = answer(float(left), "length") if left > 0.0 else "none: the force stays below that which leaves some"
+            rows.append((plain(who(index, (impact.a, impact.b)[index].before)), "residual crush", text))
     for index, (side, most) in enumerate(((impact.a, found.peak_acceleration_a), (impact.b, found.peak_acceleration_b))):
         if math.isfinite(float(side.before.mass)):
             name = plain(who(index, side.before))
             rows.append((name, "largest acceleration of the centre of mass", answer(float(most), "acceleration")))
-            if impact.inputs.drag:
+            if impact.inputs.drag or impact.inputs.tyres:
                 held = (answer(float(part), "impulse") for part in (side.tyre_impulse_x, side.tyre_impulse_y))
                 rows.append((name, "impulse of the tyres (x, y)", ", ".join(held)))
                 rows.append((name, "energy lost by the tyres", answer(float(side.tyre_loss), "energy")))

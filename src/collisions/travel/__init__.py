@@ -12,6 +12,7 @@ Results are SI floats. ``travel.q.speed``, ``travel.q.distance`` and ``travel.q.
 
 from ..drag import GRAVITY
 from ..quantities import in_quantities
+from ..tyres import Tyres
 from .run_out import RunOut, path
 from .simulate import SimulatedPath, simulate
 from .straight import distance, speed, time
@@ -32,4 +33,4 @@ class q:
     time = staticmethod(in_quantities(time, "s"))
 
 
-__all__ = ["GRAVITY", "RunOut", "SimulatedPath", "distance", "path", "simulate", "speed", "time"]
+__all__ = ["GRAVITY", "RunOut", "SimulatedPath", "Tyres", "distance", "path", "simulate", "speed", "time"]

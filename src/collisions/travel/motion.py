@@ -1,173 +1,386 @@
-"""Four wheels on the ground: the forces of their tyres, and the motion of the vehicle integrated until it ends."""
+"""The motion of vehicles on their tyres, followed step by step until they rest; areas of other friction end steps.
+
+Numbers are those of ``kernels.run_out``: over the speed at the start, that over gravity, and the product of both.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..drag import GRAVITY
-from ..quantities import hypot
+from ..kernels.run_out import OF_GROUND, Settings, accelerations, ending, size, step
+from .areas import Areas
 
-# Speeds of a wheel over the ground, of that of the vehicle, below which its force falls to none: no force jumps where a wheel
-# stands still while the others move.
-_STANDING = 1e-3
-# Once the motion is down to this part of the first, it goes on straight: what is left of the way is below its square.
-_ENDING = 1e-3
-_TOLERANCE = 1e-6
-_LONGEST_STEP = 0.25
+# Found for a case: at rest; nothing slows it, or it does not stay where it stops; its steps do not come to an end.
+RESTS, GOES_ON, NO_END = 0, 1, 2
+# Once the motion is down to this part of the first, by the way that is left, it goes on straight.
+_ENDING, _ENDING_ON_AREAS = 1e-2, 1e-3
+_FIRST_STEP, _LONGEST_STEP, _MOST_TURN = 0.05, 4.0, 0.5
+# Where the direction of the motion changes at less than this share of gravity, it comes to roll or slide straight.
+_NEARLY = 0.05
 # Shorter steps are of a motion that cannot be followed, such as an immense spin.
-_SHORTEST_STEP = 1e-9
+_SHORTEST_STEP = 1e-12
 _MOST_STEPS = 10_000
+# A slowing below this share of gravity is none.
+_NO_SLOWING = 1e-9
+# Cases that are left are followed one by one, in plain floats, which is quicker than arrays of them.
+_FEW = 48
+# Rows of a step: time, place, heading, velocities, and accelerations at its start and at its end.
+ROWS = 13
 
-# The embedded pair of orders 5 and 4 of Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19.
-_STAGES = (
-    (1 / 5,),
-    (3 / 40, 9 / 40),
-    (44 / 45, -56 / 15, 32 / 9),
-    (19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729),
-    (9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656),
-    (35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84),
-)
-_ERRORS = (71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40)
+_WAYS = tuple(f"[{at}]" for at in range(OF_GROUND + 9))
 
 
-class Wheels(NamedTuple):
-    """What the forces depend on; arrays of (4, cases) for the wheels, of (cases,) for the vehicle.
+class Motion(NamedTuple):
+    """Cases to follow: numbers of the ground by rows, velocities and heading at the start, and areas of other friction."""
 
-    Wheels are front left, front right, rear left, rear right; ``cos`` and ``sin`` are of their steer, ``reach`` is the distance
-    of the wheels from the centre of mass, ``gyration`` mass over yaw inertia, ``areas`` pairs of corners and friction.
-    """
+    ground: Any
+    start: Any
+    areas: Areas | None
+    settings: Settings
+    tolerance: float
 
-    ahead: Any
-    left: Any
-    cos: Any
-    sin: Any
-    lock: Any
-    friction: Any
-    cornering: Any
-    reach: Any
-    gyration: Any
-    areas: Sequence[tuple[Any, Any]]
-
-    def of(self, which: Any) -> Wheels:
+    def of(self, which: Any) -> Motion:
         """Those of some of the cases."""
-        return Wheels._make([*(part[..., which] for part in self[:-1]), [(corners, mu[which]) for corners, mu in self.areas]])
-
-    def places(self, x: Any, y: Any, c: Any, s: Any) -> tuple[Any, Any]:
-        """Where the wheels are in the scene, from the cosine and sine of the heading."""
-        return x + c * self.ahead - s * self.left, y + s * self.ahead + c * self.left
-
-    def forces(self, vx: Any, vy: Any, turning: Any, x: Any, y: Any, heading: Any) -> tuple[Any, Any, Any]:
-        """Along and across the vehicle, each over the load of the wheel, and the share of the friction that is used.
-
-        Only the direction of the motion counts: velocities are over a speed, ``turning`` is the yaw rate over it.
-        """
-        c, s = np.cos(heading), np.sin(heading)
-        ux, uy = c * vx + s * vy - turning * self.left, c * vy - s * vx + turning * self.ahead
-        along, across = self.cos * ux + self.sin * uy, self.cos * uy - self.sin * ux
-        friction = self._friction(x, y, c, s)
-        least = _STANDING * _STANDING
-        squares = along * along
-        braked = self.lock * self.lock * squares + least
-        side = np.abs(across)
-        # Of the forces in the ellipse the one that works most against the slip, and no more across than a tyre that rolls.
-        slip = np.minimum(self.cornering * side / (3.0 * np.maximum(friction, 1e-300) * np.sqrt(squares + least)), 1.0)
-        used = np.minimum(side / np.sqrt(side * side + braked), 1.0 - (1.0 - slip) ** 3)
-        forward = -self.lock * np.sqrt(1.0 - used * used) * (self.lock * along / np.sqrt(braked))
-        sideways = -np.sign(across) * used
-        force_x = friction * (self.cos * forward - self.sin * sideways)
-        force_y = friction * (self.sin * forward + self.cos * sideways)
-        return force_x, force_y, hypot(forward, sideways)
-
-    def _friction(self, x: Any, y: Any, c: Any, s: Any) -> Any:
-        """The friction under each wheel: of the first area that holds it."""
-        if not self.areas:
-            return self.friction
-        px, py = self.places(x, y, c, s)
-        friction = np.broadcast_to(self.friction, px.shape)
-        for corners, mu in reversed(self.areas):
-            inside = np.zeros(px.shape, dtype=bool)
-            for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-                if y0 != y1:
-                    inside ^= ((y0 > py) != (y1 > py)) & (px < x0 + (x1 - x0) * ((py - y0) / (y1 - y0)))
-            friction = np.where(inside, mu, friction)
-        return friction
-
-    def rates(self, state: Any) -> Any:
-        """The state over the scaled time: seconds times GRAVITY over the speed, in which the end of a motion is regular.
-
-        The state is velocity, yaw rate times reach, position, heading, time. Forces depend on the direction of the motion
-        alone, so that a motion fades without end in the scaled time, at a rate that stays what it is.
-        """
-        vx, vy, turn, x, y, heading, _ = state
-        speed = size(state)
-        scale = np.where(speed > 0.0, speed, 1.0)
-        force_x, force_y, _ = self.forces(vx / scale, vy / scale, turn / scale / self.reach, x, y, heading)
-        yaw = np.mean(self.ahead * force_y - self.left * force_x, axis=0)
-        force_x, force_y = np.mean(force_x, axis=0), np.mean(force_y, axis=0)
-        c, s = np.cos(heading), np.sin(heading)
-        pace = speed / GRAVITY
-        return np.array(
-            [
-                speed * (c * force_x - s * force_y),
-                speed * (s * force_x + c * force_y),
-                speed * self.reach * self.gyration * yaw,
-                pace * vx,
-                pace * vy,
-                pace * turn / self.reach,
-                pace,
-            ]
-        )
+        areas = None if self.areas is None else self.areas.of(which)
+        return self._replace(ground=self.ground[:, which], start=self.start[:, which], areas=areas)
 
 
-def size(state: Any) -> Any:
-    """The speed of the motion: of the centre of mass, and of the wheels about it."""
-    return hypot(hypot(state[0], state[1]), state[2])
+@lru_cache(maxsize=8)
+def _of_floats(settings: Settings) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    """The step, and the accelerations, of one case of floats."""
+    from ..kernels.floats import compile_for_floats
+
+    return compile_for_floats(step, _WAYS, settings), compile_for_floats(accelerations, _WAYS[: OF_GROUND + 5], settings)
 
 
-def integrate(wheels: Wheels, state: Any, limit: Any) -> tuple[Any, Any]:
-    """States and accelerations at every step, until each case is at rest or beyond the limit of time.
+def follow(motion: Motion) -> tuple[Any, Any]:
+    """The rows of all steps of all cases, each of (``ROWS``, steps) in order of time, and what became of each case."""
+    count = motion.start.shape[1]
+    parts: list[list[Any]] = [[] for _ in range(count)]
+    found: Any = np.full(count, NO_END)
+    if count <= _FEW:
+        for case in range(count):
+            rows, ended = _one(motion.of([case]))
+            found[case] = ended
+            parts[case].append(rows)
+    else:
+        _several(motion, parts, found)
+    if motion.settings.sloped:
+        for case in np.flatnonzero(found == RESTS).tolist():
+            last = parts[case][-1]
+            if not _holds(motion.of([case]), *last[1:4, -1]):
+                found[case] = GOES_ON
+    return [part[0] if len(part) == 1 else np.concatenate(part, axis=1) for part in parts], found
 
-    Where a case has no step any more, its last state is repeated.
-    """
-    start = size(state)
-    state = state.copy()
-    width = np.full(start.shape, 0.05)
-    slope = wheels.rates(state)
-    states, slopes = [state.copy()], [slope / np.where(slope[6] > 0.0, slope[6], 1.0)]
-    going = np.flatnonzero(start > 0.0)
+
+def _wider(wrong: Any, tolerance: float) -> Any:
+    """By how much the next step may be wider, from the error of the last one; NaN counts as a large error."""
+    if isinstance(wrong, float):
+        ratio: float = (tolerance / max(wrong, 1e-300)) ** 0.2
+        return min(4.0, max(0.2, 0.9 * ratio)) if wrong == wrong else 0.2
+    return np.fmin(4.0, np.fmax(0.2, 0.9 * (tolerance / np.maximum(wrong, 1e-300)) ** 0.2))
+
+
+def _last(motion: Motion) -> float:
+    """The part of the motion that goes on straight."""
+    return (_ENDING if motion.areas is None else _ENDING_ON_AREAS) * min(1.0, math.sqrt(motion.tolerance / 1e-5))
+
+
+def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int]:
+    """The rows of one case, and what became of it, in plain floats; from the start, or ``going`` on from a state."""
+    ground = [float(number) for number in motion.ground[:, 0]]
+    areas, tolerance, spin, last = motion.areas, motion.tolerance, ground[17], _last(motion)
+    alone, most = areas is None and not motion.settings.sloped, float(_settling(motion.ground)[0])
+    stepped, forced = _of_floats(motion.settings)
+    if going is None:
+        time, x, y, way, width = 0.0, 0.0, 0.0, 0.0, _FIRST_STEP
+        vx, vy, turn, heading = (float(number) for number in motion.start[:, 0])
+    else:
+        time, x, y, heading, vx, vy, turn, way, width = going
+    rows: list[tuple[float, ...]] = []
+    found, wanted, known = NO_END, 0.0, None
     for _ in range(_MOST_STEPS):
-        if not len(going):
+        c, s = math.cos(heading), math.sin(heading)
+        if known is None:
+            if areas is not None:
+                ground[12:16] = areas.under(*_columns(x, y, heading, vx, vy, turn * spin))[:, 0].tolist()
+            known = forced((*ground, vx, vy, turn, c, s))
+            if known is None:
+                break
+            if not rows and going is None:
+                rows.append((time, x, y, heading, vx, vy, turn, *known, *known))
+        ax, ay, yaw = known
+        speed, slowing, aside, slides, spins = ending(vx, vy, turn, ax, ay, yaw)
+        if speed == 0.0 or not math.isfinite(speed + slowing):
+            found = RESTS if speed == 0.0 else NO_END
             break
-        some, now, h = wheels.of(going), state[:, going], width[going]
-        stages = [slope[:, going]]
-        for weights in _STAGES:
-            new = now + h * sum(weight * stage for weight, stage in zip(weights, stages, strict=False) if weight)
-            stages.append(some.rates(new))
-        error = h * sum(weight * stage for weight, stage in zip(_ERRORS, stages, strict=True) if weight)
-        # Against the speed that is left: what a motion comes to depends on its direction to the last.
-        wrong = np.max(np.abs(error[:3]), axis=0) / size(now) + np.abs(error[5])
-        good = wrong <= _TOLERANCE
-        width[going] = np.minimum(h * np.clip(0.9 * (_TOLERANCE / np.maximum(wrong, 1e-300)) ** 0.2, 0.2, 4.0), _LONGEST_STEP)
-        done = going[good]
-        state[:, done], slope[:, done] = new[:, good], stages[-1][:, good]
-        over = np.zeros(start.shape, dtype=bool)
-        over[done] = size(state[:, done]) <= _ENDING * start[done]
-        for i in np.flatnonzero(over):
-            _come_to_rest(state[:, i], slope[:, i])
-        states.append(state.copy())
-        slopes.append(slope / np.where(slope[6] > 0.0, slope[6], 1.0))
-        going = going[~over[going] & (state[6, going] < limit[going]) & (width[going] > _SHORTEST_STEP)]
-    return np.array(states), np.array(slopes)
+        stops = slowing > _NO_SLOWING
+        left = 0.5 * speed * speed / slowing if stops else math.inf
+        if slides or (spins and alone):
+            edge = math.inf
+            if areas is not None:
+                edge = float(areas.ahead(*_columns(x, y, heading, vx / speed, vy / speed, left))[0])
+            if left <= edge:
+                found = RESTS if stops else GOES_ON
+                break
+            after = max(speed * speed - 2.0 * slowing * edge, 0.0) ** 0.5
+            took, share = 2.0 * edge / (speed + after), after / speed
+            mean = 0.5 * (1.0 + share) * took
+            time, way = time + took, way + edge
+            x, y, heading = x + mean * vx, y + mean * vy, heading + mean * turn * spin
+            vx, vy, turn = share * vx, share * vy, share * turn
+            rows.append((time, x, y, heading, vx, vy, turn, *known, *known))
+            known = None
+            continue
+        if left <= last * last * way:
+            found = RESTS
+            break
+        width = min(width, most if aside < _NEARLY else _LONGEST_STEP, _MOST_TURN / max(abs(speed * turn * spin), 1e-300))
+        new = stepped((*ground, vx, vy, turn, c, s, *known, width))
+        if new is None or width < _SHORTEST_STEP:
+            break
+        wrong = new[10]
+        if not wrong <= tolerance:
+            width *= min(_wider(wrong, tolerance), 0.9)
+            continue
+        took, after = new[6], size(*new[:3])
+        row = (time + took, x + new[3], y + new[4], heading + new[5], *new[:3], *known, *new[7:10])
+        if areas is not None:
+            before = (time, x, y, heading, vx, vy, turn, *known, *known)
+            share = float(areas.crossed(np.array([before]).T, np.array([row]).T, np.array([spin]))[0])
+            if share < 1.0:
+                # To the width over which so much of the time passes.
+                wanted, width = max(wanted, width), width * _passed(share, took, width, speed, after)
+                continue
+        rows.append(row)
+        time, x, y, heading, vx, vy, turn = row[:7]
+        way += 0.5 * (speed + after) * took
+        known = new[7:10] if areas is None else None
+        width, wanted = max(width * _wider(wrong, tolerance), wanted), 0.0
+    table = np.array(rows, dtype=float).reshape(-1, ROWS).T
+    if found == RESTS and known is not None and (vx, vy, turn) != (0.0, 0.0, 0.0):
+        state = np.array([[time, x, y, heading, vx, vy, turn, *known]]).T
+        table = np.concatenate([table, _to_rest(state, np.array([spin]))], axis=1)
+    return table, found
 
 
-def _come_to_rest(state: Any, slope: Any) -> None:
-    """Ends the motion of one case: what is left of it goes on straight, slowed by the same force, if any slows it."""
-    speed = size(state)
-    slowing = -float(np.dot(state[:3] / speed, slope[:3])) / speed  # in the scaled time
-    if slowing > 0.0:
-        state[3:6] += 0.5 * slope[3:6] / slowing
-        state[6] += slope[6] / slowing
-        state[:3] = 0.0
+def _settling(ground: Any) -> Any:
+    """The longest step of a vehicle that nearly rolls straight: its slip fades as fast as its tyres are stiff."""
+    gyration, ahead = ground[16], ground[6]
+    return 2.0 / (ground[5] * np.maximum(1.0, gyration * ahead * ahead))
+
+
+def _columns(*numbers: Any) -> tuple[Any, ...]:
+    """Each number as an array of one case."""
+    return tuple(np.array([number]) for number in numbers)
+
+
+def _passed(share: Any, took: Any, width: Any, before: Any, after: Any) -> Any:
+    """The share of a step over which so much of its time passes, by the cubic of time over the step."""
+    one, two = width * before / took, width * after / took
+    part = share
+    for _ in range(6):
+        at = part * (one + part * ((3.0 - 2.0 * one - two) + part * (one + two - 2.0)))
+        rate = one + part * (2.0 * (3.0 - 2.0 * one - two) + part * 3.0 * (one + two - 2.0))
+        part = np.clip(part - (at - share) / np.maximum(rate, 0.05), 0.0, 1.0)
+    return part if isinstance(share, np.ndarray) else float(part)
+
+
+def _to_rest(state: Any, spin: Any) -> Any:
+    """The row of rest, from those of time to accelerations: the forces slow the whole motion as they do now."""
+    time, x, y, heading, vx, vy, turn, ax, ay, yaw = state
+    speed, slowing, *_ = ending(vx, vy, turn, ax, ay, yaw)
+    takes = speed / slowing
+    # Those that bring every part of it to rest at once.
+    slowed = [-part / takes for part in (vx, vy, turn)]
+    place = [x + 0.5 * takes * vx, y + 0.5 * takes * vy, heading + 0.5 * takes * turn * spin]
+    none = 0.0 * time
+    return np.array([time + takes, *place, none, none, none, *slowed, *slowed])
+
+
+def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
+    """The rows of all cases, followed together in arrays; those that are left over one by one."""
+    areas, tolerance, last = motion.areas, motion.tolerance, _last(motion)
+    alone = areas is None and not motion.settings.sloped
+    ground: Any = motion.ground.copy()
+    going: Any = np.arange(motion.start.shape[1])
+    # Rows: time, place, heading, velocities, accelerations, way, width, and the width that was wanted before an edge.
+    state: Any = np.zeros((13, len(going)))
+    state[4:7], state[3], state[11] = motion.start[:3], motion.start[3], _FIRST_STEP
+    first: Any = np.ones(len(going), dtype=bool)
+    fresh: Any = first
+    kept: list[tuple[Any, Any]] = []
+
+    def noted(which: Any, rows: Any) -> None:
+        kept.append((going[which], rows))
+
+    for _ in range(_MOST_STEPS):
+        if len(going) <= _FEW:
+            break
+        c, s = np.cos(state[3]), np.sin(state[3])
+        if fresh.any():
+            some = np.flatnonzero(fresh)
+            if areas is not None:
+                turning = state[6, some] * ground[17, some]
+                ground[12:16, some] = areas.of(some).under(*(*state[1:6, some], turning))
+            state[7:10, some] = accelerations(*ground[:, some], *state[4:7, some], c[some], s[some], *motion.settings)
+            if first.any():
+                noted(some, np.concatenate([state[:10, some], state[7:10, some]]))
+                first = np.zeros(len(going), dtype=bool)
+        spin = ground[17]
+        speed, slowing, aside, slides, spins = ending(*state[4:10])
+        usable = np.isfinite(speed + slowing)
+        stops = slowing > _NO_SLOWING
+        left = np.where(stops, 0.5 * speed * speed / np.where(stops, slowing, 1.0), np.inf)
+        straight = usable & (slides | (spins & alone)) & (speed > 0.0)
+        edge = np.full(len(going), np.inf)
+        if areas is not None and straight.any():
+            some = np.flatnonzero(straight)
+            towards = state[4, some] / speed[some], state[5, some] / speed[some]
+            edge[some] = areas.of(some).ahead(*(*state[1:4, some], *towards, left[some]))
+        goes_on = straight & ~stops & ~np.isfinite(edge)
+        rests = usable & (
+            (straight & stops & (left <= edge)) | (~straight & (left <= last * last * state[10])) | (speed == 0.0)
+        )
+        moved = rests & (speed > 0.0)
+        noted(moved, _to_rest(state[:10, moved], spin[moved]))
+        found[going[rests]], found[going[goes_on]] = RESTS, GOES_ON
+        fresh = np.zeros(len(going), dtype=bool)
+        slid = straight & ~rests & ~goes_on
+        if slid.any():
+            sliding, before = state[:, slid], speed[slid]
+            after = np.maximum(before * before - 2.0 * slowing[slid] * edge[slid], 0.0) ** 0.5
+            took, share = 2.0 * edge[slid] / (before + after), after / before
+            mean = 0.5 * (1.0 + share) * took
+            state[0, slid] += took
+            state[1:4, slid] += mean * np.array([sliding[4], sliding[5], sliding[6] * spin[slid]])
+            state[4:7, slid] *= share
+            state[10, slid] += edge[slid]
+            noted(slid, np.concatenate([state[:10, slid], state[7:10, slid]]))
+            fresh |= slid
+        stuck = ~usable | (state[11] < _SHORTEST_STEP)
+        steps = np.flatnonzero(~(rests | goes_on | slid | stuck))
+        if len(steps):
+            now, own = state[:, steps], ground[:, steps]
+            turning = np.abs(speed[steps] * now[6] * own[17])
+            longest = np.where(aside[steps] < _NEARLY, _settling(own), _LONGEST_STEP)
+            now[11] = np.minimum(np.minimum(now[11], longest), _MOST_TURN / np.maximum(turning, 1e-300))
+            new = np.array(step(*own, *now[4:7], c[steps], s[steps], *now[7:10], now[11], *motion.settings))
+            wrong, took, after = new[10], new[6], size(*new[:3])
+            good = wrong <= tolerance
+            rows = np.array([now[0] + took, *(now[1:4] + new[3:6]), *new[:3], *now[7:10], *new[7:10]])
+            widths, wanted = now[11], now[12]
+            scaled = np.where(good, 1.0, np.fmin(_wider(wrong, tolerance), 0.9))
+            if areas is not None and good.any():
+                before = np.concatenate([now[:10], now[7:10]])
+                at = np.flatnonzero(good)
+                share = np.ones(len(steps))
+                share[at] = areas.of(steps[at]).crossed(before[:, at], rows[:, at], own[17, at])
+                cut = share < 1.0
+                good &= ~cut
+                part = _passed(share, took, widths, speed[steps], after)
+                scaled, wanted = np.where(cut, part, scaled), np.where(cut, np.maximum(wanted, widths), wanted)
+            done = steps[good]
+            noted(done, rows[:, good])
+            state[:7, done], state[7:10, done] = rows[:7, good], rows[10:, good]
+            state[10, done] += (0.5 * (speed[steps] + after) * took)[good]
+            wider = np.maximum(widths * _wider(wrong, tolerance), wanted)
+            state[11, steps] = np.where(good, wider, widths * scaled)
+            state[12, steps] = np.where(good, 0.0, wanted)
+            if areas is not None:
+                fresh[done] = True
+        on = ~(rests | goes_on | stuck)
+        if not on.all():
+            ground, state, going, fresh, first = ground[:, on], state[:, on], going[on], fresh[on], first[on]
+            areas = None if areas is None else areas.of(on)
+    _sorted_into(parts, kept)
+    for left_over, one in enumerate(going.tolist()):
+        rows, ended = _one(
+            motion.of([one]), [*state[:7, left_over].tolist(), *state[10:12, left_over].tolist()] if kept else None
+        )
+        found[one] = ended
+        parts[one].append(rows)
+
+
+def _sorted_into(parts: list[list[Any]], kept: list[tuple[Any, Any]]) -> None:
+    """Puts the rows of all steps to their cases, in order of time."""
+    if not kept:
+        return
+    cases, rows = np.concatenate([case for case, _ in kept]), np.concatenate([row for _, row in kept], axis=1)
+    order = np.argsort(cases, kind="stable")
+    rows, counts = rows[:, order], np.bincount(cases, minlength=len(parts))
+    for part, end, count in zip(parts, np.cumsum(counts), counts, strict=True):
+        part.append(rows[:, end - count : end])
+
+
+def _holds(motion: Motion, x: float, y: float, heading: float) -> bool:
+    """Whether a vehicle that came to rest on a slope stays there: a creep down the slope comes to an end.
+
+    The forces of the tyres are those that take most work out of a motion, so a creep that can go on at all goes on from there.
+    """
+    ground = [float(number) for number in motion.ground[:, 0]]
+    if motion.areas is not None:
+        ground[12:16] = motion.areas.under(*_columns(x, y, heading, 0.0, 0.0, 0.0))[:, 0].tolist()
+    if not math.isfinite(sum(ground) + x + y + heading):
+        return True  # refused for that
+    slope, spin = math.hypot(ground[18], ground[19]), 0.0
+    along = abs(math.cos(heading) * ground[18] + math.sin(heading) * ground[19])
+    if slope == 0.0:
+        return True
+    wheels = list(zip(ground[:4], ground[12:16], strict=True))
+    held = [mu if lock >= 1.0 else min(mu, lock * ground[4]) for lock, mu in wheels]
+    plain = not (motion.settings.steered or motion.settings.transfers)
+    if plain and all(one > 1.001 * along and mu > 1.001 * slope for one, (_, mu) in zip(held, wheels, strict=True)):
+        # Every wheel can hold what it carries.
+        return True
+    ground[17] = spin
+    stepped, forced = _of_floats(motion.settings)
+    c, s = math.cos(heading), math.sin(heading)
+    state, width = (-ground[18] / slope, -ground[19] / slope, 0.0), _FIRST_STEP
+    known = forced((*ground, *state, c, s))
+    for _ in range(_MOST_STEPS // 10):
+        new = stepped((*ground, *state, c, s, *known, width))
+        if new is None:
+            return False
+        if new[10] <= 1e-4:
+            state, known = new[:3], new[7:10]
+            speed = size(*state)
+            if not 1e-3 < speed < 1.5:
+                return bool(speed <= 1e-3)
+        width = min(width * _wider(new[10], 1e-4), _LONGEST_STEP)
+    return False
+
+
+def between(before: Any, after: Any, share: Any, spin: Any) -> tuple[Any, Any]:
+    """Place and heading, and their rates, at shares of the time of steps, from the rows at both ends.
+
+    Polynomials of the fifth degree, which have the places, velocities and accelerations of both ends.
+    """
+    took = after[0] - before[0]
+    u = share
+    u2, u3, u4, u5 = u * u, u**3, u**4, u**5
+    scale = np.where(took > 0.0, took, 1.0)
+    places, rates = [], []
+    for at, factor in ((0, 1.0), (1, 1.0), (2, spin)):
+        p, q = before[1 + at], after[1 + at]
+        v, w = factor * before[4 + at] * took, factor * after[4 + at] * took
+        a, b = factor * after[7 + at] * took * took, factor * after[10 + at] * took * took
+        rise = q - p
+        places.append(
+            p + v * u + 0.5 * a * u2
+            + (10.0 * rise - 6.0 * v - 4.0 * w - 1.5 * a + 0.5 * b) * u3
+            + (-15.0 * rise + 8.0 * v + 7.0 * w + 1.5 * a - b) * u4
+            + (6.0 * rise - 3.0 * (v + w) - 0.5 * (a - b)) * u5
+        )  # fmt: skip
+        rates.append((
+            v + a * u
+            + 3.0 * (10.0 * rise - 6.0 * v - 4.0 * w - 1.5 * a + 0.5 * b) * u2
+            + 4.0 * (-15.0 * rise + 8.0 * v + 7.0 * w + 1.5 * a - b) * u3
+            + 5.0 * (6.0 * rise - 3.0 * (v + w) - 0.5 * (a - b)) * u4
+        ) / scale)  # fmt: skip
+    return np.array(places), np.array(rates)

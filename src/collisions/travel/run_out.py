@@ -12,14 +12,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..directions import angle_of
-from ..drag import HIGHEST_DRAG, one_value
-from ..errors import InputError, OutOfRangeWarning
+from ..drag import one_value, read_friction
+from ..errors import OutOfRangeWarning
 from ..hints import hinted
-from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, select
+from ..kernels.elementwise import UNIT_INTERVAL, select
+from ..kernels.tyre import circle
 from ..quantities import Shown, derived, hypot, in_units_of, numeric
 from ..quantity_names import RunOutQuantities
-from ..reading import ArgumentReader, at_least_zero, warn_if_large
-from ..units import Input, Pair, Texts, Value, shown, texts_of
+from ..reading import ArgumentReader
+from ..units import Input, Pair, Texts, Value, texts_of
 from ..warning import warn
 from .surfaces import (
     Segments,
@@ -114,9 +115,10 @@ def path(
 
     A vehicle whose wheels roll freely slows little while it points along its path and much while it slides broadside, so no
     single percentage of the friction fits a spin. Here each segment between two positions has its own drag, from its crab angle
-    (mean heading minus course) and from how far the wheels are locked::
+    (mean heading minus course) and from how far the wheels are braked::
 
-        drag = friction * sqrt(sin(crab)**2 + (lock * cos(crab))**2)
+        along = min(lock, |cos(crab)|)
+        drag  = friction * (along * |cos(crab)| + sqrt(1 - along**2) * |sin(crab)|)
 
     A list runs over positions or segments, and so does one array for all points or all headings. For many cases at once, give
     arrays in place of the single numbers: ``[(xs, ys), ...]``, ``[angles, ...]``, ``friction=factors``; they broadcast.
@@ -133,8 +135,8 @@ def path(
     friction : float, str, Quantity or array [-], or a list with one for each segment
         Friction of locked tyres on the ground, >= 0.
     lock : float, str, Quantity or array [-], or a list with one for each segment
-        Braking along the wheels as a fraction of that of locked wheels, from damage, brakes or an engaged gear: 0 if all roll
-        freely, 1 if all are locked.
+        Braking of the wheels, from damage, brakes or an engaged gear, as a fraction of what locks them: 0 if all roll freely, 1
+        if all are locked.
     grade : float, str, Quantity or array [-], or a list with one for each segment
         Rise over run, positive uphill in the direction of travel.
     end_speed : float, str, Quantity or array [m/s]
@@ -169,17 +171,19 @@ def path(
         How many cases of a batch cannot be answered, and why.
     OutOfRangeWarning
         More than a quarter turn between two points, where one crab angle stands for all of it. A yaw rate at separation above
-        0.5 times the speed over 1.5 m: there the speed comes out 4 % too high, and beyond it soon more.
+        0.5 times the speed over 1.5 m: there the speed comes out 4 to 8 % too high, mostly 5 %, and beyond it soon more.
     SuspectUnitsWarning
         A bare friction above 1.5, grade beyond 0.5 or heading beyond a turn, which is probably in another unit.
 
     Notes
     -----
-    The drag is derived as follows. A sliding tyre resists its slip with at most ``friction`` times its load across the
-    wheel and ``lock`` times that along it; of the forces within the ellipse with these half-axes, it takes the one that does
-    the most work against the slip. All wheels are taken to slip as the centre of mass does, which leaves out what yawing adds
-    to the slip of each wheel; steering and load transfer are left out too. In ``simulate``, which includes the yawing, the
-    drag along the path is lower by a fraction of about 0.4 (yaw rate * 1.5 m / speed)**2, both taken at separation.
+    The drag is that of the tyres of ``Tyres``, which ``simulate`` has too: a wheel that is braked by a moment rolls until its
+    brake can hold it, so the force along it is that of the brake, or less where it is locked, and what the friction circle
+    leaves acts across it. The integrated spin of a wheel gives the same. Side forces are taken to be all that the circle
+    leaves, as they are from a crab angle of some degrees on. All wheels are taken to slip as the centre of mass does, which
+    leaves out what yawing adds to the slip of each wheel; steering and load transfer are left out too. In ``simulate``, which
+    includes the yawing, the drag along the path is lower by a fraction of about 0.4 (yaw rate * 1.5 m / speed)**2, both taken
+    at separation.
 
     Positions and headings are smoothed first, each by a weighted least-squares parabola about its point (local regression,
     Cleveland, J. Am. Stat. Assoc. 74 (1979) 829, here of degree 2): chords between the points of a dense survey would be too
@@ -191,32 +195,29 @@ def path(
     order, by computing again with each one added and subtracted; they are infinite where no speed is left.
 
     Chaining segments backward from rest, each with the drag of its mean crab angle, is the reverse trajectory of Struble and
-    Struble, Automotive Accident Reconstruction, 2nd edition, chapter 4. The drag agrees with what Rose, Rollover Accident
-    Reconstruction, section CRASH Model, says of the equation that Fricke, Traffic Crash Reconstruction (2010), attributes to
-    the CRASH program. Only excerpts of these books, without the equations, were available.
-
-    If ``lock`` is read as the share of wheels that are locked while the others roll, the drag is friction times the sum of lock
-    and (1 - lock) sin(crab), which is higher by at most 0.1 times the friction. On soft ground, the drag measured near
-    broadside exceeds what such formulas give (Christoffersen and others, SAE 950139).
+    Struble, Automotive Accident Reconstruction, 2nd edition, chapter 4. If ``lock`` is read as the share of wheels that are
+    locked while the others roll, the drag is friction times the sum of lock and (1 - lock) sin(crab), which is lower by at most
+    0.12 times the friction. On soft ground, the drag measured near broadside exceeds what such formulas give (Christoffersen
+    and others, SAE 950139).
 
     Examples
     --------
     A car spun 160 deg to the left on nearly free wheels and came to rest after 20 m. Its course at separation was 12 deg to the
-    right of the straight line to rest, and full friction throughout would make it 13 % faster:
+    right of the straight line to rest, and full friction throughout would make it 7 % faster:
 
     >>> from collisions.travel import path, speed
     >>> places = [(0, 0), (6, -1.6), (12, -2.3), (20, -2.5)]
     >>> run = path(places, ["0 deg", "55 deg", "110 deg", "160 deg"], friction=0.7, lock=0.2)
     >>> [round(drag, 2) for drag in run.drags]
-    [0.48, 0.7, 0.49]
+    [0.57, 0.7, 0.57]
     >>> print(f"{run.q.speed.to('km/h'):.1f~P}, {run.q.yaw_rate.to('deg/s'):.0f~P}, {run.q.course_difference.to('deg'):.1f~P}")
-    53.3 km/h, 132 deg/s, -12.0 deg
+    56.0 km/h, 138 deg/s, -12.0 deg
     >>> round(speed(run.distance, drag=0.7) * 3.6, 1)
     60.0
     >>> errors = {"point_error": "0.1 m", "heading_error": "5 deg"}
     >>> run = path(places, ["0 deg", "55 deg", "110 deg", "160 deg"], friction=0.7, lock=0.2, **errors)
     >>> print(f"{run.q.speed_error.to('km/h'):.1f~P}, {run.q.course_error.to('deg'):.1f~P}")
-    0.8 km/h, 2.3 deg
+    0.6 km/h, 2.3 deg
     """
     reader = ArgumentReader()
     places = read_points(reader, points)
@@ -279,10 +280,7 @@ def _run_out(
         _wrapped(before + 0.5 * (after - before) - numeric(dx, dy).atan2(dy, dx))
         for (dx, dy), (before, after) in zip(steps, pairwise(turned), strict=True)
     ]
-    drags = [
-        mu * hypot(numeric(crab).sin(crab), part * numeric(crab).cos(crab))
-        for mu, part, crab in zip(frictions, locks, crabs, strict=True)
-    ]
+    drags = [_drag(mu, part, crab) for mu, part, crab in zip(frictions, locks, crabs, strict=True)]
     speeds = speeds_along(lengths, [drag + rise for drag, rise in zip(drags, grades, strict=True)], end, _leg)
     durations = durations_along(lengths, grades, speeds)
     found = {
@@ -297,6 +295,13 @@ def _run_out(
         "drags": tuple(drags),
     }
     return found, durations
+
+
+def _drag(friction: Any, lock: Any, crab: Any) -> Any:
+    """The drag of tyres that all slip at the crab angle."""
+    cosine, sine = numeric(crab).cos(crab), numeric(crab).sin(crab)
+    along, across = circle(cosine, lock)
+    return friction * (across * abs(sine) - along * cosine)
 
 
 def _errors(
@@ -335,19 +340,6 @@ def _leg(i: int) -> str:
     return f"points[{i}] to points[{i + 1}]"
 
 
-def read_friction(reader: ArgumentReader, value: Any, name: str) -> Any:
-    """The friction of locked tyres, >= 0 and finite."""
-    wrong = len(reader.problems)
-    read = one_value(reader, value, "", name, UNCHECKED)
-    if len(reader.problems) > wrong:
-        return read
-    if isinstance(read, float) and not math.isfinite(read):
-        return reader.refuse(InputError(f"{name} must be finite, got {shown(value)}", code="not_finite", argument=name))
-    read = at_least_zero(reader, read, value, name, "bad_friction", "its direction is worked out")
-    warn_if_large(value, read, HIGHEST_DRAG, name, "a fraction of the load", "%")
-    return read
-
-
 def _read_lock(reader: ArgumentReader, value: Any, name: str) -> Any:
     return one_value(reader, value, "", name, UNIT_INTERVAL)
 
@@ -373,7 +365,8 @@ def _warn_of_fast_yaw(yaw_rate: Any, speed: Any) -> None:
         warn(
             OutOfRangeWarning(
                 f"the yaw alone makes the wheels slip at more than {_MOST_YAW:g} of the speed at separation, which the drag "
-                f"here leaves out: the speed is 4 % too high there, more beyond; travel.simulate has the slip of each wheel",
+                f"here leaves out: the speed is 4 to 8 % too high there, more beyond; travel.simulate has the slip of each "
+                f"wheel",
                 code="fast_yaw",
                 cases=int(np.count_nonzero(fast)),
             )

@@ -1,0 +1,43 @@
+"""The impulse of tyres during a contact that is taken as an instant: the mean force of their wheels, times its duration."""
+
+from typing import Any, NamedTuple
+
+from .contact_step import Body, Motion, Rolling, braked
+from .time_resolved import scaled
+from .tyre import Tyres
+
+
+class Held(NamedTuple):
+    """Impulse of the tyres of one vehicle along x and y, and its moment about the centre of mass."""
+
+    x: Any
+    y: Any
+    yaw: Any
+
+
+# By Simpson's rule: before the contact, at half of its time, and after it.
+_WEIGHTS = (1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0)
+# The inputs of ``held`` before its settings, those of the tyres last.
+NUMBERS = 13 + len(Tyres._fields) - 1 + 4
+
+
+def held(*inputs: Any) -> Held:
+    """The impulse of the wheels of one vehicle, from numbers and, at the end, the settings of its wheels.
+
+    The numbers are mass, yaw inertia, cosine and sine of the heading, velocity and yaw rate before, their changes, the share
+    of the change at half of the time, the duration, gravity, and those of ``Tyres`` with their four locks first. At each of
+    the three moments no wheel has more than would stop its motion.
+    """
+    mass, inertia, cos, sin, vx, vy, spin, dvx, dvy, dw, half, duration, gravity, *rest = inputs
+    *numbers, steered, transfers = rest
+    tyres = Tyres(tuple(numbers[:4]), *numbers[4:])
+    wheels = Rolling(steered, transfers)
+    body = scaled(Body(1.0 / mass, 1.0 / inertia, 0.0, 0.0), (cos, sin), 1.0, 1.0, gravity, tyres)
+    x: Any = 0.0
+    y: Any = 0.0
+    yaw: Any = 0.0
+    for weight, share in zip(_WEIGHTS, (0.0, half, 1.0), strict=True):
+        motion = Motion(vx + share * dvx, vy + share * dvy, spin + share * dw)
+        after = braked(body, motion, duration, wheels)
+        x, y, yaw = x + weight * after.tyre_x, y + weight * after.tyre_y, yaw + weight * after.tyre_yaw
+    return Held(x, y, yaw)
