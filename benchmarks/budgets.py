@@ -305,9 +305,11 @@ def once(wanted: set[str], cases: int = 1_000_000) -> dict[str, float]:
             if key in wanted:
                 found[key] = row()
     if "import" in wanted:
-        import speed
+        import import_times
 
-        found["import"] = speed.imports(max(2, round(effort * 15)), ("numpy", "collisions"))["rows"]["collisions"]["best"]
+        found["import"] = import_times.imports(max(2, round(effort * 15)), ("numpy", "collisions"))["rows"]["collisions"][
+            "best"
+        ]
     return {key: value for key, value in found.items() if key in wanted}
 
 

@@ -17,6 +17,7 @@ import sys
 import time
 import warnings
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +28,8 @@ if str(SOURCE) not in sys.path:
     sys.path.insert(0, str(SOURCE))
 
 import collisions as col
-from collisions.contact_time import _arguments as arguments
+from collisions.engine.floats import compile_loop
+from collisions.impact.time_resolved_inputs import _arguments as arguments
 from collisions.kernels.contact_step import Motion, Passing
 from collisions.kernels.time_resolved import float_run, time_resolved
 
@@ -156,7 +158,7 @@ def engaged(scene: dict[str, Any]) -> dict[str, Any]:
             duration=DURATION, drag=DRAG, geometry="first_contact",
         )  # fmt: skip
         note: list[tuple[float, ...]] = []
-        time_resolved(**arguments(impact.inputs, lambda value: value), run=float_run, note=note)
+        time_resolved(**arguments(impact.inputs, lambda value: value), run=partial(float_run, compiled=compile_loop), note=note)
         crush = 2 * start + Passing._fields.index("crush")
         state = max(note, key=lambda one: one[crush])
         motions = Motion(*state[:start]), Motion(*state[start : 2 * start])

@@ -31,7 +31,8 @@ if str(ROOT / "src") not in sys.path:
     sys.path.insert(0, str(ROOT / "src"))
 
 import collisions as col
-from collisions.reconstruct import Posterior, bayes, compare, posterior
+from collisions.estimate import posterior as bayes
+from collisions.reconstruct import Posterior, compare, posterior
 from collisions.travel import GRAVITY
 from collisions.uncertainty import Censored, Interval, LogNormal, Normal, Triangular, Uniform
 
@@ -391,7 +392,7 @@ def _table(head: list[str], rows: list[list[str]]) -> str:
 
 def uniformity(counts: list[int]) -> float:
     """The chance of ranks that are as uneven as these or more: chi-squared over the bins."""
-    from collisions.reconstruct.least_squares import chi_squared_tail
+    from collisions.estimate.least_squares import chi_squared_tail
 
     each = sum(counts) / len(counts)
     return chi_squared_tail(sum((count - each) ** 2 for count in counts) / each, len(counts) - 1)

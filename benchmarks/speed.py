@@ -12,17 +12,13 @@ numba and pymunk are measured where they are installed (``pip install ".[bench]"
 from __future__ import annotations
 
 import argparse
-import compileall
 import gc
 import json
 import math
 import os
 import platform
-import shutil
-import statistics
 import subprocess
 import sys
-import tempfile
 import time
 import warnings
 from collections.abc import Callable
@@ -42,11 +38,13 @@ import ladder
 import speed_errors
 import speed_rivals
 import time_resolved
+from import_times import MODULES, TIMED, Times, imports, ratio
 
 import collisions as col
-from collisions import models, reconstruct
-from collisions.impact import solved
-from collisions.kernels.batch import FEW
+from collisions import reconstruct
+from collisions.engine.batch import FEW
+from collisions.impact import models
+from collisions.impact.impact import solved
 
 DATA = ROOT / "docs" / "_generated" / "speed.json"
 FIGURES = ROOT / "docs" / "_static"
@@ -75,8 +73,6 @@ class Work(NamedTuple):
     call: Callable[[], Any]
     cases: int = 1
 
-
-Times = dict[str, list[float]]
 
 # --- Timing ----------------------------------------------------------------------------------------------------------------
 
@@ -110,13 +106,6 @@ def _timed(works: dict[str, Work], rounds: int, seconds: float) -> Times:
     finally:
         gc.enable()
     return found
-
-
-def ratio(times: Times, one: str, other: str) -> dict[str, float]:
-    """What one costs of the other: the median of the rounds and their quartiles."""
-    each = [x / y for x, y in zip(times[one], times[other], strict=True)]
-    low, median, high = statistics.quantiles(each, n=4, method="inclusive")
-    return {"median": speed_errors.rounded(median), "low": speed_errors.rounded(low), "high": speed_errors.rounded(high)}
 
 
 def costs(works: dict[str, Work], times: Times, to: str) -> list[dict[str, Any]]:
@@ -341,44 +330,6 @@ def quantity_works(count: int) -> dict[str, Work]:
 
 
 # --- Imports ---------------------------------------------------------------------------------------------------------------
-
-MODULES = ("numpy", "collisions", "collisions.solvers", "pint", "numba", "pymunk")
-TIMED = "import sys, time; t = time.perf_counter(); import {0}; t = time.perf_counter() - t; print(t, 'pint' in sys.modules)"
-
-
-def imports(count: int, modules: tuple[str, ...] = MODULES) -> dict[str, Any]:
-    """The best import of so many, each in a process of its own, against that of numpy; whether pint was loaded.
-
-    The package is compiled first, as it is where it was installed.
-    """
-    with tempfile.TemporaryDirectory() as folder:
-        shutil.copytree(ROOT / "src" / "collisions", Path(folder) / "collisions", ignore=shutil.ignore_patterns("__pycache__"))
-        assert compileall.compile_dir(folder, quiet=1)
-        path = os.pathsep.join([folder, *filter(None, [os.environ.get("PYTHONPATH")])])
-        environment = {**os.environ, "PYTHONPATH": path}
-        environment.pop("PYTHONDONTWRITEBYTECODE", None)
-        return _imports(count, modules, environment)
-
-
-def _imports(count: int, modules: tuple[str, ...], environment: dict[str, str]) -> dict[str, Any]:
-    names = [name for name in modules if speed_rivals.installed(name)]
-    found: Times = {name: [] for name in names}
-    loaded = {}
-    for turn in range(count + 1):
-        for name in names[:: -1 if turn % 2 else 1]:
-            printed = subprocess.run(
-                [sys.executable, "-c", TIMED.format(name)], env=environment, capture_output=True, text=True, check=True
-            ).stdout.split()
-            if turn:  # the first one may have to compile
-                found[name].append(float(printed[0]))
-            loaded[name] = printed[1] == "True"
-    rows = {}
-    for name in MODULES:
-        rows[name] = None
-        if name in found:
-            best = speed_errors.rounded(min(found[name]) / min(found["numpy"]))
-            rows[name] = {"best": best, **ratio(found, name, "numpy"), "loads_pint": loaded[name]}
-    return {"best_of": count, "to": "numpy", "rows": rows}
 
 
 # --- What else a user could take -------------------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from stability_tables import GREY, INK, OURS, TEXTBOOK, number, table
 
-from collisions.kernels.batch import FEW
+from collisions.engine.batch import FEW
 
 DATA = Path(__file__).resolve().parent.parent / "docs" / "_generated"
 NOT_MEASURED = "not measured"

@@ -2,7 +2,7 @@
 
 ``python benchmarks/stability.py`` writes docs/_generated/stability.json and docs/_static/stability_forms.svg. The textbook
 forms live only here. Cases are seeded, results are rounded to two significant digits, and nothing is timed: the same machine
-writes the same files. The scales and promises are those of tests/test_reference.py, which is imported for them.
+writes the same files. The scales and promises are those of tests/kernels/test_reference.py, which is imported for them.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ for folder in (ROOT / "src", ROOT / "tests"):
         sys.path.insert(0, str(folder))
 
 import collisions as col
-import test_reference as asserted
-import test_reference_in_time as in_time
+from kernels import test_reference as asserted
+from kernels import test_reference_in_time as in_time
 from reference import EPS, Answer, Body, Scene, evaluate
 from scenes import FAMILIES, INCOMPLETE, LAWS, PUSHED, RULES, answerable, cases, draw, solved, solved_together
 

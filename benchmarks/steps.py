@@ -1,7 +1,7 @@
 """What the time steps of ``time_resolved`` err by: the table "Contacts followed in steps" of the page "Numerical stability".
 
 ``python benchmarks/steps.py`` measures it at 100, 200 and 400 steps and writes docs/_generated/steps.json; ``--json PATH``
-writes there. What it is compared with is that of tests/test_time_resolved.py: closed forms against a barrier, an impact worked
+writes there. What it is compared with is that of tests/impact/test_time_resolved.py: closed forms against a barrier, an impact worked
 out from event to event, and another integration (Runge and Kutta's). The scenes are seeded, and nothing is timed.
 """
 
@@ -22,8 +22,8 @@ for folder in (ROOT / "src", ROOT / "tests"):
         sys.path.insert(0, str(folder))
 
 import collisions as col
-import test_time_resolved as asserted
 from collisions.kernels.time_resolved import _NEAR
+from impact import test_time_resolved as asserted
 
 DATA = ROOT / "docs" / "_generated" / "steps.json"
 STEPS = (100, 200, 400)

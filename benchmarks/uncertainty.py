@@ -30,7 +30,7 @@ from uncertainty_coverage import rounded
 from uncertainty_scenes import BY_KEY, ENDS, LOCAL, SAMPLED, SCENES, Scene, drawn, errors, figures, listening, run
 
 from collisions import NoSolutionError
-from collisions.reconstruct.fit import fit
+from collisions.estimate.fit import fit
 from collisions.uncertainty import Normal
 
 DATA = Path(__file__).resolve().parent.parent / "docs" / "_generated" / "uncertainty.json"
@@ -296,11 +296,12 @@ def main() -> None:
     old = json.loads(data.read_text(encoding="utf-8"))["references"] if options.keep_reference and data.exists() else None
     found = measure(QUICK if options.quick else FULL, old)
     data.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    import uncertainty_figures
     import uncertainty_tables
 
     print(uncertainty_tables.summary(found))
     if options.json is None:
-        uncertainty_tables.draw_all(found, FOLDER)
+        uncertainty_figures.draw_all(found, FOLDER)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from uncertainty_scenes import BY_KEY, ENDS, LOCAL, SAMPLED, Numbers, Scene, drawn, listening, run, t_bone
 
-from collisions.errors import NoSolutionError
+from collisions.messages.errors import NoSolutionError
 from collisions.uncertainty import Interval, Normal
 
 SEED = 20250312

@@ -10,9 +10,6 @@ from typing import Any
 
 from speed_tables import percent
 from stability_tables import number, table
-from uncertainty_figures import draw_all
-
-__all__ = ["draw_all"]
 
 DATA = Path(__file__).resolve().parent.parent / "docs" / "_generated" / "uncertainty.json"
 DEFAULT = 8192  # cases that ``propagate`` draws if nothing is said

@@ -9,7 +9,7 @@ Every input is an array here and all answers are written; what the library takes
 
 What it showed (2 cores, Python 3.11, numpy 2, a million cases), against whole arrays: blocks of 8192 take 0.48, replayed 0.17;
 blocks of 65536, which no longer fit the cache of a core, 0.92 and 0.28; blocks of 1024, where the calls themselves weigh, 0.60
-replayed. Decided: ``kernels/replay.py``, in blocks of 8192. The kernel stays a plain formula: its steps are recorded from one
+replayed. Decided: ``engine/replay.py``, in blocks of 8192. The kernel stays a plain formula: its steps are recorded from one
 run.
 """
 
@@ -18,9 +18,9 @@ from functools import partial
 import numpy as np
 from measuring import QUICK, batch_speed, compare
 
-from collisions.kernels.buffers import carved
+from collisions.engine.buffers import carved
+from collisions.engine.replay import record, replay
 from collisions.kernels.eccentric import eccentric
-from collisions.kernels.replay import record, replay
 from collisions.kernels.status import EPS, Answer
 
 CASES = 20_000 if QUICK else 1_000_000

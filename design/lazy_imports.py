@@ -9,7 +9,7 @@ is what each part would add.
 What it showed (2 cores, Python 3.11, numpy 2, pint 0.25): the package adds a tenth to importing numpy, the solvers less than
 another, ``uncertainty`` a half, ``report`` one and a half to two; pint alone costs two more, and a first unit, for which pint
 builds its registry, three to four. Decided: pint when a unit first appears; the solvers, the upper half of the package,
-``kernels/batch.py``, ``records.py``, the thread pool, the choice of a model, the contact in time and the printer of kernels
+``engine/batch.py``, ``records.py``, the thread pool, the choice of a model, the contact in time and the printer of kernels
 when they are first used. What is left is for the most part Python making the classes that every call needs.
 """
 
@@ -21,8 +21,8 @@ import measuring
 BASE = "import numpy"
 ADDED = {
     "collisions": "import collisions",
-    "... and solvers": "import collisions.solvers",
-    "... and a batch": "import collisions.solvers, collisions.kernels.batch",
+    "... and solvers": "import collisions.impact.solvers",
+    "... and a batch": "import collisions.impact.solvers, collisions.engine.batch",
     "... and reconstruct": "import collisions.reconstruct",
     "... and uncertainty": "import collisions.uncertainty",
     "... and diagnose, explain": "import collisions.diagnostics, collisions.derivation",

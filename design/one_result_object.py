@@ -15,8 +15,8 @@ from typing import Any
 
 from measuring import col, compare, speed
 
-from collisions.impact import build
-from collisions.inputs import Inputs
+from collisions.impact.impact import build
+from collisions.impact.inputs import Inputs
 from collisions.kernels.eccentric import eccentric
 
 NUMBERS = (0.1, 1.0, 0.0, 0.5, 0.0, 0.0)

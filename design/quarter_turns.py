@@ -17,7 +17,7 @@ import random
 import measuring
 import mpmath
 
-from collisions.directions import from_degrees
+from collisions.quantities.directions import from_degrees
 
 
 def off(found, degrees):

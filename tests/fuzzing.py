@@ -32,20 +32,20 @@ import numpy as np
 import pytest
 
 import collisions as col
-from collisions.contact_effects import LeftOut, LeftOutSide
 from collisions.derivation import explain
 from collisions.diagnostics.finding import Findings
-from collisions.inputs import Inputs
-from collisions.model_choice import ByModel
-from collisions.pulse import Pulse
-from collisions.quantities import Quantities
-from collisions.reconstruct.fit_result import Direction, Estimate, Residual, Values
+from collisions.estimate.fit_result import Direction, Estimate, Residual, Values
+from collisions.estimate.posterior_result import PosteriorOutput
+from collisions.impact.choice import ByModel
+from collisions.impact.inputs import Inputs
+from collisions.impact.left_out import LeftOut, LeftOutSide
+from collisions.impact.pulse import Pulse
+from collisions.impact.side import Side
+from collisions.messages.warning import Note
+from collisions.quantities.attributes import Quantities
+from collisions.quantities.units import Texts
 from collisions.reconstruct.momentum_solution import Sensitivity
-from collisions.reconstruct.posterior_result import PosteriorOutput
-from collisions.side import Side
 from collisions.uncertainty.distribution import GivenUnit
-from collisions.units import Texts
-from collisions.warning import Note
 from strategies import EXTREMES, NEVER, ODD_UNITS, PLACES, RANGES, SPELLINGS, UNITS, YAW_RATES, quantity, registries
 
 _FEW = 12

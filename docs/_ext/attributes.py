@@ -3,7 +3,7 @@
 import inspect
 import re
 
-from collisions.quantities import attributes, unit_of
+from collisions.quantities.attributes import attributes, unit_of
 
 
 def pretty(unit):

@@ -8,7 +8,7 @@ read. See ``Vehicle``, then ``linear_central``, ``oblique_central`` and ``eccent
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .errors import (
+from .messages.errors import (
     AmbiguousSolutionError,
     CollisionsError,
     CollisionsWarning,
@@ -25,20 +25,20 @@ from .errors import (
     SuspectUnitsWarning,
     UnitsError,
 )
-from .settings import options
-from .vehicle import Vehicle
+from .quantities.settings import options
+from .vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from . import plot, reconstruct, reference, travel, uncertainty
-    from .contact_effects import left_out
     from .derivation import explain
     from .diagnostics import diagnose
-    from .impact import Impact
-    from .model_choice import ModelChoice
+    from .impact.choice import ModelChoice
+    from .impact.impact import Impact
+    from .impact.left_out import left_out
+    from .impact.schema import impact_schema
+    from .impact.solvers import eccentric, linear_central, oblique_central, required_model, solve, time_resolved
     from .reporting import report
-    from .schema import impact_schema
-    from .solvers import eccentric, linear_central, oblique_central, required_model, solve, time_resolved
-    from .what_if_page import what_if
+    from .reporting.what_if import what_if
 
 __version__ = "0.1.0"
 
@@ -84,15 +84,17 @@ __all__ = [
 
 # Modules of the lazily imported names.
 _LATER = {
-    "Impact": "impact",
-    "ModelChoice": "model_choice",
+    "Impact": "impact.impact",
+    "ModelChoice": "impact.choice",
     "diagnose": "diagnostics",
     "explain": "derivation",
-    "impact_schema": "schema",
-    "left_out": "contact_effects",
+    "impact_schema": "impact.schema",
+    "left_out": "impact.left_out",
     "report": "reporting",
-    "what_if": "what_if_page",
-    **dict.fromkeys(("eccentric", "linear_central", "oblique_central", "required_model", "solve", "time_resolved"), "solvers"),
+    "what_if": "reporting.what_if",
+    **dict.fromkeys(
+        ("eccentric", "linear_central", "oblique_central", "required_model", "solve", "time_resolved"), "impact.solvers"
+    ),
 }
 _MODULES = ("plot", "reconstruct", "reference", "travel", "uncertainty")
 

@@ -12,12 +12,13 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from . import __version__
-from .case_answers import Answers, answers
-from .case_file import CaseError, read
-from .case_schema import case_schema
-from .formatting import SYSTEMS
+from .cases.answers import Answers, answers
+from .cases.read import CaseError, read
+from .cases.schema import case_schema
+from .quantities.formatting import SYSTEMS
 
-_TEMPLATE, _US_TEMPLATE = (Path(__file__).with_name(name) for name in ("case_template.toml", "case_template_us.toml"))
+_CASES = Path(__file__).with_name("cases")
+_TEMPLATE, _US_TEMPLATE = _CASES / "case_template.toml", _CASES / "case_template_us.toml"
 _HTML, _MARKDOWN = (".html", ".htm"), (".md", ".markdown")
 _ENDS = """\
 exit codes: 0 answered; 1 the case was read, but has no answer, or more than one where one is needed; 2 the file or the command

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ..impact import answer_of
-from ..inputs import PLACED
+from ..impact.impact import answer_of
+from ..impact.inputs import PLACED
 from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, RULES
 from .expressions import HALF, ZERO, Direction, Expression, Function, Sum, magnitude, root, signed_total, total
 from .page import Page

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..formatting import KIND_OF, in_words, percent
+from ..quantities.formatting import KIND_OF, in_words, percent
 from ..reconstruct import Fit, MomentumSolution
 from .contact import pdof
 from .expressions import ZERO, Direction, Expression, Function, magnitude, signed_total, total

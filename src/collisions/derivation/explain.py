@@ -7,19 +7,19 @@ from collections.abc import Iterable, Iterator, Mapping
 from operator import attrgetter
 from typing import Any, Literal, TypeAlias, get_args
 
-from ..document import Document
-from ..errors import InputError, Status
-from ..formatting import SI_UNITS, UnitSystem, check_system
-from ..impact import Impact
-from ..inputs import PLACED
+from ..impact.impact import Impact
+from ..impact.inputs import PLACED
+from ..impact.run import error_of
 from ..kernels.contact_laws import RULES
-from ..reading import ArgumentReader, at_least_zero, need_one_case, single_number
+from ..messages.errors import InputError, Status
+from ..quantities.document import Document
+from ..quantities.formatting import SI_UNITS, UnitSystem, check_system
+from ..quantities.reading import ArgumentReader, at_least_zero, need_one_case, single_number
+from ..quantities.settings import callers_options, computing
+from ..quantities.units import kinds_in_degrees, shown, system_given
 from ..reconstruct import Fit, MomentumSolution, Posterior
-from ..settings import callers_options, computing
-from ..solving import error_of
 from ..uncertainty.distributions import Interval
 from ..uncertainty.result import Output, Propagation, ends_of, varies
-from ..units import kinds_in_degrees, shown, system_given
 from .contact import motions, normal
 from .evidence import MOMENTUM_ANSWERS, fit, momentum
 from .expressions import System

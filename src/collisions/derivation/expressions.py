@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import NamedTuple
 
-from ..formatting import Numbers, decimals_of, places, with_decimals
+from ..quantities.formatting import Numbers, decimals_of, places, with_decimals
 
 # Numbers in SI within this of 0 are rounding, and printed as 0.
 _ZERO = {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8, "per mass": 1e-15}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from ..impact import Impact, answer_of
+from ..impact.impact import Impact, answer_of
 from .contact import Mobility, energy, impulses, kinetic_energies, velocity_after, velocity_before
 from .expressions import HALF, ZERO, Expression, total
 from .page import Page

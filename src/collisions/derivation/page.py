@@ -6,9 +6,9 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
-from ..document import Document
-from ..errors import InternalError
-from ..formatting import clock, typeset
+from ..messages.errors import InternalError
+from ..quantities.document import Document
+from ..quantities.formatting import clock, typeset
 from .expressions import Direction, Expression, Pen, System, is_zero
 from .symbols import Symbol
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..impact import Impact
+from ..impact.impact import Impact
+from ..impact.provenance import KNOWN, Reconstruction, how_many
 from ..kernels.central import shares
-from ..provenance import KNOWN, Reconstruction, how_many
 from .expressions import HALF, ONE, ZERO, Expression, root
 from .models import Lever, impulse_in_scene_axes
 from .page import Page

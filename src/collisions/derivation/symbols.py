@@ -7,11 +7,11 @@ import re
 from functools import cache, cached_property
 from typing import Any
 
-from ..impact import Impact
-from ..inputs import PLACED
+from ..impact.impact import Impact
+from ..impact.inputs import PLACED
+from ..impact.side import Side
 from ..kernels.contact_laws import BRACH, LAWS
-from ..side import Side
-from ..vehicle import Vehicle
+from ..vehicle.vehicle import Vehicle
 from .expressions import ATOM, SUM, ZERO, Expression, Pen, Written, signed_total
 
 # At the start, at the end of compression, and after.

@@ -9,20 +9,20 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from ..contact_effects import LeftOut
-from ..directions import from_degrees
-from ..formatting import decimals_of, in_words, places, rounded, scale_of, unit_of
-from ..formatting import percent as in_percent
-from ..impact import Impact, solve_changed
-from ..inputs import OUTSIDE
+from ..impact.choice import ModelChoice
+from ..impact.impact import Impact, solve_changed
+from ..impact.inputs import OUTSIDE
+from ..impact.left_out import LeftOut
+from ..impact.side import Side
+from ..impact.solvers import required_model
 from ..kernels.contact_laws import BRACH, FRICTION, LAWS
 from ..kernels.status import EPS
-from ..model_choice import ModelChoice
-from ..outlines import overlap, placed
+from ..quantities.directions import from_degrees
+from ..quantities.formatting import decimals_of, in_words, places, rounded, scale_of, unit_of
+from ..quantities.formatting import percent as in_percent
 from ..reconstruct import MomentumSolution
-from ..side import Side
-from ..solvers import required_model
-from ..vehicle import Vehicle, with_name
+from ..vehicle.outlines import overlap, placed
+from ..vehicle.vehicle import Vehicle, with_name
 
 # A computed ratio that equals its limit up to rounding has not passed it.
 RATIO_ROUNDING = 1e-9

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..directions import from_radians
-from ..outlines import distance_outside, placed
+from ..impact.side import Side
+from ..quantities.directions import from_radians
 from ..reference import restitution_range
-from ..side import Side
+from ..vehicle.outlines import distance_outside, placed
 from .case import RATIO_ROUNDING, Case, ImpactCase, MomentumCase, off_by, outline_off_by, percent, share
 from .finding import MESSAGES, METHOD, Measured, above, finding
 

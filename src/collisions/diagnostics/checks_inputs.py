@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from ..drag import HIGHEST_DRAG
-from ..inputs import PLACED, Inputs
+from ..impact.inputs import PLACED, Inputs
 from ..reference import CONTACT_DURATION
-from ..vehicle import Vehicle
+from ..vehicle.drag import HIGHEST_DRAG
+from ..vehicle.vehicle import Vehicle
 from .case import Case, ImpactCase, MomentumCase, off_by
 from .finding import NOTE, Measured, above, below, finding
 

@@ -6,12 +6,12 @@ import math
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from ..drag import GRAVITY
-from ..impact import Impact
-from ..inputs import PLACED
-from ..provenance import how_many
+from ..impact.impact import Impact
+from ..impact.inputs import PLACED
+from ..impact.provenance import how_many
+from ..impact.side import Side
 from ..reference import INTER_VEHICLE_FRICTION
-from ..side import Side
+from ..vehicle.drag import GRAVITY
 from .case import Case, ImpactCase, MomentumCase, off_by, percent, plain, share
 from .finding import MESSAGES, METHOD, Measured, above, at_or_below, below, finding
 

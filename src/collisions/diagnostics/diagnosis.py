@@ -7,19 +7,19 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any, cast
 
-from ..contact_effects import left_out
-from ..drag import USUAL_DURATION, read_drag, read_duration
-from ..errors import InputError, MissingInputError
-from ..formatting import UnitSystem, check_system
-from ..impact import Impact
+from ..impact.impact import Impact
+from ..impact.left_out import left_out
 from ..kernels.elementwise import UNCHECKED
-from ..outlines import read_outline
-from ..reading import ArgumentReader, amount, need_one_case, single_number
+from ..messages.errors import InputError, MissingInputError
+from ..quantities.formatting import UnitSystem, check_system
+from ..quantities.reading import ArgumentReader, amount, need_one_case, single_number
+from ..quantities.settings import callers_options, computing, units_required
+from ..quantities.tables import spoken_system
+from ..quantities.units import Input, Pair, shown
 from ..reconstruct import MomentumSolution
-from ..settings import callers_options, computing, units_required
-from ..summary import spoken_system
-from ..units import Input, Pair, shown
-from ..vehicle import Vehicle, missing
+from ..vehicle.drag import USUAL_DURATION, read_drag, read_duration
+from ..vehicle.outlines import read_outline
+from ..vehicle.vehicle import Vehicle, missing
 from . import checks_consistency, checks_inputs, checks_reliability
 from .case import Case, Damage, ImpactCase, MomentumCase
 from .finding import Check, Findings, Limit

@@ -9,8 +9,8 @@ from functools import partial
 from operator import gt, le, lt
 from typing import Any, NamedTuple, get_type_hints
 
-from ..quantities import OWN, Quantities
-from ..summary import Cells, Part, Summarized, Summary
+from ..quantities.attributes import OWN, Quantities
+from ..quantities.tables import Cells, Part, Summarized, Summary
 
 _NO_PROOF = "A finding is a reason to look again, not an error; no finding is no proof."
 # The source of a limit of what is a note: its count has no size to judge, and pages and tables show neither.

@@ -362,29 +362,27 @@ def _moved_back(contact: Contact, a: Body, b: Body, moved: list[Any]) -> tuple[C
 
 
 @lru_cache(maxsize=64)
-def _loop(settings: tuple[Any, ...]) -> Callable[..., tuple[float, ...]]:
-    from .floats import compile_loop
-
-    return compile_loop(advance, _FIXED, _MOVING, settings)
+def _loop(compiled: Callable[..., Any], settings: tuple[Any, ...]) -> Any:
+    return compiled(advance, _FIXED, _MOVING, settings)
 
 
-def float_run(settings: Settings) -> Run:
-    """Step through one case of floats."""
+def float_run(settings: Settings, compiled: Callable[..., Any]) -> Run:
+    """Step through one case of floats; ``compiled`` makes a loop of floats from a step."""
     moves, wheels = settings.geometry != "fixed", (settings.wheels_a, settings.wheels_b)
     most = 40 * settings.steps
 
     def run(fixed: Fixed, moving: Moving, engaging: bool, note: Any) -> Moving:
         if not moving[2].active:
             return moving
-        step = _loop((engaging, moves, *wheels))
+        step = _loop(compiled, (engaging, moves, *wheels))
         return _moving_of(step([v for part in fixed for v in part], [v for part in moving for v in part], most, note))
 
     return run
 
 
-def block_run(settings: Settings) -> Run:
-    """Step through a block of arrays, and through its last cases one by one."""
-    moves, one = settings.geometry != "fixed", float_run(settings)
+def block_run(settings: Settings, compiled: Callable[..., Any]) -> Run:
+    """Step through a block of arrays, and through its last cases one by one; ``compiled`` makes a loop of floats from a step."""
+    moves, one = settings.geometry != "fixed", float_run(settings, compiled)
 
     def run(fixed: Fixed, moving: Moving, engaging: bool, note: Any) -> Moving:
         for _ in range(40 * settings.steps):

@@ -6,13 +6,13 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from ..errors import InputError, MissingInputError
-from ..formatting import KIND_OF, SI_UNITS, decimals_of, in_words, number_with_unit, places, typeset, with_decimals
-from ..impact import Impact
-from ..reading import need_one_case
-from ..summary import Summarized, cells
-from ..units import shown
-from ..vehicle import Vehicle
+from ..impact.impact import Impact
+from ..messages.errors import InputError, MissingInputError
+from ..quantities.formatting import KIND_OF, SI_UNITS, decimals_of, in_words, number_with_unit, places, typeset, with_decimals
+from ..quantities.reading import need_one_case
+from ..quantities.tables import Summarized, cells
+from ..quantities.units import shown
+from ..vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
     import matplotlib.axes

@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from ..drag import LONGEST_CONTACT, one_value
-from ..errors import InputError
-from ..formatting import UnitSystem
-from ..hints import hinted
-from ..impact import Impact
-from ..pulse import compression_time, rise
-from ..reading import ArgumentReader, warn_if_large
-from ..units import Input, shown
+from ..impact.impact import Impact
+from ..impact.pulse import compression_time, rise
+from ..messages.errors import InputError
+from ..messages.hints import hinted
+from ..quantities.formatting import UnitSystem
+from ..quantities.reading import ArgumentReader, warn_if_large
+from ..quantities.units import Input, shown
+from ..vehicle.drag import LONGEST_CONTACT, one_value
 from .canvas import (
     COLOURS,
     FORCE,

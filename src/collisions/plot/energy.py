@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-from ..errors import InputError
-from ..formatting import UnitSystem
-from ..hints import hinted
-from ..impact import Impact
-from ..vehicle import Vehicle
+from ..impact.impact import Impact
+from ..messages.errors import InputError
+from ..messages.hints import hinted
+from ..quantities.formatting import UnitSystem
+from ..vehicle.vehicle import Vehicle
 from .canvas import COLOURS, FORCE, GREY, INK, Axes, Units, begin, check_impact, number, tidy, who
 
 

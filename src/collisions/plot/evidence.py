@@ -7,12 +7,12 @@ from typing import Any, cast
 
 import numpy as np
 
-from ..errors import InputError
-from ..formatting import UnitSystem
-from ..hints import hinted
+from ..messages.errors import InputError
+from ..messages.hints import hinted
+from ..quantities.formatting import UnitSystem
+from ..quantities.units import shown
 from ..reconstruct import Fit, Posterior
 from ..uncertainty import Normal
-from ..units import shown
 from .canvas import BARS, FORCE, GREY, INK, LIGHT, SMALLEST, Axes, Figure, Units, begin, check_size, in_lines, tidy
 
 _SHARES = (0.5, 0.95)  # of the samples within the two lines

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from ..formatting import UnitSystem
-from ..hints import hinted
-from ..impact import Impact, answer_of, solved
-from ..inputs import OUTSIDE, TYRES
+from ..impact.choice import until_compressed
+from ..impact.impact import Impact, answer_of, solved
+from ..impact.inputs import OUTSIDE, TYRES
 from ..kernels.contact_laws import BRACH, IMPULSE_RATIO, LAWS
 from ..kernels.status import EPS
-from ..model_choice import until_compressed
-from ..warning import quietly
+from ..messages.hints import hinted
+from ..messages.warning import quietly
+from ..quantities.formatting import UnitSystem
 from .canvas import FORCE, GREY, INK, LARGEST, LIGHT, Axes, Units, begin, check_impact, legend_below, tidy
 
 # A no-slip impulse further out than this many times the impulse would leave nothing to see of the rest.

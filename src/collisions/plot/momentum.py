@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..errors import InputError
-from ..formatting import UnitSystem
-from ..hints import hinted
-from ..impact import Impact
-from ..vehicle import Vehicle
+from ..impact.impact import Impact
+from ..messages.errors import InputError
+from ..messages.hints import hinted
+from ..quantities.formatting import UnitSystem
+from ..vehicle.vehicle import Vehicle
 from .canvas import COLOURS, FORCE, GREY, GRID, INK, SIDES, Axes, Units, begin, check_impact, in_lines, legend_below, tidy, who
 from .drawing import ALONG_ONE_LINE, Drawing, Place, beside, covers, cross
 

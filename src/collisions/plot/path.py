@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
-from ..formatting import UnitSystem
-from ..hints import hinted
+from ..messages.errors import InputError
+from ..messages.hints import hinted
+from ..quantities.formatting import UnitSystem
+from ..quantities.units import shown
 from ..travel import SimulatedPath
-from ..units import shown
-from ..vehicle import Vehicle
+from ..vehicle.vehicle import Vehicle
 from .canvas import COLOURS, INK, Axes, Units, begin, tidy, who
 from .drawing import Place, beside
 from .scene import Picture, corners_of, size_of

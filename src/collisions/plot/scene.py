@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
-from ..formatting import UnitSystem
-from ..hints import hinted
-from ..impact import Impact
-from ..outlines import placed, read_outline
-from ..reading import ArgumentReader
-from ..units import shown
-from ..vehicle import Vehicle, missing
+from ..impact.impact import Impact
+from ..messages.errors import InputError
+from ..messages.hints import hinted
+from ..quantities.formatting import UnitSystem
+from ..quantities.reading import ArgumentReader
+from ..quantities.units import shown
+from ..vehicle.outlines import placed, read_outline
+from ..vehicle.vehicle import Vehicle, missing
 from .canvas import COLOURS, FORCE, GREY, INK, LARGEST, SIDES, THIN, Axes, Units, begin, check_impact, tidy, who
 from .drawing import APART, Drawing, Place, beside
 

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
-from ..formatting import UnitSystem, with_decimals
-from ..hints import hinted
+from ..messages.errors import InputError
+from ..messages.hints import hinted
+from ..quantities.formatting import UnitSystem, with_decimals
+from ..quantities.units import shown
 from ..uncertainty.intervals import Bounds
 from ..uncertainty.result import COVERAGE, Output, Propagation
-from ..units import shown
 from .canvas import BARS, FORCE, GREY, INK, LIGHT, MINUS, Axes, Units, begin, check_size, drawable, in_lines, legend_below, tidy
 
 _ASIDE = 0.24  # of a row: error bars, diamonds and figures from its middle

@@ -3,21 +3,21 @@
 ``reconstruct.q`` has ``inline_closing_speed``, ``crush_energy`` and ``crush_delta_v``, which there return Quantities.
 """
 
-from ..provenance import Reconstruction
-from ..quantities import in_quantities
-from .bayes import posterior
+from ..estimate.compare import Comparison, compare
+from ..estimate.fit import fit
+from ..estimate.fit_result import Fit
+from ..estimate.posterior import posterior
+from ..estimate.posterior_result import Posterior
+from ..impact.provenance import Reconstruction
+from ..quantities.attributes import in_quantities
 from .central import central
-from .comparison import Comparison, compare
 from .crush import crush_delta_v, crush_energy, crush_share
-from .fit import fit
-from .fit_result import Fit
+from .from_motions import friction, restitution
 from .inline import inline_closing_speed
 from .momentum import momentum
 from .momentum_solution import MomentumSolution
-from .observed import friction, restitution
 from .planar import planar
-from .posterior_result import Posterior
-from .recorded import RecordedPulse, recorded_pulse
+from .recorder import RecordedPulse, recorded_pulse
 from .speeds import speeds
 
 

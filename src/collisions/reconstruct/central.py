@@ -7,21 +7,21 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import AmbiguousSolutionError, CollisionsError
-from ..hints import hinted
-from ..impact import Impact
-from ..inputs import Inputs, OnFailure, check_flag
+from ..impact.impact import Impact
+from ..impact.inputs import Inputs, OnFailure, check_flag
+from ..impact.provenance import Reconstruction
+from ..impact.run import error_of
 from ..kernels.central import shares
 from ..kernels.contact_laws import FRICTION
 from ..kernels.elementwise import restitution_domain
 from ..kernels.reverse import VELOCITIES, allowed_losses, inline_speeds, moving_apart
 from ..kernels.status import Status
-from ..provenance import Reconstruction
-from ..reading import ArgumentReader
-from ..solving import error_of
-from ..summary import Sentences
-from ..units import Input
-from ..vehicle import Vehicle, moved
+from ..messages.errors import AmbiguousSolutionError, CollisionsError
+from ..messages.hints import hinted
+from ..quantities.reading import ArgumentReader
+from ..quantities.tables import Sentences
+from ..quantities.units import Input
+from ..vehicle.vehicle import Vehicle, moved
 from .common import Cases, exactly, finish, input_faults, read_amounts, read_masses, run_forward, warn_of_condition
 
 _ALONG_X: Any = (1.0, 0.0)

@@ -9,20 +9,20 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import CollisionsError, IllConditionedWarning, InputError, Status
-from ..impact import Impact, answer_of, found_by, solved
-from ..inputs import Inputs, body_numbers, first_case
-from ..kernels.batch import precision
+from ..impact.impact import Impact, answer_of, found_by, solved
+from ..impact.inputs import Inputs, body_numbers, first_case
+from ..impact.provenance import Reconstruction, origin_where_answered
+from ..impact.run import check_options, error_of, warn_of_refusals
 from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
 from ..kernels.elementwise import FINITE, POSITIVE, restitution_domain
-from ..provenance import Reconstruction, origin_where_answered
-from ..quantities import lock
-from ..reading import ArgumentReader, amount, broadcast
-from ..solving import check_options, error_of, warn_of_refusals
-from ..units import Texts
-from ..vehicle import Vehicle
-from ..warning import quietly, warn_of_cases
+from ..messages.errors import CollisionsError, IllConditionedWarning, InputError, Status
+from ..messages.warning import quietly, warn_of_cases
+from ..quantities.attributes import lock
+from ..quantities.precision import precision
+from ..quantities.reading import ArgumentReader, amount, broadcast
+from ..quantities.units import Texts
+from ..vehicle.vehicle import Vehicle
 
 # The forward kernel, called with the numbers of two bodies in this order.
 forward: Callable[..., Any] = eccentric

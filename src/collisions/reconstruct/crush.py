@@ -8,15 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from ..directions import Angle
-from ..errors import InputError, OutOfRangeWarning, ShapeError
-from ..hints import hinted
+from ..impact.run import error_of, warn_of_refusals
 from ..kernels.elementwise import POSITIVE, UNIT_INTERVAL
 from ..kernels.status import Status
-from ..reading import ArgumentReader, amount, largest, warn_if_large
-from ..solving import error_of, warn_of_refusals
-from ..units import Input, Value, has_unit, is_quantity, shown
-from ..warning import warn
+from ..messages.errors import InputError, OutOfRangeWarning, ShapeError
+from ..messages.hints import hinted
+from ..messages.warning import warn
+from ..quantities.directions import Angle
+from ..quantities.reading import ArgumentReader, amount, largest, warn_if_large
+from ..quantities.units import Input, Value, has_unit, is_quantity, shown
 from .common import ASK_ALONE, Cases, input_faults, read_masses
 
 _RIGHT_ANGLE = 2.0**-52  # the cosine of 90 degrees in radians is not exactly 0

@@ -8,16 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import AmbiguousSolutionError, NoSolutionError
-from ..hints import hinted
+from ..impact.run import error_of, warn_of_refusals
 from ..kernels.central import shares
 from ..kernels.elementwise import RESTITUTION
 from ..kernels.reverse import changing_speed, energy_of_speeds, losing_speed
 from ..kernels.status import Status
-from ..reading import ArgumentReader
-from ..solving import error_of, warn_of_refusals
-from ..summary import Sentences
-from ..units import Input, Value
+from ..messages.errors import AmbiguousSolutionError, NoSolutionError
+from ..messages.hints import hinted
+from ..quantities.reading import ArgumentReader
+from ..quantities.tables import Sentences
+from ..quantities.units import Input, Value
 from .common import ASK_ALONE, PAIRS, Cases, exactly, input_faults, read_amounts, read_masses
 from .restitution_roots import RestitutionOf, crossings
 

@@ -8,8 +8,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..directions import Angle, angle_of, course, direction
-from ..errors import (
+from ..impact.inputs import OnFailure
+from ..impact.run import check_options
+from ..kernels.reverse import Term, unknown_speed
+from ..kernels.status import EPS, Status
+from ..messages.errors import (
     CollisionsError,
     CollisionsWarning,
     EnergyGainWarning,
@@ -19,16 +22,13 @@ from ..errors import (
     NoSolutionError,
     OutOfRangeWarning,
 )
-from ..hints import hinted
-from ..inputs import OnFailure
-from ..kernels.reverse import Term, unknown_speed
-from ..kernels.status import EPS, Status
-from ..quantities import hypot, in_units_of, show
-from ..reading import ArgumentReader, amount
-from ..solving import check_options
-from ..summary import said
-from ..units import Input, Pair, is_quantity, magnitude, shown, texts_of
-from ..warning import warn_of_cases
+from ..messages.hints import hinted
+from ..messages.warning import warn_of_cases
+from ..quantities.attributes import hypot, in_units_of, show
+from ..quantities.directions import Angle, angle_of, course, direction
+from ..quantities.reading import ArgumentReader, amount
+from ..quantities.tables import said
+from ..quantities.units import Input, Pair, is_quantity, magnitude, shown, texts_of
 from .common import NEARLY_COLLINEAR, Cases, exactly, input_faults, raise_or_warn, read_masses
 from .momentum_solution import MomentumSolution, Sensitivity
 

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import MissingInputError
 from ..kernels.status import Status
-from ..quantities import Shown, derived, same
-from ..quantity_names import MomentumSolutionQuantities
-from ..summary import Cells, Part, Summary, all_numbers, sided
-from ..units import Value, to_quantity
+from ..messages.errors import MissingInputError
+from ..quantities.attribute_stubs import MomentumSolutionQuantities
+from ..quantities.attributes import Shown, derived, same
+from ..quantities.tables import Cells, Part, Summary, all_numbers, sided
+from ..quantities.units import Value, to_quantity
 
 # The arguments that give attributes which may be None.
 _NEEDED = {"pdof_a": "heading_a", "pdof_b": "heading_b", "closing_speed": "normal", "restitution": "normal"}

@@ -10,7 +10,7 @@ import numpy as np
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR, LAWS
 from ..kernels.eccentric import recoil, response
 from ..kernels.status import EPS, Status
-from ..summary import Sentences
+from ..quantities.tables import Sentences
 from .common import NUMBERS, forward
 
 _NEARLY_PLASTIC = 0.01  # of the closing speed: what measured motions may still approach after a plastic impact

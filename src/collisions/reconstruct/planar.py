@@ -15,7 +15,13 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from ..errors import (
+from ..impact.impact import Impact
+from ..impact.inputs import Inputs, Law, OnFailure, part_of, read_inputs
+from ..impact.provenance import Reconstruction
+from ..impact.run import error_of
+from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR
+from ..kernels.status import Status
+from ..messages.errors import (
     AmbiguousSolutionError,
     CollisionsError,
     CollisionsWarning,
@@ -23,18 +29,12 @@ from ..errors import (
     InputError,
     OutOfRangeWarning,
 )
-from ..hints import hinted
-from ..impact import Impact
-from ..inputs import Inputs, Law, OnFailure, part_of, read_inputs
-from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR
-from ..kernels.status import Status
-from ..provenance import Reconstruction
-from ..reading import ArgumentReader
-from ..solving import error_of
-from ..summary import Sentences
-from ..units import Input, Pair, shown
-from ..vehicle import Vehicle, moved
-from ..warning import warn_of_cases
+from ..messages.hints import hinted
+from ..messages.warning import warn_of_cases
+from ..quantities.reading import ArgumentReader
+from ..quantities.tables import Sentences
+from ..quantities.units import Input, Pair, shown
+from ..vehicle.vehicle import Vehicle, moved
 from .common import Cases, exactly, finish, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
 from .origins import End, Origin
 from .speeds_algebra import shares_critical

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
-from ..reading import ArgumentReader
-from ..units import shown
+from ..messages.errors import InputError
+from ..quantities.reading import ArgumentReader
+from ..quantities.units import shown
 
 _LARGEST_FILE = 1_000_000  # bytes
 _LONGEST_CELL = 200  # characters

@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import CollisionsError, InputError
-from ..units import shown
-from ..warning import quietly
+from ..messages.errors import CollisionsError, InputError
+from ..messages.warning import quietly
+from ..quantities.units import shown
 from .common import Cases
 
 # Cells from 0 to 1 of the grid of restitutions with which the search begins.

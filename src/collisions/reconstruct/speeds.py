@@ -11,19 +11,19 @@ from typing import Any
 
 import numpy as np
 
-from ..directions import Angle, course
-from ..errors import CollisionsError, InputError, MissingInputError, OutOfRangeWarning
-from ..hints import hinted
-from ..impact import Impact
-from ..inputs import Inputs, Law, check_flag, read_inputs
+from ..impact.impact import Impact
+from ..impact.inputs import Inputs, Law, check_flag, read_inputs
+from ..impact.run import error_of, warn_of_refusals
 from ..kernels.contact_laws import BRACH, LAWS
 from ..kernels.status import EPS, Status
-from ..reading import ArgumentReader
-from ..solving import error_of, warn_of_refusals
-from ..summary import Sentences, said
-from ..units import Input, Pair
-from ..vehicle import Vehicle, missing, moved
-from ..warning import warn_of_cases, warn_of_samples
+from ..messages.errors import CollisionsError, InputError, MissingInputError, OutOfRangeWarning
+from ..messages.hints import hinted
+from ..messages.warning import warn_of_cases, warn_of_samples
+from ..quantities.directions import Angle, course
+from ..quantities.reading import ArgumentReader
+from ..quantities.tables import Sentences, said
+from ..quantities.units import Input, Pair
+from ..vehicle.vehicle import Vehicle, missing, moved
 from .common import (
     ASK_ALONE,
     PAIRS,

@@ -16,9 +16,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..engine.floats import compile_for_floats
 from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, energy_losses
 from ..kernels.elementwise import larger, select
-from ..kernels.floats import compile_for_floats
 from ..kernels.reverse import PLACES, energy_of_speeds, parabola_roots, quartic_roots
 from ..kernels.status import EPS, Status
 from .common import NUMBERS, PAIRS, forward

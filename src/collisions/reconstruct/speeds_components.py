@@ -14,11 +14,11 @@ from typing import Any
 
 import numpy as np
 
-from ..directions import Angle
-from ..errors import IllConditionedWarning
 from ..kernels.contact_laws import FRICTION
+from ..messages.errors import IllConditionedWarning
+from ..messages.warning import warn_of_cases
+from ..quantities.directions import Angle
 from ..reference import RECORDER_ACCURACY
-from ..warning import warn_of_cases
 from .common import NEARLY_COLLINEAR, Cases
 from .restitution_roots import RestitutionOf
 from .speeds_algebra import LAW, REDUNDANT, ROOT_TOL, STICK, Root, Scene, Seen, pushed

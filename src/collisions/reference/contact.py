@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
-from ..hints import hinted
 from ..kernels.elementwise import POSITIVE_FINITE
-from ..reading import ArgumentReader, at_least_zero, single_number
-from ..units import Input, Value, has_unit, shown
+from ..messages.errors import InputError
+from ..messages.hints import hinted
+from ..quantities.reading import ArgumentReader, at_least_zero, single_number
+from ..quantities.units import Input, Value, has_unit, shown
 from .published import Fit, Outside, Published, check_outside, settle
 
 _MPH = 0.44704

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from functools import partial
 
-from ..errors import InputError
-from ..hints import hinted
-from ..reading import ArgumentReader, single_number
-from ..units import Input, shown
+from ..messages.errors import InputError
+from ..messages.hints import hinted
+from ..quantities.reading import ArgumentReader, single_number
+from ..quantities.units import Input, shown
 from .published import Published
 
 _THIRTY = 30.0 * 0.44704

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
-from ..hints import hinted
 from ..kernels.elementwise import POSITIVE
-from ..reading import ArgumentReader, broadcast, widened
-from ..units import Input, Value
+from ..messages.errors import InputError
+from ..messages.hints import hinted
+from ..quantities.reading import ArgumentReader, broadcast, widened
+from ..quantities.units import Input, Value
 from .published import Fit, Outside, Published, check_outside, settle
 
 _CARS = {"mass": (880.0, 1622.0, "kg"), "length": (3.725, 4.826, "m")}

@@ -8,10 +8,10 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from ..errors import InputError, OutOfRangeWarning
-from ..reading import ArgumentReader, single_number
-from ..units import Input, Value, shown, to_quantity
-from ..warning import warn_of_cases
+from ..messages.errors import InputError, OutOfRangeWarning
+from ..messages.warning import warn_of_cases
+from ..quantities.reading import ArgumentReader, single_number
+from ..quantities.units import Input, Value, shown, to_quantity
 
 Outside: TypeAlias = Literal["warn", "refuse"]
 

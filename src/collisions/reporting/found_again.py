@@ -8,10 +8,10 @@ from collections.abc import Iterator
 from operator import attrgetter
 from typing import Any
 
-from ..errors import AmbiguousSolutionError, CollisionsError
-from ..impact import Impact
+from ..impact.impact import Impact
+from ..impact.provenance import KNOWN, Reconstruction
 from ..kernels.contact_laws import BRACH, RULES
-from ..provenance import KNOWN, Reconstruction
+from ..messages.errors import AmbiguousSolutionError, CollisionsError
 from ..reconstruct import central, planar, speeds
 
 # What is worked out from an answer that was rounded differs in its later digits; a changed record differs in its first ones.

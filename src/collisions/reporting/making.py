@@ -15,21 +15,21 @@ from .. import plot
 from ..derivation.evidence import fit, momentum_inputs
 from ..derivation.explain import NOT_EXPLAINED, about_ranges, explain, impact_inputs, no_uncertainty
 from ..diagnostics import diagnose
-from ..document import Document
-from ..drag import USUAL_DURATION
-from ..errors import InputError
-from ..formatting import UnitSystem
-from ..impact import Impact, with_vehicles
+from ..impact.impact import Impact, with_vehicles
 from ..kernels.elementwise import UNIT_INTERVAL
-from ..outlines import read_outline
+from ..messages.errors import InputError
 from ..plot.canvas import who
-from ..reading import ArgumentReader, need_one_case, single_number
+from ..quantities.document import Document
+from ..quantities.formatting import UnitSystem
+from ..quantities.reading import ArgumentReader, need_one_case, single_number
+from ..quantities.settings import callers_options, computing
+from ..quantities.tables import cells
+from ..quantities.units import Input, Pair, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior
-from ..settings import callers_options, computing
-from ..summary import cells
 from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled, varies
-from ..units import Input, Pair, shown
+from ..vehicle.drag import USUAL_DURATION
+from ..vehicle.outlines import read_outline
 from . import sections
 from .record import plain_options, record
 from .render import Html, Markdown, plain, visible

@@ -14,19 +14,19 @@ from itertools import chain
 from typing import Any
 
 from ..diagnostics import LIMITS
-from ..errors import CollisionsError, CollisionsWarning, InputError
-from ..formatting import SI_UNITS
-from ..impact import Impact, with_vehicles
+from ..impact.impact import Impact, with_vehicles
 from ..kernels.elementwise import UNCHECKED
-from ..outlines import read_outline
-from ..quantities import unit_of
-from ..reading import ArgumentReader
+from ..messages.errors import CollisionsError, CollisionsWarning, InputError
+from ..quantities.attributes import unit_of
+from ..quantities.formatting import SI_UNITS
+from ..quantities.reading import ArgumentReader
+from ..quantities.settings import computing, units_required
+from ..quantities.strict_json import strict
+from ..quantities.units import Texts, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior, momentum
-from ..records import strict
-from ..settings import computing, units_required
 from ..uncertainty import Propagation
-from ..units import Texts, shown
-from ..vehicle import DOMAINS, Vehicle, with_given
+from ..vehicle.outlines import read_outline
+from ..vehicle.vehicle import DOMAINS, Vehicle, with_given
 from .found_again import contradicted_origin
 from .render import FENCE, RECORD
 from .sections import EVIDENCE, contradicted

@@ -11,8 +11,8 @@ from typing import TypeAlias
 
 from ..derivation.expressions import System
 from ..derivation.page import HEAD, Page
-from ..formatting import SI_UNITS, number_with_unit, typeset
-from ..units import with_symbol
+from ..quantities.formatting import SI_UNITS, number_with_unit, typeset
+from ..quantities.units import with_symbol
 
 RECORD = "collisions-record"
 _STYLE = """\

@@ -9,26 +9,26 @@ from operator import attrgetter
 from typing import Any
 
 from .. import reference
-from ..contact_effects import LeftOutSide, left_out
 from ..derivation import reverse
 from ..derivation.evidence import momentum_answers, momentum_inputs
 from ..derivation.explain import impact_answers, impact_inputs
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note
-from ..directions import course
-from ..errors import Status
-from ..formatting import KIND_OF, SI_UNITS, percent, typeset
-from ..impact import Impact
+from ..impact.impact import Impact
+from ..impact.left_out import LeftOutSide, left_out
+from ..impact.models import BY_NAME
+from ..impact.provenance import KNOWN
 from ..kernels.contact_laws import FRICTION, LAWS
-from ..models import BY_NAME
+from ..messages.errors import Status
 from ..plot.canvas import who
-from ..provenance import KNOWN
-from ..reading import ArgumentReader
+from ..quantities.directions import course
+from ..quantities.formatting import KIND_OF, SI_UNITS, percent, typeset
+from ..quantities.reading import ArgumentReader
+from ..quantities.tables import label_of
+from ..quantities.units import Input
 from ..reconstruct import MomentumSolution, Posterior
-from ..summary import label_of
-from ..units import Input
-from ..vehicle import Vehicle
+from ..vehicle.vehicle import Vehicle
 from .render import Sheet, given_as, plain
 
 # A reverse solver's result agrees with its inputs within this, relative to the speeds or energies of the impact; end states

@@ -8,12 +8,12 @@ from typing import Any
 
 from ..derivation.evidence import momentum_inputs
 from ..derivation.explain import impact_inputs, kinds_of_answers, spread_of, words_of_answers
-from ..errors import InputError
-from ..formatting import SI_UNITS, Numbers, typeset, with_decimals
-from ..impact import Impact
+from ..impact.impact import Impact
 from ..kernels.contact_laws import RULES
+from ..messages.errors import InputError
+from ..quantities.formatting import SI_UNITS, Numbers, typeset, with_decimals
+from ..quantities.tables import as_sentence
 from ..reconstruct import Fit, MomentumSolution, Posterior
-from ..summary import as_sentence
 from ..uncertainty import Interval, Output, Propagation
 from ..uncertainty.distribution import GivenUnit, from_numbers
 from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies

@@ -10,9 +10,9 @@ their speeds are 0.14 % higher than these; those of worksheets that use 32.2 ft/
 Results are SI floats. ``travel.q.speed``, ``travel.q.distance`` and ``travel.q.time`` give them as Quantities.
 """
 
-from ..drag import GRAVITY
-from ..quantities import in_quantities
-from ..tyres import Tyres
+from ..quantities.attributes import in_quantities
+from ..vehicle.drag import GRAVITY
+from ..vehicle.tyres import Tyres
 from .run_out import RunOut, path
 from .simulate import SimulatedPath, simulate
 from .straight import distance, speed, time

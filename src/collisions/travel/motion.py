@@ -53,7 +53,7 @@ class Motion(NamedTuple):
 @lru_cache(maxsize=8)
 def _of_floats(settings: Settings) -> tuple[Callable[..., Any], Callable[..., Any]]:
     """The step, and the accelerations, of one case of floats."""
-    from ..kernels.floats import compile_for_floats
+    from ..engine.floats import compile_for_floats
 
     return compile_for_floats(step, _WAYS, settings), compile_for_floats(accelerations, _WAYS[: OF_GROUND + 5], settings)
 

@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..directions import angle_of
-from ..drag import one_value, read_friction
-from ..errors import OutOfRangeWarning
-from ..hints import hinted
 from ..kernels.elementwise import UNIT_INTERVAL, select
 from ..kernels.tyre import circle
-from ..quantities import Shown, derived, hypot, in_units_of, numeric
-from ..quantity_names import RunOutQuantities
-from ..reading import ArgumentReader
-from ..units import Input, Pair, Texts, Value, texts_of
-from ..warning import warn
+from ..messages.errors import OutOfRangeWarning
+from ..messages.hints import hinted
+from ..messages.warning import warn
+from ..quantities.attribute_stubs import RunOutQuantities
+from ..quantities.attributes import Shown, derived, hypot, in_units_of, numeric
+from ..quantities.directions import angle_of
+from ..quantities.reading import ArgumentReader
+from ..quantities.units import Input, Pair, Texts, Value, texts_of
+from ..vehicle.drag import one_value, read_friction
 from .surfaces import (
     Segments,
     durations_along,

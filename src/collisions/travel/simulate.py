@@ -9,21 +9,21 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..drag import GRAVITY, one_value, read_friction
-from ..errors import InputError, NoSolutionError, ShapeError
-from ..hints import hinted
-from ..kernels.batch import precision
 from ..kernels.elementwise import POSITIVE_FINITE
 from ..kernels.run_out import Settings, ground_of
 from ..kernels.tyre import wheel_forces
-from ..quantities import Shown, hypot, in_units_of
-from ..quantities import lock as write_locked
-from ..reading import ArgumentReader, broadcast, is_whole
-from ..settings import Default
-from ..summary import Cells, Summary
-from ..tyres import LOCKS, Tyres, kernel_numbers, lifts, not_tyres, refuse_lifting
-from ..units import Input, Pair, Texts, shown, texts_of
-from ..vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehicle_of
+from ..messages.errors import InputError, NoSolutionError, ShapeError
+from ..messages.hints import hinted
+from ..quantities.attributes import Shown, hypot, in_units_of
+from ..quantities.attributes import lock as write_locked
+from ..quantities.precision import precision
+from ..quantities.reading import ArgumentReader, broadcast, is_whole
+from ..quantities.settings import Default
+from ..quantities.tables import Cells, Summary
+from ..quantities.units import Input, Pair, Texts, shown, texts_of
+from ..vehicle.drag import GRAVITY, one_value, read_friction
+from ..vehicle.tyres import LOCKS, Tyres, kernel_numbers, lifts, not_tyres, refuse_lifting
+from ..vehicle.vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehicle_of
 from .areas import Areas
 from .motion import GOES_ON, RESTS, ROWS, Motion, between, follow
 from .surfaces import out_of_range, settle

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ..drag import GRAVITY, read_drag
-from ..errors import NoSolutionError, ShapeError
-from ..hints import hinted
 from ..kernels.elementwise import select
-from ..reading import ArgumentReader
-from ..units import Input, Value
+from ..messages.errors import NoSolutionError, ShapeError
+from ..messages.hints import hinted
+from ..quantities.reading import ArgumentReader
+from ..quantities.units import Input, Value
+from ..vehicle.drag import GRAVITY, read_drag
 from .surfaces import (
     Segments,
     durations_along,

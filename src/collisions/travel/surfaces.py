@@ -8,13 +8,13 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..drag import GRAVITY, one_value
-from ..errors import CollisionsError, CollisionsWarning, InputError, NoSolutionError, ShapeError
 from ..kernels.elementwise import select
-from ..quantities import hypot, lock, numeric
-from ..reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
-from ..units import Input
-from ..warning import warn_of_cases
+from ..messages.errors import CollisionsError, CollisionsWarning, InputError, NoSolutionError, ShapeError
+from ..messages.warning import warn_of_cases
+from ..quantities.attributes import hypot, lock, numeric
+from ..quantities.reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
+from ..quantities.units import Input
+from ..vehicle.drag import GRAVITY, one_value
 
 Segments: TypeAlias = Input | Sequence[Input]
 _Reader: TypeAlias = Callable[[ArgumentReader, Any, str], Any]

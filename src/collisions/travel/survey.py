@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from ..directions import Angle
-from ..drag import one_value
-from ..errors import InputError, MissingInputError, ShapeError
-from ..reading import ArgumentReader, at_least_zero
-from ..units import is_quantity, shown
+from ..messages.errors import InputError, MissingInputError, ShapeError
+from ..quantities.directions import Angle
+from ..quantities.reading import ArgumentReader, at_least_zero
+from ..quantities.units import is_quantity, shown
+from ..vehicle.drag import one_value
 
 # What a heading may turn by from one point to the next.
 HALF_TURN = math.pi * (1.0 + 1e-9)

@@ -14,8 +14,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import NoSolutionError
-from . import angles, normal
+from ..messages.errors import NoSolutionError
+from . import normal
+from . import turns as angles
 from .model import Model, count_failed
 from .result import Output, Shares, average, deviation
 from .sampling import Joint

@@ -9,12 +9,12 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from ..errors import InputError, ShapeError, UnitsError
-from ..formatting import typeset
 from ..kernels.elementwise import FINITE, UNCHECKED
-from ..quantities import same
-from ..reading import ArgumentReader, is_whole
-from ..units import factor, has_unit, is_quantity, parse, shown, si_unit, unit_as_written
+from ..messages.errors import InputError, ShapeError, UnitsError
+from ..quantities.attributes import same
+from ..quantities.formatting import typeset
+from ..quantities.reading import ArgumentReader, is_whole
+from ..quantities.units import factor, has_unit, is_quantity, parse, shown, si_unit, unit_as_written
 from .normal import both_tails
 
 

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, MissingInputError, ShapeError
-from ..hints import hinted
-from ..quantities import lock
-from ..units import Input
+from ..messages.errors import InputError, MissingInputError, ShapeError
+from ..messages.hints import hinted
+from ..quantities.attributes import lock
+from ..quantities.units import Input
 from .distribution import Distribution, Stated, check_order, from_numbers, read_alike, show
 from .normal import power_of_two
 from .normal_family import LogNormal, Normal

@@ -14,10 +14,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import InputError, NoSolutionError
-from ..quantities import OWN, derived, returns
-from ..records import strict
-from . import angles
+from ..messages.errors import InputError, NoSolutionError
+from ..quantities.attributes import OWN, derived, returns
+from ..quantities.strict_json import strict
+from . import turns
 from .derivatives import Local
 from .designs import REPLICATES
 from .model import Model, count_failed
@@ -99,7 +99,7 @@ def extremes(model: Model, bounds: Mapping[str, tuple[float, float]], common: Ma
     spots = [place for place, _ in ends]
     unique = np.unique(np.round(spots, 12), axis=0)
     listed = [dict(zip(bounds, map(float, places.at(spot)), strict=True)) for spot in unique]
-    wrapped = tuple(name for name, values in first.items() if model.units[name] is None and angles.jump(values.ravel()))
+    wrapped = tuple(name for name, values in first.items() if model.units[name] is None and turns.jump(values.ravel()))
     return Extremes(found, listed, places.samples, places.failed, wrapped, places.cuts)
 
 
@@ -139,15 +139,15 @@ class _Places:
     def count_directions(self, first: Mapping[str, Any]) -> dict[str, Any]:
         """Decide from the first values which outputs are directions; unwraps them, and all later ones, within one turn."""
         for name, values in first.items():
-            if self.model.units[name] == "rad" and angles.are_directions(values):
-                self.cuts[name] = angles.cut(_means(angles.counted(values)))
+            if self.model.units[name] == "rad" and turns.are_directions(values):
+                self.cuts[name] = turns.cut(_means(turns.counted(values)))
         return {name: self._counted(name, values) for name, values in first.items()}
 
     def _counted(self, name: str, values: Any) -> Any:
         if name not in self.cuts:
             return values
-        about = angles.counted(values)
-        return about + math.tau * np.reshape(angles.turns_to(_means(about), self.cuts[name]), (-1, 1))
+        about = turns.counted(values)
+        return about + math.tau * np.reshape(turns.turns_to(_means(about), self.cuts[name]), (-1, 1))
 
 
 class _Search(NamedTuple):
@@ -253,7 +253,7 @@ class Bounds(Output):
     def __init__(self, name: str, unit: str | None, cases: Sequence[Local | Sampled], cut: float | None = None) -> None:
         super().__init__(name, unit)
         # One turn for the means of all directions, the one that ends at the cut, or the figures could not be compared.
-        self.cases = [case.turned(float(angles.turns_to(case.mean, cut))) for case in cases]
+        self.cases = [case.turned(float(turns.turns_to(case.mean, cut))) for case in cases]
 
     @property
     def bounds_only(self) -> bool:

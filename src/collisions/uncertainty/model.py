@@ -11,13 +11,13 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import CollisionsError, InputError, ShapeError, UnitsError
 from ..kernels.elementwise import UNCHECKED
-from ..reading import ArgumentReader
-from ..settings import in_si
-from ..units import is_quantity, shown, si_unit
-from ..warning import Noted, quietly
-from . import angles
+from ..messages.errors import CollisionsError, InputError, ShapeError, UnitsError
+from ..messages.warning import Noted, quietly
+from ..quantities.reading import ArgumentReader
+from ..quantities.settings import in_si
+from ..quantities.units import is_quantity, shown, si_unit
+from . import turns
 from .distributions import Distribution, Interval
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
@@ -320,7 +320,7 @@ def _agree(batched: float, single: float, answers: Any) -> bool:
     away, roundings = abs(batched - single), _ROUNDINGS * max(abs(batched), abs(single))
     if away <= roundings:
         return True
-    if angles.are_directions(np.array([batched, single])):
+    if turns.are_directions(np.array([batched, single])):
         away = min(away, abs(away - 2.0 * math.pi))  # a direction may come out at either end of its turn
     with np.errstate(all="ignore"):
         low, high = np.nanquantile(answers, (0.25, 0.75))

@@ -14,11 +14,11 @@ from typing import Any, NamedTuple, Self
 
 import numpy as np
 
-from ..errors import InputError, ShapeError
-from ..formatting import typeset
-from ..hints import hinted
-from ..reading import ArgumentReader
-from ..units import Input, shown
+from ..messages.errors import InputError, ShapeError
+from ..messages.hints import hinted
+from ..quantities.formatting import typeset
+from ..quantities.reading import ArgumentReader
+from ..quantities.units import Input, shown
 from .distribution import Distribution, check_order, from_numbers, read_alike, show
 from .normal import cdf, density, power_of_two, quantile, score_of_coverage, survival
 

@@ -11,12 +11,12 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from ..errors import CollisionsWarning, InputError, NoSolutionError, OutOfRangeWarning
-from ..hints import hinted
-from ..progress import reporter
-from ..reading import ArgumentReader, is_whole
-from ..units import shown
-from ..warning import Note, notes_of_samples, warn_of
+from ..messages.errors import CollisionsWarning, InputError, NoSolutionError, OutOfRangeWarning
+from ..messages.hints import hinted
+from ..messages.progress import reporter
+from ..messages.warning import Note, notes_of_samples, warn_of
+from ..quantities.reading import ArgumentReader, is_whole
+from ..quantities.units import shown
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
 from .distribution import Stated

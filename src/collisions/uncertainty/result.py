@@ -11,15 +11,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import InputError
-from ..formatting import KIND_OF, Numbers
-from ..quantities import OWN, Derived, Quantities, derived, returns, same, show
-from ..reading import ArgumentReader, is_whole
-from ..records import strict
-from ..summary import Cells, Part, Summarized, Summary, all_numbers, as_sentence
-from ..units import shown, unit_as_written
-from ..warning import Note
-from . import angles
+from ..messages.errors import InputError
+from ..messages.warning import Note
+from ..quantities.attributes import OWN, Derived, Quantities, derived, returns, same, show
+from ..quantities.formatting import KIND_OF, Numbers
+from ..quantities.reading import ArgumentReader, is_whole
+from ..quantities.strict_json import strict
+from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, as_sentence
+from ..quantities.units import shown, unit_as_written
+from . import turns as angles
 from .designs import REPLICATES
 from .distribution import probability
 from .normal import power_of_two

@@ -10,11 +10,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import InputError
-from ..kernels.batch import in_order
-from ..reading import is_whole
-from ..units import shown
-from . import angles, normal
+from ..engine.blocks import in_order
+from ..messages.errors import InputError
+from ..quantities.reading import is_whole
+from ..quantities.units import shown
+from . import normal, turns
 from .designs import REPLICATES, Design
 from .distribution import at_probabilities, at_scores
 from .distributions import Distribution, Samples
@@ -246,7 +246,7 @@ def sampled_shares(model: Model, joint: Joint, design: Callable[[int], Design], 
     for name, unit in model.units.items():
         values = np.array([answer[name] for answer in answers])
         if unit == "rad":
-            values = angles.counted(values.reshape(-1)).reshape(values.shape)
+            values = turns.counted(values.reshape(-1)).reshape(values.shape)
         shares = [_shares(values[0], values[1], mixed) for mixed in values[2:]]
         found[name] = Shares(*(dict(zip(joint.labels, figures, strict=True)) for figures in zip(*shares, strict=True)))
     return found

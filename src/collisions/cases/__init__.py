@@ -1,0 +1,1 @@
+"""Case files: read, answered and described by a schema."""

@@ -1,0 +1,1 @@
+"""Evidence weighed: the most likely inputs, their posterior distribution, and accounts compared."""

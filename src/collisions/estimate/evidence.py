@@ -1,0 +1,200 @@
+"""What was observed, read and weighed: values with errors, intervals and one-sided readings of a model's outputs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+
+from ..messages.errors import CollisionsError, InputError, NoSolutionError, UnitsError
+from ..quantities.reading import ArgumentReader
+from ..uncertainty.distribution import from_numbers, read_alike, show
+from ..uncertainty.distributions import Censored, Interval, Normal
+from ..uncertainty.model import Model, check_names
+from ..uncertainty.normal import log_survival
+from ..uncertainty.turns import folded
+
+T = TypeVar("T")
+
+_LOG_ROOT_TURN = 0.5 * math.log(math.tau)
+
+
+class Observation(NamedTuple):
+    """One observed output of the model by name, or the prior stated for an unknown."""
+
+    name: str
+    value: Normal | Censored
+    is_prior: bool = False
+
+    @property
+    def sigma(self) -> float:
+        """Standard deviation of the reading; 0 of sharp bounds."""
+        return self.value.given_sd if isinstance(self.value, Normal) else self.value.error or 0.0
+
+    def apart(self, computed: Any, angle: bool) -> Any:
+        """Observed minus computed values, by the short way round for angles; 0 within the bounds of a censored reading."""
+        if isinstance(self.value, Normal):
+            return folded(self.value.given_mean - computed, math.pi if angle else None)
+        below, above = self._beyond(computed, angle)
+        return np.maximum(below, 0.0) - np.maximum(above, 0.0)
+
+    def log_likelihood(self, computed: Any, angle: bool) -> Any:
+        """Logarithm of the density of the observed value, or of the probability of a censored reading, given these values."""
+        if isinstance(self.value, Normal):
+            # Round the circle the density is cut off at half a turn on both sides.
+            lost = math.log(math.erf(math.pi / (self.sigma * math.sqrt(2.0)))) if angle else 0.0
+            return -0.5 * (self.apart(computed, angle) / self.sigma) ** 2 - math.log(self.sigma) - _LOG_ROOT_TURN - lost
+        if not self.sigma:
+            return np.zeros(len(computed))
+        below, above = (part / self.sigma for part in self._beyond(computed, angle))
+        if self.value.high is None:
+            return log_survival(below)
+        if self.value.low is None:
+            return log_survival(above)
+        # The probability between two scores, of which the nearer tail keeps its digits.
+        near, far = np.maximum(below, above), np.minimum(below, above)
+        outside = log_survival(np.maximum(near, 0.0)) + np.log(-np.expm1(log_survival(-far) - log_survival(near)))
+        inside = np.log1p(-np.exp(log_survival(-far)) - np.exp(log_survival(-near)))
+        return np.where(near > 0.0, outside, inside)
+
+    def missed(self, computed: Any, angle: bool) -> Any:
+        """By how much sharp bounds are missed; 0 for readings with an error."""
+        return np.zeros(len(computed)) if self.sigma else abs(self.apart(computed, angle))
+
+    def is_angle(self, returned: str | None) -> bool:
+        """Whether it is an angle, judged by its unit or that of what the model returns; other units must agree."""
+        observed = self.value.unit
+        if returned and observed and returned != observed:
+            raise UnitsError(
+                f"observed {self.name} is in {observed}, but the model returns it in {returned}; one of them is another "
+                f"quantity",
+                code="bad_units",
+                argument="observed",
+            )
+        return "rad" in (observed, returned)
+
+    def _beyond(self, computed: Any, angle: bool) -> tuple[Any, Any]:
+        """By how much values are below the low bound, and above the high one; -inf for a bound that is not there."""
+        assert isinstance(self.value, Censored)
+        low, high = self.value.low, self.value.high
+        if angle:
+            if low is None or high is None:
+                raise InputError(
+                    f"observed {self.name} is an angle, which goes round, with one bound; give both, Censored(low, high), or "
+                    f"let the model return a plain number",
+                    code="bad_observation",
+                    argument="observed",
+                )
+            middle = 0.5 * (low + high)
+            computed = middle - folded(middle - computed, math.pi)
+        return computed * 0.0 - np.inf if low is None else low - computed, -np.inf if high is None else computed - high
+
+
+def observed_columns(names: Sequence[str], answered: Mapping[str, Any]) -> list[Any]:
+    """The outputs that were observed; refused if the model does not return one."""
+    absent = [name for name in names if name not in answered]
+    if absent:
+        raise InputError(
+            f"observed names {', '.join(absent)}, which the model does not return; it returns {', '.join(answered)}",
+            code="unknown_output",
+            argument="observed",
+        )
+    return [answered[name] for name in names]
+
+
+def read_evidence(
+    model: Any,
+    unknowns: Any,
+    observed: Any,
+    example: str,
+    read_unknown: Callable[[str, Any], T],
+    read_observed: Callable[[str, Any], Normal | Censored],
+) -> tuple[Model, dict[str, T], list[Observation]]:
+    """The model, what is known before of each unknown, and the observations; one error names all that cannot be used."""
+    reader = ArgumentReader()
+    known = _read_each(reader, unknowns, "unknowns", example, read_unknown)
+    readings = _read_each(reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_observed)
+    reader.close()
+    called = Model(model, {})
+    check_names(model, known, "unknowns", "bad_model")
+    return called, known, [Observation(name, value) for name, value in readings.items()]
+
+
+def _read_each(reader: ArgumentReader, given: Any, argument: str, example: str, read: Callable[[str, Any], T]) -> dict[str, T]:
+    """Read each entry of a dict, by name; an error names its entry."""
+    if not isinstance(given, Mapping) or not given or not all(isinstance(key, str) for key in given):
+        got = "an empty one" if isinstance(given, Mapping) and not given else type(given).__name__
+        raise InputError(
+            f"{argument} must be a dict by names, such as {{'speed_a': {example}}}, got {got}",
+            code="bad_type",
+            argument=argument,
+        )
+    found: dict[str, T] = {}
+    for name, value in given.items():
+        label = f"{argument}[{name!r}]"
+        try:
+            found[name] = read(label, value)
+        except InputError as problem:
+            text = str(problem) if str(problem).startswith(label) else f"{label}: {problem}"
+            reader.refuse(type(problem)(text, code=problem.code, **{**problem.fields, "argument": label}))
+    return found
+
+
+def read_reading(label: str, given: Any) -> Normal | Censored:
+    """An observation of a posterior: a value with its error, an interval, or a censored reading."""
+    if isinstance(given, Interval):
+        return from_numbers(Censored, given.unit, {"low": given.low, "high": given.high, "error": None})
+    return given if isinstance(given, Censored) else read_value(label, given)
+
+
+def read_value(label: str, given: Any) -> Normal:
+    """An observed value with its error."""
+    if isinstance(given, (tuple, list)) and len(given) == 2:
+        (_, sigma), unit = read_alike(dict(zip((f"{label} value", f"{label} error"), given, strict=True)))
+        if not sigma > 0.0:
+            raise InputError(
+                f"{label} error must be > 0, got {show(sigma, unit)}; give the pair (value, error), the error as a standard "
+                f"deviation. What is known exactly is written into the model",
+                code="not_positive",
+            )
+        given = Normal(*given)
+    if not isinstance(given, Normal):
+        kind = "a number without its error" if isinstance(given, (int, float, str)) else f"of type {type(given).__name__}"
+        raise InputError(
+            f"{label} is {kind}; give Normal(value, error) or the pair (value, error), the error as a standard deviation. Of a "
+            f"range write Normal.between(low, high, coverage); an Interval, or a Censored reading of one bound, is weighed by "
+            f"reconstruct.posterior",
+            code="bad_observation",
+        )
+    if given.truncate is not None:
+        raise InputError(
+            f"{label} is truncated at {given.truncate}, which the error of a measurement is not; leave truncate= out, bounds "
+            f"belong to unknowns",
+            code="bad_observation",
+        )
+    return given
+
+
+def refused_everywhere(model: Model, points: int, at: Mapping[str, float], advice: str) -> NoSolutionError:
+    """The error if the model has no answer anywhere, with its own reason if a single case gives one."""
+    reason = "; call the model there with on_failure='raise' to see why"
+    try:
+        model.function(**at)
+    except CollisionsError as error:
+        reason = f": {error}"
+    except Exception:
+        # A model of arrays need not take floats; an error about that says nothing about the scene.
+        pass
+    return NoSolutionError(
+        f"the model refuses all {points} points tried for the unknowns, among them {listed(at)}{reason}. Give {advice}",
+        code="refused",
+        points=points,
+        at=dict(at),
+    )
+
+
+def listed(values: Mapping[str, float]) -> str:
+    """Values by name, for a sentence."""
+    return ", ".join(f"{name} {'undetermined' if math.isnan(value) else f'= {value:.6g}'}" for name, value in values.items())

@@ -1,0 +1,102 @@
+"""``Reconstruction``: which reverse solver found an impact, from what, and how well-conditioned that was."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..kernels.elementwise import select
+from ..kernels.status import Status
+from ..quantities.attributes import lock, same_fields
+from ..quantities.units import Value
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Reconstruction:
+    """How a reverse solver found an impact.
+
+    Parameters
+    ----------
+    method : str
+        Name of the function of ``collisions.reconstruct``.
+    known : tuple of str
+        What it was given in addition to masses and geometry.
+    condition : float or array [1]
+        How well-posed the problem was: the factor by which relative errors of the inputs may grow in the speeds before the
+        impact, taken relative to the closing speed. 10 means that one percent may become ten. It leaves out errors of friction,
+        restitution, normal and courses. For ``planar`` it is the factor that restitution brings in, (1 + e)/e where e was
+        given, or, where larger, the jump between the two directions of sliding divided by the slip.
+    answers : int or array of int
+        How many impacts fit what was given, this one included; infinite at the end of a range of them. For a refused case the
+        number that fit if there are several, otherwise 0.
+    contact_velocity : tuple of float or array [m/s], optional
+        Closing speed and slip before, as found. The motions before are rounded to their own size, so their small differences
+        would hold fewer digits.
+    """
+
+    method: str
+    known: tuple[str, ...]
+    condition: Value
+    answers: Any = 1
+    contact_velocity: tuple[Value, Value] | None = None
+
+    def __eq__(self, other: object) -> bool:
+        return same_fields(self, other) if isinstance(other, Reconstruction) else NotImplemented
+
+
+class Known(NamedTuple):
+    """An input of a reverse solver besides the contact: description, kind, path in the result, and the solvers that take it.
+
+    The path is empty for what is not a number of the result; the text of ``va`` and ``vb`` is that of a vehicle before.
+    """
+
+    what: str
+    kind: str
+    path: str
+    methods: tuple[str, ...]
+
+
+KNOWN = {
+    "energy_loss": Known("energy lost", "energy", "energy_loss", ("central", "planar", "speeds")),
+    "closing_speed": Known("closing speed", "speed", "closing_speed", ("planar",)),
+}
+for _label in "ab":
+    _of, _planar, _speeds = f" of {_label.upper()}", ("planar",), ("speeds",)
+    for _name, _what, _kind in (
+        ("vx", "velocity along x", "speed"),
+        ("vy", "velocity along y", "speed"),
+        ("speed", "speed", "speed"),
+        ("course", "course", "angle"),
+        ("yaw_rate", "yaw rate", "yaw rate"),
+    ):
+        KNOWN[f"{_label}_after.{_name}"] = Known(f"{_what}{_of} after", _kind, f"{_label}.after.{_name}", _planar)
+    KNOWN |= {
+        f"v{_label}": Known(f"velocity{_of} before", "speed", f"{_label}.before.vx", ()),
+        f"v{_label}_after": Known(f"velocity{_of} after", "speed", f"{_label}.after.vx", ("central",)),
+        f"speed_{_label}": Known(f"speed{_of} before", "speed", f"{_label}.before.speed", _speeds),
+        f"course_{_label}": Known(f"course{_of} before", "angle", f"{_label}.before.course", _speeds),
+        f"delta_v_{_label}": Known(f"delta-V{_of}", "speed", f"{_label}.delta_v", _speeds),
+        f"delta_v_forward_{_label}": Known(f"delta-V forward{_of}", "speed", f"{_label}.delta_v_forward", _speeds),
+        f"delta_v_left_{_label}": Known(f"delta-V to the left{_of}", "speed", f"{_label}.delta_v_left", _speeds),
+        f"ees_{_label}": Known(f"EES{_of} (ISO 12353)", "speed", "", _speeds),
+        f"max_crush_speed_{_label}": Known(f"speed of maximum crush{_of}", "speed", "", _speeds),
+    }
+
+
+def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction:
+    """The reconstruction with refused cases blanked: NaN condition, and no count of solutions unless there were several."""
+    refused = status > Status.ENERGY_GAIN
+    if not np.any(refused):
+        return origin
+    several = np.isin(status, (Status.AMBIGUOUS, Status.AMBIGUOUS_INVERSE))
+    condition, answers = select(refused, math.nan, origin.condition), select(refused > several, 0, origin.answers)
+    velocity = origin.contact_velocity and lock(tuple(select(refused, math.nan, part) for part in origin.contact_velocity))
+    return replace(origin, condition=lock(condition), answers=lock(answers), contact_velocity=velocity)
+
+
+def how_many(answers: float) -> str:
+    """How many impacts fit: "3 impacts" or "a whole range of impacts"."""
+    return "a whole range of impacts" if answers == math.inf else f"{answers} impacts"

@@ -1,0 +1,351 @@
+"""``to_record``, ``from_record`` and ``to_columns``: results as JSON that can be solved again, and as flat columns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import fields
+from difflib import get_close_matches
+from typing import Any
+
+import numpy as np
+
+from ..kernels.contact_laws import RULES
+from ..kernels.elementwise import UNCHECKED
+from ..messages.errors import InputError, Status
+from ..quantities.attributes import attributes, lock, same, unit_of
+from ..quantities.directions import direction
+from ..quantities.formatting import KIND_OF
+from ..quantities.reading import ArgumentReader
+from ..quantities.strict_json import strict
+from ..quantities.tables import Cells, cells
+from ..quantities.units import Texts, shown
+from ..vehicle.tyres import NAMES as TYRES
+from ..vehicle.tyres import Tyres
+from ..vehicle.vehicle import DOMAINS, NAMES, Vehicle, moved, vehicle_of, with_given
+from .choice import ModelChoice
+from .inputs import ARGUMENTS, OUTSIDE, UNITS, Inputs
+from .inputs import TYRES as TYRES_OF
+from .models import read_again
+from .provenance import KNOWN, Reconstruction
+from .pulse import CURVES, Pulse
+from .side import Side
+
+FORMAT = "collisions impact 2"
+_LABELS = ("model", "rule", "law")
+_OPTIONS = ("geometry", "steps", "incomplete")
+# The arguments that not every solver takes, and what stands for one that it does not take.
+OF_SOME = dict.fromkeys(name for takes in ARGUMENTS.values() for name in takes if name not in RULES)
+_LEFT_OUT = {"incomplete": False}
+_CHOICE = ("model", "reason", "errors", "missing", "tolerance")
+_NOTHING = dict.fromkeys(NAMES)
+_MOMENTS = ("before", "after", "at_compression")
+_MOTION = ("vx", "vy", "yaw_rate")
+_POLAR: tuple[str, ...] = ("speed", "course")
+_INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
+
+
+def to_record(impact: Any) -> dict[str, Any]:
+    """A record of an impact: its inputs, each as the text it was given as or else in SI, and every result in SI."""
+    sides = {label: _side(side) for label, side in (("a", impact.a), ("b", impact.b))}
+    results = {name: _result(value) for name, value in _results(impact)}
+    return {"format": FORMAT, "inputs": _inputs(impact.inputs), "results": {**results, **sides}}
+
+
+def _inputs(inputs: Inputs) -> dict[str, Any]:
+    texts = dict(inputs.given or {})
+    text = texts.pop("normal", None)
+    as_text = isinstance(text, str) and same(direction(ArgumentReader(), text, "normal"), inputs.normal)
+    return {
+        **{name: getattr(inputs, name) for name in (*_LABELS, *_OPTIONS)},
+        "a": _vehicle_inputs(inputs.a),
+        "b": _vehicle_inputs(inputs.b),
+        **{name: _given_input(texts, name, getattr(inputs, name), unit) for name, unit in UNITS.items()},
+        **{name: tyres_record(getattr(inputs, name)) for name in TYRES_OF},
+        "normal": text if as_text else strict(inputs.normal),
+        "bare_normal": strict(inputs.bare_normal),
+        "rule_value": _given(texts.pop(inputs.rule, None), inputs.rule_value, ""),
+        "tolerance": strict(inputs.tolerance),
+        "contact_velocity": strict(inputs.contact_velocity),
+        # The texts that are left are of what a reverse solver was given.
+        "known": texts,
+    }
+
+
+def _vehicle_inputs(vehicle: Vehicle) -> dict[str, Any]:
+    texts = Texts(vehicle.given)
+    found: dict[str, Any] = {"name": vehicle.name}
+    for name in DOMAINS:
+        found[name] = _given(texts.get(name), getattr(vehicle, name), unit_of(Vehicle, name) or "")
+    found["pivot"] = vehicle.pivot and [_given(texts.get(f"pivot[{i}]"), part, "m") for i, part in enumerate(vehicle.pivot)]
+    polar = {name: texts[name] for name in _POLAR if name in texts}
+    if len(polar) == 2 and _velocity(polar) == (vehicle.vx, vehicle.vy):
+        del found["vx"], found["vy"]
+        found |= polar
+    return found
+
+
+def tyres_record(tyres: Tyres | None) -> dict[str, Any] | None:
+    """The arguments of tyres, each as the text it was given as or else in SI."""
+    return None if tyres is None else {name: strict(tyres.as_given(name)) for name in TYRES}
+
+
+def tyres_of(found: Mapping[str, Any] | None) -> Tyres | None:
+    """The tyres of a record, validated like a caller's."""
+    if found is None:
+        return None
+    if found.keys() != set(TYRES):
+        raise bad_record(f"tyres have {', '.join(TYRES)}, and it has {', '.join(map(str, found))}")
+    values = {name: _read(value) for name, value in found.items()}
+    return Tyres(**values)
+
+
+def _velocity(polar: Mapping[str, str]) -> tuple[Any, Any]:
+    moving = Vehicle.from_speed(mass=1.0, **polar)
+    return moving.vx, moving.vy
+
+
+def _given_input(texts: dict[str, Any], name: str, value: Any, unit: Any) -> Any:
+    """A number or a pair, or None, each number as the text it was given as; the texts used are taken out."""
+    if isinstance(value, tuple):
+        units = unit if isinstance(unit, tuple) else (unit,) * len(value)
+        parts = enumerate(zip(value, units, strict=True))
+        return [_given(texts.pop(f"{name}[{i}]", None), part, own) for i, (part, own) in parts]
+    return None if value is None else _given(texts.pop(name, None), value, unit)
+
+
+def _given(text: str | None, number: Any, unit: str) -> Any:
+    """The text a number was given as if it still reads as that number, else the number; a unit may be unknown here."""
+    reader = ArgumentReader()
+    if text is not None and isinstance(number, float) and reader.number(text, unit, "", UNCHECKED) == number:
+        return text
+    return strict(number)
+
+
+def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstruction | None, Any]:
+    """Read a record: inputs validated like a caller's, ``on_failure``, the reverse solver that found it, and its status."""
+    try:
+        if not isinstance(record["format"], str) or record["format"] != FORMAT:
+            raise bad_record(f"its format is {shown(record['format'])} and not {FORMAT!r}")
+        found = record["inputs"]
+        model, rule, law = (found[name] for name in _LABELS)
+        if rule not in RULES or not isinstance(model, str):
+            raise bad_record(f"its model is {shown(model)} and its rule {shown(rule)}")
+        if model not in ARGUMENTS:
+            raise bad_record(f"its model is {shown(model)}; known are {', '.join(ARGUMENTS)}")
+        stray = [name for name in OF_SOME if name not in ARGUMENTS[model] and found[name] is not _LEFT_OUT.get(name)]
+        if stray:
+            raise bad_record(f"{model} takes no {stray[0]}")
+        status = record["results"]["status"]
+        status = np.array(status["values"]).reshape(status["shape"]) if isinstance(status, Mapping) else status
+        refused = any(Status(code) > Status.ENERGY_GAIN for code in np.ravel(status).tolist())
+        velocity = _contact_velocity(found["contact_velocity"], np.shape(status))
+        origin = _origin(record["results"]["reconstruction"], velocity)
+        a, b = (_vehicle(found[label], refused and origin is not None) for label in "ab")
+        given: dict[str, Any] = _texts(found["known"], origin)
+        if found["bare_normal"] is not None:
+            reader = ArgumentReader()
+            given["normal"] = reader.number(_read(found["bare_normal"]), "", "bare_normal")
+            reader.close()
+        numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS)}
+        numbers |= {name: tyres_of(found[name]) for name in TYRES_OF}
+        inputs = Inputs(model=model, a=a, b=b, rule=rule, law=law, given=given, contact_velocity=velocity, **numbers)
+        inputs = read_again(inputs, found=origin is not None)
+        _check_texts(found, inputs, record["results"])
+    except InputError:
+        raise
+    except Exception as error:
+        raise bad_record(f"{type(error).__name__} {error}") from error
+    return inputs, "nan" if refused else None, origin, status
+
+
+def _check_texts(found: Mapping[str, Any], inputs: Inputs, results: Mapping[str, Any]) -> None:
+    """Refuse a text that reads as another number here than it did where the record was written: units can be redefined."""
+    written = [(name, found[name], getattr(inputs, name), results[name]) for name in ("normal", *UNITS) if name in results]
+    for label, name in zip("ab", OUTSIDE, strict=True):
+        then = [results[label][f"outside_{part}"] for part in ("x", "y", "yaw")]
+        written.append((name, found[name], getattr(inputs, name) or (), then))
+    for label, vehicle in (("a", inputs.a), ("b", inputs.b)):
+        texts = {name: text for name, text in found[label].items() if name != "name"}
+        if _POLAR[0] in texts:
+            texts["vx"] = texts["vy"] = " at ".join(map(texts.pop, _POLAR))
+        before = results[label]["before"]
+        written += [(f"{label}.{name}", text, getattr(vehicle, name), before[name]) for name, text in texts.items()]
+    for name, texts, numbers, then in written:
+        pair = isinstance(numbers, tuple)
+        for i, number in enumerate(numbers if pair else (numbers,)):
+            text, was = (texts[i] if isinstance(texts, list) else texts), _read(then[i] if pair else then)
+            # An angle in radians may come out by the last bit of another machine's sine.
+            if isinstance(text, str) and text not in _INFINITIES and not math.isclose(number, was, rel_tol=1e-12):
+                raise bad_record(
+                    f"{name} was given as {shown(text)}, which is {was!r} in its results but {number!r} here; the text was "
+                    "changed (to solve with another value write again()), or its unit means something else in this registry"
+                )
+
+
+def _origin(found: Any, velocity: Any) -> Reconstruction | None:
+    if found is None:
+        return None
+    known = tuple(str(name) for name in found["known"])
+    condition, answers = lock(_read(found["condition"])), _count(found["answers"])
+    return Reconstruction(
+        method=str(found["method"]), known=known, condition=condition, answers=answers, contact_velocity=velocity
+    )
+
+
+def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
+    """Closing speed and slip before as a reverse solver found them: one of each, or one for every case."""
+    if pair is None:
+        return None
+    closing, slip = (_read(part) if isinstance(part, Mapping) else float(_read(part)) for part in pair)
+    if not np.shape(closing) == np.shape(slip) == shape:
+        raise bad_record("its contact_velocity is not that of its cases")
+    return lock((closing, slip))
+
+
+def _texts(known: Mapping[str, Any], origin: Reconstruction | None) -> dict[str, str]:
+    stray = known.keys() - {name for name, one in KNOWN.items() if origin is not None and origin.method in one.methods}
+    if stray:
+        raise bad_record(f"it has no {shown(min(stray))} that could have been given")
+    if not all(isinstance(text, str) for text in known.values()):
+        raise bad_record("what its reverse solver was given is no dict of texts")
+    return dict(known)
+
+
+def _vehicle(found: Mapping[str, Any], lost: bool) -> Vehicle:
+    """A vehicle from its record; NaN, the motion that a reverse solver did not find, bypasses the reader."""
+    state = {name: value if name == "name" else _read(value) for name, value in found.items() if value is not None}
+    polar = {name: state.pop(name) for name in _POLAR if name in state}
+    unknown = state.keys() - set(NAMES)
+    if unknown:
+        raise bad_record(f"a vehicle has no {min(unknown)!r}")
+    if polar:
+        state |= zip(("vx", "vy"), _velocity(polar), strict=True)
+    motion = [state[name] for name in _MOTION]
+    if lost and not any(isinstance(part, (np.ndarray, str)) for part in motion):
+        vx, vy, yaw_rate = map(float, motion)
+        return moved(vehicle_of(_NOTHING | state | dict.fromkeys(_MOTION, 0.0)), vx, vy, yaw_rate)
+    vehicle = vehicle_of(_NOTHING | state)
+    return with_given(vehicle, {**(vehicle.given or {}), **polar}) if polar else vehicle
+
+
+def to_columns(impact: Any, units: Any = None, wanted: Any = None) -> dict[str, list[Any]]:
+    """One list per number, named by its path in the record; every list has one value per case."""
+    system = None if units is None else cells(units)
+    found: dict[str, tuple[Any, str | None]] = {}
+    for name, value in _results(impact):
+        _add(found, name, value, unit_of(type(impact), name))
+    found["status"] = np.array([status.label for status in Status])[impact.status], None
+    found[impact.inputs.rule] = impact.inputs.rule_value, ""
+    for label, side in (("a", impact.a), ("b", impact.b)):
+        for moment in _MOMENTS:
+            vehicle = getattr(side, moment)
+            for name in NAMES:
+                _add(found, f"{label}.{moment}.{name}", getattr(vehicle, name), unit_of(Vehicle, name))
+        for name, value in _results(side):
+            _add(found, f"{label}.{name}", value, unit_of(Side, name))
+    return dict(_column(name, *found[name], system, np.shape(impact.status)) for name in _chosen(impact, found, wanted))
+
+
+def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
+    """The names of the columns that were asked for, by default all."""
+    if wanted is None:
+        return list(found)
+    # An array of no dimensions is one thing, though it has the methods of a collection.
+    several = isinstance(wanted, Collection | Iterator) and getattr(wanted, "ndim", 1) != 0
+    names = list(wanted) if several and not isinstance(wanted, str) else [wanted]
+    for name in names:
+        if isinstance(name, str) and name not in found:
+            side, _, inner = name.rpartition(".")
+            owner = getattr(impact, side) if side in ("a", "b") else impact
+            if inner in attributes(type(owner)):
+                text = f"columns: {name} has no value in this impact; leave it out"
+                problem = owner._missing(inner) if isinstance(owner, Side) else None
+                raise problem or InputError(text, code="unknown_name", argument="columns")
+        if not isinstance(name, str) or name not in found:
+            near = get_close_matches(shown(name), found, 3) or list(found)[:3]
+            raise InputError(
+                f"columns: there is no column {shown(name)}; write for example {', '.join(near)}, without a unit",
+                code="unknown_name",
+                argument="columns",
+            )
+    return names
+
+
+def _column(name: str, value: Any, unit: str | None, system: Cells | None, shape: tuple[int, ...]) -> tuple[str, list[Any]]:
+    """A column with its name, in a system of units if one is given."""
+    numbers = np.asarray(value)
+    if system is not None and unit:
+        kind = KIND_OF.get(unit)
+        with np.errstate(over="ignore"):
+            numbers = numbers if kind is None else numbers * system.scale(kind)
+        name = f"{name} [{unit if kind is None else system.label(kind)}]"
+    return name, np.broadcast_to(numbers, shape).reshape(-1).tolist()
+
+
+def bad_record(why: str) -> InputError:
+    return InputError(f"record is not what Impact.to_dict() gives: {why}", code="bad_record", argument="record")
+
+
+def _add(found: dict[str, tuple[Any, str | None]], name: str, value: Any, unit: str | None) -> None:
+    if isinstance(value, tuple):
+        for part, axis in zip(value, "xy", strict=True):
+            found[f"{name}.{axis}"] = part, unit
+    elif isinstance(value, Reconstruction):
+        found[f"{name}.condition"] = value.condition, ""
+        found[f"{name}.answers"] = value.answers, None
+    elif isinstance(value, Pulse):
+        numbers = {f.name: getattr(value, f.name) for f in fields(value) if f.name not in CURVES}
+        found |= {f"{name}.{inner}": (part, unit_of(Pulse, inner)) for inner, part in numbers.items() if part is not None}
+    elif isinstance(value, ModelChoice):
+        found[f"{name}.tolerance"] = value.tolerance, "m/s"
+        found |= {f"{name}.errors.{model}": (error, "m/s") for model, error in value.errors.items()}
+    elif value is not None:
+        found[name] = value, unit
+
+
+def _results(owner: Any) -> list[tuple[str, Any]]:
+    found = [(name, getattr(owner, name)) for name in attributes(type(owner))]
+    return [(name, value) for name, value in found if not isinstance(value, (Vehicle, Side))]
+
+
+def _side(side: Side) -> dict[str, Any]:
+    moments = {moment: getattr(side, moment) for moment in _MOMENTS}
+    states = {moment: {name: strict(getattr(vehicle, name)) for name in NAMES} for moment, vehicle in moments.items()}
+    return {**states, **{name: _result(value) for name, value in _results(side)}}
+
+
+def _result(value: Any) -> Any:
+    """A result as strict JSON: a choice, a reconstruction and a pulse by their parts."""
+    if isinstance(value, ModelChoice):
+        return {name: strict(getattr(value, name)) for name in _CHOICE}
+    if isinstance(value, (Reconstruction, Pulse)):
+        return {f.name: strict(getattr(value, f.name)) for f in fields(value)}
+    return strict(value)
+
+
+def _count(value: Any) -> Any:
+    """An integer, or a batch of them, as ``strict`` wrote it."""
+    if isinstance(value, Mapping):
+        counts = [_count(count) for count in value["values"]]
+        return lock(np.array(counts, dtype=np.int64).reshape(value["shape"]))
+    if value == "inf":
+        return math.inf
+    if type(value) is not int:  # int() would read "1_0" as 10, and cut 2.7 to 2
+        raise bad_record(f"{shown(value)} is no whole number")
+    return value
+
+
+def _read(value: Any) -> Any:
+    """The value that ``strict`` wrote; a text with a unit stays a text."""
+    if isinstance(value, list):
+        return tuple(_read(part) for part in value)
+    if isinstance(value, Mapping):
+        if value["dtype"] not in ("float32", "float64"):
+            raise bad_record(f"an array of {shown(value['dtype'])} is none that to_dict writes")
+        numbers = [_read(part) for part in value["values"]]
+        # numpy would read the text "1_0" as 10
+        if texts := [part for part in numbers if isinstance(part, str)]:
+            raise bad_record(f"{shown(texts[0])} in an array is no number")
+        return np.array(numbers, dtype=value["dtype"]).reshape(value["shape"])
+    return _INFINITIES.get(value, value) if isinstance(value, str) else value

@@ -1,0 +1,239 @@
+"""``impact_schema``: the JSON schema of an impact's record, generated from the attributes so that the two cannot disagree."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from dataclasses import Field, fields
+from inspect import getdoc
+from typing import Any, get_args
+
+from ..kernels.contact_laws import LAWS, RULES
+from ..messages.errors import Status
+from ..quantities.attributes import attributes, unit_of
+from ..vehicle.tyres import Tyres
+from ..vehicle.vehicle import DOMAINS, Vehicle
+from .impact import Impact
+from .inputs import ARGUMENTS, PLACED, TYRES, UNITS, Inputs
+from .models import BY_NAME
+from .provenance import Reconstruction
+from .pulse import Pulse
+from .records import FORMAT, OF_SOME
+from .side import Side
+from .time_resolved_inputs import Geometry
+
+__all__ = ["impact_schema"]
+
+_MODELS = list(BY_NAME)
+_VALUE, _PAIR, _GIVEN = ({"$ref": f"#/$defs/{name}"} for name in ("value", "pair", "given"))
+_NUMBER, _TEXT, _NULL = {"$ref": "#/$defs/number"}, {"type": "string"}, {"type": "null"}
+_TYPES: dict[str, dict[str, Any]] = {"Value": _VALUE, "tuple[Value, Value]": _PAIR, "str": _TEXT, "Law": _TEXT} | {
+    name: {"$ref": f"#/$defs/{name.lower().removeprefix('model')}"}
+    for name in ("ModelChoice", "Reconstruction", "Pulse", "Vehicle", "Side")
+}
+
+
+def impact_schema() -> dict[str, Any]:
+    """The JSON schema (draft 2020-12) of the record from ``Impact.to_dict``, as a new dict that may be changed.
+
+    It covers every solver, single cases, batches and refused cases. Infinity and NaN appear in a record as the texts "inf",
+    "-inf" and "nan", because JSON has no number for them. It does not say that the arrays of a batch go together, nor that the
+    results are those of the inputs; ``Impact.from_dict`` checks the former and works out the latter anew.
+
+    Returns
+    -------
+    dict
+        The schema.
+
+    Examples
+    --------
+    >>> schema = impact_schema()
+    >>> schema["properties"]["format"]
+    {'const': 'collisions impact 2'}
+    >>> schema["$defs"]["vehicle"]["properties"]["mass"]
+    {'$ref': '#/$defs/value', 'description': '[kg]'}
+    """
+    schema = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": f"urn:{FORMAT.replace(' ', ':')}",
+        "title": "Record of an impact",
+        "description": "What Impact.to_dict() gives: inputs to solve again from, and every result; SI, angles in radians.",
+        **_closed({"format": {"const": FORMAT}, "inputs": _inputs(), "results": _attributes(Impact)}),
+        "$defs": {
+            "number": {
+                "description": "A number; an infinity and NaN by name.",
+                "anyOf": [{"type": "number"}, {"enum": ["inf", "-inf", "nan"]}],
+            },
+            "value": {
+                "description": "A number, or one for each case of a batch, in the order of C.",
+                "anyOf": [_NUMBER, _batch(_NUMBER, {"enum": ["float32", "float64"]})],
+            },
+            "given": {
+                "description": "A number or a batch in SI, or the text with a unit that it was given as.",
+                "anyOf": [_VALUE, _TEXT],
+            },
+            "pair": _pair(_VALUE),
+            "vehicle": _closed({f.name: _field(f) for f in fields(Vehicle)}),
+            "vehicle_inputs": _vehicle_inputs(),
+            "side": _attributes(Side),
+            "choice": _closed(
+                {
+                    "model": _each({"enum": _MODELS}),
+                    "reason": _TEXT,
+                    "errors": _by_model(_VALUE),
+                    "missing": _by_model({"type": "array", "items": _TEXT}),
+                    "tolerance": {**_VALUE, "description": "[m/s]"},
+                }
+            ),
+            "tyres": _tyres(),
+            "pulse": _closed({f.name: _field(f) for f in fields(Pulse)}),
+            "reconstruction": _closed({f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)}),
+        },
+    }
+    return deepcopy(schema)
+
+
+def _inputs() -> dict[str, Any]:
+    """The inputs of every solver."""
+    vehicle = {"$ref": "#/$defs/vehicle_inputs"}
+    question = _closed(
+        {
+            "model": {"enum": sorted(ARGUMENTS), "description": "The solver that was called."},
+            "rule": {"enum": list(RULES), "description": "What was said of the tangent, ..."},
+            "law": {"enum": [*LAWS, None]},
+            "a": vehicle,
+            "b": vehicle,
+            **{name: _input(name) for name in UNITS},
+            **{name: _or_null({"$ref": "#/$defs/tyres"}, "The wheels of a vehicle.") for name in TYRES},
+            "geometry": {"enum": [*get_args(Geometry), None], "description": "Of time_resolved: what the positions are."},
+            "steps": {"type": ["integer", "null"], "description": "Of time_resolved: steps a nominal duration."},
+            "normal": {"anyOf": [_PAIR, _TEXT], "description": "Unit vector from A into B, or its angle as given."},
+            "bare_normal": _or_null(_VALUE, "The normal as an angle of more than a turn that was given without a unit [rad]."),
+            "rule_value": {**_GIVEN, "description": "... and its value."},
+            "tolerance": _or_null(_VALUE, "Of solve [m/s]."),
+            "incomplete": {"type": "boolean", "description": "Whether a restitution below 0 was allowed."},
+            "contact_velocity": _or_null(_PAIR, "Closing speed and slip before as a reverse solver found them [m/s]."),
+            "known": {
+                "type": "object",
+                "additionalProperties": _TEXT,
+                "description": "What a reverse solver was given with a unit, by its argument.",
+            },
+        }
+    )
+    return question | {"allOf": [_of_solver(name, takes) for name, takes in ARGUMENTS.items()]}
+
+
+def _of_solver(name: str, takes: tuple[str, ...]) -> dict[str, Any]:
+    """The inputs of one solver: none that it does not take, and those that it needs."""
+    needed = {"law": _TEXT} if "law" in takes else {}
+    needed |= {"point": {"type": "array"}} if name in PLACED else {}
+    properties = {argument: {"enum": [None, False]} for argument in sorted(OF_SOME.keys() - takes)} | needed
+    return {"if": {"properties": {"model": {"const": name}}}, "then": {"properties": properties}}
+
+
+def _attributes(kind: type[Any]) -> dict[str, Any]:
+    """Every attribute of an impact or a side: by its name in ``_LISTED`` or its declared type, described by its docstring."""
+    found = {}
+    for name in attributes(kind):
+        attribute = vars(kind)[name]
+        declared = attribute.work_out.__annotations__["return"]
+        first = (getdoc(attribute) or "").partition("\n\n")[0].replace("\n", " ")
+        found[name] = {**(_LISTED[name] if name in _LISTED else _declared(declared)), "description": first}
+    return _closed(found)
+
+
+def _vehicle_inputs() -> dict[str, Any]:
+    """The fields of a vehicle as they were given; speed and course may stand in place of vx and vy."""
+    found: dict[str, Any] = {"name": _TEXT, "pivot": _or_null(_pair(_GIVEN), "[m]")}
+    for name in DOMAINS:
+        unit = f"[{unit_of(Vehicle, name)}]"
+        optional = Vehicle.__dataclass_fields__[name].type != "Value"
+        found[name] = _or_null(_GIVEN, unit) if optional else {**_GIVEN, "description": unit}
+    needed = [name for name in found if name not in ("vx", "vy")]
+    return {
+        **_closed(found | {"speed": _TEXT, "course": _TEXT}),
+        "required": needed,
+        "oneOf": [{"required": ["vx", "vy"]}, {"required": ["speed", "course"]}],
+        "dependentRequired": {"speed": ["course"], "course": ["speed"]},
+    }
+
+
+def _tyres() -> dict[str, Any]:
+    """The arguments of tyres."""
+    found = {f.name: {**_GIVEN, "description": f"[{f.metadata['unit']}]"} for f in fields(Tyres)}
+    four = {"type": "array", "items": _GIVEN, "minItems": 4, "maxItems": 4}
+    return _closed(found | {"lock": {"anyOf": [_GIVEN, four]}, "height": _or_null(_GIVEN, "[m]")})
+
+
+def _input(name: str) -> dict[str, Any]:
+    """A number or a pair among the inputs, with its unit."""
+    plain, _, optional = str(Inputs.__dataclass_fields__[name].type).partition(" | ")
+    units = UNITS[name]
+    several = {"type": "array", "items": _GIVEN, "minItems": 3, "maxItems": 3}
+    found = {"Value": _GIVEN, "tuple[Value, Value]": _pair(_GIVEN), "tuple[Value, ...]": several}[plain]
+    unit = f"[{', '.join(units) if isinstance(units, tuple) else units or 1}]"
+    return _or_null(found, unit) if optional else {**found, "description": unit}
+
+
+def _field(field: Field[Any]) -> dict[str, Any]:
+    """The schema of a field with its unit; one of any type is an array over time, which a batch has not."""
+    found = _declared("Value | None" if field.type == "Any" else str(field.type))
+    return {**found, "description": f"[{field.metadata['unit']}]"} if "unit" in field.metadata else found
+
+
+def _declared(declared: str) -> dict[str, Any]:
+    """The schema for the declared type of an attribute."""
+    plain, _, optional = declared.partition(" | ")
+    return {"anyOf": [_TYPES[plain], _NULL]} if optional else dict(_TYPES[plain])
+
+
+def _or_null(found: dict[str, Any], description: str) -> dict[str, Any]:
+    return {"anyOf": [found, _NULL], "description": description}
+
+
+def _closed(properties: dict[str, Any]) -> dict[str, Any]:
+    """An object with exactly these properties."""
+    return {"type": "object", "properties": properties, "required": list(properties), "additionalProperties": False}
+
+
+def _pair(value: dict[str, Any]) -> dict[str, Any]:
+    return {
+        "description": "The x and the y part.",
+        "type": "array",
+        "prefixItems": [value, value],
+        "items": False,
+        "minItems": 2,
+    }
+
+
+def _by_model(value: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "object", "propertyNames": {"enum": _MODELS}, "additionalProperties": value}
+
+
+def _batch(value: dict[str, Any], dtype: dict[str, Any]) -> dict[str, Any]:
+    """A batch: a flat list of one value per case, and the shape."""
+    size = {"type": "integer", "minimum": 0}
+    return _closed({"dtype": dtype, "shape": {"type": "array", "items": size}, "values": {"type": "array", "items": value}})
+
+
+def _each(value: dict[str, Any]) -> dict[str, Any]:
+    """A label, a count or a truth value, or one for each case of a batch."""
+    return {"anyOf": [value, _batch(value, _TEXT)]}
+
+
+_LISTED = {
+    "model": _each({"enum": [*_MODELS, "solve"]}),
+    "kind": _each({"enum": ["elastic", "elastoplastic", "plastic", "incomplete", ""]}),
+    "regime": _each({"enum": ["frictionless", "sliding", "sticking", "reversing", "given", ""]}),
+    "status": _each({"enum": [int(status) for status in Status]}),
+    "ok": _each({"type": "boolean"}),
+    "complete": _each({"type": "boolean"}),
+    "refused": _each({"type": "boolean"}),
+    "pdof_clock": {"anyOf": [{"type": "integer", "minimum": 1, "maximum": 12}, _VALUE, _NULL]},
+}
+_RECONSTRUCTION = {
+    "method": _TEXT,
+    "known": {"type": "array", "items": _TEXT},
+    "condition": _VALUE,
+    "answers": _each({"anyOf": [{"type": "integer", "minimum": 0}, {"const": "inf"}]}),
+    "contact_velocity": {"anyOf": [_PAIR, _NULL]},
+}

@@ -1,0 +1,391 @@
+"""What a contact that takes time needs beyond an impulse: read, and handed with the other inputs to the kernel."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import lru_cache, partial
+from typing import Any, Literal, TypeAlias, get_args
+
+import numpy as np
+
+from ..kernels.contact_laws import BRACH
+from ..kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE, select
+from ..kernels.status import Answer, Passed, Status, WithTyres
+from ..messages.errors import InputError, MissingInputError, ShapeError
+from ..quantities.attributes import lock
+from ..quantities.directions import from_radians
+from ..quantities.reading import ArgumentReader, is_whole
+from ..quantities.units import shown
+from ..vehicle.drag import GRAVITY, read_drag, read_duration
+from ..vehicle.tyres import Tyres, kernel_numbers, not_tyres
+from ..vehicle.vehicle import Vehicle, missing
+from .inputs import CRUSH_UNITS, NO_IMPULSE, OUTSIDE, STIFFNESSES, TYRES, Inputs, body_numbers, named_numbers, read_inputs
+from .pulse import passed
+
+Geometry: TypeAlias = Literal["maximum_engagement", "first_contact", "fixed"]
+# Of its numbers, those that have to be above 0; the others may be 0.
+DOMAINS = {
+    "duration": (POSITIVE_FINITE,),
+    "stiffness": (POSITIVE_FINITE,),
+    "crush_a": (AT_LEAST_ZERO, POSITIVE_FINITE, POSITIVE_FINITE),
+    "crush_b": (AT_LEAST_ZERO, POSITIVE_FINITE, POSITIVE_FINITE),
+    "drag": (AT_LEAST_ZERO,),
+    "wheelbase": (POSITIVE_FINITE,),
+    "track": (POSITIVE_FINITE,),
+}
+# A step of a car's contact is then 2 ms or 1 us.
+_FEWEST, _MOST = 10, 100_000
+_STEPS = 100
+_SIZES = {"wheelbase": 2.7, "track": 1.5}
+# Cases of a block; fewer than so many are faster one by one.
+_BLOCK, _FEW = 1024, 128
+_STIFFNESS = "duration='100 ms', stiffness='800 kN/m', or crush_a=('60 kN/m', '700 kN/m**2', '1.5 m') with or without crush_b"
+
+
+def read_contact_time(
+    a: Any, b: Any, restitution: Any, normal: Any, point: Any, friction: Any, extra: dict[str, Any]
+) -> Inputs:
+    """The inputs of ``time_resolved``; ``extra`` are those beyond an impulse, by name."""
+    reader = ArgumentReader()
+    if friction is None:
+        text = (
+            "friction is None, and time_resolved needs it; there is no default, because it decides cases: write friction=0.5, "
+            "or friction=0 for a frictionless contact"
+        )
+        reader.refuse(MissingInputError(text, code="one_tangential", argument="friction"))
+        friction = 0.0
+    found = {name: extra[name] for name in ("geometry", "steps")}
+    if not isinstance(found["geometry"], str) or found["geometry"] not in get_args(Geometry):
+        known = ", ".join(map(repr, get_args(Geometry)))
+        text = f"geometry must be one of {known}, got {shown(found['geometry'])}"
+        reader.refuse(InputError(text, code="bad_option", argument="geometry"))
+    if not is_whole(found["steps"]) or not _FEWEST <= found["steps"] <= _MOST:
+        text = f"steps must be a whole number from {_FEWEST} to {_MOST}, got {shown(found['steps'])}"
+        reader.refuse(InputError(text, code="bad_option", argument="steps"))
+    else:
+        found["steps"] = int(found["steps"])
+    found |= read_tyres(reader, "time_resolved", a, b, extra)
+    times = {name: value for name, value in extra.items() if name not in _SIZES or value is not None}
+    if found["tyres_a"] is None and found["tyres_b"] is None:
+        found |= _SIZES
+    elif times["drag"] is None or (type(times["drag"]) is float and times["drag"] == 0.0):
+        del times["drag"]
+    found |= read_times(reader, times)
+    arguments = a, b, restitution, normal, point, (friction, None, None), BRACH
+    given_numbers = [found.get(name) for name in DOMAINS]
+    beside = [part for value in given_numbers for part in (value if isinstance(value, tuple) else (value,))]
+    beside += [part for label in "ab" if found[f"tyres_{label}"] for part in found[f"tyres_{label}"].named.values()]
+    inputs = read_inputs("time_resolved", arguments, reader.problems, beside)
+    given = {**(inputs.given or {}), **reader.texts} or None
+    return replace(inputs, given=given, **found)
+
+
+def read_tyres(reader: ArgumentReader, model: str, a: Any, b: Any, extra: dict[str, Any]) -> dict[str, Any]:
+    """The tyres of both vehicles, where given; they stand in place of a drag, and their wheels along the heading."""
+    found: dict[str, Any] = {}
+    for label, vehicle in (("a", a), ("b", b)):
+        name = f"tyres_{label}"
+        found[name] = extra.get(name)
+        if found[name] is None:
+            continue
+        if not isinstance(found[name], Tyres):
+            reader.refuse(not_tyres(name, found[name]))
+            found[name] = None
+        elif isinstance(vehicle, Vehicle) and vehicle.heading is None and not np.all(np.isinf(vehicle.mass)):
+            reader.refuse(missing(vehicle, "heading", f"{model} with {name}", label))
+    stray = {name: extra.get(name) for name in ("drag", *_SIZES)}
+    stray = {name: given for name, given in stray.items() if not (given is None or (type(given) is float and given == 0.0))}
+    if stray and any(tyres is not None for tyres in found.values()):
+        text = (
+            f"give {' and '.join(stray)} or tyres, not both: tyres_a and tyres_b have friction, braking, wheelbase "
+            "and track of the wheels of each vehicle; one without tyres is not held"
+        )
+        reader.refuse(InputError(text, code="bad_combination", argument=next(iter(stray))))
+    return found
+
+
+def read_least_time(reader: ArgumentReader, a: Any, b: Any, duration: Any, drag: Any, tyres: tuple[Any, Any]) -> dict[str, Any]:
+    """Duration and drag or tyres as ``solve`` takes them, all optional: without a duration no contact takes time."""
+    found = read_tyres(reader, "solve", a, b, {**dict(zip(TYRES, tyres, strict=True)), "drag": drag})
+    if duration is None:
+        what = f"drag = {shown(drag)} needs" if drag is not None else "tyres need"
+        text = f"{what} a duration, in which the tyres act; write duration='100 ms', or leave them out"
+        reader.refuse(InputError(text, code="one_stiffness", argument="duration"))
+    given = {name: value for name, value in (("duration", duration), ("drag", drag)) if value is not None}
+    return found | (read_times(reader, given) if "duration" in given else {})
+
+
+def timed(inputs: Inputs, steps: int = _STEPS) -> Inputs:
+    """What ``solve`` was given as inputs of ``time_resolved``."""
+    drag: Any = 0.0 if inputs.drag is None and not inputs.tyres else inputs.drag
+    own: dict[str, Any] = {"law": None, "tolerance": None, "given": None, "contact_velocity": None}
+    own |= {**({} if inputs.tyres else _SIZES), "geometry": "maximum_engagement"}
+    return replace(inputs, model="time_resolved", drag=drag, steps=steps, **own)
+
+
+def read_times(reader: ArgumentReader, extra: dict[str, Any]) -> dict[str, Any]:
+    """The numbers in ``extra`` that say how a contact passes; one kind of stiffness has to be among them."""
+    found: dict[str, Any] = dict.fromkeys(extra.keys() & DOMAINS.keys())
+    kinds = [name for name in STIFFNESSES if extra.get(name) is not None]
+    if not kinds or (len(kinds) > 1 and kinds != ["crush_a", "crush_b"]):
+        text = f"give one of {_STIFFNESS}; got {' and '.join(kinds) or 'none'}. It says how long the contact takes"
+        reader.refuse(InputError(text, code="one_stiffness", argument="duration"))
+    for name, domains in DOMAINS.items():
+        value = extra.get(name)
+        if name not in extra or (value is None and name in STIFFNESSES):
+            continue
+        if name == "drag":
+            found[name] = read_drag(reader, value, name)
+        elif name == "duration":
+            found[name] = read_duration(reader, value)
+            if isinstance(found[name], float) and found[name] == 0.0:
+                text = f"duration must be > 0, got {shown(value)}; a contact that takes no time is eccentric's"
+                reader.refuse(InputError(text, code="not_positive", argument=name))
+        elif name.startswith("crush"):
+            found[name] = _read_crush(reader, value, name)
+        else:
+            found[name] = reader.number(value, {"stiffness": "N/m"}.get(name, "m"), name, domains[0])
+    return found
+
+
+def _read_crush(reader: ArgumentReader, value: Any, name: str) -> Any:
+    """A, B and the width of a crush stiffness."""
+    if not isinstance(value, tuple) or len(value) != 3:
+        text = f"{name} must be (A, B, width), such as ('60 kN/m', '700 kN/m**2', '1.5 m'), got {shown(value)}"
+        return reader.refuse(ShapeError(text, code="bad_shape", argument=name))
+    return tuple(
+        reader.number(part, unit, f"{name}[{at}]", domain)
+        for at, (part, unit, domain) in enumerate(zip(value, CRUSH_UNITS, DOMAINS[name], strict=True))
+    )
+
+
+def crushes(inputs: Inputs) -> dict[str, tuple[Any, ...]]:
+    """A, B and width of the crush stiffness, by vehicle, "a" and "b", of those that have one."""
+    found = {"a": inputs.crush_a, "b": inputs.crush_b}
+    return {label: crush for label, crush in found.items() if crush is not None}
+
+
+def residual_crushes(inputs: Inputs, peak_force: Any) -> dict[str, Any]:
+    """By vehicle what is left of its crush, in CRASH's meaning: 0 where the largest crush was not beyond A/B."""
+    found = {}
+    for label, (begins, growth, width) in crushes(inputs).items():
+        left = (peak_force / width - begins) / growth
+        found[label] = select(left < 0.0, 0.0 * left, left)
+    return found
+
+
+def tyres_numbers(inputs: Inputs, label: str, cut: Callable[[Any], Any]) -> Any:
+    """The tyres of a vehicle as the kernels take them; where there is only a drag, those of wheels that slide."""
+    from ..kernels.tyre import Tyres as Numbers
+
+    tyres = getattr(inputs, f"tyres_{label}")
+    if tyres is None:
+        drag, *sizes = (0.0 if one is None else cut(one) for one in (inputs.drag, inputs.wheelbase, inputs.track))
+        return Numbers((1.0,) * 4, drag, 0.0, *(0.5 * size for size in sizes))
+    named = {name: cut(value) for name, value in tyres.named.items()}
+    return kernel_numbers(named, np if any(isinstance(value, np.ndarray) for value in named.values()) else math)
+
+
+def wheels_that_roll(tyres: Tyres) -> Any:
+    """The settings of the kernel for these tyres."""
+    from ..kernels.contact_step import Rolling
+
+    return Rolling(tyres.steered, tyres.transfers)
+
+
+def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
+    """The answer of an impulse, with that of the tyres during its contact as one from outside.
+
+    Solved twice: without the tyres for the motion before and after, between which their force is taken, and with what they
+    give. ``solve`` solves inputs, quietly or not.
+    """
+    bare = _alike(inputs, tyres_a=None, tyres_b=None, duration=None, given=None)
+    first = solve(bare, True)
+    pushes = {label: held_impulse(inputs, first, label) for label in "ab"}
+    outside: dict[str, Any] = {
+        name: tuple(one + more for one, more in zip(getattr(inputs, name) or NO_IMPULSE, pushes[name[-1]], strict=True))
+        for name in OUTSIDE
+    }
+    # A case that has no answer without tyres is refused for that.
+    with np.errstate(all="ignore"):
+        refused = first.status > Status.ENERGY_GAIN
+        outside = {name: tuple(select(refused, 0.0, part) for part in parts) for name, parts in outside.items()}
+        if inputs.shape is not None:
+            # As precise as what they are worked out from.
+            from ..quantities.precision import precision
+
+            dtype = precision(named_numbers(inputs).values())
+            outside = {
+                name: tuple(part.astype(dtype) if isinstance(part, np.ndarray) else part for part in parts)
+                for name, parts in outside.items()
+            }
+    raw = solve(_alike(inputs, tyres_a=None, tyres_b=None, duration=None, **outside), False)
+    found: dict[str, Any] = {}
+    with np.errstate(all="ignore"):
+        answered = 0.0 * raw.normal_impulse
+        for label, body in (("a", inputs.a), ("b", inputs.b)):
+            push = [part + answered for part in pushes[label]]
+            means = (
+                was + 0.5 * getattr(raw, f"delta_{name}_{label}")
+                for name, was in (("vx", body.vx), ("vy", body.vy), ("yaw_rate", body.yaw_rate))
+            )
+            names = ("tyre_impulse_x", "tyre_impulse_y", "tyre_moment")
+            found |= {f"{name}_{label}": part for name, part in zip(names, push, strict=True)}
+            found[f"tyre_loss_{label}"] = answered + 0.0 - sum(part * mean for part, mean in zip(push, means, strict=True))
+    if inputs.shape is not None:
+        found = {name: np.asarray(value, raw.delta_vx_a.dtype) for name, value in found.items()}
+    return WithTyres(*(getattr(raw, name) for name in Answer._fields), **lock(found))
+
+
+def _alike(inputs: Inputs, **changes: Any) -> Inputs:
+    """The inputs with some changed; a single case stays one."""
+    other = replace(inputs, **changes)
+    if inputs.shape is None:
+        vars(other)["shape"] = None
+    return other
+
+
+def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any]:
+    """Impulse of the tyres of one vehicle during the contact, and its moment about the centre of mass."""
+    tyres, body = inputs.tyres.get(label), getattr(inputs, label)
+    if tyres is None or body.heading is None:
+        return NO_IMPULSE
+    from ..kernels.held import held
+
+    changes = [getattr(answer, f"delta_{name}_{label}") for name in ("vx", "vy", "yaw_rate")]
+    inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
+    numbers = [body.mass, inertia, *from_radians(body.heading), body.vx, body.vy, body.yaw_rate, *changes]
+    numbers += [passed(inputs.restitution, 0.5), inputs.duration, GRAVITY]
+    own = tyres_numbers(inputs, label, lambda value: value)
+    numbers += [*own.locks, *own[1:]]
+    settings = tyres.steered, tyres.transfers
+    found = _held_function(*settings)(numbers) if inputs.shape is None else None
+    if found is None:
+        with np.errstate(all="ignore"):
+            found = held(*(value if inputs.shape is None else np.asarray(value, np.float64) for value in numbers), *settings)
+    return tuple(found)
+
+
+@lru_cache(maxsize=8)
+def _held_function(steered: bool, transfers: bool) -> Callable[[Any], Any]:
+    """``held`` compiled for plain floats."""
+    from ..engine.floats import compile_for_floats
+    from ..kernels.held import NUMBERS, held
+
+    return compile_for_floats(held, tuple(f"[{at}]" for at in range(NUMBERS)), (steered, transfers))
+
+
+def read_lasting(reader: ArgumentReader, model: str, a: Any, b: Any, duration: Any, tyres: tuple[Any, Any]) -> dict[str, Any]:
+    """Duration and tyres of an impulse with those of its wheels: both, or neither."""
+    given = dict(zip(TYRES, tyres, strict=True))
+    found = read_tyres(reader, model, a, b, given)
+    if duration is None:
+        text = "tyres need a duration, over which they act; write duration='100 ms'"
+        reader.refuse(MissingInputError(text, code="one_stiffness", argument="duration"))
+        return found
+    if tyres == (None, None):
+        text = (
+            f"{model} takes a duration for tyres_a and tyres_b alone, and neither was given; give travel.Tyres, or use "
+            "time_resolved"
+        )
+        reader.refuse(InputError(text, code="bad_combination", argument="duration"))
+    return found | read_times(reader, {"duration": duration})
+
+
+def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) -> Passed:
+    """Step through one case of plain numbers, every step kept; or through one of a batch, which ``cut`` takes from arrays."""
+    # A twentieth of the import of the package, and impulses need none of it.
+    from ..engine.floats import compile_loop
+    from ..kernels import time_resolved as kernel
+
+    note: list[tuple[float, ...]] | None = [] if cut is None else None
+    try:
+        found = kernel.time_resolved(
+            **_arguments(inputs, cut or (lambda value: value)), run=partial(kernel.float_run, compiled=compile_loop), note=note
+        )
+    except ArithmeticError:
+        return Passed(Status.OUT_OF_RANGE)
+    lock(found.history)
+    return found
+
+
+def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
+    """Step through the cases of a batch, in blocks or, if they are few, one by one; a refused one is NaN."""
+    from ..engine.blocks import each_block, flat
+    from ..engine.floats import compile_loop
+    from ..kernels import time_resolved as kernel
+
+    shape, size = cases.shape, cases.size
+    kinds = {"status": np.dtype(np.uint8), "sticks": np.dtype(np.bool_)}
+    names = [name for name in Passed._fields if name != "history"]
+    outputs = {name: np.empty(size, kinds.get(name, cases.dtype)) for name in names}
+    length = 1 if size <= _FEW else _BLOCK
+
+    def solve(start: int) -> int:
+        block = slice(start, min(start + length, size))
+
+        def cut(value: Any) -> Any:
+            if not isinstance(value, np.ndarray):
+                return value
+            return float(flat(value, shape)[start]) if length == 1 else flat(value, shape)[block].astype(np.float64)
+
+        with np.errstate(all="ignore"):
+            faults = [check.fault(*map(cut, check.values)) for check in reversed(cases.checks)]
+            if length > 1:
+                found = kernel.time_resolved(**_arguments(inputs, cut), run=partial(kernel.block_run, compiled=compile_loop))
+            elif any(faults):
+                found = Passed(Status.OK)
+            else:
+                found = solve_case_in_time(inputs, cut)
+            for name in names:
+                outputs[name][block] = getattr(found, name)
+            status = outputs["status"][block]
+            for fault in faults:
+                np.copyto(status, fault, where=np.not_equal(fault, Status.OK), casting="unsafe")
+            if cases.dtype == np.float32:
+                beyond = np.logical_or.reduce([np.isinf(outputs[name][block]) for name in names[1:]])
+                status[beyond & (status == Status.OK)] = Status.OUT_OF_RANGE
+        refused = status > Status.ENERGY_GAIN
+        for name in names[1:]:
+            outputs[name][block][refused] = False if name == "sticks" else np.nan
+        return len(status)
+
+    each_block(solve, range(0, size, length), size, cases.threads, progress)
+    return Passed(**{name: lock(output.reshape(shape)) for name, output in outputs.items()})
+
+
+def _arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
+    """The arguments of the kernel; ``cut`` takes those of a block from every array."""
+    from ..kernels import time_resolved as kernel
+
+    contact = inputs.point or (0.0, 0.0)
+    spring = cut(inputs.stiffness if inputs.duration is None else inputs.duration)
+    if spring is None:
+        # The force is the same on both, so that what each gives way adds up.
+        growths = [growth * width for _, growth, width in (map(cut, crush) for crush in crushes(inputs).values())]
+        spring = growths[0] if len(growths) == 1 else growths[0] / (1.0 + growths[0] / growths[1])
+    bodies = []
+    for body in (inputs.a, inputs.b):
+        heading = None if body.heading is None else from_radians(cut(body.heading))
+        bodies.append((*map(cut, body_numbers(body, inputs.point)[:7]), heading))
+    wheels = [
+        kernel.wheels_of(body.heading, 0.0 if inputs.drag is None else inputs.drag)
+        if tyres is None
+        else wheels_that_roll(tyres)
+        for body, tyres in ((inputs.a, inputs.tyres_a), (inputs.b, inputs.tyres_b))
+    ]
+    return {
+        "restitution": cut(inputs.restitution),
+        "normal": tuple(map(cut, inputs.normal)),
+        "friction": cut(inputs.rule_value),
+        "point": tuple(map(cut, contact)),
+        "gravity": GRAVITY,
+        "tyres": tuple(tyres_numbers(inputs, label, cut) for label in "ab"),
+        "spring": spring,
+        "bodies": tuple(bodies),
+        "settings": kernel.Settings(
+            inputs.geometry or "maximum_engagement", inputs.steps or _STEPS, inputs.duration is not None, *wheels
+        ),
+    }

@@ -1,0 +1,97 @@
+"""``options``: refuses numbers without a unit, for callers who want that; for the current thread or task only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from contextvars import ContextVar
+from functools import wraps
+from typing import Any, TypeVar, cast
+
+from ..messages.errors import InputError
+from ..messages.hints import hinted
+from .units import shown
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+units_required: ContextVar[bool] = ContextVar("units_required", default=False)
+_callers: ContextVar[bool] = ContextVar("_callers", default=False)
+
+
+class Default(float):
+    """A default in SI, which needs no unit where numbers of the caller do."""
+
+
+class options:
+    """Settings that hold from the call on, or in a ``with`` block until its end; in this thread or task only.
+
+    Parameters
+    ----------
+    require_units : bool
+        Whether a number without a unit is refused where one with a unit is expected, as in ``vx=20``: by vehicles, solvers,
+        reverse solvers, ``travel``, ``diagnose``, ``left_out``, ``explain``, ``report`` and pictures. 0 and infinity need none,
+        nor do the numbers of a distribution such as ``Normal(13, 1)``, whose dimension is not known. Models of ``propagate``,
+        ``fit`` and ``posterior`` are called with SI numbers, and may pass them on.
+
+    Raises
+    ------
+    InputError
+        ``require_units`` is not True or False.
+
+    Examples
+    --------
+    >>> import collisions as col
+    >>> with col.options(require_units=True):
+    ...     col.Vehicle(mass="1500 kg", vx=20)
+    Traceback (most recent call last):
+    ...
+    collisions.UnitsError: vx = 20 has no unit, and options(require_units=True) asks for one; write for example '80 km/h'
+    """
+
+    @hinted
+    def __init__(self, *, require_units: bool) -> None:
+        if not isinstance(require_units, bool):
+            raise InputError(
+                f"require_units must be True or False, got {shown(require_units)}", code="bad_option", argument="require_units"
+            )
+        self._before = units_required.set(require_units)
+
+    def __enter__(self) -> options:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        units_required.reset(self._before)
+
+
+def in_si() -> AbstractContextManager[None]:
+    """Within this context numbers need no unit: they are the package's own, in SI."""
+    return _set(units_required, False)
+
+
+def callers_options() -> AbstractContextManager[None]:
+    """Within this context a function under ``computing`` reads its own arguments, by the options of its caller."""
+    return _set(units_required, _callers.get())
+
+
+@contextmanager
+def _set(variable: ContextVar[bool], value: bool) -> Iterator[None]:
+    token = variable.set(value)
+    try:
+        yield
+    finally:
+        variable.reset(token)
+
+
+def computing(function: F) -> F:
+    """Decorate a function that works on results: the numbers it gives on are the package's own, in SI.
+
+    Its arguments are the caller's, and are read in ``callers_options``.
+    """
+    named = hinted(function)
+
+    @wraps(function)
+    def inside(*args: Any, **options: Any) -> Any:
+        with _set(_callers, units_required.get()), in_si():
+            return named(*args, **options)
+
+    return cast(F, inside)

@@ -1,0 +1,1 @@
+"""The vehicle, its outline, and the drag of its tyres."""
