@@ -1,8 +1,10 @@
-"""Cost of a large batch: the library against plain numpy, one thread against two, float32 against float64.
+"""Cost of a large batch: the library against plain numpy, one thread against two, float32 against
+float64.
 
-``python benchmarks/batch_speed.py [file.json]`` prints a table, and writes it when a file is named. Everything compared runs
-in turn in one process, so that a slow spell of the machine meets all of it; the ratio is that of the fastest runs, its spread
-that of the rounds. The plain formula below is what one would write without the library: whole arrays and ``np.where``.
+``python benchmarks/batch_speed.py [file.json]`` prints a table, and writes it when a file is named.
+Everything compared runs in turn in one process, so that a slow spell of the machine meets all of
+it; the ratio is that of the fastest runs, its spread that of the rounds. The plain formula below is
+what one would write without the library: whole arrays and ``np.where``.
 """
 
 from __future__ import annotations
@@ -61,11 +63,19 @@ def scenes(count: int, dtype: Any = np.float64) -> dict[str, Any]:
 def _cast(value: Any, dtype: Any) -> Any:
     if isinstance(value, dict):
         return {name: _cast(part, dtype) for name, part in value.items()}
-    return tuple(_cast(part, dtype) for part in value) if isinstance(value, tuple) else value.astype(dtype)
+    return (
+        tuple(_cast(part, dtype) for part in value)
+        if isinstance(value, tuple)
+        else value.astype(dtype)
+    )
 
 
-def textbook(a: dict[str, Any], b: dict[str, Any], restitution: Any, normal: Any, point: Any, friction: Any) -> tuple[Any, ...]:
-    """Planar impact mechanics with Coulomb friction, as one writes it: velocities and yaw rates after, impulses, loss."""
+def textbook(
+    a: dict[str, Any], b: dict[str, Any], restitution: Any, normal: Any, point: Any, friction: Any
+) -> tuple[Any, ...]:
+    """Planar impact mechanics with Coulomb friction, as one writes it: velocities and yaw rates
+    after, impulses, loss.
+    """
     nx, ny = np.cos(normal), np.sin(normal)
     px, py = point
     rx1, ry1 = px - a["x"], py - a["y"]
@@ -94,8 +104,12 @@ def textbook(a: dict[str, Any], b: dict[str, Any], restitution: Any, normal: Any
     w1 = a["yaw_rate"] - (rx1 * fy - ry1 * fx) / i1
     w2 = b["yaw_rate"] + (rx2 * fy - ry2 * fx) / i2
     before = m1 * (a["vx"] * a["vx"] + a["vy"] * a["vy"]) + i1 * a["yaw_rate"] * a["yaw_rate"]
-    before = before + m2 * (b["vx"] * b["vx"] + b["vy"] * b["vy"]) + i2 * b["yaw_rate"] * b["yaw_rate"]
-    after = m1 * (vx1 * vx1 + vy1 * vy1) + i1 * w1 * w1 + m2 * (vx2 * vx2 + vy2 * vy2) + i2 * w2 * w2
+    before = (
+        before + m2 * (b["vx"] * b["vx"] + b["vy"] * b["vy"]) + i2 * b["yaw_rate"] * b["yaw_rate"]
+    )
+    after = (
+        m1 * (vx1 * vx1 + vy1 * vy1) + i1 * w1 * w1 + m2 * (vx2 * vx2 + vy2 * vy2) + i2 * w2 * w2
+    )
     answers = vx1, vy1, w1, vx2, vy2, w2, pn, pt, (before - after) / 2
     return tuple(np.where(un < 0, answer, np.nan) for answer in answers)
 
@@ -105,7 +119,9 @@ def states(scene: dict[str, Any]) -> dict[str, Any]:
     return {**scene, "a": col.Vehicle(**scene["a"]), "b": col.Vehicle(**scene["b"])}
 
 
-def library(a: col.Vehicle, b: col.Vehicle, restitution: Any, threads: int = 1, **rest: Any) -> tuple[Any, ...]:
+def library(
+    a: col.Vehicle, b: col.Vehicle, restitution: Any, threads: int = 1, **rest: Any
+) -> tuple[Any, ...]:
     """The same nine answers from the library."""
     impact = col.eccentric(a, b, restitution, threads=threads, on_failure="nan", **rest)
     return (*_motion(impact), impact.normal_impulse, impact.tangential_impulse, impact.energy_loss)
@@ -151,9 +167,17 @@ def works(count: int = CASES) -> dict[str, Callable[[], Any]]:
     """What is measured, by name; each gives back what it worked out."""
     scene, single = scenes(count), scenes(count, np.float32)
     ours, ours_single = states(scene), states(single)
-    along = {"mass": scene["a"]["mass"], "vx": scene["a"]["vx"]}, {"mass": scene["b"]["mass"], "vx": scene["b"]["vx"]}
+    along = (
+        {"mass": scene["a"]["mass"], "vx": scene["a"]["vx"]},
+        {"mass": scene["b"]["mass"], "vx": scene["b"]["vx"]},
+    )
     pair = col.Vehicle(**along[0]), col.Vehicle(**along[1])
-    moved = [*along[0].values(), *along[1].values(), scene["restitution"], *central(*pair, scene["restitution"])]
+    moved = [
+        *along[0].values(),
+        *along[1].values(),
+        scene["restitution"],
+        *central(*pair, scene["restitution"]),
+    ]
     return {
         "numpy": lambda: textbook(**scene),
         "library": lambda: library(**ours),
@@ -183,7 +207,11 @@ def measure(count: int = CASES, repeats: int = ROUNDS) -> dict[str, Any]:
     return {
         "cases": count,
         "rounds": repeats,
-        "machine": {"python": platform.python_version(), "numpy": np.__version__, "processor": platform.machine()},
+        "machine": {
+            "python": platform.python_version(),
+            "numpy": np.__version__,
+            "processor": platform.machine(),
+        },
         "nanoseconds a case": {name: 1e9 * min(seconds) / count for name, seconds in times.items()},
         "ratios": [{"of": one, "to": other, **ratio(times, one, other)} for one, other in compared],
     }
@@ -196,12 +224,17 @@ def show(found: dict[str, Any]) -> None:
         print(f"  {name:40s}{cost:8.1f} ns a case")
     for line in found["ratios"]:
         names = f"{line['of']} / {line['to']}"
-        print(f"  {names:64s}{line['best']:6.2f}   half of the rounds {line['low']:.2f} to {line['high']:.2f}")
+        print(
+            f"  {names:64s}{line['best']:6.2f}   half of the rounds {line['low']:.2f} to "
+            f"{line['high']:.2f}"
+        )
 
 
 def main() -> None:
     """Measures, prints, and writes JSON when asked to."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("file", nargs="?", type=Path, help="where to write the table as JSON")
     parser.add_argument("--cases", type=int, default=CASES)
     parser.add_argument("--rounds", type=int, default=ROUNDS)

@@ -1,9 +1,10 @@
 """The budgets of speed and memory: every row is a ratio of two things timed in turn in one process.
 
-``python benchmarks/budgets.py`` measures all rows in five processes, one after the other, and prints the median of the five
-and their range against the budget; ``--json PATH`` also writes them, ``--rows a,b`` measures these rows only, ``--once`` prints
-the ratios of one process as JSON, ``--busy`` takes processor time, for a machine that is not idle, ``--quick`` shows that
-everything runs. ``speed.py`` calls ``measure`` for the page "Speed against accuracy".
+``python benchmarks/budgets.py`` measures all rows in five processes, one after the other, and
+prints the median of the five and their range against the budget; ``--json PATH`` also writes them,
+``--rows a,b`` measures these rows only, ``--once`` prints the ratios of one process as JSON,
+``--busy`` takes processor time, for a machine that is not idle, ``--quick`` shows that everything
+runs. ``speed.py`` calls ``measure`` for the page "Speed against accuracy".
 """
 
 from __future__ import annotations
@@ -58,20 +59,55 @@ class Budget(NamedTuple):
 
 
 BUDGETS = (
-    Budget("import", "`import collisions` against `import numpy`, best of 15; pint and the solvers are not loaded", 1.15, 1.05),
+    Budget(
+        "import",
+        "`import collisions` against `import numpy`, best of 15; pint and the solvers are not "
+        "loaded",
+        1.15,
+        1.05,
+    ),
     Budget("vehicle", "`Vehicle` from six floats against a bare frozen dataclass with slots", 2.5),
-    Budget("eccentric", "one `eccentric` against the textbook formula as a bare function of floats", 3.0, 2.5),
+    Budget(
+        "eccentric",
+        "one `eccentric` against the textbook formula as a bare function of floats",
+        3.0,
+        2.5,
+    ),
     Budget("nine", "the same with nine outputs read", 8.0, 5.5),
     Budget("linear", "one `linear_central` against that formula", 1.15, 0.9),
     Budget("batch", "a million `eccentric`, nine outputs read, against plain numpy", 0.60, 0.45),
     Budget("batch_c", "the same against the formula in C, one thread", 1.7, 1.25),
     Budget("batch_linear", "a million `linear_central` against plain numpy", 1.25, 1.0),
     Budget("batch_8192", "8192 `eccentric`, nine outputs read, against plain numpy", 2.0, 1.3),
-    Budget("batch_10", "a batch of 10, nine outputs read, against one case of that formula", 150.0, 80.0),
-    Budget("processes", "two processes with half of a million cases each against one with all", 0.7, 0.55),
-    Budget("memory", "memory kept a case beyond the inputs that the answer keeps, nine outputs read, in bytes", 170.0),
-    Budget("quantities", "`Vehicle` from six Quantities in US units against six `.to(...).magnitude` of pint", 0.15, 0.08),
-    Budget("propagate", "quasi-random propagation, 8192 samples of six inputs, against its model once", 4.0, 2.5),
+    Budget(
+        "batch_10",
+        "a batch of 10, nine outputs read, against one case of that formula",
+        150.0,
+        80.0,
+    ),
+    Budget(
+        "processes",
+        "two processes with half of a million cases each against one with all",
+        0.7,
+        0.55,
+    ),
+    Budget(
+        "memory",
+        "memory kept a case beyond the inputs that the answer keeps, nine outputs read, in bytes",
+        170.0,
+    ),
+    Budget(
+        "quantities",
+        "`Vehicle` from six Quantities in US units against six `.to(...).magnitude` of pint",
+        0.15,
+        0.08,
+    ),
+    Budget(
+        "propagate",
+        "quasi-random propagation, 8192 samples of six inputs, against its model once",
+        4.0,
+        2.5,
+    ),
     Budget("speeds", "one `reconstruct.speeds` against one `eccentric`", 300.0, 200.0),
     Budget("solve", "one `solve` against one `eccentric`", 5.0, 3.0),
 )
@@ -79,7 +115,9 @@ CASE: dict[str, Any] = {"normal": 0.1, "point": (0.0, 0.0), "friction": 0.5}
 
 
 def fastest(calls: Calls, rounds: int, seconds: float = 0.0) -> dict[str, float]:
-    """Seconds of the fastest round of each call, in turn; short calls are repeated for so many seconds a round."""
+    """Seconds of the fastest round of each call, in turn; short calls are repeated for so many
+    seconds a round.
+    """
     repeats = {}
     for key, call in calls.items():
         call()
@@ -118,12 +156,37 @@ def nine(impact: col.Impact) -> tuple[Any, ...]:
 def singles(wanted: set[str]) -> dict[str, float]:
     """One case, one vehicle, one reverse solution; and a batch of ten."""
     a, b = cars()
-    numbers = (1500.0, 2400.0, 13.9, 0.0, 0.0, -2.0, 0.4, 1200.0, 1700.0, 0.0, 11.1, 0.0, 0.8, -1.2, 0.1, 0.1, 0.0, 0.0, 0.5)
+    numbers = (
+        1500.0,
+        2400.0,
+        13.9,
+        0.0,
+        0.0,
+        -2.0,
+        0.4,
+        1200.0,
+        1700.0,
+        0.0,
+        11.1,
+        0.0,
+        0.8,
+        -1.2,
+        0.1,
+        0.1,
+        0.0,
+        0.0,
+        0.5,
+    )
     impact = col.eccentric(a, b, 0.1, **CASE)
     np.testing.assert_allclose(nine(impact), speed_rivals.formula(*numbers), rtol=1e-9)
     line = col.Vehicle(mass=1500.0, vx=13.9), col.Vehicle(mass=1200.0, vx=2.0)
     six = {"mass": 1500.0, "yaw_inertia": 2400.0, "vx": 13.9, "vy": 0.0, "x": -2.0, "y": 0.4}
-    known = {"course_a": a.course, "course_b": b.course, "delta_v_a": impact.a.delta_v, "speed_b": b.speed}
+    known = {
+        "course_a": a.course,
+        "course_b": b.course,
+        "delta_v_a": impact.a.delta_v,
+        "speed_b": b.speed,
+    }
     ten = batch_speed.states(batch_speed.scenes(10))
     calls: Calls = {
         "formula": lambda: speed_rivals.formula(*numbers),
@@ -165,31 +228,53 @@ def batches(wanted: set[str], cases: int) -> dict[str, float]:
     scene, small = batch_speed.scenes(cases), batch_speed.scenes(8192)
     if wanted & {"batch", "batch_c"}:
         ours = batch_speed.states(scene)
-        calls: Calls = {"batch": lambda: batch_speed.library(**ours), "numpy": lambda: batch_speed.textbook(**scene)}
+        calls: Calls = {
+            "batch": lambda: batch_speed.library(**ours),
+            "numpy": lambda: batch_speed.textbook(**scene),
+        }
         compiled = in_c(scene) if "batch_c" in wanted else None
         best = fastest(calls | ({"c": compiled} if compiled else {}), 9)
-        found = {"batch": best["batch"] / best["numpy"], "batch_c": best["batch"] / best["c"] if compiled else float("nan")}
+        found = {
+            "batch": best["batch"] / best["numpy"],
+            "batch_c": best["batch"] / best["c"] if compiled else float("nan"),
+        }
     if "batch_8192" in wanted:
         states = batch_speed.states(small)
         best = fastest(
-            {"ours": lambda: batch_speed.library(**states), "numpy": lambda: batch_speed.textbook(**small)}, 41, 0.02
+            {
+                "ours": lambda: batch_speed.library(**states),
+                "numpy": lambda: batch_speed.textbook(**small),
+            },
+            41,
+            0.02,
         )
         found["batch_8192"] = best["ours"] / best["numpy"]
     if "batch_linear" in wanted:
         one, other = ({name: scene[side][name] for name in ("mass", "vx")} for side in "ab")
         pair, e = (col.Vehicle(**one), col.Vehicle(**other)), scene["restitution"]
-        best = fastest({"ours": lambda: batch_speed.central(*pair, e), "numpy": lambda: textbook_linear(one, other, e)}, 15)
+        best = fastest(
+            {
+                "ours": lambda: batch_speed.central(*pair, e),
+                "numpy": lambda: textbook_linear(one, other, e),
+            },
+            15,
+        )
         found["batch_linear"] = best["ours"] / best["numpy"]
     return found
 
 
 def textbook_linear(a: dict[str, Any], b: dict[str, Any], e: Any) -> tuple[Any, ...]:
-    """A central impact along a line as one writes it: velocities after, impulse, energy lost (eqs 5 to 8 of the paper)."""
+    """A central impact along a line as one writes it: velocities after, impulse, energy lost (eqs 5
+    to 8 of the paper).
+    """
     m1, m2, v1, v2 = a["mass"], b["mass"], a["vx"], b["vx"]
     closing = v1 - v2
     impulse = (1 + e) * closing * m1 * m2 / (m1 + m2)
     lost = 0.5 * (1 - e * e) * closing * closing * m1 * m2 / (m1 + m2)
-    return tuple(np.where(closing > 0, found, np.nan) for found in (v1 - impulse / m1, v2 + impulse / m2, impulse, lost))
+    return tuple(
+        np.where(closing > 0, found, np.nan)
+        for found in (v1 - impulse / m1, v2 + impulse / m2, impulse, lost)
+    )
 
 
 def in_c(scene: dict[str, Any]) -> Callable[[], Any] | None:
@@ -218,7 +303,9 @@ def in_c(scene: dict[str, Any]) -> Callable[[], Any] | None:
 
 
 def kept(cases: int) -> float:
-    """Bytes a case that stay in memory with an impact of which nine outputs were read, its copies of the arguments aside."""
+    """Bytes a case that stay in memory with an impact of which nine outputs were read, its copies
+    of the arguments aside.
+    """
     scene = batch_speed.states(batch_speed.scenes(cases))
     batch_speed.library(**scene)
     gc.collect()
@@ -236,7 +323,9 @@ def kept(cases: int) -> float:
 
 
 def _work(cases: int, pipe: Any) -> None:
-    """A process of its own: makes its vehicles, says so, and answers at every call how long it took."""
+    """A process of its own: makes its vehicles, says so, and answers at every call how long it
+    took.
+    """
     states = batch_speed.states(batch_speed.scenes(cases))
     batch_speed.library(**states)
     pipe.send(None)
@@ -245,7 +334,9 @@ def _work(cases: int, pipe: Any) -> None:
 
 
 def processes(cases: int) -> float:
-    """What two processes that run at once take for half of the cases each, of what one takes for all; the best of each."""
+    """What two processes that run at once take for half of the cases each, of what one takes for
+    all; the best of each.
+    """
     context = multiprocessing.get_context("spawn")
     best = []
     for count in (1, 2):
@@ -273,19 +364,33 @@ def processes(cases: int) -> float:
 def propagation() -> float:
     """8192 quasi-random samples of six inputs against one call of the model with as many cases."""
 
-    def model(speed_a: Any, speed_b: Any, mass_a: Any, restitution: Any, friction: Any, lever: Any) -> dict[str, Any]:
+    def model(
+        speed_a: Any, speed_b: Any, mass_a: Any, restitution: Any, friction: Any, lever: Any
+    ) -> dict[str, Any]:
         a = col.Vehicle(mass=mass_a, yaw_inertia=2600.0, vx=speed_a, x=-2.2, y=0.0)
         b = col.Vehicle(mass=1200.0, yaw_inertia=2000.0, vy=speed_b, x=0.9, y=-lever)
-        found = col.eccentric(a, b, restitution, normal=0.0, point=(0.0, 0.0), friction=friction, on_failure="nan")
+        found = col.eccentric(
+            a, b, restitution, normal=0.0, point=(0.0, 0.0), friction=friction, on_failure="nan"
+        )
         return {"delta_v": found.b.delta_v}
 
-    inputs = {"speed_a": Normal(15.0, 0.5), "speed_b": Normal(5.0, 0.5), "mass_a": Normal(1500.0, 30.0)}
-    inputs |= {"restitution": Uniform(0.1, 0.2), "friction": Uniform(0.5, 0.7), "lever": Normal(0.8, 0.05)}
+    inputs = {
+        "speed_a": Normal(15.0, 0.5),
+        "speed_b": Normal(5.0, 0.5),
+        "mass_a": Normal(1500.0, 30.0),
+    }
+    inputs |= {
+        "restitution": Uniform(0.1, 0.2),
+        "friction": Uniform(0.5, 0.7),
+        "lever": Normal(0.8, 0.05),
+    }
     rng = np.random.default_rng(1)
     drawn = {name: one.quantile(rng.random(8192)) for name, one in inputs.items()}
     best = fastest(
         {
-            "ours": lambda: propagate(model, inputs, method="quasi_random", samples=8192, seed=1)["delta_v"].interval(0.95),
+            "ours": lambda: propagate(model, inputs, method="quasi_random", samples=8192, seed=1)[
+                "delta_v"
+            ].interval(0.95),
             "once": lambda: model(**drawn),
         },
         41,
@@ -301,15 +406,19 @@ def once(wanted: set[str], cases: int = 1_000_000) -> dict[str, float]:
         warnings.simplefilter("ignore", col.CollisionsWarning)
         found |= singles(wanted)
         found |= batches(wanted, cases)
-        for key, row in (("memory", lambda: kept(cases)), ("processes", lambda: processes(cases)), ("propagate", propagation)):
+        for key, row in (
+            ("memory", lambda: kept(cases)),
+            ("processes", lambda: processes(cases)),
+            ("propagate", propagation),
+        ):
             if key in wanted:
                 found[key] = row()
     if "import" in wanted:
         import import_times
 
-        found["import"] = import_times.imports(max(2, round(effort * 15)), ("numpy", "collisions"))["rows"]["collisions"][
-            "best"
-        ]
+        found["import"] = import_times.imports(max(2, round(effort * 15)), ("numpy", "collisions"))[
+            "rows"
+        ]["collisions"]["best"]
     return {key: value for key, value in found.items() if key in wanted}
 
 
@@ -319,24 +428,42 @@ def sizes(most: int = SIZES[-1]) -> list[dict[str, float]]:
     for cases in (size for size in SIZES if size <= most):
         scene = batch_speed.scenes(cases)
         states = batch_speed.states(scene)
-        calls = {"ours": partial(batch_speed.library, **states), "numpy": partial(batch_speed.textbook, **scene)}
+        calls = {
+            "ours": partial(batch_speed.library, **states),
+            "numpy": partial(batch_speed.textbook, **scene),
+        }
         best = fastest(calls, 5 if cases > 100_000 else 21, 0.004)
         found.append({"cases": cases, "ratio": float(f"{best['ours'] / best['numpy']:.3g}")})
     return found
 
 
-def measure(runs: int = RUNS, keys: list[str] | None = None, options: tuple[str, ...] = ()) -> list[dict[str, Any]]:
-    """Every row: the median and the range of so many runs, each in a process of its own, and whether the budget is held."""
+def measure(
+    runs: int = RUNS, keys: list[str] | None = None, options: tuple[str, ...] = ()
+) -> list[dict[str, Any]]:
+    """Every row: the median and the range of so many runs, each in a process of its own, and
+    whether the budget is held.
+    """
     wanted = keys or [row.key for row in BUDGETS]
     command = [sys.executable, __file__, "--once", "--rows", ",".join(wanted), *options]
-    each = [json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout) for _ in range(runs)]
+    each = [
+        json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+        for _ in range(runs)
+    ]
     rows = []
     for row in BUDGETS:
         values = [one[row.key] for one in each if one.get(row.key) == one.get(row.key) is not None]
         if row.key in wanted and values:
             median = float(f"{statistics.median(values):.3g}")
             low, high = (float(f"{end:.3g}") for end in (min(values), max(values)))
-            rows.append({**row._asdict(), "median": median, "low": low, "high": high, "held": median <= row.budget})
+            rows.append(
+                {
+                    **row._asdict(),
+                    "median": median,
+                    "low": low,
+                    "high": high,
+                    "held": median <= row.budget,
+                }
+            )
     return rows
 
 
@@ -347,7 +474,9 @@ def options_of(options: argparse.Namespace) -> list[str]:
 
 def main() -> None:
     """Measure, print, and write if asked to."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--once", action="store_true")
     parser.add_argument("--busy", action="store_true")
     parser.add_argument("--quick", action="store_true")

@@ -1,4 +1,6 @@
-"""Simulated crashes whose truth is known, and what is read of them: surveys, recorders, damage, each with its errors."""
+"""Simulated crashes whose truth is known, and what is read of them: surveys, recorders, damage,
+each with its errors.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,10 @@ from collisions.travel import SimulatedPath
 from collisions.uncertainty import Normal
 
 # What an analyst knows of every crash beforehand; the truth is drawn from it. Each in SI.
-RESTITUTION, FRICTION = Normal(0.12, 0.06, truncate=(0.0, 0.4)), Normal(0.45, 0.08, truncate=(0.2, 0.8))
+RESTITUTION, FRICTION = (
+    Normal(0.12, 0.06, truncate=(0.0, 0.4)),
+    Normal(0.45, 0.08, truncate=(0.2, 0.8)),
+)
 GROUND = Normal(0.70, 0.05)
 LOCK = Normal(0.40, 0.10, truncate=(0.05, 1.0))
 MASS_ERROR, INERTIA_ERROR = 0.02, 0.10  # shares
@@ -47,7 +52,9 @@ class Crash:
 
 
 def crashes(count: int, seed: int) -> list[Crash]:
-    """Two cars whose courses cross at 50 to 130 degrees, anywhere on each other; those that slide 5 m or more to rest."""
+    """Two cars whose courses cross at 50 to 130 degrees, anywhere on each other; those that slide 5
+    m or more to rest.
+    """
     generator = np.random.default_rng(seed)
     n = 3 * count
     draw = generator.uniform
@@ -58,7 +65,8 @@ def crashes(count: int, seed: int) -> list[Crash]:
     speeds, masses = draw(8.0, 20.0, (2, n)), draw(900.0, 2000.0, (2, n))
     a, b = (
         col.Vehicle.from_speed(
-            speed=speeds[i], course=course, heading=course, mass=masses[i], yaw_inertia=1.6 * masses[i],
+            speed=speeds[i], course=course, heading=course, mass=masses[i],
+            yaw_inertia=1.6 * masses[i],
             x=-away * nx - across[i] * ny, y=-away * ny + across[i] * nx,
         )
         for i, (course, away) in enumerate(((np.zeros(n), 1.6), (crossing, -1.3)))
@@ -68,12 +76,18 @@ def crashes(count: int, seed: int) -> list[Crash]:
     locks = LOCK.quantile(draw(size=(2, n)))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.CollisionsWarning)
-        impact = col.eccentric(a, b, RESTITUTION.quantile(draw(size=n)), **contact, on_failure="nan")
+        impact = col.eccentric(
+            a, b, RESTITUTION.quantile(draw(size=n)), **contact, on_failure="nan"
+        )
         ways = [
-            travel.simulate(side.after, travel.Tyres(friction, lock, wheelbase=2.7, track=1.5), moments=301)
+            travel.simulate(
+                side.after, travel.Tyres(friction, lock, wheelbase=2.7, track=1.5), moments=301
+            )
             for side, lock in zip((impact.a, impact.b), locks, strict=True)
         ]
-    lengths = [np.sum(np.hypot(np.diff(way.x, axis=0), np.diff(way.y, axis=0)), axis=0) for way in ways]
+    lengths = [
+        np.sum(np.hypot(np.diff(way.x, axis=0), np.diff(way.y, axis=0)), axis=0) for way in ways
+    ]
     fit = np.flatnonzero((lengths[0] >= 5.0) & (lengths[1] >= 5.0))[:count]
     return [
         Crash(
@@ -94,8 +108,12 @@ def _one(way: SimulatedPath, i: int) -> SimulatedPath:
     )  # fmt: skip
 
 
-def surveyed(way: SimulatedPath, generator: np.random.Generator | None = None, spacing: float = SPACING) -> tuple[Any, Any]:
-    """Points and headings along a way, at equal distances; with their errors if there is a generator for them."""
+def surveyed(
+    way: SimulatedPath, generator: np.random.Generator | None = None, spacing: float = SPACING
+) -> tuple[Any, Any]:
+    """Points and headings along a way, at equal distances; with their errors if there is a
+    generator for them.
+    """
     along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(way.x), np.diff(way.y)))])
     at = np.linspace(0.0, along[-1], max(4, round(along[-1] / spacing) + 1))
     x, y, heading = (np.interp(at, along, part) for part in (way.x, way.y, way.heading))
@@ -112,27 +130,40 @@ def recorded(side: Any, generator: np.random.Generator) -> reconstruct.RecordedP
     shape = 0.5 * (1.0 - np.cos(np.pi * np.clip(time / 0.1, 0.0, 1.0)))
     readings = []
     for truth in (side.delta_v_forward, side.delta_v_left):
-        half = max(reference.RECORDER_ACCURACY.high * abs(truth), 0.5 * reference.RECORDER_RESOLUTION.high)
+        half = max(
+            reference.RECORDER_ACCURACY.high * abs(truth), 0.5 * reference.RECORDER_RESOLUTION.high
+        )
         readings.append((truth + generator.uniform(-half, half)) * shape)
     return reconstruct.recorded_pulse(time, *readings, polarity="ISO 8855")
 
 
 def read(crash: Crash, generator: np.random.Generator) -> dict[str, Normal]:
     """The geometry and the vehicles as an analyst has them, each read with its error."""
-    found = {"normal": (crash.impact.normal_angle, NORMAL_ERROR), "x": (0.0, PLACE_ERROR), "y": (0.0, PLACE_ERROR)}
+    found = {
+        "normal": (crash.impact.normal_angle, NORMAL_ERROR),
+        "x": (0.0, PLACE_ERROR),
+        "y": (0.0, PLACE_ERROR),
+    }
     for label, side in crash.sides.items():
         found[f"mass_{label}"] = side.before.mass, MASS_ERROR * side.before.mass
         found[f"inertia_{label}"] = side.before.yaw_inertia, INERTIA_ERROR * side.before.yaw_inertia
         found[f"course_{label}"] = side.before.course, COURSE_ERROR
-    return {name: Normal(truth + generator.normal(0.0, error), error) for name, (truth, error) in found.items()}
+    return {
+        name: Normal(truth + generator.normal(0.0, error), error)
+        for name, (truth, error) in found.items()
+    }
 
 
 def bodies(crash: Crash, values: dict[str, Any]) -> list[col.Vehicle]:
-    """Both vehicles before with these values of ``read``, and of their speeds if these are among them."""
+    """Both vehicles before with these values of ``read``, and of their speeds if these are among
+    them.
+    """
     return [
         col.Vehicle.from_speed(
-            mass=values[f"mass_{label}"], yaw_inertia=values[f"inertia_{label}"], x=side.before.x, y=side.before.y,
-            speed=values.get(f"speed_{label}", 0.0), course=values[f"course_{label}"], heading=values[f"course_{label}"],
+            mass=values[f"mass_{label}"], yaw_inertia=values[f"inertia_{label}"], x=side.before.x,
+            y=side.before.y,
+            speed=values.get(f"speed_{label}", 0.0), course=values[f"course_{label}"],
+            heading=values[f"course_{label}"],
         )
         for label, side in crash.sides.items()
     ]  # fmt: skip

@@ -1,4 +1,6 @@
-"""The tables of the page "Evidence, measured", made from the numbers that benchmarks/evidence.py wrote."""
+"""The tables of the page "Evidence, measured", made from the numbers that benchmarks/evidence.py
+wrote.
+"""
 
 from __future__ import annotations
 
@@ -42,8 +44,18 @@ def routes(found: dict[str, Any]) -> str:
     rows = []
     for name, row in found["routes"].items():
         plain, warned = row["plain"], row["warned"]
-        counts = [str(row["crashes"]), str(plain["intervals"]), held(plain), str(plain["above"]), str(plain["below"])]
-        widths = "{1:.1f} ({0:.1f} to {2:.1f})".format(*row["half_width"]) if row["half_width"] else "none"
+        counts = [
+            str(row["crashes"]),
+            str(plain["intervals"]),
+            held(plain),
+            str(plain["above"]),
+            str(plain["below"]),
+        ]
+        widths = (
+            "{1:.1f} ({0:.1f} to {2:.1f})".format(*row["half_width"])
+            if row["half_width"]
+            else "none"
+        )
         of_warned = f"{held(warned)} of {warned['intervals']}" if warned["intervals"] else "none"
         rows.append([name, *counts, widths, of_warned, str(row["refused"])])
     return table(head, rows)
@@ -51,7 +63,13 @@ def routes(found: dict[str, Any]) -> str:
 
 def survey(found: dict[str, Any]) -> str:
     """Errors of course and speed by the spacing of the points."""
-    head = ["points every", "course, three points", "course, smoothed", "speed, three points", "speed, smoothed"]
+    head = [
+        "points every",
+        "course, three points",
+        "course, smoothed",
+        "speed, three points",
+        "speed, smoothed",
+    ]
     rows = [
         [
             f"{row['spacing']:g} m",

@@ -1,4 +1,6 @@
-"""The time of an import, against that of numpy, each in a process of its own; and ratios of times."""
+"""The time of an import, against that of numpy, each in a process of its own; and
+ratios of times.
+"""
 
 from __future__ import annotations
 
@@ -26,22 +28,34 @@ def ratio(times: Times, one: str, other: str) -> dict[str, float]:
     """What one costs of the other: the median of the rounds and their quartiles."""
     each = [x / y for x, y in zip(times[one], times[other], strict=True)]
     low, median, high = statistics.quantiles(each, n=4, method="inclusive")
-    return {"median": speed_errors.rounded(median), "low": speed_errors.rounded(low), "high": speed_errors.rounded(high)}
+    return {
+        "median": speed_errors.rounded(median),
+        "low": speed_errors.rounded(low),
+        "high": speed_errors.rounded(high),
+    }
 
 
 MODULES = ("numpy", "collisions", "collisions.impact.solvers", "pint", "numba", "pymunk")
 
 
-TIMED = "import sys, time; t = time.perf_counter(); import {0}; t = time.perf_counter() - t; print(t, 'pint' in sys.modules)"
+TIMED = (
+    "import sys, time; t = time.perf_counter(); import {0}; t = time.perf_counter() - t; "
+    "print(t, 'pint' in sys.modules)"
+)
 
 
 def imports(count: int, modules: tuple[str, ...] = MODULES) -> dict[str, Any]:
-    """The best import of so many, each in a process of its own, against that of numpy; whether pint was loaded.
+    """The best import of so many, each in a process of its own, against that of numpy; whether pint
+    was loaded.
 
     The package is compiled first, as it is where it was installed.
     """
     with tempfile.TemporaryDirectory() as folder:
-        shutil.copytree(ROOT / "src" / "collisions", Path(folder) / "collisions", ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(
+            ROOT / "src" / "collisions",
+            Path(folder) / "collisions",
+            ignore=shutil.ignore_patterns("__pycache__"),
+        )
         assert compileall.compile_dir(folder, quiet=1)
         path = os.pathsep.join([folder, *filter(None, [os.environ.get("PYTHONPATH")])])
         environment = {**os.environ, "PYTHONPATH": path}
@@ -56,7 +70,11 @@ def _imports(count: int, modules: tuple[str, ...], environment: dict[str, str]) 
     for turn in range(count + 1):
         for name in names[:: -1 if turn % 2 else 1]:
             printed = subprocess.run(
-                [sys.executable, "-c", TIMED.format(name)], env=environment, capture_output=True, text=True, check=True
+                [sys.executable, "-c", TIMED.format(name)],
+                env=environment,
+                capture_output=True,
+                text=True,
+                check=True,
             ).stdout.split()
             if turn:  # the first one may have to compile
                 found[name].append(float(printed[0]))

@@ -1,12 +1,14 @@
-"""The generating vector of the quasi-random points: built one component after the other, as its source describes.
+"""The generating vector of the quasi-random points: built one component after the other, as its
+source describes.
 
     python benchmarks/lattice.py
 
-prints the vector in ``collisions/uncertainty/designs.py`` and how evenly its points fill the cube against independent ones. The
-construction is that of R. Cools, F. Y. Kuo, D. Nuyens, "Constructing embedded lattice rules for multivariate integration",
-SIAM J. Sci. Comput. 28 (2006): each component is the candidate with the least squared worst-case error in a weighted Korobov
-space of smoothness 2, here by the mean of its logarithm over the sizes below, so that every power of two is served. All inputs
-weigh the same, because the order in which an analyst names them means nothing.
+prints the vector in ``collisions/uncertainty/designs.py`` and how evenly its points fill the cube
+against independent ones. The construction is that of R. Cools, F. Y. Kuo, D. Nuyens, "Constructing
+embedded lattice rules for multivariate integration", SIAM J. Sci. Comput. 28 (2006): each component
+is the candidate with the least squared worst-case error in a weighted Korobov space of smoothness
+2, here by the mean of its logarithm over the sizes below, so that every power of two is served. All
+inputs weigh the same, because the order in which an analyst names them means nothing.
 """
 
 import numpy as np
@@ -29,9 +31,17 @@ def build(count: int, seed: int = 2006) -> list[int]:
     product = {size: np.ones(size) for size in SIZES}
     vector: list[int] = []
     for _ in range(count):
-        candidates = [1] if not vector else sorted({int(z) | 1 for z in random.integers(3, 2**BITS, CANDIDATES)} - set(vector))
+        candidates = (
+            [1]
+            if not vector
+            else sorted({int(z) | 1 for z in random.integers(3, 2**BITS, CANDIDATES)} - set(vector))
+        )
         scores = [
-            sum(np.log(np.mean(product[size] * factor(index[size], z, size)) - 1.0) for size in SIZES) for z in candidates
+            sum(
+                np.log(np.mean(product[size] * factor(index[size], z, size)) - 1.0)
+                for size in SIZES
+            )
+            for z in candidates
         ]
         best = candidates[int(np.argmin(scores))]
         vector.append(best)
@@ -48,7 +58,13 @@ if __name__ == "__main__":
     found = build(64)
     print(found)
     for size in SIZES:
-        lattice = np.mean(np.prod([factor(np.arange(size), z, size) for z in found[:10]], axis=0)) - 1.0
+        lattice = (
+            np.mean(np.prod([factor(np.arange(size), z, size) for z in found[:10]], axis=0)) - 1.0
+        )
         # The mean over independent points: only the diagonal of the double sum stays.
         independent = ((1.0 + WEIGHT * kernel(np.zeros(1))[0]) ** 10 - 1.0) / size
-        print(size, "points in 10 dimensions: error against independent points", f"{np.sqrt(lattice / independent):.3g}")
+        print(
+            size,
+            "points in 10 dimensions: error against independent points",
+            f"{np.sqrt(lattice / independent):.3g}",
+        )

@@ -1,12 +1,15 @@
-"""Posteriors, measured: how often their intervals hold the truth, whether comparisons mean what they say, error against cost.
+"""Posteriors, measured: how often their intervals hold the truth, whether comparisons mean what
+they say, error against cost.
 
-``python benchmarks/posterior.py`` runs all of it in ten minutes on two processors and writes docs/_generated/posterior.json and
-the figure of the page. ``--quick`` measures less, to see that everything runs; ``--json PATH`` writes there, without figure.
+``python benchmarks/posterior.py`` runs all of it in ten minutes on two processors and writes
+docs/_generated/posterior.json and the figure of the page. ``--quick`` measures less, to see that
+everything runs; ``--json PATH`` writes there, without figure.
 
-Simulation-based calibration (S. Talts, M. Betancourt, D. Simpson, A. Vehtari and A. Gelman, "Validating Bayesian inference
-algorithms with simulation-based calibration", 2018): the truth is drawn from the priors, the evidence is simulated from the
-truth with the stated errors, and the rank of the truth among the samples of the posterior must be uniform. Priors and errors
-are drawn by numpy's own generator.
+Simulation-based calibration (S. Talts, M. Betancourt, D. Simpson, A. Vehtari and A. Gelman,
+"Validating Bayesian inference algorithms with simulation-based calibration", 2018): the truth is
+drawn from the priors, the evidence is simulated from the truth with the stated errors, and the rank
+of the truth among the samples of the posterior must be uniform. Priors and errors are drawn by
+numpy's own generator.
 """
 
 from __future__ import annotations
@@ -36,7 +39,8 @@ from collisions.reconstruct import Posterior, compare, posterior
 from collisions.travel import GRAVITY
 from collisions.uncertainty import Censored, Interval, LogNormal, Normal, Triangular, Uniform
 
-# All islands in each call of the model, which changes a rounding at most, and saves most of the time of so small samples.
+# All islands in each call of the model, which changes a rounding at most, and saves most of the
+# time of so small samples.
 bayes._SIDE_BY_SIDE = bayes.ISLANDS
 
 DATA = ROOT / "docs" / "_generated" / "posterior.json"
@@ -80,7 +84,9 @@ def read(error: float) -> Callable[[float, np.random.Generator], Any]:
 
 def in_steps(step: float) -> Callable[[float, np.random.Generator], Any]:
     """A reading in steps: the truth lies within one."""
-    return lambda true, random: Interval(step * math.floor(true / step), step * (math.floor(true / step) + 1.0))
+    return lambda true, random: Interval(
+        step * math.floor(true / step), step * (math.floor(true / step) + 1.0)
+    )
 
 
 def ended_at(most: float, error: float) -> Callable[[float, np.random.Generator], Any]:
@@ -94,12 +100,20 @@ def ended_at(most: float, error: float) -> Callable[[float, np.random.Generator]
 
 
 def crossing(
-    speed_a: Any, speed_b: Any, restitution: Any, friction: Any, contact: Any, mass_b: Any, turned: float = 0.0
+    speed_a: Any,
+    speed_b: Any,
+    restitution: Any,
+    friction: Any,
+    contact: Any,
+    mass_b: Any,
+    turned: float = 0.0,
 ) -> col.Impact:
     """A drives into the side of B; the normal may be turned."""
     a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=speed_a, x=-2.2, y=0.0)
     b = col.Vehicle(mass=mass_b, yaw_inertia=1.6 * mass_b, vy=speed_b, x=0.9, y=-0.5)
-    return col.eccentric(a, b, restitution, normal=turned, point=(0.0, contact), friction=friction, on_failure="nan")
+    return col.eccentric(
+        a, b, restitution, normal=turned, point=(0.0, contact), friction=friction, on_failure="nan"
+    )
 
 
 def marks(**unknowns: Any) -> Numbers:
@@ -115,7 +129,9 @@ def marks(**unknowns: Any) -> Numbers:
 
 
 def rests(drag: Any, share: Any, **unknowns: Any) -> Numbers:
-    """Ways to rest over one drag, a recorder in steps, one that may have ended early, and the energy of the damage."""
+    """Ways to rest over one drag, a recorder in steps, one that may have ended early, and the
+    energy of the damage.
+    """
     impact = crossing(**unknowns)
     return {
         "way_a": impact.a.after.speed**2 / (2.0 * GRAVITY * drag),
@@ -180,7 +196,9 @@ SCENES = (
 BY_KEY = {scene.key: scene for scene in SCENES}
 
 
-def simulated(scene: Scene, random: np.random.Generator, model: Any = None) -> tuple[Numbers, Numbers]:
+def simulated(
+    scene: Scene, random: np.random.Generator, model: Any = None
+) -> tuple[Numbers, Numbers]:
     """The truth, from the priors wherever there is an impact, and the evidence of it."""
     names = list(scene.priors)
     matrix = np.eye(len(names))
@@ -190,33 +208,52 @@ def simulated(scene: Scene, random: np.random.Generator, model: Any = None) -> t
     factor = np.linalg.cholesky(matrix)
     while True:
         shares = [NormalDist().cdf(z) for z in factor @ random.standard_normal(len(names))]
-        truth = {name: float(scene.priors[name].quantile(share)) for name, share in zip(names, shares, strict=True)}
+        truth = {
+            name: float(scene.priors[name].quantile(share))
+            for name, share in zip(names, shares, strict=True)
+        }
         outputs = {
             name: float(np.asarray(value)[0])
-            for name, value in (model or scene.model)(**{name: np.array([value]) for name, value in truth.items()}).items()
+            for name, value in (model or scene.model)(
+                **{name: np.array([value]) for name, value in truth.items()}
+            ).items()
         }
         if not any(map(math.isnan, outputs.values())):
-            return truth, {name: reading(outputs[name], random) for name, reading in scene.readings.items()}
+            return truth, {
+                name: reading(outputs[name], random) for name, reading in scene.readings.items()
+            }
 
 
-def sampled(scene: Scene, observed: Numbers, samples: int, seed: int, model: Any = None) -> tuple[Posterior, list[str]]:
+def sampled(
+    scene: Scene, observed: Numbers, samples: int, seed: int, model: Any = None
+) -> tuple[Posterior, list[str]]:
     """The posterior, and the codes of what it warned of."""
     with warnings.catch_warnings(record=True) as given:
         warnings.simplefilter("always")
         found = posterior(
-            model or scene.model, scene.priors, observed, samples=samples, seed=seed, correlation=scene.correlation
+            model or scene.model,
+            scene.priors,
+            observed,
+            samples=samples,
+            seed=seed,
+            correlation=scene.correlation,
         )
     return found, [one.message.code for one in given]
 
 
 def replicate(key: str, turn: int, samples: int) -> Numbers:
-    """Of one simulated scene: where each true value lies in its posterior, and what was warned of."""
+    """Of one simulated scene: where each true value lies in its posterior, and what was
+    warned of.
+    """
     scene = BY_KEY[key]
     truth, observed = simulated(scene, np.random.default_rng([SEED, list(BY_KEY).index(key), turn]))
     found, codes = sampled(scene, observed, samples, turn)
     places = {name: float(np.mean(found[name].values < true)) for name, true in truth.items()}
     inside = {
-        name: [low <= true <= high for low, high in (found[name].interval(share) for share in COVERAGES)]
+        name: [
+            low <= true <= high
+            for low, high in (found[name].interval(share) for share in COVERAGES)
+        ]
         for name, true in truth.items()
     }
     return {
@@ -232,7 +269,9 @@ def replicate(key: str, turn: int, samples: int) -> Numbers:
 def calibration(scene: Scene, effort: Effort, pool: Any) -> Numbers:
     """Coverage of intervals and histograms of ranks, by unknown."""
     turns, samples = range(effort.replicates), min(scene.samples, effort.samples)
-    rows = list(pool.map(replicate, [scene.key] * len(turns), turns, [samples] * len(turns), chunksize=4))
+    rows = list(
+        pool.map(replicate, [scene.key] * len(turns), turns, [samples] * len(turns), chunksize=4)
+    )
     unknowns = {}
     for name in scene.priors:
         counts, _ = np.histogram([row["places"][name] for row in rows], BINS, (0.0, 1.0))
@@ -265,7 +304,9 @@ def account(turned: float) -> Callable[..., Numbers]:
 
 
 def crash(turn: int, samples: int) -> tuple[float, bool]:
-    """Of one simulated crash: the stated probability that the contact was turned, and whether it was."""
+    """Of one simulated crash: the stated probability that the contact was turned, and whether it
+    was.
+    """
     random = np.random.default_rng([SEED, 99, turn])
     scene, turned = BY_KEY["marks"], bool(random.random() < 0.5)
     _, observed = simulated(scene, random, account(TURNED if turned else 0.0))
@@ -294,7 +335,9 @@ def comparisons(effort: Effort, pool: Any) -> Numbers:
                 "from": low,
                 "to": high,
                 "crashes": int(np.sum(which == k)),
-                "stated": round(float(np.mean(stated[which == k])), 3) if np.any(which == k) else None,
+                "stated": round(float(np.mean(stated[which == k])), 3)
+                if np.any(which == k)
+                else None,
                 "true": int(np.sum(true[which == k])),
             }
             for k, (low, high) in enumerate(pairwise(edges))
@@ -303,7 +346,9 @@ def comparisons(effort: Effort, pool: Any) -> Numbers:
 
 
 def one_run(key: str, samples: int, seed: int) -> Numbers:
-    """One evidence again with another seed: its figures, their stated errors, and what they cost."""
+    """One evidence again with another seed: its figures, their stated errors, and what
+    they cost.
+    """
     scene = BY_KEY[key]
     _, observed = simulated(scene, np.random.default_rng([SEED, 7]))
     cases = 0
@@ -331,11 +376,15 @@ def one_run(key: str, samples: int, seed: int) -> Numbers:
 
 
 def cost(effort: Effort, pool: Any) -> list[Numbers]:
-    """Error of sampling against the number of samples: as stated, and as the scatter over seeds shows."""
+    """Error of sampling against the number of samples: as stated, and as the scatter over seeds
+    shows.
+    """
     found = []
     for key in BY_KEY:
         for samples in effort.sizes:
-            rows = list(pool.map(one_run, [key] * effort.runs, [samples] * effort.runs, range(effort.runs)))
+            rows = list(
+                pool.map(one_run, [key] * effort.runs, [samples] * effort.runs, range(effort.runs))
+            )
             columns = {name: np.array([row[name] for row in rows]) for name in rows[0]}
             std = float(np.mean(columns["std"]))
 
@@ -355,7 +404,8 @@ def cost(effort: Effort, pool: Any) -> list[Numbers]:
                 "seconds": float(np.median(columns["seconds"])),
             }
             found.append(
-                {"key": key, "samples": samples, "runs": len(rows)} | {k: float(f"{v:.3g}") for k, v in figures.items()}
+                {"key": key, "samples": samples, "runs": len(rows)}
+                | {k: float(f"{v:.3g}") for k, v in figures.items()}
             )
     return found
 
@@ -374,15 +424,21 @@ def measure(effort: Effort, processes: int) -> Numbers:
     return found
 
 
-# --- What the page shows ---------------------------------------------------------------------------------------------------
+# --- What the page shows --------------------------------------------------------------------------
 
 
 def _share(held: int, tried: int) -> str:
     """A share that was counted, with its 95 percent range by Wilson's score."""
     z = 1.959964
     share, square = held / tried, z * z / tried
-    middle, half = share + 0.5 * square, z * math.sqrt(share * (1.0 - share) / tried + 0.25 * square / tried)
-    low, high = max(0.0, (middle - half) / (1.0 + square)), min(1.0, (middle + half) / (1.0 + square))
+    middle, half = (
+        share + 0.5 * square,
+        z * math.sqrt(share * (1.0 - share) / tried + 0.25 * square / tried),
+    )
+    low, high = (
+        max(0.0, (middle - half) / (1.0 + square)),
+        min(1.0, (middle + half) / (1.0 + square)),
+    )
     return f"{100.0 * share:.1f} % ({100.0 * low:.0f} to {100.0 * high:.0f})"
 
 
@@ -404,8 +460,22 @@ def coverage_table(found: Numbers) -> str:
     for scene in found["scenes"]:
         for name, row in scene["unknowns"].items():
             held = [_share(count, scene["replicates"]) for count in row["held"]]
-            rows.append([scene["key"], f"`{name}`", *held, f"{uniformity(row['ranks']):.2f}", f"{row['shrinkage']:.2f}"])
-    head = ["scene", "unknown", *(f"{100 * share:.0f} %" for share in COVERAGES), "chance of such ranks", "median shrinkage"]
+            rows.append(
+                [
+                    scene["key"],
+                    f"`{name}`",
+                    *held,
+                    f"{uniformity(row['ranks']):.2f}",
+                    f"{row['shrinkage']:.2f}",
+                ]
+            )
+    head = [
+        "scene",
+        "unknown",
+        *(f"{100 * share:.0f} %" for share in COVERAGES),
+        "chance of such ranks",
+        "median shrinkage",
+    ]
     return _table(head, rows)
 
 
@@ -414,12 +484,18 @@ def overall(found: Numbers) -> str:
     parts = []
     for scene in found["scenes"]:
         tried = scene["replicates"] * len(scene["unknowns"])
-        held = [sum(row["held"][k] for row in scene["unknowns"].values()) for k in range(len(COVERAGES))]
+        held = [
+            sum(row["held"][k] for row in scene["unknowns"].values()) for k in range(len(COVERAGES))
+        ]
         shares = ", ".join(f"{100 * count / tried:.1f}" for count in held)
-        warned = ", ".join(f"`{code}` in {count}" for code, count in scene["warned"].items()) or "nothing"
+        warned = (
+            ", ".join(f"`{code}` in {count}" for code, count in scene["warned"].items())
+            or "nothing"
+        )
         parts.append(
-            f"Scene {scene['key']} ({scene['name']}; {scene['replicates']} crashes, {scene['samples']} samples): the 50, 80 "
-            f"and 95 percent intervals of all unknowns held {shares} percent of the truths; warned of: {warned}."
+            f"Scene {scene['key']} ({scene['name']}; {scene['replicates']} crashes, "
+            f"{scene['samples']} samples): the 50, 80 and 95 percent intervals of all unknowns "
+            f"held {shares} percent of the truths; warned of: {warned}."
         )
     return "\n\n".join(parts)
 
@@ -427,7 +503,12 @@ def overall(found: Numbers) -> str:
 def compare_table(found: Numbers) -> str:
     """Stated probabilities of an account and how often it was true."""
     rows = [
-        [f"{row['from']:g} to {row['to']:g}", str(row["crashes"]), f"{row['stated']:.2f}", _share(row["true"], row["crashes"])]
+        [
+            f"{row['from']:g} to {row['to']:g}",
+            str(row["crashes"]),
+            f"{row['stated']:.2f}",
+            _share(row["true"], row["crashes"]),
+        ]
         for row in found["compare"]["bins"]
         if row["crashes"]
     ]
@@ -462,9 +543,15 @@ def cost_table(found: Numbers) -> str:
 
 def draw(plt: Any, found: Numbers) -> Any:
     """Histograms of ranks, by unknown, with the range that 19 of 20 bins of even ranks lie in."""
-    cells = [(scene, name, row) for scene in found["scenes"] for name, row in scene["unknowns"].items()]
+    cells = [
+        (scene, name, row) for scene in found["scenes"] for name, row in scene["unknowns"].items()
+    ]
     figure, grid = plt.subplots(
-        -(-len(cells) // 5), 5, figsize=(11.5, 1.75 * -(-len(cells) // 5)), sharex=True, layout="constrained"
+        -(-len(cells) // 5),
+        5,
+        figsize=(11.5, 1.75 * -(-len(cells) // 5)),
+        sharex=True,
+        layout="constrained",
     )
     for axes, (scene, name, row) in zip(grid.flat, cells, strict=False):
         each = scene["replicates"] / BINS
@@ -472,7 +559,14 @@ def draw(plt: Any, found: Numbers) -> Any:
         axes.axhspan(each - off, each + off, color="#d8d8d8", lw=0, zorder=0)
         axes.axhline(each, color="#6a6a6a", lw=0.9, zorder=1)
         axes.stairs(
-            row["ranks"], np.linspace(0.0, 1.0, BINS + 1), fill=True, fc="#9db8d6", ec="#1f5fa8", lw=0.9, zorder=2, alpha=0.8
+            row["ranks"],
+            np.linspace(0.0, 1.0, BINS + 1),
+            fill=True,
+            fc="#9db8d6",
+            ec="#1f5fa8",
+            lw=0.9,
+            zorder=2,
+            alpha=0.8,
         )
         axes.set_title(f"{scene['key']}: {name}", fontsize=9)
         axes.set_ylim(0.0, 2.0 * each)
@@ -486,8 +580,12 @@ def draw(plt: Any, found: Numbers) -> Any:
 
 def main() -> None:
     """Measure, write and draw."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quick", action="store_true", help="measure less, to see that everything runs")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--quick", action="store_true", help="measure less, to see that everything runs"
+    )
     parser.add_argument("--json", type=Path, help="where to write the numbers")
     parser.add_argument("--processes", type=int, default=2)
     options = parser.parse_args()
@@ -500,7 +598,11 @@ def main() -> None:
         blank = {"Date": None, "Creator": None, "Format": None, "Type": None}
         with drawing() as plt:
             draw(plt, found).savefig(FIGURES / "posterior_ranks.svg", metadata=blank)
-    print("\n\n".join((overall(found), coverage_table(found), compare_table(found), cost_table(found))))
+    print(
+        "\n\n".join(
+            (overall(found), coverage_table(found), compare_table(found), cost_table(found))
+        )
+    )
 
 
 if __name__ == "__main__":

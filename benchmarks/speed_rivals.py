@@ -1,4 +1,6 @@
-"""What a cost is measured against: a plain formula, a plain record, and what else a user could take (numba, pymunk)."""
+"""What a cost is measured against: a plain formula, a plain record, and what else a user could take
+(numba, pymunk).
+"""
 
 from __future__ import annotations
 
@@ -28,10 +30,14 @@ class Bare:
     name: str = ""
 
 
-def formula(m1, i1, vx1, vy1, w1, x1, y1, m2, i2, vx2, vy2, w2, x2, y2, e, normal, px, py, friction):
-    """Planar impact mechanics with Coulomb friction, as one writes it for floats: no checks, no units, no names.
+def formula(
+    m1, i1, vx1, vy1, w1, x1, y1, m2, i2, vx2, vy2, w2, x2, y2, e, normal, px, py, friction
+):
+    """Planar impact mechanics with Coulomb friction, as one writes it for floats: no checks, no
+    units, no names.
 
-    Squares are products: ``x**2`` calls pow, which takes Python several times as long, and flatters what is compared with it.
+    Squares are products: ``x**2`` calls pow, which takes Python several times as long, and flatters
+    what is compared with it.
     """
     nx, ny = math.cos(normal), math.sin(normal)
     rx1, ry1, rx2, ry2 = px - x1, py - y1, px - x2, py - y2
@@ -57,8 +63,15 @@ def formula(m1, i1, vx1, vy1, w1, x1, y1, m2, i2, vx2, vy2, w2, x2, y2, e, norma
     fx, fy = pn * nx - pt * ny, pn * ny + pt * nx
     ax1, ay1, aw1 = vx1 - fx / m1, vy1 - fy / m1, w1 - (rx1 * fy - ry1 * fx) / i1
     ax2, ay2, aw2 = vx2 + fx / m2, vy2 + fy / m2, w2 + (rx2 * fy - ry2 * fx) / i2
-    before = m1 * (vx1 * vx1 + vy1 * vy1) + i1 * w1 * w1 + m2 * (vx2 * vx2 + vy2 * vy2) + i2 * w2 * w2
-    after = m1 * (ax1 * ax1 + ay1 * ay1) + i1 * aw1 * aw1 + m2 * (ax2 * ax2 + ay2 * ay2) + i2 * aw2 * aw2
+    before = (
+        m1 * (vx1 * vx1 + vy1 * vy1) + i1 * w1 * w1 + m2 * (vx2 * vx2 + vy2 * vy2) + i2 * w2 * w2
+    )
+    after = (
+        m1 * (ax1 * ax1 + ay1 * ay1)
+        + i1 * aw1 * aw1
+        + m2 * (ax2 * ax2 + ay2 * ay2)
+        + i2 * aw2 * aw2
+    )
     return ax1, ay1, aw1, ax2, ay2, aw2, pn, pt, (before - after) / 2
 
 
@@ -82,14 +95,17 @@ def jitted(numba: ModuleType, parallel: bool) -> Callable[..., Any]:
     one = numba.njit(formula, error_model="numpy")
     prange = numba.prange
 
-    def loop(m1, i1, vx1, vy1, w1, x1, y1, m2, i2, vx2, vy2, w2, x2, y2, e, normal, px, py, friction):
+    def loop(
+        m1, i1, vx1, vy1, w1, x1, y1, m2, i2, vx2, vy2, w2, x2, y2, e, normal, px, py, friction
+    ):
         found = np.empty((9, len(m1)))
         for k in prange(len(m1)):
             (
                 found[0, k], found[1, k], found[2, k], found[3, k], found[4, k],
                 found[5, k], found[6, k], found[7, k], found[8, k],
             ) = one(
-                m1[k], i1[k], vx1[k], vy1[k], w1[k], x1[k], y1[k], m2[k], i2[k], vx2[k], vy2[k], w2[k], x2[k], y2[k],
+                m1[k], i1[k], vx1[k], vy1[k], w1[k], x1[k], y1[k], m2[k], i2[k], vx2[k], vy2[k],
+                    w2[k], x2[k], y2[k],
                 e[k], normal[k], px[k], py[k], friction[k],
             )  # fmt: skip
         return found
@@ -97,15 +113,18 @@ def jitted(numba: ModuleType, parallel: bool) -> Callable[..., Any]:
     return numba.njit(loop, parallel=parallel, error_model="numpy")
 
 
-# Radius of the round noses that make the contact be where it is wanted, and a step in which nothing moves.
+# Radius of the round noses that make the contact be where it is wanted, and a step in which nothing
+# moves.
 NOSE, STEP = 0.05, 1e-9
 
 
 def stepped(pymunk: ModuleType, case: tuple[float, ...]) -> tuple[float, ...]:
-    """Velocities and yaw rates after one step of a physics engine for games, for the numbers of the formula.
+    """Velocities and yaw rates after one step of a physics engine for games, for the numbers of the
+    formula.
 
-    It has no contact point or normal to be given: two small circles, one on each body, touch where and how it is wanted.
-    Friction and restitution of a contact are the products of those of both shapes.
+    It has no contact point or normal to be given: two small circles, one on each body, touch where
+    and how it is wanted. Friction and restitution of a contact are the products of those of both
+    shapes.
     """
     m1, i1, vx1, vy1, w1, x1, y1, m2, i2, vx2, vy2, w2, x2, y2, e, normal, px, py, friction = case
     nx, ny = (1.0 - 1e-9) * NOSE * math.cos(normal), (1.0 - 1e-9) * NOSE * math.sin(normal)

@@ -1,4 +1,6 @@
-"""The tables and figures of the page "Speed against accuracy", made from the numbers that benchmarks/speed.py wrote."""
+"""The tables and figures of the page "Speed against accuracy", made from the numbers that
+benchmarks/speed.py wrote.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ NOT_MEASURED = "not measured"
 
 
 class Choice(NamedTuple):
-    """A mark of the chart: its rows among the costs (one case, a batch), its row among the errors, its kind."""
+    """A mark of the chart: its rows among the costs (one case, a batch), its row among the errors,
+    its kind.
+    """
 
     name: str
     single: str | None
@@ -39,7 +43,9 @@ CHOICES = (
     Choice("textbook formula: bare floats, numpy", "formula", "numpy", "textbook", "other"),
     Choice("numba, textbook formula", None, "numba", "textbook", "other"),
     Choice("pymunk, one step", "pymunk", None, "pymunk", "other"),
-    Choice("eccentric, against a contact that takes time", "eccentric", "eccentric", "impulse", "time"),
+    Choice(
+        "eccentric, against a contact that takes time", "eccentric", "eccentric", "impulse", "time"
+    ),
     Choice("left_out: its estimates of that", "left_out", "left_out", "left_out", "time"),
     Choice("time_resolved, 200 steps", "time_resolved", None, "time_resolved", "time"),
 )
@@ -80,9 +86,9 @@ def machine(found: dict[str, Any]) -> str:
     """On what it was measured."""
     said, effort = found["machine"], found["effort"]
     return (
-        f"Measured on {said['cores']} cores ({said['processor']}, {said['system']}), Python {said['python']}, numpy "
-        f"{said['numpy']}; batches of {effort['cases']:,} cases, {effort['rounds']} rounds of single cases and "
-        f"{effort['batch_rounds']} of batches."
+        f"Measured on {said['cores']} cores ({said['processor']}, {said['system']}), Python "
+        f"{said['python']}, numpy {said['numpy']}; batches of {effort['cases']:,} cases, "
+        f"{effort['rounds']} rounds of single cases and {effort['batch_rounds']} of batches."
     ).replace(",000", " 000")
 
 
@@ -91,12 +97,19 @@ def costs(found: dict[str, Any], group: str, keys: tuple[str, ...] | None = None
     known = rows(found, group)
     listed = [key for key in keys or known if key in known]
     return table(
-        [{"single": "one case at a time", "batch": "in a batch, cost per case"}[group], "cost", "half of the rounds"],
+        [
+            {"single": "one case at a time", "batch": "in a batch, cost per case"}[group],
+            "cost",
+            "half of the rounds",
+        ],
         [[known[key]["name"], number(known[key]["median"]), spread(known[key])] for key in listed],
     )
 
 
-PROCESSOR = "A thread waits for Python's interpreter lock before each of some two hundred numpy calls a block"
+PROCESSOR = (
+    "A thread waits for Python's interpreter lock before each of some two hundred numpy calls a "
+    "block"
+)
 
 
 def threads(found: dict[str, Any]) -> str:
@@ -104,29 +117,47 @@ def threads(found: dict[str, Any]) -> str:
     known = rows(found, "batch")
     share = known["eccentric_threads"]["median"] / known["eccentric"]["median"]
     two = rows(found, "budgets").get("processes")
-    processes = "" if two is None else f" Two processes with half of the cases each took {two['median']:.2f} of one's time."
+    processes = (
+        ""
+        if two is None
+        else f" Two processes with half of the cases each took {two['median']:.2f} of one's time."
+    )
     took = f"a batch of `eccentric` on two threads took {share:.2f} of the time on one"
-    worth = f"In this run {took}." if share < 0.9 else f"In this run a second thread was **not** worth it: {took}."
+    worth = (
+        f"In this run {took}."
+        if share < 0.9
+        else f"In this run a second thread was **not** worth it: {took}."
+    )
     return f"{worth} {PROCESSOR}; processes do not.{processes}"
 
 
 def sizes(found: dict[str, Any]) -> str:
     """Batches of every size against plain numpy."""
-    lines = [[f"{row['cases']:,}".replace(",", " "), number(row["ratio"])] for row in found["sizes"]]
+    lines = [
+        [f"{row['cases']:,}".replace(",", " "), number(row["ratio"])] for row in found["sizes"]
+    ]
     return table(["cases, nine outputs read", "cost against plain numpy"], lines)
 
 
 def solving(found: dict[str, Any]) -> str:
     """What ``solve`` costs in a batch, and why."""
     known = {key: row["median"] for key, row in rows(found, "batch").items()}
-    thirds = sum(known[f"solve_all_{model}"] for model in ("linear_central", "oblique_central", "eccentric")) / 3.0
+    thirds = (
+        sum(
+            known[f"solve_all_{model}"]
+            for model in ("linear_central", "oblique_central", "eccentric")
+        )
+        / 3.0
+    )
     return (
-        f"In a batch `solve` costs {number(known['solve'] / known['eccentric'])} times `eccentric`. Each case is worked out by "
-        "its own model. Where a block of cases takes one model it costs just that; where models are mixed the cases of "
-        "each are gathered and put back in their places: a third for each model, shuffled and without the prediction, cost "
-        f"{number(known['solve_known'] / thirds)} times the mean of the three, each for all of the same cases. The prediction "
-        "costs every case the same, because an error to 10 percent for any lever needs the impulse by all three models; the "
-        "rest of their answers it leaves out."
+        f"In a batch `solve` costs {number(known['solve'] / known['eccentric'])} times "
+        "`eccentric`. Each case is worked out by its own model. Where a block of cases takes "
+        "one model it costs just that; where models are mixed the cases of each are gathered "
+        "and put back in their places: a third for each model, shuffled and without the "
+        f"prediction, cost {number(known['solve_known'] / thirds)} times the mean of the three, "
+        "each for all of the same cases. The prediction costs every case the same, because an "
+        "error to 10 percent for any lever needs the impulse by all three models; the rest of "
+        "their answers it leaves out."
     )
 
 
@@ -134,10 +165,11 @@ def memory(found: dict[str, Any]) -> str:
     """What batches take beside what goes in and comes out."""
     taken, cases = found["memory"], f"{found['effort']['cases']:,}".replace(",", " ")
     return (
-        f"Beyond inputs, answers and the scratch that is kept for the next batch, {cases} cases take "
-        f"{number(taken['eccentric'])} MiB in `eccentric`, {number(taken['solve'])} MiB in `solve` and "
-        f"{number(taken['left_out'])} MiB in `left_out`, and no more with more cases. Each thread has scratch of its own: with "
-        f"two threads `eccentric` takes {number(taken['eccentric_threads'])} and `solve` {number(taken['solve_threads'])} MiB."
+        f"Beyond inputs, answers and the scratch that is kept for the next batch, {cases} cases "
+        f"take {number(taken['eccentric'])} MiB in `eccentric`, {number(taken['solve'])} MiB in "
+        f"`solve` and {number(taken['left_out'])} MiB in `left_out`, and no more with more "
+        "cases. Each thread has scratch of its own: with two threads `eccentric` takes "
+        f"{number(taken['eccentric_threads'])} and `solve` {number(taken['solve_threads'])} MiB."
     )
 
 
@@ -145,11 +177,13 @@ def quantities(found: dict[str, Any]) -> str:
     """What units cost in a batch."""
     known = rows(found, "batch")
     times = known["vehicle_quantities"]["median"] / known["vehicle"]["median"]
-    share = (known["vehicle_quantities"]["median"] - known["vehicle"]["median"]) / known["eccentric"]["median"]
+    share = (known["vehicle_quantities"]["median"] - known["vehicle"]["median"]) / known[
+        "eccentric"
+    ]["median"]
     return (
-        f"Make each `Vehicle` once. Units are converted there and cost nothing afterwards. In a batch, a `Vehicle` made from "
-        f"Quantities costs {number(times)} times one made from plain arrays; the difference is {100.0 * share:.0f} % of a "
-        f"batch of `eccentric`."
+        "Make each `Vehicle` once. Units are converted there and cost nothing afterwards. In a "
+        f"batch, a `Vehicle` made from Quantities costs {number(times)} times one made from "
+        f"plain arrays; the difference is {100.0 * share:.0f} % of a batch of `eccentric`."
     )
 
 
@@ -157,7 +191,8 @@ def laws(found: dict[str, Any]) -> str:
     """To how many cases the row of the other law applies."""
     share = 100.0 * found["errors"]["choices"]["law"]["sticking"]
     return (
-        f"The row of the other law is over the {share:.0f} % of cases that stick under one of the laws; elsewhere both agree."
+        f"The row of the other law is over the {share:.0f} % of cases that stick under one of "
+        "the laws; elsewhere both agree."
     )
 
 
@@ -174,14 +209,15 @@ def drawn(found: dict[str, Any]) -> str:
             row = spread[key]
             least, low, *_, high, most = row["quantiles"]
             ranges.append(
-                f"For {name} ({row['vehicles']} vehicles) it was {low:.2f} to {high:.2f} times that change in 9 of 10, "
-                f"{least:.2f} to {most:.2f} times in all, and off by more than a factor of 1.5 in "
-                f"{100.0 * row['outside_1.5']:.1f} %."
+                f"For {name} ({row['vehicles']} vehicles) it was {low:.2f} to {high:.2f} times "
+                f"that change in 9 of 10, {least:.2f} to {most:.2f} times in all, and off by "
+                f"more than a factor of 1.5 in {100.0 * row['outside_1.5']:.1f} %."
             )
         sentences.append(
-            f"Over {spread['impacts']} random impacts of two cars without spin before, with a friction of {frictions[0]:g} to "
-            f"{frictions[-1]:g} and a restitution of 0 to 0.4, the estimate was compared with the change followed in time "
-            f"wherever that is more than {100.0 * spread['matters']:.0f} % of delta-V. {' '.join(ranges)}"
+            f"Over {spread['impacts']} random impacts of two cars without spin before, with a "
+            f"friction of {frictions[0]:g} to {frictions[-1]:g} and a restitution of 0 to 0.4, "
+            "the estimate was compared with the change followed in time wherever that is more "
+            f"than {100.0 * spread['matters']:.0f} % of delta-V. {' '.join(ranges)}"
         )
     return "\n\n".join(sentences)
 
@@ -192,7 +228,9 @@ def budgets(found: dict[str, Any]) -> str:
     for row in found["budgets"]:
         if row["held"]:
             aim = row["aim"]
-            outcome = "held" + ("" if aim is None else ", and the aim" if row["median"] <= aim else ", not the aim")
+            outcome = "held" + (
+                "" if aim is None else ", and the aim" if row["median"] <= aim else ", not the aim"
+            )
         else:
             outcome = f"**missed by {100.0 * (row['median'] / row['budget'] - 1.0):.0f} %**"
         aim = "–" if row["aim"] is None else f"{row['aim']:g}"
@@ -220,25 +258,34 @@ def choices(found: dict[str, Any]) -> str:
         for group, key in (("single", choice.single), ("batch", choice.batch)):
             at_all = None if key is None else cost(known[group], choice, key)
             cells.append("–" if key is None else NOT_MEASURED if at_all is None else number(at_all))
-        shown = [NOT_MEASURED] * 2 if error is None else [percent(error["mean"]), percent(error["p95"])]
+        shown = (
+            [NOT_MEASURED] * 2 if error is None else [percent(error["mean"]), percent(error["p95"])]
+        )
         lines.append([f"{at}. {choice.name}", *cells, *shown])
-    return table(["choice", "cost of one case", "cost in a batch", "mean error", "19 of 20 err by less"], lines)
+    return table(
+        ["choice", "cost of one case", "cost in a batch", "mean error", "19 of 20 err by less"],
+        lines,
+    )
 
 
 def cost(known: dict[str, Any], choice: Choice, key: str) -> float | None:
     """Of a mark; what left_out costs comes on top of the impact."""
     if key not in known:
         return None
-    return known[key]["median"] + (known["eccentric"]["median"] if choice.error == "left_out" else 0.0)
+    return known[key]["median"] + (
+        known["eccentric"]["median"] if choice.error == "left_out" else 0.0
+    )
 
 
 def chosen(found: dict[str, Any]) -> str:
     """What ``solve`` took in mixed traffic."""
     solve = found["errors"]["choices"]["solve"]
-    taken = ", ".join(f"`{model}` for {100.0 * share:.0f} %" for model, share in solve["chosen"].items())
+    taken = ", ".join(
+        f"`{model}` for {100.0 * share:.0f} %" for model, share in solve["chosen"].items()
+    )
     return (
-        f"In the mixed traffic of the chart, with a tolerance of {solve['tolerance']:g} m/s, `solve` takes {taken} of the "
-        f"cases. The worst error is {number(solve['most'])} m/s."
+        f"In the mixed traffic of the chart, with a tolerance of {solve['tolerance']:g} m/s, "
+        f"`solve` takes {taken} of the cases. The worst error is {number(solve['most'])} m/s."
     )
 
 
@@ -247,7 +294,9 @@ def at(found: dict[str, Any], group: str, key: str, x: float) -> dict[str, float
     curve = next(curve for curve in found["errors"][group] if curve["key"] == key)
     nearest = min(range(len(curve["x"])), key=lambda i: abs(curve["x"][i] - x))
     return {
-        name: curve[name][nearest] for name in ("x", "error", "share", "delta_v_share", "predicted") if curve[name] is not None
+        name: curve[name][nearest]
+        for name in ("x", "error", "share", "delta_v_share", "predicted")
+        if curve[name] is not None
     }
 
 
@@ -261,7 +310,10 @@ def curves(found: dict[str, Any], group: str) -> str:
     for x in wanted:
         points = [at(found, group, curve["key"], x) for curve in found["errors"][group]]
         lines.append(
-            [number(points[0]["x"]), *(f"{percent(point['share'])}, {number(point['error'])} m/s" for point in points)]
+            [
+                number(points[0]["x"]),
+                *(f"{percent(point['share'])}, {number(point['error'])} m/s" for point in points),
+            ]
         )
     return table([head, *(curve["name"] for curve in found["errors"][group])], lines)
 
@@ -277,7 +329,10 @@ def prediction(found: dict[str, Any]) -> str:
     ]
     worst = max(abs(said - made) for said, made in pairs)
     apart = f"differ by {number(worst)} m/s at most" if worst else "agree"
-    return f"Over the {len(pairs)} points of the curves, prediction and error made {apart}, in the three digits that are kept."
+    return (
+        f"Over the {len(pairs)} points of the curves, prediction and error made {apart}, in the "
+        "three digits that are kept."
+    )
 
 
 def contacts(found: dict[str, Any]) -> str:
@@ -335,19 +390,25 @@ def ladder(found: dict[str, Any]) -> str:
 
 
 def ladder_tyres(found: dict[str, Any]) -> str:
-    """What the impulse errs by where tyres are all that it leaves out, without and with theirs from outside."""
-    wheels, centre = (found["tyres_alone"][place] for place in ("four wheels", "the centre of mass"))
+    """What the impulse errs by where tyres are all that it leaves out, without and with theirs from
+    outside.
+    """
+    wheels, centre = (
+        found["tyres_alone"][place] for place in ("four wheels", "the centre of mass")
+    )
     return (
-        f"Where tyres are all that it leaves out (places that stay), the median error of `eccentric` falls from "
-        f"{percent(wheels[0])} to {percent(wheels[1])} by the impulses from outside; to {percent(centre[1])} of "
-        f"{percent(centre[0])} with all of the weight at the centre of mass: the estimate has no moment of the tyres."
+        "Where tyres are all that it leaves out (places that stay), the median error of "
+        f"`eccentric` falls from {percent(wheels[0])} to {percent(wheels[1])} by the impulses "
+        f"from outside; to {percent(centre[1])} of {percent(centre[0])} with all of the weight "
+        "at the centre of mass: the estimate has no moment of the tyres."
     )
 
 
 def ladder_by_speed(found: dict[str, Any]) -> str:
     """The error of the impulse by closing speed."""
     lines = [
-        [f"{row['from']:g} to {row['to']:g}", percent(row["median"]), f"{row['impacts']}"] for row in found["by_closing_speed"]
+        [f"{row['from']:g} to {row['to']:g}", percent(row["median"]), f"{row['impacts']}"]
+        for row in found["by_closing_speed"]
     ]
     return table(["closing speed [m/s]", "median error of `eccentric`", "impacts"], lines)
 
@@ -363,7 +424,9 @@ def ladder_choices(found: dict[str, Any]) -> str:
         ]
         for row in found["choices"]
     ]
-    return table(["tolerance [m/s]", *(f"`{name}`" for name in models), "beyond the tolerance"], lines)
+    return table(
+        ["tolerance [m/s]", *(f"`{name}`" for name in models), "beyond the tolerance"], lines
+    )
 
 
 def rivals(found: dict[str, Any]) -> str:
@@ -377,11 +440,18 @@ def rivals(found: dict[str, Any]) -> str:
     ):
         version, row = found["rivals"][name], known[group].get(key)
         if row is None:
-            lines.append([f"{name}, two threads" if key.endswith("threads") else name, *[NOT_MEASURED] * 4])
+            lines.append(
+                [f"{name}, two threads" if key.endswith("threads") else name, *[NOT_MEASURED] * 4]
+            )
             continue
         mine = known[group][ours]
         against = number(row["median"] / mine["median"])
-        cells = [number(row["median"]), number(mine["median"]), against, percent(errors[error]["p95"])]
+        cells = [
+            number(row["median"]),
+            number(mine["median"]),
+            against,
+            percent(errors[error]["p95"]),
+        ]
         lines.append([f"{row['name']} ({name} {version})", *cells])
     return table(["what", "its cost", "ours", "its cost / ours", "19 of 20 err by less"], lines)
 
@@ -398,12 +468,17 @@ def imports(found: dict[str, Any]) -> str:
 def break_even(found: dict[str, Any]) -> str:
     """From how many cases on arrays are worth it."""
     known = rows(found, "single")
-    one, few = (known[key]["median"] / known["eccentric_nine"]["median"] for key in ("array_of_one", "array_of_few"))
+    one, few = (
+        known[key]["median"] / known["eccentric_nine"]["median"]
+        for key in ("array_of_one", "array_of_few")
+    )
     further = (few - one) / (FEW - 1)
     return (
-        f"An array of one case costs as much as {number(one)} single cases. Up to {FEW} cases are answered one by one, and "
-        f"each further one costs {number(further)} of a single case; beyond that each costs hardly anything. From about "
-        f"{min(FEW + 1, math.ceil((one - further) / (1.0 - further)))} cases on, a batch is the faster way."
+        f"An array of one case costs as much as {number(one)} single cases. Up to {FEW} cases "
+        f"are answered one by one, and each further one costs {number(further)} of a single "
+        "case; beyond that each costs hardly anything. From about "
+        f"{min(FEW + 1, math.ceil((one - further) / (1.0 - further)))} cases on, a batch is the "
+        "faster way."
     )
 
 
@@ -412,7 +487,10 @@ def first_call(found: dict[str, Any]) -> str:
     imports = found["rivals"]["numba_first_call"]
     if imports is None:
         return "numba: not measured."
-    return f"The first call of the loop in numba, which compiles it, takes as long as {imports:.0f} imports of numpy."
+    return (
+        f"The first call of the loop in numba, which compiles it, takes as long as {imports:.0f} "
+        "imports of numpy."
+    )
 
 
 def summary(found: dict[str, Any]) -> str:
@@ -420,11 +498,14 @@ def summary(found: dict[str, Any]) -> str:
     lines = [machine(found)]
     for row in found["budgets"]:
         name = re.sub("`", "", row["name"])
-        lines.append(f"  {name:80s}{row['median']:8.3g} of {row['budget']:g}{'' if row['held'] else '   missed'}")
+        lines.append(
+            f"  {name:80s}{row['median']:8.3g} of "
+            f"{row['budget']:g}{'' if row['held'] else '   missed'}"
+        )
     return "\n".join([*lines, budgets_held(found)])
 
 
-# --- Figures ---------------------------------------------------------------------------------------------------------------
+# --- Figures --------------------------------------------------------------------------------------
 
 
 @contextmanager
@@ -434,7 +515,8 @@ def drawing() -> Iterator[Any]:
 
     mpl.use("agg")
     style = {
-        "font.size": 11, "font.family": "DejaVu Sans", "figure.facecolor": "white", "savefig.facecolor": "white",
+        "font.size": 11, "font.family": "DejaVu Sans", "figure.facecolor": "white",
+        "savefig.facecolor": "white",
         "svg.fonttype": "path", "svg.hashsalt": "collisions",
     }  # fmt: skip
     with mpl.rc_context(style):
@@ -443,7 +525,9 @@ def drawing() -> Iterator[Any]:
         yield plt
 
 
-def draw_all(found: dict[str, Any], contacts: dict[str, Any], folder: Path, kind: str = "svg") -> None:
+def draw_all(
+    found: dict[str, Any], contacts: dict[str, Any], folder: Path, kind: str = "svg"
+) -> None:
     """Every figure of the page."""
     figures = {
         "speed_choices": lambda plt: choices_figure(plt, found),
@@ -451,7 +535,10 @@ def draw_all(found: dict[str, Any], contacts: dict[str, Any], folder: Path, kind
         "speed_contacts": lambda plt: contacts_figure(plt, contacts),
         "speed_ladder": lambda plt: ladder_figure(plt, load_ladder()),
     }
-    blank = {"svg": {"Date": None, "Creator": None, "Format": None, "Type": None}, "png": {"Software": None}}[kind]
+    blank = {
+        "svg": {"Date": None, "Creator": None, "Format": None, "Type": None},
+        "png": {"Software": None},
+    }[kind]
     for name, draw in figures.items():
         path = folder / f"{name}.{kind}"
         with drawing() as plt:
@@ -459,7 +546,10 @@ def draw_all(found: dict[str, Any], contacts: dict[str, Any], folder: Path, kind
             figure.savefig(path, metadata=blank, dpi=110)
             plt.close(figure)
         if kind == "svg":  # browsers need no document type, and nothing should point elsewhere
-            path.write_text(re.sub(r"<!DOCTYPE[^>]*>\s*", "", path.read_text(encoding="utf-8")), encoding="utf-8")
+            path.write_text(
+                re.sub(r"<!DOCTYPE[^>]*>\s*", "", path.read_text(encoding="utf-8")),
+                encoding="utf-8",
+            )
 
 
 def ladder_figure(plt: Any, found: dict[str, Any]) -> Any:
@@ -468,17 +558,35 @@ def ladder_figure(plt: Any, found: dict[str, Any]) -> Any:
     for name, row in found["rungs"].items():
         cost, timed = cost_of(found, name), name.startswith("time_resolved")
         colour = TEXTBOOK if "maximum" in name and timed else OURS if timed else GREY
-        axis.plot([cost, cost], [100.0 * row["median"], 100.0 * row["most_of_10"]], color=colour, lw=1.5)
+        axis.plot(
+            [cost, cost], [100.0 * row["median"], 100.0 * row["most_of_10"]], color=colour, lw=1.5
+        )
         axis.plot(cost, 100.0 * row["median"], "s" if timed else "o", color=colour, ms=7)
-        text = name.replace("time_resolved, ", "").replace("_central", " central").replace(", from", ", places\nfrom")
+        text = (
+            name.replace("time_resolved, ", "")
+            .replace("_central", " central")
+            .replace(", from", ", places\nfrom")
+        )
         text = text.replace("eccentric, geometry of", "eccentric, places of")
         text = text.replace(" maximum engagement, tyres", "\nmaximum engagement, tyres")
         lower = name.endswith("maximum engagement") and not timed
         left = name == "linear_central" or (timed and "maximum" not in name)
         place = (-9 if left else 9, -14 if lower else -3)
         side = "right" if left else "left"
-        axis.annotate(text, (cost, 100.0 * row["median"]), place, textcoords="offset points", ha=side, fontsize=9.5)
-    axis.set(xscale="log", yscale="log", xlabel="cost, in calls of eccentric", ylabel="error [% of delta-V]")
+        axis.annotate(
+            text,
+            (cost, 100.0 * row["median"]),
+            place,
+            textcoords="offset points",
+            ha=side,
+            fontsize=9.5,
+        )
+    axis.set(
+        xscale="log",
+        yscale="log",
+        xlabel="cost, in calls of eccentric",
+        ylabel="error [% of delta-V]",
+    )
     low, high = axis.get_xlim()
     axis.set_xlim(0.35 * low, 6.0 * high)
     axis.grid(color="#e2e2e2", lw=0.6)
@@ -489,10 +597,14 @@ def ladder_figure(plt: Any, found: dict[str, Any]) -> Any:
 
 
 def choices_figure(plt: Any, found: dict[str, Any]) -> Any:
-    """Error against cost: circles are one case at a time, squares a batch; the numbers are those of the key."""
+    """Error against cost: circles are one case at a time, squares a batch; the numbers are those of
+    the key.
+    """
     errors = found["errors"]["choices"]
     known = {group: rows(found, group) for group in ("single", "batch")}
-    figure, (top, low) = plt.subplots(2, 1, figsize=(11.5, 7.6), sharex=True, height_ratios=(3.1, 1.0))
+    figure, (top, low) = plt.subplots(
+        2, 1, figsize=(11.5, 7.6), sharex=True, height_ratios=(3.1, 1.0)
+    )
     marked: list[tuple[Any, float, float, str, str]] = []
     for at, choice in enumerate(CHOICES, 1):
         error = errors[choice.error]
@@ -505,14 +617,26 @@ def choices_figure(plt: Any, found: dict[str, Any]) -> Any:
             if x is not None:
                 places.append((x, mark))
         colour = COLOURS[choice.kind]
-        axis.plot([x for x, _ in places], [error["mean"]] * len(places), color=colour, lw=1.0, alpha=0.35, zorder=1)
+        axis.plot(
+            [x for x, _ in places],
+            [error["mean"]] * len(places),
+            color=colour,
+            lw=1.0,
+            alpha=0.35,
+            zorder=1,
+        )
         for x, mark in places:
-            axis.plot([x, x], [error["mean"], error["p95"]], color=colour, lw=1.2, alpha=0.6, zorder=1)
+            axis.plot(
+                [x, x], [error["mean"], error["p95"]], color=colour, lw=1.2, alpha=0.6, zorder=1
+            )
             axis.plot(x, error["mean"], mark, ms=8, mfc="white", mec=colour, mew=2.0, zorder=2)
             marked.append((axis, x, error["mean"], str(at), colour))
     top.set(yscale="log", xscale="log", ylim=(3e-8, 2.0))
     low.set(yscale="log", ylim=(3e-17, 3e-14))
-    top.set_yticks([10.0**k for k in range(-7, 1)], ["10⁻⁷", "10⁻⁶", "10⁻⁵", "0.01 %", "0.1 %", "1 %", "10 %", "100 %"])
+    top.set_yticks(
+        [10.0**k for k in range(-7, 1)],
+        ["10⁻⁷", "10⁻⁶", "10⁻⁵", "0.01 %", "0.1 %", "1 %", "10 %", "100 %"],
+    )
     low.set_yticks([1e-16, 1e-15, 1e-14], ["10⁻¹⁶", "10⁻¹⁵", "10⁻¹⁴"])
     left, right = top.get_xlim()
     low.set_xlim(left / 1.6, right * 1.6)
@@ -523,17 +647,38 @@ def choices_figure(plt: Any, found: dict[str, Any]) -> Any:
         axis.spines[["top", "right"]].set_visible(False)
     top.set_ylabel("mean error, relative to delta-V")
     low.set_xlabel("cost of a case; 1 is the textbook formula as a bare function of floats")
-    ticks = range(math.ceil(math.log10(low.get_xlim()[0])), math.floor(math.log10(low.get_xlim()[1])) + 1)
-    low.set_xticks([10.0**k for k in ticks], [f"{10.0**k:g}" if -3 < k < 4 else f"10{_raised(k)}" for k in ticks])
+    ticks = range(
+        math.ceil(math.log10(low.get_xlim()[0])), math.floor(math.log10(low.get_xlim()[1])) + 1
+    )
+    low.set_xticks(
+        [10.0**k for k in ticks],
+        [f"{10.0**k:g}" if -3 < k < 4 else f"10{_raised(k)}" for k in ticks],
+    )
     marks = [
-        plt.Line2D([], [], ls="", marker="o", mfc="white", mec=INK, ms=9, label="one case at a time"),
+        plt.Line2D(
+            [], [], ls="", marker="o", mfc="white", mec=INK, ms=9, label="one case at a time"
+        ),
         plt.Line2D([], [], ls="", marker="s", mfc="white", mec=INK, ms=9, label="in a batch"),
         plt.Line2D([], [], color=INK, lw=1.2, label="19 in 20 scenes err by less"),
     ]
-    figure.legend(handles=marks, loc="upper left", bbox_to_anchor=(0.665, 0.97), frameon=False, fontsize=10)
-    figure.text(0.672, 0.80, "\n".join(_key("ours")), color=OURS, fontsize=10, va="top", linespacing=1.5)
-    figure.text(0.672, 0.545, "\n".join(_key("other")), color=TEXTBOOK, fontsize=10, va="top", linespacing=1.5)
-    figure.text(0.672, 0.425, "\n".join(_key("time")), color=GREY, fontsize=10, va="top", linespacing=1.5)
+    figure.legend(
+        handles=marks, loc="upper left", bbox_to_anchor=(0.665, 0.97), frameon=False, fontsize=10
+    )
+    figure.text(
+        0.672, 0.80, "\n".join(_key("ours")), color=OURS, fontsize=10, va="top", linespacing=1.5
+    )
+    figure.text(
+        0.672,
+        0.545,
+        "\n".join(_key("other")),
+        color=TEXTBOOK,
+        fontsize=10,
+        va="top",
+        linespacing=1.5,
+    )
+    figure.text(
+        0.672, 0.425, "\n".join(_key("time")), color=GREY, fontsize=10, va="top", linespacing=1.5
+    )
     figure.tight_layout(rect=(0, 0, 0.665, 1))
     _number(marked, figure.dpi / 72.0)
     return figure
@@ -544,7 +689,9 @@ AROUND = ((12, 0), (-12, 0), (0, -13), (0, 13), (10, 9), (-10, 9), (10, -10), (-
 
 
 def _number(marked: list[tuple[Any, float, float, str, str]], points: float) -> None:
-    """The numbers of the marks, each where it is farthest from other marks and numbers; ``points`` is pixels a point."""
+    """The numbers of the marks, each where it is farthest from other marks and numbers; ``points``
+    is pixels a point.
+    """
     taken = [axis.transData.transform((x, y)) for axis, x, y, *_ in marked]
     for (axis, x, y, text, colour), (px, py) in zip(marked, list(taken), strict=True):
         best, most = AROUND[0], 0.0
@@ -580,7 +727,9 @@ SHADES = (OURS, TEXTBOOK, "#a01040", "#2b7a3d", GREY)
 
 
 def errors_figure(plt: Any, found: dict[str, Any]) -> Any:
-    """The error of the central models over lever and angle; crosses are what ``required_model`` predicts."""
+    """The error of the central models over lever and angle; crosses are what ``required_model``
+    predicts.
+    """
     figure, axes = plt.subplots(1, 2, figsize=(11.5, 5.4))
     closing = 15.0
     for axis, group, label in (
@@ -589,10 +738,18 @@ def errors_figure(plt: Any, found: dict[str, Any]) -> Any:
     ):
         for curve, style, colour in zip(found["errors"][group], STYLES, SHADES, strict=False):
             axis.plot(
-                curve["x"], [100.0 * share for share in curve["share"]], ls=style, color=colour, lw=2, label=curve["name"]
+                curve["x"],
+                [100.0 * share for share in curve["share"]],
+                ls=style,
+                color=colour,
+                lw=2,
+                label=curve["name"],
             )
             if curve["predicted"] is not None:
-                scale = [share / error if error else 0.0 for share, error in zip(curve["share"], curve["error"], strict=True)]
+                scale = [
+                    share / error if error else 0.0
+                    for share, error in zip(curve["share"], curve["error"], strict=True)
+                ]
                 said = [100.0 * s * p for s, p in zip(scale, curve["predicted"], strict=True)]
                 axis.plot(curve["x"][::3], said[::3], "x", color=colour, ms=6, mew=1.5)
         axis.set_xlabel(label)
@@ -611,7 +768,9 @@ def errors_figure(plt: Any, found: dict[str, Any]) -> Any:
 
 
 def contacts_figure(plt: Any, found: dict[str, Any]) -> Any:
-    """What tyres and moving geometry do to delta-V: followed in time, and as ``left_out`` has it."""
+    """What tyres and moving geometry do to delta-V: followed in time, and as
+    ``left_out`` has it.
+    """
     listed = [row for row in found["rows"] if row["side"] == "b" or row["scene"] == "wall"]
     figure, axes = plt.subplots(1, 3, figsize=(11.5, 4.6), sharey=True)
     for axis, reference, estimate, title in (
@@ -621,7 +780,10 @@ def contacts_figure(plt: Any, found: dict[str, Any]) -> Any:
     ):
         for at, row in enumerate(listed):
             size = row["delta_v"]
-            true, said = 100.0 * row[reference]["delta_v"] / size, 100.0 * row["left_out"][estimate] / size
+            true, said = (
+                100.0 * row[reference]["delta_v"] / size,
+                100.0 * row["left_out"][estimate] / size,
+            )
             axis.plot([true, said], [at, at], color="#c9c9c9", lw=2, zorder=1)
             axis.plot(true, at, "s", color=TEXTBOOK, ms=9, zorder=2)
             axis.plot(said, at, "o", mfc="white", mec=OURS, mew=1.8, ms=8, zorder=3)
@@ -636,7 +798,17 @@ def contacts_figure(plt: Any, found: dict[str, Any]) -> Any:
     axes[0].set_ylim(len(listed) - 0.4, -0.6)
     marks = [
         plt.Line2D([], [], ls="", marker="s", color=TEXTBOOK, ms=9, label="time_resolved"),
-        plt.Line2D([], [], ls="", marker="o", mfc="white", mec=OURS, mew=1.8, ms=8, label="estimate of left_out"),
+        plt.Line2D(
+            [],
+            [],
+            ls="",
+            marker="o",
+            mfc="white",
+            mec=OURS,
+            mew=1.8,
+            ms=8,
+            label="estimate of left_out",
+        ),
     ]
     figure.legend(handles=marks, loc="upper center", ncols=2, frameon=False)
     figure.tight_layout(rect=(0, 0, 1, 0.93))

@@ -1,8 +1,10 @@
-"""Rounding errors of the textbook forms and of the library, measured against the reference evaluation of the tests.
+"""Rounding errors of the textbook forms and of the library, measured against the reference
+evaluation of the tests.
 
-``python benchmarks/stability.py`` writes docs/_generated/stability.json and docs/_static/stability_forms.svg. The textbook
-forms live only here. Cases are seeded, results are rounded to two significant digits, and nothing is timed: the same machine
-writes the same files. The scales and promises are those of tests/kernels/test_reference.py, which is imported for them.
+``python benchmarks/stability.py`` writes docs/_generated/stability.json and
+docs/_static/stability_forms.svg. The textbook forms live only here. Cases are seeded, results are
+rounded to two significant digits, and nothing is timed: the same machine writes the same files. The
+scales and promises are those of tests/kernels/test_reference.py, which is imported for them.
 """
 
 from __future__ import annotations
@@ -30,19 +32,32 @@ import collisions as col
 from kernels import test_reference as asserted
 from kernels import test_reference_in_time as in_time
 from reference import EPS, Answer, Body, Scene, evaluate
-from scenes import FAMILIES, INCOMPLETE, LAWS, PUSHED, RULES, answerable, cases, draw, solved, solved_together
+from scenes import (
+    FAMILIES,
+    INCOMPLETE,
+    LAWS,
+    PUSHED,
+    RULES,
+    answerable,
+    cases,
+    draw,
+    solved,
+    solved_together,
+)
 
 DATA = ROOT / "docs" / "_generated" / "stability.json"
 PLOT = ROOT / "docs" / "_static" / "stability_forms.svg"
 COUNT = 60  # for every law and tangential option: 360 a regime
 DIGITS = 100
 
-# --- Regimes ---------------------------------------------------------------------------------------------------------------
+# --- Regimes --------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Regime:
-    """A kind of impact: its key, what a reader calls it, and the families of tests/scenes.py it is made of, or its own."""
+    """A kind of impact: its key, what a reader calls it, and the families of tests/scenes.py it is
+    made of, or its own.
+    """
 
     key: str
     name: str
@@ -86,7 +101,9 @@ def _percussion(law: str, rule: str, rng: random.Random) -> Scene:
     x, y = pin[0] + distance * c, pin[1] + distance * s
     b = replace(b, x=x, y=y, pivot=pin, vx=-b.spin * (y - pin[1]), vy=b.spin * (x - pin[0]))
     normal = along + rng.choice((-1.0, 1.0)) * math.pi / 2
-    return replace(scene, b=b, normal=normal, point=(pin[0] + reach * c, pin[1] + reach * s), value=0.0)
+    return replace(
+        scene, b=b, normal=normal, point=(pin[0] + reach * c, pin[1] + reach * s), value=0.0
+    )
 
 
 _OWN = {"mass ratio 1e24": _masses, "percussion": _percussion}
@@ -107,15 +124,16 @@ def known(family: str, law: str, rule: str, count: int = COUNT) -> list[tuple[Sc
     return found
 
 
-# --- The textbook forms ----------------------------------------------------------------------------------------------------
+# --- The textbook forms ---------------------------------------------------------------------------
 
 
 def textbook(scene: Scene) -> dict[str, float]:
     """The outputs of an impact as a textbook works them out, in double precision.
 
-    Coordinates and velocities are turned into normal and tangent axes, then subtracted. The closing speed is n.u1 - n.u2. The
-    impulse that stops the slip divides by K_nn K_tt - K_nt^2. The velocity of B follows from the momentum balance. Delta-V is
-    v' - v. The energy loss is the difference of the kinetic energies (eq 7). The PDOF is an arc cosine.
+    Coordinates and velocities are turned into normal and tangent axes, then subtracted. The closing
+    speed is n.u1 - n.u2. The impulse that stops the slip divides by K_nn K_tt - K_nt^2. The
+    velocity of B follows from the momentum balance. Delta-V is v' - v. The energy loss is the
+    difference of the kinetic energies (eq 7). The PDOF is an arc cosine.
     """
     with np.errstate(all="ignore"):
         return {path: float(value) for path, value in _textbook(scene).items()}
@@ -124,7 +142,10 @@ def textbook(scene: Scene) -> dict[str, float]:
 def _textbook(scene: Scene) -> dict[str, Any]:
     num = np.float64
     if isinstance(scene.normal, tuple):
-        nx, ny = (num(part) / np.sqrt(num(scene.normal[0]) ** 2 + num(scene.normal[1]) ** 2) for part in scene.normal)
+        nx, ny = (
+            num(part) / np.sqrt(num(scene.normal[0]) ** 2 + num(scene.normal[1]) ** 2)
+            for part in scene.normal
+        )
     else:
         nx, ny = np.cos(num(scene.normal)), np.sin(num(scene.normal))
 
@@ -146,7 +167,9 @@ def _textbook(scene: Scene) -> dict[str, Any]:
         vn, vt = (num(0.0), num(0.0)) if pinned else turned(*v)
         u = vn - w * rt, vt + w * rn
         halves.append((mass, about, w, pinned, rn, rt, arm, v, u))
-    (m_a, i_a, _, pin_a, rn_a, rt_a, _, v_a, u_a), (m_b, i_b, _, pin_b, rn_b, rt_b, _, v_b, u_b) = halves
+    (m_a, i_a, _, pin_a, rn_a, rt_a, _, v_a, u_a), (m_b, i_b, _, pin_b, rn_b, rt_b, _, v_b, u_b) = (
+        halves
+    )
     closing, slip = u_a[0] - u_b[0], u_b[1] - u_a[1]
     a = (num(0.0) if pin_a else 1 / m_a) + (num(0.0) if pin_b else 1 / m_b)
     k_nn = a + rt_a**2 / i_a + rt_b**2 / i_b
@@ -159,7 +182,12 @@ def _textbook(scene: Scene) -> dict[str, Any]:
     ratio = {"impulse_ratio": value, "critical_fraction": value * ts / ns if value else value}.get(
         scene.rule, num(0.0) if value == 0 else np.sign(ts) * value
     )
-    if scene.rule == "friction" and value > 0 and ns > 0 and (np.isinf(value) or abs(ts) <= value * ns):
+    if (
+        scene.rule == "friction"
+        and value > 0
+        and ns > 0
+        and (np.isinf(value) or abs(ts) <= value * ns)
+    ):
         pn, pt = ns, ts
     else:
         pn = wanted_n / (k_nn + ratio * k_nt)
@@ -167,7 +195,8 @@ def _textbook(scene: Scene) -> dict[str, Any]:
     px, py = nx * pn - ny * pt, ny * pn + nx * pt
 
     found: dict[str, Any] = {
-        "closing_speed": closing, "slip_before": slip, "normal_impulse": pn, "tangential_impulse": pt,
+        "closing_speed": closing, "slip_before": slip, "normal_impulse": pn,
+        "tangential_impulse": pt,
         "compression_impulse": pn / (1 + e), "restitution_impulse": e * pn / (1 + e),
     }  # fmt: skip
     after: list[Any] = []
@@ -199,21 +228,29 @@ def _textbook(scene: Scene) -> dict[str, Any]:
         bearing = np.arccos(np.clip(-ahead / np.sqrt(ahead**2 + aside**2), -1.0, 1.0))
         found |= {
             f"{side}.delta_vx": dvx, f"{side}.delta_vy": dvy, f"{side}.delta_yaw_rate": ended_w - w,
-            f"{side}.after.vx": ended[0], f"{side}.after.vy": ended[1], f"{side}.after.yaw_rate": ended_w,
-            f"{side}.impulse_x": fx, f"{side}.impulse_y": fy, f"{side}.pdof": -bearing if aside < 0 else bearing,
+            f"{side}.after.vx": ended[0], f"{side}.after.vy": ended[1],
+            f"{side}.after.yaw_rate": ended_w,
+            f"{side}.impulse_x": fx, f"{side}.impulse_y": fy,
+            f"{side}.pdof": -bearing if aside < 0 else bearing,
             f"{side}.pivot_impulse_x": mass * dvx - fx if pinned else num(0.0),
             f"{side}.pivot_impulse_y": mass * dvy - fy if pinned else num(0.0),
         }  # fmt: skip
-    found |= {"energy_loss": loss, "separation_speed": ended_n[1] - ended_n[0], "momentum_residual": num(0.0)}
+    found |= {
+        "energy_loss": loss,
+        "separation_speed": ended_n[1] - ended_n[0],
+        "momentum_residual": num(0.0),
+    }
     return found
 
 
-# --- What is measured ------------------------------------------------------------------------------------------------------
+# --- What is measured -----------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Promise:
-    """A row of the promises: the output, the number of eps, the scale in words and symbols, and the names measured for it."""
+    """A row of the promises: the output, the number of eps, the scale in words and symbols, and the
+    names measured for it.
+    """
 
     key: str
     output: str
@@ -223,7 +260,13 @@ class Promise:
 
 
 PROMISES = (
-    Promise("central P", "central: delta-V, impulse and its two parts, effective mass", 4, "the value", ()),
+    Promise(
+        "central P",
+        "central: delta-V, impulse and its two parts, effective mass",
+        4,
+        "the value",
+        (),
+    ),
     Promise("central loss", "central: energy loss", 6, "the value", ()),
     Promise("central speeds", "central: closing speed, separation speed", 1, "the value", ()),
     Promise("central v", "central: velocity after", 5, "|v| + |Δv|", ()),
@@ -233,12 +276,20 @@ PROMISES = (
     Promise("v", "velocity after", 8, "|v| + a κ S_P", ("after.v",)),
     Promise("dw", "change of the yaw rate", 8, "b |r| κ S_P", ("delta_yaw_rate",)),
     Promise("w", "yaw rate after", 8, "|ω| + b |r| κ S_P", ("after.yaw_rate",)),
-    Promise("loss", "energy loss", 8, "|loss_n| + |loss_t| + κ S_P max(S_U, |s'|)", ("energy_loss",)),
+    Promise(
+        "loss", "energy loss", 8, "|loss_n| + |loss_t| + κ S_P max(S_U, |s'|)", ("energy_loss",)
+    ),
     Promise("pivot", "impulse of a pivot", 8, "|R| + (1 + m d b |r|) κ S_P", ("pivot_impulse",)),
     Promise("pdof", "PDOF", 8, "π/2 + κ S_P / |P|, in rad", ("pdof",)),
     Promise("sum dv", "sum of m Δv", 4, "|P|", ("sum m dv", "momentum_residual")),
     Promise("sum v", "sum of m (v' - v)", 1, "sum of m (|v| + |v'|)", ("sum m (v' - v)",)),
-    Promise("turn", "angular momentum about the contact", 8, "the sizes of its terms", ("angular momentum",)),
+    Promise(
+        "turn",
+        "angular momentum about the contact",
+        8,
+        "the sizes of its terms",
+        ("angular momentum",),
+    ),
 )
 OF_NAME = {name: promise for promise in PROMISES for name in promise.names}
 # What the tables and the chart compare.
@@ -250,12 +301,17 @@ def sizes(answer: Answer) -> dict[str, float]:
     found = {"energy_loss": abs(float(answer.loss)), "P": math.hypot(answer.pn, answer.pt)}
     for side in "ab":
         half = getattr(answer, side)
-        found |= {f"{side}.delta_v": math.hypot(half.dvx, half.dvy), f"{side}.after.yaw_rate": abs(float(half.w))}
+        found |= {
+            f"{side}.delta_v": math.hypot(half.dvx, half.dvy),
+            f"{side}.after.yaw_rate": abs(float(half.w)),
+        }
     return found
 
 
 class Found(NamedTuple):
-    """An error, the scale it is promised relative to, and the size of the value where a plain relative error is meaningful."""
+    """An error, the scale it is promised relative to, and the size of the value where a plain
+    relative error is meaningful.
+    """
 
     key: str
     error: float
@@ -263,8 +319,12 @@ class Found(NamedTuple):
     size: float | None
 
 
-def measured(scene: Scene, answer: Answer, outputs: dict[str, float], balances: bool = True) -> Iterator[Found]:
-    """The errors of an answer. Errors and scales are those of the tests; a value far below its scale has no relative error."""
+def measured(
+    scene: Scene, answer: Answer, outputs: dict[str, float], balances: bool = True
+) -> Iterator[Found]:
+    """The errors of an answer. Errors and scales are those of the tests; a value far below its
+    scale has no relative error.
+    """
     size = sizes(answer)
     for measure in asserted.PROMISES:
         if measure is asserted.balances and not balances:
@@ -274,7 +334,9 @@ def measured(scene: Scene, answer: Answer, outputs: dict[str, float], balances: 
             if promise is not None:
                 scale = bound / (promise.eps * EPS)
                 value = size.get(name, 0.0)
-                yield Found(promise.key, error, scale, value if value and value >= 0.01 * scale else None)
+                yield Found(
+                    promise.key, error, scale, value if value and value >= 0.01 * scale else None
+                )
 
 
 def in_eps(error: float, scale: float) -> float:
@@ -289,17 +351,28 @@ def rounded(value: float) -> float | None:
     return float(f"{value:.1e}") if math.isfinite(value) else None
 
 
-def answers(family: str, law: str, rule: str) -> Iterator[tuple[Scene, Answer, list[dict[str, float]], dict[str, float]]]:
-    """Scenes and reference answers, the library's outputs alone and in a batch, and the textbook's."""
+def answers(
+    family: str, law: str, rule: str
+) -> Iterator[tuple[Scene, Answer, list[dict[str, float]], dict[str, float]]]:
+    """Scenes and reference answers, the library's outputs alone and in a batch, and the
+    textbook's.
+    """
     group = known(family, law, rule)
     together = asserted._outputs(solved_together("eccentric", [scene for scene, _ in group]))
     for index, (scene, answer) in enumerate(group):
         alone = asserted._outputs(solved("eccentric", scene))
-        yield scene, answer, [alone, {path: values[index] for path, values in together.items()}], textbook(scene)
+        yield (
+            scene,
+            answer,
+            [alone, {path: values[index] for path, values in together.items()}],
+            textbook(scene),
+        )
 
 
 class Worst:
-    """The worst errors so far, in eps of their scales and relative to the values, and how often there was no number at all."""
+    """The worst errors so far, in eps of their scales and relative to the values, and how often
+    there was no number at all.
+    """
 
     def __init__(self) -> None:
         self.scaled: dict[str, float] = {}
@@ -347,19 +420,25 @@ def regime(which: Regime) -> dict[str, Any]:
             "library": math.inf if key in ours.missing else rounded(ours.scaled[key]),
         }
         if key in ("P", "delta-V", "loss"):
-            table[key] |= {f"{who}_relative": rounded(worst.relative[key]) if key in worst.relative else None
+            table[key] |= {f"{who}_relative": rounded(
+                worst.relative[key]) if key in worst.relative else None
                            for who, worst in (("textbook", theirs), ("library", ours))}  # fmt: skip
     return {
         "key": which.key,
         "name": which.name,
         "cases": count,
         "compared": table,
-        "promised": {key: None if key in ours.missing else rounded(found) for key, found in ours.scaled.items()},
+        "promised": {
+            key: None if key in ours.missing else rounded(found)
+            for key, found in ours.scaled.items()
+        },
     }
 
 
 def central() -> dict[str, float]:
-    """Worst errors of linear_central over the cases of the tests, in eps of the scales of its promises."""
+    """Worst errors of linear_central over the cases of the tests, in eps of the scales of its
+    promises.
+    """
     scenes = asserted.linear_cases()
     together = asserted._outputs(solved_together("linear_central", scenes))
     worst = {promise.key: 0.0 for promise in PROMISES if promise.key.startswith("central")}
@@ -386,16 +465,20 @@ def central() -> dict[str, float]:
                 note(key, asserted.apart((outputs[path], exact)), abs(float(exact)))
             for side in "ab":
                 half = getattr(answer, side)
-                error = asserted.apart((outputs[f"{side}.after.vx"], half.vx), (outputs[f"{side}.after.vy"], half.vy))
+                error = asserted.apart(
+                    (outputs[f"{side}.after.vx"], half.vx), (outputs[f"{side}.after.vy"], half.vy)
+                )
                 note("central v", error, float(half.speed + abs(half.dvx)))
     return {key: rounded(found) for key, found in worst.items()}
 
 
-# --- What no algorithm can undo --------------------------------------------------------------------------------------------
+# --- What no algorithm can undo -------------------------------------------------------------------
 
 
 def nudged(scene: Scene) -> Iterator[Scene]:
-    """The scene with one of its data changed by one eps, for each of them. Levers and relative velocity are the data."""
+    """The scene with one of its data changed by one eps, for each of them. Levers and relative
+    velocity are the data.
+    """
 
     def beyond(value: float, size: float) -> float:
         return value + max(EPS * size, math.ulp(value))
@@ -403,13 +486,21 @@ def nudged(scene: Scene) -> Iterator[Scene]:
     speed = math.hypot(scene.b.vx - scene.a.vx, scene.b.vy - scene.a.vy)
     for side in "ab":
         body = getattr(scene, side)
-        changed = [replace(body, **{name: getattr(body, name) * (1 + EPS)}) for name in ("mass", "inertia", "spin")]
+        changed = [
+            replace(body, **{name: getattr(body, name) * (1 + EPS)})
+            for name in ("mass", "inertia", "spin")
+        ]
         hold = body.pivot or (body.x, body.y)
         lever = math.dist(hold, scene.point)
         for moved in ((beyond(hold[0], lever), hold[1]), (hold[0], beyond(hold[1], lever))):
-            changed.append(replace(body, pivot=moved) if body.pivot else replace(body, x=moved[0], y=moved[1]))
+            changed.append(
+                replace(body, pivot=moved) if body.pivot else replace(body, x=moved[0], y=moved[1])
+            )
         if not body.pivot:
-            changed += [replace(body, vx=beyond(body.vx, speed)), replace(body, vy=beyond(body.vy, speed))]
+            changed += [
+                replace(body, vx=beyond(body.vx, speed)),
+                replace(body, vy=beyond(body.vy, speed)),
+            ]
         yield from (replace(scene, **{side: other}) for other in changed)
     yield replace(scene, normal=beyond(scene.normal, 1.0))
     yield replace(scene, restitution=scene.restitution * (1 - EPS))
@@ -441,27 +532,52 @@ def _parallel(rng: random.Random, part: float) -> Scene:
             (scene.point[0] - length * math.cos(angle), scene.point[1] - length * math.sin(angle))
             for length, angle in ((size, along), (rng.uniform(1.0, 3.0), along + part))
         ]
-        a, b = (replace(body, pivot=pin) for body, pin in zip((scene.a, scene.b), pins, strict=True))
+        a, b = (
+            replace(body, pivot=pin) for body, pin in zip((scene.a, scene.b), pins, strict=True)
+        )
         spins = rng.uniform(-3.0, 3.0), rng.uniform(-3.0, 3.0)
-        scene = replace(scene, a=replace(a, spin=spins[0]), b=replace(b, spin=spins[1]), value=math.inf)
+        scene = replace(
+            scene, a=replace(a, spin=spins[0]), b=replace(b, spin=spins[1]), value=math.inf
+        )
         scene = replace(scene, normal=rng.uniform(-math.pi, math.pi))
         if evaluate(scene).regime == "sticking":
             return scene
 
 
-# Of the library and of the exact answer, and the measure of the tests whose first entry has its promise.
+# Of the library and of the exact answer, and the measure of the tests whose first entry has its
+# promise.
 _IMPULSE = (("normal_impulse", "pn"), ("tangential_impulse", "pt")), asserted.impulses
 _LOSS = (("energy_loss", "loss"),), asserted.losses
 CONDITIONS = (
-    ("kappa_g", "grazing: closing speed against speed of the contact", _grazing, lambda k: k.s_u / k.closing, _IMPULSE),
-    ("kappa_mu", "given impulse ratio near the limit where bodies jam", _near_its_limit, lambda k: k.kappa_mu, _IMPULSE),
+    (
+        "kappa_g",
+        "grazing: closing speed against speed of the contact",
+        _grazing,
+        lambda k: k.s_u / k.closing,
+        _IMPULSE,
+    ),
+    (
+        "kappa_mu",
+        "given impulse ratio near the limit where bodies jam",
+        _near_its_limit,
+        lambda k: k.kappa_mu,
+        _IMPULSE,
+    ),
     ("kappa_mu loss", "the energy loss of the same", _near_its_limit, lambda k: k.kappa_mu, _LOSS),
-    ("kappa_s", "sticking contact of two pivots with almost parallel levers", _parallel, lambda k: k.kappa_s, _IMPULSE),
+    (
+        "kappa_s",
+        "sticking contact of two pivots with almost parallel levers",
+        _parallel,
+        lambda k: k.kappa_s,
+        _IMPULSE,
+    ),
 )
 
 
 def conditions(count: int = 40) -> list[dict[str, Any]]:
-    """For growing condition numbers: the error of the library's answer, and what one eps in the data does to the exact one."""
+    """For growing condition numbers: the error of the library's answer, and what one eps in the
+    data does to the exact one.
+    """
     found = []
     for key, name, make, kappa, (pairs, promise) in CONDITIONS:
         rows = []
@@ -476,14 +592,18 @@ def conditions(count: int = 40) -> list[dict[str, Any]]:
                 kappas.append(float(kappa(answer)))
                 size = math.hypot(*(getattr(answer, exact) for _, exact in pairs))
                 outputs = asserted._outputs(solved("eccentric", scene))
-                error = asserted.apart(*((outputs[path], getattr(answer, exact)) for path, exact in pairs))
+                error = asserted.apart(
+                    *((outputs[path], getattr(answer, exact)) for path, exact in pairs)
+                )
                 ours = max(ours, error / size)
                 promises = max(promises, promise(scene, answer, outputs)[0][2] / EPS / size)
                 moved = 0.0
                 for other in nudged(scene):
                     there = evaluate(other, DIGITS)
                     if not there.refused:
-                        moved += math.hypot(*(getattr(there, exact) - getattr(answer, exact) for _, exact in pairs))
+                        moved += math.hypot(
+                            *(getattr(there, exact) - getattr(answer, exact) for _, exact in pairs)
+                        )
                 exact = max(exact, moved / size)
                 ratio = max(ratio, error / moved)
             rows.append(
@@ -517,7 +637,9 @@ def grid() -> dict[str, Any]:
             moved = max(moved, change / float(answer.spread) / EPS)
             plain = max(plain, change / math.hypot(answer.pn, answer.pt))
             impact = solved("eccentric", shifted)
-            error = asserted.apart((impact.normal_impulse, there.pn), (impact.tangential_impulse, there.pt))
+            error = asserted.apart(
+                (impact.normal_impulse, there.pn), (impact.tangential_impulse, there.pt)
+            )
             added = max(added, error / float(there.spread) / EPS)
     return {
         "ulp": rounded(math.ulp(5e6)),
@@ -529,7 +651,7 @@ def grid() -> dict[str, Any]:
     }
 
 
-# --- float32 ---------------------------------------------------------------------------------------------------------------
+# --- float32 --------------------------------------------------------------------------------------
 
 
 FLOAT32 = ("P", "delta-V", "loss", "w")
@@ -541,7 +663,10 @@ def _single(scene: Scene) -> Scene:
             return tuple(map(short, value))
         return float(np.float32(value)) if isinstance(value, float) else value
 
-    bodies = (Body(**{f.name: short(getattr(body, f.name)) for f in fields(Body)}) for body in (scene.a, scene.b))
+    bodies = (
+        Body(**{f.name: short(getattr(body, f.name)) for f in fields(Body)})
+        for body in (scene.a, scene.b)
+    )
     return Scene(*bodies, *(short(getattr(scene, f.name)) for f in fields(Scene)[2:]))
 
 
@@ -562,10 +687,18 @@ def float32() -> dict[str, Any]:
             return np.array(values, dtype=np.float32)
 
         bodies = [
-            Body(**{f.name: column(getattr(getattr(scene, side), f.name) for scene in scenes) for f in fields(Body)})
+            Body(
+                **{
+                    f.name: column(getattr(getattr(scene, side), f.name) for scene in scenes)
+                    for f in fields(Body)
+                }
+            )
             for side in "ab"
         ]
-        rest = {name: column(getattr(scene, name) for scene in scenes) for name in ("restitution", "normal", "point", "value")}
+        rest = {
+            name: column(getattr(scene, name) for scene in scenes)
+            for name in ("restitution", "normal", "point", "value")
+        }
         return solved("eccentric", replace(scenes[0], a=bodies[0], b=bodies[1], **rest))
 
     for law in LAWS:
@@ -585,7 +718,9 @@ def float32() -> dict[str, Any]:
                 outputs = {path: values[index] for path, values in columns.items()}
                 for key, error, scale, _ in measured(scene, answer, outputs):
                     if key in FLOAT32:
-                        scaled[key] = max(scaled.get(key, 0.0), error / scale / eps if error else 0.0)
+                        scaled[key] = max(
+                            scaled.get(key, 0.0), error / scale / eps if error else 0.0
+                        )
                 size = sizes(answer)
                 for measure in (asserted.impulses, asserted.velocities, asserted.losses):
                     for name, error, _ in measure(scene, answer, outputs):
@@ -610,7 +745,7 @@ def float32() -> dict[str, Any]:
     }
 
 
-# --- Beyond the first laws -------------------------------------------------------------------------------------------------
+# --- Beyond the first laws ------------------------------------------------------------------------
 
 LATER = {
     'law="stronge"': [("stronge", "friction")],
@@ -620,7 +755,9 @@ LATER = {
 
 
 def later() -> list[dict[str, Any]]:
-    """Worst errors of what came after the first laws, over all families, in eps of the scales of the promises."""
+    """Worst errors of what came after the first laws, over all families, in eps of the scales of
+    the promises.
+    """
     found = []
     for name, kinds in LATER.items():
         worst, count = Worst(), 0
@@ -630,7 +767,10 @@ def later() -> list[dict[str, Any]]:
                     count += 1
                     for outputs in library:
                         worst.note(list(measured(scene, answer, outputs)), sticks=False)
-        seen = {key: None if key in worst.missing else rounded(error) for key, error in worst.scaled.items()}
+        seen = {
+            key: None if key in worst.missing else rounded(error)
+            for key, error in worst.scaled.items()
+        }
         found.append({"name": name, "cases": count, "seen": seen})
     return found
 
@@ -645,11 +785,18 @@ def steps() -> dict[str, Any]:
                 one = in_time.alone(scene, duration, drag, moves)
                 for name, error in in_time.errors(scene, followed, partial(in_time.output, one)):
                     worst[name] = max(worst.get(name, 0.0), error)
-        rows.append({"family": family, "seen": {name: rounded(error) for name, error in worst.items()}})
-    return {"steps": in_time.STEPS, "cases": 2 * in_time.COUNT, "promises": in_time.PROMISES, "rows": rows}
+        rows.append(
+            {"family": family, "seen": {name: rounded(error) for name, error in worst.items()}}
+        )
+    return {
+        "steps": in_time.STEPS,
+        "cases": 2 * in_time.COUNT,
+        "promises": in_time.PROMISES,
+        "rows": rows,
+    }
 
 
-# --- Everything ------------------------------------------------------------------------------------------------------------
+# --- Everything -----------------------------------------------------------------------------------
 
 
 def measure() -> dict[str, Any]:
@@ -665,7 +812,14 @@ def measure() -> dict[str, Any]:
         "eps": EPS,
         "regimes": regimes,
         "promises": [
-            {"key": p.key, "output": p.output, "eps": p.eps, "scale": p.scale, "seen": rounded(seen[p.key])} for p in PROMISES
+            {
+                "key": p.key,
+                "output": p.output,
+                "eps": p.eps,
+                "scale": p.scale,
+                "seen": rounded(seen[p.key]),
+            }
+            for p in PROMISES
         ],
         "conditions": conditions(),
         "grid": grid(),

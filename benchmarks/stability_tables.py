@@ -1,4 +1,6 @@
-"""The tables and the chart of the page "Numerical stability", made from the numbers that benchmarks/stability.py wrote."""
+"""The tables and the chart of the page "Numerical stability", made from the numbers that
+benchmarks/stability.py wrote.
+"""
 
 from __future__ import annotations
 
@@ -42,30 +44,45 @@ def number(value: float | None) -> str:
 def table(head: list[str], rows: list[list[str]]) -> str:
     """A Markdown table whose columns of numbers are on the right."""
     lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
+    return "\n".join(
+        "| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines
+    )
 
 
 def symbols(text: str) -> str:
-    """Subscripts as a reader expects them: S_P becomes a formula, ranges of two numbers get their word."""
-    return re.sub(r"\b(S|loss)_(\w)\b", lambda hit: f"{hit[1]}<sub>{hit[2]}</sub>", text).replace("..", " to ")
+    """Subscripts as a reader expects them: S_P becomes a formula, ranges of two numbers get their
+    word.
+    """
+    return re.sub(r"\b(S|loss)_(\w)\b", lambda hit: f"{hit[1]}<sub>{hit[2]}</sub>", text).replace(
+        "..", " to "
+    )
 
 
 def promises(found: dict[str, Any]) -> str:
     """Every promise, and the worst error seen."""
     return table(
         ["output", "promise, in eps", "of this scale", "worst seen, in eps"],
-        [[row["output"], str(row["eps"]), symbols(row["scale"]), number(row["seen"])] for row in found["promises"]],
+        [
+            [row["output"], str(row["eps"]), symbols(row["scale"]), number(row["seen"])]
+            for row in found["promises"]
+        ],
     )
 
 
 def later(found: dict[str, Any]) -> str:
     """The worst errors of what came after the first laws, row by row of the promises."""
     rows = [
-        [promise["output"], str(promise["eps"]), *(number(kind["seen"].get(promise["key"])) for kind in found["later"])]
+        [
+            promise["output"],
+            str(promise["eps"]),
+            *(number(kind["seen"].get(promise["key"])) for kind in found["later"]),
+        ]
         for promise in found["promises"]
         if promise["key"] in found["later"][0]["seen"]
     ]
-    names = [f"`{kind['name']}`" if "=" in kind["name"] else kind["name"] for kind in found["later"]]
+    names = [
+        f"`{kind['name']}`" if "=" in kind["name"] else kind["name"] for kind in found["later"]
+    ]
     return table(["output", "promise, in eps", *names], rows)
 
 
@@ -74,7 +91,10 @@ def in_time(found: dict[str, Any]) -> str:
     of_steps = found["in_time"]
     names = list(of_steps["promises"])
     rows = [["promise", *(str(eps) for eps in of_steps["promises"].values())]]
-    rows += [[symbols(row["family"]), *(number(row["seen"][name]) for name in names)] for row in of_steps["rows"]]
+    rows += [
+        [symbols(row["family"]), *(number(row["seen"][name]) for name in names)]
+        for row in of_steps["rows"]
+    ]
     return table(["worst seen, in eps", *names], rows)
 
 
@@ -84,26 +104,39 @@ def load_steps() -> dict[str, Any]:
 
 
 def of_steps(found: dict[str, Any]) -> str:
-    """The error of the steps at 100 and at 200 of them, and by what it falls from the one to the other."""
+    """The error of the steps at 100 and at 200 of them, and by what it falls from the one to the
+    other.
+    """
     rows = []
     for row in found["rows"]:
         ends = [f"{number(row['median'][at])}, {number(row['worst'][at])}" for at in (0, 1)]
-        rows.append([row["name"], str(row["cases"]), *ends, f"{row['median'][0] / row['median'][1]:.1f}"])
-    head = ["what", "cases", "median and worst error at 100 steps", "at 200 steps", "the median falls by"]
+        rows.append(
+            [row["name"], str(row["cases"]), *ends, f"{row['median'][0] / row['median'][1]:.1f}"]
+        )
+    head = [
+        "what",
+        "cases",
+        "median and worst error at 100 steps",
+        "at 200 steps",
+        "the median falls by",
+    ]
     return table(head, rows)
 
 
 def start_of_steps(found: dict[str, Any]) -> str:
     """How near the start is found."""
     return (
-        f"The start is sought until the positions at maximum engagement are met to {number(found['start'])} of closing speed "
-        "times duration; where that fails the case is refused (`no_start`). Momentum including the tyres, and kinetic energies "
-        "including both losses, balance to rounding."
+        "The start is sought until the positions at maximum engagement are met to "
+        f"{number(found['start'])} of closing speed times duration; where that fails the case is "
+        "refused (`no_start`). Momentum including the tyres, and kinetic energies including "
+        "both losses, balance to rounding."
     )
 
 
 def forms(found: dict[str, Any], keys: list[str]) -> str:
-    """For every regime: the worst error of the textbook form beside that of the library, in eps of the scale."""
+    """For every regime: the worst error of the textbook form beside that of the library, in eps of
+    the scale.
+    """
     rows = []
     for regime in found["regimes"]:
         row = [regime["name"]]
@@ -118,7 +151,10 @@ def forms(found: dict[str, Any], keys: list[str]) -> str:
             row += [textbook, number(entry["library"])]
         if any(cell != "–" for cell in row[1:]):
             rows.append(row)
-    return table(["regime", *(f"{NAMES[key]}, {who}" for key in keys for who in ("textbook", "library"))], rows)
+    return table(
+        ["regime", *(f"{NAMES[key]}, {who}" for key in keys for who in ("textbook", "library"))],
+        rows,
+    )
 
 
 def relative(found: dict[str, Any]) -> str:
@@ -128,17 +164,41 @@ def relative(found: dict[str, Any]) -> str:
     for regime in found["regimes"]:
         entries = [regime["compared"][key] for key in keys]
         rows.append(
-            [regime["name"], *(number(entry[f"{who}_relative"]) for entry in entries for who in ("textbook", "library"))]
+            [
+                regime["name"],
+                *(
+                    number(entry[f"{who}_relative"])
+                    for entry in entries
+                    for who in ("textbook", "library")
+                ),
+            ]
         )
-    return table(["regime", *(f"{NAMES[key]}, {who}" for key in keys for who in ("textbook", "library"))], rows)
+    return table(
+        ["regime", *(f"{NAMES[key]}, {who}" for key in keys for who in ("textbook", "library"))],
+        rows,
+    )
 
 
 def conditions(found: dict[str, Any], key: str) -> str:
-    """How the error of the impulse, or of the energy loss, grows with one of the condition numbers."""
+    """How the error of the impulse, or of the energy loss, grows with one of the
+    condition numbers.
+    """
     rows = next(entry["rows"] for entry in found["conditions"] if entry["key"] == key)
     return table(
-        ["condition number", "exact answer moves", "library is off", "worst case of off / moves", "promise"],
-        [[number(row[name]) for name in ("kappa", "one_eps", "library", "library_over_one_eps", "promise")] for row in rows],
+        [
+            "condition number",
+            "exact answer moves",
+            "library is off",
+            "worst case of off / moves",
+            "promise",
+        ],
+        [
+            [
+                number(row[name])
+                for name in ("kappa", "one_eps", "library", "library_over_one_eps", "promise")
+            ]
+            for row in rows
+        ],
     )
 
 
@@ -164,11 +224,25 @@ def grid(found: dict[str, Any]) -> str:
 def float32(found: dict[str, Any]) -> str:
     """What float32 gives in ordinary traffic."""
     return table(
-        ["output", "worst, in float32 eps of the scale", "median relative error", "99 % are below", "worst relative error"],
+        [
+            "output",
+            "worst, in float32 eps of the scale",
+            "median relative error",
+            "99 % are below",
+            "worst relative error",
+        ],
         [
             [
                 NAMES[row["key"]],
-                *(number(row[name]) for name in ("worst_in_eps", "median_relative", "p99_relative", "worst_relative")),
+                *(
+                    number(row[name])
+                    for name in (
+                        "worst_in_eps",
+                        "median_relative",
+                        "p99_relative",
+                        "worst_relative",
+                    )
+                ),
             ]
             for row in found["float32"]["outputs"]
         ],
@@ -176,12 +250,15 @@ def float32(found: dict[str, Any]) -> str:
 
 
 def draw_forms(found: dict[str, Any], path: Path) -> None:
-    """Digits lost by the textbook forms and by the library: regimes as rows, an output in each panel."""
+    """Digits lost by the textbook forms and by the library: regimes as rows, an output in each
+    panel.
+    """
     import matplotlib as mpl
 
     mpl.use("agg")
     style = {
-        "font.size": 10, "font.family": "DejaVu Sans", "figure.facecolor": "white", "savefig.facecolor": "white",
+        "font.size": 10, "font.family": "DejaVu Sans", "figure.facecolor": "white",
+        "savefig.facecolor": "white",
         "svg.fonttype": "path", "svg.hashsalt": "collisions",
     }  # fmt: skip
     with mpl.rc_context(style):
@@ -221,12 +298,22 @@ def _draw(found: dict[str, Any], path: Path) -> None:
             spine.set_visible(False)
     axes[0].set_yticks(range(len(regimes)), [regime["name"] for regime in regimes])
     axes[0].set_ylim(len(regimes) - 0.4, -0.6)
-    figure.supxlabel("decimal digits lost in the worst case (shaded: more than double precision has)", fontsize=10)
+    figure.supxlabel(
+        "decimal digits lost in the worst case (shaded: more than double precision has)",
+        fontsize=10,
+    )
     marks = [
         plt.Line2D([], [], ls="", marker="o", color=OURS, ms=7, label="library"),
         plt.Line2D([], [], ls="", marker="s", color=TEXTBOOK, ms=7, label="textbook form"),
         plt.Line2D(
-            [], [], ls="", marker="x", color=TEXTBOOK, ms=7, mew=2, label="textbook form gives no number in some or all cases"
+            [],
+            [],
+            ls="",
+            marker="x",
+            color=TEXTBOOK,
+            ms=7,
+            mew=2,
+            label="textbook form gives no number in some or all cases",
         ),
     ]
     figure.legend(handles=marks, loc="upper center", ncols=3, frameon=False)

@@ -1,9 +1,11 @@
-"""What an impulse leaves out, by ``time_resolved``; and how near ``left_out`` comes to it, which estimates the same.
+"""What an impulse leaves out, by ``time_resolved``; and how near ``left_out`` comes to it, which
+estimates the same.
 
-``python benchmarks/time_resolved.py [file.json]`` prints a table, and writes it when a file is named. Contacts of 0.1 s with
-locked wheels at 0.7 are followed with tyres, with moving places, with both and with neither; nothing is timed. Nine scenes are
-listed one by one; over seeded random ones only the ratio of the estimate to the change is kept, once with a friction of 0.2 to
-0.8 and once of 0 to 0.1. What the steps err by is tested against closed forms and an independent integration.
+``python benchmarks/time_resolved.py [file.json]`` prints a table, and writes it when a file is
+named. Contacts of 0.1 s with locked wheels at 0.7 are followed with tyres, with moving places, with
+both and with neither; nothing is timed. Nine scenes are listed one by one; over seeded random ones
+only the ratio of the estimate to the change is kept, once with a friction of 0.2 to 0.8 and once of
+0 to 0.1. What the steps err by is tested against closed forms and an independent integration.
 """
 
 from __future__ import annotations
@@ -42,7 +44,9 @@ VARIANTS: dict[str, dict[str, Any]] = {
 
 @dataclass(frozen=True)
 class Scene:
-    """An impact of two bodies, A and B by their numbers: mass, inertia, vx, vy, yaw rate, x, y, heading."""
+    """An impact of two bodies, A and B by their numbers: mass, inertia, vx, vy, yaw rate, x, y,
+    heading.
+    """
 
     key: str
     name: str
@@ -55,7 +59,10 @@ class Scene:
 
     def vehicles(self, **changes: Any) -> list[col.Vehicle]:
         """Both bodies."""
-        return [col.Vehicle(**dict(zip(NAMES, body, strict=True)) | changes) for body in (self.a, self.b)]
+        return [
+            col.Vehicle(**dict(zip(NAMES, body, strict=True)) | changes)
+            for body in (self.a, self.b)
+        ]
 
     def impact(self, **options: Any) -> col.Impact:
         """What the impulse solver answers."""
@@ -65,8 +72,15 @@ class Scene:
     def passed(self, variant: str, steps: int = STEPS) -> col.Impact:
         """The contact followed in time."""
         bodies = self.vehicles(**({"heading": None} if variant == "tyres" else {}))
-        contact = {"normal": self.normal, "point": self.point, "friction": self.friction, **VARIANTS[variant]}
-        return col.time_resolved(*bodies, self.restitution, **contact, duration=DURATION, steps=steps)
+        contact = {
+            "normal": self.normal,
+            "point": self.point,
+            "friction": self.friction,
+            **VARIANTS[variant],
+        }
+        return col.time_resolved(
+            *bodies, self.restitution, **contact, duration=DURATION, steps=steps
+        )
 
 
 def rear_end(speed: float) -> Scene:
@@ -140,8 +154,12 @@ DRAWN, SEED = 150, 20240613
 FRICTION, LITTLE_FRICTION = (0.2, 0.5, 0.8), (0.0, 0.05, 0.1)
 
 
-def drawn(count: int = DRAWN, frictions: tuple[float, ...] = FRICTION, seed: int = SEED) -> tuple[Scene, ...]:
-    """Random impacts of two cars that do not spin before, close at 2 m/s and more, up to 28 m/s, and slide at up to 16 m/s."""
+def drawn(
+    count: int = DRAWN, frictions: tuple[float, ...] = FRICTION, seed: int = SEED
+) -> tuple[Scene, ...]:
+    """Random impacts of two cars that do not spin before, close at 2 m/s and more, up to 28 m/s,
+    and slide at up to 16 m/s.
+    """
     rng = random.Random(seed)
     found: list[Scene] = []
     while len(found) < count:
@@ -149,11 +167,29 @@ def drawn(count: int = DRAWN, frictions: tuple[float, ...] = FRICTION, seed: int
         n = math.cos(normal), math.sin(normal)
         bodies = []
         for sign in (-1.0, 1.0):
-            along, across = -sign * rng.uniform(0.0, 14.0), rng.uniform(-8.0, 8.0) * rng.choice([0.0, 0.3, 1.0])
-            reach, lever = sign * rng.uniform(0.6, 2.2), rng.uniform(-1.0, 1.0) * rng.choice([0.3, 1.0])
+            along, across = (
+                -sign * rng.uniform(0.0, 14.0),
+                rng.uniform(-8.0, 8.0) * rng.choice([0.0, 0.3, 1.0]),
+            )
+            reach, lever = (
+                sign * rng.uniform(0.6, 2.2),
+                rng.uniform(-1.0, 1.0) * rng.choice([0.3, 1.0]),
+            )
             mass = rng.uniform(900.0, 2200.0)
-            velocity, place = ((u * n[0] - v * n[1], u * n[1] + v * n[0]) for u, v in ((along, across), (reach, lever)))
-            bodies.append((mass, mass * rng.uniform(1.2, 2.0), *velocity, 0.0, *place, rng.uniform(-math.pi, math.pi)))
+            velocity, place = (
+                (u * n[0] - v * n[1], u * n[1] + v * n[0])
+                for u, v in ((along, across), (reach, lever))
+            )
+            bodies.append(
+                (
+                    mass,
+                    mass * rng.uniform(1.2, 2.0),
+                    *velocity,
+                    0.0,
+                    *place,
+                    rng.uniform(-math.pi, math.pi),
+                )
+            )
         e, friction = rng.uniform(0.0, 0.4), rng.choice(frictions)
         scene = Scene(f"drawn_{len(found)}", "", *bodies, e, normal, (0.0, 0.0), friction)
         try:
@@ -168,13 +204,20 @@ def drawn(count: int = DRAWN, frictions: tuple[float, ...] = FRICTION, seed: int
 def changes(impacts: list[col.Impact]) -> Any:
     """Changes of velocity and yaw rate, of shape (x y yaw, A or B, scenes)."""
     names = ("delta_vx", "delta_vy", "delta_yaw_rate")
-    return np.array([[[getattr(getattr(impact, side), name) for impact in impacts] for side in "ab"] for name in names])
+    return np.array(
+        [
+            [[getattr(getattr(impact, side), name) for impact in impacts] for side in "ab"]
+            for name in names
+        ]
+    )
 
 
 def measure(scenes: tuple[Scene, ...] = SCENES, steps: int = STEPS) -> dict[str, Any]:
-    """Every scene: delta-V of the impulse, what each of what it leaves out changes, and what ``left_out`` estimates of that.
+    """Every scene: delta-V of the impulse, what each of what it leaves out changes, and what
+    ``left_out`` estimates of that.
 
-    The row "fixed" is against the law that steps without tyres and motion come to, all others against "fixed".
+    The row "fixed" is against the law that steps without tyres and motion come to, all others
+    against "fixed".
     """
     found = {name: changes([scene.passed(name, steps) for scene in scenes]) for name in VARIANTS}
     impulse = changes([scene.impact() for scene in scenes])
@@ -182,7 +225,9 @@ def measure(scenes: tuple[Scene, ...] = SCENES, steps: int = STEPS) -> dict[str,
     against["fixed"] = changes([scene.impact(law="stronge") for scene in scenes])
     against["all"] = impulse
     given = {"duration": DURATION, "drag": DRAG}
-    estimates = [col.left_out(scene.impact(), **given, geometry="first_contact") for scene in scenes]
+    estimates = [
+        col.left_out(scene.impact(), **given, geometry="first_contact") for scene in scenes
+    ]
     engaged = [col.left_out(scene.impact(), **given) for scene in scenes]
     rows = []
     for case, scene in enumerate(scenes):
@@ -190,7 +235,12 @@ def measure(scenes: tuple[Scene, ...] = SCENES, steps: int = STEPS) -> dict[str,
             size = float(np.hypot(*impulse[:2, side, case]))
             if size == 0.0:
                 continue
-            row: dict[str, Any] = {"scene": scene.key, "name": scene.name, "side": label, "delta_v": _rounded(size)}
+            row: dict[str, Any] = {
+                "scene": scene.key,
+                "name": scene.name,
+                "side": label,
+                "delta_v": _rounded(size),
+            }
             for name, values in found.items():
                 dx, dy, turn = (values - against[name])[:, side, case]
                 row[name] = {
@@ -202,7 +252,9 @@ def measure(scenes: tuple[Scene, ...] = SCENES, steps: int = STEPS) -> dict[str,
             estimate = getattr(estimates[case], label)
             names = ("tyre_delta_v_bound", "tyre_delta_v", "geometry_delta_v", "rotation")
             row["left_out"] = {name: _rounded(getattr(estimate, name)) for name in names}
-            row["left_out"]["engaged_delta_v"] = _rounded(getattr(engaged[case], label).geometry_delta_v)
+            row["left_out"]["engaged_delta_v"] = _rounded(
+                getattr(engaged[case], label).geometry_delta_v
+            )
             row["left_out"]["mutual_crush"] = _rounded(estimates[case].mutual_crush)
             rows.append(row)
     finer = changes([scene.passed("all", 2 * steps) for scene in scenes])
@@ -225,18 +277,32 @@ QUANTILES = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)
 
 
 def ratios_of_drawn(
-    count: int = DRAWN, steps: int = STEPS, frictions: tuple[float, ...] = FRICTION, seed: int = SEED
+    count: int = DRAWN,
+    steps: int = STEPS,
+    frictions: tuple[float, ...] = FRICTION,
+    seed: int = SEED,
 ) -> dict[str, tuple[Any, int]]:
-    """What ``left_out`` estimates over the change in time, for random impacts, where that matters; and how many are NaN."""
+    """What ``left_out`` estimates over the change in time, for random impacts, where that matters;
+    and how many are NaN.
+    """
     scenes = drawn(count, frictions, seed)
     size = np.hypot(*changes([scene.impact() for scene in scenes])[:2])
     fixed = changes([scene.passed("fixed", steps) for scene in scenes])
     found = {}
-    for name, field in (("tyres", "tyre_delta_v"), ("moving", "geometry_delta_v"), ("engaged", "geometry_delta_v")):
+    for name, field in (
+        ("tyres", "tyre_delta_v"),
+        ("moving", "geometry_delta_v"),
+        ("engaged", "geometry_delta_v"),
+    ):
         geometry = VARIANTS[name]["geometry"] if name == "moving" else "maximum_engagement"
-        estimates = [col.left_out(one.impact(), duration=DURATION, drag=DRAG, geometry=geometry) for one in scenes]
+        estimates = [
+            col.left_out(one.impact(), duration=DURATION, drag=DRAG, geometry=geometry)
+            for one in scenes
+        ]
         moved = np.hypot(*(changes([scene.passed(name, steps) for scene in scenes]) - fixed)[:2])
-        estimate = np.array([[getattr(getattr(one, side), field) for one in estimates] for side in "ab"])
+        estimate = np.array(
+            [[getattr(getattr(one, side), field) for one in estimates] for side in "ab"]
+        )
         there = (moved > MATTERS * size) & (moved > AT_LEAST) & np.isfinite(estimate)
         found[name] = estimate[there] / moved[there], int(np.isnan(estimate).sum())
     return found
@@ -267,7 +333,18 @@ def _rounded(value: float) -> float:
 
 def table(found: dict[str, Any]) -> str:
     """What is measured, as a text: changes of delta-V in m/s, those of its magnitude in percent."""
-    head = ("delta-V", "tyres", "wheels", "left_out", "bound", "moving", "left_out", "engaged", "left_out", "magnitude")
+    head = (
+        "delta-V",
+        "tyres",
+        "wheels",
+        "left_out",
+        "bound",
+        "moving",
+        "left_out",
+        "engaged",
+        "left_out",
+        "magnitude",
+    )
     lines = [f"{'scene':<48}" + "".join(f"{text:>10}" for text in head)]
     for row in found["rows"]:
         estimate = row["left_out"]
@@ -281,18 +358,22 @@ def table(found: dict[str, Any]) -> str:
             estimate["engaged_delta_v"],
         ]
         text = "".join(f"{number:10.3f}" for number in numbers)
-        lines.append(f"{row['name']:<46}{row['side']:<2}{text}{100.0 * row['moving']['magnitude']:9.1f}%")
+        lines.append(
+            f"{row['name']:<46}{row['side']:<2}{text}{100.0 * row['moving']['magnitude']:9.1f}%"
+        )
     worst = max(row["fixed"]["share"] for row in found["rows"])
     lines.append(
-        f"without tyres, with fixed geometry: within {worst:.1g} of the impulse; half the step: {found['halving_the_step']:.1g}"
+        f"without tyres, with fixed geometry: within {worst:.1g} of the impulse; half the step: "
+        f"{found['halving_the_step']:.1g}"
     )
     for key, frictions in found["frictions"].items():
         for name in ("tyres", "moving", "engaged"):
             spread = found[key][name]
             low, high = spread["quantiles"][1], spread["quantiles"][-2]
             lines.append(
-                f"{found[key]['impacts']} random impacts, friction {frictions[0]:g} to {frictions[-1]:g}, {name}: estimate / "
-                f"change in time {low:.2f} to {high:.2f} for 9 in 10 of {spread['vehicles']} vehicles, outside a factor of 1.5 "
+                f"{found[key]['impacts']} random impacts, friction {frictions[0]:g} to "
+                f"{frictions[-1]:g}, {name}: estimate / change in time {low:.2f} to {high:.2f} "
+                f"for 9 in 10 of {spread['vehicles']} vehicles, outside a factor of 1.5 "
                 f"{100.0 * spread['outside_1.5']:.1f}%"
             )
     return "\n".join(lines)
@@ -300,7 +381,7 @@ def table(found: dict[str, Any]) -> str:
 
 def main() -> None:
     """Measure, print, and write the numbers where a file is named."""
-    parser = argparse.ArgumentParser(description=str(__doc__).partition("\n")[0])
+    parser = argparse.ArgumentParser(description=str(__doc__).partition("\n\n")[0])
     parser.add_argument("file", nargs="?", type=Path, help="where to write the numbers as JSON")
     options = parser.parse_args()
     found = measure()

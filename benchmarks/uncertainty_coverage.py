@@ -1,4 +1,6 @@
-"""How often a stated 95 percent interval holds the truth, over simulated scenes whose truth is known."""
+"""How often a stated 95 percent interval holds the truth, over simulated scenes whose truth is
+known.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,18 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
-from uncertainty_scenes import BY_KEY, ENDS, LOCAL, SAMPLED, Numbers, Scene, drawn, listening, run, t_bone
+from uncertainty_scenes import (
+    BY_KEY,
+    ENDS,
+    LOCAL,
+    SAMPLED,
+    Numbers,
+    Scene,
+    drawn,
+    listening,
+    run,
+    t_bone,
+)
 
 from collisions.messages.errors import NoSolutionError
 from collisions.uncertainty import Interval, Normal
@@ -28,28 +41,42 @@ def simulated(
 ) -> Iterator[tuple[Numbers, dict[str, Normal]]]:
     """The truth of a scene, and what an analyst states of it.
 
-    What is measured lies anywhere in its range, and is measured with the standard deviation that is stated. What is taken from
-    the literature is distributed as is stated. All errors are ``off`` times as large as the analyst believes.
+    What is measured lies anywhere in its range, and is measured with the standard deviation that is
+    stated. What is taken from the literature is distributed as is stated. All errors are ``off``
+    times as large as the analyst believes.
     """
-    wider = {name: Normal(one.given_mean, off * one.given_sd, truncate=one.truncate) for name, one in scene.inputs.items()}
+    wider = {
+        name: Normal(one.given_mean, off * one.given_sd, truncate=one.truncate)
+        for name, one in scene.inputs.items()
+    }
     literature = drawn(wider, generator, count)
     ranges = {name: generator.uniform(*ends, count) for name, ends in scene.measured.items()}
-    slips = {name: off * generator.normal(0.0, scene.inputs[name].given_sd, count) for name in scene.measured}
+    slips = {
+        name: off * generator.normal(0.0, scene.inputs[name].given_sd, count)
+        for name in scene.measured
+    }
     for case in range(count):
         truth, stated = {}, dict(scene.inputs)
         for name, known in scene.inputs.items():
             if name in ranges:
                 truth[name] = float(ranges[name][case])
-                stated[name] = Normal(truth[name] + float(slips[name][case]), known.given_sd, truncate=known.truncate)
+                stated[name] = Normal(
+                    truth[name] + float(slips[name][case]), known.given_sd, truncate=known.truncate
+                )
             else:
                 truth[name] = float(literature[name][case])
         yield truth, stated
 
 
-def stated_interval(scene: Scene, method: str, stated: Mapping[str, Normal], seed: int) -> tuple[float, float, bool]:
+def stated_interval(
+    scene: Scene, method: str, stated: Mapping[str, Normal], seed: int
+) -> tuple[float, float, bool]:
     """The interval that a method states, and whether it warned."""
     if method == "interval":
-        given = {name: Interval(*map(float, known.quantile(np.array(ENDS)))) for name, known in stated.items()}
+        given = {
+            name: Interval(*map(float, known.quantile(np.array(ENDS))))
+            for name, known in stated.items()
+        }
         found, codes = run(scene, method, given)
     elif method in LOCAL:
         found, codes = run(scene, method, stated)
@@ -61,10 +88,21 @@ def stated_interval(scene: Scene, method: str, stated: Mapping[str, Normal], see
 
 
 def counted(key: str, count: int, off: float = 1.0) -> dict[str, Any]:
-    """How often each method's interval held the truth, on which side it missed, and how wide it was."""
+    """How often each method's interval held the truth, on which side it missed, and how wide it
+    was.
+    """
     scene = BY_KEY[key]
     generator = np.random.default_rng([SEED, list(BY_KEY).index(key), int(off)])
-    empty = {"scenes": 0, "refused": 0, "held": 0, "below": 0, "above": 0, "warned": 0, "held_unwarned": 0, "width": 0.0}
+    empty = {
+        "scenes": 0,
+        "refused": 0,
+        "held": 0,
+        "below": 0,
+        "above": 0,
+        "warned": 0,
+        "held_unwarned": 0,
+        "width": 0.0,
+    }
     tally = {method: dict(empty) for method in METHODS}
     for case, (truth, stated) in enumerate(simulated(scene, generator, count, off)):
         (true,) = (float(np.asarray(value).item()) for value in scene.model(**truth).values())
@@ -88,11 +126,17 @@ def counted(key: str, count: int, off: float = 1.0) -> dict[str, Any]:
     return {"key": key, "off": off, "samples": SAMPLES, "methods": tally}
 
 
-# --- Fit to evidence -------------------------------------------------------------------------------------------------------
+# --- Fit to evidence ------------------------------------------------------------------------------
 
 FITTED = {"speed_a": (14.0, 20.0), "speed_b": (3.0, 6.0)}
 PRIOR = Normal(0.2, 0.05, truncate=(0.0, 1.0))
-SIGMA = {"delta_v_a": 0.4, "delta_v_b": 0.4, "course_a": math.radians(3.0), "course_b": math.radians(3.0), "yaw_b": 0.25}
+SIGMA = {
+    "delta_v_a": 0.4,
+    "delta_v_b": 0.4,
+    "course_a": math.radians(3.0),
+    "course_b": math.radians(3.0),
+    "yaw_b": 0.25,
+}
 # The restitution is known from the literature, or has to follow from the evidence.
 CASES = {"prior": PRIOR, "open": Interval(0.0, 1.0)}
 

@@ -1,4 +1,6 @@
-"""Four impacts with inputs that are not known exactly: nearly straight, cut off, with a kink, and with refused cases."""
+"""Four impacts with inputs that are not known exactly: nearly straight, cut off, with a kink, and
+with refused cases.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ Numbers = dict[str, Any]
 
 
 class Scene(NamedTuple):
-    """A model with one output, what is stated of its inputs, and where the truth of those that are measured may lie."""
+    """A model with one output, what is stated of its inputs, and where the truth of those that are
+    measured may lie.
+    """
 
     key: str
     name: str
@@ -35,12 +39,21 @@ class Scene(NamedTuple):
 
 
 def t_bone(
-    speed_a: Any, speed_b: Any, mass_a: Any, mass_b: Any, inertia_b: Any, restitution: Any, friction: Any, lever: Any
+    speed_a: Any,
+    speed_b: Any,
+    mass_a: Any,
+    mass_b: Any,
+    inertia_b: Any,
+    restitution: Any,
+    friction: Any,
+    lever: Any,
 ) -> col.Impact:
     """A drives into the side of B, ahead of the centre of mass of B by the lever."""
     a = col.Vehicle(mass=mass_a, yaw_inertia=2600.0, vx=speed_a, x=-2.2, y=0.0)
     b = col.Vehicle(mass=mass_b, yaw_inertia=inertia_b, vy=speed_b, x=0.9, y=-lever)
-    return col.eccentric(a, b, restitution, normal=0.0, point=(0.0, 0.0), friction=friction, on_failure="nan")
+    return col.eccentric(
+        a, b, restitution, normal=0.0, point=(0.0, 0.0), friction=friction, on_failure="nan"
+    )
 
 
 def side_delta_v(**inputs: Any) -> Mapping[str, Any]:
@@ -59,8 +72,12 @@ def rear_end(speed: Any, mass_a: Any, mass_b: Any, restitution: Any) -> Mapping[
     return {"delta_v": col.linear_central(a, b, restitution, on_failure="nan").b.delta_v}
 
 
-def nearly_collinear(course_a: Any, course_b: Any, course_after: Any, speed_after: Any) -> Mapping[str, Any]:
-    """Speed of A from courses that nearly agree; a case in which a car would have gone backwards has no answer."""
+def nearly_collinear(
+    course_a: Any, course_b: Any, course_after: Any, speed_after: Any
+) -> Mapping[str, Any]:
+    """Speed of A from courses that nearly agree; a case in which a car would have gone backwards
+    has no answer.
+    """
     found = reconstruct.momentum(
         1500.0,
         1200.0,
@@ -93,7 +110,12 @@ SCENES = (
         "delta-V of B",
         side_delta_v,
         SIDE,
-        {"speed_a": (14.0, 20.0), "speed_b": (3.0, 6.0), "mass_a": (1200.0, 1800.0), "mass_b": (1000.0, 1500.0)},
+        {
+            "speed_a": (14.0, 20.0),
+            "speed_b": (3.0, 6.0),
+            "mass_a": (1200.0, 1800.0),
+            "mass_b": (1000.0, 1500.0),
+        },
     ),
     Scene(
         "truncated",
@@ -114,7 +136,12 @@ SCENES = (
         "yaw rate of B",
         side_yaw_rate,
         SIDE | {"speed_b": Normal(8.0, 0.5), "friction": Normal(0.35, 0.1, truncate=POSITIVE)},
-        {"speed_a": (13.0, 17.0), "speed_b": (7.0, 9.0), "mass_a": (1200.0, 1800.0), "mass_b": (1000.0, 1500.0)},
+        {
+            "speed_a": (13.0, 17.0),
+            "speed_b": (7.0, 9.0),
+            "mass_a": (1200.0, 1800.0),
+            "mass_b": (1000.0, 1500.0),
+        },
     ),
     Scene(
         "collinear",
@@ -137,7 +164,9 @@ SAMPLED = ("quasi_random", "latin_hypercube", "monte_carlo")
 
 
 def drawn(inputs: Mapping[str, Normal], generator: np.random.Generator, count: int) -> Numbers:
-    """Cases by numpy's own normals, drawn again where they are cut off: nothing of the package is in them."""
+    """Cases by numpy's own normals, drawn again where they are cut off: nothing of the package is
+    in them.
+    """
     found = {}
     for name, stated in inputs.items():
         values = generator.normal(stated.given_mean, stated.given_sd, count)
@@ -166,10 +195,14 @@ def listening() -> Iterator[list[str]]:
             codes += [getattr(one.message, "code", "") for one in said]
 
 
-def run(scene: Scene, method: str, inputs: Mapping[str, Any] | None = None, **how: Any) -> tuple[Propagation, list[str]]:
+def run(
+    scene: Scene, method: str, inputs: Mapping[str, Any] | None = None, **how: Any
+) -> tuple[Propagation, list[str]]:
     """A propagation, and the codes of its warnings."""
     with listening() as codes:
-        found = propagate(scene.model, scene.inputs if inputs is None else inputs, method=method, **how)
+        found = propagate(
+            scene.model, scene.inputs if inputs is None else inputs, method=method, **how
+        )
     return found, codes
 
 
@@ -186,4 +219,8 @@ def figures(found: Propagation) -> list[float]:
 def errors(found: Propagation) -> list[float]:
     """Their stated standard errors."""
     (output,) = found.outputs.values()
-    return [output.mean_standard_error, output.std_standard_error, *output.quantile_standard_error(np.array(ENDS)).tolist()]
+    return [
+        output.mean_standard_error,
+        output.std_standard_error,
+        *output.quantile_standard_error(np.array(ENDS)).tolist(),
+    ]

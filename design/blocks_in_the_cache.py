@@ -1,16 +1,19 @@
-"""How should a kernel run over many cases: whole arrays, blocks, or blocks whose steps are replayed in the same buffers?
+"""How should a kernel run over many cases: whole arrays, blocks, or blocks whose steps are replayed
+in the same buffers?
 
     python design/blocks_in_the_cache.py
 
-A formula of some hundred array operations on whole arrays moves every intermediate result through memory, and numpy allocates
-each anew. In blocks the intermediates stay in the cache. Replayed, they are a handful of buffers, given to numpy as ``out=``.
-Every input is an array here and all answers are written; what the library takes of a naive formula by itself is measured in
+A formula of some hundred array operations on whole arrays moves every intermediate result through
+memory, and numpy allocates each anew. In blocks the intermediates stay in the cache. Replayed, they
+are a handful of buffers, given to numpy as ``out=``. Every input is an array here and all answers
+are written; what the library takes of a naive formula by itself is measured in
 ``benchmarks/batch_speed.py``.
 
-What it showed (2 cores, Python 3.11, numpy 2, a million cases), against whole arrays: blocks of 8192 take 0.48, replayed 0.17;
-blocks of 65536, which no longer fit the cache of a core, 0.92 and 0.28; blocks of 1024, where the calls themselves weigh, 0.60
-replayed. Decided: ``engine/replay.py``, in blocks of 8192. The kernel stays a plain formula: its steps are recorded from one
-run.
+What it showed (2 cores, Python 3.11, numpy 2, a million cases), against whole arrays: blocks of
+8192 take 0.48, replayed 0.17; blocks of 65536, which no longer fit the cache of a core, 0.92 and
+0.28; blocks of 1024, where the calls themselves weigh, 0.60 replayed. Decided:
+``engine/replay.py``, in blocks of 8192. The kernel stays a plain formula: its steps are recorded
+from one run.
 """
 
 from functools import partial
@@ -30,12 +33,23 @@ KINDS = tuple(TYPES.get(name, np.dtype(float)) for name in Answer._fields)
 
 
 def inputs():
-    """The cases of the benchmark in the order of the kernel's arguments; pivots are plain zeros, as there are none."""
+    """The cases of the benchmark in the order of the kernel's arguments; pivots are plain zeros, as
+    there are none.
+    """
     scene = batch_speed.scenes(CASES)
     names = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y")
-    bodies = [value for side in "ab" for value in (*(scene[side][name] for name in names), 0.0, 0.0)]
+    bodies = [
+        value for side in "ab" for value in (*(scene[side][name] for name in names), 0.0, 0.0)
+    ]
     normal = scene["normal"]
-    return (scene["restitution"], np.cos(normal), np.sin(normal), scene["friction"], *scene["point"], *bodies)
+    return (
+        scene["restitution"],
+        np.cos(normal),
+        np.sin(normal),
+        scene["friction"],
+        *scene["point"],
+        *bodies,
+    )
 
 
 def as_it_is(given, outputs):
@@ -49,7 +63,10 @@ def run(given, outputs, length, one):
     with np.errstate(all="ignore"):
         for start in range(0, CASES, length):
             block = slice(start, min(start + length, CASES))
-            one([value if isinstance(value, float) else value[block] for value in given], [output[block] for output in outputs])
+            one(
+                [value if isinstance(value, float) else value[block] for value in given],
+                [output[block] for output in outputs],
+            )
 
 
 if __name__ == "__main__":
@@ -61,6 +78,8 @@ if __name__ == "__main__":
     for length in (8192, 65536):
         ways[f"blocks of {length}"] = partial(run, given, outputs, length, as_it_is)
     for length in (1024, 8192, 65536):
-        ways[f"blocks of {length}, replayed"] = partial(run, given, outputs, length, partial(replay, program))
+        ways[f"blocks of {length}, replayed"] = partial(
+            run, given, outputs, length, partial(replay, program)
+        )
     print(f"{CASES} cases, of whole arrays:")
     compare(ways, "whole arrays", rounds=3)

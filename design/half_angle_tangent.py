@@ -2,11 +2,13 @@
 
     python design/half_angle_tangent.py
 
-With t = tan(angle / 2), cos = (1 - t t) / (1 + t t) and sin = 2 t / (1 + t t): one transcendental function in place of two.
+With t = tan(angle / 2), cos = (1 - t t) / (1 + t t) and sin = 2 t / (1 + t t): one transcendental
+function in place of two.
 
-What it showed (2 cores, numpy 2): 0.77 of the cost of sine and cosine, which are one seventh of the whole impact: 3 percent
-would be saved. Within 1e-6 of a quarter turn the cosine is off by up to 6e8 eps, because 1 - t t cancels; directly by half an
-eps. Decided: sine and cosine, also where a first plan had the tangent.
+What it showed (2 cores, numpy 2): 0.77 of the cost of sine and cosine, which are one seventh of the
+whole impact: 3 percent would be saved. Within 1e-6 of a quarter turn the cosine is off by up to 6e8
+eps, because 1 - t t cancels; directly by half an eps. Decided: sine and cosine, also where a first
+plan had the tangent.
 """
 
 import mpmath
@@ -56,5 +58,6 @@ if __name__ == "__main__":
     near = np.pi / 2 + rng.uniform(-1e-6, 1e-6, 2000)
     for name, where in (("up to 1.5 rad", some), ("within 1e-6 of a quarter turn", near)):
         print(
-            f"  error of the cosine in eps, {name}: {worst(directly, where):.2g}, by half the angle {worst(by_half, where):.2g}"
+            f"  error of the cosine in eps, {name}: {worst(directly, where):.2g}, by half the "
+            f"angle {worst(by_half, where):.2g}"
         )

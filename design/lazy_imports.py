@@ -2,15 +2,17 @@
 
     python design/lazy_imports.py
 
-Every script pays the import, and most need only the solvers and plain numbers, some only vehicles and units. Each line is
-processor time of a fresh interpreter, the best of three. ``benchmarks/speed.py`` measures the import against its budget; here
-is what each part would add.
+Every script pays the import, and most need only the solvers and plain numbers, some only vehicles
+and units. Each line is processor time of a fresh interpreter, the best of three.
+``benchmarks/speed.py`` measures the import against its budget; here is what each part would add.
 
-What it showed (2 cores, Python 3.11, numpy 2, pint 0.25): the package adds a tenth to importing numpy, the solvers less than
-another, ``uncertainty`` a half, ``report`` one and a half to two; pint alone costs two more, and a first unit, for which pint
-builds its registry, three to four. Decided: pint when a unit first appears; the solvers, the upper half of the package,
-``engine/batch.py``, ``records.py``, the thread pool, the choice of a model, the contact in time and the printer of kernels
-when they are first used. What is left is for the most part Python making the classes that every call needs.
+What it showed (2 cores, Python 3.11, numpy 2, pint 0.25): the package adds a tenth to importing
+numpy, the solvers less than another, ``uncertainty`` a half, ``report`` one and a half to two; pint
+alone costs two more, and a first unit, for which pint builds its registry, three to four. Decided:
+pint when a unit first appears; the solvers, the upper half of the package, ``engine/batch.py``,
+``records.py``, the thread pool, the choice of a model, the contact in time and the printer of
+kernels when they are first used. What is left is for the most part Python making the classes that
+every call needs.
 """
 
 import subprocess
@@ -30,13 +32,20 @@ ADDED = {
     "... and pint": "import collisions, pint",
     "... and a first unit": "import collisions; collisions.Vehicle(mass='1500 kg')",
 }
-TIMED = "import sys, time; sys.path.insert(0, {!r}); t = time.process_time(); {}; print(time.process_time() - t)"
+TIMED = (
+    "import sys, time; sys.path.insert(0, {!r}); t = time.process_time(); {}; "
+    "print(time.process_time() - t)"
+)
 
 
 def seconds(code):
     """A fresh interpreter that runs the code and prints how long it took."""
     code = TIMED.format(str(measuring.ROOT / "src"), code)
-    return float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
+    return float(
+        subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, check=True
+        ).stdout
+    )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,6 @@
-"""What the notes share: where the package and its benchmarks are, and times of calls that run in turn."""
+"""What the notes share: where the package and its benchmarks are, and times of calls that run in
+turn.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ QUICK = "--quick" in sys.argv[1:]
 
 
 def compare(calls: dict[str, Callable[[], Any]], to: str, rounds: int = 21) -> None:
-    """Print what each call costs of one of them: the median of the rounds, and the half of them around it."""
+    """Print what each call costs of one of them: the median of the rounds, and the half of them
+    around it.
+    """
     works = {name: speed.Work(name, call) for name, call in calls.items()}
     times = speed.timed(works, 3 if QUICK else rounds, 0.0005 if QUICK else 0.01)
     for name in calls:

@@ -4,9 +4,10 @@
 
 pint reads a text as an expression. So a slip of the pen is not an error but another number.
 
-What it showed (pint 0.25.3): "80 km/h 5" is 400 km/h, "1 500 kg" is 500 kg, "1500 kg 2" is 3000 kg, each without a word. A
-tower of powers runs until the machine gives up (not run here). Decided: one plain number that float() reads, then one unit,
-which alone goes to pint; at most 60 characters; no digit in the unit but a one-digit exponent.
+What it showed (pint 0.25.3): "80 km/h 5" is 400 km/h, "1 500 kg" is 500 kg, "1500 kg 2" is 3000 kg,
+each without a word. A tower of powers runs until the machine gives up (not run here). Decided: one
+plain number that float() reads, then one unit, which alone goes to pint; at most 60 characters; no
+digit in the unit but a one-digit exponent.
 """
 
 import pint
@@ -35,6 +36,8 @@ if __name__ == "__main__":
     for text, field in TEXTS:
         print(f"{text!r}")
         print(f"  pint:    {result(lambda text=text: ureg.Quantity(text))}")
-        print(
-            f"  Vehicle: {result(lambda text=text, field=field: getattr(col.Vehicle(**{'mass': 1500.0, field: text}), field))}"
-        )
+
+        def read(text=text, field=field):
+            return getattr(col.Vehicle(**{"mass": 1500.0, field: text}), field)
+
+        print(f"  Vehicle: {result(read)}")

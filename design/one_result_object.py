@@ -2,12 +2,14 @@
 
     python design/one_result_object.py
 
-An answer has some forty numbers, and a caller reads a few. ``Impact`` keeps the inputs and the kernel's tuple, and works out
-the rest when it is read. The other way is a record for the impact with two for the sides and six for the states, all filled
-at once, as one would write it with dataclasses. Nothing is checked or derived in them here: only made.
+An answer has some forty numbers, and a caller reads a few. ``Impact`` keeps the inputs and the
+kernel's tuple, and works out the rest when it is read. The other way is a record for the impact
+with two for the sides and six for the states, all filled at once, as one would write it with
+dataclasses. Nothing is checked or derived in them here: only made.
 
-What it showed (2 cores, Python 3.11): with an Impact around it 1.14 times the kernel, with the tree 5.1 times. So the tree
-costs four times the physics. Decided: one object, ``Derived`` attributes, a cache for what was read.
+What it showed (2 cores, Python 3.11): with an Impact around it 1.14 times the kernel, with the tree
+5.1 times. So the tree costs four times the physics. Decided: one object, ``Derived`` attributes, a
+cache for what was read.
 """
 
 from dataclasses import dataclass
@@ -67,7 +69,14 @@ class Whole:
 
 def body(numbers: dict[str, float]) -> tuple[float, ...]:
     """The numbers of a body as the kernel takes them."""
-    return (*(numbers[name] for name in ("mass", "yaw_inertia", "vx", "vy")), 0.0, numbers["x"], numbers["y"], 0.0, 0.0)
+    return (
+        *(numbers[name] for name in ("mass", "yaw_inertia", "vx", "vy")),
+        0.0,
+        numbers["x"],
+        numbers["y"],
+        0.0,
+        0.0,
+    )
 
 
 INPUTS = (*NUMBERS, *body(speed.BODIES[0]), *body(speed.BODIES[1]), *SETTINGS)
@@ -85,7 +94,9 @@ def one_object() -> Any:
     return build(CASE, eccentric(*INPUTS))
 
 
-def half(numbers: dict[str, float], ix: float, iy: float, dvx: float, dvy: float, turn: float) -> Half:
+def half(
+    numbers: dict[str, float], ix: float, iy: float, dvx: float, dvy: float, turn: float
+) -> Half:
     """A vehicle with its three states."""
 
     def state(share: float) -> State:
@@ -110,7 +121,8 @@ def tree() -> Whole:
     raw = eccentric(*INPUTS)
     ix, iy = raw[15:17]
     return Whole(
-        a=half(speed.BODIES[0], -ix, -iy, *raw[17:20]), b=half(speed.BODIES[1], ix, iy, *raw[20:23]),
+        a=half(speed.BODIES[0], -ix, -iy, *raw[17:20]),
+        b=half(speed.BODIES[1], ix, iy, *raw[20:23]),
         status=raw[0], closing_speed=raw[1], slip_before=raw[2], slip_after=raw[3],
         normal_impulse=raw[4], tangential_impulse=raw[5], energy_loss=raw[14],
     )  # fmt: skip
@@ -119,5 +131,10 @@ def tree() -> Whole:
 if __name__ == "__main__":
     print("of the kernel alone:")
     compare(
-        {"kernel": kernel, "kernel, and one object over its tuple": one_object, "kernel, and a tree of records": tree}, "kernel"
+        {
+            "kernel": kernel,
+            "kernel, and one object over its tuple": one_object,
+            "kernel, and a tree of records": tree,
+        },
+        "kernel",
     )

@@ -16,7 +16,9 @@ ROOT = HERE.parent
 SEARCHED = [str(ROOT / "src"), str(HERE / "_ext")]
 sys.path[:0] = SEARCHED
 # The kernels that run the pages find the same modules.
-os.environ["PYTHONPATH"] = os.pathsep.join([*SEARCHED, *filter(None, [os.environ.get("PYTHONPATH")])])
+os.environ["PYTHONPATH"] = os.pathsep.join(
+    [*SEARCHED, *filter(None, [os.environ.get("PYTHONPATH")])]
+)
 # Pages run on the Python that builds them, whatever kernel of that name the machine has.
 os.environ["JUPYTER_PATH"] = str(HERE / "_ext" / "jupyter")
 os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"
@@ -31,7 +33,10 @@ extensions = ["myst_nb", "sphinx.ext.autodoc", "numpydoc", "sphinx_design", "mat
 exclude_patterns = ["_build", "jupyter_execute", "_ext", "_static", "**/.ipynb_checkpoints"]
 nitpicky = True
 # Bases outside the package have no page here.
-nitpick_ignore = [("py:class", name) for name in ("ValueError", "UserWarning", "Exception", "enum.IntEnum", "IntEnum")]
+nitpick_ignore = [
+    ("py:class", name)
+    for name in ("ValueError", "UserWarning", "Exception", "enum.IntEnum", "IntEnum")
+]
 
 html_theme = "furo"
 html_title = f"collisions {version}"
@@ -60,9 +65,15 @@ numpydoc_class_members_toctree = False
 
 
 def render_examples(source: Path, target: Path) -> None:
-    """Turn every script of the source folder into a notebook of the target folder, with its data beside it and a list."""
+    """Turn every script of the source folder into a notebook of the target folder, with its data
+    beside it and a list.
+    """
     target.mkdir(exist_ok=True)
-    scripts = sorted(path for path in source.glob("*.py") if not path.name.startswith("_")) if source.is_dir() else []
+    scripts = (
+        sorted(path for path in source.glob("*.py") if not path.name.startswith("_"))
+        if source.is_dir()
+        else []
+    )
     wanted = {f"{script.stem}.ipynb" for script in scripts}
     for stale in target.glob("*.ipynb"):
         if stale.name not in wanted:
@@ -94,7 +105,12 @@ def title_and_caption(notebook: NotebookNode, otherwise: str) -> tuple[str, str]
 
 # Where an example stands in the gallery; one that is named nowhere stops the build.
 GALLERY = {
-    "The paper and published cases": ("paper_examples", "published_solutions", "pivoted_vehicle", "us_units"),
+    "The paper and published cases": (
+        "paper_examples",
+        "published_solutions",
+        "pivoted_vehicle",
+        "us_units",
+    ),
     "Configurations": (
         "crossroads",
         "eccentric_types",
@@ -124,8 +140,14 @@ def gallery_of(told: dict[str, tuple[str, str]]) -> str:
     if sorted(placed) != sorted(told):
         raise ValueError(f"GALLERY in docs/conf.py and examples/ differ: {set(placed) ^ set(told)}")
     page += [
-        "Each example is a script in `examples/` and ends with checks of its answers. It was run as these pages were built.",
-        "Pictures need the extra `plot`, tables and dask the extra `tools`: in the folder of the README,",
+        (
+            "Each example is a script in `examples/` and ends with checks of its answers. It was "
+            "run as these pages were built."
+        ),
+        (
+            "Pictures need the extra `plot`, tables and dask the extra `tools`: in the folder of "
+            "the README,"
+        ),
         '`pip install ".[plot,tools]"`.',
         "",
     ]
@@ -135,7 +157,11 @@ def gallery_of(told: dict[str, tuple[str, str]]) -> str:
             title, caption = told[stem]
             picture = HERE / "_static" / "gallery" / f"{stem}.png"
             page += [f":::{{grid-item-card}} {title}", f":link: {stem}", ":link-type: doc"]
-            page += [f":img-top: ../_static/gallery/{stem}.png", f":img-alt: {title}"] if picture.exists() else []
+            page += (
+                [f":img-top: ../_static/gallery/{stem}.png", f":img-alt: {title}"]
+                if picture.exists()
+                else []
+            )
             page += ["", caption, ":::", ""]
         page += ["::::", ""]
     page += ["## As notebooks", "", "The same examples to download:", ""]

@@ -1,4 +1,5 @@
-"""The figures of the pages: the signs of the three impacts and of one vehicle, and those of reverse reconstruction.
+"""The figures of the pages: the signs of the three impacts and of one vehicle, and those of reverse
+reconstruction.
 
 ``python docs/figures.py [folder] [svg|png]`` writes them, by default again to docs/_static/ as SVG.
 """
@@ -50,7 +51,15 @@ def canvas(ax, x, y):
 def arrow(ax, start, end, colour, width=2.0, head=14, **style):
     ax.add_patch(
         FancyArrowPatch(
-            start, end, arrowstyle="-|>", mutation_scale=head, lw=width, color=colour, shrinkA=0, shrinkB=0, **style
+            start,
+            end,
+            arrowstyle="-|>",
+            mutation_scale=head,
+            lw=width,
+            color=colour,
+            shrinkA=0,
+            shrinkB=0,
+            **style,
         )
     )
 
@@ -71,7 +80,9 @@ def car(ax, centre, heading, colour, name, length=4.4, width=1.8, name_at=(-1.3,
     """A rectangle with a windscreen and a nose, its centre of mass and its name."""
     h = unit(heading)
     axes = np.array([h, turned(h)])
-    corners = np.array([[-0.5, -0.5], [0.42, -0.5], [0.5, -0.3], [0.5, 0.3], [0.42, 0.5], [-0.5, 0.5]]) * [length, width]
+    corners = np.array(
+        [[-0.5, -0.5], [0.42, -0.5], [0.5, -0.3], [0.5, 0.3], [0.42, 0.5], [-0.5, 0.5]]
+    ) * [length, width]
     ax.add_patch(Polygon(corners @ axes + centre, closed=True, fc=colour + "1f", ec=colour, lw=1.8))
     screen = np.array([[0.2, -0.4], [0.27, -0.32], [0.27, 0.32], [0.2, 0.4]]) * [length, width]
     ax.add_patch(Polygon(screen @ axes + centre, closed=True, fc=colour + "44", ec="none"))
@@ -116,7 +127,9 @@ def linear():
     label(ax, (-1.6, 1.72), r"$v_A$", A)
     arrow(ax, (2.2, 1.35), (3.2, 1.35), B)
     label(ax, (2.7, 1.72), r"$v_B$", B)
-    contact_frame(ax, place, np.array([1.0, 0.0]), 1.35, 2.4, np.array([0.0, 0.32]), np.array([0.3, 0.0]))
+    contact_frame(
+        ax, place, np.array([1.0, 0.0]), 1.35, 2.4, np.array([0.0, 0.32]), np.array([0.3, 0.0])
+    )
     arrow(ax, (0.15, -1.4), (2.3, -1.4), FORCE)
     label(ax, (2.4, -1.4), r"$P$ on B", FORCE, ha="left")
     arrow(ax, (-0.15, -1.4), (-2.3, -1.4), FORCE)
@@ -140,7 +153,13 @@ def linear():
         fontsize=10,
         arrowprops={"arrowstyle": "-", "color": INK},
     )
-    force.set(xlim=(0, 2.05), ylim=(0, 1.22), xticks=[1.0, 1.5], xticklabels=["$t_1$", "$t_1+t_2$"], yticks=[])
+    force.set(
+        xlim=(0, 2.05),
+        ylim=(0, 1.22),
+        xticks=[1.0, 1.5],
+        xticklabels=["$t_1$", "$t_1+t_2$"],
+        yticks=[],
+    )
     force.set_xlabel("time")
     force.set_ylabel("force between A and B")
     force.set_title("restitution $e = A_2/A_1$", fontsize=11.5)
@@ -191,8 +210,22 @@ def oblique():
     tail = np.array([-3.6, -2.3])
     arrow(ax, tail, tail - p, FORCE, 2.2)
     label(ax, tail - 0.5 * p + [0.3, -0.35], "$-P$ on A", FORCE, ha="left")
-    label(ax, (-7.0, 3.9), "circles: point masses,\nno levers, no rotation", GREY, fontsize=10, ha="left")
-    label(ax, (1.3, 4.05), "line of impact (dashed)\nthrough both centres of mass", GREY, fontsize=10, ha="left")
+    label(
+        ax,
+        (-7.0, 3.9),
+        "circles: point masses,\nno levers, no rotation",
+        GREY,
+        fontsize=10,
+        ha="left",
+    )
+    label(
+        ax,
+        (1.3, 4.05),
+        "line of impact (dashed)\nthrough both centres of mass",
+        GREY,
+        fontsize=10,
+        ha="left",
+    )
     scene_axes(ax, (-6.5, 0.6), 1.3)
     fig.tight_layout()
     return fig
@@ -212,7 +245,10 @@ def eccentric():
     ax.plot(*np.array([-6.0 * n, 5.3 * n]).T, color=GREY, lw=0.9, ls=(0, (6, 4)), zorder=0)
     label(ax, 4.5 * n + 0.35 * t, "line of impact", GREY, fontsize=10, rotation=10)
     # Levers from the centres of mass to the contact.
-    for centre, text, at in ((centre_a, "$r_A$", -0.35 * n - 0.38 * t), (centre_b, "$r_B$", 0.38 * n + 0.1 * t)):
+    for centre, text, at in (
+        (centre_a, "$r_A$", -0.35 * n - 0.38 * t),
+        (centre_b, "$r_B$", 0.38 * n + 0.1 * t),
+    ):
         arrow(ax, centre, place, INK, 1.5, 12)
         label(ax, (centre + place) / 2 + at, text, fontsize=13)
     ax.add_patch(Circle(place, 0.1, color=INK, zorder=7))
@@ -263,15 +299,29 @@ def eccentric():
 
 
 def contact():
-    """Closing speed and slip of a case, with the velocities of its contact points; drawn from the library's own answer."""
+    """Closing speed and slip of a case, with the velocities of its contact points; drawn from the
+    library's own answer.
+    """
     normal = 20.0
     n, t = unit(normal), turned(unit(normal))
     centre_a, centre_b = -2.2 * n - 0.35 * t, 0.9 * n - 0.9 * t
     a = col.Vehicle.from_speed(
-        mass=1500.0, yaw_inertia=2500.0, x=centre_a[0], y=centre_a[1], speed=3.2, course="-12 deg", yaw_rate=0.45
+        mass=1500.0,
+        yaw_inertia=2500.0,
+        x=centre_a[0],
+        y=centre_a[1],
+        speed=3.2,
+        course="-12 deg",
+        yaw_rate=0.45,
     )
     b = col.Vehicle.from_speed(
-        mass=1200.0, yaw_inertia=1900.0, x=centre_b[0], y=centre_b[1], speed=1.8, course="110 deg", yaw_rate=-0.35
+        mass=1200.0,
+        yaw_inertia=1900.0,
+        x=centre_b[0],
+        y=centre_b[1],
+        speed=1.8,
+        course="110 deg",
+        yaw_rate=-0.35,
     )
     impact = col.eccentric(a, b, 0.1, normal=f"{normal} deg", point=(0.0, 0.0), friction=0.3)
     u_a, u_b = (np.array(vehicle.velocity_at((0.0, 0.0))) for vehicle in (a, b))
@@ -305,7 +355,10 @@ def contact():
     seen.plot(*np.array([-2.6 * t, 3.4 * t]).T, color=GREY, lw=0.9, ls=(0, (2, 3)), zorder=0)
     label(seen, 4.0 * n + 0.3 * t, "$n$", FRAME, fontsize=14)
     label(seen, 3.4 * t + 0.3 * n, "$t$", FRAME, fontsize=14)
-    for velocity, colour, name, at in ((u_a, A, "$u_A$", [0.35, -0.1]), (u_b, B, "$u_B$", [0.35, 0.1])):
+    for velocity, colour, name, at in (
+        (u_a, A, "$u_A$", [0.35, -0.1]),
+        (u_b, B, "$u_B$", [0.35, 0.1]),
+    ):
         arrow(seen, (0, 0), velocity, colour, 2.2)
         label(seen, velocity + at, name, colour, fontsize=13)
         for axis in (n, t):
@@ -359,7 +412,9 @@ def one_vehicle():
     car(place, (0, 0), heading, B, "")
     vehicle = col.Vehicle(mass=1200.0, x=0.0, y=0.0, heading=f"{heading} deg")
     spot = np.array(vehicle.point(forward=forward, left=left))
-    np.testing.assert_allclose(spot, vehicle.point(distance=distance, angle=f"{angle} deg"), rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(
+        spot, vehicle.point(distance=distance, angle=f"{angle} deg"), rtol=0.0, atol=1e-12
+    )
     ahead = forward * unit(heading)
     place.plot(*np.array([ahead, 4.4 * unit(heading)]).T, color=GREY, lw=0.9, ls=":")
     arrow(place, (0, 0), ahead, FRAME, 2.0)
@@ -380,11 +435,20 @@ def one_vehicle():
     heading = 65.0
     pivot = np.array([-1.0, -2.0])
     centre, struck = pivot + 2.1 * unit(heading), pivot + 4.1 * unit(heading)
-    body = col.Vehicle(mass=1000.0, yaw_inertia=1333.0, x=centre[0], y=centre[1], pivot=tuple(pivot))
-    other = col.Vehicle.from_speed(
-        mass=900.0, yaw_inertia=np.inf, x=struck[0], y=struck[1], speed=10.0, course=np.radians(heading - 90.0)
+    body = col.Vehicle(
+        mass=1000.0, yaw_inertia=1333.0, x=centre[0], y=centre[1], pivot=tuple(pivot)
     )
-    side = col.eccentric(other, body, 0.2, normal=np.radians(heading - 90.0), point=tuple(struck), friction=0.0).b
+    other = col.Vehicle.from_speed(
+        mass=900.0,
+        yaw_inertia=np.inf,
+        x=struck[0],
+        y=struck[1],
+        speed=10.0,
+        course=np.radians(heading - 90.0),
+    )
+    side = col.eccentric(
+        other, body, 0.2, normal=np.radians(heading - 90.0), point=tuple(struck), friction=0.0
+    ).b
     car(pinned, centre, heading, B, "")
     pinned.add_patch(Circle(pivot, 0.17, fc="white", ec=INK, lw=2.0, zorder=7))
     label(pinned, beside(pivot, -0.4, -0.62), "pivot O", INK)
@@ -399,7 +463,13 @@ def one_vehicle():
         (struck, np.array([side.impulse_x, side.impulse_y])),
         (pivot, np.array([side.pivot_impulse_x, side.pivot_impulse_y])),
     ):
-        arrow(pinned, place_of - 6e-4 * impulse - 0.2 * unit(heading - 90.0), place_of - 0.2 * unit(heading - 90.0), FORCE, 2.2)
+        arrow(
+            pinned,
+            place_of - 6e-4 * impulse - 0.2 * unit(heading - 90.0),
+            place_of - 0.2 * unit(heading - 90.0),
+            FORCE,
+            2.2,
+        )
     label(pinned, beside(struck, -1.7, 1.7), "$P$ on B", FORCE)
     label(pinned, beside(pivot, -1.6, 1.35), "pivot\nimpulse", FORCE, fontsize=10)
     fig.tight_layout()
@@ -407,9 +477,15 @@ def one_vehicle():
 
 
 def seen_from_vehicle():
-    """PDOF on the clock face, and delta-V in the axes of a vehicle and of a recorder; drawn from the library's own answer."""
-    a = col.Vehicle(mass="1500 kg", yaw_inertia="2400 kg*m**2", vx="50 km/h", x=-2.0, y=0.4, heading="0 deg")
-    b = col.Vehicle(mass="1200 kg", yaw_inertia="1700 kg*m**2", vy="40 km/h", x=0.8, y=-1.2, heading="90 deg")
+    """PDOF on the clock face, and delta-V in the axes of a vehicle and of a recorder; drawn from
+    the library's own answer.
+    """
+    a = col.Vehicle(
+        mass="1500 kg", yaw_inertia="2400 kg*m**2", vx="50 km/h", x=-2.0, y=0.4, heading="0 deg"
+    )
+    b = col.Vehicle(
+        mass="1200 kg", yaw_inertia="1700 kg*m**2", vy="40 km/h", x=0.8, y=-1.2, heading="90 deg"
+    )
     side = col.eccentric(a, b, 0.1, normal="0 deg", point=(0.0, 0.0), friction=0.5).b
     fig, (clock, change) = plt.subplots(1, 2, figsize=(11.5, 5.8))
     canvas(clock, (-5.2, 5.2), (-4.9, 4.9))
@@ -419,13 +495,21 @@ def seen_from_vehicle():
         degrees = (30 * hour + 180) % 360 - 180 or 0
         at = unit(90 - 30 * hour)
         clock.plot(*np.array([2.9 * at, 3.1 * at]).T, color=GREY, lw=1.2)
-        number = f"{degrees:+d}°".replace("-", "\N{MINUS SIGN}") if degrees % 180 else "180°" if degrees else "0"
+        number = (
+            f"{degrees:+d}°".replace("-", "\N{MINUS SIGN}")
+            if degrees % 180
+            else "180°"
+            if degrees
+            else "0"
+        )
         label(clock, 3.6 * at, f"{hour}", fontsize=12, fontweight="bold")
         label(clock, 4.45 * at, number, GREY, fontsize=9.5)
     car(clock, (0, 0), 90, B, "", length=3.6, width=1.5)
     came = unit(90 - np.degrees(side.pdof))
     arrow(clock, 2.8 * came, 0.15 * came, FORCE, 2.4)
-    told = f"pdof {np.degrees(side.pdof):.0f}°\npdof_clock {side.pdof_clock}".replace("-", "\N{MINUS SIGN}")
+    told = f"pdof {np.degrees(side.pdof):.0f}°\npdof_clock {side.pdof_clock}".replace(
+        "-", "\N{MINUS SIGN}"
+    )
     label(clock, (0.0, -2.32), told, FORCE, fontsize=9.5)
 
     canvas(change, (-5.2, 5.2), (-4.9, 4.9))
@@ -446,8 +530,11 @@ def seen_from_vehicle():
     change.text(
         0.0,
         -4.3,
-        f"delta_v_forward {side.delta_v_forward:+.1f} m/s, delta_v_left {side.delta_v_left:+.1f} m/s\n"
-        f"a recorder shows {side.delta_v_forward:+.1f} and {-side.delta_v_left:+.1f} m/s".replace("-", "\N{MINUS SIGN}"),
+        (
+            f"delta_v_forward {side.delta_v_forward:+.1f} m/s, "
+            f"delta_v_left {side.delta_v_left:+.1f} m/s\n"
+            f"a recorder shows {side.delta_v_forward:+.1f} and {-side.delta_v_left:+.1f} m/s"
+        ).replace("-", "\N{MINUS SIGN}"),
         ha="center",
         va="center",
         fontsize=10.5,
@@ -457,19 +544,28 @@ def seen_from_vehicle():
 
 
 def crossing_courses():
-    """The car of 1200 kg going south and the one of 1800 kg going east, with departure courses known to 5 degrees."""
+    """The car of 1200 kg going south and the one of 1800 kg going east, with departure courses
+    known to 5 degrees.
+    """
     fig, (ax, firm) = plt.subplots(1, 2, figsize=(11.5, 5.0), width_ratios=(1.5, 1))
     canvas(ax, (-8.0, 125.0), (-98.0, 13.0))
     masses, speeds, courses = (1.2, 1.8), (30.0, 50.0), (-30.0, -40.0)  # t, km/h, deg
-    after = [mass * speed * unit(course) for mass, speed, course in zip(masses, speeds, courses, strict=True)]
+    after = [
+        mass * speed * unit(course)
+        for mass, speed, course in zip(masses, speeds, courses, strict=True)
+    ]
     total = after[0] + after[1]
     swept = np.linspace(-5.0, 5.0, 41)
-    for tail, mass, speed, course, colour in zip((np.zeros(2), after[0]), masses, speeds, courses, (A, B), strict=True):
+    for tail, mass, speed, course, colour in zip(
+        (np.zeros(2), after[0]), masses, speeds, courses, (A, B), strict=True
+    ):
         fan = np.array([tail, *(tail + mass * speed * unit(course + angle) for angle in swept)])
         ax.add_patch(Polygon(fan, closed=True, fc=colour + "22", ec="none"))
     one, other = np.meshgrid(swept, swept)
     tips = sum(
-        mass * speed * np.array([np.cos(np.radians(course + angle)), np.sin(np.radians(course + angle))])
+        mass
+        * speed
+        * np.array([np.cos(np.radians(course + angle)), np.sin(np.radians(course + angle))])
         for mass, speed, course, angle in zip(masses, speeds, courses, (one, other), strict=True)
     )
     rim = tips[:, [0, -1], :].reshape(2, -1), tips[:, :, [0, -1]].reshape(2, -1)
@@ -493,7 +589,14 @@ def crossing_courses():
     label(ax, after[0] * 0.62 + [3.0, 5.2], "A after", A, rotation=-30)
     label(ax, after[0] + 0.5 * after[1] + [4.5, 4.5], "B after", B, rotation=-40)
     label(ax, total * 0.42 + [-4.5, -6.5], "total", INK, rotation=-37)
-    label(ax, (right, low - 5.0), "tip of the total,\ncourses after within ±5°", FORCE, fontsize=10, va="top")
+    label(
+        ax,
+        (right, low - 5.0),
+        "tip of the total,\ncourses after within ±5°",
+        FORCE,
+        fontsize=10,
+        va="top",
+    )
     label(ax, (0.5 * (left + right), 7.5), "its range", B, fontsize=9.5)
     arrow(ax, (4, -93), (44, -93), INK, 1.2, 10)
     label(ax, (47, -93), "40 000 kg km/h", fontsize=9.5, ha="left")
@@ -522,7 +625,10 @@ def hull_of(points):
     def chain(places):
         kept = []
         for place in places:
-            while len(kept) > 1 and cross(np.subtract(kept[-1], kept[-2]), np.subtract(place, kept[-1])) <= 0.0:
+            while (
+                len(kept) > 1
+                and cross(np.subtract(kept[-1], kept[-2]), np.subtract(place, kept[-1])) <= 0.0
+            ):
                 kept.pop()
             kept.append(place)
         return kept[:-1]
@@ -536,10 +642,21 @@ def cross(one, other):
 
 def run_out():
     """Car B of examples/intersection_reconstruction.py."""
-    places = [(0.8, -0.7), (2.4, 1.9), (4.0, 4.4), (5.4, 6.5), (7.2, 9.0), (8.7, 11.0), (10.2, 13.0), (13.0, 16.5)]
+    places = [
+        (0.8, -0.7),
+        (2.4, 1.9),
+        (4.0, 4.4),
+        (5.4, 6.5),
+        (7.2, 9.0),
+        (8.7, 11.0),
+        (10.2, 13.0),
+        (13.0, 16.5),
+    ]
     headings = [90, 50, 15, -15, -55, -80, -100, -105]
     friction, lock = [0.7] * 4 + [0.45] * 3, 0.3
-    run = travel.path(places, [f"{heading} deg" for heading in headings], friction=friction, lock=lock)
+    run = travel.path(
+        places, [f"{heading} deg" for heading in headings], friction=friction, lock=lock
+    )
     fig, (ax, drag) = plt.subplots(1, 2, figsize=(11.5, 6.6), width_ratios=(1.25, 1))
     canvas(ax, (-4.0, 17.5), (-4.2, 20.0))
     ax.axhspan(9.0, 20.0, color="#7fae6a", alpha=0.22, lw=0)
@@ -558,7 +675,14 @@ def run_out():
         FORCE,
         ha="right",
     )
-    label(ax, (12.6, 10.9), f"straight line\nto rest {np.degrees(run.straight_course):.1f}°", GREY, ha="left", fontsize=10)
+    label(
+        ax,
+        (12.6, 10.9),
+        f"straight line\nto rest {np.degrees(run.straight_course):.1f}°",
+        GREY,
+        ha="left",
+        fontsize=10,
+    )
     ax.plot([12.4, 9.1], [10.9, 10.75], color=GREY, lw=0.8)
     label(ax, beside(start, 2.6, -1.9), "separation", ha="left")
     label(ax, np.add(places[-1], (0.2, 2.9)), "rest", ha="center")
@@ -570,7 +694,12 @@ def run_out():
         along = np.minimum(lock, np.abs(np.cos(angle)))
         return along * np.abs(np.cos(angle)) + np.sqrt(1.0 - along**2) * np.abs(np.sin(angle))
 
-    for part, style in ((0.0, (0, (1, 1.5))), (0.3, "-"), (0.6, (0, (5, 2))), (1.0, (0, (7, 2, 1, 2)))):
+    for part, style in (
+        (0.0, (0, (1, 1.5))),
+        (0.3, "-"),
+        (0.6, (0, (5, 2))),
+        (1.0, (0, (7, 2, 1, 2))),
+    ):
         angle = np.radians(crab)
         drag.plot(crab, braked(part, angle), color=INK, lw=1.5, ls=style, label=f"lock {part:g}")
     for angle, found, mu in zip(run.crab_angles, run.drags, friction, strict=True):
@@ -599,13 +728,19 @@ FIGURES = {
 
 
 def main(folder=Path(__file__).parent / "_static", kind="svg"):
-    blank = {"svg": {"Date": None, "Creator": None, "Format": None, "Type": None}, "png": {"Software": None}}
+    blank = {
+        "svg": {"Date": None, "Creator": None, "Format": None, "Type": None},
+        "png": {"Software": None},
+    }
     for name, draw in FIGURES.items():
         fig = draw()
         path = Path(folder) / f"{name}.{kind}"
         fig.savefig(path, metadata=blank[kind], dpi=110)
         if kind == "svg":  # browsers need no document type, and nothing should point elsewhere
-            path.write_text(re.sub(r"<!DOCTYPE[^>]*>\s*", "", path.read_text(encoding="utf-8")), encoding="utf-8")
+            path.write_text(
+                re.sub(r"<!DOCTYPE[^>]*>\s*", "", path.read_text(encoding="utf-8")),
+                encoding="utf-8",
+            )
         plt.close(fig)
 
 

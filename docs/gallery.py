@@ -1,6 +1,7 @@
 """The small pictures of the gallery: the first figure that each example draws.
 
-``python docs/gallery.py [stem ...]`` runs the examples (all, or those named) and writes them again to docs/_static/gallery/.
+``python docs/gallery.py [stem ...]`` runs the examples (all, or those named) and writes them again
+to docs/_static/gallery/.
 """
 
 import contextlib
@@ -27,7 +28,11 @@ def draw(script: Path) -> None:
     numbers = plt.get_fignums()
     if numbers:
         figure = plt.figure(numbers[0])
-        figure.savefig(FOLDER / f"{script.stem}.png", dpi=WIDTH / figure.get_size_inches()[0], metadata={"Software": None})
+        figure.savefig(
+            FOLDER / f"{script.stem}.png",
+            dpi=WIDTH / figure.get_size_inches()[0],
+            metadata={"Software": None},
+        )
     plt.close("all")
     print(f"{script.stem}: {len(numbers)} figures")
 

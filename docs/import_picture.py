@@ -1,8 +1,10 @@
-"""The picture and the list of the page "Architecture", read from the sources while the pages are built.
+"""The picture and the list of the page "Architecture", read from the sources while the pages are
+built.
 
-``python docs/import_picture.py file.svg`` (or .png) writes the picture alone: rows and columns are the parts of the package in
-the order of the import contract in pyproject.toml, the highest layer first; a dot is an import. Where all imports run down,
-every dot is above the diagonal, and the grey squares, which are the layers, are empty.
+``python docs/import_picture.py file.svg`` (or .png) writes the picture alone: rows and columns are
+the parts of the package in the order of the import contract in pyproject.toml, the highest layer
+first; a dot is an import. Where all imports run down, every dot is above the diagonal, and the grey
+squares, which are the layers, are empty.
 """
 
 from __future__ import annotations
@@ -23,30 +25,42 @@ Imports = dict[str, set[str]]
 def layers() -> list[list[str]]:
     """The parts of the package by layer of the contract, the highest first."""
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    contract = next(c for c in settings["tool"]["importlinter"]["contracts"] if c["type"] == "layers")
+    contract = next(
+        c for c in settings["tool"]["importlinter"]["contracts"] if c["type"] == "layers"
+    )
     return [[name.strip() for name in layer.split("|")] for layer in contract["layers"]]
 
 
 def parts() -> dict[str, str]:
     """Every module and folder of the package, with the first line of its docstring."""
-    files = {path.parent.name if path.stem == "__init__" else path.stem: path for path in PACKAGE.glob("*/__init__.py")}
+    files = {
+        path.parent.name if path.stem == "__init__" else path.stem: path
+        for path in PACKAGE.glob("*/__init__.py")
+    }
     files |= {path.stem: path for path in PACKAGE.glob("*.py") if path.stem != "__init__"}
     return {name: first_line(path) for name, path in sorted(files.items())}
 
 
 def first_line(path: Path) -> str:
     """What a file says of itself."""
-    return (ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or "").split("\n")[0]
+    said = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    return said.split("\n\n")[0].replace("\n", " ")
 
 
 def imports() -> Imports:
-    """What each part imports of the others when it runs; imports for type checkers alone do not count."""
+    """What each part imports of the others when it runs; imports for type checkers alone do not
+    count.
+    """
     known = parts()
     found: Imports = {name: set() for name in known}
     for path in PACKAGE.rglob("*.py"):
         place = path.relative_to(PACKAGE).with_suffix("").parts
         if place[0] in known:
-            found[place[0]] |= {name for name in _imported(ast.parse(path.read_text(encoding="utf-8")), place) if name in known}
+            found[place[0]] |= {
+                name
+                for name in _imported(ast.parse(path.read_text(encoding="utf-8")), place)
+                if name in known
+            }
     return {name: needed - {name} for name, needed in found.items()}
 
 
@@ -56,7 +70,11 @@ def _imported(node: ast.AST, place: tuple[str, ...]) -> Iterator[str]:
         if isinstance(child, ast.If) and ast.unparse(child.test) == "TYPE_CHECKING":
             continue
         if isinstance(child, ast.ImportFrom) and child.level == len(place):
-            yield from [child.module.split(".")[0]] if child.module else (alias.name for alias in child.names)
+            yield from (
+                [child.module.split(".")[0]]
+                if child.module
+                else (alias.name for alias in child.names)
+            )
         yield from _imported(child, place)
 
 
@@ -67,7 +85,10 @@ def listed(name: str) -> str:
         return f"- `{name}.py`: {first_line(PACKAGE / f'{name}.py')}"
     files = sorted(path for path in folder.glob("*.py") if path.stem != "__init__")
     return "\n".join(
-        [f"- `{name}/`: {parts()[name]}", *(f"  - `{name}/{path.name}`: {first_line(path)}" for path in files)],
+        [
+            f"- `{name}/`: {parts()[name]}",
+            *(f"  - `{name}/{path.name}`: {first_line(path)}" for path in files),
+        ],
     )
 
 
@@ -81,7 +102,11 @@ def draw(kind: str = "svg") -> bytes:
     import matplotlib as mpl
 
     mpl.use("agg")
-    mpl.rcParams |= {"svg.fonttype": "path", "svg.hashsalt": "collisions", "font.family": "DejaVu Sans"}
+    mpl.rcParams |= {
+        "svg.fonttype": "path",
+        "svg.hashsalt": "collisions",
+        "font.family": "DejaVu Sans",
+    }
     import matplotlib.pyplot as plt
     from matplotlib.patches import Rectangle
 
@@ -108,7 +133,9 @@ def draw(kind: str = "svg") -> bytes:
     ax.tick_params(length=0, top=True, bottom=False, labeltop=True, labelbottom=False)
     ax.spines[:].set_color("#777777")
     file = BytesIO()
-    fig.savefig(file, format=kind, bbox_inches="tight", metadata={"Date": None} if kind == "svg" else None)
+    fig.savefig(
+        file, format=kind, bbox_inches="tight", metadata={"Date": None} if kind == "svg" else None
+    )
     plt.close(fig)
     return file.getvalue()
 

@@ -1,7 +1,9 @@
-"""Looks at pages in a browser: ``python docs/look.py docs/_build/html`` fails on raw markup, errors in outputs, a page or cell
-that scrolls sideways, labels of a figure that cover one another, and no answer. Without Chromium it says so and passes.
+"""Looks at pages in a browser: ``python docs/look.py docs/_build/html`` fails on raw markup, errors
+in outputs, a page or cell that scrolls sideways, labels of a figure that cover one another, and no
+answer. Without Chromium it says so and passes.
 
-Looked at are a report, the view of a notebook, and pages of the documentation, at 1400 and 800 pixels.
+Looked at are a report, the view of a notebook, and pages of the documentation, at 1400 and 800
+pixels.
 """
 
 from __future__ import annotations
@@ -26,21 +28,26 @@ MEASURE = """<!DOCTYPE html><meta charset="utf-8">
 document.getElementById("page").onload = event => {
   const page = event.target.contentDocument, covered = [];
   for (const figure of page.querySelectorAll("figure svg")) {
-    const labels = [...figure.querySelectorAll("text")].map(text => [text.textContent.trim(), text.getBoundingClientRect()]);
+    const labels = [...figure.querySelectorAll("text")].map(text => [text.textContent.trim(), \
+text.getBoundingClientRect()]);
     for (const [i, [one, a]] of labels.entries()) for (const [other, b] of labels.slice(i + 1)) {
       const x = Math.min(a.right, b.right) - Math.max(a.left, b.left);
       const y = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
-      if (one && other && x > 3 && y > 0.4 * Math.min(a.height, b.height)) covered.push(one + " / " + other);
+      if (one && other && x > 3 && y > 0.4 * Math.min(a.height, b.height)) covered.push(one + " / \
+" + other);
     }
   }
   const cells = [...page.querySelectorAll(".cell pre, .output pre")];
   const wide = cells.filter(pre => pre.scrollWidth > pre.clientWidth + 1);
-  const printed = [...page.querySelectorAll(".cell_output pre, .output pre")].map(pre => pre.textContent);
+  const printed = [...page.querySelectorAll(".cell_output pre, .output pre")].map(pre => \
+pre.textContent);
   const clone = page.body.cloneNode(true);
   clone.querySelectorAll("script, style, pre, code, details, math").forEach(node => node.remove());
   document.getElementById("found").textContent = JSON.stringify({
-    scrolls: page.documentElement.scrollWidth - page.documentElement.clientWidth, covered: covered, text: clone.textContent,
-    wide: wide.map(pre => pre.textContent.split("\\n").reduce((one, other) => other.length > one.length ? other : one).trim()),
+    scrolls: page.documentElement.scrollWidth - page.documentElement.clientWidth, covered: \
+covered, text: clone.textContent,
+    wide: wide.map(pre => pre.textContent.split("\\n").reduce((one, other) => other.length > \
+one.length ? other : one).trim()),
     errors: printed.flatMap(text => text.split("\\n")).filter(line => line.includes("ERROR:"))});
 };
 </script>"""
@@ -48,7 +55,9 @@ document.getElementById("page").onload = event => {
 
 def browser() -> str | None:
     """The Chromium that is here."""
-    return next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    return next(
+        filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+    )
 
 
 def made(folder: Path) -> list[Path]:
@@ -57,8 +66,18 @@ def made(folder: Path) -> list[Path]:
     from collisions.uncertainty import Normal, propagate
 
     inertia = {"yaw_inertia": "2100 lbf*ft*s**2"}
-    a = col.Vehicle(mass="3400 lb", vx="45 mph", x="-7 ft", y="0.5 ft", heading="0 deg", name="Camry", **inertia)
-    b = col.Vehicle(mass="2900 lb", vy="30 mph", x="2.5 ft", y="-3 ft", heading="90 deg", name="Civic", **inertia)
+    a = col.Vehicle(
+        mass="3400 lb", vx="45 mph", x="-7 ft", y="0.5 ft", heading="0 deg", name="Camry", **inertia
+    )
+    b = col.Vehicle(
+        mass="2900 lb",
+        vy="30 mph",
+        x="2.5 ft",
+        y="-3 ft",
+        heading="90 deg",
+        name="Civic",
+        **inertia,
+    )
 
     def crash(speed: object) -> col.Impact:
         contact = {"normal": "0 deg", "point": ("0 ft", "0 ft"), "friction": 0.5}
@@ -66,13 +85,24 @@ def made(folder: Path) -> list[Path]:
 
     impact = crash("45 mph")
     spread = propagate(
-        lambda speed: {"b.delta_v": crash(speed).b.q.delta_v}, {"speed": Normal("45 mph", "2 mph")}, samples=1024, seed=1
+        lambda speed: {"b.delta_v": crash(speed).b.q.delta_v},
+        {"speed": Normal("45 mph", "2 mph")},
+        samples=1024,
+        seed=1,
     )
     outlines = {"outline_a": ("15.7 ft", "5.9 ft"), "outline_b": ("13.8 ft", "5.7 ft")}
     views = (impact, impact.a, a, spread, col.diagnose(impact), col.left_out(impact))
-    notebook = "<!DOCTYPE html><meta charset='utf-8'><body>" + "<hr>".join(view._repr_html_() for view in views)
+    notebook = "<!DOCTYPE html><meta charset='utf-8'><body>" + "<hr>".join(
+        view._repr_html_() for view in views
+    )
     (folder / "notebook.html").write_text(notebook, encoding="utf-8")
-    page = col.report(impact, units="us", uncertainty=spread, notes={"restitution": "Published tests."}, **outlines)
+    page = col.report(
+        impact,
+        units="us",
+        uncertainty=spread,
+        notes={"restitution": "Published tests."},
+        **outlines,
+    )
     return [page.save(folder / "report.html"), folder / "notebook.html"]
 
 
@@ -81,14 +111,18 @@ def look(chromium: str, page: Path, width: int, folder: Path) -> list[str]:
     frame = folder / "frame.html"
     frame.write_text(MEASURE % {"width": width, "url": page.resolve().as_uri()}, encoding="utf-8")
     command = [
-        chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
-        "--disable-background-networking", "--disable-component-update", "--allow-file-access-from-files",
+        chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic",
+        "--no-first-run", "--disable-sync",
+        "--disable-background-networking", "--disable-component-update",
+        "--allow-file-access-from-files",
         f"--window-size={width + 40},1200", "--virtual-time-budget=8000", "--dump-dom",
     ]  # fmt: skip
     for profile in ("profile", "another"):
         run = [*command, f"--user-data-dir={folder / profile}", frame.as_uri()]
         try:
-            dump = subprocess.run(run, capture_output=True, text=True, timeout=SECONDS, check=True).stdout
+            dump = subprocess.run(
+                run, capture_output=True, text=True, timeout=SECONDS, check=True
+            ).stdout
             break
         except subprocess.TimeoutExpired:
             continue
@@ -98,7 +132,9 @@ def look(chromium: str, page: Path, width: int, folder: Path) -> list[str]:
     if found is None or not found[1]:
         return ["could not be measured"]
     measured = json.loads(unescape(found[1]))
-    faults = [f"scrolls sideways by {measured['scrolls']} pixels"] if measured["scrolls"] > 1 else []
+    faults = (
+        [f"scrolls sideways by {measured['scrolls']} pixels"] if measured["scrolls"] > 1 else []
+    )
     faults += [f"a label covers another: {pair}" for pair in measured["covered"]]
     faults += [f"a cell scrolls sideways: {line!r}" for line in measured["wide"]]
     faults += [f"an error in an output: {line.strip()!r}" for line in measured["errors"]]

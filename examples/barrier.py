@@ -1,11 +1,13 @@
 # %% [markdown]
 # # A car into a rigid barrier
 #
-# A car hits a rigid wall, first squarely and then at 20 degrees, as it might hit a concrete barrier beside the road: once as a
-# point mass and once with its front corner. This example shows the effect of restitution and friction in such an impact, and
-# that impact speed, EES and delta-V are three different speeds.
+# A car hits a rigid wall, first squarely and then at 20 degrees, as it might hit a concrete barrier
+# beside the road: once as a point mass and once with its front corner. This example shows the
+# effect of restitution and friction in such an impact, and that impact speed, EES and delta-V are
+# three different speeds.
 #
-# The wall is `Vehicle.barrier()`: a body of infinite mass, which takes up any momentum but no energy.
+# The wall is `Vehicle.barrier()`: a body of infinite mass, which takes up any momentum but no
+# energy.
 
 # %%
 import math
@@ -26,8 +28,8 @@ def kmh(speed):
 # %% [markdown]
 # ## A square impact
 #
-# The car hits the wall at 56 km/h, with the restitution of one published test of this kind and, for comparison, with a plastic
-# impact (restitution 0) and an elastic one (restitution 1).
+# The car hits the wall at 56 km/h, with the restitution of one published test of this kind and, for
+# comparison, with a plastic impact (restitution 0) and an elastic one (restitution 1).
 
 # %%
 published = reference.RESTITUTION_FRONTAL_BARRIER
@@ -48,15 +50,16 @@ for impact in squares:
     )
 
 # %% [markdown]
-# The speed of maximum crush (column "crush") is the impact speed, whatever the restitution: at full crush the car stands still,
-# and all its energy is in the crush. Restitution then returns part of that energy, which makes the delta-V larger and the
-# energy loss smaller. The EES of ISO 12353 stands for the energy lost.
+# The speed of maximum crush (column "crush") is the impact speed, whatever the restitution: at full
+# crush the car stands still, and all its energy is in the crush. Restitution then returns part of
+# that energy, which makes the delta-V larger and the energy loss smaller. The EES of ISO 12353
+# stands for the energy lost.
 #
 # ## At 20 degrees
 #
-# The car travels along x at 80 km/h. The wall, on its left, runs at -20 degrees, so the normal from the car into the wall is at
-# 70 degrees. The car is first a point mass; it then strikes with its front left corner, 2.3 m ahead of the centre of mass and
-# 0.9 m to the left of it.
+# The car travels along x at 80 km/h. The wall, on its left, runs at -20 degrees, so the normal from
+# the car into the wall is at 70 degrees. The car is first a point mass; it then strikes with its
+# front left corner, 2.3 m ahead of the centre of mass and 0.9 m to the left of it.
 
 # %%
 NORMAL, ANGLE = "70 deg", math.radians(20)
@@ -92,9 +95,10 @@ for label, family in (("point", points), ("corner", corners)):
         )
 
 # %% [markdown]
-# The speed of maximum crush does not include the speed along the wall. It is the speed along the normal: 80 sin 20° = 27 km/h
-# for a point mass. When the corner strikes, the car gives way by turning, and both crush and delta-V are smaller. Friction
-# alone would turn it the other way; here it is not enough to do so.
+# The speed of maximum crush does not include the speed along the wall. It is the speed along the
+# normal: 80 sin 20° = 27 km/h for a point mass. When the corner strikes, the car gives way by
+# turning, and both crush and delta-V are smaller. Friction alone would turn it the other way; here
+# it is not enough to do so.
 
 # %%
 figure, axes = plt.subplots(2, 1, figsize=(7, 11), layout="constrained")
@@ -104,14 +108,17 @@ plot.impulse_plane(corners[0.3], axes=axes[1], units="metric")
 # %% [markdown]
 # ## Checks
 #
-# - Square: v' = -e v (Example 1 of the paper), delta-V (1 + e) v, speed of maximum crush = v, loss m v² (1 - e²)/2 = m EES²/2.
-# - A point mass that arrives at an angle b to the normal leaves at an angle a, with tan a = (tan b)/e - mu/e - mu. An answer at
-#   askiitians.com/forums/Mechanics/10/1618 derives this for a ball on a plate; here b = 70 degrees, and the contact slides.
-# - The impulse acts at the corner, so about the corner the angular momentum of the car is unchanged, whatever the friction.
+# - Square: v' = -e v (Example 1 of the paper), delta-V (1 + e) v, speed of maximum crush = v, loss
+#   m v² (1 - e²)/2 = m EES²/2.
+# - A point mass that arrives at an angle b to the normal leaves at an angle a, with tan a = (tan
+#   b)/e - mu/e - mu. An answer at askiitians.com/forums/Mechanics/10/1618 derives this for a ball
+#   on a plate; here b = 70 degrees, and the contact slides.
+# - The impulse acts at the corner, so about the corner the angular momentum of the car is
+#   unchanged, whatever the friction.
 # - The energy lost is the kinetic energy of the car before the impact less that after it.
 #
-# Each figure is a few products of floats, each good to 1e-16. A tolerance of 1e-13 of the size of the terms leaves room for
-# these, even for the tangent of 70 degrees, which is divided by e = 0.1.
+# Each figure is a few products of floats, each good to 1e-16. A tolerance of 1e-13 of the size of
+# the terms leaves room for these, even for the tangent of 70 degrees, which is divided by e = 0.1.
 
 # %%
 for impact in squares:

@@ -1,9 +1,10 @@
 # %% [markdown]
 # # A chain of three cars, front to back
 #
-# The rear car runs into the middle car, and the middle car into the front car, which is standing. The state of a car after one
-# impact is its state before the next, until no car catches up with another. The two scenes differ only in the gaps between the
-# cars. The gaps decide the order of the impacts, and the order decides which car is struck from which side, and how hard.
+# The rear car runs into the middle car, and the middle car into the front car, which is standing.
+# The state of a car after one impact is its state before the next, until no car catches up with
+# another. The two scenes differ only in the gaps between the cars. The gaps decide the order of the
+# impacts, and the order decides which car is struck from which side, and how hard.
 
 # %%
 import itertools
@@ -55,8 +56,8 @@ def row(behind, ahead):
 # %% [markdown]
 # ## The same speeds, two orders
 #
-# The rear car travels at 60 km/h and the middle one at 30 km/h; the front one is standing. The restitution is 0.2, and nobody
-# brakes. A delta-V is positive forward.
+# The rear car travels at 60 km/h and the middle one at 30 km/h; the front one is standing. The
+# restitution is 0.2, and nobody brakes. A delta-V is positive forward.
 
 # %%
 SCENES = {
@@ -78,9 +79,10 @@ for label, (track, impacts, cars) in played.items():
     print(f"after: {speeds}\n")
 
 # %% [markdown]
-# With the larger gap ahead of it, the middle car is first thrown forward and then slowed by its hardest impact, which is also
-# the hardest for the front car. With the larger gap behind it, the middle car is first slowed, and its hardest impact comes
-# from behind. The final speeds are nearly the same in both scenes, so they do not tell which order it was.
+# With the larger gap ahead of it, the middle car is first thrown forward and then slowed by its
+# hardest impact, which is also the hardest for the front car. With the larger gap behind it, the
+# middle car is first slowed, and its hardest impact comes from behind. The final speeds are nearly
+# the same in both scenes, so they do not tell which order it was.
 
 # %%
 figure, axes = plt.subplots(2, 1, figsize=(7, 9), sharex=True, layout="constrained")
@@ -102,7 +104,8 @@ axes[0].legend(loc="lower right")
 axes[1].set_xlabel("time [s] (dotted: an impact)")
 
 # %% [markdown]
-# The momenta in the impact with the highest closing speed. In the picture, A is the striking car and B the struck one:
+# The momenta in the impact with the highest closing speed. In the picture, A is the striking car
+# and B the struck one:
 
 # %%
 every = [impact for _, impacts, _ in played.values() for impact in impacts]
@@ -111,14 +114,18 @@ plot.momentum(max(every, key=lambda impact: impact.closing_speed), units="metric
 # %% [markdown]
 # ## Checks
 #
-# - The total momentum of the three cars is unchanged, and their kinetic energy falls by what the impacts lose.
+# - The total momentum of the three cars is unchanged, and their kinetic energy falls by what the
+#   impacts lose.
 # - Between impacts and through them, the common centre of mass moves on at one speed.
-# - With equal cars, elastic impacts and two cars standing, the last car takes all the speed (Newton's cradle).
-# - Cambridge Pre-U 9794/3, question 10 (a.simonm.io/questions?module=Pre-U+9794%2F3): particles of 1, 2 and 5 kg are a metre
-#   apart, the restitution is 0.5, and the first moves at 14 m/s. The candidate is to show that the first comes to rest and that
-#   the second rebounds from the third. Worked by hand, the second comes back at 0.5 m/s, and the third leaves at 3 m/s.
+# - With equal cars, elastic impacts and two cars standing, the last car takes all the speed
+#   (Newton's cradle).
+# - Cambridge Pre-U 9794/3, question 10 (a.simonm.io/questions?module=Pre-U+9794%2F3): particles of
+#   1, 2 and 5 kg are a metre apart, the restitution is 0.5, and the first moves at 14 m/s. The
+#   candidate is to show that the first comes to rest and that the second rebounds from the third.
+#   Worked by hand, the second comes back at 0.5 m/s, and the third leaves at 3 m/s.
 #
-# There are only a handful of impacts, each with a few rounding errors of 1e-16, so 1e-13 of the whole leaves room.
+# There are only a handful of impacts, each with a few rounding errors of 1e-16, so 1e-13 of the
+# whole leaves room.
 
 # %%
 for label, (track, impacts, after) in played.items():

@@ -1,13 +1,15 @@
 # %% [markdown]
 # # Types of collision at crossroads
 #
-# Two cars meet at crossroads in four ways, the subject of the paper's figure 8: from the side, corner to corner, merging, and
-# turning left across the oncoming lane. The cars and their speeds are the same in all four. What makes the difference is the
-# closing speed along the line of impact, and whether the contact slips.
+# Two cars meet at crossroads in four ways, the subject of the paper's figure 8: from the side,
+# corner to corner, merging, and turning left across the oncoming lane. The cars and their speeds
+# are the same in all four. What makes the difference is the closing speed along the line of impact,
+# and whether the contact slips.
 #
-# "Application of Impulse Momentum Theory to Vehicle Collisions" solves such cases as oblique central impacts: the line of
-# impact goes through both centres of mass, so neither car turns. The positions and speeds here are ours. "Types of eccentric
-# collision" shows what changes when the impulse passes to one side of the centre of mass.
+# "Application of Impulse Momentum Theory to Vehicle Collisions" solves such cases as oblique
+# central impacts: the line of impact goes through both centres of mass, so neither car turns. The
+# positions and speeds here are ours. "Types of eccentric collision" shows what changes when the
+# impulse passes to one side of the centre of mass.
 
 # %%
 import math
@@ -44,8 +46,9 @@ def collide(kind, restitution, friction):
 # %% [markdown]
 # ## One pair of cars, four collisions
 #
-# The restitution is 0.1. The paper's contact is frictionless, and leaves the velocity along the contact unchanged. In the other
-# half of the table the contact is not slipping at separation. A real contact lies between the two: `friction=0.5`, say.
+# The restitution is 0.1. The paper's contact is frictionless, and leaves the velocity along the
+# contact unchanged. In the other half of the table the contact is not slipping at separation. A
+# real contact lies between the two: `friction=0.5`, say.
 
 # %%
 print(
@@ -69,8 +72,9 @@ for kind in COURSES:
     print(f"{kind:<16}{closing:>8.1f}{slip:>7.1f}{cells}")
 
 # %% [markdown]
-# The same 50 and 40 km/h make a light touch when merging and a violent collision when turning left. Delta-V follows the closing
-# speed if the contact is frictionless. If it does not slip, the speed along the contact counts as well.
+# The same 50 and 40 km/h make a light touch when merging and a violent collision when turning left.
+# Delta-V follows the closing speed if the contact is frictionless. If it does not slip, the speed
+# along the contact counts as well.
 
 # %%
 figure, axes = plt.subplots(4, 1, figsize=(7, 22), layout="constrained")
@@ -82,16 +86,19 @@ for kind, ax in zip(COURSES, axes.flat, strict=True):
 # %% [markdown]
 # ## Checks
 #
-# - Frictionless: the impulse is (1 + e) times the reduced mass times the closing speed, and the speed along the contact does
-#   not change (eqs 5, 6 and 9 of the paper).
-# - Plastic and without slip, which textbooks call locked together: both cars leave with one velocity, their total momentum over
-#   their total mass, and the energy lost is half the reduced mass times the square of the relative velocity.
-# - OpenStax, University Physics volume 1, section 9.5, "Traffic Collision": a car of 1200 kg going east at 60 km/h and a truck
-#   of 3000 kg going north at 40 km/h lock together and leave at 9.25 m/s, or 33.3 km/h, in a direction of 59 degrees. The text
-#   calls this east of north; by the components it prints, 4.76 m/s east and 7.93 m/s north, it is north of east.
+# - Frictionless: the impulse is (1 + e) times the reduced mass times the closing speed, and the
+#   speed along the contact does not change (eqs 5, 6 and 9 of the paper).
+# - Plastic and without slip, which textbooks call locked together: both cars leave with one
+#   velocity, their total momentum over their total mass, and the energy lost is half the reduced
+#   mass times the square of the relative velocity.
+# - OpenStax, University Physics volume 1, section 9.5, "Traffic Collision": a car of 1200 kg going
+#   east at 60 km/h and a truck of 3000 kg going north at 40 km/h lock together and leave at 9.25
+#   m/s, or 33.3 km/h, in a direction of 59 degrees. The text calls this east of north; by the
+#   components it prints, 4.76 m/s east and 7.93 m/s north, it is north of east.
 #
-# A few rounding errors of 1e-16 each stay below 1e-13 of the speeds. The book rounds its intermediate results to 0.01 m/s; its
-# figures in km/h and degrees are met to half a unit of the last digit.
+# A few rounding errors of 1e-16 each stay below 1e-13 of the speeds. The book rounds its
+# intermediate results to 0.01 m/s; its figures in km/h and degrees are met to half a unit of the
+# last digit.
 
 # %%
 for kind in COURSES:

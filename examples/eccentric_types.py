@@ -1,12 +1,13 @@
 # %% [markdown]
 # # Types of eccentric collision
 #
-# The front of A strikes the front door of B, its rear wing, half of its rear end or half of its front end: four types from the
-# paper's figure 12. The impulse passes to one side of a centre of mass, so the cars turn. The example shows which way each car
-# turns, that friction can reverse the rotation, and how far off a model without rotation is.
+# The front of A strikes the front door of B, its rear wing, half of its rear end or half of its
+# front end: four types from the paper's figure 12. The impulse passes to one side of a centre of
+# mass, so the cars turn. The example shows which way each car turns, that friction can reverse the
+# rotation, and how far off a model without rotation is.
 #
-# The paper, "Application of Impulse Momentum Theory to Vehicle Collisions", treats the contact as frictionless (eqs 10 to 19).
-# The positions and speeds here are ours.
+# The paper, "Application of Impulse Momentum Theory to Vehicle Collisions", treats the contact as
+# frictionless (eqs 10 to 19). The positions and speeds here are ours.
 
 # %%
 import math
@@ -56,8 +57,9 @@ def collide(kind, friction, solver=col.eccentric):
 # %% [markdown]
 # ## Which way they turn
 #
-# The restitution is 0.1, and yaw is positive counter-clockwise. The last column is the error of `oblique_central`, a model in
-# which nothing turns, in delta-V and rotation together, as `required_model` measures it.
+# The restitution is 0.1, and yaw is positive counter-clockwise. The last column is the error of
+# `oblique_central`, a model in which nothing turns, in delta-V and rotation together, as
+# `required_model` measures it.
 
 # %%
 print(
@@ -78,10 +80,11 @@ for kind in TYPES:
         )
 
 # %% [markdown]
-# Struck ahead of its centre of mass, B turns to the right without friction, and to the left with friction, because its side
-# drags along the front of A. Struck on the rear wing, B is turned the same way by the normal impulse and by friction. In both
-# cases only friction turns A, because the normal goes through A's centre of mass. In the two offset collisions, friction
-# takes most of the rotation away.
+# Struck ahead of its centre of mass, B turns to the right without friction, and to the left with
+# friction, because its side drags along the front of A. Struck on the rear wing, B is turned the
+# same way by the normal impulse and by friction. In both cases only friction turns A, because the
+# normal goes through A's centre of mass. In the two offset collisions, friction takes most of the
+# rotation away.
 
 # %%
 figure, axes = plt.subplots(4, 1, figsize=(7, 22), layout="constrained")
@@ -93,15 +96,18 @@ for kind, ax in zip(TYPES, axes.flat, strict=True):
 # %% [markdown]
 # ## Checks
 #
-# - Momentum, and angular momentum about a point far from the scene: what one body gives up, the other takes.
+# - Momentum, and angular momentum about a point far from the scene: what one body gives up, the
+#   other takes.
 # - The energy lost is the kinetic energy before the impact less that after it.
 # - The contact points separate at e times the speed at which they met (eq 16 of the paper).
-# - Without friction the effective mass at the contact is $1/(1/m_A + 1/m_B + r_A^2/I_A + r_B^2/I_B)$, as in textbooks of
-#   dynamics.
-# - Two equal cars at equal speeds in the offset frontal collision, without friction: by symmetry each behaves as if it met a
-#   wall, so the impulse is $(1 + e)\,v/(1/m + r^2/I)$, and both turn alike.
+# - Without friction the effective mass at the contact is $1/(1/m_A + 1/m_B + r_A^2/I_A +
+#   r_B^2/I_B)$, as in textbooks of dynamics.
+# - Two equal cars at equal speeds in the offset frontal collision, without friction: by symmetry
+#   each behaves as if it met a wall, so the impulse is $(1 + e)\,v/(1/m + r^2/I)$, and both turn
+#   alike.
 #
-# Each side of a comparison is a sum of a few products; 1e-12 of the whole is a thousand times their rounding error.
+# Each side of a comparison is a sum of a few products; 1e-12 of the whole is a thousand times their
+# rounding error.
 
 # %%
 FAR = (-30.0, 20.0)

@@ -1,10 +1,11 @@
 # %% [markdown]
 # # Example 2 of the paper, backwards
 #
-# "Application of Impulse Momentum Theory to Vehicle Collisions", Example 2: A (1100 kg) at 80 km/h runs into the back of B (950
-# kg), which is standing and afterwards moves at 60 km/h. The paper asks for the velocity of A afterwards and for the
-# restitution. This is one of twenty such questions, in which three of `va`, `vb`, `va_after`, `vb_after`, `restitution` and
-# `energy_loss` are known. `reconstruct.central` answers all of them; here each is asked of the same impact.
+# "Application of Impulse Momentum Theory to Vehicle Collisions", Example 2: A (1100 kg) at 80 km/h
+# runs into the back of B (950 kg), which is standing and afterwards moves at 60 km/h. The paper
+# asks for the velocity of A afterwards and for the restitution. This is one of twenty such
+# questions, in which three of `va`, `vb`, `va_after`, `vb_after`, `restitution` and `energy_loss`
+# are known. `reconstruct.central` answers all of them; here each is asked of the same impact.
 
 # %%
 import itertools
@@ -25,9 +26,9 @@ print(f"{'energy lost, kJ':<24}{'-':>8}{impact.energy_loss / 1000:>10.2f}")
 # %% [markdown]
 # ## All twenty questions
 #
-# One of the questions has two answers: the error raised then holds both, and one of the two is Example 2. The condition is the
-# factor by which a relative error in what was given may grow in the speeds before the impact, relative to the closing speed. A
-# value of about 1 is firm.
+# One of the questions has two answers: the error raised then holds both, and one of the two is
+# Example 2. The condition is the factor by which a relative error in what was given may grow in the
+# speeds before the impact, relative to the closing speed. A value of about 1 is firm.
 
 # %%
 TRUTH = {
@@ -84,9 +85,9 @@ for names in itertools.combinations(TRUTH, 3):
 # %% [markdown]
 # ## Checks
 #
-# The exact answers are 310/11 km/h and 35/88. Each of the twenty questions must return Example 2. Its inputs are rounded to
-# half an eps; 16 eps times the condition leaves room for the steps in between. The printed figures were worked out from speeds
-# rounded to two decimals.
+# The exact answers are 310/11 km/h and 35/88. Each of the twenty questions must return Example 2.
+# Its inputs are rounded to half an eps; 16 eps times the condition leaves room for the steps in
+# between. The printed figures were worked out from speeds rounded to two decimals.
 
 # %%
 EPS = 2.0**-52

@@ -1,8 +1,9 @@
 # %% [markdown]
 # # In-line collisions by momentum and EES
 #
-# When the vehicles approach along one line, momentum alone cannot tell their speeds apart. The energy of the damage can: the
-# energy equivalent speeds (EES) say how fast the vehicles closed, and momentum says how the speed was shared between them.
+# When the vehicles approach along one line, momentum alone cannot tell their speeds apart. The
+# energy of the damage can: the energy equivalent speeds (EES) say how fast the vehicles closed, and
+# momentum says how the speed was shared between them.
 
 # %%
 import math
@@ -24,8 +25,9 @@ def check(label, ours, expected, within):
 # %% [markdown]
 # ## A rear-end collision: TAR Origin, inline problem 1
 #
-# A car of 3000 lb runs into the back of a standing car of 4000 lb, and together they slide 66 ft with a drag factor of 0.65
-# (tarorigin.com/aangles/Inline). The run-out gives the common speed, and momentum gives the impact speed.
+# A car of 3000 lb runs into the back of a standing car of 4000 lb, and together they slide 66 ft
+# with a drag factor of 0.65 (tarorigin.com/aangles/Inline). The run-out gives the common speed, and
+# momentum gives the impact speed.
 
 # %%
 together = travel.speed("66 ft", drag=0.65)
@@ -42,11 +44,12 @@ print(f"energy lost {stood.energy_loss / 1000:.0f} kJ")
 # %% [markdown]
 # ### If nobody knew that the struck car was standing
 #
-# Then the damage has to tell. The EES used here are invented: 52 mph for the striking car and 31 mph for the struck one, each
-# uncertain by 10 percent. In a plastic impact all the energy absorbed is dissipated, so it may be given as `energy_loss`. With
-# restitution, part of what was absorbed comes back. `speeds` and `inline_closing_speed` therefore take `ees_a=` and `ees_b=`,
-# the EES of ISO 12353, for the energy dissipated, and `max_crush_speed_a=` and `max_crush_speed_b=` for the energy at maximum
-# crush.
+# Then the damage has to tell. The EES used here are invented: 52 mph for the striking car and 31
+# mph for the struck one, each uncertain by 10 percent. In a plastic impact all the energy absorbed
+# is dissipated, so it may be given as `energy_loss`. With restitution, part of what was absorbed
+# comes back. `speeds` and `inline_closing_speed` therefore take `ees_a=` and `ees_b=`, the EES of
+# ISO 12353, for the energy dissipated, and `max_crush_speed_a=` and `max_crush_speed_b=` for the
+# energy at maximum crush.
 
 # %%
 mass_a, mass_b = stood.a.before.mass, stood.b.before.mass
@@ -71,17 +74,20 @@ for label, (ees_a, ees_b) in EES.items():
     )
 
 # %% [markdown]
-# Ten percent in the EES is ten percent in the closing speed; here it decides whether the struck car was standing.
+# Ten percent in the EES is ten percent in the closing speed; here it decides whether the struck car
+# was standing.
 #
 # ## Head-on: Schreier and Nelson
 #
-# A VW Rabbit (880 kg) and a Mercedes 240 TD (1600 kg) met nearly head-on. The data are those of Schreier and Nelson, SAE
-# Transactions 96 (1987), as given in eeswebgl (github.com/boonich/eeswebgl): speeds and courses after the impact, the angle
-# through which each car turned, and EES of 66 and 42 km/h. The results in the paper are not at hand; the figures used for
-# comparison were worked out independently of this library (case X01 of `validation/data/worked_examples.json`).
+# A VW Rabbit (880 kg) and a Mercedes 240 TD (1600 kg) met nearly head-on. The data are those of
+# Schreier and Nelson, SAE Transactions 96 (1987), as given in eeswebgl
+# (github.com/boonich/eeswebgl): speeds and courses after the impact, the angle through which each
+# car turned, and EES of 66 and 42 km/h. The results in the paper are not at hand; the figures used
+# for comparison were worked out independently of this library (case X01 of
+# `validation/data/worked_examples.json`).
 #
-# The damage was offset, so both cars kept going past each other. In the in-line model one would pass through the other, so the
-# library refuses the case:
+# The damage was offset, so both cars kept going past each other. In the in-line model one would
+# pass through the other, so the library refuses the case:
 
 # %%
 RABBIT, MERCEDES = 880.0, 1600.0
@@ -101,8 +107,9 @@ except col.NoSolutionError as error:
     print(f"{error.code}: {error}")
 
 # %% [markdown]
-# Planar momentum still applies, but the cars approached within 4 degrees of one line. The course of the Rabbit was 0 degrees.
-# The heading of the Mercedes was 184 degrees, and that is only roughly its course. The library answers, with a warning:
+# Planar momentum still applies, but the cars approached within 4 degrees of one line. The course of
+# the Rabbit was 0 degrees. The heading of the Mercedes was 184 degrees, and that is only roughly
+# its course. The library answers, with a warning:
 
 
 # %%
@@ -127,11 +134,13 @@ _, warned = with_course(184.0)
 print(f"{warned[0].code}: {warned[0]}")
 
 # %% [markdown]
-# The energy decides. Neither car was turning before the impact, so the energy lost in translation went into damage and
-# rotation. The source takes the EES as energy dissipated, and finds the rotation from the angle $\varphi$ turned before coming
-# to rest: tyre friction $\mu$ acts at half the wheelbase $l$, so $\omega = \sqrt{2\,\mu m g\,(l/2)\,\varphi / I}$, with $g$ =
-# 9.81 m/s² and $I = 0.1269\,m\,l\,L$ for a car of length $L$. It treats turning and sliding as separate; `travel.path` takes
-# them together, where positions along the path are known. Which course of the Mercedes gives that energy?
+# The energy decides. Neither car was turning before the impact, so the energy lost in translation
+# went into damage and rotation. The source takes the EES as energy dissipated, and finds the
+# rotation from the angle $\varphi$ turned before coming to rest: tyre friction $\mu$ acts at half
+# the wheelbase $l$, so $\omega = \sqrt{2\,\mu m g\,(l/2)\,\varphi / I}$, with $g$ = 9.81 m/s² and
+# $I = 0.1269\,m\,l\,L$ for a car of length $L$. It treats turning and sliding as separate;
+# `travel.path` takes them together, where positions along the path are known. Which course of the
+# Mercedes gives that energy?
 
 
 # %%
@@ -177,16 +186,17 @@ for share in (0.9, 1.0, 1.1):
         head_on = degrees, solution
 
 # %% [markdown]
-# Ten percent of the energy changes the speeds far less than a degree of course does in the table above. The course found is
-# within a quarter of a degree of the heading of the Mercedes, which speaks for the data.
+# Ten percent of the energy changes the speeds far less than a degree of course does in the table
+# above. The course found is within a quarter of a degree of the heading of the Mercedes, which
+# speaks for the data.
 #
 # ## Checks
 #
-# - TAR Origin uses the constant 30 of US worksheets, and has a common speed of 35.8748 mph and an impact speed of 83.7078 mph.
-#   With standard gravity the constant is 29.914. The difference is a known factor for both speeds, so they are met to the last
-#   of six digits.
-# - In a plastic in-line impact, the EES must give the same closing speed through `inline_closing_speed` and through the energy,
-#   up to rounding.
+# - TAR Origin uses the constant 30 of US worksheets, and has a common speed of 35.8748 mph and an
+#   impact speed of 83.7078 mph. With standard gravity the constant is 29.914. The difference is a
+#   known factor for both speeds, so they are met to the last of six digits.
+# - In a plastic in-line impact, the EES must give the same closing speed through
+#   `inline_closing_speed` and through the energy, up to rounding.
 # - Case X01 agrees to its printed digits.
 
 # %%

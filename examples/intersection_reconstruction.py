@@ -1,14 +1,15 @@
 # %% [markdown]
 # # An intersection, from the marks on the road to the impact speeds
 #
-# Four steps lead from the marks to the answer: the run-out gives the motion at separation, the impact solved backwards gives
-# the speeds before it, the forward solver shows whether those speeds lead to the marks, and the uncertainty of the readings
-# shows how far the result can be trusted.
+# Four steps lead from the marks to the answer: the run-out gives the motion at separation, the
+# impact solved backwards gives the speeds before it, the forward solver shows whether those speeds
+# lead to the marks, and the uncertainty of the readings shows how far the result can be trusted.
 #
-# **The scene is invented.** Positions were measured to 0.1 m and headings to 5 degrees, as if from a plan of the tyre marks.
-# Car A (1500 kg) came from the west, course 0. Car B (1250 kg) came from the south, course 90 degrees. The front of A struck
-# the left side of B at the driver's door. A spun to the left and stopped after about 7 m, with its front wheels jammed by the
-# damage. B spun to the right, its wheels nearly free, crossed the asphalt and came to rest on the grass verge.
+# **The scene is invented.** Positions were measured to 0.1 m and headings to 5 degrees, as if from
+# a plan of the tyre marks. Car A (1500 kg) came from the west, course 0. Car B (1250 kg) came from
+# the south, course 90 degrees. The front of A struck the left side of B at the driver's door. A
+# spun to the left and stopped after about 7 m, with its front wheels jammed by the damage. B spun
+# to the right, its wheels nearly free, crossed the asphalt and came to rest on the grass verge.
 
 # %%
 import itertools
@@ -37,9 +38,10 @@ def kmh(speed):
 # %% [markdown]
 # ## What was found
 #
-# The positions of each centre of mass along its path, from impact to rest, and the heading at each. Headings are counted
-# continuously: B turned by 195 degrees to the right, so its headings run from 90 to -105. `lock` is the braking along the
-# wheels, from 0 for free rolling to 1 for locked wheels.
+# The positions of each centre of mass along its path, from impact to rest, and the heading at each.
+# Headings are counted continuously: B turned by 195 degrees to the right, so its headings run from
+# 90 to -105. `lock` is the braking along the wheels, from 0 for free rolling to 1 for locked
+# wheels.
 
 # %%
 PATHS = {
@@ -78,9 +80,10 @@ COURSES = {"course_a": "0 deg", "course_b": "90 deg"}
 # %% [markdown]
 # ## Step 1: the motion at separation
 #
-# `travel.path` works backward from rest; each segment has the drag that belongs to its crab angle (heading less course). The
-# course at separation is the tangent of the path there, not the straight line to rest. The speed "at full friction" is that of
-# `travel.speed` over the same distances, as if all wheels had slid all the way.
+# `travel.path` works backward from rest; each segment has the drag that belongs to its crab angle
+# (heading less course). The course at separation is the tangent of the path there, not the straight
+# line to rest. The speed "at full friction" is that of `travel.speed` over the same distances, as
+# if all wheels had slid all the way.
 
 
 # %%
@@ -115,10 +118,11 @@ for name, run in runs.items():
 # %% [markdown]
 # ## Step 2: backwards through the impact
 #
-# The impact is solved twice, from different knowledge. `reconstruct.momentum` takes the courses before impact as known, and
-# needs nothing about the contact. `reconstruct.planar` takes the contact, friction and restitution as known and finds the
-# courses and yaw rates before impact. These are a check: A should have come on a course of 0 degrees, B on 90, and neither
-# should have been yawing.
+# The impact is solved twice, from different knowledge. `reconstruct.momentum` takes the courses
+# before impact as known, and needs nothing about the contact. `reconstruct.planar` takes the
+# contact, friction and restitution as known and finds the courses and yaw rates before impact.
+# These are a check: A should have come on a course of 0 degrees, B on 90, and neither should have
+# been yawing.
 
 
 # %%
@@ -168,9 +172,10 @@ print(
 )
 
 # %% [markdown]
-# The condition of `planar` is (1 + e)/e: only a tenth of the closing speed is left after the impact, so an error in the
-# separation speed or the restitution comes back elevenfold. `planar` is therefore used here as a check, and momentum gives the
-# answer. The sensitivities show which course matters:
+# The condition of `planar` is (1 + e)/e: only a tenth of the closing speed is left after the
+# impact, so an error in the separation speed or the restitution comes back elevenfold. `planar` is
+# therefore used here as a check, and momentum gives the answer. The sensitivities show which course
+# matters:
 
 # %%
 COURSE_NAMES = ("course_a", "course_b", "course_a_after", "course_b_after")
@@ -184,10 +189,11 @@ for answer, row in momentum.sensitivity.q.items():
 # %% [markdown]
 # ## Step 3: forward again
 #
-# Solved forward, the states that `planar` found must lead back to the separation it was given, up to rounding. That is a check
-# of the arithmetic. The speeds from momentum, on the courses before impact and without yaw, are put through `eccentric` with
-# the same contact. That is a check of the case: nothing about the contact went into these speeds, so it speaks for them that
-# they lead close to the marks.
+# Solved forward, the states that `planar` found must lead back to the separation it was given, up
+# to rounding. That is a check of the arithmetic. The speeds from momentum, on the courses before
+# impact and without yaw, are put through `eccentric` with the same contact. That is a check of the
+# case: nothing about the contact went into these speeds, so it speaks for them that they lead close
+# to the marks.
 
 # %%
 again = col.eccentric(*before, RESTITUTION, **CONTACT)
@@ -212,10 +218,11 @@ for side in (forward.a, forward.b):
 # %% [markdown]
 # ## Step 4: how far the evidence carries
 #
-# The readings and their errors go in as distributions: the chain of run-out, momentum and impact is computed for thousands of
-# cases at once, and the answer is a range, given these inputs. The friction of the asphalt is the same for both cars, because
-# it is one road. The positions near the impact decide the courses, so the second and third positions of each car are
-# moved across its path, within the 0.1 m to which they were read.
+# The readings and their errors go in as distributions: the chain of run-out, momentum and impact is
+# computed for thousands of cases at once, and the answer is a range, given these inputs. The
+# friction of the asphalt is the same for both cars, because it is one road. The positions near the
+# impact decide the courses, so the second and third positions of each car are moved across its
+# path, within the 0.1 m to which they were read.
 
 # %%
 INPUTS = {
@@ -299,8 +306,9 @@ for name in result:
     )
 
 # %% [markdown]
-# Which reading should be improved? The bars show the share of the variance that each input contributes. The input with the
-# longest bar is the one to measure better; those at the bottom hardly matter, and no expert needs to argue about them.
+# Which reading should be improved? The bars show the share of the variance that each input
+# contributes. The input with the longest bar is the one to measure better; those at the bottom
+# hardly matter, and no expert needs to argue about them.
 
 # %%
 answers = ("speed of A", "speed of B", "delta-V of A")
@@ -327,14 +335,18 @@ for answer in answers:
 # %% [markdown]
 # ## Checks
 #
-# - `planar` and `eccentric` undo each other: each errs by a few eps of speeds below 20 m/s, times a condition of 11, which is
-#   below 1e-12; the limit of 1e-10 m/s and rad/s leaves room for other processors.
-# - The two methods agree within two standard deviations of their difference, with friction, lock and contact held at the
-#   values above and the positions and courses varied within their stated errors.
-# - The single answers lie within their ranges, but need not be the means, because the chain is not linear.
-# - Solved forward, the speeds from momentum meet the marks: the speeds within 1.5 km/h; the courses within 3 degrees, which is
-#   the reading error of 0.1 m at either end of a first segment of 2.4 to 3.1 m (0.1/2.4 is 2.4 degrees); the yaw rates within
-#   20 degrees per second, which is 5 degrees of heading over the first quarter of a second.
+# - `planar` and `eccentric` undo each other: each errs by a few eps of speeds below 20 m/s, times a
+#   condition of 11, which is below 1e-12; the limit of 1e-10 m/s and rad/s leaves room for other
+#   processors.
+# - The two methods agree within two standard deviations of their difference, with friction, lock
+#   and contact held at the values above and the positions and courses varied within their stated
+#   errors.
+# - The single answers lie within their ranges, but need not be the means, because the chain is not
+#   linear.
+# - Solved forward, the speeds from momentum meet the marks: the speeds within 1.5 km/h; the courses
+#   within 3 degrees, which is the reading error of 0.1 m at either end of a first segment of 2.4 to
+#   3.1 m (0.1/2.4 is 2.4 degrees); the yaw rates within 20 degrees per second, which is 5 degrees
+#   of heading over the first quarter of a second.
 
 # %%
 for label, found, end in (("A", again.a.after, a_after), ("B", again.b.after, b_after)):

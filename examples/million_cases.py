@@ -1,12 +1,12 @@
 # %% [markdown]
 # # A million cases
 #
-# Every input of a rear-end impact is uncertain. The inputs are drawn a million times, and all the cases are solved in one call.
-# This example shows what becomes of the cases that have no answer, how long a case takes, and that `uncertainty.propagate` gets
-# there with fewer.
+# Every input of a rear-end impact is uncertain. The inputs are drawn a million times, and all the
+# cases are solved in one call. This example shows what becomes of the cases that have no answer,
+# how long a case takes, and that `uncertainty.propagate` gets there with fewer.
 #
-# **The scene is invented.** A runs into the back of B, offset by up to 0.6 m, in traffic where either car may have been the
-# faster.
+# **The scene is invented.** A runs into the back of B, offset by up to 0.6 m, in traffic where
+# either car may have been the faster.
 
 # %%
 import math
@@ -40,7 +40,8 @@ def crash(speed_a, speed_b, mass_a, mass_b, offset, restitution, friction, **opt
 # %% [markdown]
 # ## Draw
 #
-# The seed lets others draw the same million. Bare arrays are in SI, which also saves parsing text at every call.
+# The seed lets others draw the same million. Bare arrays are in SI, which also saves parsing text
+# at every call.
 
 # %%
 rng = np.random.default_rng(seed=8)
@@ -57,8 +58,8 @@ drawn = {
 # %% [markdown]
 # ## Solve
 #
-# `progress` takes a function, or `True` for a bar. `on_failure="nan"` says that refused cases are expected; without it, a
-# single warning would give their number. `threads=2` would use two cores.
+# `progress` takes a function, or `True` for a bar. `on_failure="nan"` says that refused cases are
+# expected; without it, a single warning would give their number. `threads=2` would use two cores.
 
 
 # %%
@@ -90,8 +91,9 @@ print(
 # %% [markdown]
 # ## Cases without an answer
 #
-# Such a case is NaN in every answer, and `status` says why. To leave these cases out is to say that they cannot have happened.
-# Here that is true: the impact did happen, so A was the faster, and in such an impact the restitution is not negative.
+# Such a case is NaN in every answer, and `status` says why. To leave these cases out is to say that
+# they cannot have happened. Here that is true: the impact did happen, so A was the faster, and in
+# such an impact the restitution is not negative.
 
 # %%
 for code, count in zip(*np.unique(batch.status, return_counts=True), strict=True):
@@ -108,9 +110,10 @@ print(
 # %% [markdown]
 # ## The same by `propagate`
 #
-# `propagate` takes units, and draws points that are spread evenly, so that fewer are enough; `mean_standard_error` says how far
-# off the mean may be. `truncate=` cuts off values that are impossible. The closing speed is not an input, so cases in which the
-# cars separate remain, and a warning gives their number.
+# `propagate` takes units, and draws points that are spread evenly, so that fewer are enough;
+# `mean_standard_error` says how far off the mean may be. `truncate=` cuts off values that are
+# impossible. The closing speed is not an input, so cases in which the cars separate remain, and a
+# warning gives their number.
 
 # %%
 known = {
@@ -149,13 +152,15 @@ legend = axes.legend(loc="upper right", fontsize="small")
 # %% [markdown]
 # ## Checks
 #
-# - Momentum, and angular momentum about the origin, are conserved in every case that has an answer. They are some 1e4 in SI,
-#   and the rounding error of such sums is below 1e-9.
-# - The closing speed is normal with mean 50 - 30 = 20 and standard deviation √(8² + 6²) = 10 km/h. It is negative if it falls
-#   more than 2 standard deviations below its mean, which has a probability of 0.02275 in any table. The same goes for the
-#   restitution. The number of refused cases is within 4 standard deviations of a binomial count.
-# - The mean closing speed of the cases that approach is that of a normal distribution cut off at 0, in closed form. This mean,
-#   and the mean delta-V from `propagate`, agree with the batch within 4 standard errors.
+# - Momentum, and angular momentum about the origin, are conserved in every case that has an answer.
+#   They are some 1e4 in SI, and the rounding error of such sums is below 1e-9.
+# - The closing speed is normal with mean 50 - 30 = 20 and standard deviation √(8² + 6²) = 10 km/h.
+#   It is negative if it falls more than 2 standard deviations below its mean, which has a
+#   probability of 0.02275 in any table. The same goes for the restitution. The number of refused
+#   cases is within 4 standard deviations of a binomial count.
+# - The mean closing speed of the cases that approach is that of a normal distribution cut off at 0,
+#   in closed form. This mean, and the mean delta-V from `propagate`, agree with the batch within 4
+#   standard errors.
 
 
 # %%

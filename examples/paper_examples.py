@@ -1,12 +1,14 @@
 # %% [markdown]
 # # The paper's three examples
 #
-# "Application of Impulse Momentum Theory to Vehicle Collisions" works three examples: a vehicle against a fixed body, a
-# front-to-back collision, and an eccentric collision in which the struck vehicle turns about a fixed point. Here each is solved
-# again, with the paper's figures beside ours, and checked at the end.
+# "Application of Impulse Momentum Theory to Vehicle Collisions" works three examples: a vehicle
+# against a fixed body, a front-to-back collision, and an eccentric collision in which the struck
+# vehicle turns about a fixed point. Here each is solved again, with the paper's figures beside
+# ours, and checked at the end.
 #
-# These are exercises in arithmetic, not guidance. Vehicles that meet at more than about 15 km/h have a measured restitution of
-# about 0 to 0.25. Example 2 gives 0.40, and Example 3 assumes 0.80, far above anything measured.
+# These are exercises in arithmetic, not guidance. Vehicles that meet at more than about 15 km/h
+# have a measured restitution of about 0 to 0.25. Example 2 gives 0.40, and Example 3 assumes 0.80,
+# far above anything measured.
 
 # %%
 import math
@@ -38,9 +40,10 @@ def check(label, ours, expected, relative):
 # %% [markdown]
 # ## Example 1: a vehicle against a fixed body
 #
-# A vehicle rebounds from a fixed body with $v' = -e\,v$. The barrier is a body of infinite mass, and nothing else about it is
-# special. The paper gives the rule and the names of the three kinds of impact, but no numbers: the 50 km/h is ours, and the
-# column "paper" is the paper's rule applied to it.
+# A vehicle rebounds from a fixed body with $v' = -e\,v$. The barrier is a body of infinite mass,
+# and nothing else about it is special. The paper gives the rule and the names of the three kinds of
+# impact, but no numbers: the 50 km/h is ours, and the column "paper" is the paper's rule applied to
+# it.
 
 # %%
 heading("Example 1: 1100 kg at 50 km/h against a fixed body")
@@ -59,14 +62,17 @@ for e, kind in KINDS:
 # %% [markdown]
 # ## Example 2: front to back
 #
-# A (1100 kg) at 80 km/h runs into the back of B (950 kg), which is standing with its handbrake released. Afterwards B is seen
-# to move at 60 km/h. The paper asks for the velocity of A after the impact and for the restitution.
+# A (1100 kg) at 80 km/h runs into the back of B (950 kg), which is standing with its handbrake
+# released. Afterwards B is seen to move at 60 km/h. The paper asks for the velocity of A after the
+# impact and for the restitution.
 #
-# The exact answer is $e = 35/88$. From it the forward solver must return the 60 km/h that was observed, and $v'_A = 310/11$
-# km/h; $e$ is then found again from the two states, as separation speed over closing speed.
+# The exact answer is $e = 35/88$. From it the forward solver must return the 60 km/h that was
+# observed, and $v'_A = 310/11$ km/h; $e$ is then found again from the two states, as separation
+# speed over closing speed.
 #
-# The paper writes $e = (v'_B - v'_A)/(v_B - v_A)$ and then puts a positive 22.22 in the denominator. The value is right, and
-# the sign in the formula is a misprint: by the paper's own eq. (9) the denominator is $v_A - v_B$.
+# The paper writes $e = (v'_B - v'_A)/(v_B - v_A)$ and then puts a positive 22.22 in the
+# denominator. The value is right, and the sign in the formula is a misprint: by the paper's own eq.
+# (9) the denominator is $v_A - v_B$.
 
 # %%
 a = col.Vehicle(mass="1100 kg", vx="80 km/h", name="A")
@@ -95,16 +101,17 @@ check("Example 2, e as printed", e_found, 0.40, 1e-2)
 # %% [markdown]
 # ## Example 3: an eccentric collision at an intersection
 #
-# A (900 kg, 60 km/h) strikes B (1000 kg, standing) at one end. B can only turn about a fixed point O at its other end, 4 m from
-# the line of impact; A does not turn. "Choosing velocities positive to the right", A moves along +x, B lies along y with O at
-# the origin, and the contact is at (0, 4 m).
+# A (900 kg, 60 km/h) strikes B (1000 kg, standing) at one end. B can only turn about a fixed point
+# O at its other end, 4 m from the line of impact; A does not turn. "Choosing velocities positive to
+# the right", A moves along +x, B lies along y with O at the origin, and the contact is at (0, 4 m).
 #
-# B is a uniform rod: $m L^2/12$ = 1333 kg m² about its centre of mass. The paper writes this as "$I_{B_0}$ = 1333", as if it
-# were about O. Together with the 1000 · 2 · 2 beside it, it makes the 5333 kg m² about O, and eq. (20) is right. The line above
-# eq. (20) repeats a stray "$v'_A \cdot 4$", which is not in the equation.
+# B is a uniform rod: $m L^2/12$ = 1333 kg m² about its centre of mass. The paper writes this as
+# "$I_{B_0}$ = 1333", as if it were about O. Together with the 1000 · 2 · 2 beside it, it makes the
+# 5333 kg m² about O, and eq. (20) is right. The line above eq. (20) repeats a stray "$v'_A \cdot
+# 4$", which is not in the equation.
 #
-# A pushes the far end of B to the right, so B turns clockwise. Yaw rates here are positive counter-clockwise, so ours is
-# negative; the paper prints the magnitude.
+# A pushes the far end of B to the right, so B turns clockwise. Yaw rates here are positive
+# counter-clockwise, so ours is negative; the paper prints the magnitude.
 
 # %%
 L = 4.0
@@ -149,8 +156,8 @@ check("Example 3, pivot impulse", pivot, 3.65e3, 0.005 / 3.65)
 # %% [markdown]
 # ## Checks
 #
-# The exact fractions are met to 1e-13. The figures printed in the paper were worked out from speeds rounded to two decimals, or
-# truncated, so they are met only to 1 percent.
+# The exact fractions are met to 1e-13. The figures printed in the paper were worked out from speeds
+# rounded to two decimals, or truncated, so they are met only to 1 percent.
 
 # %%
 failed = [

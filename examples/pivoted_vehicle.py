@@ -1,12 +1,13 @@
 # %% [markdown]
 # # A struck vehicle that turns about a fixed point
 #
-# Example 3 of the paper: A strikes B at one end, and B can only turn about a fixed point O at its other end. This page shows
-# how to give a `pivot=`, how to read the impulse at the pivot, and what would change if B were free.
+# Example 3 of the paper: A strikes B at one end, and B can only turn about a fixed point O at its
+# other end. This page shows how to give a `pivot=`, how to read the impulse at the pivot, and what
+# would change if B were free.
 #
-# The paper is "Application of Impulse Momentum Theory to Vehicle Collisions". A (900 kg, 60 km/h) does not turn. B (1000 kg) is
-# a uniform rod 4 m long, and is standing. The restitution of 0.80 is the paper's and far above anything measured: this is an
-# exercise, not guidance.
+# The paper is "Application of Impulse Momentum Theory to Vehicle Collisions". A (900 kg, 60 km/h)
+# does not turn. B (1000 kg) is a uniform rod 4 m long, and is standing. The restitution of 0.80 is
+# the paper's and far above anything measured: this is an exercise, not guidance.
 
 # %%
 import math
@@ -54,14 +55,14 @@ axes = plot.scene(
 # %% [markdown]
 # ## The inertia
 #
-# `yaw_inertia` is always about the centre of mass: here m L²/12. The paper calls this 1333 kg m² "about O", which is a
-# misprint, because it then adds 1000 · 2² and goes on with the correct 5333 kg m². The library adds that term itself, so do not
-# give the sum.
+# `yaw_inertia` is always about the centre of mass: here m L²/12. The paper calls this 1333 kg m²
+# "about O", which is a misprint, because it then adds 1000 · 2² and goes on with the correct 5333
+# kg m². The library adds that term itself, so do not give the sum.
 #
 # ## The impulse at the pivot, and B without a pivot
 #
-# The pivot exerts an impulse of its own, so the momentum of A and B together is not conserved; their angular momentum about O
-# is.
+# The pivot exerts an impulse of its own, so the momentum of A and B together is not conserved;
+# their angular momentum about O is.
 
 # %%
 free = struck(B.replace(pivot=None))
@@ -80,12 +81,12 @@ for label, paper, unit, read in (
     )
 
 # %% [markdown]
-# The paper prints the magnitude of the yaw rate; here counter-clockwise is positive, and B turns clockwise. The paper's 8.55 is
-# truncated.
+# The paper prints the magnitude of the yaw rate; here counter-clockwise is positive, and B turns
+# clockwise. The paper's 8.55 is truncated.
 #
-# The pivot pushes B the same way as A does: struck so far from O, a free B would have swung its other end backwards. When B is
-# struck nearer to O, the pivot pushes the other way. In between, at two thirds of the length, is the centre of percussion,
-# where the pivot takes no impulse.
+# The pivot pushes B the same way as A does: struck so far from O, a free B would have swung its
+# other end backwards. When B is struck nearer to O, the pivot pushes the other way. In between, at
+# two thirds of the length, is the centre of percussion, where the pivot takes no impulse.
 
 # %%
 heights = np.linspace(0.5, LENGTH, 200)
@@ -105,17 +106,20 @@ axes.set(
 legend = figure.legend(loc="outside lower center", ncols=3)
 
 # %% [markdown]
-# To assume a pivot where there was none, or to forget one where a wheel stood against a kerb, is therefore no small matter. The
-# impulse that the pivot had to take says whether it could have held.
+# To assume a pivot where there was none, or to forget one where a wheel stood against a kerb, is
+# therefore no small matter. The impulse that the pivot had to take says whether it could have held.
 #
 # ## Checks
 #
 # - The printed figures are met to 1 in the last place, as one of them is truncated.
-# - The exact solution of the paper's equations (20) and (21), 405/74 rad/s and 950/111 m/s, is met to a few eps (1e-12).
-# - The momentum that A and B gain together comes from the pivot; their angular momentum about O is the same after as before.
-# - The pivot takes nothing when B is struck at two thirds of its length, the centre of percussion of a rod that hangs by its
-#   end (see any textbook of mechanics). By the same rule a free rod struck at its end turns about the point one third of its
-#   length from the other end: that point has no velocity.
+# - The exact solution of the paper's equations (20) and (21), 405/74 rad/s and 950/111 m/s, is met
+#   to a few eps (1e-12).
+# - The momentum that A and B gain together comes from the pivot; their angular momentum about O is
+#   the same after as before.
+# - The pivot takes nothing when B is struck at two thirds of its length, the centre of percussion
+#   of a rod that hangs by its end (see any textbook of mechanics). By the same rule a free rod
+#   struck at its end turns about the point one third of its length from the other end: that point
+#   has no velocity.
 
 # %%
 turn, va = pinned.b.after.yaw_rate, pinned.a.after.vx

@@ -1,12 +1,13 @@
 # %% [markdown]
 # # A car slides sideways into a pole
 #
-# A car that has lost its grip slides sideways into a pole, which catches its right side away from the centre of mass, and the
-# car turns about the pole. This example shows how to model a fixed body, and that the distance off centre decides how much of
-# the speed becomes delta-V and how much becomes rotation.
+# A car that has lost its grip slides sideways into a pole, which catches its right side away from
+# the centre of mass, and the car turns about the pole. This example shows how to model a fixed
+# body, and that the distance off centre decides how much of the speed becomes delta-V and how much
+# becomes rotation.
 #
-# **The scene is invented.** `Vehicle.barrier()` is any body that does not give way. Its position is needed only to draw it: the
-# contact point and the normal are all that the solver has to know.
+# **The scene is invented.** `Vehicle.barrier()` is any body that does not give way. Its position is
+# needed only to draw it: the contact point and the normal are all that the solver has to know.
 
 # %%
 import math
@@ -51,8 +52,9 @@ axes = plot.scene(
 # %% [markdown]
 # ## Off centre
 #
-# The further off centre the pole, the less mass stands behind the contact (`effective_mass`), and the more of the speed goes on
-# as rotation and as motion. The energy lost, which dents the car, falls too.
+# The further off centre the pole, the less mass stands behind the contact (`effective_mass`), and
+# the more of the speed goes on as rotation and as motion. The energy lost, which dents the car,
+# falls too.
 
 # %%
 print(
@@ -73,8 +75,8 @@ for ahead in (0.0, 0.45, 0.9, 1.35, 1.8):
 # %% [markdown]
 # ## Along the whole side
 #
-# One call solves all positions of the pole. The thin lines are at the radius of gyration, the square root of yaw inertia over
-# mass.
+# One call solves all positions of the pole. The thin lines are at the radius of gyration, the
+# square root of yaw inertia over mass.
 
 # %%
 gyration = math.sqrt(CAR.yaw_inertia / CAR.mass)
@@ -99,17 +101,18 @@ for chart in (left, right):
 legend = figure.legend(loc="outside lower center", ncols=3)
 
 # %% [markdown]
-# Without friction the car turns fastest when the pole is off centre by exactly the radius of gyration, and delta-V there is
-# half of what it is at the centre. Here the position of the pole deserves more care than the friction or the restitution.
+# Without friction the car turns fastest when the pole is off centre by exactly the radius of
+# gyration, and delta-V there is half of what it is at the centre. Here the position of the pole
+# deserves more care than the friction or the restitution.
 #
 # ## Checks
 #
 # The results are compared with formulas of mechanics, to a few eps (1e-12):
 #
-# - Without friction, the impulse is (1 + e) m v / (1 + d²/k²), with offset d and radius of gyration k. The yaw rate is (1 + e)
-#   v d / (k² + d²), so it is greatest at d = k.
-# - Held by the pole without any restitution, the car turns about it: angular momentum about the contact point is conserved,
-#   because the impulse has no lever arm there.
+# - Without friction, the impulse is (1 + e) m v / (1 + d²/k²), with offset d and radius of gyration
+#   k. The yaw rate is (1 + e) v d / (k² + d²), so it is greatest at d = k.
+# - Held by the pole without any restitution, the car turns about it: angular momentum about the
+#   contact point is conserved, because the impulse has no lever arm there.
 # - The energy lost is the kinetic energy that the car has lost, since a pole does no work.
 
 # %%

@@ -1,18 +1,21 @@
 # %% [markdown]
 # # Published impact solutions
 #
-# Two oblique frontal crash tests between two vehicles (NHTSA 4363 and 4474) and one small-overlap test against a fixed barrier
-# (CF11016), solved in the units they were published in: pounds, slug ft², feet, miles per hour or feet per second, degrees. At
-# the end, every other published case in the sources is solved too and compared with what was printed.
+# Two oblique frontal crash tests between two vehicles (NHTSA 4363 and 4474) and one small-overlap
+# test against a fixed barrier (CF11016), solved in the units they were published in: pounds, slug
+# ft², feet, miles per hour or feet per second, degrees. At the end, every other published case in
+# the sources is solved too and compared with what was printed.
 #
-# **What the published numbers are.** They are *not* instrument readings to be predicted. For the two vehicle-to-vehicle tests
-# they are planar-impact solutions, with a contact point, normal and restitution that others chose so that the solution fits the
-# test. For the barrier test the same parameters were fitted to the measured motion by an optimiser, so a correct forward
-# solution must return that motion. **Agreement here shows that this library computes the same physics. It says nothing about
-# how well the model predicts a crash that was not fitted.**
+# **What the published numbers are.** They are *not* instrument readings to be predicted. For the
+# two vehicle-to-vehicle tests they are planar-impact solutions, with a contact point, normal and
+# restitution that others chose so that the solution fits the test. For the barrier test the same
+# parameters were fitted to the measured motion by an optimiser, so a correct forward solution must
+# return that motion. **Agreement here shows that this library computes the same physics. It says
+# nothing about how well the model predicts a crash that was not fitted.**
 #
-# The inputs are rows of `nhtsa_oblique.csv` and `small_overlap_barrier.csv` in `validation/data` of the sources, and the
-# solutions are those of `validation/solutions.py`, which the tests and the page "Validation" use too.
+# The inputs are rows of `nhtsa_oblique.csv` and `small_overlap_barrier.csv` in `validation/data` of
+# the sources, and the solutions are those of `validation/solutions.py`, which the tests and the
+# page "Validation" use too.
 
 # %%
 import inspect
@@ -40,24 +43,27 @@ def check(label, ours, published, within, unit):
 # %% [markdown]
 # ## Two vehicles: NHTSA 4363 and 4474
 #
-# Each vehicle is placed so that its impact centre, given by a distance and an angle from its heading, is at the origin of the
-# scene: `Vehicle.point` gives the impact centre of a vehicle at (0, 0), and the vehicle is then moved back by as much. Weights
-# in pounds become masses with the g = 32.2 ft/s² of the source.
+# Each vehicle is placed so that its impact centre, given by a distance and an angle from its
+# heading, is at the origin of the scene: `Vehicle.point` gives the impact centre of a vehicle at
+# (0, 0), and the vehicle is then moved back by as much. Weights in pounds become masses with the g
+# = 32.2 ft/s² of the source.
 #
-# The printed normal (55 and 51.8 degrees) points from vehicle 2 into vehicle 1. Here n points from A into B, so vehicle 2 is A.
+# The printed normal (55 and 51.8 degrees) points from vehicle 2 into vehicle 1. Here n points from
+# A into B, so vehicle 2 is A.
 
 # %%
 print(inspect.getsource(solutions.placed))
 print(inspect.getsource(solutions.oblique_impact))
 
 # %% [markdown]
-# In test 4363 the change of yaw rate of vehicle 1 is printed as +31 deg/s. The printed inputs give -31.4: the magnitude agrees
-# and the sign is a misprint, so the check there is against -31.
+# In test 4363 the change of yaw rate of vehicle 1 is printed as +31 deg/s. The printed inputs give
+# -31.4: the magnitude agrees and the sign is a misprint, so the check there is against -31.
 #
-# The published solutions follow `law="brach"`: restitution acts along the normal, and slip has ended at separation. Under
-# `law="kudlich-slibar"` slip ends at full compression, and the whole compression impulse is multiplied by 1 + e. That is
-# another model, so its results are shown but not checked against print. With the same inputs its yaw rates differ by 14 to 31
-# deg/s: the law is part of the answer and should be stated with it.
+# The published solutions follow `law="brach"`: restitution acts along the normal, and slip has
+# ended at separation. Under `law="kudlich-slibar"` slip ends at full compression, and the whole
+# compression impulse is multiplied by 1 + e. That is another model, so its results are shown but
+# not checked against print. With the same inputs its yaw rates differ by 14 to 31 deg/s: the law is
+# part of the answer and should be stated with it.
 
 # %%
 print(
@@ -100,12 +106,13 @@ for case, test in solutions.TESTS.items():
 # %% [markdown]
 # ## A barrier: small-overlap test CF11016
 #
-# A Ford Fusion (111.0 slug, 2336.3 slug ft²) at 58.6 ft/s meets the edge of a fixed barrier with its front corner. A barrier
-# has infinite mass and yaw inertia and needs no position. The vehicle heads along +x from the origin. The impulse ratio is 98.9
-# percent of the one that just stops slip.
+# A Ford Fusion (111.0 slug, 2336.3 slug ft²) at 58.6 ft/s meets the edge of a fixed barrier with
+# its front corner. A barrier has infinite mass and yaw inertia and needs no position. The vehicle
+# heads along +x from the origin. The impulse ratio is 98.9 percent of the one that just stops slip.
 #
-# On the published sheet delta-V x is positive rearward, and the lateral and yaw figures are magnitudes, so magnitudes are
-# compared. Its "measured" columns are the motion to which the parameters were fitted.
+# On the published sheet delta-V x is positive rearward, and the lateral and yaw figures are
+# magnitudes, so magnitudes are compared. Its "measured" columns are the motion to which the
+# parameters were fitted.
 
 # %%
 print(inspect.getsource(solutions.barrier_impact))
@@ -144,9 +151,9 @@ print(
 # %% [markdown]
 # ## Every worked example
 #
-# Each case of `validation/data/worked_examples.json` is solved, and its figures are compared with the printed digits and with
-# figures worked out independently of this library: to half a unit in the last digit, or as the record says. A figure known to
-# be wrong in print must differ.
+# Each case of `validation/data/worked_examples.json` is solved, and its figures are compared with
+# the printed digits and with figures worked out independently of this library: to half a unit in
+# the last digit, or as the record says. A figure known to be wrong in print must differ.
 
 # %%
 for case, record in published_cases.CASES.items():
@@ -162,8 +169,9 @@ for case, record in published_cases.CASES.items():
 # %% [markdown]
 # ## Checks
 #
-# The two sections on crash tests above allow 0.2 mph and 1 deg/s: the inputs are printed to a tenth of a foot and to a degree
-# or a tenth of one, and some results to whole degrees per second, so no closer agreement can be expected.
+# The two sections on crash tests above allow 0.2 mph and 1 deg/s: the inputs are printed to a tenth
+# of a foot and to a degree or a tenth of one, and some results to whole degrees per second, so no
+# closer agreement can be expected.
 
 # %%
 failed = [

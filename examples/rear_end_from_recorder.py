@@ -1,13 +1,14 @@
 # %% [markdown]
 # # A low-speed rear-end collision from recorder data
 #
-# The event data recorder of a struck car holds its delta-V. How fast was the car behind? That depends on the restitution, which
-# at low speed falls as the closing speed rises. So the restitution is given as a function, and speed and restitution are solved
-# together.
+# The event data recorder of a struck car holds its delta-V. How fast was the car behind? That
+# depends on the restitution, which at low speed falls as the closing speed rises. So the
+# restitution is given as a function, and speed and restitution are solved together.
 #
-# The function is `reference.restitution`, a published fit; it is used here from 2 to 15 mph. A recorder counts longitudinal
-# delta-V positive forward, as `delta_v_forward` does. Here it is taken as that of the centre of mass; a sensor elsewhere in a
-# car that turns shows another (`delta_v_at`).
+# The function is `reference.restitution`, a published fit; it is used here from 2 to 15 mph. A
+# recorder counts longitudinal delta-V positive forward, as `delta_v_forward` does. Here it is taken
+# as that of the centre of mass; a sensor elsewhere in a car that turns shows another
+# (`delta_v_at`).
 
 # %%
 import math
@@ -33,7 +34,8 @@ def low_speed(closing):
 # %% [markdown]
 # ## What a fixed restitution costs
 #
-# Two cars have the same mass, and the delta-V is 5 km/h. In line, the short form `inline_closing_speed` is enough.
+# Two cars have the same mass, and the delta-V is 5 km/h. In line, the short form
+# `inline_closing_speed` is enough.
 
 # %%
 print(f"{'restitution':<24}{'closing speed, km/h':>20}")
@@ -50,10 +52,12 @@ for label, restitution in (
 # %% [markdown]
 # ## A measured collision
 #
-# In a test by GBB at 5.5 mph, a Ford Fiesta (950 kg with occupants) ran into the back of a standing Volkswagen Polo (770 kg);
-# their delta-Vs were 3.1 and 3.5 mph (gbbuk.com/rear-to-front-collision-5-5-mph). Suppose that only the 3.5 mph of the Polo
-# were known. `reconstruct.speeds` takes the full geometry; the cars meet squarely here, so the lever arms are zero and friction
-# has no effect. The last column is the condition: the factor by which a relative error in what was given may grow in the speed.
+# In a test by GBB at 5.5 mph, a Ford Fiesta (950 kg with occupants) ran into the back of a standing
+# Volkswagen Polo (770 kg); their delta-Vs were 3.1 and 3.5 mph
+# (gbbuk.com/rear-to-front-collision-5-5-mph). Suppose that only the 3.5 mph of the Polo were known.
+# `reconstruct.speeds` takes the full geometry; the cars meet squarely here, so the lever arms are
+# zero and friction has no effect. The last column is the condition: the factor by which a relative
+# error in what was given may grow in the speed.
 
 # %%
 FIESTA = col.Vehicle(
@@ -97,13 +101,15 @@ for label, restitution in (
 print(f"{'measured':<24}{'':>6}{5.5:>13.2f}{3.1:>18.2f}")
 
 # %% [markdown]
-# The test shows what a fit cannot tell: this pair had a restitution of 0.2 at a speed where the fit says about 0.4, and the
-# speed found with the fit is one mile per hour low. Nor do the two measured delta-Vs balance: the impulses differ by 9 percent,
-# which tyres and instrument readings may explain. Give a range.
+# The test shows what a fit cannot tell: this pair had a restitution of 0.2 at a speed where the fit
+# says about 0.4, and the speed found with the fit is one mile per hour low. Nor do the two measured
+# delta-Vs balance: the impulses differ by 9 percent, which tyres and instrument readings may
+# explain. Give a range.
 #
 # ## An offset
 #
-# The Fiesta is now 0.6 m to the left of the line, an offset that `inline_closing_speed` cannot take into account.
+# The Fiesta is now 0.6 m to the left of the line, an offset that `inline_closing_speed` cannot take
+# into account.
 
 # %%
 offset = FIESTA.replace(y=0.6)
@@ -121,7 +127,8 @@ print(f"yaw rate of the Polo after: {math.degrees(aside.b.delta_yaw_rate):.0f} d
 # %% [markdown]
 # ## Outside the range of the fit
 #
-# A delta-V of 15 mph would need a closing speed above 15 mph. The answer is a refusal, not an extrapolation.
+# A delta-V of 15 mph would need a closing speed above 15 mph. The answer is a refusal, not an
+# extrapolation.
 
 # %%
 refusal = None
@@ -135,11 +142,12 @@ except col.InputError as error:
 # ## Checks
 #
 # - In line, the closing speeds are 9.1 and 7.2 km/h, to their last digit.
-# - The impact found has the restitution that belongs to its own closing speed. The joint solution is bisected to the last
-#   digit; 1e-12 leaves room for the slope of the fit.
-# - Solved forward, the impact has the delta-V of the recorder, to the rounding error of a solution polished by Newton's method.
-# - With the restitution of the test (0.2, from the two delta-Vs) the closing speed agrees with the measured 5.5 mph within 9
-#   percent, the measured imbalance of the two impulses.
+# - The impact found has the restitution that belongs to its own closing speed. The joint solution
+#   is bisected to the last digit; 1e-12 leaves room for the slope of the fit.
+# - Solved forward, the impact has the delta-V of the recorder, to the rounding error of a solution
+#   polished by Newton's method.
+# - With the restitution of the test (0.2, from the two delta-Vs) the closing speed agrees with the
+#   measured 5.5 mph within 9 percent, the measured imbalance of the two impulses.
 
 # %%
 check("fixed 0.1, 5 km/h", in_line["0.1 at any speed"], 9.1, 0.05)

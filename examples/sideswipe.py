@@ -1,13 +1,14 @@
 # %% [markdown]
 # # A sideswipe by its impulse ratio
 #
-# Two oncoming cars strike each other with their left front corners and scrape past, and the tangential impulse decides what
-# follows. This example shows how to give it as `impulse_ratio=`, how that differs from `friction=`, and what a wrong ratio
-# costs.
+# Two oncoming cars strike each other with their left front corners and scrape past, and the
+# tangential impulse decides what follows. This example shows how to give it as `impulse_ratio=`,
+# how that differs from `friction=`, and what a wrong ratio costs.
 #
-# **The scene is invented.** `impulse_ratio` is the tangential impulse over the normal impulse, *signed*: positive if
-# the impulse on B points along the tangent. `friction` is a limit without a sign: the solver finds the direction of the
-# tangential impulse, and stops where slip stops. With a ratio it does neither.
+# **The scene is invented.** `impulse_ratio` is the tangential impulse over the normal impulse,
+# *signed*: positive if the impulse on B points along the tangent. `friction` is a limit without a
+# sign: the solver finds the direction of the tangential impulse, and stops where slip stops. With a
+# ratio it does neither.
 
 # %%
 import math
@@ -47,8 +48,8 @@ axes = plot.scene(
 # %% [markdown]
 # ## Which sign, and how much
 #
-# The slip before the impact says which way B slides along A, and the tangential impulse on B opposes it. The critical ratio is
-# the one that just stops slip.
+# The slip before the impact says which way B slides along A, and the tangential impulse on B
+# opposes it. The critical ratio is the one that just stops slip.
 
 # %%
 against = -math.copysign(1.0, scrape.slip_before)
@@ -64,14 +65,15 @@ for published in (FRICTION, reference.IMPULSE_RATIO_OBLIQUE, SNAGGED):
     print(f"{published.low:5.2f} to {published.high:.2f}  {published.name}")
 
 # %% [markdown]
-# None of these ranges is for a sideswipe between two cars. Panels that slide have a coefficient of friction of up to about 1.
-# Where wheels or corners snag, the ratio is above 1, as in the small-overlap tests, and is not a coefficient of friction
-# between surfaces. The damage must show which it was.
+# None of these ranges is for a sideswipe between two cars. Panels that slide have a coefficient of
+# friction of up to about 1. Where wheels or corners snag, the ratio is above 1, as in the
+# small-overlap tests, and is not a coefficient of friction between surfaces. The damage must show
+# which it was.
 #
 # ## What a wrong ratio costs
 #
-# Beyond the critical ratio the slip reverses. The answer may then gain energy; the library warns of this and never clips the
-# answer.
+# Beyond the critical ratio the slip reverses. The answer may then gain energy; the library warns of
+# this and never clips the answer.
 
 # %%
 print(
@@ -118,19 +120,21 @@ legend = figure.legend(
 )
 
 # %% [markdown]
-# From a friction of 0.5 to the critical ratio, delta-V grows more than fivefold and A turns the other way. Give a range,
-# and say what it rests on.
+# From a friction of 0.5 to the critical ratio, delta-V grows more than fivefold and A turns the
+# other way. Give a range, and say what it rests on.
 #
 # ## Checks
 #
-# - While the contact slides, `friction` gives the ratio of the same size against the slip; without a limit it gives the
-#   critical ratio. Each pair is one impulse reached in two ways, so the two agree to a few eps: 1e-12.
-# - Linear momentum (some 1e4 kg m/s) and angular momentum about the contact (some 1e4 kg m²/s) are conserved, to the rounding
-#   error of such sums, which is below 1e-9.
-# - Published: small-overlap test CF11016, listed under class "Sideswipe" in the sheet "Brach Matrix.xlsx" in
-#   github.com/joe-cormier/pycrash. Restitution, contact and ratio (98.9 percent of a critical ratio of 2.006) were fitted to
-#   the measured motion, so they must return it. They are printed to a tenth of a foot or degree, which is worth up to 0.8 ft/s
-#   and 4 deg/s each; a quarter of that is allowed.
+# - While the contact slides, `friction` gives the ratio of the same size against the slip; without
+#   a limit it gives the critical ratio. Each pair is one impulse reached in two ways, so the two
+#   agree to a few eps: 1e-12.
+# - Linear momentum (some 1e4 kg m/s) and angular momentum about the contact (some 1e4 kg m²/s) are
+#   conserved, to the rounding error of such sums, which is below 1e-9.
+# - Published: small-overlap test CF11016, listed under class "Sideswipe" in the sheet "Brach
+#   Matrix.xlsx" in github.com/joe-cormier/pycrash. Restitution, contact and ratio (98.9 percent of
+#   a critical ratio of 2.006) were fitted to the measured motion, so they must return it. They are
+#   printed to a tenth of a foot or degree, which is worth up to 0.8 ft/s and 4 deg/s each; a
+#   quarter of that is allowed.
 
 
 # %%

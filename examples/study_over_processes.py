@@ -1,10 +1,11 @@
 # %% [markdown]
 # # A large study over several processes
 #
-# A hundred thousand side impacts with drawn speeds, masses and contact points are solved in blocks by worker processes. Every
-# block is an ordinary batch: `executor.map` calls the solver itself on one pair of vehicles after another. The workers need
-# nothing from this file, so the same lines run in a script, in a notebook and where processes are started by spawn. At the end
-# the blocks are compared with one batch in one process: they are the same to the last bit.
+# A hundred thousand side impacts with drawn speeds, masses and contact points are solved in blocks
+# by worker processes. Every block is an ordinary batch: `executor.map` calls the solver itself on
+# one pair of vehicles after another. The workers need nothing from this file, so the same lines run
+# in a script, in a notebook and where processes are started by spawn. At the end the blocks are
+# compared with one batch in one process: they are the same to the last bit.
 
 # %%
 import multiprocessing
@@ -21,7 +22,8 @@ CASES, BLOCK = 100_000, 20_000
 
 
 # %% [markdown]
-# Every case is drawn before the work is divided, so the study does not depend on the number of blocks or workers.
+# Every case is drawn before the work is divided, so the study does not depend on the number of
+# blocks or workers.
 
 
 # %%
@@ -54,9 +56,9 @@ def vehicles(fields, blocks):
 
 
 # %% [markdown]
-# The options that all cases share are bound to the solver by `partial`. A refused case is NaN with a status, as in any batch.
-# Where processes are started by spawn, each of them imports this file anew, and the line with `__main__` keeps it from starting
-# the study again.
+# The options that all cases share are bound to the solver by `partial`. A refused case is NaN with
+# a status, as in any batch. Where processes are started by spawn, each of them imports this file
+# anew, and the line with `__main__` keeps it from starting the study again.
 
 # %%
 solve = partial(
@@ -90,7 +92,8 @@ if __name__ == "__main__":
 # %% [markdown]
 # ## Checks
 #
-# The answers agree bit for bit, because every case is worked out by itself: what else is in its block makes no difference.
+# The answers agree bit for bit, because every case is worked out by itself: what else is in its
+# block makes no difference.
 
 # %%
 if __name__ == "__main__":

@@ -1,10 +1,11 @@
 # %% [markdown]
 # # A large study with dask
 #
-# A study like "A large study over several processes", for those who use dask: `delayed` puts solver calls into a graph, and
-# dask runs them on threads, on processes or on a cluster. Each block is an ordinary batch; vehicles and answers are passed as
-# pickles. The steps that follow, here three quantiles, are part of the graph. The answers are those of one batch in one
-# process, to the last bit.
+# A study like "A large study over several processes", for those who use dask: `delayed` puts solver
+# calls into a graph, and dask runs them on threads, on processes or on a cluster. Each block is an
+# ordinary batch; vehicles and answers are passed as pickles. The steps that follow, here three
+# quantiles, are part of the graph. The answers are those of one batch in one process, to the last
+# bit.
 
 # %%
 from operator import attrgetter
@@ -18,7 +19,8 @@ CASES, BLOCK = 60_000, 20_000
 
 
 # %% [markdown]
-# Speeds, restitution and friction of a rear-end collision with an offset are drawn before the work is divided.
+# Speeds, restitution and friction of a rear-end collision with an offset are drawn before the work
+# is divided.
 
 
 # %%
@@ -55,8 +57,8 @@ SCENE = {"normal": 0.0, "point": (0.0, 0.2), "on_failure": "nan"}
 whole = slice(None)
 
 # %% [markdown]
-# The line with `__main__` is for processes, which import this file anew. The workers need nothing from it: the task is a
-# function of the library.
+# The line with `__main__` is for processes, which import this file anew. The workers need nothing
+# from it: the task is a function of the library.
 
 # %%
 if __name__ == "__main__":
@@ -88,7 +90,8 @@ if __name__ == "__main__":
 # %% [markdown]
 # ## Checks
 #
-# The answers agree bit for bit: every case is worked out by itself, whatever block, thread or process it is in.
+# The answers agree bit for bit: every case is worked out by itself, whatever block, thread or
+# process it is in.
 
 # %%
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
 # %% [markdown]
 # # Rows of a table, and back
 #
-# The cases in a pandas table become one batch, and the answers become a table with the same rows. The unit of a column is part
-# of its name, and the column is passed on as a pint Quantity. A missing cell is NaN: its row is refused, with a status that
-# says so, and the other rows are not affected. pandas is needed only here: the library takes arrays and gives lists.
+# The cases in a pandas table become one batch, and the answers become a table with the same rows.
+# The unit of a column is part of its name, and the column is passed on as a pint Quantity. A
+# missing cell is NaN: its row is refused, with a status that says so, and the other rows are not
+# affected. pandas is needed only here: the library takes arrays and gives lists.
 
 # %%
 import io
@@ -37,8 +38,9 @@ print(table.to_string())
 # %% [markdown]
 # ## From rows to a batch
 #
-# Each column has one unit, read from the square brackets. `to_numpy(float)` turns what pandas marks as missing into NaN. A
-# column of text such as "50 km/h" would be refused, because a batch has one unit.
+# Each column has one unit, read from the square brackets. `to_numpy(float)` turns what pandas marks
+# as missing into NaN. A column of text such as "50 km/h" would be refused, because a batch has one
+# unit.
 
 
 # %%
@@ -56,8 +58,9 @@ impact = col.linear_central(a, b, column("restitution"), on_failure="nan")
 # %% [markdown]
 # ## And back
 #
-# `to_columns` gives every input and result, one value per case in the order of the rows; the index is that of the table.
-# `status` is a word: `not_finite` for the row with the missing mass, `separating` for the cars that move apart.
+# `to_columns` gives every input and result, one value per case in the order of the rows; the index
+# is that of the table. `status` is a word: `not_finite` for the row with the missing mass,
+# `separating` for the cars that move apart.
 
 # %%
 answers = pd.DataFrame(impact.to_columns(), index=table.index)
@@ -65,7 +68,8 @@ shown = ["status", "closing_speed", "a.delta_v", "b.delta_v", "energy_loss"]
 print(answers[shown].round(3).to_string())
 
 # %% [markdown]
-# The columns are in SI. For another unit, take the Quantities and join them to the rows they came from:
+# The columns are in SI. For another unit, take the Quantities and join them to the rows they came
+# from:
 
 # %%
 report = table.assign(
@@ -81,9 +85,10 @@ print(
 # %% [markdown]
 # ## Checks
 #
-# The first row by hand: the closing speed of 9.418 m/s, times 1.2, times 1500 kg over the 2702 kg of both cars, is a delta-V of
-# 6.27 m/s or 22.6 km/h. Every row with an answer must have the delta-V that conservation of momentum and the definition of
-# restitution give, written out here; 1e-12 leaves room for a few rounding errors.
+# The first row by hand: the closing speed of 9.418 m/s, times 1.2, times 1500 kg over the 2702 kg
+# of both cars, is a delta-V of 6.27 m/s or 22.6 km/h. Every row with an answer must have the
+# delta-V that conservation of momentum and the definition of restitution give, written out here;
+# 1e-12 leaves room for a few rounding errors.
 
 # %%
 check("first row, km/h", report["delta-V b [km/h]"].iloc[0], 22.6, 0.05)

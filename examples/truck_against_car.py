@@ -1,9 +1,9 @@
 # %% [markdown]
 # # A truck against a car
 #
-# A truck of 12 t and a car of 1.3 t meet head-on, with half the width of the car overlapping the truck, and both turn. Both
-# receive the same impulse but not the same delta-V: the delta-Vs are in the inverse ratio of the masses, and that of the car
-# stays below what a moving wall would give it.
+# A truck of 12 t and a car of 1.3 t meet head-on, with half the width of the car overlapping the
+# truck, and both turn. Both receive the same impulse but not the same delta-V: the delta-Vs are in
+# the inverse ratio of the masses, and that of the car stays below what a moving wall would give it.
 #
 # The model is in the plane of the road: it does not describe a car that goes under the truck.
 
@@ -58,13 +58,14 @@ for side in (impact.a, impact.b):
     )
 
 # %% [markdown]
-# Yaw is positive counter-clockwise, and the PDOF clockwise from straight ahead. The change in the kinetic energy of each
-# vehicle depends on the frame of reference; the energy that both lose together does not.
+# Yaw is positive counter-clockwise, and the PDOF clockwise from straight ahead. The change in the
+# kinetic energy of each vehicle depends on the frame of reference; the energy that both lose
+# together does not.
 #
 # ## The mass of the truck
 #
-# All masses are solved at once, with an array that starts at the mass of the car. The radius of gyration stays the same. The
-# last mass is there for the checks.
+# All masses are solved at once, with an array that starts at the mass of the car. The radius of
+# gyration stays the same. The last mass is there for the checks.
 
 # %%
 masses = np.array([1.3, 2.0, 3.5, 7.5, 12.0, 20.0, 40.0, 1e12]) * 1000
@@ -109,11 +110,13 @@ legend = below.legend()
 # ## Checks
 #
 # - Momentum: the delta-Vs are opposite, and in the inverse ratio of the masses.
-# - Angular momentum about the contact: the impulse has no lever arm there, so each body keeps its own.
+# - Angular momentum about the contact: the impulse has no lever arm there, so each body keeps its
+#   own.
 # - The energy lost is the kinetic energy before the impact less that after it.
-# - A truck of unlimited mass is a wall: the car has 1.3e-12 of the mass of the last truck, so 1e-11 leaves room.
-# - For a plastic impact of centre against centre, as in any textbook, the delta-V of the car is the closing speed times the
-#   mass of the truck over the mass of both.
+# - A truck of unlimited mass is a wall: the car has 1.3e-12 of the mass of the last truck, so 1e-11
+#   leaves room.
+# - For a plastic impact of centre against centre, as in any textbook, the delta-V of the car is the
+#   closing speed times the mass of the truck over the mass of both.
 #
 # The first three hold to 1e-13 of the terms they are made of, a few products of floats.
 

@@ -1,11 +1,12 @@
 # %% [markdown]
 # # Two accounts of one crash
 #
-# At a crossroads car A, going east, strikes car B in the side. "I was doing 50 or 60", says the driver of A. "That car was
-# doing 80", says the driver of B. The evidence is marks, a rest position and half a recording. What is it worth, and for whom?
-# The scene is invented.
+# At a crossroads car A, going east, strikes car B in the side. "I was doing 50 or 60", says the
+# driver of A. "That car was doing 80", says the driver of B. The evidence is marks, a rest position
+# and half a recording. What is it worth, and for whom? The scene is invented.
 #
-# The same evidence is given to both accounts. They differ only in what they state beforehand: the prior of one speed.
+# The same evidence is given to both accounts. They differ only in what they state beforehand: the
+# prior of one speed.
 
 # %%
 import math
@@ -69,9 +70,10 @@ def account(speed_a, seed=1):
 # %% [markdown]
 # ## Which account does the evidence speak for?
 #
-# `compare` takes one posterior for each account. The factor says how many times more probable the evidence is if one account is
-# true than if the other is. The probabilities of the accounts need one thing more: how probable each was before the evidence.
-# That is for the court; here it is 1 to 1.
+# `compare` takes one posterior for each account. The factor says how many times more probable the
+# evidence is if one account is true than if the other is. The probabilities of the accounts need
+# one thing more: how probable each was before the evidence. That is for the court; here it is 1 to
+# 1.
 
 # %%
 driver_a, driver_b = account(said_by_a), account(said_by_b)
@@ -81,9 +83,9 @@ print(found.summary())
 # %% [markdown]
 # ## How the answer moves with the priors
 #
-# The factor compares what the accounts state, and so it depends on how narrowly they state it. Whoever says "somewhere between
-# 61 and 150" spreads a prediction thinly, and what a driver meant by 50 or 60 is a matter of judgement. Show the whole table,
-# not one line of it.
+# The factor compares what the accounts state, and so it depends on how narrowly they state it.
+# Whoever says "somewhere between 61 and 150" spreads a prediction thinly, and what a driver meant
+# by 50 or 60 is a matter of judgement. Show the whole table, not one line of it.
 
 # %%
 versions_a = {
@@ -111,9 +113,9 @@ for name, log in logs_b.items():
 # %% [markdown]
 # ## The question without the accounts
 #
-# Often the question is not who is right, but how fast A was going. Then neither driver's statement goes in: there is one
-# posterior, with a prior that favours neither, and it gives the probability that is asked for. The residuals say whether the
-# evidence agrees with itself at all.
+# Often the question is not who is right, but how fast A was going. Then neither driver's statement
+# goes in: there is one posterior, with a prior that favours neither, and it gives the probability
+# that is asked for. The residuals say whether the evidence agrees with itself at all.
 
 # %%
 open_minded = account(Uniform("20 km/h", "130 km/h"), seed=3)
@@ -135,28 +137,30 @@ plot.residuals(open_minded, axes=below)
 # %% [markdown]
 # ## How to say it
 #
-# The expert speaks about the evidence, the court about the accounts. So the expert's sentence gives the factor, and what it
-# rests on:
+# The expert speaks about the evidence, the court about the accounts. So the expert's sentence gives
+# the factor, and what it rests on:
 #
-# > *The findings are the marks, the rest position and the incomplete recording. With the priors listed, they are [factor] times
-# > more probable if A drove as the driver of B states than if A drove as its own driver states. Over the range of priors in the
-# > table the factor stays between [least] and [greatest]. The factor is not the probability that either driver is telling the
-# > truth: that depends on all the other evidence too.*
+# > *The findings are the marks, the rest position and the incomplete recording. With the priors
+# listed, they are [factor] times > more probable if A drove as the driver of B states than if A
+# drove as its own driver states. Over the range of priors in the > table the factor stays between
+# [least] and [greatest]. The factor is not the probability that either driver is telling the >
+# truth: that depends on all the other evidence too.*
 #
-# This follows the guideline of the European forensic institutes (ENFSI, Guideline for Evaluative Reporting in Forensic Science,
-# 2015), which asks for the probability of the findings given each proposition, not of a proposition given the findings. The
-# statement should be accompanied by the priors, the stated errors of the readings, the residuals, and the remark that all of
-# this holds if the model does.
+# This follows the guideline of the European forensic institutes (ENFSI, Guideline for Evaluative
+# Reporting in Forensic Science, 2015), which asks for the probability of the findings given each
+# proposition, not of a proposition given the findings. The statement should be accompanied by the
+# priors, the stated errors of the readings, the residuals, and the remark that all of this holds if
+# the model does.
 
 # %% [markdown]
 # ## Checks
 #
-# - The evidence of an account is the mean of the likelihood over its priors. Here that mean is found again by plain draws from
-#   numpy's own generator, with the densities written out. The two agree within 5 standard errors, those of the 200,000 draws
-#   included.
+# - The evidence of an account is the mean of the likelihood over its priors. Here that mean is
+#   found again by plain draws from numpy's own generator, with the densities written out. The two
+#   agree within 5 standard errors, those of the 200,000 draws included.
 # - The posterior odds are the prior odds times the factor.
-# - The posterior from the neutral prior, cut off to the range that an account states, gives the same speeds as the posterior of
-#   that account.
+# - The posterior from the neutral prior, cut off to the range that an account states, gives the
+#   same speeds as the posterior of that account.
 
 # %%
 rng, count = np.random.default_rng(1), 200_000

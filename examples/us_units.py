@@ -1,12 +1,13 @@
 # %% [markdown]
 # # A whole case in US units
 #
-# An oblique frontal crash test of two vehicles, NHTSA 4474, worked from pounds, feet, miles per hour and degrees to the answer,
-# its derivation and a report in the same units. This example shows where to give units and where to ask for them, and which
-# pound is which.
+# An oblique frontal crash test of two vehicles, NHTSA 4474, worked from pounds, feet, miles per
+# hour and degrees to the answer, its derivation and a report in the same units. This example shows
+# where to give units and where to ask for them, and which pound is which.
 #
-# The inputs are those printed for a Honda Accord and a Mitsubishi Montero in SAE 2006-01-0908, as given in pycrash
-# (github.com/joe-cormier/pycrash, test_inputs_rose.py). They were chosen so that the solution fits the test.
+# The inputs are those printed for a Honda Accord and a Mitsubishi Montero in SAE 2006-01-0908, as
+# given in pycrash (github.com/joe-cormier/pycrash, test_inputs_rose.py). They were chosen so that
+# the solution fits the test.
 
 # %%
 import math
@@ -17,8 +18,9 @@ from collisions import plot
 # %% [markdown]
 # ## Units in
 #
-# A value given as text is one number and one unit. `lb` is a mass, `lbf` a force: what weighs 3000 lbf has a mass of 3000 lb.
-# Yaw inertias are printed here in slug·ft², which is the same as lbf·ft·s². In lb·ft² the number is about 32 times as large.
+# A value given as text is one number and one unit. `lb` is a mass, `lbf` a force: what weighs 3000
+# lbf has a mass of 3000 lb. Yaw inertias are printed here in slug·ft², which is the same as
+# lbf·ft·s². In lb·ft² the number is about 32 times as large.
 
 
 # %%
@@ -60,7 +62,8 @@ impact = col.eccentric(
 # %% [markdown]
 # ## Units out
 #
-# An attribute is a plain number in SI. Under `.q` it is a Quantity that can be converted to any unit of its kind.
+# An attribute is a plain number in SI. Under `.q` it is a Quantity that can be converted to any
+# unit of its kind.
 
 # %%
 print(f"{'':<10}{'delta-V':>10}{'yaw rate after':>17}{'PDOF':>13}{'speed after':>14}")
@@ -100,8 +103,9 @@ for who, what, value in (row for row in rows if len(row) == 3):
 #
 # ## Pounds that go wrong
 #
-# A force given for a mass is refused, and the message says what to write. An inertia in lb·ft² is a valid inertia: only its
-# size gives away that slug·ft² was meant, and it is `diagnose` that says so.
+# A force given for a mass is refused, and the message says what to write. An inertia in lb·ft² is a
+# valid inertia: only its size gives away that slug·ft² was meant, and it is `diagnose` that says
+# so.
 
 # %%
 refusal = None
@@ -127,13 +131,13 @@ print(findings["suspect_inertia_low"])
 # %% [markdown]
 # ## Checks
 #
-# - Published, for the printed inputs: delta-V 28.7 and 40.5 mph, changes of yaw rate of 194 and 40 deg/s, critical ratio -0.40.
-#   The contact is printed to a tenth of a foot or degree, so 0.2 mph and 1 deg/s are allowed; the ratio is printed to two
-#   decimals.
-# - By the definitions of the units (mile 1609.344 m, foot 0.3048 m, pound 0.45359237 kg, g 9.80665 m/s²) the inputs are held in
-#   SI, to a few eps.
-# - The energy lost is the kinetic energy the vehicles had before less what they have after, added up in foot-pounds. Each part
-#   is rounded, so the two agree to 1e-12.
+# - Published, for the printed inputs: delta-V 28.7 and 40.5 mph, changes of yaw rate of 194 and 40
+#   deg/s, critical ratio -0.40. The contact is printed to a tenth of a foot or degree, so 0.2 mph
+#   and 1 deg/s are allowed; the ratio is printed to two decimals.
+# - By the definitions of the units (mile 1609.344 m, foot 0.3048 m, pound 0.45359237 kg, g 9.80665
+#   m/s²) the inputs are held in SI, to a few eps.
+# - The energy lost is the kinetic energy the vehicles had before less what they have after, added
+#   up in foot-pounds. Each part is rounded, so the two agree to 1e-12.
 
 # %%
 for side, delta_v, turn in ((impact.a.q, 28.7, 194), (impact.b.q, 40.5, 40)):

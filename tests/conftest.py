@@ -1,4 +1,6 @@
-"""The garbage collector goes over what thousands of tests hold less often, which takes a twelfth of their time otherwise."""
+"""The garbage collector goes over what thousands of tests hold less often, which takes a twelfth of
+their time otherwise.
+"""
 
 import gc
 

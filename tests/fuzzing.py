@@ -1,9 +1,12 @@
-"""Fuzz by seeds: cheap draws, calls that are counted by public name, and every name of the package listed to be compared.
+"""Fuzz by seeds: cheap draws, calls that are counted by public name, and every name of the package
+listed to be compared.
 
-Each seed is one case. ``COLLISIONS_FUZZ_CASES`` is the number of them (``100000``) or a range (``50000:100000``), without it a few;
-``COLLISIONS_FUZZ_COUNTS`` names a file for the table of how often each name was called, answered, what a call cost, and what failed.
-An argument of a public function that no case ever passes in a call that is answered fails the test that declares the function.
-A failure names its seed: run it again alone by ``COLLISIONS_FUZZ_CASES=SEED:SEED+1 pytest -m "" -k TEST``.
+Each seed is one case. ``COLLISIONS_FUZZ_CASES`` is the number of them (``100000``) or a range
+(``50000:100000``), without it a few; ``COLLISIONS_FUZZ_COUNTS`` names a file for the table of how
+often each name was called, answered, what a call cost, and what failed. An argument of a public
+function that no case ever passes in a call that is answered fails the test that declares the
+function. A failure names its seed: run it again alone by ``COLLISIONS_FUZZ_CASES=SEED:SEED+1 pytest
+-m "" -k TEST``.
 """
 
 from __future__ import annotations
@@ -46,7 +49,18 @@ from collisions.quantities.attributes import Quantities
 from collisions.quantities.units import Texts
 from collisions.reconstruct.momentum_solution import Sensitivity
 from collisions.uncertainty.distribution import GivenUnit
-from strategies import EXTREMES, NEVER, ODD_UNITS, PLACES, RANGES, SPELLINGS, UNITS, YAW_RATES, quantity, registries
+from strategies import (
+    EXTREMES,
+    NEVER,
+    ODD_UNITS,
+    PLACES,
+    RANGES,
+    SPELLINGS,
+    UNITS,
+    YAW_RATES,
+    quantity,
+    registries,
+)
 
 _FEW = 12
 _MORE = 600  # seeds after which an argument that was never passed is one that nobody draws
@@ -55,9 +69,10 @@ _MOST_FAILURES = 25
 _PACKAGE = str(Path(col.__file__).parent)
 # What is said of a keyword that is unknown or left out, by Python or with what to write.
 _MISSPELT = re.compile(
-    r"missing \d+ required|unexpected keyword|multiple values for|keywords must be strings|takes the fields of a Vehicle|"
-    r"^again\(\) takes the arguments of |"
-    r"^\w[\w.]*(\(\))? has no argument '.*'; (write |it has |\w+ has it|\w+ and \w+ have it)|^Vehicle takes its arguments by name",
+    r"missing \d+ required|unexpected keyword|multiple values for|keywords must be strings|takes "
+    r"the fields of a Vehicle|^again\(\) takes the arguments of |^\w[\w.]*(\(\))? has no "
+    r"argument '.*'; (write |it has |\w+ has it|\w+ and \w+ have it)|^Vehicle takes its "
+    r"arguments by name",
     re.DOTALL,
 )
 # What an impact says of itself to be NaN where it ended while the contact points still approached.
@@ -70,19 +85,22 @@ def seeds() -> range:
     return range(int(first or 0), int(last))
 
 
-# --- the names -------------------------------------------------------------------------------------------------------------
+# --- the names ------------------------------------------------------------------------------------
 
 MODULES = ("reporting", "diagnostics", "derivation")  # public beside those of collisions.__all__
 # What is given back without being in any __all__.
 GIVEN_BACK = (
-    Side, Pulse, LeftOut, LeftOutSide, Findings, Estimate, Residual, Direction, Values, Sensitivity, ByModel, Inputs, PosteriorOutput,
+    Side, Pulse, LeftOut, LeftOutSide, Findings, Estimate, Residual, Direction, Values,
+    Sensitivity, ByModel, Inputs, PosteriorOutput,
     Note,
 )  # fmt: skip
 
 
 @cache
 def public() -> dict[str, Any]:
-    """Every public callable by name: functions, classes and their own public methods, each under the first of its names."""
+    """Every public callable by name: functions, classes and their own public methods, each under
+    the first of its names.
+    """
     found: dict[str, Any] = {}
     modules = [name for name in col.__all__ if isinstance(getattr(col, name), ModuleType)]
     for prefix in ("", *modules, *MODULES):
@@ -98,10 +116,16 @@ def public() -> dict[str, Any]:
         # With those of bases that are not public themselves.
         for base in (
             kind,
-            *(base for base in kind.__mro__ if base not in classes.values() and "collisions" in base.__module__),
+            *(
+                base
+                for base in kind.__mro__
+                if base not in classes.values() and "collisions" in base.__module__
+            ),
         ):
             for method, value in vars(base).items():
-                if not method.startswith("_") and (inspect.isfunction(value) or isinstance(value, classmethod | staticmethod)):
+                if not method.startswith("_") and (
+                    inspect.isfunction(value) or isinstance(value, classmethod | staticmethod)
+                ):
                     found[f"{name}.{method}"] = value
     return found
 
@@ -116,16 +140,28 @@ def _names_of(kind: type) -> list[str]:
 @cache
 def _shown_by(kind: type) -> tuple[str, ...]:
     """The public attributes of a class that are no methods."""
-    return tuple(name for name in dir(kind) if not name.startswith("_") and name != "q" and not callable(getattr(kind, name)))
+    return tuple(
+        name
+        for name in dir(kind)
+        if not name.startswith("_") and name != "q" and not callable(getattr(kind, name))
+    )
 
 
 # Classes whose arguments are documented, and which callers are only given.
-_ONLY_GIVEN = {"reconstruct.Reconstruction", "reference.Fit", "reference.Published", "diagnostics.Finding", "diagnostics.Limit"}
+_ONLY_GIVEN = {
+    "reconstruct.Reconstruction",
+    "reference.Fit",
+    "reference.Published",
+    "diagnostics.Finding",
+    "diagnostics.Limit",
+}
 
 
 @cache
 def arguments(name: str) -> frozenset[str]:
-    """The arguments of a public function, method or class that callers make, with those that ** stands for."""
+    """The arguments of a public function, method or class that callers make, with those that **
+    stands for.
+    """
     value = public()[name]
     if inspect.isclass(value):
         made = issubclass(value, Exception) or (
@@ -135,14 +171,20 @@ def arguments(name: str) -> frozenset[str]:
             return frozenset()
     parameters = inspect.signature(getattr(value, "__func__", value)).parameters
     further = {given.name for given in parameters.values() if given.kind is given.VAR_KEYWORD}
-    return frozenset(parameters) - {"self", "cls"} - further | (_further(name) if further else frozenset())
+    return frozenset(parameters) - {"self", "cls"} - further | (
+        _further(name) if further else frozenset()
+    )
 
 
 def _further(name: str) -> frozenset[str]:
     """What ** stands for, where that is a list of names."""
     fields = frozenset(inspect.signature(col.Vehicle).parameters)
     if name == "Vehicle.from_speed":
-        return fields - {"vx", "vy", "pivot"}  # the velocity of a pinned vehicle is that of its turning
+        return fields - {
+            "vx",
+            "vy",
+            "pivot",
+        }  # the velocity of a pinned vehicle is that of its turning
     if name == "Impact.again":
         return frozenset().union(*AGAIN.values())
     if name == "Vehicle.barrier":
@@ -158,7 +200,8 @@ AGAIN = {
     "oblique_central": (*_BOTH, *_RULED),
     "eccentric": (*_BOTH, *_RULED, "point", "outside_a", "outside_b"),
     "solve": (*_BOTH, *_RULED, "point", "outside_a", "outside_b", "tolerance", "duration", "drag"),
-    "time_resolved": (*_BOTH, "point", "friction", "duration", "stiffness", "crush_a", "crush_b", "drag", "geometry", "steps", "wheelbase", "track"),
+    "time_resolved": (*_BOTH, "point", "friction", "duration", "stiffness", "crush_a", "crush_b",
+    "drag", "geometry", "steps", "wheelbase", "track"),
 }  # fmt: skip
 
 
@@ -170,7 +213,9 @@ def _signature(function: Any) -> inspect.Signature | None:
         return None
 
 
-def _note_arguments(name: str, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+def _note_arguments(
+    name: str, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any]
+) -> None:
     """Remember which arguments a call that was answered was given."""
     try:
         signature = _signature(function)
@@ -183,18 +228,24 @@ def _note_arguments(name: str, function: Any, args: tuple[Any, ...], kwargs: dic
         _passed[name].update(value if several else (parameter,))
 
 
-# --- the run ---------------------------------------------------------------------------------------------------------------
+# --- the run --------------------------------------------------------------------------------------
 
 FUZZED: dict[str, str] = {}  # test by public name
 _cases: Counter[str] = Counter()
 _answered: Counter[str] = Counter()
 _seconds: defaultdict[str, float] = defaultdict(float)
 _failed: list[str] = []
-_passed: defaultdict[str, set[str]] = defaultdict(set)  # by public name, in calls that were answered
+_passed: defaultdict[str, set[str]] = defaultdict(
+    set
+)  # by public name, in calls that were answered
 
 
-def fuzzes(*names: str, share: float = 1.0) -> Callable[[Callable[[Case], None]], Callable[[], None]]:
-    """Makes a test of a function of one case, which calls these public names; ``share`` of the seeds are enough for it."""
+def fuzzes(
+    *names: str, share: float = 1.0
+) -> Callable[[Callable[[Case], None]], Callable[[], None]]:
+    """Makes a test of a function of one case, which calls these public names; ``share`` of the
+    seeds are enough for it.
+    """
 
     def declare(body: Callable[[Case], None]) -> Callable[[], None]:
         for name in names:
@@ -211,7 +262,11 @@ def fuzzes(*names: str, share: float = 1.0) -> Callable[[Callable[[Case], None]]
 
 def _run(body: Callable[[Case], None], names: tuple[str, ...], share: float) -> None:
     every = seeds()
-    chosen = range(every.start, every.start + max(3, round(len(every) * share))) if len(every) > 3 else every
+    chosen = (
+        range(every.start, every.start + max(3, round(len(every) * share)))
+        if len(every) > 3
+        else every
+    )
     before, failures = Counter(_cases), {}
     _passed.clear()
     with warnings.catch_warnings():
@@ -228,29 +283,47 @@ def _run(body: Callable[[Case], None], names: tuple[str, ...], share: float) -> 
                 with _promptly():
                     body(case)
             except Exception as error:
-                where = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename.startswith(_PACKAGE)]
-                place = f"{Path(where[-1].filename).relative_to(_PACKAGE)}:{where[-1].lineno}" if where else "the check"
+                where = [
+                    frame
+                    for frame in traceback.extract_tb(error.__traceback__)
+                    if frame.filename.startswith(_PACKAGE)
+                ]
+                place = (
+                    f"{Path(where[-1].filename).relative_to(_PACKAGE)}:{where[-1].lineno}"
+                    if where
+                    else "the check"
+                )
                 line = f"{type(error).__name__}: {str(error)[:400]} at {place}, in {case.last}"
                 failures.setdefault((type(error), place, case.last_name), [seed, line, 0])[2] += 1
                 if len(failures) == _MOST_FAILURES:
                     break
-    listed = [f"{body.__name__}, seed {seed} ({count} like it): {line}" for seed, line, count in failures.values()]
+    listed = [
+        f"{body.__name__}, seed {seed} ({count} like it): {line}"
+        for seed, line, count in failures.values()
+    ]
     _failed.extend(listed)
     _write_counts()
     if failures:
         pytest.fail("\n".join(listed), pytrace=False)
     silent = [name for name in names if _cases[name] == before[name]]
     if silent and len(chosen) >= _FEW:
-        pytest.fail(f"{body.__name__} says that it fuzzes {silent}, and never called them", pytrace=False)
+        pytest.fail(
+            f"{body.__name__} says that it fuzzes {silent}, and never called them", pytrace=False
+        )
     never = _never_passed(names)
     if never and len(every) >= _FEW:
-        text = f"{body.__name__} never passes these arguments in a call that is answered: {', '.join(never)}; draw them in it"
+        text = (
+            f"{body.__name__} never passes these arguments in a call that is answered: "
+            f"{', '.join(never)}; draw them in it"
+        )
         pytest.fail(text, pytrace=False)
 
 
 def _never_passed(names: tuple[str, ...]) -> list[str]:
     """Arguments of these public names that no call had."""
-    return [f"{name}({given})" for name in names for given in sorted(arguments(name) - _passed[name])]
+    return [
+        f"{name}({given})" for name in names for given in sorted(arguments(name) - _passed[name])
+    ]
 
 
 class HungError(Exception):
@@ -259,7 +332,9 @@ class HungError(Exception):
 
 @contextlib.contextmanager
 def _promptly() -> Iterator[None]:
-    """Stops what has not ended within some seconds of processor time, where the system has an alarm to set."""
+    """Stops what has not ended within some seconds of processor time, where the system has an alarm
+    to set.
+    """
     if not hasattr(signal, "SIGPROF") or threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -282,18 +357,75 @@ def _write_counts() -> None:
         rows = [f"{'name':42}{'cases':>9}{'answered':>10}{'us a case':>11}{'seconds':>9}"]
         for name in sorted(_cases, key=lambda name: -_seconds[name]):
             each = 1e6 * _seconds[name] / _cases[name]
-            rows.append(f"{name:42}{_cases[name]:9}{_answered[name]:10}{each:11.0f}{_seconds[name]:9.1f}")
-        Path(path).write_text("\n".join([*rows, *_failed]) + "\n", encoding="utf-8", errors="replace")
+            rows.append(
+                f"{name:42}{_cases[name]:9}{_answered[name]:10}{each:11.0f}{_seconds[name]:9.1f}"
+            )
+        Path(path).write_text(
+            "\n".join([*rows, *_failed]) + "\n", encoding="utf-8", errors="replace"
+        )
 
 
-# --- one case --------------------------------------------------------------------------------------------------------------
+# --- one case -------------------------------------------------------------------------------------
 
 _MOODS = ("plain",) * 8 + ("written",) * 3 + ("extreme",) * 3 + ("batch",) * 3 + ("odd",) * 3
 _KINDS = ("f8", "f8", "f8", "f8", "f4", "f2", "g", ">f8", ">f4", "i4", "u1", "i8")
-_BLANKS = ("?", "b", "H", "q", "e", "f", "d", "g", "F", "D", "S3", "U3", "O", "V4", "M8[s]", "m8[s]", ">f8", "f8,i4")
+_BLANKS = (
+    "?",
+    "b",
+    "H",
+    "q",
+    "e",
+    "f",
+    "d",
+    "g",
+    "F",
+    "D",
+    "S3",
+    "U3",
+    "O",
+    "V4",
+    "M8[s]",
+    "m8[s]",
+    ">f8",
+    "f8,i4",
+)
 _ALPHABET = "abcdefghijkmnrstxyzKLMN0123456789 */^().-+%°·²³µΩ_[]{}<>&$|\\\n\x00é中\ud800"
-_TEXTS = ("", "x", "a", "si", "us", "metric", "nan", "inf", "html", "text", "markdown", "brach", "raise", "sliding", "both")
-_NUMBERS = ("1", "-.5", "1e3", "1e400", "-1e-400", "+inf", "nan", "1_0", "٣", "1.", ".", "1e", "--1", "0x1", "1,5", "½", "²")
+_TEXTS = (
+    "",
+    "x",
+    "a",
+    "si",
+    "us",
+    "metric",
+    "nan",
+    "inf",
+    "html",
+    "text",
+    "markdown",
+    "brach",
+    "raise",
+    "sliding",
+    "both",
+)
+_NUMBERS = (
+    "1",
+    "-.5",
+    "1e3",
+    "1e400",
+    "-1e-400",
+    "+inf",
+    "nan",
+    "1_0",
+    "٣",
+    "1.",
+    ".",
+    "1e",
+    "--1",
+    "0x1",
+    "1,5",
+    "½",
+    "²",
+)
 _SPELLED = [text for group in SPELLINGS.values() for text in group] + list(ODD_UNITS)
 
 
@@ -305,7 +437,9 @@ class Case(random.Random):
 
     last_name = ""
     _call: tuple[Any, ...] = ()
-    _within: frozenset[int] = frozenset()  # what is being looked at: a fixed input, given back as it was, may hold itself
+    _within: frozenset[int] = (
+        frozenset()
+    )  # what is being looked at: a fixed input, given back as it was, may hold itself
 
     def __init__(self, seed: str) -> None:
         super().__init__(seed)
@@ -318,7 +452,9 @@ class Case(random.Random):
     # What is called.
 
     def call(self, name: str, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Any:
-        """The answer of a public function, or the error it refuses with; anything else it raises is a failure."""
+        """The answer of a public function, or the error it refuses with; anything else it raises is
+        a failure.
+        """
         _cases[name] += 1
         self.last_name, self._call = name, (args, kwargs)
         start, refused = time.process_time(), None
@@ -356,12 +492,17 @@ class Case(random.Random):
                 return f"a {type(value).__name__}"
 
         args, kwargs = self._call or ((), {})
-        return f"{self.last_name}({', '.join([*map(shown, args), *(f'{k}={shown(v)}' for k, v in kwargs.items())])})"
+        named = [f"{key}={shown(value)}" for key, value in kwargs.items()]
+        return f"{self.last_name}({', '.join([*map(shown, args), *named])})"
 
-    def look(self, value: Any, documented: Open = frozenset(), thorough: bool | None = None) -> None:
-        """Read everything that an answer shows; ``documented`` are names that may be no finite number in a plain case.
+    def look(
+        self, value: Any, documented: Open = frozenset(), thorough: bool | None = None
+    ) -> None:
+        """Read everything that an answer shows; ``documented`` are names that may be no finite
+        number in a plain case.
 
-        None are all of them. Only now and then (``thorough``) with units, as a text, a table and a pickle.
+        None are all of them. Only now and then (``thorough``) with units, as a text, a table and a
+        pickle.
         """
         thorough = self.random() < 0.1 if thorough is None else thorough
         self.last_name, self._call = f"what followed {self.last_name}", ((value,), {})
@@ -377,7 +518,11 @@ class Case(random.Random):
             free = documented is None or self.mood != "plain" or label in documented
             assert free or np.isfinite(value).all(), f"{label} is {value}"
             return
-        if kind.__module__.partition(".")[0] == "collisions" and kind not in (col.Status, GivenUnit, Texts):
+        if kind.__module__.partition(".")[0] == "collisions" and kind not in (
+            col.Status,
+            GivenUnit,
+            Texts,
+        ):
             self._look_at(value, kind, documented, thorough)
         if isinstance(value, Mapping | tuple | list) and id(value) not in self._within:
             around, self._within = self._within, self._within | {id(value)}
@@ -404,7 +549,10 @@ class Case(random.Random):
         start = time.process_time()
         last = self.last_name
         self.last_name = f"{last}, of whose answer {name}"
-        for attribute in (*_shown_by(kind), *(name for name in getattr(value, "__dict__", ()) if not name.startswith("_"))):
+        for attribute in (
+            *_shown_by(kind),
+            *(name for name in getattr(value, "__dict__", ()) if not name.startswith("_")),
+        ):
             try:
                 found = getattr(value, attribute)
                 if thorough and isinstance(quantities := getattr(value, "q", None), Quantities):
@@ -448,7 +596,11 @@ class Case(random.Random):
         """Numbers of any precision, order and layout."""
         shape = self.shape if shape is None else shape
         spoiled = self.random() < 0.3
-        draw = (lambda: self.extreme() if self.random() < 0.2 else self.number(name)) if spoiled else lambda: self.number(name)
+        draw = (
+            (lambda: self.extreme() if self.random() < 0.2 else self.number(name))
+            if spoiled
+            else lambda: self.number(name)
+        )
         made = np.array([draw() for _ in range(math.prod(shape))], dtype=float).reshape(shape)
         kind = np.dtype(self.choice(_KINDS))
         if kind.kind in "iu":
@@ -472,7 +624,13 @@ class Case(random.Random):
             return self.choice(_TEXTS)
         if kind == 1:
             return "".join(self.choices(_ALPHABET, k=self.randrange(70)))
-        number = self.choice(_NUMBERS) if kind == 2 else repr(self.extreme()) if kind == 3 else repr(self.uniform(-50.0, 50.0))
+        number = (
+            self.choice(_NUMBERS)
+            if kind == 2
+            else repr(self.extreme())
+            if kind == 3
+            else repr(self.uniform(-50.0, 50.0))
+        )
         near = number + self.choice((" ", "", "\t", "\u00a0", " *", "\x00")) + self.choice(_SPELLED)
         at = self.randrange(len(near))
         return near[:at] + self.choice(_ALPHABET) + near[at:] if kind == 5 else near
@@ -481,7 +639,9 @@ class Case(random.Random):
         """A plausible number with its unit, as a text or as a Quantity."""
         unit = self.choice(SPELLINGS[UNITS.get(name, "m")])
         value = self.number(name)
-        return f"{value!r} {unit}" if self.random() < 0.5 else quantity(value, unit, self.randrange(4))
+        return (
+            f"{value!r} {unit}" if self.random() < 0.5 else quantity(value, unit, self.randrange(4))
+        )
 
     def garbage(self) -> Any:
         """Anything at all."""
@@ -491,14 +651,22 @@ class Case(random.Random):
         if kind == 4:
             return self.extreme()
         if kind == 5:
-            return self.choice((None, None, True, False, (), [], {}, "", b"", 0, -1, 2**63, -(2**70), 3 + 0j))
+            return self.choice(
+                (None, None, True, False, (), [], {}, "", b"", 0, -1, 2**63, -(2**70), 3 + 0j)
+            )
         if kind in (6, 7):
             return self.text()
         if kind == 8:
-            found = np.zeros(self.choice(((), (2,), (0,), (3,), (2, 2), (1,) * 33)), dtype=self.choice(_BLANKS))
+            found = np.zeros(
+                self.choice(((), (2,), (0,), (3,), (2, 2), (1,) * 33)), dtype=self.choice(_BLANKS)
+            )
             return found.reshape(-1)[0] if found.size and self.maybe(0.3) else found
         if kind == 9:
-            return quantity(self.choice((self.extreme(), self.number("vx"), 3, None)), self.choice(_SPELLED), self.randrange(4))
+            return quantity(
+                self.choice((self.extreme(), self.number("vx"), 3, None)),
+                self.choice(_SPELLED),
+                self.randrange(4),
+            )
         if kind == 10:
             return self.array("x", self.choice(((2,), (0,), (3,), (4, 1), (2, 2), ())))
         return self.choice((list, tuple))([self.garbage() for _ in range(self.randrange(3))])
@@ -525,7 +693,9 @@ class Case(random.Random):
         return self.value(name), self.value(name)
 
     def spoil(self, keywords: dict[str, Any]) -> dict[str, Any]:
-        """The same keywords; in an odd case now and then with one of them anything, left out or misspelt."""
+        """The same keywords; in an odd case now and then with one of them anything, left out or
+        misspelt.
+        """
         if self.mood == "odd" and keywords and self.maybe(0.5):
             name = self.choice(sorted(keywords))
             how = self.random()
@@ -546,11 +716,15 @@ class Case(random.Random):
 
 def incomplete(impact: col.Impact) -> bool:
     """Whether the contact points of a single impact still approach in the end."""
-    return impact.inputs.incomplete and np.ndim(impact.restitution) == 0 and impact.restitution < 0.0
+    return (
+        impact.inputs.incomplete and np.ndim(impact.restitution) == 0 and impact.restitution < 0.0
+    )
 
 
 def without_energy(impact: col.Impact) -> bool:
-    """Whether neither body has a finite energy, so that a contact that took time does not say what each one gained."""
+    """Whether neither body has a finite energy, so that a contact that took time does not say what
+    each one gained.
+    """
     return all(
         (math.isinf(state.mass) and (state.vx, state.vy) != (0.0, 0.0))
         or (state.yaw_inertia in (None, math.inf) and state.yaw_rate != 0.0)

@@ -1,4 +1,6 @@
-"""Runs what the library prints as JavaScript, in node or in headless Chromium, whichever is there; whole pages in node."""
+"""Runs what the library prints as JavaScript, in node or in headless Chromium, whichever is there;
+whole pages in node.
+"""
 
 import base64
 import functools
@@ -43,32 +45,53 @@ def answers(printed, cases):
     with tempfile.TemporaryDirectory() as folder:
         if engine() == "node":
             file = Path(folder, "printed.js")
-            file.write_text(printed + _HARNESS.format(**plain, give="process.stdout.write(btoa(text))"), encoding="utf-8")
+            file.write_text(
+                printed + _HARNESS.format(**plain, give="process.stdout.write(btoa(text))"),
+                encoding="utf-8",
+            )
             command = ["node", str(file)]
         else:
             file = Path(folder, "printed.html")
             script = printed + _HARNESS.format(**plain, give="document.title = btoa(text)")
-            file.write_text(f"<!DOCTYPE html><title></title><script>{script}</script>", encoding="utf-8")
-            command = [engine(), *CHROMIUM, f"--user-data-dir={folder}/profile", "--dump-dom", file.as_uri()]
+            file.write_text(
+                f"<!DOCTYPE html><title></title><script>{script}</script>", encoding="utf-8"
+            )
+            command = [
+                engine(),
+                *CHROMIUM,
+                f"--user-data-dir={folder}/profile",
+                "--dump-dom",
+                file.as_uri(),
+            ]
         done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
-    found = done.stdout if engine() == "node" else html.unescape(re.search("<title>(.*?)</title>", done.stdout)[1])
+    found = (
+        done.stdout
+        if engine() == "node"
+        else html.unescape(re.search("<title>(.*?)</title>", done.stdout)[1])
+    )
     return np.frombuffer(base64.b64decode(found), dtype="<f8").reshape(len(cases), -1)
 
 
-# As much of a browser as the page asks for: elements by id, sliders that hold their value within their ends, and events.
+# As much of a browser as the page asks for: elements by id, sliders that hold their value within
+# their ends, and events.
 _BROWSER = """
 const pageText = require("fs").readFileSync(0, "utf8");
-const attributes = (tag) => Object.fromEntries([...tag.matchAll(/ ([\\w-]+)="([^"]*)"/g)].map(([, name, text]) => [name, text]));
+const attributes = (tag) => Object.fromEntries([...tag.matchAll(/ ([\\w-]+)="([^"]*)"/g)].map(([, \
+name, text]) => [name, text]));
 const byId = {}, listeners = {}, timers = [];
 for (const [tag, name] of pageText.matchAll(/<(\\w+)[^>]* id="[^"]*"[^>]*>/g)) {
   const given = attributes(tag), set = {};
-  const dataset = Object.fromEntries(Object.entries(given).filter(([key]) => key.startsWith("data-")).map(([key, text]) => [key.slice(5), text]));
-  const one = { name, id: given.id, type: given.type, min: given.min, max: given.max, dataset, set, textContent: "", innerHTML: "" };
+  const dataset = Object.fromEntries(Object.entries(given).filter(([key]) => \
+key.startsWith("data-")).map(([key, text]) => [key.slice(5), text]));
+  const one = { name, id: given.id, type: given.type, min: given.min, max: given.max, dataset, \
+set, textContent: "", innerHTML: "" };
   one.outerHTML = tag + "</" + name + ">";
   one.setAttribute = (key, text) => { set[key] = text; };
   let held = given.value;
-  const within = (text) => String(Math.min(Math.max(Number(text), Number(given.min)), Number(given.max)));
-  Object.defineProperty(one, "value", { get: () => held, set: (text) => { held = Number(text) === Number(within(text)) ? String(text) : within(text); } });
+  const within = (text) => String(Math.min(Math.max(Number(text), Number(given.min)), \
+Number(given.max)));
+  Object.defineProperty(one, "value", { get: () => held, set: (text) => { held = Number(text) === \
+Number(within(text)) ? String(text) : within(text); } });
   Object.defineProperty(one, "valueAsNumber", { get: () => Number(held) });
   one.reset = () => { held = given.value; };
   byId[given.id] = one;
@@ -78,19 +101,24 @@ const form = { addEventListener: (kind, call) => { listeners[kind] = call; } };
 globalThis.document = {
   getElementById: (id) => byId[id],
   querySelector: (what) => (what === "form" ? form : null),
-  querySelectorAll: (what) => every.filter((one) => (what === "input" ? one.name === "input" : one.name === "td" && one.dataset.kind)),
+  querySelectorAll: (what) => every.filter((one) => (what === "input" ? one.name === "input" : \
+one.name === "td" && one.dataset.kind)),
 };
 globalThis.setTimeout = (call) => timers.push(call);
 globalThis.clearTimeout = (at) => { if (at) timers[at - 1] = () => {}; };
-const texts = (kind) => Object.fromEntries(every.filter((one) => one.name === kind).map((one) => [one.id, one.textContent]));
+const texts = (kind) => Object.fromEntries(every.filter((one) => one.name === kind).map((one) => \
+[one.id, one.textContent]));
 const seen = () => {
   timers.splice(0).forEach((call) => call());
   timers.splice(0).forEach((call) => call());
   return {
-    cells: texts("td"), outputs: texts("output"), status: byId.status.textContent, said: byId.said.textContent, caption: byId.caption.textContent,
+    cells: texts("td"), outputs: texts("output"), status: byId.status.textContent, said: \
+byId.said.textContent, caption: byId.caption.textContent,
     scene: byId.scene.innerHTML, viewBox: byId.scene.set.viewBox,
-    values: Object.fromEntries(every.filter((one) => one.name === "input").map((one) => [one.id, one.valueAsNumber])),
-    aria: Object.fromEntries(every.filter((one) => one.name === "input").map((one) => [one.id, one.set["aria-valuetext"]])),
+    values: Object.fromEntries(every.filter((one) => one.name === "input").map((one) => [one.id, \
+one.valueAsNumber])),
+    aria: Object.fromEntries(every.filter((one) => one.name === "input").map((one) => [one.id, \
+one.set["aria-valuetext"]])),
   };
 };
 (0, eval)(pageText.slice(pageText.indexOf("<script>") + 8, pageText.lastIndexOf("</script>")));
@@ -98,8 +126,10 @@ const states = [seen()];
 for (const [what, id, given, more] of JSON.parse(process.argv[2])) {
   const target = byId[id];
   if (what === "move") { target.value = given; listeners.input({ target }); }
-  if (what === "press") listeners.keydown({ target, key: given, preventDefault: () => {}, ...more });
-  if (what === "reset") { every.filter((one) => one.name === "input").forEach((one) => one.reset()); listeners.reset({}); }
+  if (what === "press") listeners.keydown({ target, key: given, preventDefault: () => {}, ...more \
+});
+  if (what === "reset") { every.filter((one) => one.name === "input").forEach((one) => \
+one.reset()); listeners.reset({}); }
   states.push(seen());
 }
 process.stdout.write(JSON.stringify(states));
@@ -107,7 +137,8 @@ process.stdout.write(JSON.stringify(states));
 
 
 def moved(page, *events):
-    """What a page with sliders shows at first and after each event: ("move", id, value), ("press", id, key, more), ("reset",).
+    """What a page with sliders shows at first and after each event: ("move", id, value), ("press",
+    id, key, more), ("reset",).
 
     Its own script runs in node, with a stand-in for the few things of a browser that it uses.
     """
@@ -117,12 +148,21 @@ def moved(page, *events):
         file = Path(folder, "browser.js")
         file.write_text(_BROWSER, encoding="utf-8")
         command = ["node", str(file), json.dumps(events)]
-        done = subprocess.run(command, input=page, capture_output=True, text=True, check=False, timeout=120, encoding="utf-8")
+        done = subprocess.run(
+            command,
+            input=page,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=120,
+            encoding="utf-8",
+        )
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
 
 
 CHROMIUM = [
-    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking",
     "--disable-component-update", "--disable-sync",
 ]  # fmt: skip

@@ -1,9 +1,11 @@
-"""An independent evaluation of a planar impact in 60 digits, and the scales its accuracy is measured by.
+"""An independent evaluation of a planar impact in 60 digits, and the scales its accuracy is
+measured by.
 
-Written from the equations of section 1 of the numerics note in the most direct way (assemble K, solve the two equations, take
-kinetic energies before and after), and not from the code of the package: with 60 digits the textbook forms are good enough.
-Inputs are floats taken as exact. As the note asks, the data are the *differences* v2 - v1, c - x, c - O and x - O, each one
-rounded subtraction; everything after them is exact here.
+Written from the equations of section 1 of the numerics note in the most direct way (assemble K,
+solve the two equations, take kinetic energies before and after), and not from the code of the
+package: with 60 digits the textbook forms are good enough. Inputs are floats taken as exact. As the
+note asks, the data are the *differences* v2 - v1, c - x, c - O and x - O, each one rounded
+subtraction; everything after them is exact here.
 """
 
 from __future__ import annotations
@@ -35,7 +37,9 @@ class Body:
 
 @dataclass(frozen=True)
 class Scene:
-    """A whole question: ``normal`` is an angle or a vector, ``rule`` one of friction, impulse_ratio, critical_fraction."""
+    """A whole question: ``normal`` is an angle or a vector, ``rule`` one of friction,
+    impulse_ratio, critical_fraction.
+    """
 
     a: Body
     b: Body
@@ -46,12 +50,17 @@ class Scene:
     value: float
     law: str
     # Impulses on A and on B from outside: x, y and yaw at the centre of mass.
-    outside: tuple[tuple[float, float, float], tuple[float, float, float]] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    outside: tuple[tuple[float, float, float], tuple[float, float, float]] = (
+        (0.0, 0.0, 0.0),
+        (0.0, 0.0, 0.0),
+    )
 
 
 @dataclass(frozen=True, repr=False)
 class Half:
-    """What one body had of it; ``a`` and ``b`` are its 1/m (0 if pinned) and 1/I, ``r`` and ``arm`` lengths of its levers."""
+    """What one body had of it; ``a`` and ``b`` are its 1/m (0 if pinned) and 1/I, ``r`` and ``arm``
+    lengths of its levers.
+    """
 
     dvx: Any
     dvy: Any
@@ -75,7 +84,9 @@ class Half:
 
 @dataclass(frozen=True, repr=False)
 class Answer:
-    """What the reference found; ``refused`` is None or the label of section 9, and ``spread`` is kappa times S_P."""
+    """What the reference found; ``refused`` is None or the label of section 9, and ``spread`` is
+    kappa times S_P.
+    """
 
     refused: str | None
     closing: Any = None
@@ -103,8 +114,9 @@ class Answer:
     resistance: Any = None
     a: Half | None = None
     b: Half | None = None
-    # The speed of parting, the normal impulse of the compression period, and by how much the passage of law "stronge" is
-    # conditioned; of impulses from outside the speed they give the contact.
+    # The speed of parting, the normal impulse of the compression period, and by how much the
+    # passage of law "stronge" is conditioned; of impulses from outside the speed they give the
+    # contact.
     separation: Any = None
     compression: Any = None
     kappa: Any = None
@@ -113,10 +125,12 @@ class Answer:
 
 @dataclass(frozen=True, repr=False)
 class Passage:
-    """A contact followed in the impulse from corner to corner, with the slip and the closing speed linear in between.
+    """A contact followed in the impulse from corner to corner, with the slip and the closing speed
+    linear in between.
 
-    ``directions`` has a direction (n, t) of the impulse for every stretch, ``stop`` the normal impulse at which the slip stopped
-    first, ``top`` the impulse (n, t) and the work along the normal at the end of compression.
+    ``directions`` has a direction (n, t) of the impulse for every stretch, ``stop`` the normal
+    impulse at which the slip stopped first, ``top`` the impulse (n, t) and the work along the
+    normal at the end of compression.
     """
 
     pn: Any
@@ -130,11 +144,14 @@ class Passage:
     regime: str
 
 
-def follow(mp: Any, k: tuple[Any, Any, Any], closing: Any, slip: Any, mu: Any, e: Any) -> Passage | None:
-    """Routh's construction: friction against the slip there is, until the part e squared of the work has come back.
+def follow(
+    mp: Any, k: tuple[Any, Any, Any], closing: Any, slip: Any, mu: Any, e: Any
+) -> Passage | None:
+    """Routh's construction: friction against the slip there is, until the part e squared of the
+    work has come back.
 
-    For e < 0 it ends before compression does, where that part is still to come. None if no normal impulse can act. ``mu`` is
-    None for a friction without bound.
+    For e < 0 it ends before compression does, where that part is still to come. None if no normal
+    impulse can act. ``mu`` is None for a friction without bound.
     """
     k_nn, k_nt, k_tt = k
     zero = mp.mpf(0)
@@ -161,7 +178,8 @@ def follow(mp: Any, k: tuple[Any, Any, Any], closing: Any, slip: Any, mu: Any, e
             if top is None and fall > 0:
                 events.append((u / fall, "top"))
             if goal is not None and n > 0 and (e < 0 or top is not None):
-                # work + u x - fall x^2 / 2 reaches the goal on the way up (e < 0) or on the way down.
+                # work + u x - fall x^2 / 2 reaches the goal on the way up (e < 0) or on the way
+                # down.
                 inside = u * u - 2 * fall * (goal - work)
                 if inside >= 0:
                     speed = mp.sqrt(inside) if e < 0 else -mp.sqrt(inside)
@@ -190,7 +208,8 @@ def follow(mp: Any, k: tuple[Any, Any, Any], closing: Any, slip: Any, mu: Any, e
     return run(top[2] * (1 - e * e))
 
 
-# Below this part of the trace (squared for the determinant) K cannot be told from a singular one: section 4, item 13.
+# Below this part of the trace (squared for the determinant) K cannot be told from a singular one:
+# section 4, item 13.
 SINGULAR = (64.0 * EPS) ** 2
 
 
@@ -266,7 +285,10 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         jx, jy, yaw = map(num, scene.outside[k])
         moments.append(yaw + arms[k][0] * jy - arms[k][1] * jx if body.pivot else yaw)
     push = tuple(
-        sum((2 * k - 1) * (share[k] * num(scene.outside[k][i]) + turn[k] * moments[k] * q[k][i]) for k in (0, 1))
+        sum(
+            (2 * k - 1) * (share[k] * num(scene.outside[k][i]) + turn[k] * moments[k] * q[k][i])
+            for k in (0, 1)
+        )
         for i in (0, 1)
     )
     push_n, push_t = -dot(n, push), dot(t, push)
@@ -276,7 +298,10 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         return Answer("separating", closing=closing)
     no_slip = None
     if not singular:
-        no_slip = (k_tt * wanted_n - k_nt * wanted_t) / det, (k_nn * wanted_t - k_nt * wanted_n) / det
+        no_slip = (
+            (k_tt * wanted_n - k_nt * wanted_t) / det,
+            (k_nn * wanted_t - k_nt * wanted_n) / det,
+        )
 
     value = None if math.isinf(scene.value) else num(scene.value)
     sticks, ratio, passage = False, num(0), None
@@ -327,13 +352,17 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         if body.pivot:
             change = rotated((dw * arms[k][0], dw * arms[k][1]))
             v = rotated((w * arms[k][0], w * arms[k][1]))
-            pin = num(body.mass) * change[0] - force[0] - jx, num(body.mass) * change[1] - force[1] - jy
+            pin = (
+                num(body.mass) * change[0] - force[0] - jx,
+                num(body.mass) * change[1] - force[1] - jy,
+            )
         else:
             change = share[k] * (force[0] + jx), share[k] * (force[1] + jy)
             v = num(body.vx), num(body.vy)
             pin = num(0), num(0)
         after = v[0] + change[0], v[1] + change[1]
-        # Equation 7 needs velocities whose difference is the data: those of A are kept, those of B are A's plus the difference.
+        # Equation 7 needs velocities whose difference is the data: those of A are kept, those of B
+        # are A's plus the difference.
         if body.pivot:
             base = v
         elif k:
@@ -341,7 +370,11 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         else:
             base = v
         ended = base[0] + change[0], base[1] + change[1]
-        energy = dot(force, base) if math.isinf(body.mass) else num(body.mass) * (dot(ended, ended) - dot(base, base)) / 2
+        energy = (
+            dot(force, base)
+            if math.isinf(body.mass)
+            else num(body.mass) * (dot(ended, ended) - dot(base, base)) / 2
+        )
         if not math.isinf(body.mass):
             energy -= (jx * (base[0] + ended[0]) + jy * (base[1] + ended[1])) / 2
         if not math.isinf(body.inertia):
@@ -356,7 +389,8 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         halves.append(
             Half(
                 *change, dw, *after, w + dw, *pin, mp.atan2(aside, -ahead), *force, energy,
-                share[k], turn[k], length(r[k]), length(arms[k]), length(v), share[k] + turn[k] * dot(r[k], r[k]),
+                share[k], turn[k], length(r[k]), length(arms[k]), length(v),
+                    share[k] + turn[k] * dot(r[k], r[k]),
             )
         )  # fmt: skip
         contact = [v[i] + (0 if body.pivot else 1) * w * q[k][i] for i in (0, 1)]
@@ -367,7 +401,9 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
             common.append(dot(n, contact) + dot(n, moved) / (1 + e))
             continue
         # The top of the passage, as an impulse on this body; with outside impulses they come first.
-        cn, ct = (part * (2 * k - 1) for part in passage.top[:2]) if passage.top else (mp.nan, mp.nan)
+        cn, ct = (
+            (part * (2 * k - 1) for part in passage.top[:2]) if passage.top else (mp.nan, mp.nan)
+        )
         struck = cn * n[0] + ct * t[0], cn * n[1] + ct * t[1]
         turned = turn[k] * (r[k][0] * struck[1] - r[k][1] * struck[0])
         moved = [share[k] * struck[i] + turned * q[k][i] for i in (0, 1)]
@@ -377,15 +413,23 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
     s_u = length(dv) + sum(abs(spins[k]) * halves[k].r for k in (0, 1))
 
     def kappa_of_ratio(mu: Any) -> Any:
-        levers = sum(turn[k] * halves[k].r * (abs(dot(t, r[k])) + abs(mu) * halves[k].r) for k in (0, 1))
+        levers = sum(
+            turn[k] * halves[k].r * (abs(dot(t, r[k])) + abs(mu) * halves[k].r) for k in (0, 1)
+        )
         return (a + levers) / (k_nn + mu * k_nt)
 
     cross = r[0][0] * r[1][1] - r[0][1] * r[1][0]
-    kappa_s = None if singular else (a * trace + turn[0] * turn[1] * halves[0].r * halves[1].r * abs(cross)) / det
+    kappa_s = (
+        None
+        if singular
+        else (a * trace + turn[0] * turn[1] * halves[0].r * halves[1].r * abs(cross)) / det
+    )
     no_slip_spread = None if singular else kappa_s * (1 + e) * s_u * trace / det
     kappa_mu = None if sticks else kappa_of_ratio(ratio)
     s_push = sum(
-        share[k] * length(tuple(map(num, scene.outside[k][:2]))) + turn[k] * abs(moments[k]) * halves[k].r for k in (0, 1)
+        share[k] * length(tuple(map(num, scene.outside[k][:2])))
+        + turn[k] * abs(moments[k]) * halves[k].r
+        for k in (0, 1)
     )
     # The slip of an incomplete impact ends as a whole where it sticks, however small 1 + e.
     reach = (1 + max(e, 0)) * s_u + s_push
@@ -407,9 +451,13 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         if s_push:
             # The restitution for what is left of the closing speed is known to as much as that.
             of_e = (s_u + s_push) / left
-            spread, kappa = spread + of_e * mp.sqrt(pn * pn + pt * pt), kappa + of_e * abs(separation) / (s_u + s_push)
+            spread, kappa = (
+                spread + of_e * mp.sqrt(pn * pn + pt * pt),
+                kappa + of_e * abs(separation) / (s_u + s_push),
+            )
     if scene.rule == "critical_fraction" and scene.value:
-        # The ratio is itself worked out from the no-slip impulse, known to its own spread; what P makes of that comes on top.
+        # The ratio is itself worked out from the no-slip impulse, known to its own spread; what P
+        # makes of that comes on top.
         of_ratio = value * no_slip_spread * (1 + abs(no_slip[1] / no_slip[0])) / no_slip[0]
         spread += of_ratio * pn * (1 + abs(k_nt) * mp.sqrt(1 + ratio * ratio) / resistance)
     loss_n, loss_t = (1 - e) * closing * pn / 2, -pt * (slip + slip_after) / 2
@@ -418,9 +466,12 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         loss_n = loss - loss_t
     critical = None
     if no_slip is not None:
-        critical = no_slip[1] / no_slip[0] if no_slip[0] > 0 else mp.inf * (-1 if no_slip[1] < 0 else 1)
+        critical = (
+            no_slip[1] / no_slip[0] if no_slip[0] > 0 else mp.inf * (-1 if no_slip[1] < 0 else 1)
+        )
     return Answer(
         None, closing, slip, slip_after, pn, pt, loss, loss_n, loss_t, regime,
-        critical, no_slip, common[0], k_nn, k_nt, k_tt, det, s_u, kappa_mu, kappa_s, s_p, spread, no_slip_spread, resistance,
+        critical, no_slip, common[0], k_nn, k_nt, k_tt, det, s_u, kappa_mu, kappa_s, s_p, spread,
+        no_slip_spread, resistance,
         halves[0], halves[1], separation, compression, kappa, s_push,
     )  # fmt: skip

@@ -1,9 +1,11 @@
-"""An independent evaluation, in 40 digits, of the steps by which ``time_resolved`` follows a contact.
+"""An independent evaluation, in 40 digits, of the steps by which ``time_resolved`` follows a
+contact.
 
-Written in complex numbers from the description of the scheme (half a drift, the impulses of a step at one place, half a drift;
-the impulse of the tyres between two steps), and not from the code of the package, in SI where that works in units of the
-contact. What the package differs by is rounding. What the steps differ by from the contact itself is another question, for
-which the tests have closed forms and integrations of other kinds.
+Written in complex numbers from the description of the scheme (half a drift, the impulses of a step
+at one place, half a drift; the impulse of the tyres between two steps), and not from the code of
+the package, in SI where that works in units of the contact. What the package differs by is
+rounding. What the steps differ by from the contact itself is another question, for which the tests
+have closed forms and integrations of other kinds.
 """
 
 from __future__ import annotations
@@ -21,7 +23,9 @@ GRAVITY, WHEELBASE, TRACK = 9.80665, 2.7, 1.5
 
 @dataclass
 class Side:
-    """A body on its way: its velocity, way and turn (as a complex number of length 1) since the start."""
+    """A body on its way: its velocity, way and turn (as a complex number of length 1) since the
+    start.
+    """
 
     mass: Any
     inertia: Any
@@ -53,7 +57,9 @@ class Side:
 
 @dataclass
 class Followed:
-    """Changes of velocity and yaw rate of A and B; time, largest crush and force; the impulse on B and the losses along n and t."""
+    """Changes of velocity and yaw rate of A and B; time, largest crush and force; the impulse on B
+    and the losses along n and t.
+    """
 
     changes: list[tuple[Any, Any]]
     time: Any
@@ -72,15 +78,22 @@ def cross(one: Any, other: Any) -> Any:
     return one.real * other.imag - one.imag * other.real
 
 
-def follow_in_time(scene: Scene, duration: float, drag: float, steps: int, moves: bool, digits: int = 40) -> Followed | None:
-    """The steps of a contact with a linear spring of this nominal duration; None where it does not begin or end."""
+def follow_in_time(
+    scene: Scene, duration: float, drag: float, steps: int, moves: bool, digits: int = 40
+) -> Followed | None:
+    """The steps of a contact with a linear spring of this nominal duration; None where it does not
+    begin or end.
+    """
     with mpmath.workdps(digits):
         return _follow(scene, duration, drag, steps, moves)
 
 
 def _follow(scene: Scene, duration: float, drag: float, steps: int, moves: bool) -> Followed | None:
     mp, num = mpmath.mp, mpmath.mpf
-    e, mu = num(scene.restitution), num(scene.value) if math.isfinite(scene.value) else num(10) ** 30
+    e, mu = (
+        num(scene.restitution),
+        num(scene.value) if math.isfinite(scene.value) else num(10) ** 30,
+    )
     if isinstance(scene.normal, tuple):
         normal = mpmath.mpc(*scene.normal)
         normal /= abs(normal)
@@ -89,10 +102,21 @@ def _follow(scene: Scene, duration: float, drag: float, steps: int, moves: bool)
 
     def side(body: Body) -> Side:
         ahead = mp.expj(num(body.heading))
-        wheels = [ahead * mpmath.mpc(x * WHEELBASE / 2, y * TRACK / 2) for x in (1, -1) for y in (1, -1)]
-        mass, inertia = (mp.inf if math.isinf(one) else num(one) for one in (body.mass, body.inertia))
+        wheels = [
+            ahead * mpmath.mpc(x * WHEELBASE / 2, y * TRACK / 2) for x in (1, -1) for y in (1, -1)
+        ]
+        mass, inertia = (
+            mp.inf if math.isinf(one) else num(one) for one in (body.mass, body.inertia)
+        )
         arm = mpmath.mpc(scene.point[0] - body.x, scene.point[1] - body.y)
-        return Side(mass, inertia, mpmath.mpc(body.vx, body.vy), num(body.spin), arm, wheels if drag and mass < mp.inf else [])
+        return Side(
+            mass,
+            inertia,
+            mpmath.mpc(body.vx, body.vy),
+            num(body.spin),
+            arm,
+            wheels if drag and mass < mp.inf else [],
+        )
 
     a, b = side(scene.a), side(scene.b)
     fixed_a, fixed_b = (one.mass == mp.inf and one.inertia == mp.inf for one in (a, b))
@@ -128,7 +152,11 @@ def _follow(scene: Scene, duration: float, drag: float, steps: int, moves: bool)
             for wheel in one.wheels:
                 place = one.turn * wheel
                 u = one.at(place)
-                at_most = 1 / (4 * (1 / one.mass + abs(wheel) ** 2 / one.inertia)) if seconds > 0 else num(0)
+                at_most = (
+                    1 / (4 * (1 / one.mass + abs(wheel) ** 2 / one.inertia))
+                    if seconds > 0
+                    else num(0)
+                )
                 held = -u * (hold / abs(u) if hold < at_most * abs(u) else at_most)
                 total, moment = total + held, moment + cross(place, held)
             one.push(total, moment)
@@ -158,7 +186,13 @@ def _follow(scene: Scene, duration: float, drag: float, steps: int, moves: bool)
     def back(depth: Any) -> Any:
         """Force on the way back, which is e squared of the way in long."""
         left = depth - (1 - e * e) * deepest
-        return stiffness * depth if depth > deepest else max(num(0), stiffness * left / (e * e)) if e else num(0)
+        return (
+            stiffness * depth
+            if depth > deepest
+            else max(num(0), stiffness * left / (e * e))
+            if e
+            else num(0)
+        )
 
     engaging, active, step = True, True, nominal / steps
     engaged: list[Any] = []
@@ -171,7 +205,10 @@ def _follow(scene: Scene, duration: float, drag: float, steps: int, moves: bool)
                 break
             engaged = [a.way, a.turn, b.way, b.turn, carried]
             left_over = most
-            engaging, step = False, min(mp.sqrt(e) * nominal / steps, num(0.6) * e / (1 + e) * nominal)
+            engaging, step = (
+                False,
+                min(mp.sqrt(e) * nominal / steps, num(0.6) * e / (1 + e) * nominal),
+            )
             active = crush > (1 - e * e) * deepest and time < 3 * nominal
             continue
         this = step
@@ -205,11 +242,14 @@ def _follow(scene: Scene, duration: float, drag: float, steps: int, moves: bool)
         drift(took - this / 2)
         closing = after
         whole = e * e * deepest
-        active = time < 3 * nominal and (not ends if engaging else crush - (deepest - whole) > num(10) ** -9 * whole)
+        active = time < 3 * nominal and (
+            not ends if engaging else crush - (deepest - whole) > num(10) ** -9 * whole
+        )
     brake(max(owed, num(0)))
     if time >= 3 * nominal or deepest <= 0:
         return None
     changes = [(one.v - one.start[0], one.w - one.start[1]) for one in (a, b)]
     return Followed(
-        changes, time, deepest, stiffness * deepest, impulse, loss_n, loss_t, closing_before, engaged
+        changes, time, deepest, stiffness * deepest, impulse, loss_n, loss_t, closing_before,
+        engaged
     )  # fmt: skip

@@ -1,4 +1,6 @@
-"""Impacts to test on: seeded random scenes of the families of the numerics note, and hypothesis strategies for realistic ones."""
+"""Impacts to test on: seeded random scenes of the families of the numerics note, and hypothesis
+strategies for realistic ones.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +43,16 @@ def _decade(rng: random.Random, low: float, high: float) -> float:
 
 
 def _restitution(rng: random.Random) -> float:
-    return rng.choice((0.0, 1.0, rng.random(), 0.3 * rng.random(), _decade(rng, -12, -1), 1.0 - _decade(rng, -12, -1)))
+    return rng.choice(
+        (
+            0.0,
+            1.0,
+            rng.random(),
+            0.3 * rng.random(),
+            _decade(rng, -12, -1),
+            1.0 - _decade(rng, -12, -1),
+        )
+    )
 
 
 def _value(rng: random.Random, rule: str) -> float:
@@ -53,7 +64,9 @@ def _value(rng: random.Random, rule: str) -> float:
 
 
 def jamming_ratio(scene: Scene) -> float:
-    """The impulse ratio -K_nn/K_nt at which the bodies jam; the normal impulse grows without bound towards it. NaN without one."""
+    """The impulse ratio -K_nn/K_nt at which the bodies jam; the normal impulse grows without bound
+    towards it. NaN without one.
+    """
     answer = evaluate(replace(scene, rule="friction", value=0.0))
     return float(-answer.k_nn / answer.k_nt) if not answer.refused and answer.k_nt else math.nan
 
@@ -73,23 +86,34 @@ def _car(rng: random.Random, x: float, y: float) -> Body:
 
 
 def draw(family: str, law: str, rule: str, rng: random.Random) -> Scene:
-    """One scene of a family, closing along its normal; it may still be one that is refused for another reason.
+    """One scene of a family, closing along its normal; it may still be one that is refused for
+    another reason.
 
-    With ``NEAR_JAMMING`` as the rule four of five given ratios come up to 1e-9 of the one at which the bodies jam; the others are
-    of the other sign and up to 1000.
+    With ``NEAR_JAMMING`` as the rule four of five given ratios come up to 1e-9 of the one at which
+    the bodies jam; the others are of the other sign and up to 1000.
     """
     if rule == NEAR_JAMMING:
         while math.isnan(limit := jamming_ratio(scene := draw(family, law, "impulse_ratio", rng))):
             pass
         near = limit * (1.0 - _decade(rng, -9, 0))
-        return replace(scene, value=near if rng.random() < 0.8 else -math.copysign(_decade(rng, -2, 3), limit))
+        return replace(
+            scene, value=near if rng.random() < 0.8 else -math.copysign(_decade(rng, -2, 3), limit)
+        )
     if rule == INCOMPLETE:
-        return replace(draw(family, law, "friction", rng), restitution=-rng.choice((rng.random(), _decade(rng, -12, -1), 0.95)))
+        return replace(
+            draw(family, law, "friction", rng),
+            restitution=-rng.choice((rng.random(), _decade(rng, -12, -1), 0.95)),
+        )
     if rule == PUSHED:
         scene = draw(family, law, "friction", rng)
-        # Of the size of the impulse that would stop one body at the contact: most of these do not part the bodies before.
+        # Of the size of the impulse that would stop one body at the contact: most of these do not
+        # part the bodies before.
         speed = abs(_closing(scene))
-        size = min(mass for mass in (scene.a.mass, scene.b.mass, 1e300)) * speed * 10.0 ** rng.uniform(-3.0, 0.0)
+        size = (
+            min(mass for mass in (scene.a.mass, scene.b.mass, 1e300))
+            * speed
+            * 10.0 ** rng.uniform(-3.0, 0.0)
+        )
         push = [tuple(size * rng.uniform(-1.0, 1.0) for _ in range(3)) for _ in range(2)]
         return replace(scene, outside=(push[0], push[1] if rng.random() < 0.7 else (0.0, 0.0, 0.0)))
     a = _car(rng, rng.uniform(-2.5, 2.5), rng.uniform(-2.5, 2.5))
@@ -100,22 +124,40 @@ def draw(family: str, law: str, rule: str, rng: random.Random) -> Scene:
         factor = _decade(rng, -12, 12)
         b = replace(b, mass=a.mass * factor, inertia=a.inertia * factor * rng.uniform(0.5, 2.0))
     elif family == "60 m/s +- 1e-9":
-        a = replace(a, vx=60.0 + rng.uniform(-1e-9, 1e-9), vy=rng.uniform(-1e-9, 1e-9), spin=rng.choice((0.0, 1e-9)))
+        a = replace(
+            a,
+            vx=60.0 + rng.uniform(-1e-9, 1e-9),
+            vy=rng.uniform(-1e-9, 1e-9),
+            spin=rng.choice((0.0, 1e-9)),
+        )
         b = replace(b, vx=60.0 + rng.uniform(-1e-9, 1e-9), vy=rng.uniform(-1e-9, 1e-9), spin=0.0)
     elif family == "1e8 + 1e-6 m/s":
-        a = replace(a, vx=1e8 + rng.uniform(-1e-6, 1e-6), vy=1e8 * rng.choice((0.0, 1.0)) + rng.uniform(-1e-6, 1e-6), spin=0.0)
+        a = replace(
+            a,
+            vx=1e8 + rng.uniform(-1e-6, 1e-6),
+            vy=1e8 * rng.choice((0.0, 1.0)) + rng.uniform(-1e-6, 1e-6),
+            spin=0.0,
+        )
         b = replace(b, vx=1e8, vy=a.vy + rng.uniform(-1e-6, 1e-6), spin=rng.choice((0.0, 1e-6)))
     elif family == "barrier":
-        fixed = rng.choice(((math.inf, math.inf), (math.inf, math.inf), (math.inf, b.inertia), (b.mass, math.inf)))
+        fixed = rng.choice(
+            ((math.inf, math.inf), (math.inf, math.inf), (math.inf, b.inertia), (b.mass, math.inf))
+        )
         still = dict.fromkeys(("vx", "vy", "spin"), 0.0) if rng.random() < 0.7 else {}
         b = replace(b, mass=fixed[0], inertia=fixed[1], **still)
         if rng.random() < 0.5:
             a, b = b, a
     elif family == "levers 1e-9 or 1e9":
-        size_a, size_b = rng.choice(((1e-9, 1.0), (1e9, 1.0), (1e-9, 1e9), (1e-9, 1e-9), (1e9, 1e9)))
+        size_a, size_b = rng.choice(
+            ((1e-9, 1.0), (1e9, 1.0), (1e-9, 1e9), (1e-9, 1e-9), (1e9, 1e9))
+        )
         point = (0.0, 0.0)
-        a = replace(a, x=a.x * size_a, y=a.y * size_a, spin=a.spin / size_a if size_a > 1.0 else a.spin)
-        b = replace(b, x=b.x * size_b, y=b.y * size_b, spin=b.spin / size_b if size_b > 1.0 else b.spin)
+        a = replace(
+            a, x=a.x * size_a, y=a.y * size_a, spin=a.spin / size_a if size_a > 1.0 else a.spin
+        )
+        b = replace(
+            b, x=b.x * size_b, y=b.y * size_b, spin=b.spin / size_b if size_b > 1.0 else b.spin
+        )
     elif family == "inertia x 1e-12..1e12":
         a = replace(a, inertia=a.inertia * _decade(rng, -12, 12))
         b = replace(b, inertia=b.inertia * rng.choice((1.0, _decade(rng, -12, 12))))
@@ -139,30 +181,45 @@ def draw(family: str, law: str, rule: str, rng: random.Random) -> Scene:
     turned = math.remainder(angle + math.pi, math.tau)
     as_angle = FAMILIES.index(family) % 2 == 0
     size = _decade(rng, -3, 3)
-    choices: list[Any] = [angle, turned] if as_angle else [(size * math.cos(z), size * math.sin(z)) for z in (angle, turned)]
+    choices: list[Any] = (
+        [angle, turned]
+        if as_angle
+        else [(size * math.cos(z), size * math.sin(z)) for z in (angle, turned)]
+    )
     scene = Scene(a, b, _restitution(rng), choices[0], point, rule, _value(rng, rule), law)
     return scene if _closing(scene) > 0.0 else replace(scene, normal=choices[1])
 
 
 def _pinned(body: Body, pin: tuple[float, float]) -> Body:
-    return replace(body, pivot=pin, vx=-body.spin * (body.y - pin[1]), vy=body.spin * (body.x - pin[0]))
+    return replace(
+        body, pivot=pin, vx=-body.spin * (body.y - pin[1]), vy=body.spin * (body.x - pin[0])
+    )
 
 
 def _closing(scene: Scene) -> float:
-    n = scene.normal if isinstance(scene.normal, tuple) else (math.cos(scene.normal), math.sin(scene.normal))
+    n = (
+        scene.normal
+        if isinstance(scene.normal, tuple)
+        else (math.cos(scene.normal), math.sin(scene.normal))
+    )
     total = 0.0
     for body, sign in ((scene.a, 1.0), (scene.b, -1.0)):
         center = body.pivot or (body.x, body.y)
         vx, vy = (0.0, 0.0) if body.pivot else (body.vx, body.vy)
-        ux, uy = vx - body.spin * (scene.point[1] - center[1]), vy + body.spin * (scene.point[0] - center[0])
+        ux, uy = (
+            vx - body.spin * (scene.point[1] - center[1]),
+            vy + body.spin * (scene.point[0] - center[0]),
+        )
         total += sign * (n[0] * ux + n[1] * uy)
     return total
 
 
 def answerable(answer: Answer) -> bool:
-    """Whether the reference answered, and not so near a singular contact that rounding decides about the refusal.
+    """Whether the reference answered, and not so near a singular contact that rounding decides
+    about the refusal.
 
-    Nor where what is promised of the impulse is more than a float can hold: an infinite promise is none.
+    Nor where what is promised of the impulse is more than a float can hold: an infinite promise is
+    none.
     """
     if answer.refused or math.isinf(float(answer.spread)):
         return False
@@ -183,13 +240,14 @@ def cases(family: str, law: str, rule: str, count: int) -> list[tuple[Scene, Ans
     return found
 
 
-# --- From a scene to the package -------------------------------------------------------------------------------------------
+# --- From a scene to the package ------------------------------------------------------------------
 
 
 def vehicle(body: Body, **changes: Any) -> col.Vehicle:
     """The Vehicle of a body."""
     given = {
-        "mass": body.mass, "yaw_inertia": body.inertia, "vx": body.vx, "vy": body.vy, "yaw_rate": body.spin,
+        "mass": body.mass, "yaw_inertia": body.inertia, "vx": body.vx, "vy": body.vy,
+        "yaw_rate": body.spin,
         "x": body.x, "y": body.y, "heading": body.heading, "pivot": body.pivot,
     }  # fmt: skip
     if body.pivot is not None:
@@ -198,7 +256,9 @@ def vehicle(body: Body, **changes: Any) -> col.Vehicle:
 
 
 def solved(model: str, scene: Scene, **changes: Any) -> col.Impact:
-    """A scene put to one of the solvers; that the model gains energy is not what these tests are about."""
+    """A scene put to one of the solvers; that the model gains energy is not what these tests are
+    about.
+    """
     solver = getattr(col, model)
     arguments: dict[str, Any] = {"normal": scene.normal}
     if model != "linear_central":
@@ -211,7 +271,9 @@ def solved(model: str, scene: Scene, **changes: Any) -> col.Impact:
         arguments["incomplete"] = True
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.EnergyGainWarning)
-        return solver(vehicle(scene.a), vehicle(scene.b), scene.restitution, **{**arguments, **changes})
+        return solver(
+            vehicle(scene.a), vehicle(scene.b), scene.restitution, **{**arguments, **changes}
+        )
 
 
 def solved_together(model: str, scenes: list[Scene]) -> col.Impact:
@@ -226,22 +288,31 @@ def solved_together(model: str, scenes: list[Scene]) -> col.Impact:
         return np.array(values)
 
     def stacked(bodies: list[Body]) -> Body:
-        return Body(**{name: column(getattr(body, name) for body in bodies) for name in Body.__dataclass_fields__})
+        return Body(
+            **{
+                name: column(getattr(body, name) for body in bodies)
+                for name in Body.__dataclass_fields__
+            }
+        )
 
     whole = replace(
         scenes[0],
         a=stacked([scene.a for scene in scenes]),
         b=stacked([scene.b for scene in scenes]),
-        **{name: column(getattr(scene, name) for scene in scenes) for name in ("restitution", "normal", "point", "value")},
+        **{
+            name: column(getattr(scene, name) for scene in scenes)
+            for name in ("restitution", "normal", "point", "value")
+        },
         outside=tuple(column(scene.outside[k] for scene in scenes) for k in (0, 1)),
     )
     return solved(model, whole)
 
 
-# --- Realistic scenes for hypothesis ----------------------------------------------------------------------------------------
+# --- Realistic scenes for hypothesis --------------------------------------------------------------
 #
-# Velocities are multiples of 1/64 m/s and positions of 1/32 m, so that shifts by other such multiples are exact and a test of
-# invariance is about the solver and not about the rounding of its inputs.
+# Velocities are multiples of 1/64 m/s and positions of 1/32 m, so that shifts by other such
+# multiples are exact and a test of invariance is about the solver and not about the rounding of its
+# inputs.
 
 SPEEDS = st.integers(-2560, 2560).map(lambda k: k / 64.0)
 PLACES = st.integers(-96, 96).map(lambda k: k / 32.0)
@@ -286,7 +357,9 @@ def impacts(
     value: float | None = None,
     turning: bool = True,
 ) -> Scene:
-    """A closing scene. The normal is turned round where it would not close; what the law still refuses is left to the test."""
+    """A closing scene. The normal is turned round where it would not close; what the law still
+    refuses is left to the test.
+    """
     which, _, kind = constraint.partition(" ")
     a = draw(bodies(kind if which == "A" else "free", turning))
     b = draw(bodies(kind if which == "B" else "free", turning))
@@ -298,7 +371,8 @@ def impacts(
         scene = replace(scene, normal=angle - math.copysign(math.pi, angle))
     if rule == "impulse_ratio" and value is None and draw(st.booleans()):
         limit = jamming_ratio(scene)
-        # Beyond, products with a ratio leave the range of floats, and the answer is refused for that.
+        # Beyond, products with a ratio leave the range of floats, and the answer is refused for
+        # that.
         if abs(limit) < 1e6:
             return replace(scene, value=limit * (1.0 - 10.0 ** -draw(st.floats(0.0, 9.0))))
     return scene

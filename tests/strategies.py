@@ -1,4 +1,6 @@
-"""Hypothesis strategies for arguments of every kind: plausible, extreme, and of types that no caller should give."""
+"""Hypothesis strategies for arguments of every kind: plausible, extreme, and of types that no
+caller should give.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,8 @@ from hypothesis import strategies as st
 
 INF = math.inf
 EXTREMES = (
-    0.0, -0.0, 5e-324, 1e-320, 2.2e-308, 1e-200, 1e-155, 1e-30, 1e-9, 1.0, 1.0 + 2**-52, 20.0, 1e9, 1e30, 3e38, 4e38, 1e100, 1e150,
+    0.0, -0.0, 5e-324, 1e-320, 2.2e-308, 1e-200, 1e-155, 1e-30, 1e-9, 1.0, 1.0 + 2**-52, 20.0,
+    1e9, 1e30, 3e38, 4e38, 1e100, 1e150,
     1e155, 1e200, 1e307, 1e308, 1.7976931348623157e308, INF, math.nan,
 )  # fmt: skip
 UNITS = {
@@ -103,8 +106,10 @@ RANGES = {
 YAW_RATES = (0.0, 0.0, 0.5, -3.0)
 PLACES = (-5.0, 5.0)
 ODD_UNITS = (
-    "degC", "degF", "delta_degC", "dBm", "dB", "Np", "hertz", "count", "bit", "N", "g_0", "kelvin", "J", "percent", "rad", "sr", "m/m",
-    "deg*deg", "km/h/s", "1/s", "m**-9", "lbf", "pH", "cm_1", "quettameter", "yoctokg", "US_survey_foot", "eV/c**2", "tex", "foo",
+    "degC", "degF", "delta_degC", "dBm", "dB", "Np", "hertz", "count", "bit", "N", "g_0",
+    "kelvin", "J", "percent", "rad", "sr", "m/m",
+    "deg*deg", "km/h/s", "1/s", "m**-9", "lbf", "pH", "cm_1", "quettameter", "yoctokg",
+    "US_survey_foot", "eV/c**2", "tex", "foo",
 )  # fmt: skip
 
 
@@ -121,13 +126,17 @@ def brief(make: Any) -> Any:
 
 @cache
 def other_registry() -> Any:
-    """A plain registry beside the application's, made once, as each takes time; nothing may be defined in it."""
+    """A plain registry beside the application's, made once, as each takes time; nothing may be
+    defined in it.
+    """
     return pint.UnitRegistry()
 
 
 @cache
 def registries() -> tuple[Any, ...]:
-    """Registries a caller may bring along, made once: the application's, one of its own, one that counts in Decimal."""
+    """Registries a caller may bring along, made once: the application's, one of its own, one that
+    counts in Decimal.
+    """
     return (
         pint.get_application_registry(),
         pint.UnitRegistry(system="imperial"),
@@ -148,7 +157,9 @@ def plausible(name: str) -> Any:
 @cache
 def extreme() -> Any:
     """Any float, the ends of the range more often than the rest."""
-    signed = st.tuples(st.sampled_from(EXTREMES), st.sampled_from((1.0, -1.0))).map(lambda pair: pair[0] * pair[1])
+    signed = st.tuples(st.sampled_from(EXTREMES), st.sampled_from((1.0, -1.0))).map(
+        lambda pair: pair[0] * pair[1]
+    )
     return st.one_of(signed, signed, st.floats())
 
 
@@ -177,9 +188,13 @@ def _arrays(draw: Any, name: str, shapes: Any, kinds: Any) -> np.ndarray:
     with np.errstate(all="ignore"):
         array = np.array(values, dtype=float).reshape(shape)
         array = (
-            np.nan_to_num(array, posinf=9.0, neginf=-9.0).clip(0, 200).astype(kind) if kind.kind in "iu" else array.astype(kind)
+            np.nan_to_num(array, posinf=9.0, neginf=-9.0).clip(0, 200).astype(kind)
+            if kind.kind in "iu"
+            else array.astype(kind)
         )
-    layout = draw(st.sampled_from(("plain", "strided", "fortran", "reversed", "locked", "broadcast")))
+    layout = draw(
+        st.sampled_from(("plain", "strided", "fortran", "reversed", "locked", "broadcast"))
+    )
     if layout == "strided":
         return np.repeat(array, 2, axis=-1)[..., ::2]
     if layout == "fortran":
@@ -203,7 +218,9 @@ def values(name: str, shapes: Any = SHAPES) -> Any:
         numbers(name),
         arrays(name, shapes),
         as_text,
-        st.builds(quantity, st.one_of(numbers(name), arrays(name, shapes)), spellings, st.integers(0, 3)),
+        st.builds(
+            quantity, st.one_of(numbers(name), arrays(name, shapes)), spellings, st.integers(0, 3)
+        ),
         st.builds(np.asarray, numbers(name)),
         numbers(name).map(lambda x: np.float32(x) if abs(x) < 3e38 else np.float64(x)),
         st.integers(-(2**70), 2**70),
@@ -375,32 +392,74 @@ NEVER = (
 @brief
 def texts() -> Any:
     """Texts of any kind, and such as are nearly a number and a unit."""
-    spelled = st.sampled_from([text for group in SPELLINGS.values() for text in group] + list(ODD_UNITS))
+    spelled = st.sampled_from(
+        [text for group in SPELLINGS.values() for text in group] + list(ODD_UNITS)
+    )
     number = st.one_of(
         st.floats().map(repr),
         st.sampled_from(
-            ("1", "-.5", "1e3", "1e400", "-1e-400", "+inf", "nan", "1_0", "٣", "1.", ".", "1e", "--1", "0x1", "1,5", "½", "²")
+            (
+                "1",
+                "-.5",
+                "1e3",
+                "1e400",
+                "-1e-400",
+                "+inf",
+                "nan",
+                "1_0",
+                "٣",
+                "1.",
+                ".",
+                "1e",
+                "--1",
+                "0x1",
+                "1,5",
+                "½",
+                "²",
+            )
         ),
         st.integers(-(10**30), 10**30).map(str),
     )
     gap = st.sampled_from((" ", "", "  ", "\t", "\n", "\u00a0", " *", "\x00", "\u2009"))
     near = st.builds("{}{}{}".format, number, gap, spelled)
-    alphabet = st.sampled_from(string.ascii_letters + string.digits + " */^().-+%°·²³µΩ_[]{}\n\x00é中\ud800")
+    alphabet = st.sampled_from(
+        string.ascii_letters + string.digits + " */^().-+%°·²³µΩ_[]{}\n\x00é中\ud800"
+    )
     mutated = st.builds(
-        lambda text, at, new: text[:at] + new + text[at:], near, st.integers(0, 12), st.text(alphabet, max_size=3)
+        lambda text, at, new: text[:at] + new + text[at:],
+        near,
+        st.integers(0, 12),
+        st.text(alphabet, max_size=3),
     )
     names = st.sampled_from(sorted(map(str, dir(registries()[0])))).map("1 {}".format)
-    return st.one_of(near, mutated, st.text(max_size=20), st.text(alphabet, max_size=70), names, near.map(np.str_))
+    return st.one_of(
+        near,
+        mutated,
+        st.text(max_size=20),
+        st.text(alphabet, max_size=70),
+        names,
+        near.map(np.str_),
+    )
 
 
 @brief
 def garbage() -> Any:
     """Anything at all."""
-    leaf = st.one_of(extreme(), st.none(), st.booleans(), st.integers(), texts(), st.binary(max_size=5), st.complex_numbers())
+    leaf = st.one_of(
+        extreme(),
+        st.none(),
+        st.booleans(),
+        st.integers(),
+        texts(),
+        st.binary(max_size=5),
+        st.complex_numbers(),
+    )
     nested = st.recursive(
         leaf,
         lambda inner: st.one_of(
-            st.lists(inner, max_size=3), st.tuples(inner, inner), st.dictionaries(st.text(max_size=3), inner, max_size=2)
+            st.lists(inner, max_size=3),
+            st.tuples(inner, inner),
+            st.dictionaries(st.text(max_size=3), inner, max_size=2),
         ),
         max_leaves=5,
     )
@@ -438,8 +497,24 @@ def garbage() -> Any:
     )
     scalar = blank.filter(lambda array: array.size).map(lambda array: array.reshape(-1)[0])
     magnitude = st.one_of(
-        numbers("mass"), arrays("mass"), st.none(), st.booleans(), st.integers(), blank, st.lists(extreme(), max_size=3)
+        numbers("mass"),
+        arrays("mass"),
+        st.none(),
+        st.booleans(),
+        st.integers(),
+        blank,
+        st.lists(extreme(), max_size=3),
     )
     spelled = [text for group in SPELLINGS.values() for text in group] + list(ODD_UNITS)
     odd = st.builds(quantity, magnitude, st.sampled_from(spelled), st.integers(0, 3))
-    return st.one_of(never_numbers(), nested, texts(), blank, scalar, odd, odd, st.integers(-(10**400), 10**400), arrays("x"))
+    return st.one_of(
+        never_numbers(),
+        nested,
+        texts(),
+        blank,
+        scalar,
+        odd,
+        odd,
+        st.integers(-(10**400), 10**400),
+        arrays("x"),
+    )

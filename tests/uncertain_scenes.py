@@ -1,4 +1,6 @@
-"""Models of uncertain scenes, and their inputs drawn by numpy's own generators: nothing here is drawn by the package."""
+"""Models of uncertain scenes, and their inputs drawn by numpy's own generators: nothing here is
+drawn by the package.
+"""
 
 import numpy as np
 
@@ -18,7 +20,9 @@ def stick_slip(speed_a, speed_b, friction, restitution):
     """A side impact whose contact sticks in some cases and slides in others."""
     a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.2, y=0.0, vx=speed_a)
     b = col.Vehicle(mass=1300.0, yaw_inertia=2100.0, x=0.9, y=-0.4, vy=speed_b)
-    impact = col.eccentric(a, b, restitution, normal=0.0, point=(0.0, 0.0), friction=friction, on_failure="nan")
+    impact = col.eccentric(
+        a, b, restitution, normal=0.0, point=(0.0, 0.0), friction=friction, on_failure="nan"
+    )
     return {"yaw": impact.b.after.yaw_rate, "delta_v": impact.b.delta_v}
 
 
@@ -52,7 +56,9 @@ def truncated(mean, sd, low, high=np.inf):
 
 def lognormal(mean, sd):
     variance = np.log1p((sd / mean) ** 2)
-    return lambda generator, count: np.exp(np.log(mean) - 0.5 * variance + np.sqrt(variance) * generator.standard_normal(count))
+    return lambda generator, count: np.exp(
+        np.log(mean) - 0.5 * variance + np.sqrt(variance) * generator.standard_normal(count)
+    )
 
 
 def triangular(low, mode, high):
@@ -109,7 +115,9 @@ SCENES = {
         {
             "drag": truncated(0.7, 0.05, 0.3),
             "length": lambda generator, count: 18.0 + 0.5 * generator.standard_normal(count),
-            "course_after": lambda generator, count: np.radians(35.0 + 3.0 * generator.standard_normal(count)),
+            "course_after": lambda generator, count: np.radians(
+                35.0 + 3.0 * generator.standard_normal(count)
+            ),
             "mass_a": lambda generator, count: 1500.0 + 40.0 * generator.standard_normal(count),
             "mass_b": lambda generator, count: 1200.0 + 40.0 * generator.standard_normal(count),
         },

@@ -12,8 +12,9 @@ ORDER = (
     *("C01", "C03", "C04", "E01", "E03", "E06", "E07", "E12"),
 )
 FITTED = (
-    "The published figures are those of a planar impact solution with the no-slip rule of Brach. Its authors chose "
-    "restitution, normal and impact centres so that it fits the crash test; the readings of the test are not in these data."
+    "The published figures are those of a planar impact solution with the no-slip rule of Brach. "
+    "Its authors chose restitution, normal and impact centres so that it fits the crash test; "
+    "the readings of the test are not in these data."
 )
 
 
@@ -21,18 +22,33 @@ def notes(case: str) -> list[str]:
     """What a reader of the page must know of a case."""
     published = CASES[case]["published_outputs"]
     if case == "M10":
-        return ["Closing velocity and restitution are on the line of the two centres, as in the source."]
+        return [
+            "Closing velocity and restitution are on the line of the two centres, as in the source."
+        ]
     if case == "E01":
-        return ["The contact 1 ft above the centre was inferred from the two printed answers: one of the two had to agree."]
+        return [
+            (
+                "The contact 1 ft above the centre was inferred from the two printed answers: "
+                "one of the two had to agree."
+            )
+        ]
     if case in TESTS:
         return [FITTED]
     if case == "E07":
         return [
-            f'The source says "{published["status"]}", the library "{carpenter_impact(carpenter_normal()).regime}".',
-            "The sheet enters the normal of the test as a tangent. Its arithmetic is right, but it is no model of the test.",
+            (
+                f'The source says "{published["status"]}", the library '
+                f'"{carpenter_impact(carpenter_normal()).regime}".'
+            ),
+            (
+                "The sheet enters the normal of the test as a tangent. Its arithmetic is right, "
+                "but it is no model of the test."
+            ),
         ]
     if case == "E12":
-        return [f"Published as formulas: {published['tan_difference']} and {published['spin_change']}."]
+        return [
+            f"Published as formulas: {published['tan_difference']} and {published['spin_change']}."
+        ]
     return []
 
 
@@ -52,12 +68,25 @@ def figures(case: str) -> list[Figure]:
     """The published figures of a case, as its first solution computes them."""
     found = SOLUTIONS[case][0](case)
     if case != "E12":
-        return [figure(case, name, ours) for name, ours in found.items() if name in CASES[case]["published_outputs"]]
+        return [
+            figure(case, name, ours)
+            for name, ours in found.items()
+            if name in CASES[case]["published_outputs"]
+        ]
     # Formulas, with their values at the example of the data.
     expected = CASES[case]["recomputed_outputs"]
     return [
-        Figure(quantity, name, unit, str(expected[f"expected_{name}"]["value"]), found[f"{name}_example"])
-        for quantity, name, unit in (("ratio of velocities", "tan_difference", ""), ("yaw rate", "spin_change", "rad/s"))
+        Figure(
+            quantity,
+            name,
+            unit,
+            str(expected[f"expected_{name}"]["value"]),
+            found[f"{name}_example"],
+        )
+        for quantity, name, unit in (
+            ("ratio of velocities", "tan_difference", ""),
+            ("yaw rate", "spin_change", "rad/s"),
+        )
     ]
 
 

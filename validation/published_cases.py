@@ -1,9 +1,11 @@
-"""The runner: reads the published cases, and compares what the library computes of them with what was printed.
+"""The runner: reads the published cases, and compares what the library computes of them with what
+was printed.
 
-A solution turns the inputs of a case into figures, by their names in its record (``solution``); a solution backwards turns
-printed figures of the end into inputs (``backwards``). Each is compared to half a unit in the last printed digit, unless the
-record itself gives another tolerance (``within``) with its reason (``remark``). Where a record says that the print is wrong
-(``wrong``), the figure must differ from it.
+A solution turns the inputs of a case into figures, by their names in its record (``solution``); a
+solution backwards turns printed figures of the end into inputs (``backwards``). Each is compared to
+half a unit in the last printed digit, unless the record itself gives another tolerance (``within``)
+with its reason (``remark``). Where a record says that the print is wrong (``wrong``), the figure
+must differ from it.
 """
 
 from __future__ import annotations
@@ -26,7 +28,9 @@ Figures = dict[str, Number]
 
 
 def given(case: str, name: str) -> str | float:
-    """An input of a case as a text with its unit; what follows the unit in the source is a direction."""
+    """An input of a case as a text with its unit; what follows the unit in the source is a
+    direction.
+    """
     entry = CASES[case]["inputs"][name]
     unit = entry["unit"].replace("ft2", "ft**2").replace("slug ", "slug*").split(",")[0].split()[0]
     return float(entry["value"]) if unit == "-" else f"{entry['value']} {unit}"
@@ -38,7 +42,9 @@ def number(case: str, name: str) -> float:
 
 
 def output(case: str, name: str, kind: str = "recomputed_outputs") -> Any:
-    """A figure of a case as it was printed, or as it was worked out apart when the data were put together."""
+    """A figure of a case as it was printed, or as it was worked out apart when the data were put
+    together.
+    """
     return CASES[case][kind][name]["value"]
 
 
@@ -61,7 +67,10 @@ def law_of(case: str) -> str:
 def numbers(case: str, solve: Callable[[str], Figures]) -> dict[str, float]:
     """The figures of a solution under the law of its source."""
     law = law_of(case)
-    return {name: value[law] if isinstance(value, dict) else value for name, value in solve(case).items()}
+    return {
+        name: value[law] if isinstance(value, dict) else value
+        for name, value in solve(case).items()
+    }
 
 
 # Comparisons
@@ -69,7 +78,9 @@ def numbers(case: str, solve: Callable[[str], Figures]) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class Comparison:
-    """A figure of a record beside ours. ``wrong``: the print is known to be wrong, so that agreement would be the error."""
+    """A figure of a record beside ours. ``wrong``: the print is known to be wrong, so that
+    agreement would be the error.
+    """
 
     case: str
     what: str
@@ -91,7 +102,9 @@ BACKWARDS: list[Backwards] = []
 
 
 def solution(*cases: str) -> Callable[[Any], Any]:
-    """Register a function of the case's name that computes figures of it; the first of a case is that of the page."""
+    """Register a function of the case's name that computes figures of it; the first of a case is
+    that of the page.
+    """
 
     def register(solve: Any) -> Any:
         for case in cases:
@@ -125,7 +138,9 @@ def comparison(case: str, kind: str, name: str, ours: float, extra: float = 0.0)
 
 
 def comparisons(case: str) -> Iterator[Comparison]:
-    """Every figure of a worked example that is computed, against its print and against what was worked out apart."""
+    """Every figure of a worked example that is computed, against its print and against what was
+    worked out apart.
+    """
     spreads = {kind: SPREADS[case, kind](case) for kind in KINDS if (case, kind) in SPREADS}
     for solve in SOLUTIONS[case]:
         figures = numbers(case, solve)
@@ -134,7 +149,8 @@ def comparisons(case: str) -> Iterator[Comparison]:
             if not kinds:
                 raise AssertionError(f"{case} has no figure {name!r} to compare with")
             for kind in kinds:
-                # A print may follow from a step of its source, which was computed as a figure of its own.
+                # A print may follow from a step of its source, which was computed as a figure of
+                # its own.
                 ours = figures[CASES[case][kind][name].get("computed_as", name)]
                 yield comparison(case, kind, name, ours, spreads.get(kind, {}).get(name, 0.0))
 
@@ -146,8 +162,9 @@ def comparisons(case: str) -> Iterator[Comparison]:
 class Backwards:
     """A way back from printed figures of the end to inputs of a case.
 
-    ``most`` bounds, by input, what half a unit of every printed figure that goes in may be worth: a comparison within more
-    would say nothing. ``expected`` has the inputs that the record does not name.
+    ``most`` bounds, by input, what half a unit of every printed figure that goes in may be worth: a
+    comparison within more would say nothing. ``expected`` has the inputs that the record does not
+    name.
     """
 
     case: str
@@ -161,7 +178,9 @@ class Backwards:
     def printed(self) -> list[Any]:
         """The figures that go in, as they were printed."""
         values = [output(self.case, name, self.kind) for name in self.figures]
-        return [each for value in values for each in (value if isinstance(value, list) else [value])]
+        return [
+            each for value in values for each in (value if isinstance(value, list) else [value])
+        ]
 
     def comparisons(self) -> Iterator[Comparison]:
         """Every input found beside the one of the record."""
@@ -169,13 +188,23 @@ class Backwards:
         for name, most in self.most.items():
             expected = self.expected[name] if name in self.expected else number(self.case, name)
             if not found.spread[name] < most:
-                raise AssertionError(f"{self.case} {name}: the print is worth {found.spread[name]:g}, more than {most:g}")
-            what = f"{name} from {self.kind.partition('_')[0]} {', '.join(self.figures)} ({self.solve.__name__})"
-            yield Comparison(self.case, what, repr(expected), found.value[name], found.within(name), self.wrong)
+                raise AssertionError(
+                    f"{self.case} {name}: the print is worth {found.spread[name]:g}, more than "
+                    f"{most:g}"
+                )
+            what = (
+                f"{name} from {self.kind.partition('_')[0]} {', '.join(self.figures)} "
+                f"({self.solve.__name__})"
+            )
+            yield Comparison(
+                self.case, what, repr(expected), found.value[name], found.within(name), self.wrong
+            )
 
 
 class Printed:
-    """A function of printed figures: its values, and what half a unit in the last digit of each, all together, is worth."""
+    """A function of printed figures: its values, and what half a unit in the last digit of each,
+    all together, is worth.
+    """
 
     def __init__(self, function: Callable[..., dict[str, float]], *figures: Decimal | str) -> None:
         exact = [float(figure) for figure in figures]
@@ -187,7 +216,9 @@ class Printed:
                 self.spread[name] += abs(value - self.value[name])
 
     def within(self, name: str) -> float:
-        """How far the value may be from the expected one: the spread, and a tenth of it for its curvature."""
+        """How far the value may be from the expected one: the spread, and a tenth of it for its
+        curvature.
+        """
         return 1.1 * self.spread[name] + 1e-9 * abs(self.value[name])
 
 
@@ -199,11 +230,15 @@ def backwards(
     expected: dict[str, float] | None = None,
     wrong: bool = False,
 ) -> Callable[[Any], Any]:
-    """Register a function of the case's name and its printed figures that finds inputs of the case."""
+    """Register a function of the case's name and its printed figures that finds inputs
+    of the case.
+    """
 
     def register(solve: Any) -> Any:
         BACKWARDS.extend(
-            Backwards(case, kind, tuple(figures), solve, most, expected or {}, wrong) for case in cases for kind in kinds
+            Backwards(case, kind, tuple(figures), solve, most, expected or {}, wrong)
+            for case in cases
+            for kind in kinds
         )
         return solve
 
@@ -230,8 +265,12 @@ def figure(case: str, name: str, computed: Number, quantity: str = "") -> Figure
     )
 
 
-def case_of(name: str, figures: list[Figure], *more_records: str, notes: Iterable[str] = ()) -> Case:
+def case_of(
+    name: str, figures: list[Figure], *more_records: str, notes: Iterable[str] = ()
+) -> Case:
     """A worked example as a case of the page."""
     source = CASES[name]["source"]
     records = [f"{EXAMPLES}: {name}", *more_records]
-    return Case(name, source["title"], records, source["url"], figures, law=law_of(name), notes=list(notes))
+    return Case(
+        name, source["title"], records, source["url"], figures, law=law_of(name), notes=list(notes)
+    )

@@ -1,4 +1,6 @@
-"""The published records as files, what a comparison with one of their figures is, and the statistics of many."""
+"""The published records as files, what a comparison with one of their figures is, and the
+statistics of many.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,8 @@ from typing import Any
 DATA = Path(__file__).resolve().parent / "data"
 LAWS = ("brach", "kudlich-slibar")
 PERCENT, DEGREES, ABSOLUTE = "%", "deg", "1"
-# Angles are compared by their difference, and so is a restitution: a percentage of a number near 0 says nothing.
+# Angles are compared by their difference, and so is a restitution: a percentage of a number near 0
+# says nothing.
 MEASURES = {"direction": DEGREES, "restitution read": ABSOLUTE}
 EXAMPLES, OBLIQUE, OVERLAP, IN_LINE, RESTITUTION = (
     "worked_examples.json",
@@ -39,13 +42,17 @@ def examples() -> dict[str, dict[str, Any]]:
 
 def record_names() -> list[str]:
     """Every record of every file, by one name each."""
+    named = ("data_set", "closing_speed", "closing_speed_unit")
     return [
         *(f"{EXAMPLES}: {name}" for name in examples()),
-        *(f"{OBLIQUE}: {row['nhtsa_test']} vehicle {row['vehicle_no']}" for row in rows_of(OBLIQUE)),
+        *(
+            f"{OBLIQUE}: {row['nhtsa_test']} vehicle {row['vehicle_no']}"
+            for row in rows_of(OBLIQUE)
+        ),
         *(f"{OVERLAP}: {row['test_id']}" for row in rows_of(OVERLAP)),
         *(f"{IN_LINE}: {row['test']} vehicle {row['vehicle_no']}" for row in rows_of(IN_LINE)),
         *(
-            f"{RESTITUTION}: {' '.join(filter(None, (row['data_set'], row['closing_speed'], row['closing_speed_unit'])))}"
+            " ".join(filter(None, (f"{RESTITUTION}:", *(row[name] for name in named))))
             for row in rows_of(RESTITUTION)
         ),
     ]
@@ -65,8 +72,9 @@ def half_unit(digits: str) -> float:
 class Figure:
     """One printed or measured number, and what the library computes for it.
 
-    ``computed`` is one number, or one for each law where friction acts. ``wrong`` says what is wrong with the print, or why the
-    reading is doubtful; ``remark`` why a difference of more than half a unit of the last printed digit is none of the library.
+    ``computed`` is one number, or one for each law where friction acts. ``wrong`` says what is
+    wrong with the print, or why the reading is doubtful; ``remark`` why a difference of more than
+    half a unit of the last printed digit is none of the library.
     """
 
     quantity: str
@@ -99,14 +107,19 @@ class Figure:
         }
         if both is not None:
             found["by_law"] = {
-                each: {"computed": rounded(value), "difference": difference(rounded(value), self.printed, measure)}
+                each: {
+                    "computed": rounded(value),
+                    "difference": difference(rounded(value), self.printed, measure),
+                }
                 for each, value in both.items()
             }
         return found
 
 
 def difference(ours: float, printed: str, measure: str) -> float:
-    """Computed less printed; in percent of the print, above 0 where the computed figure is the larger in size."""
+    """Computed less printed; in percent of the print, above 0 where the computed figure is the
+    larger in size.
+    """
     theirs = float(printed)
     return rounded(100.0 * (ours / theirs - 1.0) if measure == PERCENT else ours - theirs)
 
@@ -155,9 +168,15 @@ def summary(named: Iterable[tuple[str, float]]) -> dict[str, Any]:
 
 
 def table_of(cases: list[Case]) -> dict[str, Any]:
-    """The cases of a table with their statistics by quantity, with and without what is misprinted or doubtful."""
+    """The cases of a table with their statistics by quantity, with and without what is misprinted
+    or doubtful.
+    """
     entries = [case.entry() for case in cases]
-    flat = [(f"{case['key']}: {figure['name']}", figure) for case in entries for figure in case["figures"]]
+    flat = [
+        (f"{case['key']}: {figure['name']}", figure)
+        for case in entries
+        for figure in case["figures"]
+    ]
     found = []
     for quantity in dict.fromkeys(figure["quantity"] for _, figure in flat):
         mine = [(name, figure) for name, figure in flat if figure["quantity"] == quantity]
@@ -171,7 +190,12 @@ def table_of(cases: list[Case]) -> dict[str, Any]:
                 "set_aside": len(mine) - len(sound),
                 "sound": summary((name, figure["difference"]) for name, figure in sound),
                 "all": summary((name, figure["difference"]) for name, figure in mine),
-                "laws": {law: summary((name, figure["by_law"][law]["difference"]) for name, figure in both) for law in LAWS},
+                "laws": {
+                    law: summary(
+                        (name, figure["by_law"][law]["difference"]) for name, figure in both
+                    )
+                    for law in LAWS
+                },
             }
         )
     return {"cases": entries, "statistics": found}

@@ -1,6 +1,8 @@
-"""Solves every published case, writes docs/_generated/validation.json and the figures of the page, and prints the tables.
+"""Solves every published case, writes docs/_generated/validation.json and the figures of the page,
+and prints the tables.
 
-Run with ``python validation/run.py``. It takes a few seconds and needs the library and, for the figures, matplotlib.
+Run with ``python validation/run.py``. It takes a few seconds and needs the library and, for the
+figures, matplotlib.
 """
 
 from __future__ import annotations
@@ -33,10 +35,20 @@ def homes(found: dict[str, Any]) -> dict[str, str]:
         for case in found[name]["cases"]
         for record in case["records"]
     ]
-    placed += [(record, "nothing published") for case in found["nothing_published"] for record in case["records"]]
-    placed += [(record, "inputs only") for entry in found["inputs_only"] for record in entry["records"]]
+    placed += [
+        (record, "nothing published")
+        for case in found["nothing_published"]
+        for record in case["records"]
+    ]
+    placed += [
+        (record, "inputs only") for entry in found["inputs_only"] for record in entry["records"]
+    ]
     counts = Counter(record for record, _ in placed)
-    wrong = {name: counts[name] for name in {*record_names(), *counts} if counts[name] != 1 or name not in record_names()}
+    wrong = {
+        name: counts[name]
+        for name in {*record_names(), *counts}
+        if counts[name] != 1 or name not in record_names()
+    }
     if wrong:
         raise AssertionError(f"records that are not in exactly one place: {wrong}")
     return dict(sorted(placed))

@@ -1,4 +1,6 @@
-"""The published cases solved from their inputs: the worked examples, and the rows of two tables of crash tests."""
+"""The published cases solved from their inputs: the worked examples, and the rows of two tables of
+crash tests.
+"""
 
 from __future__ import annotations
 
@@ -34,13 +36,19 @@ Row = dict[str, str]
 
 def bodies(case: str, mass: str = "m", speed: str = "u", marks: str = "12") -> list[col.Vehicle]:
     """The two bodies of a case in line, as they came."""
-    return [col.Vehicle(mass=given(case, f"{mass}{i}"), vx=given(case, f"{speed}{i}")) for i in marks]
+    return [
+        col.Vehicle(mass=given(case, f"{mass}{i}"), vx=given(case, f"{speed}{i}")) for i in marks
+    ]
 
 
 @solution("L01")
 def railroad_cars(case: str) -> Figures:
     """The restitution and the fourth velocity from three."""
-    velocities = {"va": given(case, "v_A"), "vb": given(case, "v_B"), "vb_after": given(case, "v_B_after")}
+    velocities = {
+        "va": given(case, "v_A"),
+        "vb": given(case, "v_B"),
+        "vb_after": given(case, "v_B_after"),
+    }
     impact = reconstruct.central(given(case, "m_A"), given(case, "m_B"), **velocities)
     return {"v_A_after": impact.a.after.vx, "e": impact.restitution}
 
@@ -48,7 +56,9 @@ def railroad_cars(case: str) -> Figures:
 @solution("L01")
 def railroad_cars_with_the_printed_restitution(case: str) -> Figures:
     """Both velocities after."""
-    impact = col.linear_central(*bodies(case, "m_", "v_", "AB"), float(output(case, "e", "published_outputs")))
+    impact = col.linear_central(
+        *bodies(case, "m_", "v_", "AB"), float(output(case, "e", "published_outputs"))
+    )
     return {"v_A_after": impact.a.after.vx, "v_B_after": impact.b.after.vx}
 
 
@@ -65,7 +75,9 @@ def restitution_of_the_railroad_cars(case: str) -> Figures:
 def speeding_car(case: str) -> Figures:
     """Both velocities of the car from the motion of the van that it struck."""
     van = {"vb": given(case, "v2_before"), "vb_after": given(case, "v2_after")}
-    impact = reconstruct.central(given(case, "m1"), given(case, "m2"), **van, restitution=given(case, "e"))
+    impact = reconstruct.central(
+        given(case, "m1"), given(case, "m2"), **van, restitution=given(case, "e")
+    )
     return {"v1_before": impact.a.before.vx, "v1_after": impact.a.after.vx}
 
 
@@ -86,7 +98,9 @@ def elastic_pair(case: str) -> Figures:
 
 @solution("L08")
 def train_cars(case: str) -> Figures:
-    """An unknown mass, from the impulse that the first car felt and the velocity that the second took up."""
+    """An unknown mass, from the impulse that the first car felt and the velocity that the second
+    took up.
+    """
     a = col.Vehicle(mass=given(case, "m1"), vx=given(case, "u1"))
     lost = a.q.momentum[0] - a.replace(vx=given(case, "v_common")).q.momentum[0]
     return {"m2": (lost / col.Vehicle(mass=1.0, vx=given(case, "v_common")).q.vx).m_as("kg")}
@@ -120,7 +134,11 @@ def momentum_after(case: str) -> Figures:
     """It is the same after an impact, whatever the restitution."""
     a, b = bodies(case, "W", "v")
     impact = col.linear_central(b, a, 0.3)
-    return {"total_momentum": (impact.a.after.q.momentum[0] + impact.b.after.q.momentum[0]).m_as("lb*mph")}
+    return {
+        "total_momentum": (impact.a.after.q.momentum[0] + impact.b.after.q.momentum[0]).m_as(
+            "lb*mph"
+        )
+    }
 
 
 @solution("L11")
@@ -133,10 +151,14 @@ def low_speed_test(case: str) -> Figures:
 
 @solution("L11")
 def measured_balance(case: str) -> Figures:
-    """What the measured delta-Vs show: a restitution, and two closing speeds, one from each, 9 percent apart."""
+    """What the measured delta-Vs show: a restitution, and two closing speeds, one from each, 9
+    percent apart.
+    """
     a, b = bodies(case)
     first, second = (output(case, name, "published_outputs") for name in ("dV1", "dV2"))
-    e = reconstruct.restitution(a, b, a.replace(vx=a.vx - float(first) * MPH), b.replace(vx=f"{second} mph"), normal=0.0)
+    e = reconstruct.restitution(
+        a, b, a.replace(vx=a.vx - float(first) * MPH), b.replace(vx=f"{second} mph"), normal=0.0
+    )
     masses = given(case, "m1"), given(case, "m2")
     from_a = reconstruct.inline_closing_speed(*masses, e, delta_v_a=f"{first} mph")
     from_b = reconstruct.inline_closing_speed(*masses, e, delta_v_b=f"{second} mph")
@@ -147,7 +169,9 @@ def measured_balance(case: str) -> Figures:
 def skid_to_impact_speed(case: str) -> Figures:
     """66 ft of skid to the common speed, and that to the impact speed."""
     common = travel.speed(given(case, "skid"), drag=given(case, "drag_factor"))
-    common *= math.sqrt(30 * MPH**2 / (2 * travel.GRAVITY * FOOT))  # 30 mph2 per foot stands in the source for 2 g
+    common *= math.sqrt(
+        30 * MPH**2 / (2 * travel.GRAVITY * FOOT)
+    )  # 30 mph2 per foot stands in the source for 2 g
     masses = given(case, "W1"), given(case, "W2")
     impact = reconstruct.central(*masses, vb=given(case, "u2"), vb_after=common, restitution=0.0)
     return {
@@ -195,12 +219,16 @@ COURSE = {**PRINTED_ANGLE, "M05": lambda angle: angle}
 
 
 def stuck(case: str, law: str = "brach", normal: Any = None) -> col.Impact:
-    """Two cars that stick together: e = 0 and no slip, along the relative velocity unless a normal is given."""
+    """Two cars that stick together: e = 0 and no slip, along the relative velocity unless a normal
+    is given.
+    """
     a, b = (
         col.Vehicle.from_speed(mass=given(case, f"m{i}"), speed=given(case, f"v{i}"), course=course)
         for i, course in zip("12", COURSES[case], strict=True)
     )
-    return col.oblique_central(a, b, 0.0, normal=normal or (a.vx - b.vx, a.vy - b.vy), friction=math.inf, law=law)
+    return col.oblique_central(
+        a, b, 0.0, normal=normal or (a.vx - b.vx, a.vy - b.vy), friction=math.inf, law=law
+    )
 
 
 @solution(*COURSES)
@@ -241,7 +269,9 @@ def golf_and_pinto(case: str) -> Figures:
 
 
 def edcrash_inputs() -> tuple[dict[str, Any], tuple[float, float]]:
-    """The motions of M10 and its line of centres: EDCRASH counts angles clockwise and y to the right; both change sign here."""
+    """The motions of M10 and its line of centres: EDCRASH counts angles clockwise and y to the
+    right; both change sign here.
+    """
     inputs = CASES["M10"]["inputs"]
     known: dict[str, Any] = {}
     for i, side in (("1", "a"), ("2", "b")):
@@ -250,7 +280,9 @@ def edcrash_inputs() -> tuple[dict[str, Any], tuple[float, float]]:
         known[f"mass_{side}"] = given("M10", f"m{i}")
         known[f"heading_{side}"] = f"{-heading!r} deg"
         known[f"course_{side}"] = f"{-(heading + number('M10', f'sideslip{i}_impact'))!r} deg"
-        known[f"course_{side}_after"] = f"{-(heading + math.degrees(math.atan2(lateral, forward)))!r} deg"
+        known[f"course_{side}_after"] = (
+            f"{-(heading + math.degrees(math.atan2(lateral, forward)))!r} deg"
+        )
         known[f"speed_{side}_after"] = f"{math.hypot(forward, lateral)!r} km/h"
     (x1, y1), (x2, y2) = ([float(part) for part in inputs[f"position{i}"]["value"]] for i in "12")
     return known, (x2 - x1, -(y2 - y1))
@@ -258,7 +290,9 @@ def edcrash_inputs() -> tuple[dict[str, Any], tuple[float, float]]:
 
 @solution("M10")
 def edcrash(case: str) -> Figures:
-    """Every figure of the tutorial that momentum gives; closing velocity and restitution are on the line of the centres."""
+    """Every figure of the tutorial that momentum gives; closing velocity and restitution are on the
+    line of the centres.
+    """
     known, line = edcrash_inputs()
     found = reconstruct.momentum(**known, normal=line)
     figures: Figures = {}
@@ -269,7 +303,9 @@ def edcrash(case: str) -> Figures:
         figures[f"dV{i}_forward"] = -dv * math.cos(pdof)
         figures[f"dV{i}_lateral"] = -dv * math.sin(pdof)
         figures[f"PDOF{i}"] = math.degrees(pdof)
-    figures["closing_velocity"] = figures["closing_velocity_on_CG_line"] = found.q.closing_speed.m_as("km/h")
+    figures["closing_velocity"] = figures["closing_velocity_on_CG_line"] = (
+        found.q.closing_speed.m_as("km/h")
+    )
     figures["restitution"] = figures["restitution_on_CG_line"] = found.restitution
     return figures
 
@@ -281,7 +317,9 @@ def edcrash_restitution(case: str) -> Figures:
     found = reconstruct.momentum(**known)
     motions = [
         col.Vehicle.from_speed(
-            mass=known[f"mass_{side}"], speed=getattr(found, f"speed_{side}{after}"), course=known[f"course_{side}{after}"]
+            mass=known[f"mass_{side}"],
+            speed=getattr(found, f"speed_{side}{after}"),
+            course=known[f"course_{side}{after}"],
         )
         for after in ("", "_after")
         for side in "ab"
@@ -290,7 +328,9 @@ def edcrash_restitution(case: str) -> Figures:
 
 
 def head_on(**changes: Any) -> Any:
-    """X01, the head-on input set of Schreier and Nelson, by momentum; the course of car 2 was worked out apart."""
+    """X01, the head-on input set of Schreier and Nelson, by momentum; the course of car 2 was
+    worked out apart.
+    """
     inputs = {
         "course_a": given("X01", "course1_before"),
         "course_b": f"{output('X01', 'course2_before')} deg",
@@ -300,7 +340,8 @@ def head_on(**changes: Any) -> Any:
         "speed_b_after": given("X01", "v2_after"),
     }
     with warnings.catch_warnings():
-        # 4 degrees from one line: the speeds hang on the last digits of the course, which the page says.
+        # 4 degrees from one line: the speeds hang on the last digits of the course, which the page
+        # says.
         warnings.simplefilter("ignore", col.IllConditionedWarning)
         return reconstruct.momentum(given("X01", "m1"), given("X01", "m2"), **{**inputs, **changes})
 
@@ -318,10 +359,15 @@ def head_on_speeds(case: str) -> Figures:
 
 @spread("X01", kind="recomputed_outputs")
 def digits_of_the_course(case: str) -> dict[str, float]:
-    """What half a unit in the course of car 2 is worth: 3.9 degrees from one line, more than half a unit of the speeds."""
+    """What half a unit in the course of car 2 is worth: 3.9 degrees from one line, more than half a
+    unit of the speeds.
+    """
     half = half_unit(str(output(case, "course2_before")))
     slope = head_on().q.sensitivity
-    found = {f"v{i}_before": abs(slope[f"speed_{s}"]["course_b"].m_as("km/h/deg")) * half for i, s in (("1", "a"), ("2", "b"))}
+    found = {
+        f"v{i}_before": abs(slope[f"speed_{s}"]["course_b"].m_as("km/h/deg")) * half
+        for i, s in (("1", "a"), ("2", "b"))
+    }
     found["dV1"] = found["v1_before"]  # what is after is known, so both hang on the course alike
     if max(found.values()) > 2e-3:
         raise AssertionError(f"{case}: the digits of the course are worth {found}")
@@ -330,10 +376,18 @@ def digits_of_the_course(case: str) -> dict[str, float]:
 
 @solution("O01")
 def two_balls(case: str) -> Figures:
-    """Equal balls, elastic and frictionless: the normal velocities are exchanged, the tangential ones stay."""
+    """Equal balls, elastic and frictionless: the normal velocities are exchanged, the tangential
+    ones stay.
+    """
     a = col.Vehicle.from_speed(mass=1.0, speed=number(case, "vA"), course="30 deg")
-    impact = col.oblique_central(a, col.Vehicle(mass=1.0, vx=-number(case, "vB")), given(case, "e"), normal=0.0, friction=0.0)
-    return {"vB_after": impact.b.after.vx, "vA_normal_after": impact.a.after.vx, "vA_tangential": impact.a.after.vy}
+    impact = col.oblique_central(
+        a, col.Vehicle(mass=1.0, vx=-number(case, "vB")), given(case, "e"), normal=0.0, friction=0.0
+    )
+    return {
+        "vB_after": impact.b.after.vx,
+        "vA_normal_after": impact.a.after.vx,
+        "vA_tangential": impact.a.after.vy,
+    }
 
 
 @solution("O02")
@@ -341,7 +395,9 @@ def smooth_surface(case: str) -> Figures:
     """A ball: e acts on the normal component alone."""
     incidence = math.radians(number(case, "incidence"))
     ball = col.Vehicle(mass=0.06, vx=20 * math.sin(incidence), vy=-20 * math.cos(incidence))
-    after = col.oblique_central(ball, FIXED, given(case, "e"), normal="-90 deg", friction=0.0).a.after
+    after = col.oblique_central(
+        ball, FIXED, given(case, "e"), normal="-90 deg", friction=0.0
+    ).a.after
     return {
         "speed_ratio": after.speed / ball.speed,
         "rebound_angle_from_normal": math.degrees(math.atan2(after.vx, after.vy)),
@@ -352,7 +408,9 @@ def smooth_surface(case: str) -> Figures:
 
 
 def hinged(case: str, e: Any = None, inertia: float | None = None) -> col.Impact:
-    """A standing body (C01 and C03 a rod, C04 a board) that hangs from the origin, struck from the left by a point mass."""
+    """A standing body (C01 and C03 a rod, C04 a board) that hangs from the origin, struck from the
+    left by a point mass.
+    """
     names = {
         "C01": ("m_rod", "L", "strike_distance_from_hinge", "m_sphere", "v_sphere"),
         "C03": ("implied_m_rod", "implied_L", "", "implied_m_ball", "implied_v_ball"),
@@ -364,7 +422,13 @@ def hinged(case: str, e: Any = None, inertia: float | None = None) -> col.Impact
         inertia = mass * length**2 / 12
     if e is None:
         e = given(case, "e") if "e" in CASES[case]["inputs"] else 0.0
-    a = col.Vehicle(mass=given(case, names[3]), vx=given(case, names[4]), yaw_inertia=math.inf, x=-0.1, y=-strike)
+    a = col.Vehicle(
+        mass=given(case, names[3]),
+        vx=given(case, names[4]),
+        yaw_inertia=math.inf,
+        x=-0.1,
+        y=-strike,
+    )
     b = col.Vehicle(mass=mass, yaw_inertia=inertia, x=0.0, y=-length / 2, pivot=(0.0, 0.0))
     return col.eccentric(a, b, e, normal=0.0, point=(0.0, -strike), friction=0.0)
 
@@ -374,7 +438,11 @@ def sphere_strikes_hinged_rod(case: str) -> Figures:
     """A hanging rod struck at its free end turns counter-clockwise."""
     impact = hinged(case)
     turn = impact.b.after.yaw_rate
-    return {"omega": turn, "v_sphere_after": impact.a.after.vx, "hinge_impulse": impact.b.pivot_impulse_x}
+    return {
+        "omega": turn,
+        "v_sphere_after": impact.a.after.vx,
+        "hinge_impulse": impact.b.pivot_impulse_x,
+    }
 
 
 @solution("C03")
@@ -402,11 +470,22 @@ def bullet_into_hinged_board(case: str) -> Figures:
 
 @solution("E01")
 def bar_into_a_wall(case: str) -> Figures:
-    """A bar that moves left and meets a wall 1 ft above its centre turns clockwise; its weight cancels."""
+    """A bar that moves left and meets a wall 1 ft above its centre turns clockwise; its weight
+    cancels.
+    """
     inertia = f"{2 * number(case, 'L') ** 2 / 12!r} lb*ft**2"
-    bar = col.Vehicle(mass="2 lb", vx=f"{-number(case, 'v')!r} ft/s", yaw_inertia=inertia, x=0.0, y=0.0, heading="90 deg")
+    bar = col.Vehicle(
+        mass="2 lb",
+        vx=f"{-number(case, 'v')!r} ft/s",
+        yaw_inertia=inertia,
+        x=0.0,
+        y=0.0,
+        heading="90 deg",
+    )
     point = (0.0, given(case, "contact_offset_from_cg"))
-    after = col.eccentric(bar, FIXED, given(case, "e"), normal="180 deg", point=point, friction=0.0).a.after
+    after = col.eccentric(
+        bar, FIXED, given(case, "e"), normal="180 deg", point=point, friction=0.0
+    ).a.after
     return {"omega": -after.yaw_rate, "v_cg_after": -after.q.vx.m_as("ft/s")}
 
 
@@ -469,7 +548,9 @@ def nhtsa_oblique(case: str) -> Figures:
 
 @spread(*TESTS)
 def rounding_of_the_impact_centres(case: str) -> dict[str, float]:
-    """What half a unit in the last digit of the printed impact centres (0.05 ft, 0.05 degree) is worth, all four together."""
+    """What half a unit in the last digit of the printed impact centres (0.05 ft, 0.05 degree) is
+    worth, all four together.
+    """
     rows = oblique_rows(case)
     exact = oblique_figures(oblique_impact(*rows))
     found = {f"{name}{i}": 0.0 for name in ("dV", "d_omega") for i in "12"}
@@ -487,22 +568,43 @@ def rounding_of_the_impact_centres(case: str) -> dict[str, float]:
 
 
 def carpenter_impact(normal: str, law: str = "kudlich-slibar") -> col.Impact:
-    """E07 with a given normal: its contact is on the car's own right, its heavy barrier a second body that heads back."""
+    """E07 with a given normal: its contact is on the car's own right, its heavy barrier a second
+    body that heads back.
+    """
     contact, other = (CASES["E07"]["inputs"][f"contact{i}_body"]["value"] for i in "12")
     car = col.Vehicle(
-        mass=slugs(number("E07", "W1")), yaw_inertia=given("E07", "I1"), vx=given("E07", "v1"), x=0.0, y=0.0, heading=0.0
+        mass=slugs(number("E07", "W1")),
+        yaw_inertia=given("E07", "I1"),
+        vx=given("E07", "v1"),
+        x=0.0,
+        y=0.0,
+        heading=0.0,
     )
     point = car.point(forward=f"{contact[0]} ft", left=f"{contact[1]} ft")
     heavy = col.Vehicle(
-        mass=slugs(number("E07", "W2")), yaw_inertia=given("E07", "I2"), x=0.0, y=0.0, heading=given("E07", "heading2")
+        mass=slugs(number("E07", "W2")),
+        yaw_inertia=given("E07", "I2"),
+        x=0.0,
+        y=0.0,
+        heading=given("E07", "heading2"),
     )
     px, py = heavy.point(forward=f"{other[0]} ft", left=f"{other[1]} ft")
     heavy = heavy.replace(x=point[0] - px, y=point[1] - py)
-    return col.eccentric(car, heavy, given("E07", "e"), normal=normal, point=point, friction=given("E07", "cof"), law=law)
+    return col.eccentric(
+        car,
+        heavy,
+        given("E07", "e"),
+        normal=normal,
+        point=point,
+        friction=given("E07", "cof"),
+        law=law,
+    )
 
 
 def carpenter_normal() -> str:
-    """The angle of the sheet is entered there as the tangent, so the normal of its arithmetic is 90 degrees less."""
+    """The angle of the sheet is entered there as the tangent, so the normal of its arithmetic is 90
+    degrees less.
+    """
     return f"{number('E07', 'tangent_axis_angle') - 90!r} deg"
 
 
@@ -532,15 +634,29 @@ def carpenter(case: str) -> Figures:
 def sphere_example() -> tuple[float, float, float, float]:
     """Radius, speed, angle from the normal and friction of the example of E12, in SI."""
     example = CASES["E12"]["inputs"]["example"]
-    return float(example["a"]), float(example["v"]), math.radians(float(example["theta_from_normal"])), float(example["mu"])
+    return (
+        float(example["a"]),
+        float(example["v"]),
+        math.radians(float(example["theta_from_normal"])),
+        float(example["mu"]),
+    )
 
 
 def sphere_impact(law: str = "brach", friction: float | None = None) -> col.Impact:
     """E12: a solid sphere without spin on a rough floor, elastic."""
     a, v, theta, mu = sphere_example()
-    sphere = col.Vehicle(mass=1.0, yaw_inertia=0.4 * a**2, vx=v * math.sin(theta), vy=-v * math.cos(theta), x=0.0, y=a)
+    sphere = col.Vehicle(
+        mass=1.0,
+        yaw_inertia=0.4 * a**2,
+        vx=v * math.sin(theta),
+        vy=-v * math.cos(theta),
+        x=0.0,
+        y=a,
+    )
     mu = mu if friction is None else friction
-    return col.eccentric(sphere, FIXED, given("E12", "e"), normal="-90 deg", point=(0.0, 0.0), friction=mu, law=law)
+    return col.eccentric(
+        sphere, FIXED, given("E12", "e"), normal="-90 deg", point=(0.0, 0.0), friction=mu, law=law
+    )
 
 
 @solution("E12")
@@ -556,7 +672,8 @@ def skidding_sphere(case: str) -> Figures:
     return dict(by_law(figures))
 
 
-# Against a barrier only the radius of gyration counts, not the mass: that of the Ford Fusion, for other cars as a stated proxy.
+# Against a barrier only the radius of gyration counts, not the mass: that of the Ford Fusion, for
+# other cars as a stated proxy.
 FUSION = {"mass": "111.0 slug", "yaw_inertia": "2336.3 slug*ft**2"}
 
 
@@ -604,7 +721,9 @@ def barrier_figures(impact: col.Impact) -> dict[str, float]:
 
 @solution("E09")
 def small_overlap(case: str) -> Figures:
-    """The barrier test CF11016: fitted to the measured motion, so the forward model returns that motion."""
+    """The barrier test CF11016: fitted to the measured motion, so the forward model returns that
+    motion.
+    """
     found = barrier_figures(barrier_impact(barrier_rows()["CF11016"]))
     return {
         "dVx": -found["delta-V rearward"],
@@ -616,7 +735,9 @@ def small_overlap(case: str) -> Figures:
 
 
 def rounding_of_the_barrier_centre(row: Row) -> float:
-    """What half a unit of the impact centre (0.05 ft, 0.05 degree) is worth in the delta-V, in ft/s."""
+    """What half a unit of the impact centre (0.05 ft, 0.05 degree) is worth in the delta-V, in
+    ft/s.
+    """
     ours = barrier_impact(row).a.q.delta_v.m_as("ft/s")
     found = 0.0
     for column in ("impact_center_distance_ft", "impact_center_angle_deg"):
@@ -640,21 +761,29 @@ def oblique_comparisons(case: str) -> Iterator[Comparison]:
             ("recomputed_delta_yaw_rate_deg_s_ccw", figures[f"d_omega{i}"]),
             ("recomputed_delta_v_along_own_heading_mph", side.delta_v_forward.m_as("mph")),
             ("recomputed_delta_v_left_of_own_heading_mph", side.delta_v_left.m_as("mph")),
-            ("recomputed_normal_closing_speed_at_contact_mph", figures["normal_closing_at_contact"]),
+            (
+                "recomputed_normal_closing_speed_at_contact_mph",
+                figures["normal_closing_at_contact"],
+            ),
             ("recomputed_energy_dissipated_ft_lb", figures["energy_dissipated"]),
         ):
             yield Comparison(test, f"{i} {column}", row[column], ours, half_unit(row[column]))
-        # The sign of a change of yaw rate is misprinted where the record says so; its size is right.
+        # The sign of a change of yaw rate is misprinted where the record says so; its size is
+        # right.
         sign = -1.0 if "sign misprint" in row["note"] else 1.0
         for column, name, ours in (
             ("published_delta_v_mph", f"dV{i}", figures[f"dV{i}"]),
             ("published_delta_yaw_rate_deg_s", f"d_omega{i}", sign * figures[f"d_omega{i}"]),
         ):
-            yield Comparison(test, f"{i} {column}", row[column], ours, half_unit(row[column]) + spreads[name])
+            yield Comparison(
+                test, f"{i} {column}", row[column], ours, half_unit(row[column]) + spreads[name]
+            )
 
 
 def barrier_comparisons(test: str) -> Iterator[Comparison]:
-    """The recomputed columns of a row of small_overlap_barrier.csv, the delta-V of its model, the normal of a corrupt sheet."""
+    """The recomputed columns of a row of small_overlap_barrier.csv, the delta-V of its model, the
+    normal of a corrupt sheet.
+    """
     row = barrier_rows()[test]
     figures = barrier_figures(barrier_impact(row))
     for column, name in (
@@ -671,7 +800,12 @@ def barrier_comparisons(test: str) -> Iterator[Comparison]:
         within = half_unit(printed) + rounding_of_the_barrier_centre(row)
         yield Comparison(test, "tabulated_delta_v_ft_s", printed, figures["delta-V"], within)
     if row["contact_normal_angle_deg_in_corrupt_sheet"]:
-        # A plastic contact without slip, as in one row, has a delta-V that no normal changes; the critical ratio shows it.
-        ratio = barrier_impact(row, normal="contact_normal_angle_deg_in_corrupt_sheet").critical_impulse_ratio
+        # A plastic contact without slip, as in one row, has a delta-V that no normal changes; the
+        # critical ratio shows it.
+        ratio = barrier_impact(
+            row, normal="contact_normal_angle_deg_in_corrupt_sheet"
+        ).critical_impulse_ratio
         column = "recomputed_critical_impulse_ratio"
-        yield Comparison(test, f"{column} with the corrupt normal", row[column], ratio, 0.1, wrong=True)
+        yield Comparison(
+            test, f"{column} with the corrupt normal", row[column], ratio, 0.1, wrong=True
+        )

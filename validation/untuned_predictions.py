@@ -1,7 +1,8 @@
 """Table 3: what was measured, predicted from inputs that nobody tuned to it.
 
-The rule for the restitution takes nothing from the readings: the fit of Cipriani and others where its published values lie (2
-to 15 mph), beyond them the 0.1 that the abstract of SAE 931842 gives for medium and high speed.
+The rule for the restitution takes nothing from the readings: the fit of Cipriani and others where
+its published values lie (2 to 15 mph), beyond them the 0.1 that the abstract of SAE 931842 gives
+for medium and high speed.
 """
 
 from __future__ import annotations
@@ -18,14 +19,17 @@ MPH, KMH = 0.44704, 1 / 3.6
 MEDIUM_AND_HIGH = 0.1
 DOUBTFUL_E = "typed into a notebook as from test data, an order of magnitude below NHTSA 10146"
 DOUBTFUL_MOTION = (
-    "body-fixed integrals of a car that turned, no yaw-rate sensor; the two sensors averaged differ by up to 13 km/h"
+    "body-fixed integrals of a car that turned, no yaw-rate sensor; the two sensors averaged "
+    "differ by up to 13 km/h"
 )
 
 
 def expected_restitution(closing: float) -> tuple[float, str]:
     """A restitution for a closing speed in m/s, and where it is from."""
     try:
-        return float(reference.restitution(closing, outside="refuse")), "Cipriani and others, SAE 2002-01-0540"
+        return float(
+            reference.restitution(closing, outside="refuse")
+        ), "Cipriani and others, SAE 2002-01-0540"
     except col.InputError as error:
         if error.code != "outside_reference":
             raise
@@ -38,7 +42,9 @@ def cipriani_values() -> list[dict[str, Any]]:
         {
             "closing_mph": row["closing_speed"],
             "printed": row["e"],
-            "computed": rounded(reference.restitution(f"{row['closing_speed']} mph", outside="refuse")),
+            "computed": rounded(
+                reference.restitution(f"{row['closing_speed']} mph", outside="refuse")
+            ),
         }
         for row in rows_of(RESTITUTION)
         if row["data_set"].startswith("Cipriani")
@@ -60,15 +66,27 @@ def test_rows(test: str) -> list[dict[str, str]]:
 
 def reading_of_e(data_set: str, closing: str) -> tuple[dict[str, str], str]:
     """A row of the restitutions and its record's name."""
-    (row,) = (row for row in rows_of(RESTITUTION) if row["data_set"] == data_set and row["closing_speed"] == closing)
-    return row, f"{RESTITUTION}: {row['data_set']} {row['closing_speed']} {row['closing_speed_unit']}"
+    (row,) = (
+        row
+        for row in rows_of(RESTITUTION)
+        if row["data_set"] == data_set and row["closing_speed"] == closing
+    )
+    return (
+        row,
+        f"{RESTITUTION}: {row['data_set']} {row['closing_speed']} {row['closing_speed_unit']}",
+    )
 
 
 def restitution_figure(row: dict[str, str], wrong: str = "") -> Figure:
     """The restitution expected beside the one that was read."""
     unit = {"mph": MPH, "km/h": KMH}[row["closing_speed_unit"]]
     return Figure(
-        "restitution read", "e", "", row["e"], expected_restitution(float(row["closing_speed"]) * unit)[0], wrong=wrong
+        "restitution read",
+        "e",
+        "",
+        row["e"],
+        expected_restitution(float(row["closing_speed"]) * unit)[0],
+        wrong=wrong,
     )
 
 
@@ -89,13 +107,30 @@ def fiesta_into_polo() -> Case:
     return Case(
         "GBB 5.5 mph",
         "Ford Fiesta into Volkswagen Polo, rear end",
-        [f"{IN_LINE}: {each['test']} vehicle {each['vehicle_no']}" for each in (one, two)] + [record],
+        [f"{IN_LINE}: {each['test']} vehicle {each['vehicle_no']}" for each in (one, two)]
+        + [record],
         one["source"],
         [
-            Figure("delta-V from the closing speed", "dV1", "mph", one["delta_v"], impact.a.q.delta_v.m_as("mph")),
-            Figure("delta-V from the closing speed", "dV2", "mph", two["delta_v"], impact.b.q.delta_v.m_as("mph")),
             Figure(
-                "delta-V from the other car's", "dV2 from dV1", "mph", two["delta_v"], by_momentum(a, b, one["delta_v"], "mph")
+                "delta-V from the closing speed",
+                "dV1",
+                "mph",
+                one["delta_v"],
+                impact.a.q.delta_v.m_as("mph"),
+            ),
+            Figure(
+                "delta-V from the closing speed",
+                "dV2",
+                "mph",
+                two["delta_v"],
+                impact.b.q.delta_v.m_as("mph"),
+            ),
+            Figure(
+                "delta-V from the other car's",
+                "dV2 from dV1",
+                "mph",
+                two["delta_v"],
+                by_momentum(a, b, one["delta_v"], "mph"),
             ),
             restitution_figure(row),
         ],
@@ -118,7 +153,8 @@ def citroen_into_bus() -> Case:
     return Case(
         "GBB 8.0 mph",
         "Citroen ZX into a standing Volvo bus",
-        [f"{IN_LINE}: {each['test']} vehicle {each['vehicle_no']}" for each in (one, two)] + [record],
+        [f"{IN_LINE}: {each['test']} vehicle {each['vehicle_no']}" for each in (one, two)]
+        + [record],
         one["source"],
         [restitution_figure(row)],
         inputs=said_of(closing),
@@ -140,13 +176,22 @@ def camry_into_barrier() -> Case:
         [f"{IN_LINE}: {one['test']} vehicle 1", record],
         one["source"],
         [
-            Figure("delta-V from the closing speed", "dV1", "km/h", read, impact.a.q.delta_v.m_as("km/h")),
+            Figure(
+                "delta-V from the closing speed",
+                "dV1",
+                "km/h",
+                read,
+                impact.a.q.delta_v.m_as("km/h"),
+            ),
             restitution_figure(row),
         ],
         inputs=said_of(car.vx),
         notes=[
-            "Mean of four accelerometers (66.1 to 67.4 km/h), integrated by whoever put the data together. "
-            "The restitution read is that of the same delta-V: it is no further evidence.",
+            (
+                "Mean of four accelerometers (66.1 to 67.4 km/h), integrated by whoever put the "
+                "data together. The restitution read is that of the same delta-V: it is no "
+                "further evidence."
+            ),
         ],
     )
 
@@ -166,7 +211,9 @@ def malibu(closing: str) -> Case:
 
 def sensors(cell: str) -> list[str]:
     """The forward readings of the left and the right sensor of NHTSA 7292."""
-    return [re.search(rf"{side}(?: sensor)? (-?[\d.]+)/", cell).group(1) for side in ("left", "right")]  # type: ignore[union-attr]
+    return [
+        re.search(rf"{side}(?: sensor)? (-?[\d.]+)/", cell).group(1) for side in ("left", "right")
+    ]  # type: ignore[union-attr]
 
 
 def taurus_into_taurus() -> Case:
@@ -176,7 +223,8 @@ def taurus_into_taurus() -> Case:
     a, b = (col.Vehicle(mass=f"{row['mass_kg']} kg") for row in (one, two))
     return Case(
         "NHTSA 7292",
-        "2007 Ford Taurus into a standing 2006 Ford Taurus, 7 degrees, no overlap of the frame rails",
+        "2007 Ford Taurus into a standing 2006 Ford Taurus, 7 degrees, no overlap of the frame "
+        "rails",
         [f"{IN_LINE}: {row['test']} vehicle {row['vehicle_no']}" for row in (one, two)],
         one["source"],
         [
@@ -195,13 +243,25 @@ def taurus_into_taurus() -> Case:
 
 
 def taurus_in_line() -> tuple[float, float]:
-    """What a central in-line estimate, which this test is not, would give for NHTSA 7292, in km/h."""
+    """What a central in-line estimate, which this test is not, would give for NHTSA
+    7292, in km/h.
+    """
     one, two = test_rows("NHTSA 7292 V2V")
-    a, b = (col.Vehicle(mass=f"{row['mass_kg']} kg", vx=f"{row['impact_speed']} km/h") for row in (one, two))
+    a, b = (
+        col.Vehicle(mass=f"{row['mass_kg']} kg", vx=f"{row['impact_speed']} km/h")
+        for row in (one, two)
+    )
     impact = col.linear_central(a, b, expected_restitution(a.vx)[0])
     return rounded(impact.a.q.delta_v.m_as("km/h")), rounded(impact.b.q.delta_v.m_as("km/h"))
 
 
 def cases() -> list[Case]:
     """Every case of table 3."""
-    return [fiesta_into_polo(), citroen_into_bus(), camry_into_barrier(), malibu("56.51"), malibu("60"), taurus_into_taurus()]
+    return [
+        fiesta_into_polo(),
+        citroen_into_bus(),
+        camry_into_barrier(),
+        malibu("56.51"),
+        malibu("60"),
+        taurus_into_taurus(),
+    ]

@@ -1,4 +1,6 @@
-"""The figures of the page "Validation": computed against published or measured, a panel for each quantity."""
+"""The figures of the page "Validation": computed against published or measured, a panel for each
+quantity.
+"""
 
 from __future__ import annotations
 
@@ -74,7 +76,14 @@ def _draw(cases: dict[str, Any], name: str, path: Path) -> None:
     against = "published" if name == "agreement" else "measured"
     figure.supxlabel(against, fontsize=10)
     figure.supylabel("computed" if name != "predictions" else "predicted", fontsize=10)
-    figure.legend(handles=_key(name), loc="upper center", ncols=4, frameon=False, fontsize=9, columnspacing=1.4)
+    figure.legend(
+        handles=_key(name),
+        loc="upper center",
+        ncols=4,
+        frameon=False,
+        fontsize=9,
+        columnspacing=1.4,
+    )
     figure.tight_layout(rect=(0, 0, 1, 1 - 0.35 / height), h_pad=1.5, w_pad=1.0)
     figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None, dpi=110)
     plt.close(figure)
@@ -88,7 +97,13 @@ def _key(name: str) -> list[Any]:
 
     filled, hollow = {"color": OURS}, {"mfc": "none", "mec": OTHER, "mew": 1.3, "color": OTHER}
     cross = {"color": WRONG, "mew": 1.8}
-    band = plt.Line2D([], [], color=GREY, lw=1, label="equal" if name == "agreement" else "equal; dotted: 10 % off")
+    band = plt.Line2D(
+        [],
+        [],
+        color=GREY,
+        lw=1,
+        label="equal" if name == "agreement" else "equal; dotted: 10 % off",
+    )
     if name == "agreement":
         return [
             of("o", "law of the source, or no friction", **filled),
@@ -97,12 +112,21 @@ def _key(name: str) -> list[Any]:
             band,
         ]
     if name == "fits":
-        return [of("o", "brach (the law of the fit)", **filled), of("s", "kudlich-slibar", **hollow), band]
+        return [
+            of("o", "brach (the law of the fit)", **filled),
+            of("s", "kudlich-slibar", **hollow),
+            band,
+        ]
     return [of("o", "predicted", **filled), of("x", "reading doubtful", **cross), band]
 
 
 def _panel(axis: Any, quantity: str, cases: dict[str, Any], name: str) -> None:
-    points = [(case, each, factor(each)) for case in cases["cases"] for each in case["figures"] if each["quantity"] == quantity]
+    points = [
+        (case, each, factor(each))
+        for case in cases["cases"]
+        for each in case["figures"]
+        if each["quantity"] == quantity
+    ]
     seen = []
     for case, each, times in points:
         x, y = float(each["printed"]) * times, each["computed"] * times
@@ -110,8 +134,21 @@ def _panel(axis: Any, quantity: str, cases: dict[str, Any], name: str) -> None:
         for law, entry in each.get("by_law", {}).items():
             if law != case["law"]:
                 seen.append(entry["computed"] * times)
-                axis.plot(x, entry["computed"] * times, "s", mfc="none", mec=OTHER, ms=6.5, mew=1.3, zorder=2)
-        look = {"marker": "x", "color": WRONG, "mew": 1.8} if each["wrong"] else {"marker": "o", "color": OURS}
+                axis.plot(
+                    x,
+                    entry["computed"] * times,
+                    "s",
+                    mfc="none",
+                    mec=OTHER,
+                    ms=6.5,
+                    mew=1.3,
+                    zorder=2,
+                )
+        look = (
+            {"marker": "x", "color": WRONG, "mew": 1.8}
+            if each["wrong"]
+            else {"marker": "o", "color": OURS}
+        )
         axis.plot(x, y, ls="", ms=6 if each["wrong"] else 4.5, zorder=3, **look)
     _axes(axis, quantity, seen, name)
     unit = PANELS.get(quantity)
@@ -137,8 +174,12 @@ def _axes(axis: Any, quantity: str, seen: list[float], name: str) -> None:
         axis.locator_params(nbins=4)
     elif scale["value"] == "symlog":
         ticks = [-100, 0, 1000] if quantity == "yaw rate" else [-1e3, 0, 1e3, 1e5]
-        axis.set_xticks(ticks, [f"{tick:,.0f}".replace("-", "−").replace(",", " ") for tick in ticks])
-        axis.set_yticks(ticks, [f"{tick:,.0f}".replace("-", "−").replace(",", " ") for tick in ticks])
+        axis.set_xticks(
+            ticks, [f"{tick:,.0f}".replace("-", "−").replace(",", " ") for tick in ticks]
+        )
+        axis.set_yticks(
+            ticks, [f"{tick:,.0f}".replace("-", "−").replace(",", " ") for tick in ticks]
+        )
         axis.minorticks_off()
     axis.plot([low, high], [low, high], color=GREY, lw=1, zorder=1)
     if name != "agreement" and quantity != "restitution read":

@@ -1,4 +1,6 @@
-"""The tables and figures of the page "Validation", made from the numbers that validation/run.py wrote."""
+"""The tables and figures of the page "Validation", made from the numbers that validation/run.py
+wrote.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ def load() -> dict[str, Any]:
 def table(head: list[str], rows: list[list[str]], left: int = 1) -> str:
     """A Markdown table; the columns after the first ``left`` are on the right."""
     lines = [head, [*["---"] * left, *["---:"] * (len(head) - left)], *rows]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
+    return "\n".join(
+        "| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines
+    )
 
 
 def minus(text: str) -> str:
@@ -85,8 +89,18 @@ def agreement(found: dict[str, Any]) -> str:
             )
             if figure["remark"] and not figure["wrong"]:
                 reasons.append(f"- {name}: {figure['remark']}.")
-    head = ["case and figure", "unit", "printed", "computed", "difference", "within print", "the other law"]
-    return "\n\n".join([table(head, rows, left=2), "Where it is not within print:", "\n".join(reasons)])
+    head = [
+        "case and figure",
+        "unit",
+        "printed",
+        "computed",
+        "difference",
+        "within print",
+        "the other law",
+    ]
+    return "\n\n".join(
+        [table(head, rows, left=2), "Where it is not within print:", "\n".join(reasons)]
+    )
 
 
 def measured(cases: dict[str, Any]) -> str:
@@ -109,7 +123,16 @@ def measured(cases: dict[str, Any]) -> str:
                     off(other["difference"], figure["measure"]) if other else NONE,
                 ]
             )
-    head = ["test", "reading", "unit", "measured", "brach", "difference", "kudlich-slibar", "difference"]
+    head = [
+        "test",
+        "reading",
+        "unit",
+        "measured",
+        "brach",
+        "difference",
+        "kudlich-slibar",
+        "difference",
+    ]
     return table(head, rows, left=3)
 
 
@@ -118,27 +141,54 @@ def predictions(found: dict[str, Any]) -> str:
     rows = []
     for case in found["predictions"]["cases"]:
         for figure in case["figures"]:
-            used = "nothing" if "other car" in figure["quantity"] else case["inputs"].partition(" (")[0]
+            used = (
+                "nothing"
+                if "other car" in figure["quantity"]
+                else case["inputs"].partition(" (")[0]
+            )
             ours = like(figure["computed"], figure["printed"])
             rows.append([
                 case["key"], figure["name"], figure["unit"], used, minus(figure["printed"]), ours,
                 off(figure["difference"], figure["measure"]), mark(figure, "doubtful"),
             ])  # fmt: skip
-    head = ["test", "reading", "unit", "taken from elsewhere", "measured", "predicted", "difference", "remark"]
+    head = [
+        "test",
+        "reading",
+        "unit",
+        "taken from elsewhere",
+        "measured",
+        "predicted",
+        "difference",
+        "remark",
+    ]
     return table(head, rows, left=4).replace("---: |\n", "--- |\n", 1)
 
 
 def statistics(cases: dict[str, Any], aside: str = "") -> str:
-    """Bias, median and worst of every quantity; where figures were set aside, with them in a second table."""
+    """Bias, median and worst of every quantity; where figures were set aside, with them in a second
+    table.
+    """
     head = ["quantity", "figures", "bias", "median", "worst", "worst of"]
-    rows = [[entry["quantity"], *_summary(entry["sound"], entry["measure"])] for entry in cases["statistics"]]
+    rows = [
+        [entry["quantity"], *_summary(entry["sound"], entry["measure"])]
+        for entry in cases["statistics"]
+    ]
     if not aside:
         return table(head, rows)
-    rows = [[*row, str(entry["set_aside"])] for row, entry in zip(rows, cases["statistics"], strict=True)]
-    every = [
-        [entry["quantity"], *_summary(entry["all"], entry["measure"])] for entry in cases["statistics"] if entry["set_aside"]
+    rows = [
+        [*row, str(entry["set_aside"])]
+        for row, entry in zip(rows, cases["statistics"], strict=True)
     ]
-    tables = [table([*head, f"{aside}, left out"], rows), "With what is left out there:", table(head, every)]
+    every = [
+        [entry["quantity"], *_summary(entry["all"], entry["measure"])]
+        for entry in cases["statistics"]
+        if entry["set_aside"]
+    ]
+    tables = [
+        table([*head, f"{aside}, left out"], rows),
+        "With what is left out there:",
+        table(head, every),
+    ]
     return "\n\n".join(tables)
 
 
@@ -160,16 +210,24 @@ def laws(cases: dict[str, Any]) -> str:
         for law, summary in entry["laws"].items()
         if summary["figures"]
     ]
-    return table(["quantity", "law", "figures", "bias", "median", "worst", "worst of"], rows, left=2)
+    return table(
+        ["quantity", "law", "figures", "bias", "median", "worst", "worst of"], rows, left=2
+    )
 
 
 def sources(cases: dict[str, Any]) -> str:
     """What every case is and where it is from."""
     lines = []
     for case in cases["cases"]:
-        said = " ".join([f"Inputs: {case['inputs']}.", *case["notes"]] if case["inputs"] else case["notes"])
-        title = re.sub(r"^(\d{4} (?:BMW|[A-Z][a-z]+))(?=[A-Z\d])", r"\1 ", case["title"])  # "FordFusion" in the sheet
-        lines.append(f"- **{case['key']}**: {title}. {said} Source: `{case['source']}`".replace("..", "."))
+        said = " ".join(
+            [f"Inputs: {case['inputs']}.", *case["notes"]] if case["inputs"] else case["notes"]
+        )
+        title = re.sub(
+            r"^(\d{4} (?:BMW|[A-Z][a-z]+))(?=[A-Z\d])", r"\1 ", case["title"]
+        )  # "FordFusion" in the sheet
+        lines.append(
+            f"- **{case['key']}**: {title}. {said} Source: `{case['source']}`".replace("..", ".")
+        )
     return "\n".join(lines)
 
 
@@ -185,7 +243,9 @@ def tabulated(found: dict[str, Any]) -> str:
         ]
         for row in found["fits"]["tabulated"]["rows"]
     ]
-    return table(["test", "tabulated, ft/s", "computed", "difference", "remark"], rows).replace("---: |\n", "--- |\n", 1)
+    return table(["test", "tabulated, ft/s", "computed", "difference", "remark"], rows).replace(
+        "---: |\n", "--- |\n", 1
+    )
 
 
 def refitted(found: dict[str, Any]) -> str:
@@ -200,7 +260,16 @@ def refitted(found: dict[str, Any]) -> str:
         ]
         for row in found["fits"]["refitted"]
     ]
-    return table(["test", "restitution", "of the critical ratio", "misfit of the sheet's fit, ft/s", "misfit, ft/s"], rows)
+    return table(
+        [
+            "test",
+            "restitution",
+            "of the critical ratio",
+            "misfit of the sheet's fit, ft/s",
+            "misfit, ft/s",
+        ],
+        rows,
+    )
 
 
 def nothing_published(found: dict[str, Any]) -> str:
@@ -217,7 +286,11 @@ def nothing_published(found: dict[str, Any]) -> str:
         for case in found["nothing_published"]
         for figure in case["figures"]
     ]
-    return table(["case and figure", "what it is", "unit", "worked out apart", "computed", "difference"], rows, left=3)
+    return table(
+        ["case and figure", "what it is", "unit", "worked out apart", "computed", "difference"],
+        rows,
+        left=3,
+    )
 
 
 def inputs_only(found: dict[str, Any]) -> str:
@@ -238,7 +311,10 @@ def not_computed(found: dict[str, Any]) -> str:
     return table(
         ["record", "figure", "given", "why it is in no table"],
         [
-            [re.sub(r"^([\w.]+):", r"`\1`:", entry["record"]), *(minus(entry[name]) for name in names[1:])]
+            [
+                re.sub(r"^([\w.]+):", r"`\1`:", entry["record"]),
+                *(minus(entry[name]) for name in names[1:]),
+            ]
             for entry in found["not_computed"]
         ],
         left=4,
@@ -260,9 +336,9 @@ def misprints(found: dict[str, Any]) -> str:
         if figure["wrong"]
     ]
     rows = [[row[0], row[3], *row[1:3], row[4]] for row in rows]
-    return table(["case and figure", "unit", "printed", "computed", "what is wrong"], rows, left=2).replace(
-        "---: |\n", "--- |\n", 1
-    )
+    return table(
+        ["case and figure", "unit", "printed", "computed", "what is wrong"], rows, left=2
+    ).replace("---: |\n", "--- |\n", 1)
 
 
 def slips(found: dict[str, Any]) -> str:
@@ -303,7 +379,9 @@ def where_records_are(found: dict[str, Any]) -> str:
     files = list(dict.fromkeys(record.partition(":")[0] for record in found["records"]))
     rows = []
     for file in files:
-        mine = [home for record, home in found["records"].items() if record.partition(":")[0] == file]
+        mine = [
+            home for record, home in found["records"].items() if record.partition(":")[0] == file
+        ]
         rows.append([f"`{file}`", *(str(mine.count(place)) for place in places), str(len(mine))])
     every = list(found["records"].values())
     rows.append(["all", *(str(every.count(place)) for place in places), str(len(every))])
@@ -315,27 +393,42 @@ def headlines(found: dict[str, Any]) -> str:
     one, two, three = (counts(found[name]) for name in ("agreement", "fits", "predictions"))
     guess = of(found["predictions"], "delta-V from the closing speed")["sound"]
     lines = [
-        f"1. **Agreement with other people's solutions**: {one['cases']} cases, {one['figures']} figures. {one['within']} "
-        f"agree to half a unit of their last printed digit, {one['sound'] - one['within']} differ by more for a reason "
-        f"that is given there, and {one['aside']} are misprints. {both_of(found['agreement'])}",
-        f"2. **Fits to measured tests**: {two['cases']} tests, {two['figures']} figures. Barrier tests: "
-        f"{both_of(found['fits'])} With the tuned inputs of the other nine tests instead of its own, a test is missed by much "
-        f"more. {both_of(found['fits']['held_out'])}",
-        f"3. **Untuned prediction against instruments**: {three['cases']} tests, {three['figures']} figures (some from the "
-        f"same readings), of which {three['aside']} are doubtful. Delta-V from the closing speed, {guess['figures']} readings: "
-        f"{spread(guess)}.",
+        (
+            f"1. **Agreement with other people's solutions**: {one['cases']} cases, "
+            f"{one['figures']} figures. {one['within']} agree to half a unit of their last "
+            f"printed digit, {one['sound'] - one['within']} differ by more for a reason that is "
+            f"given there, and {one['aside']} are misprints. {both_of(found['agreement'])}"
+        ),
+        (
+            f"2. **Fits to measured tests**: {two['cases']} tests, {two['figures']} figures. "
+            f"Barrier tests: {both_of(found['fits'])} With the tuned inputs of the other nine "
+            "tests instead of its own, a test is missed by much more. "
+            f"{both_of(found['fits']['held_out'])}"
+        ),
+        (
+            f"3. **Untuned prediction against instruments**: {three['cases']} tests, "
+            f"{three['figures']} figures (some from the same readings), of which "
+            f"{three['aside']} are doubtful. Delta-V from the closing speed, {guess['figures']} "
+            f"readings: {spread(guess)}."
+        ),
     ]
     return "\n".join(lines)
 
 
 def spread(entry: dict[str, Any]) -> str:
     """Bias, median and worst of a quantity in words."""
-    return f"bias {off(entry['bias'], '%')}, median {size(entry['median'], '%')}, worst {off(entry['worst'], '%')}"
+    return (
+        f"bias {off(entry['bias'], '%')}, median {size(entry['median'], '%')}, worst "
+        f"{off(entry['worst'], '%')}"
+    )
 
 
 def both_of(cases: dict[str, Any]) -> str:
     """Delta-V and yaw rate of a table in words."""
-    return f"Delta-V {spread(of(cases, 'delta-V')['sound'])}; yaw rate {spread(of(cases, 'yaw rate')['sound'])}."
+    return (
+        f"Delta-V {spread(of(cases, 'delta-V')['sound'])}; yaw rate "
+        f"{spread(of(cases, 'yaw rate')['sound'])}."
+    )
 
 
 def everything(found: dict[str, Any]) -> str:
@@ -343,12 +436,15 @@ def everything(found: dict[str, Any]) -> str:
     one, two, three = found["agreement"], found["fits"], found["predictions"]
     held_out = two["held_out"]
     parts = [
-        headlines(found), TITLES["agreement"], agreement(found), statistics(one, "misprints"), laws(one),
+        headlines(found), TITLES["agreement"], agreement(found), statistics(one, "misprints"),
+            laws(one),
         TITLES["fits"], measured(two), statistics(two), laws(two),
         "The delta-V that the sheet tabulates", tabulated(found),
-        "Held out: each test with the tuned inputs of the other nine", measured(held_out), laws(held_out),
+        "Held out: each test with the tuned inputs of the other nine", measured(held_out),
+        laws(held_out),
         TITLES["predictions"], predictions(found), statistics(three, "doubtful"),
-        "Nothing published", nothing_published(found), "Inputs only", inputs_only(found), "Not computed", not_computed(found),
+        "Nothing published", nothing_published(found), "Inputs only", inputs_only(found),
+        "Not computed", not_computed(found),
         "Misprints", misprints(found), "Other slips", slips(found), where_records_are(found),
     ]  # fmt: skip
     return "\n\n".join(parts)

@@ -1,4 +1,6 @@
-"""Names, units and meanings read from the package itself: for the API pages and for the tables of the executed pages."""
+"""Names, units and meanings read from the package itself: for the API pages and for the tables of
+the executed pages.
+"""
 
 import inspect
 import re
@@ -32,22 +34,42 @@ def rows(header, lines):
 
 def attribute_table(kind, prefix=""):
     """Every worked-out attribute of a class: name, unit, meaning."""
-    path = f"{kind.__module__}.{kind.__name__}" if kind.__name__ == "Side" else f"collisions.{kind.__name__}"
+    path = (
+        f"{kind.__module__}.{kind.__name__}"
+        if kind.__name__ == "Side"
+        else f"collisions.{kind.__name__}"
+    )
     return rows(
         ("attribute", "unit", "meaning"),
         (
-            (f"{{py:attr}}`{prefix}{name} <{path}.{name}>`", pretty(unit_of(kind, name)), escaped(sentence(vars(kind)[name])))
+            (
+                f"{{py:attr}}`{prefix}{name} <{path}.{name}>`",
+                pretty(unit_of(kind, name)),
+                escaped(sentence(vars(kind)[name])),
+            )
             for name in attributes(kind)
         ),
     )
 
 
 def names_table(module):
-    """Every public name of a module, with the first sentence of what it says of itself; constants share a line below."""
+    """Every public name of a module, with the first sentence of what it says of itself; constants
+    share a line below.
+    """
     constants = [name for name in module.__all__ if name.isupper()]
-    listed = [(f"`{name}`", escaped(sentence(getattr(module, name)))) for name in module.__all__ if name not in constants]
-    below = "\n\nConstants: " + ", ".join(f"`{name}`" for name in constants) + "." if constants else ""
-    return f"**`from {module.__name__} import ...`**\n\n" + rows(("name", "what it is"), listed) + below
+    listed = [
+        (f"`{name}`", escaped(sentence(getattr(module, name))))
+        for name in module.__all__
+        if name not in constants
+    ]
+    below = (
+        "\n\nConstants: " + ", ".join(f"`{name}`" for name in constants) + "." if constants else ""
+    )
+    return (
+        f"**`from {module.__name__} import ...`**\n\n"
+        + rows(("name", "what it is"), listed)
+        + below
+    )
 
 
 def add_unit(app, what, name, obj, options, lines):
@@ -59,7 +81,9 @@ def add_unit(app, what, name, obj, options, lines):
 
 
 def hide_sentinel(app, what, name, obj, options, signature, returns):
-    """An argument that may be left out, and whose default is an object that says so, is shown with three dots."""
+    """An argument that may be left out, and whose default is an object that says so, is shown with
+    three dots.
+    """
     return (signature.replace("<object object>", "..."), returns) if signature else None
 
 

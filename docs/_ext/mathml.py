@@ -23,7 +23,11 @@ def visit_inline(self, node):
 
 
 def visit_block(self, node):
-    self.body.append(self.starttag(node, "div", CLASS="math notranslate nohighlight") + mathml(node, block=True) + "</div>\n")
+    self.body.append(
+        self.starttag(node, "div", CLASS="math notranslate nohighlight")
+        + mathml(node, block=True)
+        + "</div>\n"
+    )
     raise nodes.SkipNode
 
 

@@ -1,8 +1,9 @@
 """Vehicle impacts by impulse and momentum: linear central, oblique central and eccentric.
 
-Numbers without a unit are SI, angles are radians counter-clockwise; Quantities and texts such as "80 km/h" are converted when
-read. See ``Vehicle``, then ``linear_central``, ``oblique_central`` and ``eccentric``; ``reconstruct`` solves backwards,
-``travel`` covers motion over the ground, and ``uncertainty`` says how certain an answer is.
+Numbers without a unit are SI, angles are radians counter-clockwise; Quantities and texts such as
+"80 km/h" are converted when read. See ``Vehicle``, then ``linear_central``, ``oblique_central`` and
+``eccentric``; ``reconstruct`` solves backwards, ``travel`` covers motion over the ground, and
+``uncertainty`` says how certain an answer is.
 """
 
 from importlib import import_module
@@ -36,7 +37,14 @@ if TYPE_CHECKING:
     from .impact.impact import Impact
     from .impact.left_out import left_out
     from .impact.schema import impact_schema
-    from .impact.solvers import eccentric, linear_central, oblique_central, required_model, solve, time_resolved
+    from .impact.solvers import (
+        eccentric,
+        linear_central,
+        oblique_central,
+        required_model,
+        solve,
+        time_resolved,
+    )
     from .reporting import report
     from .reporting.what_if import what_if
 
@@ -93,7 +101,15 @@ _LATER = {
     "report": "reporting",
     "what_if": "reporting.what_if",
     **dict.fromkeys(
-        ("eccentric", "linear_central", "oblique_central", "required_model", "solve", "time_resolved"), "impact.solvers"
+        (
+            "eccentric",
+            "linear_central",
+            "oblique_central",
+            "required_model",
+            "solve",
+            "time_resolved",
+        ),
+        "impact.solvers",
     ),
 }
 _MODULES = ("plot", "reconstruct", "reference", "travel", "uncertainty")
@@ -104,8 +120,14 @@ def __getattr__(name: str) -> Any:
     if name in _MODULES or name in _LATER.values():
         return import_module(f".{name}", __name__)
     if name not in _LATER:
-        homes = [] if name[0] == "_" else [part for part in _MODULES if name in import_module(f".{part}", __name__).__all__]
-        hint = f"; write {' or '.join(f'collisions.{part}.{name}' for part in homes)}" if homes else ""
+        homes = (
+            []
+            if name[0] == "_"
+            else [part for part in _MODULES if name in import_module(f".{part}", __name__).__all__]
+        )
+        hint = (
+            f"; write {' or '.join(f'collisions.{part}.{name}' for part in homes)}" if homes else ""
+        )
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}{hint}", name=name)
     found = globals()[name] = getattr(import_module(f".{_LATER[name]}", __name__), name)
     return found

@@ -1,4 +1,6 @@
-"""The command: ``python -m collisions case.toml`` answers a case file; ``new`` prints one to start from."""
+"""The command: ``python -m collisions case.toml`` answers a case file; ``new`` prints one to start
+from.
+"""
 
 from __future__ import annotations
 
@@ -21,12 +23,16 @@ _CASES = Path(__file__).with_name("cases")
 _TEMPLATE, _US_TEMPLATE = _CASES / "case_template.toml", _CASES / "case_template_us.toml"
 _HTML, _MARKDOWN = (".html", ".htm"), (".md", ".markdown")
 _ENDS = """\
-exit codes: 0 answered; 1 the case was read, but has no answer, or more than one where one is needed; 2 the file or the command
-cannot be used; 130 stopped by Ctrl-C. What is wrong is one line each: the file, the key in it, and what to write."""
+exit codes: 0 answered; 1 the case was read, but has no answer, or more than one where one is \
+needed; 2 the file or the command
+cannot be used; 130 stopped by Ctrl-C. What is wrong is one line each: the file, the key in it, \
+and what to write."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command with these arguments, by default those of the command line; gives the exit code."""
+    """Run the command with these arguments, by default those of the command line; gives the exit
+    code.
+    """
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
@@ -62,8 +68,14 @@ def _run(options: Any) -> int:
 
 
 def _printed(options: Any) -> int:
-    """Print a case to start from, in the units that were asked for, or the schema; gives the exit code."""
-    others = {"--report": options.report, "--what-if": options.what_if, "--json": options.json or None}
+    """Print a case to start from, in the units that were asked for, or the schema; gives the exit
+    code.
+    """
+    others = {
+        "--report": options.report,
+        "--what-if": options.what_if,
+        "--json": options.json or None,
+    }
     others |= {"--units": options.units} if options.case == "schema" else {}
     given = [name for name, value in others.items() if value is not None]
     if given:
@@ -75,7 +87,9 @@ def _printed(options: Any) -> int:
         return 0
     text = (_US_TEMPLATE if options.units == "us" else _TEMPLATE).read_text(encoding="utf-8")
     if options.units == "si":
-        text = text.replace('"metric"               # or "si"', '"si"                   # or "metric"')
+        text = text.replace(
+            '"metric"               # or "si"', '"si"                   # or "metric"'
+        )
     print(text, end="")
     return 0
 
@@ -108,7 +122,10 @@ def _write(pages: dict[Path, str]) -> None:
             part.replace(target)
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
-        text = f"cannot write {path} ({why}), and nothing was written; give the path of a file that may be written"
+        text = (
+            f"cannot write {path} ({why}), and nothing was written; give the path of a file that "
+            "may be written"
+        )
         raise CaseError(("", text)) from None
     finally:
         for part in parts.values():
@@ -116,21 +133,38 @@ def _write(pages: dict[Path, str]) -> None:
 
 
 def _check_names(options: Any) -> None:
-    """Refuse to write over the case file, one page over the other, or a page under a name that says something else."""
+    """Refuse to write over the case file, one page over the other, or a page under a name that says
+    something else.
+    """
     taken = {realpath(options.case)}
-    for option, name, endings in (("--report", options.report, _HTML + _MARKDOWN), ("--what-if", options.what_if, _HTML)):
+    for option, name, endings in (
+        ("--report", options.report, _HTML + _MARKDOWN),
+        ("--what-if", options.what_if, _HTML),
+    ):
         if name is not None:
             if realpath(name) in taken or not name.lower().endswith(endings):
                 listed = " or ".join(endings[::2])
-                raise CaseError(("", f"{option} cannot write {name}; give a name of its own, which ends in {listed}"))
+                raise CaseError(
+                    (
+                        "",
+                        (
+                            f"{option} cannot write {name}; give a name of its own, which ends "
+                            f"in {listed}"
+                        ),
+                    )
+                )
             taken.add(realpath(name))
 
 
 def _refused(options: Any, error: CaseError, whole: Any) -> int:
     """Say what is wrong, a line each, or as JSON beside the results; gives the exit code."""
     if options.json:
-        problems = [{"file": options.case, "key": key, "text": text} for key, text in error.problems]
-        print(json.dumps({"code": error.code, "errors": problems, **whole}, indent=1, allow_nan=False))
+        problems = [
+            {"file": options.case, "key": key, "text": text} for key, text in error.problems
+        ]
+        print(
+            json.dumps({"code": error.code, "errors": problems, **whole}, indent=1, allow_nan=False)
+        )
     for key, text in error.problems:
         print(": ".join(filter(None, (options.case, key, text))), file=sys.stderr)
     return 1 if error.refused else 2
@@ -139,30 +173,45 @@ def _refused(options: Any, error: CaseError, whole: Any) -> int:
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """One line, as for every mistake."""
-        self.exit(2, f"{self.prog}: {message}; write for example: {self.prog} case.toml --report report.html; see --help\n")
+        self.exit(
+            2,
+            f"{self.prog}: {message}; write for example: {self.prog} case.toml --report "
+            "report.html; see --help\n",
+        )
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="collisions",
-        description="Answers a case file: one vehicle impact as a page of text, forwards or backwards, with its uncertainty.",
+        description="Answers a case file: one vehicle impact as a page of text, forwards or "
+        "backwards, with its uncertainty.",
         epilog=_ENDS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     parser.add_argument(
         "case",
-        help="a case file; or 'new', which prints one to start from (collisions new > case.toml; with --units us in mph, ft "
-        "and lb), or 'schema', for the JSON schema of case files for editors",
+        help="a case file; or 'new', which prints one to start from (collisions new > case.toml; "
+        "with --units us in mph, ft and lb), or 'schema', for the JSON schema of case files "
+        "for editors",
     )
-    parser.add_argument("--report", metavar="FILE", help="write a report: .html with figures, or .md")
-    parser.add_argument("--what-if", metavar="FILE", help="write an HTML page with a slider for each uncertain number")
+    parser.add_argument(
+        "--report", metavar="FILE", help="write a report: .html with figures, or .md"
+    )
+    parser.add_argument(
+        "--what-if",
+        metavar="FILE",
+        help="write an HTML page with a slider for each uncertain number",
+    )
     parser.add_argument(
         "--units",
         choices=SYSTEMS,
-        help="of what is written; by default those of [report], else us or metric, as the inputs are",
+        help="of what is written; by default those of [report], else us or metric, as the inputs "
+        "are",
     )
-    parser.add_argument("--json", action="store_true", help="print everything as JSON, for other tools")
+    parser.add_argument(
+        "--json", action="store_true", help="print everything as JSON, for other tools"
+    )
     parser.add_argument("--version", action="version", version=f"collisions {__version__}")
     return parser
 

@@ -1,4 +1,6 @@
-"""Case files give what the same call in Python gives; what is wrong is a line with the key and the cure."""
+"""Case files give what the same call in Python gives; what is wrong is a line with the key and the
+cure.
+"""
 
 import json
 import math
@@ -13,7 +15,16 @@ import collisions as col
 from collisions import reconstruct, travel
 from collisions.__main__ import main
 from collisions.cases.answers import answers
-from collisions.cases.read import SOLVERS, STUDIES, CaseError, parameters, read, read_text, stated, vehicles
+from collisions.cases.read import (
+    SOLVERS,
+    STUDIES,
+    CaseError,
+    parameters,
+    read,
+    read_text,
+    stated,
+    vehicles,
+)
 from collisions.cases.schema import case_schema
 from collisions.cases.words import DISTRIBUTIONS, in_file_words
 from collisions.reporting import replay
@@ -21,10 +32,14 @@ from collisions.uncertainty import Interval, Normal, Triangular, Uniform, propag
 
 ROOT = Path(__file__).parents[2]
 CASES = ROOT / "examples" / "cases"
-REAR_END = '[a]\nmass = "1100 kg"\nvx = "80 km/h"\n\n[b]\nmass = "950 kg"\n\n[linear_central]\nrestitution = 0.4\n'
+REAR_END = (
+    '[a]\nmass = "1100 kg"\nvx = "80 km/h"\n\n[b]\nmass = "950 kg"\n\n[linear_central]\n'
+    "restitution = 0.4\n"
+)
 ECCENTRIC = (
-    '[a]\nmass = 1500\nvx = "50 km/h"\nyaw_inertia = 2400\nx = -2.0\ny = 0.4\nheading = "0 deg"\n[b]\nmass = 1200\nyaw_inertia = 1700\n'
-    'vy = "40 km/h"\nx = 0.8\ny = -1.2\nheading = "90 deg"\n[eccentric]\nrestitution = 0.1\nnormal = "0 deg"\npoint = [0, 0]\nfriction = 0.5\n'
+    '[a]\nmass = 1500\nvx = "50 km/h"\nyaw_inertia = 2400\nx = -2.0\ny = 0.4\nheading = "0 deg"\n'
+    '[b]\nmass = 1200\nyaw_inertia = 1700\nvy = "40 km/h"\nx = 0.8\ny = -1.2\nheading = "90 '
+    'deg"\n[eccentric]\nrestitution = 0.1\nnormal = "0 deg"\npoint = [0, 0]\nfriction = 0.5\n'
 )
 
 
@@ -77,11 +92,16 @@ LONG = 100_000
 )
 @pytest.mark.parametrize("end", ["", "!"])
 def test_files_with_long_texts_are_refused_at_once(form, end):
-    """Wherever the text stands. 2,000 digits took 47 s, and the time grew with the third power of the length."""
+    """Wherever the text stands. 2,000 digits took 47 s, and the time grew with the third power of
+    the length.
+    """
     text = (form * LONG)[:LONG] + end
     fit = REAR_END.replace('"80 km/h"', '"70 km/h .. 90 km/h"') + "[fit]\n[fit.observed]\n"
     for file, said in (
-        (REAR_END.replace("1100 kg", f"1 {text}"), r"is a text of \d+ characters, .* has 200 at most, such as"),
+        (
+            REAR_END.replace("1100 kg", f"1 {text}"),
+            r"is a text of \d+ characters, .* has 200 at most, such as",
+        ),
         (REAR_END + f'point = ["{text}", "1 m"]', "is not known here"),
         (ECCENTRIC.replace("point = [0, 0]", f'point = ["1 {text}", 0]'), "has 200 at most"),
         (REAR_END + f'"{text}" = 1\n', "is a key of .* characters"),
@@ -99,9 +119,12 @@ def test_files_with_long_texts_are_refused_at_once(form, end):
 @pytest.mark.parametrize(
     ("given", "meant"),
     [
-        ("40-50 mph", "40 mph .. 50 mph"), ("40 - 50 mph", "40 mph .. 50 mph"), (" 0.4 to 0.7 ", "0.4 .. 0.7"),
-        ("40 mph to 50 mph", "40 mph .. 50 mph"), ("40mph-50mph", "40 mph .. 50 mph"), ("-3.–4. deg", "-3. deg .. 4. deg"),
-        ("40 mph    -    50 mph", "40 mph .. 50 mph"), ("30 deg to 45 \u00b0 ", "30 \u00b0 .. 45 \u00b0"),
+        ("40-50 mph", "40 mph .. 50 mph"), ("40 - 50 mph", "40 mph .. 50 mph"),
+            (" 0.4 to 0.7 ", "0.4 .. 0.7"),
+        ("40 mph to 50 mph", "40 mph .. 50 mph"), ("40mph-50mph", "40 mph .. 50 mph"),
+            ("-3.–4. deg", "-3. deg .. 4. deg"),
+        ("40 mph    -    50 mph", "40 mph .. 50 mph"),
+            ("30 deg to 45 \u00b0 ", "30 \u00b0 .. 45 \u00b0"),
     ],
 )  # fmt: skip
 def test_what_people_write_for_a_range_is_read_for_the_cure(given, meant):
@@ -109,9 +132,13 @@ def test_what_people_write_for_a_range_is_read_for_the_cure(given, meant):
     assert f'a range has two dots: write "{meant}"' in line
 
 
-@pytest.mark.parametrize("given", ["1e-5 kg", "1.5e-10", "12 kg*m**2 - 3", "a - b", "3 4 - 5", "\u0661-\u0662 kg"])
+@pytest.mark.parametrize(
+    "given", ["1e-5 kg", "1.5e-10", "12 kg*m**2 - 3", "a - b", "3 4 - 5", "\u0661-\u0662 kg"]
+)
 def test_what_is_no_range_is_not_taken_for_one(given):
-    assert not any("a range has two dots" in line for line in problems(REAR_END.replace("80 km/h", given)))
+    assert not any(
+        "a range has two dots" in line for line in problems(REAR_END.replace("80 km/h", given))
+    )
 
 
 def test_forward_gives_what_the_call_gives():
@@ -123,39 +150,49 @@ def test_forward_gives_what_the_call_gives():
     assert solved(ECCENTRIC.replace("vx = ", "course = 0.0\nspeed = ")) == impact
     assert solved(ECCENTRIC.replace('normal = "0 deg"', "normal = [1, 0]")) == impact
     pushed = solved(ECCENTRIC + 'outside_b = ["-500 N*s +/- 100 N*s", 0.0]\n')
-    assert pushed == col.eccentric(a, b, 0.1, normal="0 deg", point=(0, 0), friction=0.5, outside_b=(-500.0, 0.0))
+    assert pushed == col.eccentric(
+        a, b, 0.1, normal="0 deg", point=(0, 0), friction=0.5, outside_b=(-500.0, 0.0)
+    )
     least = ECCENTRIC.replace("[eccentric]", '[solve]\ntolerance = "100 km/h"')
-    assert solved(least) == col.solve(a, b, 0.1, normal="0 deg", point=(0, 0), friction=0.5, tolerance="100 km/h")
+    assert solved(least) == col.solve(
+        a, b, 0.1, normal="0 deg", point=(0, 0), friction=0.5, tolerance="100 km/h"
+    )
 
 
 def test_backwards_gives_what_the_call_gives():
     """Each of the four reverse solvers; a course that is not given is not known."""
-    text = '[reconstruct.central]\nmass_a = 1100\nmass_b = 950\nva = "80 km/h"\nvb = 0\nvb_after = "60 km/h"\n'
+    text = (
+        '[reconstruct.central]\nmass_a = 1100\nmass_b = 950\nva = "80 km/h"\nvb = 0\nvb_after = '
+        '"60 km/h"\n'
+    )
     assert solved(text).restitution == pytest.approx(35 / 88, rel=1e-14)  # example 2 of the paper
     found = reconstruct.momentum(
         1500, 1200, course_a=0, course_b="90 deg", course_a_after="25 deg", course_b_after="40 deg",
         speed_a_after=travel.speed("12 m", drag=0.7), speed_b_after=9.0,
     )  # fmt: skip
     text = (
-        '[reconstruct.momentum]\nmass_a = 1500\nmass_b = 1200\ncourse_a = 0\ncourse_b = "90 deg"\ncourse_a_after = "25 deg"\n'
-        'course_b_after = "40 deg"\nspeed_b_after = 9.0\nspeed_a_after = { travel.speed = { distance = "12 m", drag = 0.7 } }\n'
+        '[reconstruct.momentum]\nmass_a = 1500\nmass_b = 1200\ncourse_a = 0\ncourse_b = "90 '
+        'deg"\ncourse_a_after = "25 deg"\ncourse_b_after = "40 deg"\nspeed_b_after = 9.0\n'
+        'speed_a_after = { travel.speed = { distance = "12 m", drag = 0.7 } }\n'
     )
     assert solved(text) == found
     bodies = "yaw_inertia = 2000\nx = {}\ny = 0.0\n"
     text = (
-        f"[a]\nmass = 1500\n{bodies.format(-2.0)}[b]\nmass = 1300\n{bodies.format(2.0)}[reconstruct.speeds]\ncourse_a = 0\n"
-        "speed_b = 0\ndelta_v_a = 6\nrestitution = 0.1\nnormal = 0\npoint = [0, 0.4]\nfriction = 0.5\n"
+        f"[a]\nmass = 1500\n{bodies.format(-2.0)}[b]\nmass = 1300\n"
+        f"{bodies.format(2.0)}[reconstruct.speeds]\ncourse_a = 0\nspeed_b = 0\ndelta_v_a = 6\n"
+        "restitution = 0.1\nnormal = 0\npoint = [0, 0.4]\nfriction = 0.5\n"
     )
     impact = solved(text)
     assert (impact.a.delta_v, impact.b.before.speed) == (pytest.approx(6.0, rel=1e-13), 0.0)
     after = "".join(
-        f"[{label}_after]\nmass = {side.after.mass}\nvx = {side.after.vx!r}\nvy = {side.after.vy!r}\nyaw_rate = {side.after.yaw_rate!r}\n"
-        + bodies.format(side.after.x)
+        f"[{label}_after]\nmass = {side.after.mass}\nvx = {side.after.vx!r}\nvy = "
+        f"{side.after.vy!r}\nyaw_rate = {side.after.yaw_rate!r}\n" + bodies.format(side.after.x)
         for label, side in (("a", impact.a), ("b", impact.b))
     )
     back = (
         solved(
-            f"{after}[reconstruct.planar]\nnormal = 0\npoint = [0, 0.4]\nrestitution = 0.1\nfriction = 0.5\nregime = 'sliding'\n"
+            f"{after}[reconstruct.planar]\nnormal = 0\npoint = [0, 0.4]\nrestitution = 0.1\n"
+            "friction = 0.5\nregime = 'sliding'\n"
         )
         if impact.regime == "sliding"
         else None
@@ -187,7 +224,16 @@ def test_texts_of_what_is_not_known_exactly(text, wanted):
 
 @pytest.mark.parametrize(
     "text",
-    ["50 +/- 3 km/h", "0.7 .. 0.4", "5 kg +/- 1 m", "1 .. 2 .. 3", "5 +/- ", "1 .. 2 (100 %)", "1 +/- 0", "0.4 .. 0.7 (95)"],
+    [
+        "50 +/- 3 km/h",
+        "0.7 .. 0.4",
+        "5 kg +/- 1 m",
+        "1 .. 2 .. 3",
+        "5 +/- ",
+        "1 .. 2 (100 %)",
+        "1 +/- 0",
+        "0.4 .. 0.7 (95)",
+    ],
 )
 def test_texts_that_are_refused(text):
     """Never read as something near it."""
@@ -197,11 +243,15 @@ def test_texts_that_are_refused(text):
 
 def test_the_nominal_case_has_what_was_written():
     """A text keeps its unit beside its error, and the middle stands for a range."""
-    impact = solved(REAR_END.replace("80 km/h", "80 km/h +/- 2 km/h").replace("0.4", '"0.2 .. 0.4"'))
+    impact = solved(
+        REAR_END.replace("80 km/h", "80 km/h +/- 2 km/h").replace("0.4", '"0.2 .. 0.4"')
+    )
     assert impact.a.before.given["vx"] == "80 km/h"
     assert impact.restitution == pytest.approx(0.3, rel=1e-15)
     assert solved(REAR_END.replace("80 km/h", "35 mph .. 45 mph")).a.before.given["vx"] == "40 mph"
-    assert solved(REAR_END.replace("80 km/h", "35 mph .. 80 km/h")).a.before.vx == pytest.approx((35 * 0.44704 + 80 / 3.6) / 2)
+    assert solved(REAR_END.replace("80 km/h", "35 mph .. 80 km/h")).a.before.vx == pytest.approx(
+        (35 * 0.44704 + 80 / 3.6) / 2
+    )
     turned = solved(ECCENTRIC.replace('"0 deg"\npoint', '"-90 deg +/- 5 deg"\npoint'))
     assert turned.normal == (0.0, -1.0)
 
@@ -210,13 +260,25 @@ def test_propagation_is_that_of_the_same_model():
     """Same seed, same figures; one normal, one uniform, one triangular input."""
     text = REAR_END.replace("80 km/h", "80 km/h +/- 2 km/h").replace("0.4", '"0.2 .. 0.4"')
     text = text.replace('"950 kg"', "{ Triangular = { low = 900, mode = 950, high = 1100 } }")
-    found = answers(read_text(f"{text}[propagate]\nmethod = 'quasi_random'\nseed = 3\nsamples = 256\n".encode())).propagation
+    found = answers(
+        read_text(f"{text}[propagate]\nmethod = 'quasi_random'\nseed = 3\nsamples = 256\n".encode())
+    ).propagation
 
     def model(vx, mass, e):
-        impact = col.linear_central(col.Vehicle(mass=1100, vx=vx), col.Vehicle(mass=mass), e, on_failure="nan")
-        return {"a.delta_v": impact.a.q.delta_v, "b.delta_v": impact.b.q.delta_v, "energy_loss": impact.q.energy_loss}
+        impact = col.linear_central(
+            col.Vehicle(mass=1100, vx=vx), col.Vehicle(mass=mass), e, on_failure="nan"
+        )
+        return {
+            "a.delta_v": impact.a.q.delta_v,
+            "b.delta_v": impact.b.q.delta_v,
+            "energy_loss": impact.q.energy_loss,
+        }
 
-    inputs = {"vx": Normal("80 km/h", "2 km/h"), "mass": Triangular(900, 950, 1100), "e": Uniform(0.2, 0.4)}
+    inputs = {
+        "vx": Normal("80 km/h", "2 km/h"),
+        "mass": Triangular(900, 950, 1100),
+        "e": Uniform(0.2, 0.4),
+    }
     wanted = propagate(model, inputs, method="quasi_random", seed=3, samples=256)
     assert list(found) == list(wanted)
     for name in wanted:
@@ -229,7 +291,9 @@ def test_bounds_alone_give_bounds():
     text = REAR_END.replace("0.4", "{ Interval = { low = 0.2, high = 0.4 } }")
     found = answers(read_text(text.encode())).propagation
     assert found.method == "interval"
-    assert found["b.delta_v"].interval() == pytest.approx([80 / 3.6 * 1100 / 2050 * (1 + e) for e in (0.2, 0.4)], rel=1e-9)
+    assert found["b.delta_v"].interval() == pytest.approx(
+        [80 / 3.6 * 1100 / 2050 * (1 + e) for e in (0.2, 0.4)], rel=1e-9
+    )
     assert isinstance(found.inputs["restitution"], Interval)
 
 
@@ -242,7 +306,10 @@ def test_one_road_under_both_cars():
 
 def test_fit_of_what_was_observed():
     """The speed that gives the delta-V in closed form: dv m/(m_a (1 + e))."""
-    text = REAR_END.replace('"80 km/h"', '"10 m/s .. 30 m/s"') + '[fit.observed]\n"b.delta_v" = "15 m/s +/- 0.5 m/s"\n'
+    text = (
+        REAR_END.replace('"80 km/h"', '"10 m/s .. 30 m/s"')
+        + '[fit.observed]\n"b.delta_v" = "15 m/s +/- 0.5 m/s"\n'
+    )
     found = solved(text)
     assert found["a.vx"].value == pytest.approx(15 * 2050 / 1100 / 1.4, rel=1e-9)
     assert "a.vx" in answers(read_text(text.encode())).text()
@@ -250,13 +317,20 @@ def test_fit_of_what_was_observed():
 
 @pytest.mark.slow
 def test_posterior_of_what_was_observed():
-    """A flat prior cut by a reading and by a bound: the mean of a normal distribution, truncated; in closed form."""
-    text = REAR_END.replace('"80 km/h"', '"0 m/s .. 40 m/s"') + "[posterior]\nsamples = 2048\n[posterior.observed]\n"
+    """A flat prior cut by a reading and by a bound: the mean of a normal distribution, truncated;
+    in closed form.
+    """
+    text = (
+        REAR_END.replace('"80 km/h"', '"0 m/s .. 40 m/s"')
+        + "[posterior]\nsamples = 2048\n[posterior.observed]\n"
+    )
     text += '"b.delta_v" = "15 m/s +/- 0.5 m/s"\n"a.before.vx" = "15 m/s .. 20 m/s"\n'
     factor = 1100 / 2050 * 1.4
     middle, sd = 15 / factor, 0.5 / factor
     cut = (20 - middle) / sd
-    wanted = middle - sd * math.exp(-0.5 * cut * cut) / math.sqrt(math.tau) / (0.5 * (1 + math.erf(cut / math.sqrt(2))))
+    wanted = middle - sd * math.exp(-0.5 * cut * cut) / math.sqrt(math.tau) / (
+        0.5 * (1 + math.erf(cut / math.sqrt(2)))
+    )
     found = solved(text)["a.vx"]
     assert abs(found.mean - wanted) < 5 * found.mean_standard_error
     censored = text.replace('"15 m/s .. 20 m/s"', '{ Censored = { high = "20 m/s" } }')
@@ -268,10 +342,15 @@ def test_posterior_of_what_was_observed():
 
 @pytest.mark.slow
 def test_report_of_a_posterior(tmp_path, capsys):
-    """From a file to a page in one command: what was found, observed and known before, what is known exactly, figures."""
+    """From a file to a page in one command: what was found, observed and known before, what is
+    known exactly, figures.
+    """
     file, page = tmp_path / "case.toml", tmp_path / "page.html"
     text = REAR_END.replace('"80 km/h"', '"0 km/h .. 150 km/h"').replace("0.4", '"0.2 .. 0.4"')
-    text += '[posterior]\nsamples = 1024\n[posterior.observed]\n"b.delta_v" = "54 km/h +/- 2 km/h"\n"a.before.speed" = "40 mph .. 60 mph"\n'
+    text += (
+        '[posterior]\nsamples = 1024\n[posterior.observed]\n"b.delta_v" = "54 km/h +/- 2 km/h"\n'
+        '"a.before.speed" = "40 mph .. 60 mph"\n'
+    )
     file.write_text(text + '[report]\nnotes = "Own words."\n', encoding="utf-8")
     code, said, _ = run(capsys, file, "--report", page)
     assert code == 0
@@ -294,15 +373,19 @@ def test_report_of_a_posterior(tmp_path, capsys):
         replay(whole)
     assert run(capsys, file, "--what-if", page)[0] == 2
     file.write_text(text + "[report]\nderivation = true\n", encoding="utf-8")
-    assert "report.derivation: derivation is for an Impact" in run(capsys, file, "--report", page)[2]
+    assert (
+        "report.derivation: derivation is for an Impact" in run(capsys, file, "--report", page)[2]
+    )
 
 
 def test_two_answers_are_told_apart():
     """Both are printed; a report or a range needs to know which."""
     body = "yaw_inertia = {}\nx = {}\ny = {}\n"
     text = (
-        f"[a]\nmass = 1500\n{body.format(2500, -2, 0)}[b]\nmass = 1300\n{body.format(2000, 2, 0.8)}[reconstruct.speeds]\n"
-        "course_a = 0\ncourse_b = '90 deg'\nenergy_loss = 120000\ndelta_v_a = 6\nrestitution = 0.1\nnormal = 0\npoint = [0, 0.4]\nfriction = 0.5\n"
+        f"[a]\nmass = 1500\n{body.format(2500, -2, 0)}[b]\nmass = 1300\n"
+        f"{body.format(2000, 2, 0.8)}[reconstruct.speeds]\ncourse_a = 0\ncourse_b = '90 deg'\n"
+        "energy_loss = 120000\ndelta_v_a = 6\nrestitution = 0.1\nnormal = 0\npoint = [0, 0.4]\n"
+        "friction = 0.5\n"
     )
     both = answers(read_text(text.encode()))
     assert len(both.results) == 2
@@ -310,78 +393,159 @@ def test_two_answers_are_told_apart():
     with pytest.raises(CaseError, match="write answer = 1"):
         both.report("html")
     assert solved("answer = 2\n" + text) == both.results[1]
-    assert problems("answer = 3\n" + text) == ["answer: is 3, and 2 fit; write a number from 1 to 2"]
+    assert problems("answer = 3\n" + text) == [
+        "answer: is 3, and 2 fit; write a number from 1 to 2"
+    ]
     vague = text.replace("delta_v_a = 6", 'delta_v_a = "5.9 m/s .. 6.1 m/s"')
     assert problems(vague)[0].startswith("answer: is not given, and 2 answers fit")
     found = answers(
-        read_text(("answer = 2\n" + vague + "[propagate]\nmethod = 'monte_carlo'\nseed = 1\nsamples = 64\n").encode())
+        read_text(
+            (
+                "answer = 2\n"
+                + vague
+                + "[propagate]\nmethod = 'monte_carlo'\nseed = 1\nsamples = 64\n"
+            ).encode()
+        )
     )
     mean = found.propagation["a.before.speed"].mean
-    assert mean == pytest.approx(both.results[1].a.before.speed, rel=0.02)  # 6 moves by 1.7 percent, and the answer by less
+    assert mean == pytest.approx(
+        both.results[1].a.before.speed, rel=0.02
+    )  # 6 moves by 1.7 percent, and the answer by less
 
 
 @pytest.mark.parametrize(
     ("old", "new", "line"),
     [
-        ("restitution", "restitutoin", "linear_central.restitutoin: is not known here; did you mean restitution?"),
+        ("restitution", "restitutoin",
+            "linear_central.restitutoin: is not known here; did you mean restitution?"),
         ("vx", "speeed", "a.speeed: is not known here; did you mean speed?"),
         ("[b]", "[c]", "c: is not known here"),
-        ("linear_central", "linear_centrl", "linear_centrl: is not known here; did you mean linear_central?"),
-        ("linear_central", "reconstruct.centrall", "reconstruct.centrall: is not known here; did you mean reconstruct.central?"),
+        ("linear_central", "linear_centrl",
+            "linear_centrl: is not known here; did you mean linear_central?"),
+        ("linear_central", "reconstruct.centrall",
+            "reconstruct.centrall: is not known here; did you mean reconstruct.central?"),
         ('mass = "1100 kg"\n', "", "a.mass: is missing; give it: Mass, > 0"),
-        ('vx = "80 km/h"', "course = 0.0", "a.speed: is missing; give it: Speed of the centre of mass, >= 0 [m/s]"),
+        ('vx = "80 km/h"', "course = 0.0",
+            "a.speed: is missing; give it: Speed of the centre of mass, >= 0 [m/s]"),
         ("1100 kg", "1100 kgg", "a.mass: '1100 kgg' cannot be taken as kg"),
-        ('"1100 kg"', "1100 kg", "a.mass: is not TOML: Expected newline or end of document after a statement (at line 2, column 13), 'mass = 1100 kg'; write mass = \"1100 kg\""),
-        ("0.4", "0,4", "linear_central.restitution: is not TOML: Expected newline or end of document after a statement (at line 9, column 16), 'restitution = 0,4'; a decimal has a point: write restitution = 0.4"),
-        ('"1100 kg"', "[0x" + "f" * 5000 + "]", "a.mass[0]: is a whole number of more than 64 bits"),
+        ('"1100 kg"', "1100 kg",
+            ("a.mass: is not TOML: Expected newline or end of document after a statement (at "
+             "line 2, column 13), 'mass = 1100 kg'; write mass = \"1100 kg\"")),
+        ("0.4", "0,4",
+            ("linear_central.restitution: is not TOML: Expected newline or end of document "
+             "after a statement (at line 9, column 16), 'restitution = 0,4'; a decimal has a "
+             "point: write restitution = 0.4")),
+        ('"1100 kg"', "[0x" + "f" * 5000 + "]",
+            "a.mass[0]: is a whole number of more than 64 bits"),
         ('"1100 kg"', "9" * 5000, "a.mass: is not TOML: Too many digits (at line 2), 'mass = 9999"),
         ("1100 kg", "1e400 kg", "a.mass: mass is too large: '1e400 kg'"),
-        ('"950 kg"', "1e400", ": has the number 1e400, which is larger than 1.7e308; look for a slipped digit, or write inf"),
-        ('"950 kg"', "2024-05-01", 'b.mass: is a date or a time, 2024-05-01; write a number, or a text in quotes: "2024-05-01"'),
-        ('"950 kg"', "true", "b.mass: mass must be a number or a text, such as 1100 (kg), '1100 kg' or '2425 lb'; got true"),
-        ("0.4\n", "0.4\nanswer = 1\n", "linear_central.answer: stands inside the table [linear_central]; move this line above the first table of the file"),
-        ("0.4\n", '0.4\n[report]\ndate = "1 May"\n', "report.date: is not known here; write one of title, units, "),
+        ('"950 kg"', "1e400",
+            (": has the number 1e400, which is larger than 1.7e308; look for a slipped digit, "
+             "or write inf")),
+        ('"950 kg"', "2024-05-01",
+            ('b.mass: is a date or a time, 2024-05-01; write a number, or a text in quotes: '
+             '"2024-05-01"')),
+        ('"950 kg"', "true",
+            ("b.mass: mass must be a number or a text, such as 1100 (kg), '1100 kg' or '2425 "
+             "lb'; got true")),
+        ("0.4\n", "0.4\nanswer = 1\n",
+            ("linear_central.answer: stands inside the table [linear_central]; move this line "
+             "above the first table of the file")),
+        ("0.4\n", '0.4\n[report]\ndate = "1 May"\n',
+            "report.date: is not known here; write one of title, units, "),
         ("[a]", "[A]", "A: is not known here; did you mean a?"),
-        ("80 km/h", "50 mph .. 40 mph", "a.vx: low and high must be in rising order, got 50 mph and 40 mph"),
-        ("0.4", "{ Censored = { low = 0.1 } }", "linear_central.restitution: is a reading with one bound, which only an observation may be"),
-        ("0.4", "{ Censored = {} }", "linear_central.restitution.Censored.low: a censored reading needs a bound; write { Censored = { low = ... } } for at least"),
-        ("0.4", "{ Normal = { mean = 0.1, sd = 0.1, truncate = 3 } }", "linear_central.restitution.Normal.truncate: truncate must be a pair [low, high], where -inf or inf leaves a side open"),
-        ("0.4", '"1 .. 2 (150 %)"', "linear_central.restitution: coverage must be more than 0 and less than 1, such as 0.95, got '150 %'; a range that cannot be left is \"low .. high\", or { Interval = { low = ..., high = ... } }"),
-        ("0.4\n", '0.4\n[fit.observed]\n"a.delta_v" = 3\n', "fit: has nothing to find; write what is sought as a range"),
-        ("0.4\n", '"0.1 .. 0.3"\n[fit.observed]\n"a.delta_v" = 3\n', 'fit.observed."a.delta_v": observed."a.delta_v" is a number without its error; give "value +/- error" or the pair [value, error]'),
-        ("restitution = 0.4", "restitution = 0.1\nnormal = [1, 2, 3]", "linear_central: normal must be an angle or a list [x, y], got 3 components"),
+        ("80 km/h", "50 mph .. 40 mph",
+            "a.vx: low and high must be in rising order, got 50 mph and 40 mph"),
+        ("0.4", "{ Censored = { low = 0.1 } }",
+            ("linear_central.restitution: is a reading with one bound, which only an "
+             "observation may be")),
+        ("0.4", "{ Censored = {} }",
+            ("linear_central.restitution.Censored.low: a censored reading needs a bound; "
+             "write { Censored = { low = ... } } for at least")),
+        ("0.4", "{ Normal = { mean = 0.1, sd = 0.1, truncate = 3 } }",
+            ("linear_central.restitution.Normal.truncate: truncate must be a pair [low, "
+             "high], where -inf or inf leaves a side open")),
+        ("0.4", '"1 .. 2 (150 %)"',
+            ("linear_central.restitution: coverage must be more than 0 and less than 1, such "
+             "as 0.95, got '150 %'; a range that cannot be left is \"low .. high\", or { "
+             "Interval = { low = ..., high = ... } }")),
+        ("0.4\n", '0.4\n[fit.observed]\n"a.delta_v" = 3\n',
+            "fit: has nothing to find; write what is sought as a range"),
+        ("0.4\n", '"0.1 .. 0.3"\n[fit.observed]\n"a.delta_v" = 3\n',
+            ('fit.observed."a.delta_v": observed."a.delta_v" is a number without its error; '
+             'give "value +/- error" or the pair [value, error]')),
+        ("restitution = 0.4", "restitution = 0.1\nnormal = [1, 2, 3]",
+            "linear_central: normal must be an angle or a list [x, y], got 3 components"),
 
-        ("80 km/h", "-80 km/h", "linear_central: no impact: the bodies move apart along the normal, closing speed -80 km/h; the normal must point from A into B, given [1, 0]; if A and B were meant the other way round, exchange them or write normal = [-1, 0]"),
+        ("80 km/h", "-80 km/h",
+            ("linear_central: no impact: the bodies move apart along the normal, closing "
+             "speed -80 km/h; the normal must point from A into B, given [1, 0]; if A and B "
+             "were meant the other way round, exchange them or write normal = [-1, 0]")),
         ("0.4", "1.4", "linear_central.restitution: restitution must be from 0 to 1, got 1.4"),
         ("0.4", "[0.4, 0.5]", "linear_central.restitution: takes one value"),
-        ("0.4", "{ travel.sped = { distance = 1 } }", "linear_central.restitution: is a table that names no function"),
+        ("0.4", "{ travel.sped = { distance = 1 } }",
+            "linear_central.restitution: is a table that names no function"),
         ("0.4", "{ Uniform = { low = 1 } }", "linear_central.restitution.Uniform.high: is missing"),
-        ("0.4\n", '0.4\n[report]\nunit = "us"\n', "report.unit: is not known here; did you mean units?"),
-        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.deltav"]\n', "propagate.outputs: 'a.deltav' is no number of the answer; did you mean a.delta_v?"),
-        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.before.name"]\n', "propagate.outputs: 'a.before.name' is no number of the answer; did you mean a.before.mass?"),
-        ("0.4\n", '"0.2 +/- 0.01"\n[propagate]\nmethod = "interval"\n', "restitution: restitution = { Normal = { mean = 0.2, sd = 0.01 } } has no bounds"),
-        ("0.4\n", '"0.1 .. 0.3"\n[posterior.observed]\na.delta_v = "20 km/h +/- 1 km/h"\n', 'posterior.observed."a": has its name without quotes; write "a.delta_v" = '),
-        ("0.4\n", '0.4\n[what_if.ranges]\nsped_a = [1, 40]\n', "what_if.ranges.sped_a: is not known here; did you mean speed_a?"),
-        ('vx = "80 km/h"', 'speed = "80 km/h +/- 60 km/h"\ncourse = 0', "a.speed: speed must be >= 0, got -"),
-        ('vx = "80 km/h"', 'vx = "80 km/h"\nheading = "N"', "a.heading: cannot read 'N': angles are counted"),
-        ('mass = "1100 kg"', 'name = 3\nmass = "1100 kg"', "a.name: name must be a text, got a number; put it in quotes"),
-        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.pdof"]\n', "propagate.outputs: 'a.pdof' is not known: "),
-        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["normal"]\n', "propagate.outputs: 'normal' is no number of the answer"),
-        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\ncorrelation = [1]\n', "propagate.correlation: takes rows such as"),
-        ("0.4\n", '0.4\n[eccentric]\n', ": has the tables [linear_central], [eccentric]; leave one of them"),
-        ("0.4\n", f"0.4\n[propagate]\nseed = {2**63}\n", "propagate.seed: is a whole number of more than 64 bits"),
-        ("0.4", '"50 +/- 3 km/h"', "linear_central.restitution: cannot read '50 +/- 3 km/h': both numbers need the same unit; write for example '50 km/h +/- 3 km/h'"),
-        ("80 km/h", "50 km/h +- 3", "a.vx: cannot read '50 km/h +- 3': both numbers need the same unit; write for example '50 km/h +- 3 km/h'"),
-        ("80 km/h", "50 km/h +/- 5 %", "a.vx: cannot read '50 km/h +/- 5 %': both numbers need the same unit; write for example '50 km/h +/- 3 km/h'"),
-        ("80 km/h", "40..50 mph", "a.vx: cannot read '40..50 mph': both numbers need the same unit; write for example '40 mph .. 50 mph'"),
-        ("80 km/h", "40-50 mph", "a.vx: cannot read '40-50 mph'; a range has two dots: write \"40 mph .. 50 mph\""),
+        ("0.4\n", '0.4\n[report]\nunit = "us"\n',
+            "report.unit: is not known here; did you mean units?"),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.deltav"]\n',
+            "propagate.outputs: 'a.deltav' is no number of the answer; did you mean a.delta_v?"),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.before.name"]\n',
+            ("propagate.outputs: 'a.before.name' is no number of the answer; did you mean "
+             "a.before.mass?")),
+        ("0.4\n", '"0.2 +/- 0.01"\n[propagate]\nmethod = "interval"\n',
+            "restitution: restitution = { Normal = { mean = 0.2, sd = 0.01 } } has no bounds"),
+        ("0.4\n", '"0.1 .. 0.3"\n[posterior.observed]\na.delta_v = "20 km/h +/- 1 km/h"\n',
+            'posterior.observed."a": has its name without quotes; write "a.delta_v" = '),
+        ("0.4\n", '0.4\n[what_if.ranges]\nsped_a = [1, 40]\n',
+            "what_if.ranges.sped_a: is not known here; did you mean speed_a?"),
+        ('vx = "80 km/h"', 'speed = "80 km/h +/- 60 km/h"\ncourse = 0',
+            "a.speed: speed must be >= 0, got -"),
+        ('vx = "80 km/h"', 'vx = "80 km/h"\nheading = "N"',
+            "a.heading: cannot read 'N': angles are counted"),
+        ('mass = "1100 kg"', 'name = 3\nmass = "1100 kg"',
+            "a.name: name must be a text, got a number; put it in quotes"),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.pdof"]\n',
+            "propagate.outputs: 'a.pdof' is not known: "),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["normal"]\n',
+            "propagate.outputs: 'normal' is no number of the answer"),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\ncorrelation = [1]\n',
+            "propagate.correlation: takes rows such as"),
+        ("0.4\n", '0.4\n[eccentric]\n',
+            ": has the tables [linear_central], [eccentric]; leave one of them"),
+        ("0.4\n", f"0.4\n[propagate]\nseed = {2**63}\n",
+            "propagate.seed: is a whole number of more than 64 bits"),
+        ("0.4", '"50 +/- 3 km/h"',
+            ("linear_central.restitution: cannot read '50 +/- 3 km/h': both numbers need the "
+             "same unit; write for example '50 km/h +/- 3 km/h'")),
+        ("80 km/h", "50 km/h +- 3",
+            ("a.vx: cannot read '50 km/h +- 3': both numbers need the same unit; write for "
+             "example '50 km/h +- 3 km/h'")),
+        ("80 km/h", "50 km/h +/- 5 %",
+            ("a.vx: cannot read '50 km/h +/- 5 %': both numbers need the same unit; write for "
+             "example '50 km/h +/- 3 km/h'")),
+        ("80 km/h", "40..50 mph",
+            ("a.vx: cannot read '40..50 mph': both numbers need the same unit; write for "
+             "example '40 mph .. 50 mph'")),
+        ("80 km/h", "40-50 mph",
+            "a.vx: cannot read '40-50 mph'; a range has two dots: write \"40 mph .. 50 mph\""),
         ("80 km/h", "0.4...0.7", "a.vx: cannot read '.0.7'"),
-        ("80 km/h", "\u221280 km/h", "a.vx: cannot read '\u221280 km/h': a minus is typed as a hyphen, '-80 km/h'"),
-        ("0.4", '"0.4 to 0.7"', "linear_central.restitution: cannot read '0.4 to 0.7'; a range has two dots: write \"0.4 .. 0.7\""),
-        ("vx", 'speed = "50 km/h"\ncourse = 0\nvx', "a: has its velocity in two ways; leave vx and vy, or speed and course"),
-        ('vx = "80 km/h"', 'speed = "80 km/h"', "a.course: is missing; give it: Direction in which it moves, counter-clockwise from the x axis of the scene [rad], such as 1.57 (rad) or '90 deg'"),
-        ('"80 km/h"', "\u201c80 km/h\u201d", "a.vx: is not TOML: Invalid value (at line 3, column 6), 'vx = \u201c80 km/h\u201d'; write straight quotes"),
-        ("[b]", "[a]", ": is not TOML: Cannot declare [a] twice (at line 5, column 3), '[a]'; a file is of one case"),
+        ("80 km/h", "\u221280 km/h",
+            "a.vx: cannot read '\u221280 km/h': a minus is typed as a hyphen, '-80 km/h'"),
+        ("0.4", '"0.4 to 0.7"',
+            ("linear_central.restitution: cannot read '0.4 to 0.7'; a range has two dots: "
+             "write \"0.4 .. 0.7\"")),
+        ("vx", 'speed = "50 km/h"\ncourse = 0\nvx',
+            "a: has its velocity in two ways; leave vx and vy, or speed and course"),
+        ('vx = "80 km/h"', 'speed = "80 km/h"',
+            ("a.course: is missing; give it: Direction in which it moves, counter-clockwise "
+             "from the x axis of the scene [rad], such as 1.57 (rad) or '90 deg'")),
+        ('"80 km/h"', "\u201c80 km/h\u201d",
+            ("a.vx: is not TOML: Invalid value (at line 3, column 6), 'vx = \u201c80 "
+             "km/h\u201d'; write straight quotes")),
+        ("[b]", "[a]",
+            (": is not TOML: Cannot declare [a] twice (at line 5, column 3), '[a]'; a file is "
+             "of one case")),
         (REAR_END, "", ": has no table of a solver; write one of [linear_central], "),
     ],
 )  # fmt: skip
@@ -394,7 +558,10 @@ def test_what_is_wrong_is_a_line_with_the_key_and_the_cure(old, new, line):
 
 def test_a_number_with_a_hyphen_is_no_range():
     """A power of ten and a negative exponent of a unit are read as they stand."""
-    assert solved(REAR_END.replace("80 km/h", "2e1 m/s").replace("950 kg", "95e+1 kg")).a.before.vx == 20.0
+    assert (
+        solved(REAR_END.replace("80 km/h", "2e1 m/s").replace("950 kg", "95e+1 kg")).a.before.vx
+        == 20.0
+    )
     assert solved(REAR_END.replace("80 km/h", "200E-1 m*s**-1")).a.before.vx == 20.0
 
 
@@ -403,7 +570,9 @@ def test_a_point_is_two_numbers():
     for point in ('"0 m, 0 m"', "[0, 0, 0]", "3"):
         (line,) = problems(ECCENTRIC.replace("[0, 0]", point))
         assert re.fullmatch(
-            r'eccentric.point: takes two numbers in brackets, got .*; write for example \["1.2 m", "-0.4 m"\]', line
+            r'eccentric.point: takes two numbers in brackets, got .*; write for example \["1.2 '
+            r'm", "-0.4 m"\]',
+            line,
         )
     assert 'such as ["1.2 m"' in problems(ECCENTRIC.replace("point = [0, 0]\n", ""))[0]
 
@@ -411,8 +580,14 @@ def test_a_point_is_two_numbers():
 def test_a_vehicle_that_lacks_something_is_named():
     """The key is that of the file, not of the function."""
     assert problems(ECCENTRIC.replace("yaw_inertia = 1700\n", "").replace("x = -2.0\n", "")) == [
-        "a.x: a has no x, which eccentric needs; give x = '2.5 m' (the centre of mass at the moment of impact)",
-        "b.yaw_inertia: b has no yaw_inertia, which eccentric needs; give yaw_inertia = '1800 kg*m**2', or inf for a body that does not rotate",
+        (
+            "a.x: a has no x, which eccentric needs; give x = '2.5 m' (the centre of mass at the "
+            "moment of impact)"
+        ),
+        (
+            "b.yaw_inertia: b has no yaw_inertia, which eccentric needs; give yaw_inertia = "
+            "'1800 kg*m**2', or inf for a body that does not rotate"
+        ),
     ]
 
 
@@ -420,14 +595,17 @@ def test_a_vehicle_that_lacks_something_is_named():
 def test_what_is_wrong_inside_a_function_is_named_with_its_table(distance):
     """Whether it shows when the file is read or when the case is solved."""
     (line,) = problems(
-        '[reconstruct.momentum]\nmass_a = 1500\nmass_b = 1200\ncourse_a = 0\ncourse_b = "90 deg"\ncourse_a_after = "25 deg"\n'
-        f'course_b_after = "40 deg"\nspeed_b_after = 9\nspeed_a_after = {{ travel.speed = {{ distance = {distance}, drag = 0.7 }} }}\n'
+        '[reconstruct.momentum]\nmass_a = 1500\nmass_b = 1200\ncourse_a = 0\ncourse_b = "90 '
+        'deg"\ncourse_a_after = "25 deg"\ncourse_b_after = "40 deg"\nspeed_b_after = 9\n'
+        f"speed_a_after = {{ travel.speed = {{ distance = {distance}, drag = 0.7 }} }}\n"
     )
     assert line.startswith("reconstruct.momentum.speed_a_after.travel.speed.distance: ")
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["paper_example_3", "intersection_with_recorder", "us_units", "run_out"])
+@pytest.mark.parametrize(
+    "name", ["paper_example_3", "intersection_with_recorder", "us_units", "run_out"]
+)
 def test_each_example_makes_its_report(name, tmp_path, capsys):
     """From a file to a report in one command; the record in it is that of the result."""
     page = tmp_path / "report.html"
@@ -440,12 +618,16 @@ def test_each_example_makes_its_report(name, tmp_path, capsys):
 
 
 def test_the_examples_have_their_published_answers():
-    """Example 3 of the paper, exactly; test 4474 as printed; the speed of the README's recorder within its range."""
+    """Example 3 of the paper, exactly; test 4474 as printed; the speed of the README's recorder
+    within its range.
+    """
     (paper,) = answers(read(CASES / "paper_example_3.toml")).results
     assert paper.b.after.yaw_rate == pytest.approx(-405 / 74, rel=1e-13)
     assert paper.a.after.vx == pytest.approx(950 / 111, rel=1e-13)
     (us,) = answers(read(CASES / "us_units.toml")).results
-    assert [side.q.delta_v.m_as("mph") for side in (us.a, us.b)] == pytest.approx([28.7, 40.5], abs=0.2)
+    assert [side.q.delta_v.m_as("mph") for side in (us.a, us.b)] == pytest.approx(
+        [28.7, 40.5], abs=0.2
+    )
 
 
 def test_the_command(tmp_path, capsys):
@@ -454,7 +636,9 @@ def test_the_command(tmp_path, capsys):
     file.write_text(REAR_END, encoding="utf-8")
     code, text, complaints = run(capsys, file)
     assert (code, complaints) == (0, "")
-    assert re.search(r"^  total +51\.9 km/h +60\.1 km/h$", text, re.MULTILINE), text  # 80 * 1.4 * 950 / 2050, and of 1100
+    assert re.search(r"^  total +51\.9 km/h +60\.1 km/h$", text, re.MULTILINE), (
+        text
+    )  # 80 * 1.4 * 950 / 2050, and of 1100
     assert "mph" in run(capsys, file, "--units", "us")[1]
     code, text, _ = run(capsys, file, "--json")
     record = json.loads(text)
@@ -466,25 +650,39 @@ def test_the_command(tmp_path, capsys):
     for name in (file, tmp_path, tmp_path / "page", tmp_path / "page.pdf"):
         code, text, complaints = run(capsys, file, "--report", name)
         assert (code, text, complaints) == (
-            2, "", f"{file}: --report cannot write {name}; give a name of its own, which ends in .html or .md\n"
+            2, "", (f"{file}: --report cannot write {name}; give a name of its own, which ends in "
+                    ".html or .md\n")
         )  # fmt: skip
     assert file.read_text(encoding="utf-8") == REAR_END
     page = tmp_path / "page.html"
     assert run(capsys, file, "--report", page, "--what-if", page)[0] == 2
-    assert run(capsys, file, "--report", tmp_path / "none" / "page.html")[2].startswith(f"{file}: cannot write ")
+    assert run(capsys, file, "--report", tmp_path / "none" / "page.html")[2].startswith(
+        f"{file}: cannot write "
+    )
     assert run(capsys, tmp_path / "none.toml")[0::2] == (
-        2, f"{tmp_path / 'none.toml'}: cannot be read (No such file or directory); give the path of a case file, or start from what 'new' prints\n",
+        2, (f"{tmp_path / 'none.toml'}: cannot be read (No such file or directory); give the "
+            "path of a case file, or start from what 'new' prints\n"),
     )  # fmt: skip
     file.write_text(REAR_END.replace("80 km/h", "-80 km/h"), encoding="utf-8")
     code, text, complaints = run(capsys, file)
     assert (code, text, complaints.count("\n")) == (1, "", 1)
     assert complaints.startswith(f"{file}: linear_central: no impact: ")
     code, text, _ = run(capsys, file, "--json")
-    assert (code, json.loads(text)["code"], json.loads(text)["errors"][0]["key"]) == (1, "separating", "linear_central")
-    file.write_text(REAR_END.replace('"80 km/h"', "80") + "normal = 6.283185307179587\n", encoding="utf-8")
+    assert (code, json.loads(text)["code"], json.loads(text)["errors"][0]["key"]) == (
+        1,
+        "separating",
+        "linear_central",
+    )
+    file.write_text(
+        REAR_END.replace('"80 km/h"', "80") + "normal = 6.283185307179587\n", encoding="utf-8"
+    )
     file.write_text(REAR_END + "[report]\nduration = 100\n", encoding="utf-8")
     code, text, complaints = run(capsys, file)
-    assert (code, complaints.startswith(f"{file}: warning: "), text.startswith("Impact of A")) == (0, True, True)
+    assert (code, complaints.startswith(f"{file}: warning: "), text.startswith("Impact of A")) == (
+        0,
+        True,
+        True,
+    )
     with pytest.raises(SystemExit, match="2"):
         main(["--nothing"])
 
@@ -512,26 +710,48 @@ def test_the_schema_is_that_of_the_functions(capsys):
     assert schema == case_schema()
     check = jsonschema.Draft7Validator(schema)
     check.check_schema(schema)
-    for path in (*CASES.glob("*.toml"), ROOT / "src" / "collisions" / "cases" / "case_template.toml"):
-        assert not [error.message for error in check.iter_errors(tomllib.loads(path.read_text(encoding="utf-8")))], path
-    for text in (REAR_END.replace("vx", "vxx"), REAR_END.replace("restitution", "e"), REAR_END.replace('"1100 kg"', "true")):
+    for path in (
+        *CASES.glob("*.toml"),
+        ROOT / "src" / "collisions" / "cases" / "case_template.toml",
+    ):
+        assert not [
+            error.message
+            for error in check.iter_errors(tomllib.loads(path.read_text(encoding="utf-8")))
+        ], path
+    for text in (
+        REAR_END.replace("vx", "vxx"),
+        REAR_END.replace("restitution", "e"),
+        REAR_END.replace('"1100 kg"', "true"),
+    ):
         assert list(check.iter_errors(tomllib.loads(text)))
     tables = schema["properties"] | {
-        f"reconstruct.{name}": one for name, one in schema["properties"]["reconstruct"]["properties"].items()
+        f"reconstruct.{name}": one
+        for name, one in schema["properties"]["reconstruct"]["properties"].items()
     }
     for name, function in (SOLVERS | STUDIES).items():
-        listed = {key for key in parameters(function) if parameters(function)[key].annotation != "Vehicle"}
+        listed = {
+            key for key in parameters(function) if parameters(function)[key].annotation != "Vehicle"
+        }
         assert set(tables[name]["properties"]) - {"outputs"} == listed
     assert tables["eccentric"]["properties"]["law"]["enum"][:2] == ["brach", "kudlich-slibar"]
-    assert "Coefficient of restitution" in tables["eccentric"]["properties"]["restitution"]["description"]
+    assert (
+        "Coefficient of restitution"
+        in tables["eccentric"]["properties"]["restitution"]["description"]
+    )
     assert DISTRIBUTIONS.keys() <= schema["$defs"]["function"]["properties"].keys()
 
 
 def test_the_text_is_that_of_any_editor():
-    """Line ends of Windows, marks of the encoding, and what PowerShell makes of the output of ``new``."""
+    """Line ends of Windows, marks of the encoding, and what PowerShell makes of the output of
+    ``new``.
+    """
     text = REAR_END.replace("[a]", '[a]\nname = "Käfer"')
     wanted = solved(text)
-    for data in (text.encode("utf-8-sig"), text.replace("\n", "\r\n").encode(), text.replace("\n", "\r\n").encode("utf-16")):
+    for data in (
+        text.encode("utf-8-sig"),
+        text.replace("\n", "\r\n").encode(),
+        text.replace("\n", "\r\n").encode("utf-16"),
+    ):
         assert answers(read_text(data)).results == (wanted,)
     for data in (text.encode("latin-1"), text.encode("utf-16")[:-1]):
         with pytest.raises(CaseError, match="is no text in UTF-8; save it with this encoding"):
@@ -544,55 +764,80 @@ def test_the_text_is_that_of_any_editor():
         ("write friction=0, or give impulse_ratio=", "write friction = 0, or give impulse_ratio"),
         ("write normal=(-1, 0), got (1, 0)", "write normal = [-1, 0], got [1, 0]"),
         ("got 'a=(1, 2), None' and incomplete=True", "got 'a=(1, 2), None' and incomplete = true"),
-        ("give crush_a=('60 kN/m', '1 m') or duration='9 ms'", "give crush_a = ['60 kN/m', '1 m'] or duration = '9 ms'"),
-        ("bound them, as by Normal(mean, sd, truncate=(low, high))", "bound them, as by { Normal = { mean = ..., sd = ..., truncate = [low, high] } }"),
+        ("give crush_a=('60 kN/m', '1 m') or duration='9 ms'",
+            "give crush_a = ['60 kN/m', '1 m'] or duration = '9 ms'"),
+        ("bound them, as by Normal(mean, sd, truncate=(low, high))",
+            "bound them, as by { Normal = { mean = ..., sd = ..., truncate = [low, high] } }"),
         ("write Normal.between(low, high, 0.95)", 'write "low .. high (95 %)"'),
         ("such as Normal('50 km/h', '10 km/h')", 'such as "50 km/h +/- 10 km/h"'),
-        ("such as {'tyre_impulse': 0.2}, got {'a': {'b': 1}}", "such as {tyre_impulse = 0.2}, got {a = {b = 1}}"),
+        ("such as {'tyre_impulse': 0.2}, got {'a': {'b': 1}}",
+            "such as {tyre_impulse = 0.2}, got {a = {b = 1}}"),
         ("name must be a text, got dict", "name must be a text, got a table"),
-        ("is lost. .solutions holds one end, for ratios to 1.1e+09, where they jam. What decides is", "is lost. What decides is"),
-        ("two impacts fit: x, y; both are in .solutions, and a velocity decides", "two impacts fit: x, y, and a velocity decides"),
-        ("duration is a list, and takes one value; many cases go in a numpy array", "duration is a list, and takes one value"),
-        ("is weighed by reconstruct.posterior (infinite masses, or a line)", "is weighed by [posterior] (infinite masses, or a line)"),
-        ("takes [length, width], or (length, width, how far it is ahead); got ('4 m',)", "takes [length, width], or [length, width, how far it is ahead]; got ['4 m']"),
-        ("around 50 km/h, got ('60 km/h', '80 km/h')", "around 50 km/h, got ['60 km/h', '80 km/h']"),
+        ("is lost. .solutions holds one end, for ratios to 1.1e+09, where they jam. What "
+         "decides is", "is lost. What decides is"),
+        ("two impacts fit: x, y; both are in .solutions, and a velocity decides",
+            "two impacts fit: x, y, and a velocity decides"),
+        ("duration is a list, and takes one value; many cases go in a numpy array",
+            "duration is a list, and takes one value"),
+        ("is weighed by reconstruct.posterior (infinite masses, or a line)",
+            "is weighed by [posterior] (infinite masses, or a line)"),
+        ("takes [length, width], or (length, width, how far it is ahead); got ('4 m',)",
+            "takes [length, width], or [length, width, how far it is ahead]; got ['4 m']"),
+        ("around 50 km/h, got ('60 km/h', '80 km/h')",
+            "around 50 km/h, got ['60 km/h', '80 km/h']"),
     ],
 )  # fmt: skip
 def test_messages_speak_of_files(said, in_a_file):
-    """What Python writes as calls, arguments and tuples are tables, keys and lists; texts that were given stay."""
+    """What Python writes as calls, arguments and tuples are tables, keys and lists; texts that were
+    given stay.
+    """
     assert in_file_words(said) == in_a_file
 
 
 def test_the_cures_of_messages_work_in_a_file():
-    """What is to be written is read: a truncation with one open end, in the place of None, and a pair in brackets."""
+    """What is to be written is read: a truncation with one open end, in the place of None, and a
+    pair in brackets.
+    """
     cured = REAR_END.replace("0.4", "{ Normal = { mean = 0.1, sd = 0.2, truncate = [0, inf] } }")
     (found,) = read_text(cured.encode()).uncertain.values()
     assert found.stated.truncate == (0.0, None)
     assert problems(cured.replace("[0, inf]", "[inf, 1]"))[0].startswith(
-        "linear_central.restitution.Normal.truncate[0]: truncate[0] must be finite, got inf; write -inf for a lower end"
+        "linear_central.restitution.Normal.truncate[0]: truncate[0] must be finite, got inf; "
+        "write -inf for a lower end"
     )
     whole = answers(read_text((REAR_END + "[report]\nlimits = 3\n").encode()))
     with pytest.raises(
-        CaseError, match=re.escape("report.limits: limits must be a table from code to limit, such as {tyre_impulse = 0.2}")
+        CaseError,
+        match=re.escape(
+            "report.limits: limits must be a table from code to limit, such as {tyre_impulse = 0.2}"
+        ),
     ):
         whole.text()
     least = REAR_END.replace("linear_central", "solve")
-    assert "solve.normal: is missing; give it: Direction from A into B at the contact" in problems(least)[0]
+    assert (
+        "solve.normal: is missing; give it: Direction from A into B at the contact"
+        in problems(least)[0]
+    )
 
 
 def test_a_study_warns_once_with_the_number_of_its_cases():
-    """A speed that comes out backwards in each call of the study is one line; without a study it has the units of the file."""
+    """A speed that comes out backwards in each call of the study is one line; without a study it
+    has the units of the file.
+    """
     text = (
-        '[reconstruct.momentum]\nmass_a = "3400 lb"\nmass_b = "2900 lb"\ncourse_a = "0 deg"\ncourse_b = "20 deg .. 60 deg"\n'
-        'course_a_after = "25 deg +/- 3 deg"\ncourse_b_after = "-40 deg +/- 10 deg"\nspeed_a_after = "20 mph"\n'
-        'speed_b_after = "25 mph +/- 4 mph"\n'
+        '[reconstruct.momentum]\nmass_a = "3400 lb"\nmass_b = "2900 lb"\ncourse_a = "0 deg"\n'
+        'course_b = "20 deg .. 60 deg"\ncourse_a_after = "25 deg +/- 3 deg"\ncourse_b_after = '
+        '"-40 deg +/- 10 deg"\nspeed_a_after = "20 mph"\nspeed_b_after = "25 mph +/- 4 mph"\n'
     )
     whole = answers(read_text(text.encode()))
     whole.text()
     negative = int((whole.propagation["speed_b"].values < 0.0).sum())
     assert 0 < negative < 8192
     assert [line for line in whole.warnings if "backwards" in line] == [
-        f"{negative} of 8192 cases ({100 * negative / 8192:.3g} %): speed_b is below 0, backwards along its course; check the courses, or turn its course by 180 deg"
+        (
+            f"{negative} of 8192 cases ({100 * negative / 8192:.3g} %): speed_b is below 0, "
+            "backwards along its course; check the courses, or turn its course by 180 deg"
+        )
     ]
     alone = re.sub(r"20 deg \.\. 60", "40", re.sub(r" \+/- [^\"]*", "", text))
     (line,) = answers(read_text(alone.encode())).warnings
@@ -612,12 +857,24 @@ def test_a_range_of_directions_in_degrees_is_no_suspect_number():
 @pytest.mark.parametrize(
     ("file", "wanted"),
     [
-        ("intersection_with_recorder.toml", ["| A (Saloon) | mass | 1500 kg. Stated as 1500 ± 50 kg |", "2364.147 kg·m². Worked out by reference.yaw_inertia from mass 1500 kg; length 4.6 m; wheelbase 2.7 m |", "| contact | restitution e | 0.125. Stated as 0.05 to 0.2, all values equally likely |", "| known | delta-V of A | 20.9 km/h. Stated as 20.9 ± 1 km/h |", "| known | course of B before | 90°. Stated as 90 ± 2° |"]),
-        ("run_out.toml", ["| A | speed after | 46.21 km/h. Worked out by travel.speed from distance 12 m; drag 0.6 to 0.8, all values equally likely |", "| B | course after | 40°. Stated as 40 ± 3° |"]),
+        ("intersection_with_recorder.toml",
+            ["| A (Saloon) | mass | 1500 kg. Stated as 1500 ± 50 kg |",
+                ("2364.147 kg·m². Worked out by reference.yaw_inertia from mass 1500 kg; "
+                 "length 4.6 m; wheelbase 2.7 m |"),
+                 ("| contact | restitution e | 0.125. Stated as 0.05 to 0.2, all values "
+                        "equally likely |"),
+                        "| known | delta-V of A | 20.9 km/h. Stated as 20.9 ± 1 km/h |",
+                        "| known | course of B before | 90°. Stated as 90 ± 2° |"]),
+        ("run_out.toml",
+            [("| A | speed after | 46.21 km/h. Worked out by travel.speed from distance 12 m; "
+              "drag 0.6 to 0.8, all values equally likely |"),
+              "| B | course after | 40°. Stated as 40 ± 3° |"]),
     ],
 )  # fmt: skip
 def test_a_report_states_the_inputs_as_the_file_does(file, wanted):
-    """The middle of a range is no exact input: its range stands beside it, and beside evidence what it was worked out from."""
+    """The middle of a range is no exact input: its range stands beside it, and beside evidence what
+    it was worked out from.
+    """
     page = answers(read(CASES / file)).report("markdown").replace("\\_", "_")
     for line in wanted:
         assert line in page, line
@@ -632,12 +889,12 @@ def test_a_velocity_that_a_reverse_solver_finds_is_not_passed_over():
     )
     lines = problems(text)
     assert (
-        "b.speed: is what reconstruct.speeds finds; leave it out, and write speed_b in [reconstruct.speeds] if it is known"
-        in lines
+        "b.speed: is what reconstruct.speeds finds; leave it out, and write speed_b in "
+        "[reconstruct.speeds] if it is known" in lines
     )
     assert (
-        "b.vx: is what reconstruct.speeds finds; leave it out, and write course_b in [reconstruct.speeds] if it is known"
-        in lines
+        "b.vx: is what reconstruct.speeds finds; leave it out, and write course_b in "
+        "[reconstruct.speeds] if it is known" in lines
     )
 
 
@@ -650,18 +907,26 @@ def test_the_page_says_which_solver_takes_vehicles():
     ]
     none = {name for name, solver in SOLVERS.items() if vehicles(solver) == []}
     others = {name for name, solver in SOLVERS.items() if vehicles(solver) not in ([], ["a", "b"])}
-    assert (none, others) == ({"reconstruct.central", "reconstruct.momentum"}, {"reconstruct.planar"})
+    assert (none, others) == (
+        {"reconstruct.central", "reconstruct.momentum"},
+        {"reconstruct.planar"},
+    )
     assert all(f"`{name}`" in row for name in none | others)
 
 
 def test_notes_of_the_file_stand_beside_what_it_states():
-    """Both, of the same input and in paragraphs; what the page has no row for is a paragraph too."""
+    """Both, of the same input and in paragraphs; what the page has no row for is a
+    paragraph too.
+    """
     text = (
         REAR_END.replace("80 km/h", "80 km/h +/- 2 km/h")
         .replace("vx", "course = 0\nspeed")
         .replace("[b]", '[b]\nyaw_inertia = "1 kg*m**2 .. 2 kg*m**2"')
     )
-    text += '[report]\nnotes = ["Own words.", { restitution = "From tests", "a.speed" = "By the recorder" }]\n'
+    text += (
+        '[report]\nnotes = ["Own words.", { restitution = "From tests", "a.speed" = "By the '
+        'recorder" }]\n'
+    )
     page = answers(read_text(text.encode())).report("markdown")
     assert "| A | speed | 80 km/h. Stated as 80 ± 2 km/h. By the recorder |" in page
     assert "| contact | restitution e | 0.4. From tests |" in page
@@ -670,20 +935,26 @@ def test_notes_of_the_file_stand_beside_what_it_states():
         "[a]\nmass = 1100\ncourse = 0\nspeed = { travel.speed = { distance = 12, drag = 0.7 } }\n"
         + REAR_END[REAR_END.index("[b]") :]
     )
-    assert "a.speed: Worked out by travel.speed from distance 12 m; drag 0.7." in answers(read_text(evidence.encode())).report(
-        "markdown"
-    )
+    assert "a.speed: Worked out by travel.speed from distance 12 m; drag 0.7." in answers(
+        read_text(evidence.encode())
+    ).report("markdown")
 
 
 def test_both_pages_or_none(tmp_path, capsys):
-    """A page that cannot be made or written leaves neither, says so, and the results are printed all the same."""
+    """A page that cannot be made or written leaves neither, says so, and the results are printed
+    all the same.
+    """
     file, page, sliders = tmp_path / "case.toml", tmp_path / "page.md", tmp_path / "sliders.html"
     file.write_text(REAR_END, encoding="utf-8")
     code, said, complaints = run(capsys, file, "--report", page, "--what-if", sliders)
     assert (code, said.startswith("Impact of A")) == (2, True)
     assert complaints.startswith(f"{file}: what_if.ranges: is not there")
     code, said, _ = run(capsys, file, "--report", page, "--what-if", sliders, "--json")
-    assert (code, json.loads(said)["errors"][0]["key"], len(json.loads(said)["results"])) == (2, "what_if.ranges", 1)
+    assert (code, json.loads(said)["errors"][0]["key"], len(json.loads(said)["results"])) == (
+        2,
+        "what_if.ranges",
+        1,
+    )
     file.write_text(REAR_END + "[what_if.ranges]\nrestitution = [0.1, 0.5]\n", encoding="utf-8")
     sliders.mkdir()
     code, said, complaints = run(capsys, file, "--report", page, "--what-if", sliders)
@@ -694,7 +965,12 @@ def test_both_pages_or_none(tmp_path, capsys):
     own = page.with_name("page.md.part")
     own.write_text("of the user", encoding="utf-8")
     assert run(capsys, file, "--report", page, "--what-if", sliders)[0] == 0
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["case.toml", "page.md", "page.md.part", "sliders.html"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "case.toml",
+        "page.md",
+        "page.md.part",
+        "sliders.html",
+    ]
     assert own.read_text(encoding="utf-8") == "of the user"
 
 
@@ -705,7 +981,12 @@ def test_one_file_by_two_names_and_a_key_that_stops(tmp_path, capsys, monkeypatc
     link.symlink_to(page)
     for other in (link, tmp_path / "none" / ".." / "page.html"):
         code, _, complaints = run(capsys, file, "--report", page, "--what-if", other)
-        assert (code, complaints.startswith(f"{file}: --what-if cannot write {other}; give a name of its own")) == (2, True)
+        assert (
+            code,
+            complaints.startswith(
+                f"{file}: --what-if cannot write {other}; give a name of its own"
+            ),
+        ) == (2, True)
     over = tmp_path / "over.html"
     over.symlink_to(file)
     assert run(capsys, file, "--report", over)[0] == 2
@@ -719,7 +1000,9 @@ def test_one_file_by_two_names_and_a_key_that_stops(tmp_path, capsys, monkeypatc
 
 
 def test_new_has_the_units_that_are_asked_for(tmp_path, capsys):
-    """In US units no metric one, in the same tables with the same keys; other options are refused."""
+    """In US units no metric one, in the same tables with the same keys; other options
+    are refused.
+    """
     file, texts = tmp_path / "case.toml", {}
     for units in ("metric", "si", "us"):
         code, texts[units], _ = run(capsys, "new", "--units", units)
@@ -731,11 +1014,22 @@ def test_new_has_the_units_that_are_asked_for(tmp_path, capsys):
         assert answers(case).warnings == []
     assert texts["metric"] == run(capsys, "new")[1]
     assert not re.search(r"\d (km/h|kg|m)\b", texts["us"])
-    keys = [[line.partition(" =")[0] for line in text.splitlines() if line[:1] != "#"] for text in texts.values()]
+    keys = [
+        [line.partition(" =")[0] for line in text.splitlines() if line[:1] != "#"]
+        for text in texts.values()
+    ]
     assert keys[0] == keys[1] == keys[2]
     assert max(map(len, texts["us"].splitlines())) < 80
-    assert run(capsys, "new", "--report", "page.html") == (2, "", "new: takes --units alone; leave out --report\n")
-    assert run(capsys, "schema", "--units", "us") == (2, "", "schema: takes no options; leave out --units\n")
+    assert run(capsys, "new", "--report", "page.html") == (
+        2,
+        "",
+        "new: takes --units alone; leave out --report\n",
+    )
+    assert run(capsys, "schema", "--units", "us") == (
+        2,
+        "",
+        "schema: takes no options; leave out --units\n",
+    )
 
 
 def test_nothing_is_evaluated():
@@ -751,13 +1045,20 @@ def test_every_solver_has_its_table():
     solvers = {name: getattr(col, name) for name in col.__all__} | {
         f"reconstruct.{name}": getattr(reconstruct, name) for name in reconstruct.__all__
     }
-    found = {name for name, one in solvers.items() if getattr(one, "__annotations__", {}).get("return") in answers_of}
+    found = {
+        name
+        for name, one in solvers.items()
+        if getattr(one, "__annotations__", {}).get("return") in answers_of
+    }
     assert found == set(SOLVERS)
     assert all(SOLVERS[name] is solvers[name] for name in found)
 
 
 def test_a_case_in_us_units_is_answered_in_them(tmp_path, capsys):
-    text = '[a]\nmass = "3400 lb"\nvx = "30 mph"\n\n[b]\nmass = "2900 lb"\n\n[linear_central]\nrestitution = 0.1\n'
+    text = (
+        '[a]\nmass = "3400 lb"\nvx = "30 mph"\n\n[b]\nmass = "2900 lb"\n\n[linear_central]\n'
+        "restitution = 0.1\n"
+    )
     (tmp_path / "case.toml").write_text(text)
     assert main([str(tmp_path / "case.toml")]) == 0
     assert "30.0 mph" in capsys.readouterr().out
@@ -773,16 +1074,22 @@ def test_sliders_of_what_is_uncertain_stay_where_the_solver_can_go():
 
 
 def test_the_share_of_a_normal_distribution_leaves_its_unit():
-    """What is stated in lb is given back in lb; two standard deviations are 95.45 percent (tables of the normal)."""
+    """What is stated in lb is given back in lb; two standard deviations are 95.45 percent (tables
+    of the normal).
+    """
     found = stated("3300 lb +/- 90 lb (95 %)")
     assert str(found) == "3210 to 3390 lb (95 percent), normal"
     assert found.sd == pytest.approx(90 / 1.959964 * 0.45359237, rel=1e-6)
 
 
-@pytest.mark.parametrize("study", ["", '[posterior.observed]\n"a.delta_v" = "20 km/h +/- 2 km/h"\n'])
+@pytest.mark.parametrize(
+    "study", ["", '[posterior.observed]\n"a.delta_v" = "20 km/h +/- 2 km/h"\n']
+)
 def test_directions_about_a_turn_with_their_unit_are_not_suspected(study):
     """360 deg is no bare number, however it is drawn from; the variances are drawn of it too."""
-    text = ECCENTRIC.replace('vy = "40 km/h"', 'speed = "2 km/h"\ncourse = "350 deg .. 370 deg"').replace('"90 deg"', "0.0")
+    text = ECCENTRIC.replace(
+        'vy = "40 km/h"', 'speed = "2 km/h"\ncourse = "350 deg .. 370 deg"'
+    ).replace('"90 deg"', "0.0")
     found = answers(read_text((text + study).encode()))
     found.text()
     assert not [one for one in found.warnings if "is read as" in one]
@@ -794,7 +1101,10 @@ def test_a_study_of_nothing_says_so():
     assert found.propagation is None
     assert found.results == (solved(ECCENTRIC),)
     assert found.warnings == [
-        '[propagate] has nothing to propagate; write a number with its error, such as "50 km/h +/- 3 km/h"'
+        (
+            '[propagate] has nothing to propagate; write a number with its error, such as "50 '
+            'km/h +/- 3 km/h"'
+        )
     ]
     assert answers(read_text(ECCENTRIC.encode())).warnings == []
 
@@ -808,7 +1118,9 @@ def test_a_range_without_units_is_refused_where_a_unit_is_needed():
     ):
         text = ECCENTRIC.replace('vx = "50 km/h"', "speed = 14.0\ncourse = 0.0")
         text = re.sub(rf"^{key} = .*$", f'{key} = "{range_}"', text, count=1, flags=re.MULTILINE)
-        assert problems(text)[0].startswith(f"a.{key}: {said} has no unit; write one plain number and one unit, such as")
+        assert problems(text)[0].startswith(
+            f"a.{key}: {said} has no unit; write one plain number and one unit, such as"
+        )
     friction = re.sub("^friction = .*$", 'friction = "0.4 .. 0.7"', ECCENTRIC, flags=re.MULTILINE)
     (one,) = read_text(friction.encode()).uncertain.values()
     assert one.nominal == "0.55"
@@ -817,12 +1129,19 @@ def test_a_range_without_units_is_refused_where_a_unit_is_needed():
 def test_a_slider_for_what_an_impact_leaves_as_it_was(tmp_path, capsys):
     """The mass of [a_after] is that before; its speed is not."""
     impact = solved(ECCENTRIC)
-    text = ECCENTRIC.replace("[eccentric]", "[reconstruct.planar]").replace("[a]", "[a_after]").replace("[b]", "[b_after]")
+    text = (
+        ECCENTRIC.replace("[eccentric]", "[reconstruct.planar]")
+        .replace("[a]", "[a_after]")
+        .replace("[b]", "[b_after]")
+    )
     a, b = impact.a.after, impact.b.after
     text = text.replace("mass = 1500", 'mass = "1500 kg +/- 40 kg"').replace(
         'vx = "50 km/h"', f"vx = {a.vx!r}\nvy = {a.vy!r}\nyaw_rate = {a.yaw_rate!r}"
     )
-    text = text.replace('vy = "40 km/h"', f'vx = {b.vx!r}\nvy = "{b.vy!r} m/s +/- 0.1 m/s"\nyaw_rate = {b.yaw_rate!r}')
+    text = text.replace(
+        'vy = "40 km/h"',
+        f'vx = {b.vx!r}\nvy = "{b.vy!r} m/s +/- 0.1 m/s"\nyaw_rate = {b.yaw_rate!r}',
+    )
     page = answers(read_text(text.encode())).what_if()
     assert re.findall(r'<input type="range" id="(\w+)"', page) == ["mass_a"]
 
@@ -845,6 +1164,8 @@ def test_the_schema_knows_the_sliders():
 
 def test_the_text_says_what_stands_for_a_range():
     """The results of the middle are called so, before they are given."""
-    first, *_ = answers(read_text(REAR_END.replace("0.4", '"0.2 .. 0.4"').encode())).text().splitlines()
+    first, *_ = (
+        answers(read_text(REAR_END.replace("0.4", '"0.2 .. 0.4"').encode())).text().splitlines()
+    )
     assert first.startswith("Of what is not known exactly the mean")
     assert answers(read_text(REAR_END.encode())).text().startswith("Impact of A and B")

@@ -1,6 +1,7 @@
 """Mutated case files: an answer, or lines that name a key and a cure; never anything else.
 
-``COLLISIONS_FUZZ_CASES`` is the number of files (``10000``) or a range (``5000:10000``), without it a few hundred.
+``COLLISIONS_FUZZ_CASES`` is the number of files (``10000``) or a range (``5000:10000``), without it
+a few hundred.
 """
 
 import json
@@ -20,47 +21,74 @@ ROOT = Path(__file__).parents[2]
 _FEW = 300
 PLACED = 'yaw_inertia = 2000.0\nx = {x}\ny = 0.1\nheading = "0 deg"\n'
 FILES = [
-    *(path.read_text(encoding="utf-8") for path in sorted((ROOT / "examples" / "cases").glob("*.toml"))),
+    *(path.read_text(encoding="utf-8") for path in sorted(
+    (ROOT / "examples" / "cases").glob("*.toml"))),
     (ROOT / "src" / "collisions" / "cases" / "case_template.toml").read_text(encoding="utf-8"),
     '[a]\nmass = "1100 kg"\nvx = "80 km/h"\n[b]\nmass = 950\n[linear_central]\nrestitution = 0.4\n',
-    '[a]\nmass = 1100\nvx = 20.0\n[b]\nmass = inf\n[oblique_central]\nrestitution = "10 %"\nnormal = [1, 0.2]\nfriction = 0.3\n',
-    "[a]\nmass = 1500\nvx = 10.0\nx = -2.0\ny = 0.0\n[b]\nmass = 1200\nx = 2.0\ny = 0.0\n"
-    "[solve]\nrestitution = 0.2\nnormal = 0.0\npoint = [0.0, 0.0]\nfriction = 0.5\ntolerance = 0.5\n",
-    f'[a]\nmass = 1500\nvx = 14\n{PLACED.format(x=-2.0)}[b]\nmass = 1200\n{PLACED.format(x=2.0)}[time_resolved]\nrestitution = 0.1\n'
-    'normal = 0\npoint = [0, 0.1]\nfriction = 0.5\nduration = "100 ms"\nsteps = 20\n',
-    '[reconstruct.central]\nmass_a = "1100 kg"\nmass_b = 950\nva = "80 km/h +/- 2 km/h (95 %)"\nvb = 0.0\nvb_after = "60 km/h"\n',
-    f'[a_after]\nmass = 1100\nvx = 11.0\nvy = 0.4\n{PLACED.format(x=0.0)}[b_after]\nmass = 950\nvx = 13.0\nvy = 10.0\n'
-    f'{PLACED.format(x=2.5)}[reconstruct.planar]\nnormal = 0.0\npoint = [1.6, 0.3]\nrestitution = 0.2\nfriction = 0.2\n',
-    f'answer = 1\n[a]\nmass = 1500\n{PLACED.format(x=-2.0)}[b]\nmass = 1300\n{PLACED.format(x=2.0)}'
-    '[reconstruct.speeds]\ncourse_a = 0.0\ncourse_b = "90 deg"\ndelta_v_a = { Triangular = { low = 5.9, mode = 6, high = 6.1 } }\n'
-    "energy_loss = 120000\nrestitution = 0.1\nnormal = 0.0\npoint = [0.0, 0.4]\nfriction = 0.5\n",
-    '[a]\nmass = 1500\nvx = "10 m/s .. 20 m/s"\n[b]\nmass = 1200\n[linear_central]\nrestitution = 0.1\n'
-    '[fit.observed]\n"b.delta_v" = "9 m/s +/- 0.3 m/s"\n',
+    ('[a]\nmass = 1100\nvx = 20.0\n[b]\nmass = inf\n[oblique_central]\nrestitution = "10 %"\n'
+     'normal = [1, 0.2]\nfriction = 0.3\n'),
+    ("[a]\nmass = 1500\nvx = 10.0\nx = -2.0\ny = 0.0\n[b]\nmass = 1200\nx = 2.0\ny = 0.0\n"
+     "[solve]\nrestitution = 0.2\nnormal = 0.0\npoint = [0.0, 0.0]\nfriction = 0.5\ntolerance "
+     "= 0.5\n"),
+    (f'[a]\nmass = 1500\nvx = 14\n{PLACED.format(x=-2.0)}[b]\nmass = 1200\n'
+     f'{PLACED.format(x=2.0)}[time_resolved]\nrestitution = 0.1\nnormal = 0\npoint = [0, '
+     '0.1]\nfriction = 0.5\nduration = "100 ms"\nsteps = 20\n'),
+    ('[reconstruct.central]\nmass_a = "1100 kg"\nmass_b = 950\nva = "80 km/h +/- 2 km/h (95 '
+     '%)"\nvb = 0.0\nvb_after = "60 km/h"\n'),
+    (f'[a_after]\nmass = 1100\nvx = 11.0\nvy = 0.4\n{PLACED.format(x=0.0)}[b_after]\nmass = '
+     f'950\nvx = 13.0\nvy = 10.0\n{PLACED.format(x=2.5)}[reconstruct.planar]\nnormal = 0.0\n'
+     'point = [1.6, 0.3]\nrestitution = 0.2\nfriction = 0.2\n'),
+    (f'answer = 1\n[a]\nmass = 1500\n{PLACED.format(x=-2.0)}[b]\nmass = 1300\n'
+     f'{PLACED.format(x=2.0)}'
+     '[reconstruct.speeds]\ncourse_a = 0.0\ncourse_b = "90 deg"\ndelta_v_a = { Triangular = { '
+     'low = 5.9, mode = 6, high = 6.1 } }\n'
+     "energy_loss = 120000\nrestitution = 0.1\nnormal = 0.0\npoint = [0.0, 0.4]\nfriction = "
+     "0.5\n"),
+    ('[a]\nmass = 1500\nvx = "10 m/s .. 20 m/s"\n[b]\nmass = 1200\n[linear_central]\n'
+     'restitution = 0.1\n[fit.observed]\n"b.delta_v" = "9 m/s +/- 0.3 m/s"\n'),
 ]  # fmt: skip
 # Takes the time of hundreds of others, and more the wider its priors are.
 POSTERIOR = (
-    '[a]\nmass = 1500\nvx = "10 m/s .. 20 m/s"\n[b]\nmass = 1200\n[linear_central]\nrestitution = "0.1 .. 0.3"\n'
-    '[posterior]\nsamples = 512\n[posterior.observed]\n"b.delta_v" = "9 m/s +/- 0.3 m/s"\n"a.before.vx" = "12 m/s .. 30 m/s"\n'
+    '[a]\nmass = 1500\nvx = "10 m/s .. 20 m/s"\n[b]\nmass = 1200\n[linear_central]\nrestitution '
+    '= "0.1 .. 0.3"\n[posterior]\nsamples = 512\n[posterior.observed]\n"b.delta_v" = "9 m/s +/- '
+    '0.3 m/s"\n"a.before.vx" = "12 m/s .. 30 m/s"\n'
 )
 SEED = '[propagate]\nmethod = "quasi_random"\nseed = 1\nsamples = 64\n'
 VALUES = (
-    "inf", "-inf", "nan", "true", "[]", "[[]]", "{}", "[1, 2, 3]", '""', '"x"', "1979-05-27T07:32:00Z", "07:32:00", "0x" + "f" * 5000, "9" * 400,
-    '"50 km/h +/- 3 km/h"', '"1 .. 2"', '"2 .. 1"', '"+/-"', '".."', '" .. (95 %)"', '"1 .. 2 (95 %)"', '"5 +/- 1 (200 %)"', '"1 kg +/- 1 m"',
-    '"80 km/h 5"', '"9**9**9 m"', '"__import__(1)"', "{ Normal = { mean = 1, sd = 2 } }", "{ Uniform = 1 }", "{ Normal = {} }",
-    "{ travel.speed = { distance = 12, drag = 0.7 } }", "{ travel.speed = {} }", "{ travel = { path = 1 } }", "{ a = 1, b = 2 }", "[0, [1, { Interval = { low = 0, high = 1 } }]]",
-    '["0.4 .. 0.7", 1]', "{ Samples = { values = [1, 2, 3] } }", '{ reconstruct.crush_energy = { widths = 1, depths = ["20 cm", 0.3], stiffness_a = 1e4, stiffness_b = 1e5 } }',
+    "inf", "-inf", "nan", "true", "[]", "[[]]", "{}", "[1, 2, 3]", '""', '"x"',
+    "1979-05-27T07:32:00Z", "07:32:00", "0x" + "f" * 5000, "9" * 400,
+    '"50 km/h +/- 3 km/h"', '"1 .. 2"', '"2 .. 1"', '"+/-"', '".."', '" .. (95 %)"',
+    '"1 .. 2 (95 %)"', '"5 +/- 1 (200 %)"', '"1 kg +/- 1 m"',
+    '"80 km/h 5"', '"9**9**9 m"', '"__import__(1)"', "{ Normal = { mean = 1, sd = 2 } }",
+    "{ Uniform = 1 }", "{ Normal = {} }",
+    "{ travel.speed = { distance = 12, drag = 0.7 } }", "{ travel.speed = {} }",
+    "{ travel = { path = 1 } }", "{ a = 1, b = 2 }",
+    "[0, [1, { Interval = { low = 0, high = 1 } }]]",
+    '["0.4 .. 0.7", 1]', "{ Samples = { values = [1, 2, 3] } }",
+    ('{ reconstruct.crush_energy = { widths = 1, depths = ["20 cm", 0.3], stiffness_a = 1e4, '
+     'stiffness_b = 1e5 } }'),
 )  # fmt: skip
-KEYS = sorted({name for function in SOLVERS.values() for name in parameters(function)} | set(parameters(SOLVERS["solve"])))
+KEYS = sorted(
+    {name for function in SOLVERS.values() for name in parameters(function)}
+    | set(parameters(SOLVERS["solve"]))
+)
 LINES = (
-    "[report]", "[propagate]", "[fit]", "[a]", "[b]", "[eccentric]", "[reconstruct.speeds]", "reconstruct = 3", "a = 3", "[[a]]", "answer = 2", "answer = 0",
-    "outputs = []", 'outputs = ["a.delta_v", "a.pdof"]', 'outputs = ["a.nothing"]', 'correlation = [["a.mass", "b.mass", 2]]', "samples = 64", 'method = "interval"', 'method = "first_order"', "seed = -1", "tolerance = 0.5",
-    'units = "us"', "share_a = 0.5", 'notes = ["x"]', "outline_a = [4, 2]", 'limits = { restitution = 0.1 }', "derivation = true", "\ud800", "\x00", "[" * 3000, "x = " + "[" * 3000,
+    "[report]", "[propagate]", "[fit]", "[a]", "[b]", "[eccentric]", "[reconstruct.speeds]",
+    "reconstruct = 3", "a = 3", "[[a]]", "answer = 2", "answer = 0",
+    "outputs = []", 'outputs = ["a.delta_v", "a.pdof"]', 'outputs = ["a.nothing"]',
+    'correlation = [["a.mass", "b.mass", 2]]', "samples = 64", 'method = "interval"',
+    'method = "first_order"', "seed = -1", "tolerance = 0.5",
+    'units = "us"', "share_a = 0.5", 'notes = ["x"]', "outline_a = [4, 2]",
+    'limits = { restitution = 0.1 }', "derivation = true", "\ud800", "\x00", "[" * 3000,
+    "x = " + "[" * 3000,
 )  # fmt: skip
 
 
-# What no case file has: calls and arguments as Python writes them, outside of texts that were given.
+# What no case file has: calls and arguments as Python writes them, outside of texts that were
+# given.
 PYTHON = re.compile(
-    r"[a-z_]=\S|\b(None|True|False|dict|tuple|numpy|Quantity)\b|\b(Normal|Uniform|Interval|Censored|Samples)(\.between)?\(|\.solutions"
+    r"[a-z_]=\S|\b(None|True|False|dict|tuple|numpy|Quantity)\b|\b(Normal|Uniform|Interval|"
+    r"Censored|Samples)(\.between)?\(|\.solutions"
 )
 GIVEN = re.compile(r"'[^']*'|\"[^\"]*\"")
 
@@ -87,7 +115,9 @@ def mutated(case):
         if how < 6 and equals:
             numbers = re.findall(r"[0-9.]+", value) or ["0"]
             extreme = repr(case.choice(EXTREMES) if text is not POSTERIOR else 3.0)
-            other = case.choice((f"{case.uniform(-50.0, 90.0):.3g}", str(case.randrange(10)), extreme))
+            other = case.choice(
+                (f"{case.uniform(-50.0, 90.0):.3g}", str(case.randrange(10)), extreme)
+            )
             lines[at] = f"{key} = {value.replace(case.choice(numbers), other, 1)}"
         elif how < 11 and equals:
             lines[at] = f"{key} = {case.choice(VALUES)}"
@@ -101,7 +131,9 @@ def mutated(case):
             lines.insert(at, case.choice((*LINES, f"{case.choice(KEYS)} = {case.choice(VALUES)}")))
         else:
             place = case.randrange(len(lines[at]) + 1)
-            middle = case.choice(("", "", '"', "=", "]", "[", ".", "-", "e9", "\t", "°", "km", " ", "0", "'''"))
+            middle = case.choice(
+                ("", "", '"', "=", "]", "[", ".", "-", "e9", "\t", "°", "km", " ", "0", "'''")
+            )
             lines[at] = lines[at][:place] + middle + lines[at][place + case.randrange(2) :]
         if not lines:
             break
@@ -114,7 +146,9 @@ def mutated(case):
 
 @pytest.mark.slow
 def test_a_mutated_file_is_answered_or_refused_by_key():
-    """Everything that is made of an answer is made; a refusal is lines of text, each with a key of the file or none."""
+    """Everything that is made of an answer is made; a refusal is lines of text, each with a key of
+    the file or none.
+    """
     answered = refused = 0
     for seed in seeds():
         case = random.Random(f"case file {seed}")
@@ -124,17 +158,28 @@ def test_a_mutated_file_is_answered_or_refused_by_key():
                 found = answers(read_text(data))
                 assert found.text(case.choice((None, "us")))
                 assert json.dumps(found.to_dict(), allow_nan=False)
-                page = case.choice((lambda found=found: found.report("markdown"), lambda found=found: found.what_if("metric")))
+                page = case.choice(
+                    (
+                        lambda found=found: found.report("markdown"),
+                        lambda found=found: found.what_if("metric"),
+                    )
+                )
                 assert page()
         except CaseError as error:
             refused += 1
             lines = [f"{key}: {text}" for key, text in error.problems]
             if not lines or any("\n" in line or len(line) < 12 for line in lines):
                 pytest.fail(f"seed {seed} is refused by {lines}")
-            if any(PYTHON.search(GIVEN.sub("", text)) for _, text in error.problems if not text.startswith("is not TOML")):
+            if any(
+                PYTHON.search(GIVEN.sub("", text))
+                for _, text in error.problems
+                if not text.startswith("is not TOML")
+            ):
                 pytest.fail(f"seed {seed} speaks of Python: {lines}")
         except Exception as error:
-            pytest.fail(f"seed {seed}: {type(error).__name__}: {error}\n{data.decode('utf-8', 'replace')}")
+            pytest.fail(
+                f"seed {seed}: {type(error).__name__}: {error}\n{data.decode('utf-8', 'replace')}"
+            )
         else:
             answered += 1
             if any(PYTHON.search(GIVEN.sub("", text)) for text in found.warnings):

@@ -2,7 +2,8 @@
 
     PYTHONPATH=src:tests python tests/data/uncertainty_reference.py
 
-writes ``uncertainty_reference.json`` beside it, in under a minute. The standard errors come from a hundred independent parts.
+writes ``uncertainty_reference.json`` beside it, in under a minute. The standard errors come from a
+hundred independent parts.
 """
 
 import json
@@ -34,7 +35,9 @@ if __name__ == "__main__":
         found[name] = {
             output: {
                 "figures": figures(np.concatenate(arrays)).tolist(),
-                "standard_errors": (np.std([figures(part) for part in arrays], axis=0, ddof=1) / math.sqrt(PARTS)).tolist(),
+                "standard_errors": (
+                    np.std([figures(part) for part in arrays], axis=0, ddof=1) / math.sqrt(PARTS)
+                ).tolist(),
             }
             for output, arrays in parts.items()
         }

@@ -1,4 +1,6 @@
-"""explain compares what it writes: a result that is not what its formulas give is refused, and a rough one shows both numbers."""
+"""explain compares what it writes: a result that is not what its formulas give is refused, and a
+rough one shows both numbers.
+"""
 
 import dataclasses
 import math
@@ -14,7 +16,15 @@ import scenes
 from collisions import reconstruct
 from collisions.derivation import contact, explain, models, page, symbols
 from collisions.impact.impact import build
-from derivation.test_derivation import FITS, MOMENTA, crossroads, example_1, example_2, example_3, fallen
+from derivation.test_derivation import (
+    FITS,
+    MOMENTA,
+    crossroads,
+    example_1,
+    example_2,
+    example_3,
+    fallen,
+)
 
 # 1 % is no rounding, 1e-5 none of an ordinary impact.
 WRONG, ROUGH = 1.01, 1.0 + 1e-5
@@ -36,36 +46,58 @@ IMPACTS = {
     "ratio": lambda: crossroads(impulse_ratio=-0.2),
     "fraction": lambda: crossroads(critical_fraction=0.6),
     "stronge": lambda: crossroads(friction=0.05, law="stronge"),
-    "barrier": lambda: col.eccentric(*fallen("barrier"), 0.15, normal=0.1, point=(-0.2, 0.1), friction=0.2),
+    "barrier": lambda: col.eccentric(
+        *fallen("barrier"), 0.15, normal=0.1, point=(-0.2, 0.1), friction=0.2
+    ),
     "time": in_time,
 }
 # Of every result, what is read out of it first; of some models more.
 EVERY = ("closing_speed", "impulse_x", "delta_vx_a", "energy_loss")
-MUTATED = [(name, field) for name in IMPACTS for field in EVERY if not (name == "time" and field == "closing_speed")]
+MUTATED = [
+    (name, field)
+    for name in IMPACTS
+    for field in EVERY
+    if not (name == "time" and field == "closing_speed")
+]
 MUTATED += [
     (name, field)
     for name in ("sliding", "sticking", "kudlich-slibar", "fraction", "stronge")
-    for field in ("normal_impulse", "tangential_impulse", "impulse_y", "delta_vy_b", "delta_yaw_rate_b", "slip_before",
-                  "slip_after", "energy_loss_normal", "energy_loss_tangential", "effective_mass", "coupling")
+    for field in ("normal_impulse", "tangential_impulse", "impulse_y", "delta_vy_b",
+    "delta_yaw_rate_b", "slip_before",
+                  "slip_after", "energy_loss_normal", "energy_loss_tangential", "effective_mass",
+                  "coupling")
 ]  # fmt: skip
-MUTATED += [(name, field) for name in ("sticking", "fraction") for field in ("no_slip_normal", "no_slip_tangential")]
+MUTATED += [
+    (name, field)
+    for name in ("sticking", "fraction")
+    for field in ("no_slip_normal", "no_slip_tangential")
+]
 MUTATED += [("stronge", "separation_speed")]
-# No slip is left to be altered; and 1 % of the friction's small share is less than 1e-3 of the whole loss.
-MUTATED = [row for row in MUTATED if row not in (("sticking", "slip_after"), ("stronge", "energy_loss_tangential"))]
+# No slip is left to be altered; and 1 % of the friction's small share is less than 1e-3 of the
+# whole loss.
+MUTATED = [
+    row
+    for row in MUTATED
+    if row not in (("sticking", "slip_after"), ("stronge", "energy_loss_tangential"))
+]
 
 
 def altered(impact, field, factor):
     """The impact with one number of its answer multiplied."""
     raw = impact._answer
     found = build(impact.inputs, raw._replace(**{field: getattr(raw, field) * factor}))
-    vars(found).update({name: vars(impact)[name] for name in ("reconstruction", "choice") if name in vars(impact)})
+    vars(found).update(
+        {name: vars(impact)[name] for name in ("reconstruction", "choice") if name in vars(impact)}
+    )
     return found
 
 
 @pytest.mark.parametrize("form", ["text", "markdown"])
 @pytest.mark.parametrize(("name", "field"), MUTATED)
 def test_a_wrong_answer_is_not_explained(name, field, form):
-    """1 % in any number of the answer is an error that names the equation and whose defect it is."""
+    """1 % in any number of the answer is an error that names the equation and whose
+    defect it is.
+    """
     impact = IMPACTS[name]()
     explain(impact, form=form)
     with pytest.raises(col.InternalError, match="defect of this library") as caught:
@@ -87,7 +119,10 @@ def test_a_rough_answer_has_the_formulas_number_beside_it(name, field, form):
     impact = IMPACTS[name]()
     assert "The two sides differ" not in explain(impact, form=form)
     text = explain(altered(impact, field, ROUGH), form=form, units="us")
-    both = r"the number of the result is (-?[\d.]+\d)(.*?), and the formula, worked out with all digits, gives (-?[\d.]+\d)"
+    both = (
+        r"the number of the result is (-?[\d.]+\d)(.*?), and the formula, worked out with all "
+        r"digits, gives (-?[\d.]+\d)"
+    )
     found = re.findall(both, text)
     assert found
     for result, unit, own in found:
@@ -97,7 +132,10 @@ def test_a_rough_answer_has_the_formulas_number_beside_it(name, field, form):
 
 
 @pytest.mark.parametrize("which", range(len(MOMENTA)))
-@pytest.mark.parametrize("name", ["speed_a", "speed_b", "delta_v_a", "delta_v_b", "translational_energy_loss", "condition"])
+@pytest.mark.parametrize(
+    "name",
+    ["speed_a", "speed_b", "delta_v_a", "delta_v_b", "translational_energy_loss", "condition"],
+)
 def test_planar_momentum(which, name):
     whole = MOMENTA[which]
     value = getattr(whole, name)
@@ -106,7 +144,9 @@ def test_planar_momentum(which, name):
     with pytest.raises(col.InternalError, match="contradict each other"):
         explain(dataclasses.replace(whole, **{name: value * WRONG}))
     if getattr(whole, name):
-        assert "The two sides differ" in explain(dataclasses.replace(whole, **{name: value * ROUGH}))
+        assert "The two sides differ" in explain(
+            dataclasses.replace(whole, **{name: value * ROUGH})
+        )
 
 
 def test_a_fit():
@@ -114,7 +154,9 @@ def test_a_fit():
     fit = FITS[0]
     with pytest.raises(col.InternalError, match="Chi-squared"):
         explain(dataclasses.replace(fit, chi_squared=fit.chi_squared * WRONG))
-    assert "The two sides differ" in explain(dataclasses.replace(fit, chi_squared=fit.chi_squared * ROUGH), form="text")
+    assert "The two sides differ" in explain(
+        dataclasses.replace(fit, chi_squared=fit.chi_squared * ROUGH), form="text"
+    )
 
 
 @pytest.mark.parametrize("solver", [col.oblique_central, col.eccentric])
@@ -179,12 +221,16 @@ def noted(monkeypatch):
 
 
 ORDINARY = ("traffic", "barrier", "map grid", "A pinned", "B pinned", "grazing")
-CONTACTS = [(law, rule) for law in scenes.LAWS for rule in (*scenes.RULES, scenes.INCOMPLETE, scenes.PUSHED)]
+CONTACTS = [
+    (law, rule) for law in scenes.LAWS for rule in (*scenes.RULES, scenes.INCOMPLETE, scenes.PUSHED)
+]
 CONTACTS += [("stronge", rule) for rule in ("friction", scenes.INCOMPLETE, scenes.PUSHED)]
 
 
 def check_ordinary(count, monkeypatch):
-    """So many scenes of every family, law and rule: no equation is off by 1e-9 of its largest term; returns how many there were."""
+    """So many scenes of every family, law and rule: no equation is off by 1e-9 of its largest term;
+    returns how many there were.
+    """
     shares = noted(monkeypatch)
     done = 0
     for family in ORDINARY:
@@ -225,7 +271,11 @@ def test_a_reverse_answer_agrees(monkeypatch):
     for _ in range(30):
         ends = [rng.uniform(-20.0, 20.0) for _ in range(2)]
         impact = reconstruct.central(
-            rng.uniform(600, 3000), rng.uniform(600, 3000), va=max(ends), vb=min(ends), restitution=0.2
+            rng.uniform(600, 3000),
+            rng.uniform(600, 3000),
+            va=max(ends),
+            vb=min(ends),
+            restitution=0.2,
         )
         explain(impact)
         done += 1

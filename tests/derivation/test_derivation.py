@@ -1,4 +1,6 @@
-"""explain: Examples 1 to 3 against the paper's own lines, and every printed line worked out again from its printed digits."""
+"""explain: Examples 1 to 3 against the paper's own lines, and every printed line worked out again
+from its printed digits.
+"""
 
 import math
 import re
@@ -20,7 +22,8 @@ from collisions.kernels.contact_laws import LAWS, RULES, Law, Rule
 from collisions.kernels.elementwise import FINITE
 from strategies import other_registry
 
-# Rounding of the same formula in another order, in shares of the sizes of its terms: a few hundred operations of 2**-53.
+# Rounding of the same formula in another order, in shares of the sizes of its terms: a few hundred
+# operations of 2**-53.
 SAME = 1e-12
 UNITS = ("si", "metric", "us")
 NAME = "A_1 $x$ | \\b"
@@ -49,7 +52,14 @@ def crossroads(solver=col.eccentric, e=0.2, normal="10 deg", **options):
     a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.2, y=0.0, vx=14.0, heading=0.0, name=NAME)
     b = col.Vehicle(mass=1200, yaw_inertia=1900, x=0.85, y=0.9, vy=8.0, heading="90 deg")
     point = {} if solver is col.oblique_central else {"point": (0.0, 0.1)}
-    return solver(a, b, e, normal=normal, **point, **({"friction": 0.8} | options if len(options) == 0 else options))
+    return solver(
+        a,
+        b,
+        e,
+        normal=normal,
+        **point,
+        **({"friction": 0.8} | options if len(options) == 0 else options),
+    )
 
 
 def fallen(held):
@@ -58,8 +68,12 @@ def fallen(held):
     b = {
         "barrier": col.Vehicle.barrier(),
         "moving wall": col.Vehicle.barrier(vx=-3.0, vy=1.0),
-        "heavy turntable": col.Vehicle(mass=math.inf, yaw_inertia=9000.0, x=1.0, y=-1.0, yaw_rate=-0.2),
-        "pinned": col.Vehicle(mass=900, yaw_inertia=1500, x=1.5, y=1.0, pivot=(2.0, -1.5), yaw_rate=0.3),
+        "heavy turntable": col.Vehicle(
+            mass=math.inf, yaw_inertia=9000.0, x=1.0, y=-1.0, yaw_rate=-0.2
+        ),
+        "pinned": col.Vehicle(
+            mass=900, yaw_inertia=1500, x=1.5, y=1.0, pivot=(2.0, -1.5), yaw_rate=0.3
+        ),
         "no yaw": col.Vehicle(mass=900, yaw_inertia=math.inf, x=1.5, y=1.0, vy=3.0, yaw_rate=0.1),
     }[held]
     return a, b
@@ -69,12 +83,18 @@ def scenes():
     """Every model, law, rule, constraint and reverse solver."""
     yield "example 1", example_1()
     yield "example 1, moving", example_1(vb=-5.0)
-    yield "example 1, wall first", col.linear_central(col.Vehicle.barrier(vx=4.0), col.Vehicle(mass=900.0), 0.3)
+    yield (
+        "example 1, wall first",
+        col.linear_central(col.Vehicle.barrier(vx=4.0), col.Vehicle(mass=900.0), 0.3),
+    )
     yield "example 2", example_2()
     yield (
         "linear, askew",
         col.linear_central(
-            col.Vehicle.from_speed(mass=1300.0, speed=15.0, course="30 deg"), col.Vehicle(mass=1000.0), 0.2, normal="30 deg"
+            col.Vehicle.from_speed(mass=1300.0, speed=15.0, course="30 deg"),
+            col.Vehicle(mass=1000.0),
+            0.2,
+            normal="30 deg",
         ),
     )
     yield "example 3", example_3()
@@ -97,12 +117,19 @@ def scenes():
                 a, b = fallen(held)
                 rest = {"point": (-0.2, 0.1), "friction": mu, "law": law}
                 yield f"{held} {law} {mu}", col.eccentric(a, b, 0.15, normal=0.1, **rest)
-                yield f"{held}, as A {law} {mu}", col.eccentric(b, a, 0.15, normal=0.1 + math.pi, **rest)
+                yield (
+                    f"{held}, as A {law} {mu}",
+                    col.eccentric(b, a, 0.15, normal=0.1 + math.pi, **rest),
+                )
     for mass in (1200.0, math.inf):
         yield (
             f"oblique, B {mass}",
             col.oblique_central(
-                col.Vehicle(mass=1000.0, vx=10.0, vy=3.0), col.Vehicle(mass=mass, vx=-1.0), 0.3, normal=0.2, friction=0.4
+                col.Vehicle(mass=1000.0, vx=10.0, vy=3.0),
+                col.Vehicle(mass=mass, vx=-1.0),
+                0.3,
+                normal=0.2,
+                friction=0.4,
             ),
         )
     yield from reverse()
@@ -111,7 +138,9 @@ def scenes():
 
 def reverse():
     """Reverse solvers."""
-    end = col.linear_central(col.Vehicle(mass=1100.0, vx=20.0), col.Vehicle(mass=950.0, vx=3.0), 0.3)
+    end = col.linear_central(
+        col.Vehicle(mass=1100.0, vx=20.0), col.Vehicle(mass=950.0, vx=3.0), 0.3
+    )
     wall = col.linear_central(col.Vehicle(mass=1100.0, vx=20.0), col.Vehicle.barrier(), 0.3)
     for which, impact in (("", end), ("wall ", wall)):
         whole = {
@@ -130,7 +159,9 @@ def reverse():
                         yield (
                             f"{which}central {known}",
                             reconstruct.central(
-                                impact.a.before.mass, impact.b.before.mass, **{name: whole[name] for name in known}
+                                impact.a.before.mass,
+                                impact.b.before.mass,
+                                **{name: whole[name] for name in known},
                             ),
                         )
                     except col.AmbiguousSolutionError as both:
@@ -142,12 +173,23 @@ def reverse():
         forward = crossroads(e=0.3, impulse_ratio=-0.2, law=law)
         ends = (forward.a.after, forward.b.after)
         contact = {"normal": "10 deg", "point": (0.0, 0.1), "impulse_ratio": -0.2, "law": law}
-        for known in ({"restitution": 0.3}, {"closing_speed": forward.closing_speed}, {"energy_loss": forward.energy_loss}):
+        for known in (
+            {"restitution": 0.3},
+            {"closing_speed": forward.closing_speed},
+            {"energy_loss": forward.energy_loss},
+        ):
             yield f"planar {law} {known}", reconstruct.planar(*ends, **known, **contact)
     pinned = col.eccentric(*fallen("pinned"), 0.3, normal=0.1, point=(-0.2, 0.1), friction=0.0)
     yield (
         "planar pinned",
-        reconstruct.planar(pinned.a.after, pinned.b.after, restitution=0.3, normal=0.1, point=(-0.2, 0.1), friction=0.0),
+        reconstruct.planar(
+            pinned.a.after,
+            pinned.b.after,
+            restitution=0.3,
+            normal=0.1,
+            point=(-0.2, 0.1),
+            friction=0.0,
+        ),
     )
     a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.0, y=0.0)
     b = col.Vehicle(mass=1300, yaw_inertia=2000, x=2.0, y=0.8)
@@ -158,7 +200,9 @@ def reverse():
         {"ees_a": 4.0, "ees_b": 5.0},
         {"max_crush_speed_a": 4.0, "max_crush_speed_b": 5.0},
     ):
-        found = reconstruct.speeds(a, b, course_a=0.0, course_b=None, speed_b=0.0, **known, **contact)
+        found = reconstruct.speeds(
+            a, b, course_a=0.0, course_b=None, speed_b=0.0, **known, **contact
+        )
         for one in found:
             yield f"speeds {known}", one
 
@@ -172,23 +216,53 @@ def solved():
             f"solve {tolerance}",
             col.solve(a, b, 0.2, normal=0.0, point=(0.0, 0.05), friction=0.5, tolerance=tolerance),
         )
-    yield "solve with a pivot", col.solve(*fallen("pinned"), 0.2, normal=0.1, point=(-0.2, 0.1), friction=0.2, tolerance=1.0)
+    yield (
+        "solve with a pivot",
+        col.solve(
+            *fallen("pinned"), 0.2, normal=0.1, point=(-0.2, 0.1), friction=0.2, tolerance=1.0
+        ),
+    )
 
 
 def momenta():
     """Planar momentum, with a body at rest, together, and with an impulse from outside."""
-    courses = {"course_a": "270 deg", "course_b": "0 deg", "course_a_after": "-30 deg", "course_b_after": "-40 deg"}
+    courses = {
+        "course_a": "270 deg",
+        "course_b": "0 deg",
+        "course_a_after": "-30 deg",
+        "course_b_after": "-40 deg",
+    }
     after = {"speed_a_after": "30 km/h", "speed_b_after": "50 km/h"}
-    yield reconstruct.momentum(1200, 1800, **courses, **after, heading_a="-90 deg", normal="-20 deg")
+    yield reconstruct.momentum(
+        1200, 1800, **courses, **after, heading_a="-90 deg", normal="-20 deg"
+    )
     yield reconstruct.momentum(1200, 1800, **courses, **after, outside_impulse=(300.0, -100.0))
     yield reconstruct.momentum(
-        1200, 1800, course_a="90 deg", course_b="0 deg", course_a_after="40 deg", speed_a_after=8.0, together=True
+        1200,
+        1800,
+        course_a="90 deg",
+        course_b="0 deg",
+        course_a_after="40 deg",
+        speed_a_after=8.0,
+        together=True,
     )
     yield reconstruct.momentum(
-        1200, 1800, course_a="90 deg", course_b="0 deg", course_a_after="40 deg", speed_b=7.0, together=True
+        1200,
+        1800,
+        course_a="90 deg",
+        course_b="0 deg",
+        course_a_after="40 deg",
+        speed_b=7.0,
+        together=True,
     )
     yield reconstruct.momentum(
-        1200, 1800, course_a="0 deg", speed_b=0.0, course_a_after="30 deg", course_b_after="-40 deg", speed_a=15.0
+        1200,
+        1800,
+        course_a="0 deg",
+        speed_b=0.0,
+        course_a_after="30 deg",
+        course_b_after="-40 deg",
+        speed_a=15.0,
     )
 
 
@@ -201,7 +275,9 @@ with warnings.catch_warnings():
 
 @pytest.fixture
 def equations(monkeypatch):
-    """Of every equation that is written: its caption, how far its sides are apart, and the size of its terms."""
+    """Of every equation that is written: its caption, how far its sides are apart, and the size of
+    its terms.
+    """
     found = []
 
     def noted(write):
@@ -228,12 +304,22 @@ def worked_out(formula, degrees):
     """What somebody gets who keys a printed formula in, number by number."""
     formula = re.sub(r"([\d.]+) deg", r"(\1 * degree)", formula)
     turned = math.degrees if degrees else float
-    names = {"abs": abs, "sqrt": math.sqrt, "cos": math.cos, "sin": math.sin, "degree": math.pi / 180}
-    return eval(formula, {"__builtins__": {}}, {**names, "atan2": lambda y, x: turned(math.atan2(y, x))})
+    names = {
+        "abs": abs,
+        "sqrt": math.sqrt,
+        "cos": math.cos,
+        "sin": math.sin,
+        "degree": math.pi / 180,
+    }
+    return eval(
+        formula, {"__builtins__": {}}, {**names, "atan2": lambda y, x: turned(math.atan2(y, x))}
+    )
 
 
 def gives(found, printed, formula):
-    """Whether a number, rounded like a printed one, is that; an exact number of few figures stands for four."""
+    """Whether a number, rounded like a printed one, is that; an exact number of few figures stands
+    for four.
+    """
     value, decimals = float(printed), len(printed.partition(".")[2])
     if value == 0.0:
         # Four figures of the largest number of the line.
@@ -247,7 +333,9 @@ def gives(found, printed, formula):
 
 
 def check_lines(text):
-    """Every equation of numbers, worked out as it is printed, gives the printed result; returns how many there were."""
+    """Every equation of numbers, worked out as it is printed, gives the printed result; returns how
+    many there were.
+    """
     count = 0
     for caption, lines in blocks(text):
         if "in numbers" in caption:
@@ -255,10 +343,16 @@ def check_lines(text):
         sides = [part.strip() for line in lines for part in line.split(" = ") if part.strip()]
         # What follows the number of a last line is its unit.
         bare = [re.sub(r"^(-?[\d.]+) [\w*/]+$", r"\1", side) for side in sides]
-        numeric = [side for side in bare if not re.search(r"[A-Za-z]", re.sub(r"\b(cos|sin|abs|sqrt|deg|atan2)\b", "", side))]
+        numeric = [
+            side
+            for side in bare
+            if not re.search(r"[A-Za-z]", re.sub(r"\b(cos|sin|abs|sqrt|deg|atan2)\b", "", side))
+        ]
         assert numeric, caption
         results = 2 if len(numeric) == 4 else 1
-        for formula, printed in zip(numeric[:-results], numeric[-results:], strict=len(numeric) > 1):
+        for formula, printed in zip(
+            numeric[:-results], numeric[-results:], strict=len(numeric) > 1
+        ):
             found = worked_out(formula, degrees=sides[-1].endswith("deg"))
             assert gives(found, printed, formula), (caption, lines, found)
             count += 1
@@ -272,7 +366,9 @@ def answer(text, owner, quantity):
 
 
 def exact(equations):
-    """Every formula, worked out with all digits, is the result's own number; returns how many there were."""
+    """Every formula, worked out with all digits, is the result's own number; returns how many there
+    were.
+    """
     for caption, apart, size in equations:
         # A slip of 0 is left over from speeds of some m/s, which its formula does not hold.
         assert apart <= SAME * (size + 1.0), (caption, apart, size)
@@ -281,7 +377,9 @@ def exact(equations):
 
 @pytest.mark.parametrize("index", range(len(SCENES)))
 def test_every_line_gives_the_number_of_the_result(index, equations):
-    """All digits give all digits, and printed digits give the printed ones, each scene in one system of units."""
+    """All digits give all digits, and printed digits give the printed ones, each scene in one
+    system of units.
+    """
     text = explain(list(SCENES.values())[index], form="text", units=UNITS[index % 3])
     assert exact(equations) >= 6
     assert "numbers cancel" not in text
@@ -298,7 +396,9 @@ def test_every_line_of_planar_momentum(which, units, equations):
 
 
 def fits():
-    """Of a line (known in closed form), with a prior, round the circle, on a bound, and with an unknown that nothing determines."""
+    """Of a line (known in closed form), with a prior, round the circle, on a bound, and with an
+    unknown that nothing determines.
+    """
     times, places = np.array([0.0, 1.0, 2.0, 3.0]), (1.1, 2.9, 5.2, 6.8)
 
     def line(start, speed):
@@ -306,18 +406,27 @@ def fits():
 
     observed = {f"x{i}": (f"{place} m", f"{0.1 + 0.1 * i} m") for i, place in enumerate(places)}
     yield reconstruct.fit(line, {"start": "0 m", "speed": "1 m/s"}, observed)
-    yield reconstruct.fit(line, {"start": uncertainty.Normal("1.5 m", "0.2 m"), "speed": "1 m/s"}, observed)
-    ends = {"start": uncertainty.Interval("-3 m", "1.05 m"), "speed": uncertainty.Interval("0 m/s", "9 m/s")}
+    yield reconstruct.fit(
+        line, {"start": uncertainty.Normal("1.5 m", "0.2 m"), "speed": "1 m/s"}, observed
+    )
+    ends = {
+        "start": uncertainty.Interval("-3 m", "1.05 m"),
+        "speed": uncertainty.Interval("0 m/s", "9 m/s"),
+    }
     with pytest.warns(col.IllConditionedWarning, match="start ended on its high bound"):
         found = reconstruct.fit(line, ends, observed)
     yield found
     courses = {NAME: ("179 deg", "2 deg"), "mark": ("-178 deg", "2 deg"), "impulse": (25e3, 2e3)}
     yield reconstruct.fit(
-        lambda course, p: {NAME: course, "mark": course, "impulse": p}, {"course": "-179 deg", "p": 24e3}, courses
+        lambda course, p: {NAME: course, "mark": course, "impulse": p},
+        {"course": "-179 deg", "p": 24e3},
+        courses,
     )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.IllConditionedWarning)
-        yield reconstruct.fit(lambda one, two: {"sum": one + two}, {"one": 1.0, "two": 2.0}, {"sum": (5.0, 0.1)})
+        yield reconstruct.fit(
+            lambda one, two: {"sum": one + two}, {"one": 1.0, "two": 2.0}, {"sum": (5.0, 0.1)}
+        )
 
 
 FITS = list(fits())
@@ -340,13 +449,26 @@ def test_answers_of_a_fit_are_those_of_the_normal_equations():
     covariance = np.linalg.inv(design.T @ design)
     estimate = covariance @ design.T @ (np.array([1.1, 2.9, 5.2, 6.8]) / sigma)
     text = explain(FITS[0], form="text")
-    for name, unit, value, error in zip(("start", "speed"), ("m", "m/s"), estimate, np.sqrt(np.diag(covariance)), strict=True):
+    for name, unit, value, error in zip(
+        ("start", "speed"), ("m", "m/s"), estimate, np.sqrt(np.diag(covariance)), strict=True
+    ):
         printed = re.fullmatch(rf"(-?[\d.]+) ± ([\d.]+) {unit}", answer(text, name, "estimate"))
-        assert float(printed[1]) == pytest.approx(value, abs=0.5 * 10.0 ** -len(printed[1].partition(".")[2]))
+        assert float(printed[1]) == pytest.approx(
+            value, abs=0.5 * 10.0 ** -len(printed[1].partition(".")[2])
+        )
         assert float(printed[2]) == pytest.approx(error, rel=0.05)  # two figures
     wanted = covariance[0, 1] / math.sqrt(covariance[0, 0] * covariance[1, 1])
-    assert float(answer(text, "start", "correlation with speed")) == pytest.approx(wanted, abs=0.005)
-    assert answer(text, "all", "degrees of freedom (observations and priors less the unknowns they determine)") == "2"
+    assert float(answer(text, "start", "correlation with speed")) == pytest.approx(
+        wanted, abs=0.005
+    )
+    assert (
+        answer(
+            text,
+            "all",
+            "degrees of freedom (observations and priors less the unknowns they determine)",
+        )
+        == "2"
+    )
 
 
 def test_what_a_fit_leaves_open_is_said():
@@ -366,12 +488,17 @@ def test_a_bare_number_says_where_its_formula_is():
             explain(number)
         assert caught.value.code == "not_an_impact"
         for path in re.findall(r"help\(collisions\.(\w+)\.(\w+)\)", str(caught.value)):
-            assert "::" in (text := getattr(getattr(col, path[0]), path[1]).__doc__) or "A C + B C^2 / 2" in text
+            assert (
+                "::" in (text := getattr(getattr(col, path[0]), path[1]).__doc__)
+                or "A C + B C^2 / 2" in text
+            )
 
 
 @pytest.mark.slow
 def test_random_scenes_hold_too(equations):
-    """Oblique and eccentric impacts of all sizes and turns: every printed line gives its printed result, and none needs an excuse."""
+    """Oblique and eccentric impacts of all sizes and turns: every printed line gives its printed
+    result, and none needs an excuse.
+    """
     random = np.random.default_rng(7)
     done = lines = 0
     while done < 60:
@@ -427,7 +554,9 @@ def test_example_1():
 
 
 def test_example_2_reads_like_the_paper():
-    """Momentum first, then v'_A, then e: 7.82 m/s (cut off, not rounded, in the paper), 28.15 km/h and 0.40."""
+    """Momentum first, then v'_A, then e: 7.82 m/s (cut off, not rounded, in the paper), 28.15 km/h
+    and 0.40.
+    """
     text = explain(example_2(), form="text", units="si")
     lines = (
         "m_A * v_A + m_B * v_B = m_A * v'_A + m_B * v'_B",
@@ -443,7 +572,9 @@ def test_example_2_reads_like_the_paper():
     assert places == sorted(places)
     assert answer(text, "contact", "restitution") == "0.40"
     # The paper's velocity comes from rounded ones: 22.22 - 950 / 1100 * 16.67 = 7.823.
-    assert float(answer(text, "A", "velocity after, along x").split()[0]) == pytest.approx(7.82, abs=0.0101)
+    assert float(answer(text, "A", "velocity after, along x").split()[0]) == pytest.approx(
+        7.82, abs=0.0101
+    )
     metric = explain(example_2(), form="text", units="metric")
     assert "1100 * 80 + 950 * 0" in metric
     assert "1100 * 28.18 + 950 * 60" in metric
@@ -473,7 +604,9 @@ def test_example_3_reads_like_the_paper():
     assert places == sorted(places)
     assert answer(text, "B", "yaw rate after") == "-5.47 rad/s"
     # The paper's 8.55 is cut off, ours is rounded: half a unit and a whole one.
-    assert float(answer(text, "A", "velocity after, along x").split()[0]) == pytest.approx(8.55, abs=0.0101)
+    assert float(answer(text, "A", "velocity after, along x").split()[0]) == pytest.approx(
+        8.55, abs=0.0101
+    )
     metric = explain(example_3(), form="text", units="metric")
     assert round(float(answer(metric, "A", "velocity after, along x").split()[0])) == 31
     assert answer(metric, "contact", "energy lost") == "12.2 kJ"
@@ -483,14 +616,19 @@ def test_example_3_reads_like_the_paper():
 
 
 def test_both_collected_equations_of_example_3_have_its_solution():
-    """In every system of units: what is printed, solved by numpy and rounded, is the solution that is printed."""
+    """In every system of units: what is printed, solved by numpy and rounded, is the solution that
+    is printed.
+    """
     for units in UNITS:
         text = explain(example_3(), form="text", units=units)
         matrix, numbers = [], []
         for caption, lines in blocks(text):
             if "in numbers" in caption:
                 left, right = lines[0].strip().split(" = ")
-                at = [eval(right.replace("v'_An", v).replace("w'_B", w)) for v, w in (("1", "0"), ("0", "1"))]
+                at = [
+                    eval(right.replace("v'_An", v).replace("w'_B", w))
+                    for v, w in (("1", "0"), ("0", "1"))
+                ]
                 matrix.append(at)
                 numbers.append(float(left))
         for name, found in zip(("v'_An", "w'_B"), np.linalg.solve(matrix, numbers), strict=True):
@@ -558,8 +696,14 @@ def test_how_a_body_is_held_is_said(name, said):
         ("planar kudlich-slibar {'restitution': 0.3}", "by reconstruct.planar"),
         ("speeds {'delta_v_a': 6.0}", "Delta-V of A, known"),
         ("speeds {'energy_loss': 40000.0}", "The energy lost, known: dE = 40000 J"),
-        ("speeds {'ees_a': 4.0, 'ees_b': 5.0}", "energy of both EES, the one lost, known: dE = 28250 J"),
-        ("speeds {'max_crush_speed_a': 4.0, 'max_crush_speed_b': 5.0}", "Energy of both speeds of maximum crush, known"),
+        (
+            "speeds {'ees_a': 4.0, 'ees_b': 5.0}",
+            "energy of both EES, the one lost, known: dE = 28250 J",
+        ),
+        (
+            "speeds {'max_crush_speed_a': 4.0, 'max_crush_speed_b': 5.0}",
+            "Energy of both speeds of maximum crush, known",
+        ),
     ],
 )
 def test_reverse_problems_say_what_was_known_and_how_well(name, said):
@@ -568,7 +712,9 @@ def test_reverse_problems_say_what_was_known_and_how_well(name, said):
     text = explain(impact, form="text")
     assert said in text
     assert f"Condition {impact.reconstruction.condition:.2f}:" in text
-    assert text.index("Solved backwards by") < text.index("What follows is the same impact solved forwards")
+    assert text.index("Solved backwards by") < text.index(
+        "What follows is the same impact solved forwards"
+    )
     assert answer(text, "A", "velocity before, along x") == f"{impact.a.before.vx + 0.0:.2f} m/s"
 
 
@@ -581,7 +727,9 @@ def test_energy_of_both_ees_is_that_of_the_speeds():
 
 @pytest.mark.parametrize("tolerance", [0.0, 0.5, 5.0])
 def test_the_choice_of_solve_is_explained(tolerance):
-    """The model, what was accepted and what each cheaper model errs by, in the units of the page."""
+    """The model, what was accepted and what each cheaper model errs by, in the units of
+    the page.
+    """
     impact = SCENES[f"solve {tolerance}"]
     text = explain(impact, form="text", units="metric")
     assert f"Taken: {impact.model}." in text
@@ -592,7 +740,9 @@ def test_the_choice_of_solve_is_explained(tolerance):
 
 
 def test_a_choice_without_an_error_says_why():
-    """A pivot is beyond the central models, whose error then is infinite; without a yaw inertia it is not known."""
+    """A pivot is beyond the central models, whose error then is infinite; without a yaw inertia it
+    is not known.
+    """
     text = explain(SCENES["solve with a pivot"], form="text", units="us")
     assert "Reason: a body that turns about a pivot is beyond the central models." in text
     assert "linear_central: infinite" in text
@@ -607,14 +757,17 @@ def test_plain_text_has_no_latex(name):
     assert not re.search(r" $", text, re.MULTILINE)
 
 
-# Formulas that differ in their numbers alone are read alike, and reading them takes most of the time.
+# Formulas that differ in their numbers alone are read alike, and reading them takes most of the
+# time.
 RENDERED = set()
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_markdown_can_be_rendered(name):
-    """All maths is read by the converter of the docs, every dollar has its partner, and nothing of the plain form is left."""
+    """All maths is read by the converter of the docs, every dollar has its partner, and nothing of
+    the plain form is left.
+    """
     latex2mathml = pytest.importorskip("docutils.utils.math.latex2mathml")
     text = explain(SCENES[name], units="metric")
     for formula in re.findall(r"\$\$\n(.*?)\n\$\$", text, re.DOTALL):
@@ -633,8 +786,14 @@ def test_markdown_can_be_rendered(name):
 def test_markdown_and_text_have_the_same_numbers():
     """One derivation, two ways to print it."""
     for impact in (example_2(), example_3(), crossroads()):
-        plain, marked = (explain(impact, form=form, units="metric") for form in ("text", "markdown"))
-        plain_results = [lines[-1].rpartition("= ")[2].partition(" ")[0] for _, lines in blocks(plain) if len(lines) > 1]
+        plain, marked = (
+            explain(impact, form=form, units="metric") for form in ("text", "markdown")
+        )
+        plain_results = [
+            lines[-1].rpartition("= ")[2].partition(" ")[0]
+            for _, lines in blocks(plain)
+            if len(lines) > 1
+        ]
         marked_results = [
             block.rpartition("= ")[2].partition("\\")[0].strip()
             for block in re.findall(r"\$\$\n(.*?)\n(?:\\end\{aligned\}\n)?\$\$", marked, re.DOTALL)
@@ -651,7 +810,9 @@ def test_the_same_for_the_same():
 
 
 def test_answers_are_rounded_as_documented():
-    """0.1 km/h, 0.1 mph, 0.01 m/s; 1 degree, 0.01 rad, a second too; three figures of an energy; each against pint's own conversion."""
+    """0.1 km/h, 0.1 mph, 0.01 m/s; 1 degree, 0.01 rad, a second too; three figures of an energy;
+    each against pint's own conversion.
+    """
     impact = crossroads()
     for units, speed, places, angle, angle_places, rate, rate_places, energy in (
         ("si", "m/s", 2, "rad", 2, "rad/s", 2, "J"),
@@ -660,7 +821,9 @@ def test_answers_are_rounded_as_documented():
     ):
         text = explain(impact, form="text", units=units)
         for label, side in (("A", impact.a), ("B", impact.b)):
-            assert answer(text, label, "delta-V") == f"{side.q.delta_v.m_as(speed):.{places}f} {speed}"
+            assert (
+                answer(text, label, "delta-V") == f"{side.q.delta_v.m_as(speed):.{places}f} {speed}"
+            )
             pdof = side.q.pdof.m_as(angle)
             hour = round(side.q.pdof.m_as("deg") / 30.0) % 12 or 12
             printed = f"{pdof:.{angle_places}f} {angle} ({hour} o'clock)"
@@ -675,7 +838,8 @@ def test_us_conversions_are_listed():
     """1 mph is 22/15 ft/s, and the pound of mass 0.45359237 kg."""
     text = explain(crossroads(), form="text", units="us")
     printed = dict(re.findall(r"1 ([^;]+?) = ([\d.]+) ", text.partition("convert units: ")[2]))
-    # At least six figures, and more where a line needs them. lbf s / lb = 9.80665 m/s = 9.80665 / 0.44704 mph.
+    # At least six figures, and more where a line needs them. lbf s / lb = 9.80665 m/s = 9.80665 /
+    # 0.44704 mph.
     for units, size in (("lbf*s * mph", 22 / 15), ("lbf*s / lb", 9.80665 / 0.44704)):
         assert len(printed[units]) >= 7
         assert gives(size, printed[units], "")
@@ -684,15 +848,28 @@ def test_us_conversions_are_listed():
 
 def test_rounded_to_a_known_uncertainty():
     """Two figures of the standard deviation, and the value to the same place."""
-    known = {"b.after.vx": "0.123 km/h", "energy_loss": 2345.0, "a_after_yaw_rate": "12.3 deg/s", "normal_impulse": 0.0}
+    known = {
+        "b.after.vx": "0.123 km/h",
+        "energy_loss": 2345.0,
+        "a_after_yaw_rate": "12.3 deg/s",
+        "normal_impulse": 0.0,
+    }
     impact = crossroads()
     text = explain(impact, form="text", units="metric", uncertainty=known)
-    assert answer(text, "B", "velocity after, along x") == f"{impact.b.after.q.vx.m_as('km/h'):.2f} ± 0.12 km/h"
+    assert (
+        answer(text, "B", "velocity after, along x")
+        == f"{impact.b.after.q.vx.m_as('km/h'):.2f} ± 0.12 km/h"
+    )
     assert answer(text, "contact", "energy lost") == f"{impact.energy_loss / 1000:.1f} ± 2.3 kJ"
-    assert answer(text, "A", "yaw rate after") == f"{impact.a.after.q.yaw_rate.m_as('deg/s'):.0f} ± 12 deg/s"
+    assert (
+        answer(text, "A", "yaw rate after")
+        == f"{impact.a.after.q.yaw_rate.m_as('deg/s'):.0f} ± 12 deg/s"
+    )
     assert "±" not in answer(text, "contact", "normal impulse")
     rough = explain(impact, form="text", uncertainty={"energy_loss": 12345.0})
-    assert answer(rough, "contact", "energy lost") == f"{round(impact.energy_loss, -3):.0f} ± 12000 J"
+    assert (
+        answer(rough, "contact", "energy lost") == f"{round(impact.energy_loss, -3):.0f} ± 12000 J"
+    )
 
 
 def test_a_propagation_tells_the_uncertainty():
@@ -702,7 +879,9 @@ def test_a_propagation_tells_the_uncertainty():
         impact = col.linear_central(col.Vehicle(mass=1000.0, vx=v), col.Vehicle(mass=1000.0), 0.0)
         return {"b_after_vx": impact.b.after.vx, "anything": 2.0 * impact.b.after.vx}
 
-    spread = uncertainty.propagate(model, {"v": uncertainty.Normal(20.0, 1.0)}, method="first_order")
+    spread = uncertainty.propagate(
+        model, {"v": uncertainty.Normal(20.0, 1.0)}, method="first_order"
+    )
     impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=1000.0), 0.0)
     text = explain(impact, form="text", uncertainty=spread)
     assert answer(text, "B", "velocity after, along x") == "10.00 ± 0.50 m/s"
@@ -713,14 +892,21 @@ def test_an_output_in_another_unit_is_no_answer_of_its_name():
     ureg = other_registry()
 
     def model(v):
-        return {"energy_loss": ureg.Quantity(v / 2.0, "m/s"), "b_after_vx": ureg.Quantity(3.6 * v / 2.0, "km/h")}
+        return {
+            "energy_loss": ureg.Quantity(v / 2.0, "m/s"),
+            "b_after_vx": ureg.Quantity(3.6 * v / 2.0, "km/h"),
+        }
 
-    spread = uncertainty.propagate(model, {"v": uncertainty.Normal(20.0, 1.0)}, method="first_order")
+    spread = uncertainty.propagate(
+        model, {"v": uncertainty.Normal(20.0, 1.0)}, method="first_order"
+    )
     impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=1000.0), 0.0)
     text = explain(impact, form="text", uncertainty=spread)
     assert answer(text, "contact", "energy lost") == "100000 J"
     assert answer(text, "B", "velocity after, along x") == "10.00 ± 0.50 m/s"
-    alone = uncertainty.propagate(lambda v: {"energy_loss": model(v)["energy_loss"]}, spread.inputs, method="first_order")
+    alone = uncertainty.propagate(
+        lambda v: {"energy_loss": model(v)["energy_loss"]}, spread.inputs, method="first_order"
+    )
     with pytest.raises(col.InputError, match=re.escape("energy_loss [m/s]; the answers are")):
         explain(impact, uncertainty=alone)
 
@@ -730,7 +916,10 @@ def test_a_deviation_of_rounding_alone_is_not_printed():
     inputs = {"v": uncertainty.Normal(20.0, 1e-9)}
     spread = uncertainty.propagate(lambda v: {"b_after_vx": v / 2.0}, inputs, method="first_order")
     impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=1000.0), 0.0)
-    assert answer(explain(impact, form="text", uncertainty=spread), "B", "velocity after, along x") == "10.00 m/s"
+    assert (
+        answer(explain(impact, form="text", uncertainty=spread), "B", "velocity after, along x")
+        == "10.00 m/s"
+    )
 
 
 @pytest.mark.parametrize("units", UNITS)
@@ -751,7 +940,9 @@ def test_a_term_of_0_is_not_written_where_friction_passes_the_slip(solver, frict
     ],
 )
 def test_an_interval_among_the_inputs_leaves_no_deviation(method, restitution, held):
-    """A speed between 10 and 20 m/s: no ± says how far that goes, so the range stands there; at e = 0 it is m v**2 / 4."""
+    """A speed between 10 and 20 m/s: no ± says how far that goes, so the range stands there; at e =
+    0 it is m v**2 / 4.
+    """
 
     def model(v, e):
         found = col.linear_central(col.Vehicle(mass=1000.0, vx=v), col.Vehicle(mass=1000.0), e)
@@ -768,10 +959,14 @@ def test_an_interval_among_the_inputs_leaves_no_deviation(method, restitution, h
         ("contact", "energy lost", "energy_loss", 1e-3, "kJ"),
         ("B", "delta-V", "b_delta_v", 3.6, "km/h"),
     ):
-        _, low, high = re.fullmatch(rf"([\d.]+) {unit} \(([\d.]+) to ([\d.]+) {unit}\)", answer(text, owner, quantity)).groups()
+        _, low, high = re.fullmatch(
+            rf"([\d.]+) {unit} \(([\d.]+) to ([\d.]+) {unit}\)", answer(text, owner, quantity)
+        ).groups()
         # Three figures of an energy, one decimal of a speed.
         ends = [scale * end for end in spread[name].interval()]
-        assert [float(low), float(high)] == pytest.approx(ends, rel=5e-3 if unit == "kJ" else 0.0, abs=0.05)
+        assert [float(low), float(high)] == pytest.approx(
+            ends, rel=5e-3 if unit == "kJ" else 0.0, abs=0.05
+        )
     # Half of m v**2 / 2 at e = 0: 25 kJ and 100 kJ; at e = 0.2 less by a factor of 0.96.
     low, high = spread["energy_loss"].interval()
     assert 24e3 <= low <= 25e3
@@ -805,7 +1000,10 @@ def test_an_uncertainty_of_nothing_known_is_refused(known, kind, code, said):
 def test_all_deviations_that_are_many_are_named_at_once():
     """As other wrong arguments are."""
     known = dict.fromkeys(("energy_loss", "a.delta_v"), np.array([1.0, 2.0]))
-    with pytest.raises(col.ShapeError, match=r"^2 arguments.*\n.*of energy_loss must be one number\n.*of a.delta_v must be"):
+    with pytest.raises(
+        col.ShapeError,
+        match=r"^2 arguments.*\n.*of energy_loss must be one number\n.*of a.delta_v must be",
+    ):
         explain(example_2(), uncertainty=known)
 
 
@@ -824,21 +1022,37 @@ def test_an_energy_gain_comes_first():
 
 def test_a_batch_is_refused_with_advice():
     """Many cases have no one derivation."""
-    many = col.linear_central(col.Vehicle(mass=1000.0, vx=np.array([10.0, 20.0])), col.Vehicle(mass=900.0), 0.1)
+    many = col.linear_central(
+        col.Vehicle(mass=1000.0, vx=np.array([10.0, 20.0])), col.Vehicle(mass=900.0), 0.1
+    )
     with pytest.raises(
-        col.ShapeError, match=r"batch of shape \(2,\), and explain takes one case: write explain\(impact.case\(0\)\)"
+        col.ShapeError,
+        match=r"batch of shape \(2,\), and explain takes one case: write "
+        r"explain\(impact.case\(0\)\)",
     ) as caught:
         explain(many)
     assert (caught.value.code, caught.value.fields["argument"]) == ("bad_shape", "impact")
-    courses = {"course_a": "270 deg", "course_b": "0 deg", "course_a_after": "-30 deg", "course_b_after": "-40 deg"}
-    momentum = reconstruct.momentum(np.array([1200, 1250]), 1800, **courses, speed_a_after=8.0, speed_b_after=14.0)
-    with pytest.raises(col.ShapeError, match=r"batch of shape .* ask the solver again with the numbers of that case"):
+    courses = {
+        "course_a": "270 deg",
+        "course_b": "0 deg",
+        "course_a_after": "-30 deg",
+        "course_b_after": "-40 deg",
+    }
+    momentum = reconstruct.momentum(
+        np.array([1200, 1250]), 1800, **courses, speed_a_after=8.0, speed_b_after=14.0
+    )
+    with pytest.raises(
+        col.ShapeError,
+        match=r"batch of shape .* ask the solver again with the numbers of that case",
+    ):
         explain(momentum)
 
 
 def test_a_refused_impact_is_refused_again():
     """With the family and the label of its status."""
-    refused = col.linear_central(col.Vehicle(mass=1000.0), col.Vehicle(mass=900.0, vx=5.0), 0.1, on_failure="nan")
+    refused = col.linear_central(
+        col.Vehicle(mass=1000.0), col.Vehicle(mass=900.0, vx=5.0), 0.1, on_failure="nan"
+    )
     with pytest.raises(col.NoImpactError, match=r"was refused.*move apart") as caught:
         explain(refused)
     assert caught.value.code == "separating"
@@ -863,8 +1077,12 @@ def test_what_it_cannot_use_is_refused(arguments, code, said):
 
 
 def test_a_form_that_loses_the_digits_says_so():
-    """A common speed of a million million m/s: kinetic energies of 1e27 J cannot tell a loss of kilojoules."""
-    impact = col.linear_central(col.Vehicle(mass=1000.0, vx=1e12 + 16.0), col.Vehicle(mass=900.0, vx=1e12), 0.1)
+    """A common speed of a million million m/s: kinetic energies of 1e27 J cannot tell a loss of
+    kilojoules.
+    """
+    impact = col.linear_central(
+        col.Vehicle(mass=1000.0, vx=1e12 + 16.0), col.Vehicle(mass=900.0, vx=1e12), 0.1
+    )
     text = explain(impact, form="text")
     assert "the numbers cancel" in text
     assert answer(text, "contact", "closing speed") == "16.00 m/s"
@@ -872,44 +1090,75 @@ def test_a_form_that_loses_the_digits_says_so():
 
 @pytest.mark.slow
 def test_extremes_are_written_down_without_a_crash():
-    """Twelve powers of ten either way: what a form cannot hold is said, and the answers are still the result's own."""
+    """Twelve powers of ten either way: what a form cannot hold is said, and the answers are still
+    the result's own.
+    """
     random = np.random.default_rng(1)
     done = said = 0
     for _ in range(120):
         size = iter((10.0 ** random.uniform(-12, 12, size=10)).tolist())
         a, b = (
-            col.Vehicle(mass=next(size), yaw_inertia=next(size), x=side * next(size), y=next(size), vx=-side * next(size))
+            col.Vehicle(
+                mass=next(size),
+                yaw_inertia=next(size),
+                x=side * next(size),
+                y=next(size),
+                vx=-side * next(size),
+            )
             for side in (-1.0, 1.0)
         )
-        impact = col.eccentric(a, b, 0.3, normal=0.4, point=(0.0, 0.0), friction=0.5, on_failure="nan")
+        impact = col.eccentric(
+            a, b, 0.3, normal=0.4, point=(0.0, 0.0), friction=0.5, on_failure="nan"
+        )
         if not impact.refused:
             text = explain(impact, form="text")
             done += 1
             said += "numbers cancel" in text
-            assert answer(text, "contact", "closing speed") == f"{round(impact.closing_speed, 2):.2f} m/s"
+            assert (
+                answer(text, "contact", "closing speed")
+                == f"{round(impact.closing_speed, 2):.2f} m/s"
+            )
     assert done > 30
     assert said > 10
 
 
 def test_speeds_of_momentum_are_solved_for():
-    """Each unknown by itself: a textbook right angle, m_A v_A = (m_A + m_B) v' sin 40, and with the vehicles leaving as one."""
+    """Each unknown by itself: a textbook right angle, m_A v_A = (m_A + m_B) v' sin 40, and with the
+    vehicles leaving as one.
+    """
     text = explain(MOMENTA[2], form="text")
-    assert "v_A = (m_A * v'_A * sin(theta'_A - theta_B) + m_B * v'_B * sin(theta'_B - theta_B))" in text
-    assert MOMENTA[2].speed_a == pytest.approx(3000 * 8.0 * math.sin(math.radians(40)) / 1200, rel=1e-14)
+    assert (
+        "v_A = (m_A * v'_A * sin(theta'_A - theta_B) + m_B * v'_B * sin(theta'_B - theta_B))"
+        in text
+    )
+    assert MOMENTA[2].speed_a == pytest.approx(
+        3000 * 8.0 * math.sin(math.radians(40)) / 1200, rel=1e-14
+    )
     assert f"= {MOMENTA[2].speed_a:.2f} m/s" in text
     together = explain(MOMENTA[3], form="text")
     assert "/ ((m_A + m_B) * sin(theta'_A - theta_A))" in together
     # Along x: 1800 * 7 = 3000 * v' cos 40.
-    assert MOMENTA[3].speed_a_after == pytest.approx(1800 * 7.0 / (3000 * math.cos(math.radians(40))), rel=1e-14)
+    assert MOMENTA[3].speed_a_after == pytest.approx(
+        1800 * 7.0 / (3000 * math.cos(math.radians(40))), rel=1e-14
+    )
     for solution, name in ((each, name) for each in MOMENTA for name in each.unknowns):
-        caption = f"Speed of {name[6].upper()} {'after' if name.endswith('after') else 'before'}, by the momentum across"
+        caption = (
+            f"Speed of {name[6].upper()} {'after' if name.endswith('after') else 'before'}, by "
+            "the momentum across"
+        )
         assert caption in explain(solution, form="text")
 
 
 def test_nothing_else_across_leaves_no_speed():
     """B cannot leave sideways when A comes and goes straight on."""
     still = reconstruct.momentum(
-        1000, 1000, course_a=0.0, speed_a=5.0, speed_b=0.0, course_a_after=0.0, course_b_after="90 deg"
+        1000,
+        1000,
+        course_a=0.0,
+        speed_a=5.0,
+        speed_b=0.0,
+        course_a_after=0.0,
+        course_b_after="90 deg",
     )
     text = explain(still, form="text")
     assert "Nothing else has momentum across it: v'_B = 0 m/s." in text
@@ -917,7 +1166,9 @@ def test_nothing_else_across_leaves_no_speed():
 
 
 def test_the_impulse_without_slip_is_solved_for():
-    """Both formulas by Cramer's rule, whose numbers are checked with all others; and by numpy from the printed equations."""
+    """Both formulas by Cramer's rule, whose numbers are checked with all others; and by numpy from
+    the printed equations.
+    """
     text = explain(crossroads(friction=0.8), form="text")
     assert "N_s = (K_tt * (1 + e) * g + K_nt * s) / (K_nn * K_tt - K_nt**2)" in text
     assert "T_s = -(K_nn * s + K_nt * (1 + e) * g) / (K_nn * K_tt - K_nt**2)" in text
@@ -931,7 +1182,9 @@ def test_the_impulse_without_slip_is_solved_for():
     # Four figures of each coefficient, of which the off-diagonal ones are small.
     assert found == pytest.approx([printed("N_s"), printed("T_s")], rel=2e-3)
     assert "K_tt * (1 + (1 + e)" not in text
-    assert "+ K_nt * (1 + e) * s" in explain(crossroads(friction=0.8, law="kudlich-slibar"), form="text")
+    assert "+ K_nt * (1 + e) * s" in explain(
+        crossroads(friction=0.8, law="kudlich-slibar"), form="text"
+    )
 
 
 def test_kinetic_energies_are_worked_out_and_say_whether_they_turn():
@@ -948,11 +1201,15 @@ def test_kinetic_energies_are_worked_out_and_say_whether_they_turn():
     third = explain(example_3(), form="text", units="si")
     assert "B rests before: T_B = 0 J." in third
     assert "T_A = 1 / 2 * m_A * v_Ax**2" in third
-    assert "B has an infinite mass and rests after, so it has no kinetic energy." in explain(example_1(), form="text")
+    assert "B has an infinite mass and rests after, so it has no kinetic energy." in explain(
+        example_1(), form="text"
+    )
 
 
 def test_a_kinetic_energy_that_is_not_known_is_no_check():
-    """A central model that solve took needs no yaw inertia of a body that turns; its energy of rotation is not known."""
+    """A central model that solve took needs no yaw inertia of a body that turns; its energy of
+    rotation is not known.
+    """
     a = col.Vehicle(mass=1000.0, vx=10.0, yaw_rate=0.01, x=-2.0, y=0.0)
     b = col.Vehicle(mass=900.0, x=2.0, y=0.0, yaw_inertia=1500.0)
     impact = col.solve(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.0, tolerance=50.0)
@@ -963,13 +1220,17 @@ def test_a_kinetic_energy_that_is_not_known_is_no_check():
 
 
 def test_components_of_the_normal_are_introduced():
-    """Before they are first used, from the direction given; nothing is needed where the normal is the x axis."""
+    """Before they are first used, from the direction given; nothing is needed where the normal is
+    the x axis.
+    """
     for solver in (col.oblique_central, col.eccentric):
         text = explain(crossroads(solver, normal="20 deg"), form="text", units="metric")
         assert "n_x = cos(phi)\n      = cos(20 deg)\n      = 0.9397" in text
         assert "n_y = sin(phi)\n      = sin(20 deg)\n      = 0.3420" in text
         assert text.index("n_x = cos(phi)") == text.index("n_x")
-    across = col.oblique_central(col.Vehicle(mass=1e3, vy=9.0), col.Vehicle(mass=9e2), 0.1, normal=(0, 1), friction=0.0)
+    across = col.oblique_central(
+        col.Vehicle(mass=1e3, vy=9.0), col.Vehicle(mass=9e2), 0.1, normal=(0, 1), friction=0.0
+    )
     assert "Components of the normal: n_x = 0 and n_y = 1." in explain(across, form="text")
     assert "n_x" not in explain(example_3(), form="text")
     backwards = explain(SCENES["planar brach {'restitution': 0.3}"], form="text")
@@ -987,7 +1248,9 @@ def test_no_fraction_is_divided_by_a_fraction():
 
 
 def test_figures_are_as_the_notes_say():
-    """As it is with six, else four; all before the decimal point; and two decimals more than an answer of a small speed."""
+    """As it is with six, else four; all before the decimal point; and two decimals more than an
+    answer of a small speed.
+    """
     figures = System("si")
     assert figures.working(16.25, "speed") == "16.25"
     assert figures.working(100.0 / 3.0, "energy") == "33.33"
@@ -999,12 +1262,17 @@ def test_figures_are_as_the_notes_say():
     assert figures.working(100.0 / 3.0, "energy", 2) == "33.3333"
     assert figures.working(126553.7391, "energy", 1) == "126553.7"
     assert figures.working(16.25, "speed", 5) == "16.25"
-    assert "every line, worked out from its printed numbers and rounded like its result, gives that result" in notes
+    assert (
+        "every line, worked out from its printed numbers and rounded like its result, gives that "
+        "result" in notes
+    )
     assert "may differ" not in notes
 
 
 def test_other_answers_are_named():
-    """A delta-V and an energy that two pairs of speeds give: each of them says that there is another; a single one does not."""
+    """A delta-V and an energy that two pairs of speeds give: each of them says that there is
+    another; a single one does not.
+    """
     forward = crossroads(friction=0.3, normal="20 deg")
     with pytest.warns(col.OutOfRangeWarning, match="backwards along its course"):
         both = reconstruct.speeds(
@@ -1022,14 +1290,18 @@ def test_other_answers_are_named():
     assert len(both) == 2
     for one in both:
         text = explain(one)
-        assert "**Not the only answer: 2 impacts fit what was known, and this is one of them." in text
+        assert (
+            "**Not the only answer: 2 impacts fit what was known, and this is one of them." in text
+        )
         assert text.index("Not the only answer") < text.index("What follows is the same impact")
     assert "Not the only answer" not in explain(example_2())
 
 
 @pytest.mark.slow
 def test_a_symbol_has_one_value(monkeypatch):
-    """In plain text and in LaTeX, on every page: also at the end of deformation, where the paper has u with and without a bar."""
+    """In plain text and in LaTeX, on every page: also at the end of deformation, where the paper
+    has u with and without a bar.
+    """
     seen = {}
     write = Symbol.write
 
@@ -1048,18 +1320,45 @@ def test_a_symbol_has_one_value(monkeypatch):
             assert len({kind for _, kind in values}) == 1, (name, symbol)
             numbers = [value for value, _ in values]
             # The same number from two of the result's own attributes: by rounding.
-            assert max(numbers) - min(numbers) <= 1e-9 * (1.0 + max(map(abs, numbers))), (name, symbol, values)
+            assert max(numbers) - min(numbers) <= 1e-9 * (1.0 + max(map(abs, numbers))), (
+                name,
+                symbol,
+                values,
+            )
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_every_symbol_of_a_forward_derivation_is_given_or_derived_before(name):
-    """Nothing comes from nowhere: what stands right of an equals sign was left of one before, or in a sentence, or was given."""
+    """Nothing comes from nowhere: what stands right of an equals sign was left of one before, or in
+    a sentence, or was given.
+    """
     if SCENES[name].reconstruction is not None:
         pytest.skip("backwards some symbols are solved for together")
     text = explain(SCENES[name], form="text")
-    given = {"m_A", "m_B", "e", "pi", "phi", "I_A", "I_B", "psi_A", "psi_B", "abs", "sqrt", "cos", "sin", "atan2", "mu", "f"}
+    given = {
+        "m_A",
+        "m_B",
+        "e",
+        "pi",
+        "phi",
+        "I_A",
+        "I_B",
+        "psi_A",
+        "psi_B",
+        "abs",
+        "sqrt",
+        "cos",
+        "sin",
+        "atan2",
+        "mu",
+        "f",
+    }
     given |= {f"v_{label}{axis}" for label in "AB" for axis in "xy"} | {"v_A", "v_B"}
-    given |= {f"{what}{axis}" for what in ("C_", "G_A", "G_B", "O_A", "O_B", "w_") for axis in ("x", "y", "A", "B")}
+    given |= {
+        f"{what}{axis}"
+        for what in ("C_", "G_A", "G_B", "O_A", "O_B", "w_")
+        for axis in ("x", "y", "A", "B")
+    }
     for part in text.split("\n\n"):
         found = dict(blocks(part))
         if not found:
@@ -1075,7 +1374,9 @@ def test_every_symbol_of_a_forward_derivation_is_given_or_derived_before(name):
 
 
 def test_the_place_at_the_contact_has_its_own_symbol():
-    """The scene of the review: u_Bn of the centre of mass is 7.718 m/s, the contact at the end of deformation has 8.208 m/s."""
+    """The scene of the review: u_Bn of the centre of mass is 7.718 m/s, the contact at the end of
+    deformation has 8.208 m/s.
+    """
     impact = col.eccentric(
         col.Vehicle(mass=1500, yaw_inertia=2400, vx=15, x=-2, y=0.4),
         col.Vehicle(mass=1200, yaw_inertia=1700, x=2, y=-0.3),
@@ -1086,7 +1387,9 @@ def test_the_place_at_the_contact_has_its_own_symbol():
     )
     text = explain(impact, form="text")
     assert "u_Bn = v_Bn + int_P_dt / m_B" in text
-    assert "c0_Bn = u_Bn - w0_B * r_Bt\n        = 7.718 - (-1.634) * 0.3\n        = 8.208 m/s" in text
+    assert (
+        "c0_Bn = u_Bn - w0_B * r_Bt\n        = 7.718 - (-1.634) * 0.3\n        = 8.208 m/s" in text
+    )
     assert "e = (c0_Bn - c'_Bn) / (c_Bn - c0_Bn)" in text
     there = impact.b.at_compression.velocity_at((0.0, 0.0))[0]
     assert there == pytest.approx(8.208, abs=5e-4)
@@ -1095,16 +1398,43 @@ def test_the_place_at_the_contact_has_its_own_symbol():
 @pytest.mark.parametrize(
     ("y", "inertia", "said"),
     [
-        (0.0, 1700, "The impulse has no moment about a body that could turn, so it changes no yaw rate."),
-        (0.3, 1700, "about the centre of mass of A and the centre of mass of B, which changes both yaw rates."),
-        (0.3, math.inf, "about the centre of mass of A, which changes its yaw rate; that of B stays."),
+        (
+            0.0,
+            1700,
+            "The impulse has no moment about a body that could turn, so it changes no yaw rate.",
+        ),
+        (
+            0.3,
+            1700,
+            (
+                "about the centre of mass of A and the centre of mass of B, which changes both "
+                "yaw rates."
+            ),
+        ),
+        (
+            0.3,
+            math.inf,
+            "about the centre of mass of A, which changes its yaw rate; that of B stays.",
+        ),
     ],
 )
 def test_what_turns_is_said_as_it_is(y, inertia, said):
-    """Line of impact through both centres of mass, beside both, and a body without a finite yaw inertia."""
+    """Line of impact through both centres of mass, beside both, and a body without a finite yaw
+    inertia.
+    """
     a = col.Vehicle(mass=1500, yaw_inertia=2400, vx=15, x=-2, y=y)
-    impact = col.eccentric(a, col.Vehicle(mass=1200, yaw_inertia=inertia, x=2, y=-y), 0.1, normal=0, point=(0, 0), friction=0.0)
-    assert (impact.a.delta_yaw_rate == 0.0, impact.b.delta_yaw_rate == 0.0) == (y == 0.0, math.isinf(inertia) or y == 0.0)
+    impact = col.eccentric(
+        a,
+        col.Vehicle(mass=1200, yaw_inertia=inertia, x=2, y=-y),
+        0.1,
+        normal=0,
+        point=(0, 0),
+        friction=0.0,
+    )
+    assert (impact.a.delta_yaw_rate == 0.0, impact.b.delta_yaw_rate == 0.0) == (
+        y == 0.0,
+        math.isinf(inertia) or y == 0.0,
+    )
     text = explain(impact, form="text")
     assert said in text
     assert "misses a centre of mass" not in text
@@ -1114,11 +1444,14 @@ def test_what_turns_is_said_as_it_is(y, inertia, said):
 @pytest.mark.parametrize("units", UNITS)
 @pytest.mark.parametrize("name", SCENES)
 def test_what_is_read_out_is_derived(name, units):
-    """Delta-V and its components, PDOF, speed and course after: each is the result of a line, and is the answer, rounded."""
+    """Delta-V and its components, PDOF, speed and course after: each is the result of a line, and
+    is the answer, rounded.
+    """
     impact = SCENES[name]
     text = explain(impact, form="text", units=units)
     derived = {
-        lines[0].strip().partition(" = ")[0]: lines[-1].rpartition("= ")[2].partition(" ")[0] for _, lines in blocks(text)
+        lines[0].strip().partition(" = ")[0]: lines[-1].rpartition("= ")[2].partition(" ")[0]
+        for _, lines in blocks(text)
     }
     derived |= dict(re.findall(r"(\S+) = (-?[\d.]+\d|\d) ", text.partition("Answers")[0]))
     speed, angle = {"si": ("m/s", "rad"), "metric": ("km/h", "deg"), "us": ("mph", "deg")}[units]
@@ -1126,53 +1459,76 @@ def test_what_is_read_out_is_derived(name, units):
         held = math.isinf(side.before.mass)
         wanted = {f"|v'_{label}|": side.after.q.speed.m_as(speed)}
         if not held:
-            wanted |= {f"dv_{label}{axis}": getattr(side.q, f"delta_v{axis}").m_as(speed) for axis in ("", "x", "y")}
+            wanted |= {
+                f"dv_{label}{axis}": getattr(side.q, f"delta_v{axis}").m_as(speed)
+                for axis in ("", "x", "y")
+            }
         if side.after.speed > 1e-9:
             wanted[f"theta'_{label}"] = side.after.q.course.m_as(angle)
         if side.before.heading is not None:
             wanted[f"PDOF_{label}"] = side.q.pdof.m_as(angle)
         for symbol, value in wanted.items():
-            # Four figures, or of what is small four decimals of the SI unit, which are two of a degree and of km/h three.
-            assert float(derived[symbol]) == pytest.approx(value, rel=6e-4, abs=6e-3), (symbol, label)
+            # Four figures, or of what is small four decimals of the SI unit, which are two of a
+            # degree and of km/h three.
+            assert float(derived[symbol]) == pytest.approx(value, rel=6e-4, abs=6e-3), (
+                symbol,
+                label,
+            )
         assert held == (f"{label} has an infinite mass, so its delta-V is 0." in text)
 
 
 def test_pdof_of_a_wall_and_of_a_pinned_body():
-    """The push on a body that does not move freely is that of the contact, opposite to what the other one gets."""
+    """The push on a body that does not move freely is that of the contact, opposite to what the
+    other one gets.
+    """
     hit = col.Vehicle(mass=1400, yaw_inertia=2200, x=-2.0, y=0.3, vx=13.0, heading="10 deg")
     for wall in (
         col.Vehicle(mass=math.inf, yaw_inertia=math.inf, heading="-90 deg", x=1.0, y=0.0),
         col.Vehicle(mass=900, yaw_inertia=1500, x=1.5, y=1.0, pivot=(2.0, -1.5), heading="450 deg"),
     ):
         for friction in (0.0, 0.4):
-            impact = col.eccentric(hit, wall, 0.1, normal="5 deg", point=(0.0, 0.1), friction=friction)
+            impact = col.eccentric(
+                hit, wall, 0.1, normal="5 deg", point=(0.0, 0.1), friction=friction
+            )
             text = explain(impact, form="text", units="metric")
             assert check_lines(text) > 20
             assert "Direction of the impulse on B, opposite to that on A (1):" in text
             for label, side in (("A", impact.a), ("B", impact.b)):
-                printed = re.search(rf"PDOF_{label} = .*\n.*\n +(?:= .*\n +)?= (-?[\d.]+) deg", text + "\n")
+                printed = re.search(
+                    rf"PDOF_{label} = .*\n.*\n +(?:= .*\n +)?= (-?[\d.]+) deg", text + "\n"
+                )
                 last = re.search(rf"  PDOF_{label} = (?:.*\n)+?.*?= (-?[\d.]+) deg", text)
                 assert printed or last
                 assert float(last[1]) == pytest.approx(math.degrees(side.pdof), abs=0.006)
 
 
 def test_momentum_tells_its_headings():
-    """A heading of -90 degrees, and a delta-V towards the right front: the PDOF can be worked out from what was given."""
+    """A heading of -90 degrees, and a delta-V towards the right front: the PDOF can be worked out
+    from what was given.
+    """
     solution = MOMENTA[0]
     text = explain(solution, form="text", units="metric")
     assert answer(text, "A", "heading") == "-90 deg"
     assert re.search(r"contact +normal, direction from A into B +-20 deg", text)
-    x, y = (float(re.search(rf"  dv_A{axis} = (?:.*\n)+?.*= (-?[\d.]+) km/h", text)[1]) for axis in "xy")
+    x, y = (
+        float(re.search(rf"  dv_A{axis} = (?:.*\n)+?.*= (-?[\d.]+) km/h", text)[1]) for axis in "xy"
+    )
     pdof = (-90.0 - math.degrees(math.atan2(y, x)) + 180.0 + 180.0) % 360.0 - 180.0
     assert pdof == pytest.approx(math.degrees(solution.pdof_a), abs=0.01)
     hour = round(pdof / 30.0) % 12 or 12
-    assert f"{pdof:.0f} deg ({hour} o'clock)" == answer(text, "A", "PDOF (0 from ahead, positive clockwise)")
+    assert f"{pdof:.0f} deg ({hour} o'clock)" == answer(
+        text, "A", "PDOF (0 from ahead, positive clockwise)"
+    )
     assert "PDOF_B" not in text
     assert "Closing speed of the centres along the normal phi (definition):" in text
     outside = explain(MOMENTA[1], form="text", units="si")
     assert answer(outside, "both", "impulse from outside, along x") == "300 N*s"
     assert (MOMENTA[1].outside_impulse_x, MOMENTA[1].outside_impulse_y) == (300.0, -100.0)
-    assert (solution.outside_impulse_x, solution.heading_b, MOMENTA[1].normal_angle) == (None, None, None)
+    assert (solution.outside_impulse_x, solution.heading_b, MOMENTA[1].normal_angle) == (
+        None,
+        None,
+        None,
+    )
 
 
 def test_each_angle_has_its_unit():
@@ -1187,23 +1543,33 @@ def test_each_angle_has_its_unit():
 
 def test_a_name_stands_as_it_is():
     """Plain text has no markup to protect."""
-    impact = col.linear_central(col.Vehicle(mass=1000.0, vx=5.0, name="A$AP \\2"), col.Vehicle(mass=900.0), 0.1)
+    impact = col.linear_central(
+        col.Vehicle(mass=1000.0, vx=5.0, name="A$AP \\2"), col.Vehicle(mass=900.0), 0.1
+    )
     assert "A (A$AP \\2)" in explain(impact, form="text")
     assert r"A (A\$AP \\2)" in explain(impact)
 
 
 def test_what_needs_more_figures_has_them():
-    """The scene of the review: with 1202 kg and 10.74 m/s half of m v squared would come to 69324 J."""
-    impact = col.linear_central(col.Vehicle(mass="1500 kg", vx="50 km/h"), col.Vehicle(mass="2650 lb", vx="10 mph"), 0.2)
+    """The scene of the review: with 1202 kg and 10.74 m/s half of m v squared would come to 69324
+    J.
+    """
+    impact = col.linear_central(
+        col.Vehicle(mass="1500 kg", vx="50 km/h"), col.Vehicle(mass="2650 lb", vx="10 mph"), 0.2
+    )
     text = explain(impact, form="text")
     assert "1 / 2 * 1202 * 10.74**2" not in text
-    formula, printed = re.search(r"Kinetic energy of B after:\n.*\n +=? ?(.*)\n +=? ?(\d+) J", text).groups()
+    formula, printed = re.search(
+        r"Kinetic energy of B after:\n.*\n +=? ?(.*)\n +=? ?(\d+) J", text
+    ).groups()
     assert round(eval(formula)) == int(printed) == round(impact.b.after.kinetic_energy)
 
 
 def test_a_number_too_large_for_the_unit_is_refused():
     """1e308 m cannot be written in feet; it is neither infinite nor somebody else's error."""
-    a, b = (col.Vehicle(mass=1500.0, vx=speed, x=x, y=1.0) for speed, x in ((20.0, 0.0), (1.0, 1e308)))
+    a, b = (
+        col.Vehicle(mass=1500.0, vx=speed, x=x, y=1.0) for speed, x in ((20.0, 0.0), (1.0, 1e308))
+    )
     impact = col.linear_central(a, b, 0.1)
     assert len(explain(impact)) > 1000
     with pytest.raises(col.InputError, match="too large to be written in ft") as refused:
@@ -1218,8 +1584,12 @@ def test_a_momentum_beyond_floats_is_written_as_infinite():
 
 
 def test_a_deviation_as_large_as_floats_can_be():
-    """It is printed with six figures, of which the last does not round beyond the range of floats."""
-    assert "± 1.79769e+308 J" in explain(example_2(), uncertainty={"energy_loss": sys.float_info.max}, units="si")
+    """It is printed with six figures, of which the last does not round beyond the range
+    of floats.
+    """
+    assert "± 1.79769e+308 J" in explain(
+        example_2(), uncertainty={"energy_loss": sys.float_info.max}, units="si"
+    )
 
 
 @pytest.mark.parametrize(
@@ -1234,7 +1604,9 @@ def test_a_deviation_as_large_as_floats_can_be():
 def test_a_third_law_is_explained_by_its_own_slip(sticking_slip, line, monkeypatch, equations):
     """The impulse that stops the slip comes from the slip factor of the law, whatever that is."""
     # The functions of floats are kept by the name of a law.
-    law = Law(f"third {line}", sticking_slip, no_slip="third", derivation="third", assumption="third")
+    law = Law(
+        f"third {line}", sticking_slip, no_slip="third", derivation="third", assumption="third"
+    )
     monkeypatch.setitem(LAWS, law.name, law)
     for solver in (col.eccentric, col.oblique_central):
         text = explain(crossroads(solver, friction=5.0, law=law.name), form="text")
@@ -1247,11 +1619,20 @@ def test_a_third_law_is_explained_by_its_own_slip(sticking_slip, line, monkeypat
 @pytest.mark.parametrize("value", [0.0, 0.7])
 @pytest.mark.parametrize("friction", [0.1, 5.0])
 def test_a_fourth_rule_is_not_explained_as_friction(friction, value, monkeypatch, equations):
-    """Its meaning, its value and the impulse ratio that it led to, sliding or sticking; the impulses follow from that."""
+    """Its meaning, its value and the impulse ratio that it led to, sliding or sticking; the
+    impulses follow from that.
+    """
     impact = crossroads(friction=friction)
-    monkeypatch.setitem(RULES, "slope", Rule("slope", FINITE, "slope of the contact", RULES["friction"].decide))
-    text = explain(build(replace(impact.inputs, rule="slope", rule_value=value), impact._answer), form="text")
-    assert f"The slope of the contact was given: slope = {value:g}. With the impulse that just stops the slip it makes" in text
+    monkeypatch.setitem(
+        RULES, "slope", Rule("slope", FINITE, "slope of the contact", RULES["friction"].decide)
+    )
+    text = explain(
+        build(replace(impact.inputs, rule="slope", rule_value=value), impact._answer), form="text"
+    )
+    assert (
+        f"The slope of the contact was given: slope = {value:g}. With the impulse that just "
+        "stops the slip it makes" in text
+    )
     assert "friction" not in text.lower()
     assert exact(equations) >= 6
     assert check_lines(text) >= 5
@@ -1259,7 +1640,12 @@ def test_a_fourth_rule_is_not_explained_as_friction(friction, value, monkeypatch
 
 def crossing(**changes):
     """Planar momentum as a US case has it."""
-    given = {"course_a": "0 deg", "course_b": "90 deg", "course_a_after": "25 deg", "course_b_after": "40 deg"}
+    given = {
+        "course_a": "0 deg",
+        "course_b": "90 deg",
+        "course_a_after": "25 deg",
+        "course_b_after": "40 deg",
+    }
     given |= {"speed_a_after": "25 mph", "speed_b_after": "30 mph", "heading_a": "0 deg"}
     return reconstruct.momentum("3400 lb", "2900 lb", **(given | changes))
 
@@ -1279,10 +1665,18 @@ def test_the_units_are_those_of_the_inputs():
 
 
 def test_angles_given_in_degrees_are_printed_in_degrees():
-    """Beside speeds in m/s too, of which no system has both; a yaw rate is in the unit that it was given in."""
+    """Beside speeds in m/s too, of which no system has both; a yaw rate is in the unit that it was
+    given in.
+    """
     si = {"speed_a_after": "10 m/s", "speed_b_after": "12 m/s"}
     found = reconstruct.momentum(
-        1500, 1300, course_a="0 deg", course_b="90 deg", course_a_after="25 deg", course_b_after=0.7, **si
+        1500,
+        1300,
+        course_a="0 deg",
+        course_b="90 deg",
+        course_a_after="25 deg",
+        course_b_after=0.7,
+        **si,
     )
     text = explain(found, form="text")
     assert answer(text, "A", "course after") == "25 deg"
@@ -1291,16 +1685,26 @@ def test_angles_given_in_degrees_are_printed_in_degrees():
     assert " rad" not in text
     assert check_lines(text) >= 5
     assert answer(explain(found, form="text", units="si"), "A", "course after") == "0.4363 rad"
-    turning = {"mass": 1500, "yaw_inertia": 2500, "x": -2.0, "y": 0.3, "vx": "14 m/s", "heading": "30 deg"}
+    turning = {
+        "mass": 1500,
+        "yaw_inertia": 2500,
+        "x": -2.0,
+        "y": 0.3,
+        "vx": "14 m/s",
+        "heading": "30 deg",
+    }
     b = col.Vehicle(mass=1200, yaw_inertia=1900, x=2.0, y=0.0)
     for rate, unit in (("20 deg/s", "deg/s"), (0.3, "rad/s")):
         a = col.Vehicle(yaw_rate=rate, **turning)
-        text = explain(col.eccentric(a, b, 0.2, normal=0.0, point=(0.0, 0.1), friction=0.4), form="text")
+        text = explain(
+            col.eccentric(a, b, 0.2, normal=0.0, point=(0.0, 0.1), friction=0.4), form="text"
+        )
         assert answer(text, "A", "yaw rate after").endswith(unit)
         assert answer(text, "A", "heading") == "30 deg"
         assert check_lines(text) >= 20
     # What turned was given in degrees per second, directions were not.
-    text = explain(col.eccentric(col.Vehicle(**{**turning, "heading": 0.5}, yaw_rate="20 deg/s"), b, 0.2, normal=0.1, point=(0.0, 0.1),
+    text = explain(col.eccentric(col.Vehicle(**{**turning, "heading": 0.5}, yaw_rate="20 deg/s"),
+    b, 0.2, normal=0.1, point=(0.0, 0.1),
                                  friction=0.4), form="text")  # fmt: skip
     assert answer(text, "A", "heading") == "0.5 rad"
     assert answer(text, "A", "yaw rate") == "20 deg/s"

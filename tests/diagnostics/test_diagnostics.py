@@ -1,4 +1,6 @@
-"""Findings: each made to appear and to vanish, its measure against a number worked out by hand, limits, and refusals."""
+"""Findings: each made to appear and to vanish, its measure against a number worked out by hand,
+limits, and refusals.
+"""
 
 import importlib
 import json
@@ -27,10 +29,14 @@ OTHER = {"mass": 1200.0, "yaw_inertia": 2100.0, "heading": math.pi / 2}
 
 
 def square(a=None, b=None, restitution=0.1, **contact):
-    """Two cars with nothing odd about them: A to the right, B to the left of the scene, through both centres, no friction."""
+    """Two cars with nothing odd about them: A to the right, B to the left of the scene, through
+    both centres, no friction.
+    """
     a = col.Vehicle(**{**CAR, "vx": 20.0, "vy": 8.0, "x": -2.2, "y": 0.0, **(a or {})})
     b = col.Vehicle(**{**OTHER, "vx": 0.0, "vy": 8.0, "x": 0.9, "y": 0.0, **(b or {})})
-    return col.eccentric(a, b, restitution, **{"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, **contact})
+    return col.eccentric(
+        a, b, restitution, **{"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, **contact}
+    )
 
 
 def central(a=None, b=None, restitution=0.1, **contact):
@@ -47,7 +53,9 @@ def of(code, impact, **options):
 
 def written(units):
     """A case for how its sentences write numbers."""
-    return MomentumCase(answer=None, damage={}, crush_energy=None, duration=0.1, drag=0.7, units=units)
+    return MomentumCase(
+        answer=None, damage={}, crush_energy=None, duration=0.1, drag=0.7, units=units
+    )
 
 
 def test_nothing_is_said_of_an_ordinary_impact():
@@ -64,22 +72,45 @@ def silent(make):
 
 
 def balance(course_a="0 deg", course_b="90 deg", after_a="40 deg", after_b="45 deg", **more):
-    """Two cars by planar momentum, that meet at right angles and part with a restitution of 0.01 along x."""
-    known = {"speed_a_after": 9.0, "speed_b_after": 10.0, "heading_a": course_a, "heading_b": course_b, "normal": 0.0, **more}
-    courses = {"course_a": course_a, "course_b": course_b, "course_a_after": after_a, "course_b_after": after_b}
+    """Two cars by planar momentum, that meet at right angles and part with a restitution of 0.01
+    along x.
+    """
+    known = {
+        "speed_a_after": 9.0,
+        "speed_b_after": 10.0,
+        "heading_a": course_a,
+        "heading_b": course_b,
+        "normal": 0.0,
+        **more,
+    }
+    courses = {
+        "course_a": course_a,
+        "course_b": course_b,
+        "course_a_after": after_a,
+        "course_b_after": after_b,
+    }
     return silent(lambda: reconstruct.momentum(1500.0, 1200.0, **courses, **known))
 
 
 def found(**known):
-    """Impacts by speeds, of the two cars that meet off their centres, with courses 150 degrees apart."""
-    a, b = (vehicle.replace(vx=0.0, vy=0.0) for vehicle in (square().a.before, square(b={"y": -1.0}).b.before))
+    """Impacts by speeds, of the two cars that meet off their centres, with courses 150 degrees
+    apart.
+    """
+    a, b = (
+        vehicle.replace(vx=0.0, vy=0.0)
+        for vehicle in (square().a.before, square(b={"y": -1.0}).b.before)
+    )
     contact = {"normal": 0.0, "point": (0.0, 0.0), "restitution": 0.1, "friction": 0.5}
     return reconstruct.speeds(a, b, course_a=0.0, course_b="150 deg", **contact, **known)
 
 
 def two():
     """By delta-V and energy, which two pairs of speeds share."""
-    b = {"y": -1.0, "vx": 8.0 * math.cos(math.radians(150.0)), "vy": 8.0 * math.sin(math.radians(150.0))}
+    b = {
+        "y": -1.0,
+        "vx": 8.0 * math.cos(math.radians(150.0)),
+        "vy": 8.0 * math.sin(math.radians(150.0)),
+    }
     truth = square(a={"vx": 14.0, "vy": 0.0}, b=b)
     return found(delta_v_a=truth.a.delta_v, energy_loss=truth.energy_loss)
 
@@ -101,7 +132,9 @@ def least(yaw_rate, tolerance=9.0):
 def into_a_wall(friction):
     """Slip that ends and turns round while the car turns."""
     car = col.Vehicle(**CAR, vx=15.6, vy=2.0, x=-2.2, y=0.3)
-    return col.eccentric(car, col.Vehicle.barrier(), 0.15, normal=0.0, point=(0.0, 0.0), friction=friction)
+    return col.eccentric(
+        car, col.Vehicle.barrier(), 0.15, normal=0.0, point=(0.0, 0.0), friction=friction
+    )
 
 
 SLIDING = {"vy": -8.0}
@@ -123,13 +156,26 @@ CASES = {
     "restitution": (lambda: (square(restitution=0.31), {}), lambda: (square(restitution=0.29), {})),
     "restitution_negative": (lambda: (balance(after_a="30 deg"), {}), lambda: (balance(), {})),
     "impulse_ratio": (
-        lambda: (square(b=SLIDING, friction=None, impulse_ratio=3.13 * square(b=SLIDING).critical_impulse_ratio), {}),
+        lambda: (
+            square(
+                b=SLIDING,
+                friction=None,
+                impulse_ratio=3.13 * square(b=SLIDING).critical_impulse_ratio,
+            ),
+            {},
+        ),
         lambda: (square(b=SLIDING, friction=None, critical_fraction=1.0, restitution=0.0), {}),
     ),
     "friction_gain": (lambda: (into_a_wall(0.3), {}), lambda: (into_a_wall(0.0), {})),
     "jamming": (
-        lambda: (silent(lambda: square(a={"y": 2.5}, b={"vy": 28.0}, friction=None, impulse_ratio=-1.0)), {}),
-        lambda: (silent(lambda: square(a={"y": 2.5}, b={"vy": 28.0}, friction=None, impulse_ratio=-0.5)), {}),
+        lambda: (
+            silent(lambda: square(a={"y": 2.5}, b={"vy": 28.0}, friction=None, impulse_ratio=-1.0)),
+            {},
+        ),
+        lambda: (
+            silent(lambda: square(a={"y": 2.5}, b={"vy": 28.0}, friction=None, impulse_ratio=-0.5)),
+            {},
+        ),
     ),
     "contact_points_approach": (lambda: (least(-1.0), {}), lambda: (least(1.0), {})),
     "incomplete": (
@@ -156,7 +202,10 @@ CASES = {
         lambda: (square(a={"y": 0.5}, friction=0.0), {"damage_pdof_a": "45 deg"}),
         lambda: (square(a={"y": 0.5}, friction=0.0), {"damage_pdof_a": "15 deg"}),
     ),
-    "pdof_off_damage": (lambda: (square(), {"damage_pdof_a": "-11 deg"}), lambda: (square(), {"damage_pdof_a": "351 deg"})),
+    "pdof_off_damage": (
+        lambda: (square(), {"damage_pdof_a": "-11 deg"}),
+        lambda: (square(), {"damage_pdof_a": "351 deg"}),
+    ),
     "delta_v_off_damage": (
         lambda: (square(), {"damage_delta_v_b": 1.11 * square().b.delta_v}),
         lambda: (square(), {"damage_delta_v_b": 1.09 * square().b.delta_v}),
@@ -184,7 +233,10 @@ CASES = {
         lambda: (found(speed_b=8.0, delta_v_a=two()[0].a.delta_v)[0], {}),
     ),
     "speed_backwards": (lambda: (balance(course_a="180 deg"), {}), lambda: (balance(), {})),
-    "tyre_impulse": (lambda: (square(a={"vx": 3.0}), {}), lambda: (square(a={"vx": 3.0}), {"duration": "10 ms"})),
+    "tyre_impulse": (
+        lambda: (square(a={"vx": 3.0}), {}),
+        lambda: (square(a={"vx": 3.0}), {"duration": "10 ms"}),
+    ),
     "model": (lambda: (central(a={"y": 1.0}), {}), lambda: (central(), {})),
     "law": (
         lambda: (square(b={"y": -1.0, "vy": -15.0}, restitution=0.3, friction=math.inf), {}),
@@ -202,7 +254,10 @@ CASES = {
         lambda: (square(a={"vy": 0.0}, b={"vy": 0.0}, friction=0.0), {}),
         lambda: (square(b=SLIDING, friction=math.inf, law="kudlich-slibar"), {}),
     ),
-    "friction_low": (lambda: (square(b=SLIDING, friction=0.29), {}), lambda: (square(friction=0.1), {})),
+    "friction_low": (
+        lambda: (square(b=SLIDING, friction=0.29), {}),
+        lambda: (square(friction=0.1), {}),
+    ),
     "ratio_high": (
         lambda: (square(b={"vy": -60.0}, friction=2.0), {}),
         lambda: (square(b={"vy": -60.0}, friction=0.8), {}),
@@ -216,8 +271,14 @@ CASES = {
         lambda: (square(b={"mass": math.inf, "yaw_inertia": math.inf, "vy": 0.0}), {}),
     ),
     "suspect_speed": (lambda: (square(a={"vx": 45.0}), {}), lambda: (square(a={"vx": 43.0}), {})),
-    "suspect_yaw_rate": (lambda: (square(a={"yaw_rate": "25 rad/s"}), {}), lambda: (square(a={"yaw_rate": 15.0}), {})),
-    "suspect_inertia_low": (lambda: (square(a={"yaw_inertia": 2.6}), {}), lambda: (square(a={"yaw_inertia": 260.0}), {})),
+    "suspect_yaw_rate": (
+        lambda: (square(a={"yaw_rate": "25 rad/s"}), {}),
+        lambda: (square(a={"yaw_rate": 15.0}), {}),
+    ),
+    "suspect_inertia_low": (
+        lambda: (square(a={"yaw_inertia": 2.6}), {}),
+        lambda: (square(a={"yaw_inertia": 260.0}), {}),
+    ),
     "suspect_inertia_high": (
         lambda: (square(a={"yaw_inertia": 61700.0}), {}),
         lambda: (square(a={"yaw_inertia": math.inf}), {}),
@@ -237,9 +298,15 @@ CASES = {
         lambda: (square(a={"heading": 5}), {}),
         lambda: (square(a={"heading": "286.5 deg"}), {}),
     ),
-    "suspect_friction": (lambda: (square(friction=50.0), {}), lambda: (square(friction=math.inf), {})),
+    "suspect_friction": (
+        lambda: (square(friction=50.0), {}),
+        lambda: (square(friction=math.inf), {}),
+    ),
     "suspect_drag": (lambda: (square(), {"drag": "160 %"}), lambda: (square(), {"drag": "140 %"})),
-    "suspect_duration": (lambda: (square(), {"duration": "1.5 s"}), lambda: (square(), {"duration": "900 ms"})),
+    "suspect_duration": (
+        lambda: (square(), {"duration": "1.5 s"}),
+        lambda: (square(), {"duration": "900 ms"}),
+    ),
     "model_unknown": (lambda: (central(a={"x": None, "y": None}), {}), lambda: (central(), {})),
 }
 
@@ -260,7 +327,9 @@ def test_every_finding_appears(code):
         assert isinstance(finding, Finding)
         assert (finding.unit, finding.source) == (LIMITS[code].unit, LIMITS[code].source)
         below = finding.measured < finding.limit
-        assert below == (code in ("near_collinear", "friction_low", "suspect_mass", "suspect_inertia_low"))
+        assert below == (
+            code in ("near_collinear", "friction_low", "suspect_mass", "suspect_inertia_low")
+        )
         assert finding.measured != finding.limit
         assert len(finding.sentence) > 30
         assert finding.vehicle in ("", "a", "b")
@@ -276,7 +345,9 @@ def test_every_finding_vanishes(code):
 
 @pytest.mark.parametrize("code", LIMITS)
 def test_every_limit_is_respected(code):
-    """Just beyond what was measured nothing is found, just within it is; an infinite one (0 from below) switches it off."""
+    """Just beyond what was measured nothing is found, just within it is; an infinite one (0 from
+    below) switches it off.
+    """
     impact, options = CASES[code][0]()
     found = of(code, impact, **options)
     (low, high) = (min(f.measured for f in found), max(f.measured for f in found))
@@ -287,7 +358,9 @@ def test_every_limit_is_respected(code):
         beyond, within = (low * 0.999, high * 1.001) if below else (high * 1.001, low * 0.999)
         assert of(code, impact, **{**options, "limits": {code: beyond}}) == []
         assert len(of(code, impact, **{**options, "limits": {code: within}})) >= len(found)
-        assert all(f.limit == within for f in of(code, impact, **{**options, "limits": {code: within}}))
+        assert all(
+            f.limit == within for f in of(code, impact, **{**options, "limits": {code: within}})
+        )
 
 
 def test_findings_stand_in_the_order_of_the_table():
@@ -348,7 +421,9 @@ def test_the_share_of_the_critical_ratio():
 
 
 def test_jamming_is_the_share_of_the_ratio_that_jams():
-    """By the matrix of the contact: K_nn + r K_nt = 0 at the ratio that jams; rounding of a few terms."""
+    """By the matrix of the contact: K_nn + r K_nt = 0 at the ratio that jams; rounding of a few
+    terms.
+    """
     impact, options = CASES["jamming"][0]()
     a = impact.a.before
     lever, along = -(a.y), 2.2  # of the point from A: (2.2, -2.5)
@@ -369,8 +444,12 @@ def test_contact_points_by_hand():
 
 
 def test_outlines_that_run_into_each_other():
-    """In line with restitution they part; slid along and turned, a corner comes in; a gap is none."""
-    (finding,) = of("outlines_interpenetrate", *[CASES["outlines_interpenetrate"][0]()[0]], **RECTANGLES)
+    """In line with restitution they part; slid along and turned, a corner comes in; a
+    gap is none.
+    """
+    (finding,) = of(
+        "outlines_interpenetrate", *[CASES["outlines_interpenetrate"][0]()[0]], **RECTANGLES
+    )
     assert "0.1 s after separation" in finding.sentence
     apart = {"outline_a": (3.0, 1.8), "outline_b": (3.0, 1.0)}
     assert of("outlines_interpenetrate", square(), **apart) == []
@@ -380,18 +459,26 @@ def test_outlines_that_run_into_each_other():
 
 
 def test_the_tangential_impulse_adds_energy():
-    """By hand: minus the work of the mean slip, (before + after)/2, on the impulse, as a share of what compression took up."""
+    """By hand: minus the work of the mean slip, (before + after)/2, on the impulse, as a share of
+    what compression took up.
+    """
     impact = into_a_wall(0.3)
     work = impact.tangential_impulse * 0.5 * (impact.slip_before + impact.slip_after)
     (finding,) = of("friction_gain", impact)
     # A difference of 2 m/s from 0: a few roundings.
-    assert finding.measured == pytest.approx(work / (0.5 * impact.closing_speed * impact.compression_impulse), rel=1e-10)
+    assert finding.measured == pytest.approx(
+        work / (0.5 * impact.closing_speed * impact.compression_impulse), rel=1e-10
+    )
     # Kilojoules to four figures.
-    assert float(re.search(r"adds ([\d.]+) kJ", finding.sentence).group(1)) == pytest.approx(work / 1e3, rel=5e-4)
+    assert float(re.search(r"adds ([\d.]+) kJ", finding.sentence).group(1)) == pytest.approx(
+        work / 1e3, rel=5e-4
+    )
 
 
 def test_the_lever_of_the_force_that_the_damage_shows():
-    """A force from 45 degrees to the right on a front left corner turns it left; the impulse turned it right."""
+    """A force from 45 degrees to the right on a front left corner turns it left; the impulse turned
+    it right.
+    """
     impact, options = CASES["yaw_against_lever"][0]()
     (finding,) = of("yaw_against_lever", impact, **options)
     assert finding.vehicle == "a"
@@ -402,10 +489,19 @@ def test_the_lever_of_the_force_that_the_damage_shows():
         assert of("yaw_against_lever", impact, damage_pdof_a=pdof) == []
     # Friction may turn a car against the lever of the normal: that is no contradiction.
     turned = square(b={"y": 0.1, "vy": -8.0})
-    assert turned.b.delta_yaw_rate * square(b={"y": 0.1, "vy": -8.0}, friction=0.0).b.delta_yaw_rate < 0.0
-    assert of("yaw_against_lever", turned) == of("yaw_against_lever", turned, damage_pdof_b=turned.b.pdof) == []
+    assert (
+        turned.b.delta_yaw_rate * square(b={"y": 0.1, "vy": -8.0}, friction=0.0).b.delta_yaw_rate
+        < 0.0
+    )
+    assert (
+        of("yaw_against_lever", turned)
+        == of("yaw_against_lever", turned, damage_pdof_b=turned.b.pdof)
+        == []
+    )
     # A body that is pinned turns about its pivot, which has the force on the other side.
-    pinned = square(a={"y": 0.5, "pivot": (-2.2, -3.0), "vx": 0.0, "vy": 0.0}, b={"vx": -20.0}, friction=0.0)
+    pinned = square(
+        a={"y": 0.5, "pivot": (-2.2, -3.0), "vx": 0.0, "vy": 0.0}, b={"vx": -20.0}, friction=0.0
+    )
     assert pinned.a.delta_yaw_rate > 0.0
     assert of("yaw_against_lever", pinned, damage_pdof_a="0 deg") == []
     assert of("yaw_against_lever", pinned, damage_pdof_a="110 deg") == []
@@ -413,7 +509,9 @@ def test_the_lever_of_the_force_that_the_damage_shows():
 
 
 def test_damage_against_the_answer():
-    """Energy as a share of that lost, directions by the short way round, delta-V as a share; none without evidence."""
+    """Energy as a share of that lost, directions by the short way round, delta-V as a share; none
+    without evidence.
+    """
     impact = square()
     (finding,) = of("momentum_energy", impact, crush_energy=f"{impact.energy_loss / 4000.0!r} kJ")
     assert finding.measured == pytest.approx(0.75, rel=1e-12)
@@ -423,14 +521,19 @@ def test_damage_against_the_answer():
     pdof = math.degrees(impact.a.pdof)
     for off, seen in ((11.0, pdof + 11.0), (11.0, pdof + 349.0), (180.0, pdof + 180.0)):
         (finding,) = of("pdof_off_damage", impact, damage_pdof_a=f"{seen!r} deg")
-        assert (finding.vehicle, math.degrees(finding.measured)) == ("a", pytest.approx(off, rel=1e-12))
+        assert (finding.vehicle, math.degrees(finding.measured)) == (
+            "a",
+            pytest.approx(off, rel=1e-12),
+        )
     assert of("pdof_off_damage", impact, damage_pdof_a=f"{pdof - 9.0!r} deg") == []
     (finding,) = of("delta_v_off_damage", impact, damage_delta_v_b=2.0 * impact.b.delta_v)
     assert (finding.vehicle, finding.measured) == ("b", pytest.approx(1.0, rel=1e-15))
 
 
 def test_components_are_compared_as_vectors():
-    """A recorder's pair (forward, left) of the right size from another side is off by twice the sine of half the angle."""
+    """A recorder's pair (forward, left) of the right size from another side is off by twice the
+    sine of half the angle.
+    """
     impact = square(friction=0.3, a={"vy": 8.0})
     forward, left = impact.a.delta_v_forward, impact.a.delta_v_left
     assert of("delta_v_off_damage", impact, damage_delta_v_a=(forward, left)) == []
@@ -443,7 +546,9 @@ def test_components_are_compared_as_vectors():
         if degrees == 5.0:
             assert found == []
             continue
-        assert found[0].measured == pytest.approx(2.0 * math.sin(math.radians(degrees / 2)), rel=1e-12)
+        assert found[0].measured == pytest.approx(
+            2.0 * math.sin(math.radians(degrees / 2)), rel=1e-12
+        )
         assert " from " in found[0].sentence
     (longer,) = of("delta_v_off_damage", impact, damage_delta_v_a=(1.3 * forward, 1.3 * left))
     assert longer.measured == pytest.approx(0.3, rel=1e-12)
@@ -452,33 +557,73 @@ def test_components_are_compared_as_vectors():
     with pytest.raises(col.ShapeError, match="damage_delta_v_a must be a pair"):
         diagnose(impact, damage_delta_v_a=(1.0, 2.0, 3.0))
     solution = reconstruct.momentum(
-        1500, 1200, course_a=0.0, course_b=1.5, course_a_after=0.4, course_b_after=0.6, speed_a_after=9.0, speed_b_after=8.0,
+        1500, 1200, course_a=0.0, course_b=1.5, course_a_after=0.4, course_b_after=0.6,
+        speed_a_after=9.0, speed_b_after=8.0,
         heading_a=0.0,
     )  # fmt: skip
     size, pdof = solution.delta_v_a, solution.pdof_a
-    assert of("delta_v_off_damage", solution, damage_delta_v_a=(-size * math.cos(pdof), size * math.sin(pdof))) == []
-    assert of("delta_v_off_damage", solution, damage_delta_v_a=(size * math.cos(pdof), size * math.sin(pdof))) != []
+    assert (
+        of(
+            "delta_v_off_damage",
+            solution,
+            damage_delta_v_a=(-size * math.cos(pdof), size * math.sin(pdof)),
+        )
+        == []
+    )
+    assert (
+        of(
+            "delta_v_off_damage",
+            solution,
+            damage_delta_v_a=(size * math.cos(pdof), size * math.sin(pdof)),
+        )
+        != []
+    )
     with pytest.raises(col.MissingInputError, match="heading_b"):
         diagnose(solution, damage_delta_v_b=(1.0, 2.0))
 
 
 def test_the_tutorial_whose_damage_contradicts_its_momentum():
-    """EDCRASH, Visibility Study (M10): delta-V of 60.7 and 59.4 km/h by damage, 12.6 and 12.3 by momentum."""
+    """EDCRASH, Visibility Study (M10): delta-V of 60.7 and 59.4 km/h by damage, 12.6 and 12.3 by
+    momentum.
+    """
     known = {}
-    for side, heading, slip, forward, left in (("a", 195.0, -4.35, 16.56, 4.33), ("b", -90.0, 0.0, 33.19, -11.88)):
+    for side, heading, slip, forward, left in (
+        ("a", 195.0, -4.35, 16.56, 4.33),
+        ("b", -90.0, 0.0, 33.19, -11.88),
+    ):
         known[f"heading_{side}"] = f"{-heading!r} deg"
         known[f"course_{side}"] = f"{-heading - slip!r} deg"
-        known[f"course_{side}_after"] = f"{-heading - math.degrees(math.atan2(left, forward))!r} deg"
+        known[f"course_{side}_after"] = (
+            f"{-heading - math.degrees(math.atan2(left, forward))!r} deg"
+        )
         known[f"speed_{side}_after"] = f"{math.hypot(forward, left)!r} km/h"
     solution = reconstruct.momentum(1124.04, 1149.52, **known, normal=(-2.5, 0.75))
     damage = {"damage_delta_v_a": "60.7 km/h", "damage_delta_v_b": "59.4 km/h"}
     # The published values to half of their last digit.
-    for finding, (seen, had) in zip(of("delta_v_off_damage", solution, **damage), ((60.7, 12.6), (59.4, 12.3)), strict=True):
-        assert finding.measured == pytest.approx(seen / had - 1.0, rel=0.06 / had * seen / (seen - had))
-    assert of("delta_v_off_damage", solution, damage_delta_v_a="12.6 km/h", damage_delta_v_b="12.3 km/h") == []
-    assert of("pdof_off_damage", solution, damage_pdof_a="-30.6 deg", damage_pdof_b="74.4 deg") == []
-    assert [f.vehicle for f in of("pdof_off_damage", solution, damage_pdof_a="-45 deg", damage_pdof_b="60 deg")] == ["a", "b"]
-    # Two plastic bodies with these delta-Vs lose half the product of reduced mass and the square of the sum.
+    for finding, (seen, had) in zip(
+        of("delta_v_off_damage", solution, **damage), ((60.7, 12.6), (59.4, 12.3)), strict=True
+    ):
+        assert finding.measured == pytest.approx(
+            seen / had - 1.0, rel=0.06 / had * seen / (seen - had)
+        )
+    assert (
+        of(
+            "delta_v_off_damage",
+            solution,
+            damage_delta_v_a="12.6 km/h",
+            damage_delta_v_b="12.3 km/h",
+        )
+        == []
+    )
+    assert (
+        of("pdof_off_damage", solution, damage_pdof_a="-30.6 deg", damage_pdof_b="74.4 deg") == []
+    )
+    assert [
+        f.vehicle
+        for f in of("pdof_off_damage", solution, damage_pdof_a="-45 deg", damage_pdof_b="60 deg")
+    ] == ["a", "b"]
+    # Two plastic bodies with these delta-Vs lose half the product of reduced mass and the square of
+    # the sum.
     reduced = 1124.04 * 1149.52 / (1124.04 + 1149.52)
     crush = 0.5 * reduced * ((60.7 + 59.4) / 3.6) ** 2
     assert of("momentum_energy", solution, crush_energy=crush)[0].measured > 10.0
@@ -486,23 +631,47 @@ def test_the_tutorial_whose_damage_contradicts_its_momentum():
 
 
 def test_momentum_is_diagnosed():
-    """The case of two courses 5 degrees apart: energy from nowhere, a condition of 22.9, and what moves the answers."""
-    courses = {"course_a": "0 deg", "course_b": "5 deg", "course_a_after": "2 deg", "course_b_after": "3 deg"}
-    solution = silent(lambda: reconstruct.momentum(1500.0, 1500.0, **courses, speed_a_after=10.0, speed_b_after=12.0))
+    """The case of two courses 5 degrees apart: energy from nowhere, a condition of 22.9, and what
+    moves the answers.
+    """
+    courses = {
+        "course_a": "0 deg",
+        "course_b": "5 deg",
+        "course_a_after": "2 deg",
+        "course_b_after": "3 deg",
+    }
+    solution = silent(
+        lambda: reconstruct.momentum(
+            1500.0, 1500.0, **courses, speed_a_after=10.0, speed_b_after=12.0
+        )
+    )
     findings = diagnose(solution)
-    assert [f.code for f in findings] == ["energy_gain", "near_collinear", "ill_conditioned", "tyre_impulse", "tyre_impulse"]
+    assert [f.code for f in findings] == [
+        "energy_gain",
+        "near_collinear",
+        "ill_conditioned",
+        "tyre_impulse",
+        "tyre_impulse",
+    ]
     by_code = {f.code: f for f in findings}
     before, after = (
         0.5 * 1500.0 * sum(speed**2 for speed in speeds)
-        for speeds in ((solution.speed_a, solution.speed_b), (solution.speed_a_after, solution.speed_b_after))
+        for speeds in (
+            (solution.speed_a, solution.speed_b),
+            (solution.speed_a_after, solution.speed_b_after),
+        )
     )
     assert by_code["energy_gain"].measured == pytest.approx(after - before, rel=1e-9)
     assert by_code["near_collinear"].measured == pytest.approx(math.radians(5.0), rel=1e-12)
     angle = math.radians(5.0)
-    assert by_code["ill_conditioned"].measured == pytest.approx((1.0 + math.cos(angle)) / math.sin(angle), rel=1e-12)
+    assert by_code["ill_conditioned"].measured == pytest.approx(
+        (1.0 + math.cos(angle)) / math.sin(angle), rel=1e-12
+    )
     assert "per degree of course_b_after" in by_code["ill_conditioned"].sentence
     # 0.7 g for 0.1 s
-    assert by_code["tyre_impulse"].measured == pytest.approx(0.7 * 9.80665 * 0.1 / solution.delta_v_b, rel=1e-12)
+    assert by_code["tyre_impulse"].measured == pytest.approx(
+        0.7 * 9.80665 * 0.1 / solution.delta_v_b, rel=1e-12
+    )
     assert diagnose(balance()) == ()
 
 
@@ -525,19 +694,31 @@ def test_speeds_backwards_and_units_of_momentum():
     assert {"suspect_speed", "suspect_angle"} <= {f.code for f in diagnose(fast)}
     light = silent(
         lambda: reconstruct.momentum(
-            103.0, 2e5, course_a=0.0, course_b=1.5, together=True, course_a_after=1.0, speed_a_after=9.0
+            103.0,
+            2e5,
+            course_a=0.0,
+            course_b=1.5,
+            together=True,
+            course_a_after=1.0,
+            speed_a_after=9.0,
         )
     )
-    assert [(f.code, f.vehicle) for f in diagnose(light) if f.code in ("suspect_mass", "suspect_heavy")] == [
+    assert [
+        (f.code, f.vehicle) for f in diagnose(light) if f.code in ("suspect_mass", "suspect_heavy")
+    ] == [
         ("suspect_mass", "a"),
         ("suspect_heavy", "b"),
     ]
     # 0.147 s is the longest that was published.
-    assert of("suspect_duration", balance(), duration="2.94 s")[0].measured == pytest.approx(20.0, rel=1e-15)
+    assert of("suspect_duration", balance(), duration="2.94 s")[0].measured == pytest.approx(
+        20.0, rel=1e-15
+    )
 
 
 def test_one_of_two_answers():
-    """Both say that there are two, also when replayed; the others of a batch are counted one by one."""
+    """Both say that there are two, also when replayed; the others of a batch are counted one by
+    one.
+    """
     both = two()
     assert len(both) == 2
     for impact in both:
@@ -559,8 +740,16 @@ def test_one_of_two_answers():
 
 
 def test_several_origins_of_one_end_say_how_many_they_are():
-    """Friction of 0.3 leads to one end from slides either way and from a contact that stuck: three, and all say so."""
-    contact = {"normal": 0.0, "point": (0.0, 0.0), "restitution": 0.1, "friction": 0.3, "law": "kudlich-slibar"}
+    """Friction of 0.3 leads to one end from slides either way and from a contact that stuck: three,
+    and all say so.
+    """
+    contact = {
+        "normal": 0.0,
+        "point": (0.0, 0.0),
+        "restitution": 0.1,
+        "friction": 0.3,
+        "law": "kudlich-slibar",
+    }
     end = square(b={"vy": 4.0}, friction=0.3, law="kudlich-slibar")
     with pytest.raises(col.AmbiguousSolutionError) as caught:
         reconstruct.planar(end.a.after, end.b.after, **contact)
@@ -572,7 +761,9 @@ def test_several_origins_of_one_end_say_how_many_they_are():
         assert "reconstruct.planar found 3 impacts that fit" in finding.sentence
         assert of("not_unique", col.Impact.from_dict(impact.to_dict())) == [finding]
         assert "Not the only answer: 3 impacts fit what was known" in col.explain(impact)
-        assert "Not the only answer: 3 impacts fit" in report(impact, form="markdown", limits={"not_unique": math.inf})
+        assert "Not the only answer: 3 impacts fit" in report(
+            impact, form="markdown", limits={"not_unique": math.inf}
+        )
     sure = reconstruct.planar(end.a.after, end.b.after, **contact, regime="sticking")
     assert sure.reconstruction.answers == 1
     assert of("not_unique", sure) == []
@@ -586,10 +777,14 @@ def test_several_origins_of_one_end_say_how_many_they_are():
 
 
 def test_the_ends_of_a_range_are_two_of_any_number():
-    """A contact that ended without slip under "brach" fits every slip between; also when replayed."""
+    """A contact that ended without slip under "brach" fits every slip between; also
+    when replayed.
+    """
     end = square(friction=0.6)
     with pytest.raises(col.NoSolutionError) as caught:
-        reconstruct.planar(end.a.after, end.b.after, normal=0.0, point=(0.0, 0.0), restitution=0.1, friction=0.6)
+        reconstruct.planar(
+            end.a.after, end.b.after, normal=0.0, point=(0.0, 0.0), restitution=0.1, friction=0.6
+        )
     assert caught.value.code == "stick_inverse"
     for impact in caught.value.solutions:
         again = col.Impact.from_dict(impact.to_dict())
@@ -604,7 +799,9 @@ def test_two_impacts_in_line_say_that_they_are_two():
     """By one velocity of each vehicle and the energy: va = 20 m/s with e = 0.2, or another."""
     truth = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=900.0), 0.2)
     with pytest.raises(col.AmbiguousSolutionError) as caught:
-        reconstruct.central(1000.0, 900.0, vb=0.0, va_after=truth.a.after.vx, energy_loss=truth.energy_loss)
+        reconstruct.central(
+            1000.0, 900.0, vb=0.0, va_after=truth.a.after.vx, energy_loss=truth.energy_loss
+        )
     assert [impact.reconstruction.answers for impact in caught.value.solutions] == [2, 2]
     assert all(of("not_unique", impact) for impact in caught.value.solutions)
 
@@ -618,7 +815,10 @@ def bare(normal, **more):
         return square(normal=normal, **more)
 
 
-@pytest.mark.parametrize("normal", [12.0, 12, np.float64(12.0), np.array(12.0), pint.get_application_registry().Quantity(12.0)])
+@pytest.mark.parametrize(
+    "normal",
+    [12.0, 12, np.float64(12.0), np.array(12.0), pint.get_application_registry().Quantity(12.0)],
+)
 def test_a_normal_that_may_be_in_degrees_is_found(normal):
     """With the number as it was given, of which the unit vector keeps nothing."""
     (finding,) = of("suspect_angle", bare(normal))
@@ -627,14 +827,18 @@ def test_a_normal_that_may_be_in_degrees_is_found(normal):
     assert of("suspect_angle", bare(normal), limits={"suspect_angle": 13.0}) == []
 
 
-@pytest.mark.parametrize("normal", ["12 deg", "372 deg", 0.2, -0.2, 2.0 * math.pi, (math.cos(12.0), math.sin(12.0))])
+@pytest.mark.parametrize(
+    "normal", ["12 deg", "372 deg", 0.2, -0.2, 2.0 * math.pi, (math.cos(12.0), math.sin(12.0))]
+)
 def test_a_normal_that_cannot_be_in_degrees_is_not(normal):
     """A unit, a size that a direction has, or a vector."""
     assert of("suspect_angle", square(normal=normal)) == []
 
 
 def test_the_number_of_a_normal_goes_with_the_impact():
-    """Through every solver, pickle, record and report; in a batch case by case; the impact is that of its vector."""
+    """Through every solver, pickle, record and report; in a batch case by case; the impact is that
+    of its vector.
+    """
     a, b = (col.Vehicle(mass=1500.0, vx=vx) for vx in (20.0, 0.0))
     impact = bare(12.0)
     by_vector = square(normal=(math.cos(12.0), math.sin(12.0)))
@@ -686,36 +890,64 @@ def towards(heading):
     [
         # 2.2 m to the contact and a front at 2.1 m: 0.10000000000000009 m in binary numbers.
         ("point_outside", lambda: square(), {"outline_a": (4.2, 1.8)}),
-        ("point_outside", lambda: square(a={"x": -1002.2}, point=(-1000.0, 0.0)), {"outline_a": (4.2, 1.8)}),
-        ("outlines_gap", lambda: square(a={"x": -2.2}, b={"x": 1.0}), {"outline_a": (4.4, 1.8), "outline_b": (4.4, 1.4)}),
-        ("normal_against_positions", lambda: square(a={"x": 3.1}, b={"x": 3.9}, point=(3.0, 0.0)), {}),
+        (
+            "point_outside",
+            lambda: square(a={"x": -1002.2}, point=(-1000.0, 0.0)),
+            {"outline_a": (4.2, 1.8)},
+        ),
+        (
+            "outlines_gap",
+            lambda: square(a={"x": -2.2}, b={"x": 1.0}),
+            {"outline_a": (4.4, 1.8), "outline_b": (4.4, 1.4)},
+        ),
+        (
+            "normal_against_positions",
+            lambda: square(a={"x": 3.1}, b={"x": 3.9}, point=(3.0, 0.0)),
+            {},
+        ),
         ("restitution", lambda: in_line(10.8), {}),
         ("pdof_off_damage", lambda: towards("2 deg"), {"damage_pdof_a": "12 deg"}),
-        ("delta_v_off_damage", lambda: square(a={"vx": 15.1}), {"damage_delta_v_a": 1.1 * square(a={"vx": 15.1}).a.delta_v}),
+        (
+            "delta_v_off_damage",
+            lambda: square(a={"vx": 15.1}),
+            {"damage_delta_v_a": 1.1 * square(a={"vx": 15.1}).a.delta_v},
+        ),
         ("momentum_energy", lambda: square(), {"crush_energy": 1.5 * square().energy_loss}),
         ("suspect_angle", lambda: square(a={"heading": "400 grad"}), {}),
     ],
 )
 def test_rounding_at_a_limit_is_no_finding(code, make, options):
-    """What stands at its limit in decimal numbers may be an ulp above it in binary ones; a millionth above is found."""
+    """What stands at its limit in decimal numbers may be an ulp above it in binary ones; a
+    millionth above is found.
+    """
     impact = make()
     assert of(code, impact, **options) == []
-    limit = reference.restitution_range(impact.closing_speed)[1] if code == "restitution" else LIMITS[code].default
+    limit = (
+        reference.restitution_range(impact.closing_speed)[1]
+        if code == "restitution"
+        else LIMITS[code].default
+    )
     assert of(code, impact, **options, limits={code: limit * (1.0 - 1e-6)}) != []
 
 
 def test_a_normal_that_does_not_go_from_a_into_b():
-    """By the places of both centres; without a point by one another; a wall has its centre anywhere."""
+    """By the places of both centres; without a point by one another; a wall has its centre
+    anywhere.
+    """
     findings = of("normal_against_positions", square(a={"x": 2.2}, b={"x": -0.9}))
     assert [(f.vehicle, f.measured) for f in findings] == [("a", 2.2), ("b", 0.9)]
-    assert of("normal_against_positions", central(a={"x": 2.2}, b={"x": -0.9}))[0].measured == pytest.approx(3.1, rel=1e-15)
+    assert of("normal_against_positions", central(a={"x": 2.2}, b={"x": -0.9}))[
+        0
+    ].measured == pytest.approx(3.1, rel=1e-15)
     assert of("normal_against_positions", central()) == []
     wall = {"mass": math.inf, "yaw_inertia": math.inf, "vy": 0.0, "x": -5.0}
     assert of("normal_against_positions", square(b=wall)) == []
 
 
 def test_outlines_that_lie_in_each_other_or_apart():
-    """2.4 m deep where the crush of 20 m/s takes 0.9 m; a gap by its width; neither with one outline alone."""
+    """2.4 m deep where the crush of 20 m/s takes 0.9 m; a gap by its width; neither with one
+    outline alone.
+    """
     impact, _ = CASES["outlines_overlap"][0]()
     (finding,) = of("outlines_overlap", impact, **RECTANGLES)
     assert finding.measured == pytest.approx(2.4, rel=1e-12)
@@ -728,7 +960,11 @@ def test_outlines_that_lie_in_each_other_or_apart():
 def test_a_pinned_body_is_placed_by_its_pivot():
     """Its outline too."""
     b = {"pivot": (0.9, -2.0), "vy": 0.0, "vx": 0.0}
-    assert of("outlines_overlap", square(b=b), **RECTANGLES) == of("outlines_gap", square(b=b), **RECTANGLES) == []
+    assert (
+        of("outlines_overlap", square(b=b), **RECTANGLES)
+        == of("outlines_gap", square(b=b), **RECTANGLES)
+        == []
+    )
 
 
 def test_the_angle_between_impulse_and_normal():
@@ -738,13 +974,17 @@ def test_the_angle_between_impulse_and_normal():
     assert finding.measured == pytest.approx(math.atan(1.1), rel=1e-12)
     assert f"PDOF of {math.degrees(impact.a.pdof):.1f} degrees" in finding.sentence
     assert "positive clockwise" in finding.sentence
-    assert finding.q.measured.to("degree").magnitude == pytest.approx(math.degrees(math.atan(1.1)), rel=1e-12)
+    assert finding.q.measured.to("degree").magnitude == pytest.approx(
+        math.degrees(math.atan(1.1)), rel=1e-12
+    )
     plain = square(a={"heading": None}, b={"heading": None, "vy": -60.0}, friction=1.1)
     assert "PDOF" not in of("impulse_off_normal", plain)[0].sentence
 
 
 def test_near_collinear_is_head_on_too():
-    """Ten degrees from either course, and ten themselves; an impact that was not found by momentum has nothing of it."""
+    """Ten degrees from either course, and ten themselves; an impact that was not found by momentum
+    has nothing of it.
+    """
     for turn in (0.0, 180.0):
         for off, is_found in ((9.9, True), (10.0, True), (10.1, False)):
             solution = balance(course_b=f"{turn + off!r} deg", after_a="4 deg", after_b="4.5 deg")
@@ -766,35 +1006,49 @@ def test_the_tyres_are_those_of_left_out():
 
 def rear_end(closing, restitution=0.4):
     """Two cars of one mass in line."""
-    return col.linear_central(col.Vehicle(mass=1500.0, vx=closing), col.Vehicle(mass=1500.0), restitution)
+    return col.linear_central(
+        col.Vehicle(mass=1500.0, vx=closing), col.Vehicle(mass=1500.0), restitution
+    )
 
 
 def test_tyres_count_in_minor_impacts_only():
     """0.7 g in 0.1 s is 0.69 m/s: half of a rear-end impact at 2 m/s, a twentieth of one at 20 m/s.
 
-    Low-speed tests, with velocity changes of 2 to 5 mph (SAE 931842), are all minor; a delta-V of 15 km/h is not.
+    Low-speed tests, with velocity changes of 2 to 5 mph (SAE 931842), are all minor; a delta-V of
+    15 km/h is not.
     """
     assert [round(f.measured, 2) for f in of("tyre_impulse", rear_end(2.0))] == [0.49, 0.49]
     assert of("tyre_impulse", rear_end(20.0)) == []
-    assert of("tyre_impulse", rear_end(20.0), limits={"tyre_impulse": 0.04})[0].measured == pytest.approx(0.049, abs=5e-4)
+    assert of("tyre_impulse", rear_end(20.0), limits={"tyre_impulse": 0.04})[
+        0
+    ].measured == pytest.approx(0.049, abs=5e-4)
     for delta_v, is_minor in ((2.0 * 0.44704, True), (5.0 * 0.44704, True), (15.0 / 3.6, False)):
         assert bool(of("tyre_impulse", rear_end(2.0 * delta_v, 0.0))) == is_minor
 
 
 def test_tyres_are_no_finding_on_most_ordinary_impacts():
-    """Cars that close at 10 to 80 km/h, off their centres and across: few, all below 45 km/h, and nearly all below 20."""
+    """Cars that close at 10 to 80 km/h, off their centres and across: few, all below 45 km/h, and
+    nearly all below 20.
+    """
     rng = np.random.default_rng(7)
     closing = rng.uniform(10.0, 80.0, 2000) / 3.6
 
     def car(x, vx):
         mass = rng.uniform(900.0, 2200.0, 2000)
         return col.Vehicle(
-            mass=mass, yaw_inertia=1.7 * mass, x=x, y=rng.uniform(-0.8, 0.8, 2000), vx=vx, vy=rng.uniform(-10.0, 10.0, 2000)
+            mass=mass,
+            yaw_inertia=1.7 * mass,
+            x=x,
+            y=rng.uniform(-0.8, 0.8, 2000),
+            vx=vx,
+            vy=rng.uniform(-10.0, 10.0, 2000),
         )
 
     a, b = car(-2.2, closing), car(rng.uniform(0.9, 2.2, 2000), 0.0)
     contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": rng.uniform(0.3, 0.7, 2000)}
-    left = col.left_out(col.eccentric(a, b, rng.uniform(0.0, 0.2, 2000), **contact, on_failure="nan"))
+    left = col.left_out(
+        col.eccentric(a, b, rng.uniform(0.0, 0.2, 2000), **contact, on_failure="nan")
+    )
     most = np.fmax(left.a.tyre_share_bound, left.b.tyre_share_bound)
     found = most > LIMITS["tyre_impulse"].default
     assert 0.05 < np.mean(found) < 0.2 < 0.5 < np.mean(most > 0.1)
@@ -803,20 +1057,27 @@ def test_tyres_are_no_finding_on_most_ordinary_impacts():
 
 
 def test_a_model_of_which_nothing_is_known():
-    """A note, which counts what is missing; without levers in either vehicle there is nothing to know."""
+    """A note, which counts what is missing; without levers in either vehicle there is nothing to
+    know.
+    """
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1200.0), 0.1)
     found = diagnose(impact)
     (finding,) = found
     assert (finding.code, finding.measured) == ("model_unknown", 7.0)
     assert "a.yaw_inertia" in finding.sentence
     # A count is no size to judge: neither the table nor a page sets it against a limit.
-    assert found.summary().parts[0].rows == [("model_unknown", finding.sentence, "\N{EN DASH}", "\N{EN DASH}")]
+    assert found.summary().parts[0].rows == [
+        ("model_unknown", finding.sentence, "\N{EN DASH}", "\N{EN DASH}")
+    ]
     page = report(impact, form="markdown", figures=False)
     told = page[page.index("## Findings") : page.index("## References")]
     assert "supply a.yaw" in told
     assert "Measured" not in told
     assert "Basis of the limit" not in told
-    fixed = [col.Vehicle(mass=mass, vx=vx, yaw_inertia=math.inf) for mass, vx in ((1500.0, 20.0), (1200.0, 0.0))]
+    fixed = [
+        col.Vehicle(mass=mass, vx=vx, yaw_inertia=math.inf)
+        for mass, vx in ((1500.0, 20.0), (1200.0, 0.0))
+    ]
     assert diagnose(col.linear_central(*fixed, 0.1)) == ()
 
 
@@ -827,16 +1088,25 @@ def test_the_error_of_a_model_is_that_of_required_model():
     contact = {"normal": 0.0, "point": (0.0, 0.5), "friction": 0.0}
     choice = col.required_model(impact.a.before, impact.b.before, 0.0, **contact)
     smaller = min(impact.a.delta_v, impact.b.delta_v)
-    assert of("model", impact)[0].measured == pytest.approx(choice.errors["linear_central"] / smaller, rel=1e-15)
+    assert of("model", impact)[0].measured == pytest.approx(
+        choice.errors["linear_central"] / smaller, rel=1e-15
+    )
     assert of("model", least(0.0, tolerance=0.0)) == []
 
 
 def test_the_other_law_and_the_turned_normal_are_solved_again():
-    """By the worse vehicle: length of the change of the delta-V vector, and the change of yaw rate."""
+    """By the worse vehicle: length of the change of the delta-V vector, and the change
+    of yaw rate.
+    """
     impact, _ = CASES["law"][0]()
-    other = square(b={"y": -1.0, "vy": -15.0}, restitution=0.3, friction=math.inf, law="kudlich-slibar")
+    other = square(
+        b={"y": -1.0, "vy": -15.0}, restitution=0.3, friction=math.inf, law="kudlich-slibar"
+    )
     sides = ((impact.a, other.a), (impact.b, other.b))
-    moved = [math.hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy) / old.delta_v for old, new in sides]
+    moved = [
+        math.hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy) / old.delta_v
+        for old, new in sides
+    ]
     assert of("law", impact)[0].measured == pytest.approx(max(moved), rel=1e-12)
     assert "'kudlich-slibar' instead of 'brach'" in of("law", impact)[0].sentence
     yaw = [(old.delta_yaw_rate, new.delta_yaw_rate) for old, new in sides]
@@ -845,9 +1115,11 @@ def test_the_other_law_and_the_turned_normal_are_solved_again():
 
 
 def test_a_force_that_turns_with_the_normal():
-    """Frictionless and head-on: delta-V keeps its size within 1.5 percent, and its direction goes with the normal, 10 degrees.
+    """Frictionless and head-on: delta-V keeps its size within 1.5 percent, and its direction goes
+    with the normal, 10 degrees.
 
-    Of two vectors with the lengths 1 and c = cos(10 deg) and this angle between them, by the law of cosines.
+    Of two vectors with the lengths 1 and c = cos(10 deg) and this angle between them, by the law of
+    cosines.
     """
     fixed = {"yaw_inertia": math.inf, "vy": 0.0}
     impact = square(a=fixed, b={**fixed, "vx": -20.0}, friction=0.0)
@@ -861,12 +1133,16 @@ def test_a_force_that_turns_with_the_normal():
 
 @pytest.mark.skipif(not (PACK / "run.py").is_file(), reason="this copy has no validation pack")
 def test_published_cases_have_no_false_alarm(monkeypatch):
-    """All that other people solved: nothing of units beside teaching toys, levers, normals or courses; E03 and E06 hang on the law.
+    """All that other people solved: nothing of units beside teaching toys, levers, normals or
+    courses; E03 and E06 hang on the law.
 
-    Car 1 of E03 is turned by -31 or by -17 degrees/s, that of E06 by 40 or by 61, each to half a degree.
+    Car 1 of E03 is turned by -31 or by -17 degrees/s, that of E06 by 40 or by 61, each to half a
+    degree.
     """
     monkeypatch.syspath_prepend(str(PACK))
-    solutions, published = (importlib.import_module(name) for name in ("solutions", "published_cases"))
+    solutions, published = (
+        importlib.import_module(name) for name in ("solutions", "published_cases")
+    )
     impacts = []
 
     def kept(solver):
@@ -881,24 +1157,31 @@ def test_published_cases_have_no_false_alarm(monkeypatch):
     solutions.nhtsa_oblique("E03")
     solutions.nhtsa_oblique("E06")
     assert len(impacts) == 4
-    for impact, (was, now) in zip(impacts, ((-31, -17), (-17, -31), (40, 61), (61, 40)), strict=True):
+    for impact, (was, now) in zip(
+        impacts, ((-31, -17), (-17, -31), (40, 61), (61, 40)), strict=True
+    ):
         (finding,) = diagnose(impact)
         assert (finding.code, finding.vehicle) == ("law_yaw", "b")
-        assert finding.measured == pytest.approx(abs(now - was) / max(abs(now), abs(was)), abs=1.5 / 31)
+        assert finding.measured == pytest.approx(
+            abs(now - was) / max(abs(now), abs(was)), abs=1.5 / 31
+        )
         assert f"by {now} degrees/s instead of {was}" in finding.sentence
     for case, solves in published.SOLUTIONS.items():
         for solve in solves:
             solve(case)
     assert len(impacts) > 35
     never = {
-        "yaw_against_lever", "normal_against_positions", "near_collinear", "friction_gain", "rounding", "suspect_angle",
+        "yaw_against_lever", "normal_against_positions", "near_collinear", "friction_gain",
+        "rounding", "suspect_angle",
         "suspect_duration", "suspect_lever", "suspect_yaw_rate",
         "suspect_bare_angle",
     }  # fmt: skip
     for impact in impacts:
         codes = [finding.code for finding in diagnose(impact)]
         assert not never & set(codes)
-        assert math.inf not in [finding.measured for finding in diagnose(impact) if finding.code == "model"]
+        assert math.inf not in [
+            finding.measured for finding in diagnose(impact) if finding.code == "model"
+        ]
         assert codes.count("model_unknown") <= 1
 
 
@@ -937,7 +1220,9 @@ def test_a_reconstruction_is_diagnosed_as_the_impact_it_is():
 @pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 def test_extreme_scenes_are_diagnosed_too(family):
-    """Every answer has findings that are whole, within the limits' order, whatever its size; nothing is refused."""
+    """Every answer has findings that are whole, within the limits' order, whatever its size;
+    nothing is refused.
+    """
     rng = random.Random(f"diagnose {family}")
     answered = 0
     for _ in range(12):
@@ -960,7 +1245,9 @@ def test_extreme_scenes_are_diagnosed_too(family):
 
 
 def test_outlines_may_be_given_in_any_form():
-    """Length and width, with the centre of mass off the middle, or corners either way round; units, pint, numpy."""
+    """Length and width, with the centre of mass off the middle, or corners either way round; units,
+    pint, numpy.
+    """
     registry = pint.get_application_registry()
     corners = [(1.9, 0.9), (-2.1, 0.9), (-2.1, -0.9), (1.9, -0.9)]
     for outline in (
@@ -991,13 +1278,21 @@ def test_the_outline_turns_with_the_vehicle():
     [
         ((4500, 1800), ["outline_a (length) = 4500", "outline_a (width) = 1800"]),
         ((15, 6), ["outline_a (width) = 6"]),
-        ([(2200, 800), (-2300, 800), (-2300, -800), (2200, -800)], ["outline_a (length) = 4500", "outline_a (width) = 1600"]),
+        (
+            [(2200, 800), (-2300, 800), (-2300, -800), (2200, -800)],
+            ["outline_a (length) = 4500", "outline_a (width) = 1600"],
+        ),
         (np.array([(7.0, 3.0), (-8.0, 3.0), (-8.0, -3.0), (7.0, -3.0)]), ["outline_a (width) = 6"]),
-        ([(0, 0), ("160 in", 0), (160, 70), (0, 70)], ["outline_a (length) = 160", "outline_a (width) = 70"]),
+        (
+            [(0, 0), ("160 in", 0), (160, 70), (0, 70)],
+            ["outline_a (length) = 160", "outline_a (width) = 70"],
+        ),
     ],
 )
 def test_an_outline_in_feet_or_millimetres_is_suspected(outline, worst):
-    """The reader takes bare numbers for metres and says so; a unit, and a long bus, are beyond suspicion."""
+    """The reader takes bare numbers for metres and says so; a unit, and a long bus, are beyond
+    suspicion.
+    """
     with pytest.warns(col.SuspectUnitsWarning) as caught:
         col.diagnose(square(), outline_a=outline)
     sentences = [str(one.message) for one in caught if one.message.code == "suspect_units"]
@@ -1006,13 +1301,17 @@ def test_an_outline_in_feet_or_millimetres_is_suspected(outline, worst):
         assert text.startswith(start + " is read as metres")
     corners = [("15 ft", 0), (0, "6 ft"), ("-15 ft", 0)]
     col.diagnose(square(), outline_a=("15 ft", "6 ft"), outline_b=(18.75, 2.55))
-    col.diagnose(square(), outline_a=corners, outline_b=pint.Quantity([[15, 0], [0, 6], [-15, 0]], "ft"))
+    col.diagnose(
+        square(), outline_a=corners, outline_b=pint.Quantity([[15, 0], [0, 6], [-15, 0]], "ft")
+    )
 
 
 # Headings, places and a drag that are plainly wrong.
 
 
-@pytest.mark.parametrize(("heading", "off", "how"), [("180 deg", 180.0, "backwards"), ("-90 deg", 90.0, "sideways")])
+@pytest.mark.parametrize(
+    ("heading", "off", "how"), [("180 deg", 180.0, "backwards"), ("-90 deg", 90.0, "sideways")]
+)
 def test_a_car_that_does_not_point_where_it_goes(heading, off, how):
     """At 54 km/h; the limit is set here, and the sentence says which vehicles do."""
     (finding,) = of("heading_off_course", square(a={"vx": 15.0, "vy": 0.0, "heading": heading}))
@@ -1041,15 +1340,26 @@ def test_a_car_that_slides_spins_or_creeps_may_point_elsewhere(more):
 
 
 def test_places_in_feet_are_found_without_an_outline():
-    """2.2 m are 7.2 ft; a car has no contact 9 m ahead of its centre, and no two meet 202 m apart."""
+    """2.2 m are 7.2 ft; a car has no contact 9 m ahead of its centre, and no two meet
+    202 m apart.
+    """
     for x in (-7.2, -9.0):
         (finding,) = of("suspect_lever", square(a={"x": x}))
         assert (finding.vehicle, finding.measured) == ("a", -x)
         assert finding.limit == pytest.approx(3.0 * math.sqrt(2600.0 / 1500.0), rel=1e-15)
         assert "feet?" in finding.sentence
-    a, b = (col.Vehicle(mass=mass, vx=vx, x=x, y=0.0) for mass, vx, x in ((1500.0, 15.0, -200.0), (1200.0, 0.0, 2.0)))
-    for inertia, limit in ((None, 20.0), (math.inf, 20.0), (2000.0, 3.0 * (math.sqrt(2e3 / 1500.0) + math.sqrt(2e3 / 1200.0)))):
-        far = col.linear_central(a.replace(yaw_inertia=inertia), b.replace(yaw_inertia=inertia), 0.1)
+    a, b = (
+        col.Vehicle(mass=mass, vx=vx, x=x, y=0.0)
+        for mass, vx, x in ((1500.0, 15.0, -200.0), (1200.0, 0.0, 2.0))
+    )
+    for inertia, limit in (
+        (None, 20.0),
+        (math.inf, 20.0),
+        (2000.0, 3.0 * (math.sqrt(2e3 / 1500.0) + math.sqrt(2e3 / 1200.0))),
+    ):
+        far = col.linear_central(
+            a.replace(yaw_inertia=inertia), b.replace(yaw_inertia=inertia), 0.1
+        )
         (finding,) = of("suspect_distance", far)
         assert (finding.measured, finding.limit) == (202.0, pytest.approx(limit, rel=1e-15))
     assert "202.00 m apart" in finding.sentence
@@ -1059,19 +1369,27 @@ def test_places_in_feet_are_found_without_an_outline():
 def test_a_distance_needs_two_places():
     """A wall is anywhere, and a point tells more than a distance."""
     a = col.Vehicle(mass=1500.0, vx=15.0, x=-200.0, y=0.0)
-    for b in (col.Vehicle(mass=1200.0), col.Vehicle(mass=1200.0, x=2.0), col.Vehicle.barrier(x=2.0, y=0.0)):
+    for b in (
+        col.Vehicle(mass=1200.0),
+        col.Vehicle(mass=1200.0, x=2.0),
+        col.Vehicle.barrier(x=2.0, y=0.0),
+    ):
         assert of("suspect_distance", col.linear_central(a, b, 0.1)) == []
     assert of("suspect_distance", square(a={"x": -12.0})) == []
     assert of("suspect_lever", square(a={"x": -12.0})) != []
 
 
 def test_the_corner_of_a_rectangle_is_no_odd_place():
-    """1.73 of its radii of gyration away, whatever its sides; 15 percent of the length off the middle still is none."""
+    """1.73 of its radii of gyration away, whatever its sides; 15 percent of the length off the
+    middle still is none.
+    """
     for length, width in ((4.4, 1.8), (12.0, 2.5), (2.2, 0.8)):
         inertia = 1500.0 * (length**2 + width**2) / 12.0
         impact = square(a={"x": -0.65 * length, "y": -0.5 * width, "yaw_inertia": inertia})
         assert of("suspect_lever", impact) == []
-        assert of("suspect_lever", square(a={"x": -0.5 * length * 3.28, "yaw_inertia": inertia})) != []
+        assert (
+            of("suspect_lever", square(a={"x": -0.5 * length * 3.28, "yaw_inertia": inertia})) != []
+        )
 
 
 def test_a_drag_in_percent_is_found():
@@ -1097,7 +1415,9 @@ def test_a_normal_in_degrees_is_found():
 
 
 def ordinary(rng, kind):
-    """A car of 1.0 to 2.0 t that drives into the side or the rear of another one, 10 to 40 cm deep."""
+    """A car of 1.0 to 2.0 t that drives into the side or the rear of another one, 10 to
+    40 cm deep.
+    """
     long, wide = ([rng.uniform(*span) for _ in "ab"] for span in ((3.9, 4.9), (1.65, 1.9)))
     mass = [rng.uniform(1000.0, 2000.0) for _ in "ab"]
     turn = math.radians(rng.uniform(60.0, 120.0) if kind == "side" else rng.uniform(-10.0, 10.0))
@@ -1112,23 +1432,44 @@ def ordinary(rng, kind):
     )
     centre = (along * c + aside * s, along * s - aside * c)
     a, b = (
-        col.Vehicle(mass=m, yaw_inertia=m * (length**2 + width**2) / 12.0, x=x, y=y, vx=vx, vy=vy, heading=heading)
+        col.Vehicle(
+            mass=m,
+            yaw_inertia=m * (length**2 + width**2) / 12.0,
+            x=x,
+            y=y,
+            vx=vx,
+            vy=vy,
+            heading=heading,
+        )
         for m, length, width, x, y, vx, vy, heading in (
-            (mass[0], long[0], wide[0], 0.5 * (crush - long[0]), rng.uniform(-0.6, 0.6), va, 0.0, 0.0),
+            (
+                mass[0],
+                long[0],
+                wide[0],
+                0.5 * (crush - long[0]),
+                rng.uniform(-0.6, 0.6),
+                va,
+                0.0,
+                0.0,
+            ),
             (mass[1], long[1], wide[1], *centre, vb * c, vb * s, turn),
         )
     )
     normal = rng.uniform(0.0, 1.0) * (turn - math.pi / 2 if kind == "side" else turn)
     closing = (va - vb * c) * math.cos(normal) - vb * s * math.sin(normal)
     restitution = rng.uniform(0.0, 0.5) * reference.restitution_range(closing)[1]
-    impact = col.eccentric(a, b, restitution, normal=normal, point=(0.0, 0.0), friction=rng.uniform(0.35, 0.8))
+    impact = col.eccentric(
+        a, b, restitution, normal=normal, point=(0.0, 0.0), friction=rng.uniform(0.35, 0.8)
+    )
     return impact, {"outline_a": (long[0], wide[0]), "outline_b": (long[1], wide[1])}
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["side", "rear"])
 def test_no_finding_is_always_there(kind):
-    """None on more than a third of ordinary impacts, and on a good part of them none at all; before, two were on four in ten."""
+    """None on more than a third of ordinary impacts, and on a good part of them none at all;
+    before, two were on four in ten.
+    """
     rng = random.Random(f"ordinary {kind}")
     counts, quiet, before = dict.fromkeys(LIMITS, 0), 0, 0
     for _ in range(300):
@@ -1152,9 +1493,17 @@ def test_sentences_are_in_the_units_asked_for(code):
     """The findings are the same but for their words; no unit of another system is among them."""
     impact, options = CASES[code][0]()
     said = {system: of(code, impact, **options, units=system) for system in ("si", "metric", "us")}
-    for system, other in (("si", r"km/h|degrees(?! )|kJ|mph| ft"), ("metric", r"mph|\d ft"), ("us", r"km/h|kJ|\d m\b")):
+    for system, other in (
+        ("si", r"km/h|degrees(?! )|kJ|mph| ft"),
+        ("metric", r"mph|\d ft"),
+        ("us", r"km/h|kJ|\d m\b"),
+    ):
         for finding, metric in zip(said[system], said["metric"], strict=True):
-            assert (finding.measured, finding.limit, finding.source) == (metric.measured, metric.limit, metric.source)
+            assert (finding.measured, finding.limit, finding.source) == (
+                metric.measured,
+                metric.limit,
+                metric.source,
+            )
             if not code.startswith("suspect_") or code in ("suspect_lever", "suspect_distance"):
                 assert not re.search(other, finding.sentence), finding.sentence
     assert said["metric"] == of(code, impact, **options)
@@ -1183,7 +1532,9 @@ def test_numbers_of_the_sentences_are_those_of_pint(system, said):
         figure, _, shown = text.partition(" ")
         wanted = registry.Quantity(value, unit).m_as(shown.replace("ft lbf", "ft*lbf"))
         # To the last digit that is there.
-        assert float(figure) == pytest.approx(wanted, abs=0.5 * 10.0 ** -len(figure.partition(".")[2]), rel=5e-4)
+        assert float(figure) == pytest.approx(
+            wanted, abs=0.5 * 10.0 ** -len(figure.partition(".")[2]), rel=5e-4
+        )
     assert case.text(-1e-9, "speed").startswith("0.0")
     assert case.text(0.0, "energy").startswith("0.000 ")
 
@@ -1194,9 +1545,17 @@ def test_numbers_of_the_sentences_are_those_of_pint(system, said):
 @pytest.mark.parametrize(
     ("options", "code", "said"),
     [
-        ({"impact": 3.0}, "not_an_impact", "impact must be an Impact or a MomentumSolution, got float"),
+        (
+            {"impact": 3.0},
+            "not_an_impact",
+            "impact must be an Impact or a MomentumSolution, got float",
+        ),
         ({"impact": None}, "not_an_impact", "write diagnose(collisions.eccentric(...))"),
-        ({"limits": {"nonsense": 1.0}}, "unknown_finding", "there is no finding 'nonsense'; known are energy_gain"),
+        (
+            {"limits": {"nonsense": 1.0}},
+            "unknown_finding",
+            "there is no finding 'nonsense'; known are energy_gain",
+        ),
         ({"limits": {3: 1.0}}, "unknown_finding", "there is no finding 3"),
         ({"limits": [("law", 1.0)]}, "bad_limit", "limits must be a dict"),
         ({"limits": {"law": -0.1}}, "bad_limit", "limits['law'] must be >= 0"),
@@ -1208,7 +1567,11 @@ def test_numbers_of_the_sentences_are_those_of_pint(system, said):
         ({"outline_a": [4.4, 1.8]}, "bad_shape", "outline_a must be (length, width)"),
         ({"outline_a": (4.4,)}, "bad_shape", "at least three corners"),
         ({"outline_b": (4.4, np.ones(2))}, "bad_shape", "outline_b must be"),
-        ({"outline_b": [(0.0, 1.0), (1.0, np.ones(2)), (2.0, 0.0)]}, "bad_shape", "outline_b must be"),
+        (
+            {"outline_b": [(0.0, 1.0), (1.0, np.ones(2)), (2.0, 0.0)]},
+            "bad_shape",
+            "outline_b must be",
+        ),
         ({"outline_a": (4.4, -1.8)}, "not_positive", "outline_a[1] (width) must be > 0"),
         ({"outline_a": (4.4, "1.8 kg")}, "bad_units", "outline_a[1] (width)"),
         ({"outline_a": (4.4, 1.8, 2.3)}, "bad_outline", "is not within a length of 4.4 m"),
@@ -1216,7 +1579,11 @@ def test_numbers_of_the_sentences_are_those_of_pint(system, said):
         ({"outline_a": [(0.0, 1.0), (1.0, 0.0)]}, "bad_outline", "fewer than three corners"),
         ({"outline_a": [(0, 0), (1, 1), (2, 2)]}, "bad_outline", "has no area"),
         ({"outline_a": np.array([(0, 0), (1, 1), (np.nan, 2)])}, "bad_outline", "not finite"),
-        ({"outline_a": [(2, 1), (0, 0.2), (-2, 1), (-2, -1), (2, -1)]}, "bad_outline", "has a dent"),
+        (
+            {"outline_a": [(2, 1), (0, 0.2), (-2, 1), (-2, -1), (2, -1)]},
+            "bad_outline",
+            "has a dent",
+        ),
         ({"outline_a": [(2, 1), (-2, -1), (2, -1), (-2, 1)]}, "bad_outline", "sides that cross"),
         ({"outline_a": [(2, 1), (2, 1), (-2, 1), (-2, -1)]}, "bad_outline", "a corner twice"),
         (
@@ -1225,8 +1592,16 @@ def test_numbers_of_the_sentences_are_those_of_pint(system, said):
             "outline_a needs positions, which a MomentumSolution has not",
         ),
         ({"impact": balance(), "duration": -0.1}, "negative_duration", "duration must be >= 0"),
-        ({"impact": balance(), "drag": np.array([0.1, 0.2])}, "bad_shape", "diagnose takes one case"),
-        ({"impact": balance(heading_a=None), "damage_pdof_a": 0.0}, "missing_heading", "give heading_a='30 deg'"),
+        (
+            {"impact": balance(), "drag": np.array([0.1, 0.2])},
+            "bad_shape",
+            "diagnose takes one case",
+        ),
+        (
+            {"impact": balance(heading_a=None), "damage_pdof_a": 0.0},
+            "missing_heading",
+            "give heading_a='30 deg'",
+        ),
         ({"damage_pdof_a": "5 m"}, "bad_units", "damage_pdof_a"),
         ({"damage_pdof_b": np.array([0.1])}, "bad_shape", "damage_pdof_b takes one value"),
         ({"damage_delta_v_a": -1.0}, "negative_speed", "damage_delta_v_a must be >= 0"),
@@ -1264,12 +1639,28 @@ def test_all_wrong_arguments_are_named_at_once():
 def test_what_a_vehicle_lacks_is_named_with_the_rest():
     """Also of planar momentum, of which no outline can be placed; one line each."""
     with pytest.raises(col.InputError, match="3 arguments cannot be used") as caught:
-        diagnose(square(b={"heading": None}), outline_b=(4.4, 1.8), damage_pdof_b=0.0, limits={"law": -1.0})
-    for text in ("which outline_b needs", "which damage_pdof_b needs", "limits['law'] must be >= 0"):
+        diagnose(
+            square(b={"heading": None}),
+            outline_b=(4.4, 1.8),
+            damage_pdof_b=0.0,
+            limits={"law": -1.0},
+        )
+    for text in (
+        "which outline_b needs",
+        "which damage_pdof_b needs",
+        "limits['law'] must be >= 0",
+    ):
         assert text in str(caught.value)
     with pytest.raises(col.InputError, match="4 arguments cannot be used") as caught:
-        diagnose(balance(), outline_a=(4.4, 1.8), outline_b=(4.4, 1.8), duration=np.ones(2), drag=-1.0)
-    for text in ("outline_a needs positions", "outline_b needs positions", "duration takes one value", "drag must be >= 0"):
+        diagnose(
+            balance(), outline_a=(4.4, 1.8), outline_b=(4.4, 1.8), duration=np.ones(2), drag=-1.0
+        )
+    for text in (
+        "outline_a needs positions",
+        "outline_b needs positions",
+        "duration takes one value",
+        "drag must be >= 0",
+    ):
         assert text in str(caught.value)
 
 
@@ -1283,10 +1674,15 @@ def test_a_bare_duration_of_planar_momentum_is_suspected():
 def test_a_batch_and_a_refused_case_are_refused():
     """With what to do instead."""
     with pytest.raises(
-        col.ShapeError, match=re.escape("batch of shape (2,), and diagnose takes one case: write diagnose(impact.case(0))")
+        col.ShapeError,
+        match=re.escape(
+            "batch of shape (2,), and diagnose takes one case: write diagnose(impact.case(0))"
+        ),
     ):
         diagnose(square(a={"vx": np.array([20.0, 21.0])}))
-    with pytest.raises(col.InputError, match="diagnose has nothing to work on: the bodies move apart") as caught:
+    with pytest.raises(
+        col.InputError, match="diagnose has nothing to work on: the bodies move apart"
+    ) as caught:
         diagnose(square(a={"vx": -20.0}, on_failure="nan"))
     assert (caught.value.code, caught.value.fields["status"]) == ("refused_impact", "separating")
 
@@ -1298,7 +1694,9 @@ def test_momentum_in_a_batch_or_refused_and_a_fit_are_refused():
     with pytest.raises(col.InputError, match="diagnose has nothing to work on") as caught:
         diagnose(balance(course_b="0 deg", on_failure="nan"))
     assert caught.value.code == "refused_impact"
-    with pytest.raises(col.InputError, match=r"got Fit; .*for a Fit with the values that it found") as caught:
+    with pytest.raises(
+        col.InputError, match=r"got Fit; .*for a Fit with the values that it found"
+    ) as caught:
         diagnose(object.__new__(reconstruct.Fit))
     assert caught.value.code == "not_an_impact"
 
@@ -1306,20 +1704,31 @@ def test_momentum_in_a_batch_or_refused_and_a_fit_are_refused():
 @pytest.mark.parametrize(("name", "code"), [("heading", "missing_heading")])
 def test_an_outline_needs_to_be_placed(name, code):
     """The vehicle and the outline are named."""
-    with pytest.raises(col.MissingInputError, match=f"a has no {name}, which outline_a needs") as caught:
+    with pytest.raises(
+        col.MissingInputError, match=f"a has no {name}, which outline_a needs"
+    ) as caught:
         diagnose(square(a={name: None}), outline_a=(4.4, 1.8))
     assert caught.value.code == code
     with pytest.raises(col.MissingInputError, match="b has no x, which outline_b needs"):
-        diagnose(square(b={"x": None, "y": None, "mass": math.inf, "yaw_inertia": math.inf, "vy": 0.0}), outline_b=(1.0, 1.0))
+        diagnose(
+            square(b={"x": None, "y": None, "mass": math.inf, "yaw_inertia": math.inf, "vy": 0.0}),
+            outline_b=(1.0, 1.0),
+        )
 
 
 def test_outlines_do_not_depend_on_where_the_scene_is():
-    """Moved by 2**22 m, which rounds no place, the overlap is the same to the bit; a corner there would be off by 1e-9 m."""
+    """Moved by 2**22 m, which rounds no place, the overlap is the same to the bit; a corner there
+    would be off by 1e-9 m.
+    """
     turned = {"heading": 0.3}
     here, there = (
         of(
             "outlines_overlap",
-            square(a={"x": far - 0.75, "y": far, **turned}, b={"x": far + 0.5, "y": far}, point=(far, far)),
+            square(
+                a={"x": far - 0.75, "y": far, **turned},
+                b={"x": far + 0.5, "y": far},
+                point=(far, far),
+            ),
             **RECTANGLES,
         )
         for far in (0.0, 2.0**22)
@@ -1330,7 +1739,9 @@ def test_outlines_do_not_depend_on_where_the_scene_is():
 @pytest.mark.parametrize("far", [1e17, 1e60, 1e140])
 @pytest.mark.parametrize("what", ["place", "speed", "outline"])
 def test_outlines_far_from_everything_leak_no_warning(far, what):
-    """Warnings are errors here; 1e17 m away all corners were one place, whose edges have no direction."""
+    """Warnings are errors here; 1e17 m away all corners were one place, whose edges have no
+    direction.
+    """
     at, speed, size = (far if what == name else 1.0 for name in ("place", "speed", "outline"))
     shift = at if what == "place" else 0.0
     impact = square(
@@ -1340,7 +1751,11 @@ def test_outlines_far_from_everything_leak_no_warning(far, what):
     )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.SuspectUnitsWarning)
-        found = diagnose(impact, outline_a=(4.4 * size, 1.8 * size), outline_b=[(size, 0.0), (-size, size), (-size, -size)])
+        found = diagnose(
+            impact,
+            outline_a=(4.4 * size, 1.8 * size),
+            outline_b=[(size, 0.0), (-size, size), (-size, -size)],
+        )
     assert {"outlines_overlap", "outlines_gap", "point_outside"} <= found.measured
 
 
@@ -1351,7 +1766,16 @@ def test_an_outline_of_any_size_is_judged_by_its_shape(size):
         warnings.simplefilter("ignore", col.SuspectUnitsWarning)
         diagnose(square(), outline_a=[(size, 0.0), (-size, size), (-size, -size)])
         with pytest.raises(col.InputError, match="has a dent"):
-            diagnose(square(), outline_a=[(size, size), (0.0, 0.1 * size), (-size, size), (-size, -size), (size, -size)])
+            diagnose(
+                square(),
+                outline_a=[
+                    (size, size),
+                    (0.0, 0.1 * size),
+                    (-size, size),
+                    (-size, -size),
+                    (size, -size),
+                ],
+            )
 
 
 @pytest.mark.parametrize(
@@ -1373,8 +1797,15 @@ def test_a_sentence_says_in_words_what_is_no_number(text, wanted):
 
 def test_tyres_against_a_delta_v_of_nothing():
     """A share of nothing is infinite, and is not printed as inf%."""
-    straight = {"course_a": 0.0, "course_a_after": 0.0, "course_b": "90 deg", "course_b_after": "90 deg"}
-    solution = reconstruct.momentum(1500.0, 1200.0, **straight, speed_a_after=10.0, speed_b_after=5.0)
+    straight = {
+        "course_a": 0.0,
+        "course_a_after": 0.0,
+        "course_b": "90 deg",
+        "course_b_after": "90 deg",
+    }
+    solution = reconstruct.momentum(
+        1500.0, 1200.0, **straight, speed_a_after=10.0, speed_b_after=5.0
+    )
     (finding, *_) = of("tyre_impulse", solution)
     assert "a share that is infinite of its delta-V of 0.0 km/h" in finding.sentence
 
@@ -1391,9 +1822,13 @@ def test_no_warning_is_repeated():
 def test_every_limit_says_where_it_is_from(code):
     """A source, or that it was set here and why."""
     limit = LIMITS[code]
-    assert limit.source.startswith("set here: ") or re.search(r"EDCRASH|reference\.|paper|Coulomb", limit.source)
+    assert limit.source.startswith("set here: ") or re.search(
+        r"EDCRASH|reference\.|paper|Coulomb", limit.source
+    )
     assert re.search(r"above|below", limit.measured)
-    assert (limit.default is None) == (code in ("restitution", "outlines_overlap", "suspect_lever", "suspect_distance"))
+    assert (limit.default is None) == (
+        code in ("restitution", "outlines_overlap", "suspect_lever", "suspect_distance")
+    )
 
 
 def test_an_outline_without_a_place_is_refused_also_alone():
@@ -1410,10 +1845,14 @@ def test_a_tuple_of_answers_is_refused_with_what_to_write():
 
 
 def test_no_yaw_is_not_turned_the_other_way():
-    """A force through the centre of mass turns nothing, but for rounding; under a turned normal it turns something."""
+    """A force through the centre of mass turns nothing, but for rounding; under a turned normal it
+    turns something.
+    """
     k = math.radians(50.0)
     c, n = math.cos(k), math.sin(k)
-    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=15.0 * c, vy=15.0 * n, x=-2.0 * c, y=-2.0 * n)
+    a = col.Vehicle(
+        mass=1500.0, yaw_inertia=2600.0, vx=15.0 * c, vy=15.0 * n, x=-2.0 * c, y=-2.0 * n
+    )
     b = col.Vehicle(mass=1200.0, yaw_inertia=2000.0, x=2.0 * c, y=2.0 * n)
     impact = col.eccentric(a, b, 0.1, normal="50 deg", point=(0.0, 0.0), friction=0.0)
     (finding,) = of("normal_yaw", impact)
@@ -1422,7 +1861,9 @@ def test_no_yaw_is_not_turned_the_other_way():
     assert "the other way" not in finding.sentence
 
 
-@pytest.mark.parametrize(("units", "turned"), [("si", "0.175 rad"), ("metric", "10.0 degrees"), ("us", "10.0 degrees")])
+@pytest.mark.parametrize(
+    ("units", "turned"), [("si", "0.175 rad"), ("metric", "10.0 degrees"), ("us", "10.0 degrees")]
+)
 def test_the_turn_of_the_normal_is_in_the_units_of_the_page(units, turned):
     impact = square(a={"y": 0.05, "vy": 0.0}, b={"vy": 0.0}, friction=0.0)
     (finding,) = of("normal_yaw", impact, units=units)
@@ -1449,7 +1890,9 @@ def test_a_yaw_rate_that_was_found_is_no_input():
     assert of("suspect_yaw_rate", forward)[0].sentence.endswith("were degrees/s meant?")
     after = (forward.a.after, forward.b.after)
     ratio = forward.impulse_ratio
-    back = reconstruct.planar(*after, normal=0.0, point=(0.0, 0.0), restitution=forward.restitution, impulse_ratio=ratio)
+    back = reconstruct.planar(
+        *after, normal=0.0, point=(0.0, 0.0), restitution=forward.restitution, impulse_ratio=ratio
+    )
     (finding,) = of("suspect_yaw_rate", back)
     assert finding.sentence.startswith("vehicle A was found to turn at 40 rad/s")
 
@@ -1486,27 +1929,37 @@ def test_every_other_law_is_tried(monkeypatch):
 
 
 def test_an_outline_of_dates_is_refused():
-    """Two columns of what is no number: the error is that of the array, not of a float made of it."""
-    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=20.0, x=0.0, y=0.0, heading=0.0), col.Vehicle(mass=1200.0), 0.1)
+    """Two columns of what is no number: the error is that of the array, not of a float
+    made of it.
+    """
+    impact = col.linear_central(
+        col.Vehicle(mass=1500.0, vx=20.0, x=0.0, y=0.0, heading=0.0), col.Vehicle(mass=1200.0), 0.1
+    )
     for kind in ("M8[s]", "m8[s]", "U3"):
         with pytest.raises(col.InputError, match="outline_a is an array of"):
             diagnose(impact, outline_a=np.zeros((2, 2), dtype=kind))
 
 
-@pytest.mark.parametrize("outline", [(1.7e308, 1e9), [(5.0, 1.0), (-0.7, -3.4e237), (-1.7e308, -4.8)], (1e307, 2.0)])
+@pytest.mark.parametrize(
+    "outline", [(1.7e308, 1e9), [(5.0, 1.0), (-0.7, -3.4e237), (-1.7e308, -4.8)], (1e307, 2.0)]
+)
 def test_an_outline_beyond_floats_is_refused(outline):
     """Its sums could leave their range."""
     impact, _ = CASES["law"][0]()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.SuspectUnitsWarning)
-        with pytest.raises(col.InputError, match=r"outline_a has a corner .* at most; give metres") as caught:
+        with pytest.raises(
+            col.InputError, match=r"outline_a has a corner .* at most; give metres"
+        ) as caught:
             diagnose(impact, outline_a=outline)
     assert caught.value.code == "out_of_range"
 
 
 def test_a_contact_of_endless_time_is_refused():
     """What a vehicle turned by then is no angle, and nothing can be said of what is left out."""
-    a = col.Vehicle(mass=1500.0, vx=1e42, yaw_rate=0.1, yaw_inertia=2400.0, x=-2.0, y=0.4, heading=0.0)
+    a = col.Vehicle(
+        mass=1500.0, vx=1e42, yaw_rate=0.1, yaw_inertia=2400.0, x=-2.0, y=0.4, heading=0.0
+    )
     b = col.Vehicle(mass=1200.0, yaw_inertia=1800.0, x=2.0, y=0.0, heading=0.0)
     impact = col.eccentric(a, b, 0.4, normal=0.0, point=(0.0, 0.2), friction=0.3)
     with warnings.catch_warnings():
@@ -1516,7 +1969,9 @@ def test_a_contact_of_endless_time_is_refused():
 
 
 def test_nothing_is_left_out_of_what_has_no_answer():
-    """``solve`` refuses a pinned vehicle without a yaw inertia that moves apart, and has no tyre forces of it."""
+    """``solve`` refuses a pinned vehicle without a yaw inertia that moves apart, and has no tyre
+    forces of it.
+    """
     a = col.Vehicle(mass=1500.0, vx=-10.0, x=-2.0, y=0.0)
     b = col.Vehicle(mass=1200.0, x=2.0, y=1.0, pivot=(2.0, -1.0))
     impact = col.solve(a, b, 0.2, normal=0.0, point=(0.0, 0.0), friction=0.3, on_failure="nan")
@@ -1526,7 +1981,9 @@ def test_nothing_is_left_out_of_what_has_no_answer():
 
 @pytest.mark.parametrize("dtype", [np.float16, np.float32])
 def test_an_outline_of_few_digits_is_read_in_full_precision(dtype):
-    """The limits that its corners are held against are beyond such floats; overlapping corners meet as those of float64 do."""
+    """The limits that its corners are held against are beyond such floats; overlapping corners meet
+    as those of float64 do.
+    """
     corners = np.array([(2.25, 0.75), (-2.25, 0.75), (-2.25, -0.75), (2.25, -0.75)])
     outlines = {name: corners.astype(dtype) for name in ("outline_a", "outline_b")}
     expected = diagnose(square(), outline_a=corners, outline_b=corners)
@@ -1552,8 +2009,13 @@ def test_an_outline_of_few_digits_is_read_in_full_precision(dtype):
     ],
 )
 def test_a_bare_whole_angle_is_asked_about(normal, asks):
-    """heading=5 and normal=5 are 286 degrees, and hardly meant; 3500 as kg with 35 as m/s is fine."""
-    a, b = col.Vehicle(mass=3500, vx=35.0, heading=0), col.Vehicle(mass=1000, vx=-1.0, heading="90 deg")
+    """heading=5 and normal=5 are 286 degrees, and hardly meant; 3500 as kg with 35 as
+    m/s is fine.
+    """
+    a, b = (
+        col.Vehicle(mass=3500, vx=35.0, heading=0),
+        col.Vehicle(mass=1000, vx=-1.0, heading="90 deg"),
+    )
     turned = a.replace(vx=35.0 * math.cos(5.0), vy=35.0 * math.sin(5.0)) if normal == 5 else a
     turned = a.replace(vx=-35.0) if normal in (-2.0, 3, math.pi) else turned
     impact = col.oblique_central(turned, b, 0.1, normal=normal, friction=0.0)
@@ -1564,7 +2026,9 @@ def test_a_bare_whole_angle_is_asked_about(normal, asks):
 
 
 def motorcycle(x, point):
-    """A motorcycle that runs into a car with its front wheel, 1.34 m ahead of its centre of mass."""
+    """A motorcycle that runs into a car with its front wheel, 1.34 m ahead of its
+    centre of mass.
+    """
     a = col.Vehicle(mass="550 lb", yaw_inertia="900 lb*ft**2", x=x, y=0.0, vx="40 mph")
     b = col.Vehicle(mass="3400 lb", yaw_inertia="60000 lb*ft**2", x="3 ft", y="1 ft")
     return col.eccentric(a, b, 0.1, normal="0 deg", point=point, friction=0.4)
@@ -1573,12 +2037,18 @@ def motorcycle(x, point):
 def test_places_with_units_are_not_suspected_of_being_feet():
     """Three radii of gyration are 1.2 m of a motorcycle, less than its front wheel is ahead."""
     origin = ("0 ft", "0 ft")
-    assert not [one for one in diagnose(motorcycle("-4.4 ft", origin)) if one.code == "suspect_lever"]
+    assert not [
+        one for one in diagnose(motorcycle("-4.4 ft", origin)) if one.code == "suspect_lever"
+    ]
     (bare,) = [one for one in diagnose(motorcycle(-1.34, origin)) if one.code == "suspect_lever"]
     assert "check units (feet?) and origin" in bare.sentence
     (far,) = [one for one in diagnose(motorcycle("-44 ft", origin)) if one.code == "suspect_lever"]
     assert far.limit == 10.0
     assert far.sentence.endswith("check positions and origin")
-    assert [one for one in diagnose(motorcycle("-4.4 ft", (0.5, 0.0))) if one.code == "suspect_lever"]
+    assert [
+        one for one in diagnose(motorcycle("-4.4 ft", (0.5, 0.0))) if one.code == "suspect_lever"
+    ]
     # 0 is 0 in every unit.
-    assert not [one for one in diagnose(motorcycle("-4.4 ft", ("0 ft", 0.0))) if one.code == "suspect_lever"]
+    assert not [
+        one for one in diagnose(motorcycle("-4.4 ft", ("0 ft", 0.0))) if one.code == "suspect_lever"
+    ]

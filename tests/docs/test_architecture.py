@@ -1,4 +1,6 @@
-"""The page "Architecture" says what is so: the picture agrees with the import contract, and every file is on the page."""
+"""The page "Architecture" says what is so: the picture agrees with the import contract, and every
+file is on the page.
+"""
 
 import importlib.util
 import re
@@ -10,7 +12,10 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCRIPT = ROOT / "docs" / "import_picture.py"
 
-pytestmark = [pytest.mark.slow, pytest.mark.skipif(not SCRIPT.is_file(), reason="this copy has no documentation")]
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not SCRIPT.is_file(), reason="this copy has no documentation"),
+]
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +28,9 @@ def picture():
 
 
 def test_the_contract_names_every_part_once(picture):
-    """Each module and each folder of the package is in one layer, and the layers hold nothing else."""
+    """Each module and each folder of the package is in one layer, and the layers hold
+    nothing else.
+    """
     assert sorted(name for layer in picture.layers() for name in layer) == sorted(picture.parts())
 
 
@@ -39,7 +46,9 @@ def test_imports_run_down(picture):
 
 
 def test_the_picture_sees_imports(picture):
-    """Absolute, inside a function and of a whole module; what only type checkers import is left out."""
+    """Absolute, inside a function and of a whole module; what only type checkers import is left
+    out.
+    """
     found = picture.imports()
     assert found["messages"] == {"kernels"}  # from ..kernels.status import Status
     assert "diagnostics" in found["reporting"]
@@ -72,4 +81,6 @@ def test_the_page_names_what_is_there():
     named = set(re.findall(r"`((?:[\w.]+/)*[\w.]+\.(?:py|md|toml)|(?:\w+/)+)`", page))
     assert len(named) > 20
     homes = (ROOT, ROOT / "src" / "collisions", ROOT / "tests")
-    assert [name for name in sorted(named) if not any((home / name).exists() for home in homes)] == []
+    assert [
+        name for name in sorted(named) if not any((home / name).exists() for home in homes)
+    ] == []

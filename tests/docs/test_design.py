@@ -10,7 +10,10 @@ import pytest
 DESIGN = Path(__file__).resolve().parent.parent.parent / "design"
 NOTES = sorted(path.name for path in DESIGN.glob("*.py") if path.stem != "measuring")
 
-pytestmark = [pytest.mark.slow, pytest.mark.skipif(not DESIGN.is_dir(), reason="this copy has no design notes")]
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not DESIGN.is_dir(), reason="this copy has no design notes"),
+]
 
 
 @pytest.mark.parametrize("note", NOTES)
@@ -32,7 +35,9 @@ def test_a_note_runs_and_says_what_it_found(note, tmp_path):
 
 
 def test_every_note_is_listed_with_its_command():
-    """In the README of the folder and in its own docstring; each says what it showed and what was decided."""
+    """In the README of the folder and in its own docstring; each says what it showed and what was
+    decided.
+    """
     listed = (DESIGN / "README.md").read_text(encoding="utf-8")
     for note in NOTES:
         text = (DESIGN / note).read_text(encoding="utf-8")

@@ -1,4 +1,6 @@
-"""The pages: each is listed, the glossary names every attribute, and every convention of signs has its figure."""
+"""The pages: each is listed, the glossary names every attribute, and every convention of signs has
+its figure.
+"""
 
 import ast
 import importlib
@@ -19,7 +21,10 @@ from collisions.quantities.attributes import unit_of
 DOCS = Path(__file__).resolve().parent.parent.parent / "docs"
 KINDS = {"Impact": Impact, "Side": Side, "Vehicle": Vehicle, "Pulse": Pulse}
 
-pytestmark = [pytest.mark.slow, pytest.mark.skipif(not DOCS.is_dir(), reason="only where the docs are")]
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not DOCS.is_dir(), reason="only where the docs are"),
+]
 
 
 def page(name):
@@ -29,12 +34,18 @@ def page(name):
 
 def public(kind):
     """Every public attribute and method of a class."""
-    return [name for name in {**dict.fromkeys(dir(kind)), **vars(kind).get("__annotations__", {})} if not name.startswith("_")]
+    return [
+        name
+        for name in {**dict.fromkeys(dir(kind)), **vars(kind).get("__annotations__", {})}
+        if not name.startswith("_")
+    ]
 
 
 @pytest.fixture(scope="module")
 def entries():
-    """Attributes by class that the glossary's table has a row for, and the names it explains in words."""
+    """Attributes by class that the glossary's table has a row for, and the names it explains in
+    words.
+    """
     (terms,) = re.findall(r"^TERMS = (\[.*?^\])", page("glossary"), re.DOTALL | re.MULTILINE)
     rows = [row.elts[2].elts for row in ast.parse(terms, mode="eval").body.elts]
     table = {(kind.id, name.value) for kind, *names in rows for name in names}
@@ -64,7 +75,9 @@ def test_the_glossary_names_nothing_that_is_not_there(entries):
 
 def test_every_page_is_in_the_index():
     """Pages outside the index are found by nobody."""
-    trees = re.findall(r"```\{toctree\}\n:hidden:\n:caption: [A-Z][a-z ]+\n\n(.*?)```", page("index"), re.DOTALL)
+    trees = re.findall(
+        r"```\{toctree\}\n:hidden:\n:caption: [A-Z][a-z ]+\n\n(.*?)```", page("index"), re.DOTALL
+    )
     names = [name for tree in trees for name in tree.split()]
     listed = set(names)
     assert len(names) == len(listed)
@@ -72,9 +85,13 @@ def test_every_page_is_in_the_index():
 
 
 def test_no_page_has_a_table_of_contents_of_its_own():
-    """The theme has one beside every page, and prints "ERROR:" in place of another; ``.ci/run`` looks at the pages built."""
+    """The theme has one beside every page, and prints "ERROR:" in place of another; ``.ci/run``
+    looks at the pages built.
+    """
     for path in DOCS.glob("*.md"):
-        assert not re.search(r"\{contents\}|\.\. contents::", path.read_text(encoding="utf-8")), path.name
+        assert not re.search(r"\{contents\}|\.\. contents::", path.read_text(encoding="utf-8")), (
+            path.name
+        )
 
 
 def figures():
@@ -91,7 +108,11 @@ def test_every_figure_is_there_and_every_drawing_of_signs_is_shown():
     shown = {name for _, name in figures()}
     for name in shown:
         assert (DOCS / "_static" / name).is_file(), name
-    (drawn,) = re.findall(r"^FIGURES = \{(.*?)^\}", (DOCS / "figures.py").read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    (drawn,) = re.findall(
+        r"^FIGURES = \{(.*?)^\}",
+        (DOCS / "figures.py").read_text(encoding="utf-8"),
+        re.DOTALL | re.MULTILINE,
+    )
     assert {f"{name}.svg" for name in re.findall(r'"(\w+)":', drawn)} <= shown
 
 
@@ -99,7 +120,9 @@ def test_references_between_pages_lead_somewhere():
     """Every page and heading that a page refers to is there."""
     pages = {path.stem: path.read_text(encoding="utf-8") for path in DOCS.glob("*.md")}
     labels = set(re.findall(r"^\(([\w-]+)\)=$", "\n".join(pages.values()), re.MULTILINE))
-    examples = {f"examples/{path.stem}" for path in (DOCS.parent / "examples").glob("*.py")} | {"examples/index"}
+    examples = {f"examples/{path.stem}" for path in (DOCS.parent / "examples").glob("*.py")} | {
+        "examples/index"
+    }
     for name, text in pages.items():
         for target in re.findall(r"\{doc\}`(?:[^`<]*<)?([\w/]+)>?`", text):
             assert target in pages or target in examples, f"{name} refers to {target}"
@@ -110,7 +133,11 @@ def test_references_between_pages_lead_somewhere():
 def test_every_example_that_draws_has_its_picture_in_the_gallery():
     """Made by ``python docs/gallery.py``; none is left of an example that is gone."""
     scripts = (DOCS.parent / "examples").glob("*.py")
-    drawing = {path.stem for path in scripts if re.search(r"\bplt?\b|\bplot\.", path.read_text(encoding="utf-8"))}
+    drawing = {
+        path.stem
+        for path in scripts
+        if re.search(r"\bplt?\b|\bplot\.", path.read_text(encoding="utf-8"))
+    }
     assert {path.stem for path in (DOCS / "_static" / "gallery").glob("*.png")} == drawing
 
 
@@ -136,13 +163,19 @@ def too_wide(path):
     if path.suffix == ".py":
         lines = [line for line in text.splitlines() if not line.startswith("#")]
     else:
-        blocks = re.findall(r"^```(?:\{code-cell\}|python|sh|toml)[^\n]*\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
-        lines = [line for block in blocks if "remove-input" not in block for line in block.splitlines()]
+        blocks = re.findall(
+            r"^```(?:\{code-cell\}|python|sh|toml)[^\n]*\n(.*?)^```", text, re.DOTALL | re.MULTILINE
+        )
+        lines = [
+            line for block in blocks if "remove-input" not in block for line in block.splitlines()
+        ]
     return [line for line in lines if len(line) > 88]
 
 
 @pytest.mark.parametrize(
-    "path", [*sorted(DOCS.glob("*.md")), *sorted((DOCS.parent / "examples").glob("*.py"))], ids=lambda path: path.name
+    "path",
+    [*sorted(DOCS.glob("*.md")), *sorted((DOCS.parent / "examples").glob("*.py"))],
+    ids=lambda path: path.name,
 )
 def test_code_on_pages_is_at_most_88_wide(path):
     """So that no line wraps or scrolls."""
@@ -163,14 +196,21 @@ def looking():
     [
         ("<p>An offset of 3 m</p>", None),
         ('<div class="cell"><pre>offset = 3  # &lt;table&gt;</pre></div>', None),
-        (r"<figure><svg><text x='9' y='9'>$\mathdefault{10}$</text></svg></figure>", "raw markup: '$\\\\math'"),
+        (
+            r"<figure><svg><text x='9' y='9'>$\mathdefault{10}$</text></svg></figure>",
+            "raw markup: '$\\\\math'",
+        ),
         (r"<svg><text x='9' y='9'>\mathdefault{10}</text></svg>", "raw markup: '\\\\mathdefault'"),
         ("<p>&lt;table&gt;&lt;tr&gt;</p>", "raw markup: '<table'"),
         (
-            "<div class='cell_output'><div class='output stderr'><pre>\nERROR: no\n</pre></div></div>",
+            "<div class='cell_output'><div class='output stderr'><pre>\nERROR: no\n"
+            "</pre></div></div>",
             "an error in an output: 'ERROR: no'",
         ),
-        (f"<div class='cell'><pre>a\n{'x' * 400}</pre></div>", f"a cell scrolls sideways: {'x' * 400!r}"),
+        (
+            f"<div class='cell'><pre>a\n{'x' * 400}</pre></div>",
+            f"a cell scrolls sideways: {'x' * 400!r}",
+        ),
     ],
 )
 def test_a_page_with_a_fault_is_found_at_fault(body, fault, looking, tmp_path):
@@ -180,12 +220,16 @@ def test_a_page_with_a_fault_is_found_at_fault(body, fault, looking, tmp_path):
         pytest.skip("needs Chromium")
     style = "<style>pre { overflow: auto; }</style>"
     page = tmp_path / "page.html"
-    page.write_text(f"<!DOCTYPE html><meta charset='utf-8'>{style}<body>{body}</body>", encoding="utf-8")
+    page.write_text(
+        f"<!DOCTYPE html><meta charset='utf-8'>{style}<body>{body}</body>", encoding="utf-8"
+    )
     assert looking.look(chromium, page, 800, tmp_path) == ([] if fault is None else [fault])
 
 
 @pytest.mark.parametrize("times", [1, 2])
-def test_a_browser_that_gives_no_answer_is_asked_once_more(times, looking, tmp_path, monkeypatch, capsys):
+def test_a_browser_that_gives_no_answer_is_asked_once_more(
+    times, looking, tmp_path, monkeypatch, capsys
+):
     """A page that it answers neither time is at fault, by its name."""
     asked = []
 
@@ -194,7 +238,9 @@ def test_a_browser_that_gives_no_answer_is_asked_once_more(times, looking, tmp_p
         if len(asked) <= times:
             raise subprocess.TimeoutExpired(command, settings["timeout"])
         return subprocess.CompletedProcess(
-            command, 0, '<pre id="found">{"scrolls":0,"covered":[],"text":"","wide":[],"errors":[]}</pre>'
+            command,
+            0,
+            '<pre id="found">{"scrolls":0,"covered":[],"text":"","wide":[],"errors":[]}</pre>',
         )
 
     monkeypatch.setattr(looking.subprocess, "run", run)
@@ -204,16 +250,41 @@ def test_a_browser_that_gives_no_answer_is_asked_once_more(times, looking, tmp_p
     monkeypatch.setattr(looking, "WIDTHS", (800,))
     assert looking.main(tmp_path) == times - 1
     assert len(asked) == 2
-    assert ("slow.html at 800 pixels: could not be measured: twice no answer" in capsys.readouterr().out) == (times == 2)
+    assert (
+        "slow.html at 800 pixels: could not be measured: twice no answer" in capsys.readouterr().out
+    ) == (times == 2)
 
 
 def test_the_readme_says_what_eccentric_errs_by_in_its_crossing():
     """Of the choice between the models, with the figure that it gives."""
     text = " ".join((DOCS.parent / "README.md").read_text("utf-8").split())
-    said = re.search(r"in the crossing above `eccentric` errs by (\d\.\d) mph, so it is enough for (\d\.\d) mph", text)
-    a = col.Vehicle(mass="3400 lb", vx="30 mph", yaw_inertia="1770 slug*ft**2", x="-6.5 ft", y="1.3 ft", heading="0 deg")
-    b = col.Vehicle(mass="2900 lb", vy="25 mph", yaw_inertia="1250 slug*ft**2", x="2.6 ft", y="-4 ft", heading="90 deg")
-    contact = {"normal": "0 deg", "point": (0.0, 0.0), "friction": 0.5, "duration": "100 ms", "drag": 0.7}
+    said = re.search(
+        r"in the crossing above `eccentric` errs by (\d\.\d) mph, so it is enough for (\d\.\d) mph",
+        text,
+    )
+    a = col.Vehicle(
+        mass="3400 lb",
+        vx="30 mph",
+        yaw_inertia="1770 slug*ft**2",
+        x="-6.5 ft",
+        y="1.3 ft",
+        heading="0 deg",
+    )
+    b = col.Vehicle(
+        mass="2900 lb",
+        vy="25 mph",
+        yaw_inertia="1250 slug*ft**2",
+        x="2.6 ft",
+        y="-4 ft",
+        heading="90 deg",
+    )
+    contact = {
+        "normal": "0 deg",
+        "point": (0.0, 0.0),
+        "friction": 0.5,
+        "duration": "100 ms",
+        "drag": 0.7,
+    }
     choice = col.required_model(a, b, 0.1, **contact, tolerance=f"{said.group(2)} mph")
     assert choice.model == "eccentric"
     assert choice.errors.q["eccentric"].to("mph").m == pytest.approx(float(said.group(1)), abs=0.05)

@@ -1,4 +1,6 @@
-"""Every public function and method says in its docstring what it takes and gives, in sections, with units in brackets."""
+"""Every public function and method says in its docstring what it takes and gives, in sections, with
+units in brackets.
+"""
 
 import inspect
 import re
@@ -9,21 +11,28 @@ from fuzzing import arguments, public
 
 # In the unit of what the caller describes by them, whatever that is.
 OF_ANY_UNIT = {
-    *(f"uncertainty.{kind}" for kind in ("Censored", "Interval", "LogNormal", "Normal", "Samples", "Triangular", "Uniform")),
+    *(f"uncertainty.{kind}" for kind in ("Censored", "Interval", "LogNormal", "Normal", "Samples",
+    "Triangular", "Uniform")),
     *(f"uncertainty.{name}" for name in ("LogNormal.between", "Normal.between", "Samples.joint")),
     ("diagnose", "limits"), ("explain", "uncertainty"), ("uncertainty.propagate", "tolerance"),
 }  # fmt: skip
 FUNCTIONS = [name for name, value in public().items() if not inspect.isclass(value)]
 MADE = [
-    name for name, value in public().items() if inspect.isclass(value) and arguments(name) and "message" not in arguments(name)
+    name
+    for name, value in public().items()
+    if inspect.isclass(value) and arguments(name) and "message" not in arguments(name)
 ]
 
 
 def sections(name):
-    """The entries of each section by its title: of an entry its names and what stands behind the colon."""
+    """The entries of each section by its title: of an entry its names and what stands behind the
+    colon.
+    """
     text = inspect.getdoc(getattr(public()[name], "__func__", public()[name])) or ""
     found = {}
-    for title, body in re.findall(r"^(\w[\w ]*)\n-{3,}\n(.*?)(?=\n\n\w[\w ]*\n-{3,}\n|\Z)", text, re.DOTALL | re.MULTILINE):
+    for title, body in re.findall(
+        r"^(\w[\w ]*)\n-{3,}\n(.*?)(?=\n\n\w[\w ]*\n-{3,}\n|\Z)", text, re.DOTALL | re.MULTILINE
+    ):
         heads = [line for line in body.splitlines() if line and not line.startswith(" ")]
         found[title] = [head.partition(" : ")[::2] for head in heads]
     return found
@@ -36,9 +45,14 @@ def names_of(entry):
 
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_what_it_takes_and_gives(name):
-    """Each argument has an entry, none has one that is not there, and there is a section on what comes back."""
+    """Each argument has an entry, none has one that is not there, and there is a section on what
+    comes back.
+    """
     value = public()[name]
-    parameters = inspect.signature(getattr(value, "__func__", value)).parameters.keys() - {"self", "cls"}
+    parameters = inspect.signature(getattr(value, "__func__", value)).parameters.keys() - {
+        "self",
+        "cls",
+    }
     found = sections(name)
     documented = [one for entry in found.get("Parameters", ()) for one in names_of(entry)]
     assert sorted(documented) == sorted(parameters)
@@ -47,7 +61,9 @@ def test_what_it_takes_and_gives(name):
 
 @pytest.mark.parametrize("name", [*FUNCTIONS, *MADE])
 def test_numbers_have_their_unit(name):
-    """Also those without a dimension, as [-]; a number is what may be a float, an array or a Quantity."""
+    """Also those without a dimension, as [-]; a number is what may be a float, an array or a
+    Quantity.
+    """
     for entry in sections(name).get("Parameters", ()):
         named, kind = entry
         open_unit = name in OF_ANY_UNIT or (name, named) in OF_ANY_UNIT

@@ -1,4 +1,6 @@
-"""The page "Evidence, measured": its file has what it shows and says what the page says, and a quick run of the script agrees."""
+"""The page "Evidence, measured": its file has what it shows and says what the page says, and a
+quick run of the script agrees.
+"""
 
 import json
 import math
@@ -12,7 +14,10 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
-pytestmark = [pytest.mark.slow, pytest.mark.skipif(not (ROOT / "benchmarks").is_dir(), reason="the sdist has no benchmarks")]
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (ROOT / "benchmarks").is_dir(), reason="the sdist has no benchmarks"),
+]
 
 
 @pytest.fixture(scope="module")
@@ -41,15 +46,22 @@ def test_every_route_holds_the_truth_as_often_as_it_states(committed, scripts):
         assert answered >= 300, name
         assert row["plain"]["intervals"] + row["warned"]["intervals"] == 2 * answered, name
         assert 0.93 <= row["plain"]["held"] / row["plain"]["intervals"] <= 0.97, name
-        # A recorder with its own speed knows more than there are unknowns: near the edge of sliding its readings contradict it.
-        # Otherwise only a path that its spin leaves no drag is refused.
-        assert row["refused"] <= 0.01 * row["crashes"] or name == "components and speed of one recorder", name
-    momentum, everything = (committed["routes"][name]["half_width"][1] for name in list(scripts[0].ROUTES)[2:])
+        # A recorder with its own speed knows more than there are unknowns: near the edge of sliding
+        # its readings contradict it. Otherwise only a path that its spin leaves no drag is refused.
+        assert (
+            row["refused"] <= 0.01 * row["crashes"]
+            or name == "components and speed of one recorder"
+        ), name
+    momentum, everything = (
+        committed["routes"][name]["half_width"][1] for name in list(scripts[0].ROUTES)[2:]
+    )
     assert everything < 0.6 * momentum
 
 
 def test_a_denser_survey_is_never_worse(committed):
-    """Smoothed, by more than chance: two standard errors of a root mean square of 200, 5 % each. Three points become worse."""
+    """Smoothed, by more than chance: two standard errors of a root mean square of 200, 5 % each.
+    Three points become worse.
+    """
     for coarse, dense in pairwise(committed["survey"]):
         for name in ("smoothed_course", "smoothed_speed"):
             assert dense[name] <= 1.1 * coarse[name]
@@ -61,10 +73,16 @@ def test_a_quick_run_agrees_and_the_page_can_be_drawn(scripts, committed, tmp_pa
     evidence, tables = scripts
     path = tmp_path / "evidence.json"
     script = ROOT / "benchmarks" / "evidence.py"
-    subprocess.run([sys.executable, str(script), "--quick", "--json", str(path)], check=True, capture_output=True, timeout=300)
+    subprocess.run(
+        [sys.executable, str(script), "--quick", "--json", str(path)],
+        check=True,
+        capture_output=True,
+        timeout=300,
+    )
     quick = json.loads(path.read_text("utf-8"))
     for name, row in quick["routes"].items():
-        # Two speeds of a crash err together, so as 12 draws of 0.95: fewer than 9 held by chance once in 500.
+        # Two speeds of a crash err together, so as 12 draws of 0.95: fewer than 9 held by chance
+        # once in 500.
         held = sum(row[key]["held"] for key in ("plain", "warned"))
         assert held >= 0.7 * sum(row[key]["intervals"] for key in ("plain", "warned")), name
     for found in (quick, committed):
@@ -73,7 +91,9 @@ def test_a_quick_run_agrees_and_the_page_can_be_drawn(scripts, committed, tmp_pa
 
 
 def test_what_path_leaves_out_is_what_the_page_says(scripts):
-    """The two errors of the method, of 400 crashes: a tenth of each is chance, of what is left more."""
+    """The two errors of the method, of 400 crashes: a tenth of each is chance, of what is left
+    more.
+    """
     evidence, _ = scripts
     found = evidence.model_error(evidence.crashes(400, evidence.SEED + 1))
     assert found["YAWING"] == pytest.approx(evidence.YAWING, rel=0.05)
@@ -104,12 +124,18 @@ def test_where_the_information_is_lost_each_way_back_refuses_or_warns(capsys):
         exec(cell, names)
     said = re.findall(r"^(?:refused|warned) \((\w+)\)", capsys.readouterr().out, re.MULTILINE)
     along = ["nearly_collinear", "parallel_headings", "nearly_collinear", "undetermined"]
-    cut, fold, spin = ["pulse_cut", "pulse_cut"], ["fold", "failed_cases"], ["wide_segment", "fast_yaw"]
+    cut, fold, spin = (
+        ["pulse_cut", "pulse_cut"],
+        ["fold", "failed_cases"],
+        ["wide_segment", "fast_yaw"],
+    )
     assert said == [*along, *cut, *fold, *spin, "contradictory", "undetermined"]
 
 
 def test_the_worked_case_says_what_came_out():
-    """Its cells, run: every range of the table holds the truth, and the numbers that its text names are still so."""
+    """Its cells, run: every range of the table holds the truth, and the numbers that its text names
+    are still so.
+    """
     cells = cells_of("intersection_case")
     pytest.importorskip("matplotlib").use("agg")
     names = {"display": lambda *shown: None, "Markdown": str}

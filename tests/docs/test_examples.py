@@ -78,7 +78,9 @@ def test_example_runs_and_its_checks_pass(script, elsewhere, tmp_path):
 
 @pytest.mark.slow
 def test_a_failed_comparison_fails_the_example(tmp_path):
-    """The checks at the end are real: with one paper figure altered, the script fails and names it."""
+    """The checks at the end are real: with one paper figure altered, the script fails
+    and names it.
+    """
     script = PAPER.read_text(encoding="utf-8")
     altered = tmp_path / "altered.py"
     altered.write_text(script.replace("950 / 111", "951 / 111"), encoding="utf-8")
@@ -91,8 +93,12 @@ def test_a_failed_comparison_fails_the_example(tmp_path):
 def test_readme_shows_real_output():
     """Every Python block of the README gives the output printed under it."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", collisions.CollisionsWarning)  # one block shows a batch with a refused case
-        failures, attempted = doctest.testfile(str(ROOT / "README.md"), module_relative=False, encoding="utf-8")
+        warnings.simplefilter(
+            "ignore", collisions.CollisionsWarning
+        )  # one block shows a batch with a refused case
+        failures, attempted = doctest.testfile(
+            str(ROOT / "README.md"), module_relative=False, encoding="utf-8"
+        )
     assert attempted > 15
     assert failures == 0
 

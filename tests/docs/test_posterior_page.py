@@ -1,4 +1,6 @@
-"""The page of posteriors: its figures are of a run of the script, and the intervals hold within what the page promises."""
+"""The page of posteriors: its figures are of a run of the script, and the intervals hold within
+what the page promises.
+"""
 
 import json
 import math
@@ -11,7 +13,10 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent.parent
 WRONG = (92, 104, 161, 172)
 
-pytestmark = [pytest.mark.slow, pytest.mark.skipif(not (ROOT / "benchmarks").is_dir(), reason="the sdist has no benchmarks")]
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (ROOT / "benchmarks").is_dir(), reason="the sdist has no benchmarks"),
+]
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +36,15 @@ def script():
 
 def test_a_quick_run_has_the_rows_of_the_committed_file(committed, script, tmp_path):
     path = tmp_path / "posterior.json"
-    command = [sys.executable, str(ROOT / "benchmarks" / "posterior.py"), "--quick", "--json", str(path), "--processes", "1"]
+    command = [
+        sys.executable,
+        str(ROOT / "benchmarks" / "posterior.py"),
+        "--quick",
+        "--json",
+        str(path),
+        "--processes",
+        "1",
+    ]
     subprocess.run(command, check=True, capture_output=True, timeout=300)
     quick = json.loads(path.read_text(encoding="utf-8"))
     for found in (quick, committed):
@@ -45,17 +58,20 @@ def test_a_quick_run_has_the_rows_of_the_committed_file(committed, script, tmp_p
             script.cost_table(found),
         ):
             assert "nan" not in text
-    assert all(scene["replicates"] >= 1000 and len(scene["unknowns"]) >= 6 for scene in committed["scenes"])
+    assert all(
+        scene["replicates"] >= 1000 and len(scene["unknowns"]) >= 6 for scene in committed["scenes"]
+    )
     assert committed["compare"]["crashes"] >= 400
 
 
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize("turn", WRONG)
 def test_evidence_of_crashes_that_went_wrong_against_quadrature(script, turn):
-    """Of 200 simulated crashes those in which the wrong account was stated the more probable, at 0.7 or more.
+    """Of 200 simulated crashes those in which the wrong account was stated the more probable, at
+    0.7 or more.
 
-    Both speeds unknown, the rest as it was: by the midpoint rule on 700 x 700 cells of 0.03 m/s, a tenth of what the readings
-    leave. Within five stated errors, and both accounts so.
+    Both speeds unknown, the rest as it was: by the midpoint rule on 700 x 700 cells of 0.03 m/s, a
+    tenth of what the readings leave. Within five stated errors, and both accounts so.
     """
     scene, random = script.BY_KEY["marks"], script.np.random.default_rng([script.SEED, 99, turn])
     assert not random.random() < 0.5
@@ -66,7 +82,10 @@ def test_evidence_of_crashes_that_went_wrong_against_quadrature(script, turn):
     grid = dict(
         zip(
             speeds,
-            (part.ravel() for part in script.np.meshgrid(*(one.quantile(share) for one in speeds.values()))),
+            (
+                part.ravel()
+                for part in script.np.meshgrid(*(one.quantile(share) for one in speeds.values()))
+            ),
             strict=True,
         )
     )
@@ -79,13 +98,21 @@ def test_evidence_of_crashes_that_went_wrong_against_quadrature(script, turn):
         log = 0.0
         for name, computed in model(**grid).items():
             mean, error = observed[name].given_mean, observed[name].given_sd
-            log = log - 0.5 * ((mean - computed) / error) ** 2 - math.log(error * math.sqrt(2.0 * math.pi))
-        exact = math.log(script.np.mean(script.np.exp(log - script.np.max(log)))) + script.np.max(log)
+            log = (
+                log
+                - 0.5 * ((mean - computed) / error) ** 2
+                - math.log(error * math.sqrt(2.0 * math.pi))
+            )
+        exact = math.log(script.np.mean(script.np.exp(log - script.np.max(log)))) + script.np.max(
+            log
+        )
         assert abs(found.log_evidence - exact) <= 5.0 * found.log_evidence_error
 
 
 def test_intervals_hold_at_their_rate(committed, script):
-    """Counts of each unknown within 3.5 binomial errors, of all unknowns of a scene within what half as many would leave open."""
+    """Counts of each unknown within 3.5 binomial errors, of all unknowns of a scene within what
+    half as many would leave open.
+    """
     for scene in committed["scenes"]:
         tried = scene["replicates"]
         for k, share in enumerate(script.COVERAGES):
@@ -112,11 +139,15 @@ def test_stated_probabilities_of_accounts_come_true(committed):
     assert sum(row["crashes"] for row in rows) == committed["compare"]["crashes"]
     for row in rows:
         stated, crashes = row["stated"], row["crashes"]
-        assert abs(row["true"] - stated * crashes) <= 3.0 * (stated * (1.0 - stated) * crashes) ** 0.5, row
+        assert (
+            abs(row["true"] - stated * crashes) <= 3.0 * (stated * (1.0 - stated) * crashes) ** 0.5
+        ), row
 
 
 def test_errors_of_sampling_are_as_stated(committed):
-    """Scatter over ten seeds against the stated error, which is of seven degrees of freedom: within a factor of two and a half."""
+    """Scatter over ten seeds against the stated error, which is of seven degrees of freedom: within
+    a factor of two and a half.
+    """
     for row in committed["cost"]:
         for name in ("mean", "evidence"):
             assert 0.2 < row[name] / row[f"{name}_stated"] < 2.5, row

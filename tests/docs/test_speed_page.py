@@ -1,4 +1,6 @@
-"""The page "Speed against accuracy" has every row it shows, and the errors it shows are those of the solvers; no time is judged."""
+"""The page "Speed against accuracy" has every row it shows, and the errors it shows are those of
+the solvers; no time is judged.
+"""
 
 import ast
 import inspect
@@ -22,7 +24,10 @@ PAGE = ROOT / "docs" / "speed_against_accuracy.md"
 # Rows of what need not be installed.
 OPTIONAL = {"numba", "numba_threads", "pymunk"}
 
-pytestmark = [pytest.mark.slow, pytest.mark.skipif(not (ROOT / "benchmarks").is_dir(), reason="the sdist has no benchmarks")]
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (ROOT / "benchmarks").is_dir(), reason="the sdist has no benchmarks"),
+]
 
 
 @pytest.fixture(scope="module")
@@ -47,28 +52,48 @@ def quick(tmp_path_factory):
     """The same of a quick run of the script."""
     path = tmp_path_factory.mktemp("speed") / "speed.json"
     script = ROOT / "benchmarks" / "speed.py"
-    subprocess.run([sys.executable, str(script), "--quick", "--json", str(path)], check=True, capture_output=True, timeout=120)
-    return tuple(json.loads(file.read_text(encoding="utf-8")) for file in (path, path.with_name("time_resolved.json")))
+    subprocess.run(
+        [sys.executable, str(script), "--quick", "--json", str(path)],
+        check=True,
+        capture_output=True,
+        timeout=120,
+    )
+    return tuple(
+        json.loads(file.read_text(encoding="utf-8"))
+        for file in (path, path.with_name("time_resolved.json"))
+    )
 
 
 def keys(found):
     """Every row of a file of numbers, by its group."""
-    groups = {group: {row["key"] for row in found[group]} - OPTIONAL for group in ("single", "batch", "budgets")}
-    groups |= {group: {curve["key"] for curve in found["errors"][group]} for group in ("levers", "angles")}
-    return groups | {"imports": set(found["imports"]["rows"]), "choices": set(found["errors"]["choices"])}
+    groups = {
+        group: {row["key"] for row in found[group]} - OPTIONAL
+        for group in ("single", "batch", "budgets")
+    }
+    groups |= {
+        group: {curve["key"] for curve in found["errors"][group]} for group in ("levers", "angles")
+    }
+    return groups | {
+        "imports": set(found["imports"]["rows"]),
+        "choices": set(found["errors"]["choices"]),
+    }
 
 
 def shown(tables, found, contacts):
     """Every table that the page shows, by the call that makes it."""
     calls = re.findall(r"tables\.(\w+)\((\w+)(?:, \"(\w+)\")?\)", PAGE.read_text(encoding="utf-8"))
     given = {"found": found, "contacts": contacts, "rungs": tables.load_ladder()}
-    return {call: getattr(tables, call[0])(given[call[1]], *filter(None, call[2:])) for call in calls}
+    return {
+        call: getattr(tables, call[0])(given[call[1]], *filter(None, call[2:])) for call in calls
+    }
 
 
 def test_a_quick_run_has_the_rows_of_the_committed_file(quick, committed):
     """So that the file was written by this script, and the script runs."""
     assert keys(quick[0]) == keys(committed[0])
-    assert [row["name"] for row in quick[1]["rows"]] == [row["name"] for row in committed[1]["rows"]]
+    assert [row["name"] for row in quick[1]["rows"]] == [
+        row["name"] for row in committed[1]["rows"]
+    ]
 
 
 @pytest.mark.parametrize("which", ["quick", "committed"])
@@ -76,7 +101,16 @@ def test_every_table_of_the_page_can_be_made(tables, request, which):
     """Also where numba and pymunk were not measured."""
     found, contacts = request.getfixturevalue(which)
     made = shown(tables, found, contacts)
-    assert {call[0] for call in made} >= {"machine", "choices", "costs", "budgets", "curves", "contacts", "rivals", "imports"}
+    assert {call[0] for call in made} >= {
+        "machine",
+        "choices",
+        "costs",
+        "budgets",
+        "curves",
+        "contacts",
+        "rivals",
+        "imports",
+    }
     assert all("nan" not in text for text in made.values())
     without = json.loads(json.dumps(found))
     for group in ("single", "batch"):
@@ -118,9 +152,15 @@ def ladder():
 
 
 def test_every_rung_is_nearer_than_the_one_before(tables):
-    """From linear_central to 200 steps; the tyres from outside take most of what tyres alone leave, as far as they are estimated."""
+    """From linear_central to 200 steps; the tyres from outside take most of what tyres alone leave,
+    as far as they are estimated.
+    """
     found = tables.load_ladder()
-    medians = [row["median"] for name, row in found["rungs"].items() if not name.endswith(", from maximum engagement")]
+    medians = [
+        row["median"]
+        for name, row in found["rungs"].items()
+        if not name.endswith(", from maximum engagement")
+    ]
     assert len(medians) == 10
     assert medians == sorted(medians, reverse=True)
     assert all(row["no_answer"] == 0 for row in found["rungs"].values())
@@ -130,16 +170,20 @@ def test_every_rung_is_nearer_than_the_one_before(tables):
 
 
 def test_what_stronge_and_brach_differ_by_in_traffic(ladder):
-    """The design's figures: the same where the slip goes on, a third of traffic; sticking 0.2 % in the median; reversing, which
-    is rare, 5 %, up to 30 %.
+    """The design's figures: the same where the slip goes on, a third of traffic; sticking 0.2 % in
+    the median; reversing, which is rare, 5 %, up to 30 %.
 
-    To the one digit that other draws of such traffic share; of 20,000 impacts 165 reverse, whose median is known to a tenth.
-    What slides on is the same but for the rounding of both.
+    To the one digit that other draws of such traffic share; of 20,000 impacts 165 reverse, whose
+    median is known to a tenth. What slides on is the same but for the rounding of both.
     """
     scene = ladder.traffic(20_000)
-    stronge, brach = (ladder.solved(scene, ladder.col.eccentric, law=law) for law in ("stronge", "brach"))
+    stronge, brach = (
+        ladder.solved(scene, ladder.col.eccentric, law=law) for law in ("stronge", "brach")
+    )
     _, share = ladder.apart(stronge, brach)
-    found = {regime: share[stronge.regime == regime] for regime in ("sliding", "sticking", "reversing")}
+    found = {
+        regime: share[stronge.regime == regime] for regime in ("sliding", "sticking", "reversing")
+    }
     assert found["sliding"].size / 20_000 == pytest.approx(1 / 3, abs=0.05)
     assert found["sliding"].max() < 16 * np.finfo(float).eps
     assert np.median(found["sticking"]) == pytest.approx(0.002, abs=0.0005)
@@ -170,7 +214,10 @@ def test_the_rungs_measured_again_are_the_committed_ones(tables, ladder):
     assert again["rungs"].keys() == found["rungs"].keys()
     for name, row in again["rungs"].items():
         for figure in ("median", "most_of_10"):
-            assert row[figure] == pytest.approx(found["rungs"][name][figure], rel=THREE_DIGITS), (name, figure)
+            assert row[figure] == pytest.approx(found["rungs"][name][figure], rel=THREE_DIGITS), (
+                name,
+                figure,
+            )
     for place, medians in again["tyres_alone"].items():
         assert medians == pytest.approx(found["tyres_alone"][place], rel=THREE_DIGITS), place
     for one, other in zip(again["by_closing_speed"], found["by_closing_speed"], strict=True):
@@ -191,11 +238,15 @@ def yardsticks():
 
 
 def test_the_yardsticks_square_by_a_product(yardsticks):
-    """``x**2`` takes Python several times as long as ``x * x``, which the formula in C has too: no ratio is to gain by that."""
+    """``x**2`` takes Python several times as long as ``x * x``, which the formula in C has too: no
+    ratio is to gain by that.
+    """
     made = ("speed_rivals", "formula"), ("batch_speed", "textbook"), ("budgets", "textbook_linear")
     for module, name in made:
         tree = ast.parse(textwrap.dedent(inspect.getsource(getattr(yardsticks[module], name))))
-        assert not [node for node in ast.walk(tree) if isinstance(node, ast.Pow)], f"{module}.{name}"
+        assert not [node for node in ast.walk(tree) if isinstance(node, ast.Pow)], (
+            f"{module}.{name}"
+        )
     assert "pow(" not in (ROOT / "benchmarks" / "formula.c").read_text(encoding="utf-8")
 
 
@@ -231,15 +282,19 @@ def car(**given):
 
 
 def test_errors_over_the_lever_are_those_of_the_solvers(committed):
-    """One car off-centre, worked out here again; delta-V alone is half of (lever / radius of gyration) squared."""
+    """One car off-centre, worked out here again; delta-V alone is half of (lever / radius of
+    gyration) squared.
+    """
     curve = next(curve for curve in committed[0]["errors"]["levers"] if curve["key"] == "one")
     gyration = math.sqrt(2400.0 / 1500.0)
     cheap = col.oblique_central(car(vx=15.0), car(), 0.1, normal=0.0, friction=0.0)
     for x, error, share, alone, predicted in zip(
-        *(curve[name] for name in ("x", "error", "share", "delta_v_share", "predicted")), strict=True
+        *(curve[name] for name in ("x", "error", "share", "delta_v_share", "predicted")),
+        strict=True,
     ):
         a, b = (
-            car(yaw_inertia=2400.0, **where) for where in ({"vx": 15.0, "x": -1.9, "y": 0.0}, {"x": 1.9, "y": x * gyration})
+            car(yaw_inertia=2400.0, **where)
+            for where in ({"vx": 15.0, "x": -1.9, "y": 0.0}, {"x": 1.9, "y": x * gyration})
         )
         full = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.0)
         off = math.hypot(full.b.delta_vx - cheap.b.delta_vx, gyration * full.b.delta_yaw_rate)
@@ -250,16 +305,24 @@ def test_errors_over_the_lever_are_those_of_the_solvers(committed):
 
 
 def test_errors_over_the_angle_are_those_of_the_solvers(committed):
-    """Ignored, the angle costs 1/cos - 1; friction left out costs what the friction impulse is of the whole."""
+    """Ignored, the angle costs 1/cos - 1; friction left out costs what the friction impulse is of
+    the whole.
+    """
     curves = {curve["key"]: curve for curve in committed[0]["errors"]["angles"]}
     for angle, share in zip(curves["ignored"]["x"], curves["ignored"]["share"], strict=True):
-        assert share == pytest.approx(1.0 / math.cos(math.radians(angle)) - 1.0, rel=THREE_DIGITS, abs=1e-12)
+        assert share == pytest.approx(
+            1.0 / math.cos(math.radians(angle)) - 1.0, rel=THREE_DIGITS, abs=1e-12
+        )
     for friction in (0.1, 0.5):
         curve = curves[f"linear_{friction}"]
-        for angle, share, predicted, error in zip(*(curve[name] for name in ("x", "share", "predicted", "error")), strict=True):
+        for angle, share, predicted, error in zip(
+            *(curve[name] for name in ("x", "share", "predicted", "error")), strict=True
+        ):
             a = car(vx=15.0, vy=15.0 * math.tan(math.radians(angle)))
             full = col.oblique_central(a, car(), 0.1, normal=0.0, friction=friction)
-            assert share == pytest.approx(abs(full.b.delta_vy) / full.b.delta_v, rel=THREE_DIGITS, abs=1e-12)
+            assert share == pytest.approx(
+                abs(full.b.delta_vy) / full.b.delta_v, rel=THREE_DIGITS, abs=1e-12
+            )
             assert predicted == pytest.approx(error, rel=THREE_DIGITS, abs=1e-12)
 
 
@@ -269,11 +332,15 @@ def test_every_prediction_is_the_error_made(committed):
         for curve in committed[0]["errors"][group]:
             assert (curve["predicted"] is None) == (curve["key"] == "ignored")
             if curve["predicted"] is not None:
-                assert curve["predicted"] == pytest.approx(curve["error"], rel=THREE_DIGITS, abs=1e-12), curve["key"]
+                assert curve["predicted"] == pytest.approx(
+                    curve["error"], rel=THREE_DIGITS, abs=1e-12
+                ), curve["key"]
 
 
 def test_errors_of_the_choices_are_found_again(committed):
-    """From the seeded scenes: to the digits that are kept; what is rounding, to a fifth, as another numpy may round otherwise."""
+    """From the seeded scenes: to the digits that are kept; what is rounding, to a fifth, as another
+    numpy may round otherwise.
+    """
     sys.path.insert(0, str(ROOT / "benchmarks"))
     try:
         import speed_errors
@@ -287,25 +354,33 @@ def test_errors_of_the_choices_are_found_again(committed):
             continue
         assert errors.keys() == again[key].keys()
         for name, value in errors.items():
-            assert value == pytest.approx(again[key][name], rel=0.2 if key in rounding else THREE_DIGITS), (key, name)
+            assert value == pytest.approx(
+                again[key][name], rel=0.2 if key in rounding else THREE_DIGITS
+            ), (key, name)
 
 
 def test_both_formulas_in_64_bits_are_measured_alike(committed):
-    """Against 60 digits: in ordinary traffic each errs by about an eps of delta-V, and neither by nothing."""
+    """Against 60 digits: in ordinary traffic each errs by about an eps of delta-V, and neither by
+    nothing.
+    """
     choices = committed[0]["errors"]["choices"]
     for key in ("float64", "textbook"):
         assert 2.0**-54 < choices[key]["mean"] < 2.0**-51
 
 
 def test_the_other_law_is_compared_where_it_sticks(committed):
-    """Restitution is 0 to 0.4, and both laws agree at 0 and where the contact slides: 0.5 percent over all, 0.9 over these."""
+    """Restitution is 0 to 0.4, and both laws agree at 0 and where the contact slides: 0.5 percent
+    over all, 0.9 over these.
+    """
     law = committed[0]["errors"]["choices"]["law"]
     assert law["sticking"] == pytest.approx(0.58, abs=0.01)
     assert law["mean"] * law["sticking"] == pytest.approx(0.00515, rel=0.02)
 
 
 def test_memory_of_a_batch_is_stated(tables, committed):
-    """All work in blocks: a whole array of a million cases is 7.6 MiB, and left_out has some 150 of a block of 16384 cases."""
+    """All work in blocks: a whole array of a million cases is 7.6 MiB, and left_out has some 150 of
+    a block of 16384 cases.
+    """
     taken = committed[0]["memory"]
     assert taken["eccentric"] < 8.0
     assert taken["solve"] < 8.0
@@ -316,7 +391,9 @@ def test_memory_of_a_batch_is_stated(tables, committed):
 
 
 def test_errors_of_the_choices_are_what_the_page_says(committed):
-    """solve keeps its tolerance and takes every model; float32 and the other formulas agree with eccentric."""
+    """solve keeps its tolerance and takes every model; float32 and the other formulas agree with
+    eccentric.
+    """
     choices = committed[0]["errors"]["choices"]
     solve = choices["solve"]
     assert solve["most"] <= solve["tolerance"]

@@ -1,4 +1,6 @@
-"""The page "Numerical stability" says what is so: its numbers are those of its script, and they keep the promises."""
+"""The page "Numerical stability" says what is so: its numbers are those of its script, and they
+keep the promises.
+"""
 
 import json
 import math
@@ -12,7 +14,10 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent.parent
 PAGE = ROOT / "docs" / "numerical_stability.md"
 
-pytestmark = [pytest.mark.slow, pytest.mark.skipif(not (ROOT / "benchmarks").is_dir(), reason="the sdist has no benchmarks")]
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (ROOT / "benchmarks").is_dir(), reason="the sdist has no benchmarks"),
+]
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +54,9 @@ def test_every_committed_error_keeps_its_promise(found):
 
 
 def test_what_came_after_the_first_laws_keeps_the_promises(scripts, found):
-    """Energetic restitution, incomplete impacts and impulses from outside those of the first laws; contacts in steps their own."""
+    """Energetic restitution, incomplete impacts and impulses from outside those of the first laws;
+    contacts in steps their own.
+    """
     stability, _ = scripts
     promised = {row["key"]: row["eps"] for row in found["promises"]}
     assert [row["name"] for row in found["later"]] == list(stability.LATER)
@@ -68,16 +75,20 @@ def test_what_came_after_the_first_laws_keeps_the_promises(scripts, found):
 def test_the_file_has_the_regimes_and_promises_of_the_script(scripts, found):
     """Nothing was added to or left out of the script since the file was written."""
     stability, _ = scripts
-    assert [entry["key"] for entry in found["regimes"]] == [regime.key for regime in stability.REGIMES]
+    assert [entry["key"] for entry in found["regimes"]] == [
+        regime.key for regime in stability.REGIMES
+    ]
     assert [(row["output"], row["eps"], row["scale"]) for row in found["promises"]] == [
         (promise.output, promise.eps, promise.scale) for promise in stability.PROMISES
     ]
 
 
 def test_the_errors_of_steps_measured_again_are_the_committed_ones(scripts, monkeypatch):
-    """To the two digits that are kept, where they are the same cases; of a tenth of them the median, which varies little.
+    """To the two digits that are kept, where they are the same cases; of a tenth of them the
+    median, which varies little.
 
-    The table of the page is made from them: the worst is over all cases, and twice the steps have a quarter of the error.
+    The table of the page is made from them: the worst is over all cases, and twice the steps have a
+    quarter of the error.
     """
     monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
     import steps
@@ -95,14 +106,18 @@ def test_the_errors_of_steps_measured_again_are_the_committed_ones(scripts, monk
     assert committed["fixed"]["median"] == pytest.approx(np.median(again, axis=0), rel=0.06)
     assert np.all(np.max(again, axis=0) < 1.06 * np.array(committed["fixed"]["worst"]))
     for key in ("barrier", "fixed", "sliding"):
-        assert committed[key]["median"][0] == pytest.approx(4.0 * committed[key]["median"][1], rel=0.06)
+        assert committed[key]["median"][0] == pytest.approx(
+            4.0 * committed[key]["median"][1], rel=0.06
+        )
     text = scripts[1].of_steps(found)
     assert all(scripts[1].number(row["worst"][0]) in text for row in found["rows"])
 
 
 @pytest.mark.parametrize("regime", ["traffic", "slow"])
 def test_a_regime_measured_again_gives_the_committed_figures(scripts, found, regime):
-    """Two regimes again: the same figures but for the last digits, which another platform may round otherwise."""
+    """Two regimes again: the same figures but for the last digits, which another platform may round
+    otherwise.
+    """
     stability, _ = scripts
     again = stability.regime(next(which for which in stability.REGIMES if which.key == regime))
     was = next(entry for entry in found["regimes"] if entry["key"] == regime)
@@ -110,7 +125,10 @@ def test_a_regime_measured_again_gives_the_committed_figures(scripts, found, reg
     assert again["compared"].keys() == was["compared"].keys()
     for key, entry in again["compared"].items():
         for who in ("library", "textbook"):
-            assert entry[who] == pytest.approx(was["compared"][key][who], rel=0.5, abs=0.5), (key, who)
+            assert entry[who] == pytest.approx(was["compared"][key][who], rel=0.5, abs=0.5), (
+                key,
+                who,
+            )
 
 
 @pytest.mark.parametrize(
@@ -135,7 +153,9 @@ def test_the_textbook_form_is_worse_where_the_page_says_so(found, regime, output
 
 
 def test_a_barrier_has_no_textbook_energy(found):
-    """Equation 7 gives no number for an infinite mass; the closing speed and the impulse are fine."""
+    """Equation 7 gives no number for an infinite mass; the closing speed and the
+    impulse are fine.
+    """
     entries = compared(found, "barrier")
     assert entries["loss"]["textbook"] is None
     for key in ("closing", "P", "w"):
@@ -144,11 +164,15 @@ def test_a_barrier_has_no_textbook_energy(found):
 
 
 def test_errors_of_ill_conditioned_impacts_are_those_of_their_data(found):
-    """The library is off by what one eps in the data does to the exact answer; by more where a contact is almost singular."""
+    """The library is off by what one eps in the data does to the exact answer; by more where a
+    contact is almost singular.
+    """
     for condition in found["conditions"]:
         for row in condition["rows"]:
             assert row["library"] <= row["promise"], row
-            assert row["library_over_one_eps"] < (100.0 if condition["key"] == "kappa_s" and row["kappa"] > 1e11 else 2.0), row
+            assert row["library_over_one_eps"] < (
+                100.0 if condition["key"] == "kappa_s" and row["kappa"] > 1e11 else 2.0
+            ), row
 
 
 def test_float32_keeps_the_same_number_of_its_own_eps(found):
@@ -179,7 +203,9 @@ def test_the_page_shows_every_table_and_names_every_promise(scripts, found):
 
 
 def test_every_promise_is_one_the_tests_assert(scripts):
-    """All that test_reference.py measures of the planar solvers is a row of the page, with the same number of eps."""
+    """All that test_reference.py measures of the planar solvers is a row of the page, with the same
+    number of eps.
+    """
     stability, _ = scripts
     scene, answer = stability.known("A pinned", "brach", "friction")[0]
     free, answer_free = stability.known("traffic", "brach", "friction")[0]
@@ -187,12 +213,18 @@ def test_every_promise_is_one_the_tests_assert(scripts):
     for case, known in ((scene, answer), (free, answer_free)):
         outputs = stability.asserted._outputs(stability.solved("eccentric", case))
         for measure in stability.asserted.PROMISES:
-            names |= {name.removeprefix("a.").removeprefix("b.") for name, _, _ in measure(case, known, outputs)}
+            names |= {
+                name.removeprefix("a.").removeprefix("b.")
+                for name, _, _ in measure(case, known, outputs)
+            }
         for entry in stability.measured(case, known, outputs):
             assert entry.key in {promise.key for promise in stability.PROMISES}
-    # The separation speed is the closing speed times e and one more rounding: it has no row of its own.
+    # The separation speed is the closing speed times e and one more rounding: it has no row of its
+    # own.
     assert names - {"separation_speed"} == set(stability.OF_NAME)
     closing = next(
-        bound for name, _, bound in stability.asserted.closing_and_slip(free, answer_free, outputs) if name == "closing_speed"
+        bound
+        for name, _, bound in stability.asserted.closing_and_slip(free, answer_free, outputs)
+        if name == "closing_speed"
     )
     assert math.isclose(closing, 4 * stability.EPS * float(answer_free.s_u))

@@ -1,4 +1,6 @@
-"""The page "Validation" says what is so: its numbers are those of its runner now, and no record of the data is missing."""
+"""The page "Validation" says what is so: its numbers are those of its runner now, and no record of
+the data is missing.
+"""
 
 import csv
 import importlib
@@ -18,7 +20,9 @@ PACK = ROOT / "validation"
 PAGE = ROOT / "docs" / "validation.md"
 TABLES = ("agreement", "fits", "predictions")
 
-pytestmark = pytest.mark.skipif(not (PACK / "run.py").is_file(), reason="this copy has no validation pack")
+pytestmark = pytest.mark.skipif(
+    not (PACK / "run.py").is_file(), reason="this copy has no validation pack"
+)
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +31,8 @@ def scripts():
     sys.path.insert(0, str(PACK))
     try:
         names = (
-            "published_records", "measured_fits", "untuned_predictions", "other_lists", "validation_tables", "run",
+            "published_records", "measured_fits", "untuned_predictions", "other_lists",
+            "validation_tables", "run",
         )  # fmt: skip
         yield {name: importlib.import_module(name) for name in names}
     finally:
@@ -44,7 +49,9 @@ def again(scripts):
 @pytest.fixture(scope="module")
 def found():
     """The committed numbers."""
-    return json.loads((ROOT / "docs" / "_generated" / "validation.json").read_text(encoding="utf-8"))
+    return json.loads(
+        (ROOT / "docs" / "_generated" / "validation.json").read_text(encoding="utf-8")
+    )
 
 
 def figures(table):
@@ -54,8 +61,8 @@ def figures(table):
 def same(ours, committed, where=""):
     """The same structure and texts, and the same numbers to rounding.
 
-    Computed figures are rounded to ten digits, so another platform may differ by one in the tenth (1e-9). Of a difference in percent
-    that is 1e-7.
+    Computed figures are rounded to ten digits, so another platform may differ by one in the tenth
+    (1e-9). Of a difference in percent that is 1e-7.
     """
     if isinstance(committed, dict):
         assert list(ours) == list(committed), where
@@ -106,7 +113,9 @@ def test_every_record_is_in_exactly_one_table_or_list(found):
     assert len(per_file) == 5
     named = [record.partition(": ")[0] for record in found["records"]]
     assert {name: named.count(name) for name in per_file} == per_file
-    placed = [record for table in TABLES for case in found[table]["cases"] for record in case["records"]]
+    placed = [
+        record for table in TABLES for case in found[table]["cases"] for record in case["records"]
+    ]
     placed += [record for case in found["nothing_published"] for record in case["records"]]
     placed += [record for entry in found["inputs_only"] for record in entry["records"]]
     assert len(placed) == len(set(placed)) == sum(per_file.values())
@@ -128,15 +137,24 @@ def test_a_record_left_out_or_counted_twice_stops_the_runner(scripts, found):
 
 
 def test_every_published_output_is_compared_or_said_not_to_be(found):
-    """Of each worked example, each published figure has its row; those that have none are named in the list of reasons."""
+    """Of each worked example, each published figure has its row; those that have none are named in
+    the list of reasons.
+    """
     cases = json.loads((PACK / "data" / "worked_examples.json").read_text(encoding="utf-8"))
     compared = {}
     for table in TABLES:
         for case, figure in figures(found[table]):
             for record in case["records"]:
-                compared.setdefault(record.removeprefix("worked_examples.json: "), set()).add(figure["name"])
+                compared.setdefault(record.removeprefix("worked_examples.json: "), set()).add(
+                    figure["name"]
+                )
     said = " ".join(entry["record"] + " " + entry["what"] for entry in found["not_computed"])
-    same_test = {"dVx": "delta-V rearward", "dVy": "delta-V to the right", "d_omega": "yaw rate", "dV": "delta-V"}
+    same_test = {
+        "dVx": "delta-V rearward",
+        "dVy": "delta-V to the right",
+        "d_omega": "yaw rate",
+        "dV": "delta-V",
+    }
     missing = []
     for case in cases:
         for name in case["published_outputs"]:
@@ -155,67 +173,99 @@ def test_printed_figures_are_those_of_the_data(found):
     cases = {case["id"]: case for case in json.loads(text, parse_float=Decimal, parse_int=Decimal)}
     for case, figure in figures(found["agreement"]):
         if case["key"] != "E12":  # published as formulas
-            assert figure["printed"] == str(cases[case["key"]]["published_outputs"][figure["name"]]["value"])
+            assert figure["printed"] == str(
+                cases[case["key"]]["published_outputs"][figure["name"]]["value"]
+            )
     with open(PACK / "data" / "small_overlap_barrier.csv", newline="", encoding="utf-8") as file:
         rows = {row["test_id"]: row for row in csv.DictReader(file)}
     barrier = [(case, figure) for case, figure in figures(found["fits"]) if case["key"] != "L11"]
     assert len(barrier) == 4 * len(rows) == 40
     columns = {
-        "delta-V rearward": "measured_delta_vx_ft_s_rearward", "delta-V to the right": "measured_delta_vy_ft_s",
+        "delta-V rearward": "measured_delta_vx_ft_s_rearward",
+        "delta-V to the right": "measured_delta_vy_ft_s",
         "delta-V": "root_sum_square_of_measured_ft_s", "yaw rate": "measured_delta_yaw_rate_deg_s",
     }  # fmt: skip
     for case, figure in barrier:
         assert figure["printed"] == rows[case["key"]][columns[figure["name"]]]
     for row in rows.values():
-        across = math.hypot(float(row["measured_delta_vx_ft_s_rearward"]), float(row["measured_delta_vy_ft_s"]))
+        across = math.hypot(
+            float(row["measured_delta_vx_ft_s_rearward"]), float(row["measured_delta_vy_ft_s"])
+        )
         assert float(row["root_sum_square_of_measured_ft_s"]) == pytest.approx(across, abs=0.0051)
 
 
 def test_computed_figures_are_those_worked_out_apart(found):
-    """Table 1 and 2 against the recomputed figures of the data, where those are of the same name: half a unit of their last digit."""
+    """Table 1 and 2 against the recomputed figures of the data, where those are of the same name:
+    half a unit of their last digit.
+    """
     cases = {case["id"]: case for case in json.loads(
-        (PACK / "data" / "worked_examples.json").read_text(encoding="utf-8"), parse_float=Decimal, parse_int=Decimal
+        (PACK / "data" / "worked_examples.json").read_text(encoding="utf-8"), parse_float=Decimal,
+            parse_int=Decimal
     )}  # fmt: skip
     seen = 0
     for case, figure in figures(found["agreement"]):
         entry = cases[case["key"]]["recomputed_outputs"].get(figure["name"])
         if not isinstance(entry, dict) or (case["key"], figure["name"]) == ("E07", "KE_dissipated"):
-            continue  # that one is worth less than its digits: the contact points are printed to 1e-7 ft
+            # that one is worth less than its digits: the contact points are printed to 1e-7 ft
+            continue
         half = 0.5 * 10.0 ** entry["value"].as_tuple().exponent
-        assert abs(figure["computed"] - float(entry["value"])) <= half * (1 + 1e-6), (case["key"], figure["name"])
+        assert abs(figure["computed"] - float(entry["value"])) <= half * (1 + 1e-6), (
+            case["key"],
+            figure["name"],
+        )
         seen += 1
     assert seen > 45
     with open(PACK / "data" / "small_overlap_barrier.csv", newline="", encoding="utf-8") as file:
         rows = {row["test_id"]: row for row in csv.DictReader(file)}
     columns = {
-        "delta-V rearward": "recomputed_delta_vx_ft_s_rearward", "delta-V to the right": "recomputed_delta_vy_ft_s_to_right",
+        "delta-V rearward": "recomputed_delta_vx_ft_s_rearward",
+        "delta-V to the right": "recomputed_delta_vy_ft_s_to_right",
         "delta-V": "recomputed_delta_v_ft_s", "yaw rate": "recomputed_delta_yaw_rate_deg_s_ccw",
     }  # fmt: skip
     for case, figure in figures(found["fits"]):
         if case["key"] in rows:
             apart = rows[case["key"]][columns[figure["name"]]]
             half = 0.5 * 10.0 ** Decimal(apart).as_tuple().exponent
-            assert abs(figure["by_law"]["brach"]["computed"] - float(apart)) <= half * (1 + 1e-6), (case["key"], figure["name"])
+            assert abs(figure["by_law"]["brach"]["computed"] - float(apart)) <= half * (1 + 1e-6), (
+                case["key"],
+                figure["name"],
+            )
 
 
 def test_the_other_law_is_that_worked_out_apart(found):
     """E03 and E06 with the whole compression impulse times 1 + e, as printed beside the data."""
-    cases = json.loads((PACK / "data" / "worked_examples.json").read_text(encoding="utf-8"), parse_float=Decimal)
+    cases = json.loads(
+        (PACK / "data" / "worked_examples.json").read_text(encoding="utf-8"), parse_float=Decimal
+    )
     for case in cases:
         expected = case["recomputed_outputs"].get("if_whole_impulse_scaled_by_1_plus_e")
         if expected is None:
             continue
         (ours,) = (entry for entry in found["agreement"]["cases"] if entry["key"] == case["id"])
-        by_name = {figure["name"]: figure["by_law"]["kudlich-slibar"]["computed"] for figure in ours["figures"]}
+        by_name = {
+            figure["name"]: figure["by_law"]["kudlich-slibar"]["computed"]
+            for figure in ours["figures"]
+        }
         for name in ("dV1", "d_omega1", "dV2", "d_omega2"):
-            half = 0.5 * 10.0 ** expected[name].as_tuple().exponent if isinstance(expected[name], Decimal) else 0.5
-            assert abs(by_name[name] - float(expected[name])) <= half * (1 + 1e-9), (case["id"], name)
+            half = (
+                0.5 * 10.0 ** expected[name].as_tuple().exponent
+                if isinstance(expected[name], Decimal)
+                else 0.5
+            )
+            assert abs(by_name[name] - float(expected[name])) <= half * (1 + 1e-9), (
+                case["id"],
+                name,
+            )
 
 
 def test_both_laws_are_on_every_figure_with_friction(found):
-    """And on no other; the law of the case is one of the two, and its figure is the computed one."""
+    """And on no other; the law of the case is one of the two, and its figure is the
+    computed one.
+    """
     with_friction = {"M01", "M03", "M05", "M07", "E03", "E06", "E07", "E12"}
-    assert {case["key"] for case, figure in figures(found["agreement"]) if "by_law" in figure} == with_friction
+    assert {
+        case["key"] for case, figure in figures(found["agreement"]) if "by_law" in figure
+    } == with_friction
     for table in (found["agreement"], found["fits"], found["fits"]["held_out"]):
         for case, figure in figures(table):
             assert ("by_law" in figure) == (case["law"] is not None)
@@ -232,27 +282,39 @@ def test_the_laws_differ_where_the_page_says_so(found):
         case["key"]
         for case, figure in figures(found["agreement"])
         if "by_law" in figure
-        and figure["by_law"]["brach"]["computed"] != pytest.approx(figure["by_law"]["kudlich-slibar"]["computed"], rel=1e-8)
+        and figure["by_law"]["brach"]["computed"]
+        != pytest.approx(figure["by_law"]["kudlich-slibar"]["computed"], rel=1e-8)
     }
     assert differ == {"E03", "E06"}
 
 
 def test_nothing_off_print_goes_without_a_reason(found):
-    """A figure of table 1 off by more than half a unit is a misprint or has its reason beside it, and the reasons are few."""
-    off = [(case["key"], figure) for case, figure in figures(found["agreement"]) if not figure["within_print"]]
+    """A figure of table 1 off by more than half a unit is a misprint or has its reason beside it,
+    and the reasons are few.
+    """
+    off = [
+        (case["key"], figure)
+        for case, figure in figures(found["agreement"])
+        if not figure["within_print"]
+    ]
     for key, figure in off:
         assert figure["remark"] or figure["wrong"], (key, figure["name"])
         if not figure["wrong"]:
             assert abs(figure["difference"]) < 0.35, (key, figure["name"])
     assert {(key, figure["name"]) for key, figure in off if figure["wrong"]} == {
-        ("L03", "v1_before"), ("L03", "v1_after"), ("M03", "direction"), ("M07", "speed"), ("M07", "direction"),
+        ("L03", "v1_before"), ("L03", "v1_after"), ("M03", "direction"), ("M07", "speed"),
+            ("M07", "direction"),
         ("O02", "speed_ratio"), ("E03", "d_omega1"),
     }  # fmt: skip
-    assert not any(figure["wrong"] and figure["within_print"] for _, figure in figures(found["agreement"]))
+    assert not any(
+        figure["wrong"] and figure["within_print"] for _, figure in figures(found["agreement"])
+    )
 
 
 def test_statistics_are_those_of_the_rows(found):
-    """Bias, median, worst and the counts, worked out again from the rows; no table has a figure of another."""
+    """Bias, median, worst and the counts, worked out again from the rows; no table has a figure of
+    another.
+    """
     for table in (*(found[name] for name in TABLES), found["fits"]["held_out"]):
         rows = figures(table)
         assert sum(entry["all"]["figures"] for entry in table["statistics"]) == len(rows)
@@ -265,13 +327,19 @@ def test_statistics_are_those_of_the_rows(found):
                 differences = [figure["difference"] for figure in which]
                 assert entry[key]["figures"] == len(which)
                 if which:
-                    assert entry[key]["bias"] == pytest.approx(statistics.fmean(differences), rel=1e-9, abs=1e-12)
-                    assert entry[key]["median"] == pytest.approx(statistics.median(map(abs, differences)), rel=1e-9, abs=1e-12)
+                    assert entry[key]["bias"] == pytest.approx(
+                        statistics.fmean(differences), rel=1e-9, abs=1e-12
+                    )
+                    assert entry[key]["median"] == pytest.approx(
+                        statistics.median(map(abs, differences)), rel=1e-9, abs=1e-12
+                    )
                     assert abs(entry[key]["worst"]) == max(map(abs, differences))
 
 
 def test_held_out_inputs_are_those_of_the_other_tests(scripts, found):
-    """No test sees a tuned input of its own: with its own tuned inputs changed beyond recognition its answer is the same."""
+    """No test sees a tuned input of its own: with its own tuned inputs changed beyond recognition
+    its answer is the same.
+    """
     fits = scripts["measured_fits"]
     rows = fits.rows_of(fits.OVERLAP)
     spoiled = [dict(row) for row in rows]
@@ -283,7 +351,9 @@ def test_held_out_inputs_are_those_of_the_other_tests(scripts, found):
 
 
 def test_predictions_use_no_reading(scripts, found):
-    """With every reading of a test changed, what is predicted from the closing speed stays; the rule is the two sources' own."""
+    """With every reading of a test changed, what is predicted from the closing speed stays; the
+    rule is the two sources' own.
+    """
     predictions = scripts["untuned_predictions"]
     original = predictions.rows_of
 
@@ -306,18 +376,30 @@ def test_predictions_use_no_reading(scripts, found):
     for entry in found["inputs_only"][0]["values"]:
         assert abs(entry["computed"] - float(entry["printed"])) <= 0.5e-4
     mph = predictions.MPH
-    assert predictions.expected_restitution(15.001 * mph)[0] == predictions.expected_restitution(40.0)[0] == 0.1
+    assert (
+        predictions.expected_restitution(15.001 * mph)[0]
+        == predictions.expected_restitution(40.0)[0]
+        == 0.1
+    )
     assert predictions.expected_restitution(14.999 * mph)[0] == pytest.approx(0.2161, abs=1e-4)
 
 
 def test_predictions_by_hand(found):
     """Three of them in closed form: (1 + e) v, its share by mass, and the ratio of the masses."""
-    by_name = {(case["key"], figure["name"]): figure for case, figure in figures(found["predictions"])}
+    by_name = {
+        (case["key"], figure["name"]): figure for case, figure in figures(found["predictions"])
+    }
     assert by_name["NHTSA 10146", "dV1"]["computed"] == pytest.approx(1.1 * 57.09, rel=1e-9)
     e = by_name["GBB 5.5 mph", "e"]["computed"]
-    assert by_name["GBB 5.5 mph", "dV2"]["computed"] == pytest.approx((1 + e) * 5.5 * 950 / 1720, rel=1e-9)
-    assert by_name["GBB 5.5 mph", "dV2 from dV1"]["computed"] == pytest.approx(3.1 * 950 / 770, rel=1e-9)
-    assert by_name["NHTSA 7292", "dV2 from dV1"]["computed"] == pytest.approx((57.8 + 44.6) / 2 * 1735 / 1730, rel=1e-9)
+    assert by_name["GBB 5.5 mph", "dV2"]["computed"] == pytest.approx(
+        (1 + e) * 5.5 * 950 / 1720, rel=1e-9
+    )
+    assert by_name["GBB 5.5 mph", "dV2 from dV1"]["computed"] == pytest.approx(
+        3.1 * 950 / 770, rel=1e-9
+    )
+    assert by_name["NHTSA 7292", "dV2 from dV1"]["computed"] == pytest.approx(
+        (57.8 + 44.6) / 2 * 1735 / 1730, rel=1e-9
+    )
 
 
 def test_the_data_are_nowhere_twice():
@@ -327,19 +409,27 @@ def test_the_data_are_nowhere_twice():
 
 
 def test_the_page_shows_every_table_and_types_no_result(scripts, found):
-    """Each table function is called, the three tables have their own, and the prose outside the code has no percentage of a result."""
+    """Each table function is called, the three tables have their own, and the prose outside the
+    code has no percentage of a result.
+    """
     page = PAGE.read_text(encoding="utf-8")
     cells = "\n".join(re.findall(r"```{code-cell}.*?```", page, flags=re.S))
     for call in (
-        "headlines(found)", 'statistics(found["agreement"], "misprints")', 'laws(found["agreement"])', "agreement(found)",
-        "misprints(found)", 'statistics(found["fits"])', 'laws(found["fits"])', 'measured(found["fits"])', "tabulated(found)",
-        'laws(found["fits"]["held_out"])', 'measured(found["fits"]["held_out"])', 'statistics(found["predictions"], "doubtful")',
-        "predictions(found)", "nothing_published(found)", "inputs_only(found)", "not_computed(found)", "slips(found)",
+        "headlines(found)", 'statistics(found["agreement"], "misprints")',
+        'laws(found["agreement"])', "agreement(found)",
+        "misprints(found)", 'statistics(found["fits"])', 'laws(found["fits"])',
+        'measured(found["fits"])', "tabulated(found)",
+        'laws(found["fits"]["held_out"])', 'measured(found["fits"]["held_out"])',
+        'statistics(found["predictions"], "doubtful")',
+        "predictions(found)", "nothing_published(found)", "inputs_only(found)",
+        "not_computed(found)", "slips(found)",
         "where_records_are(found)", *(f'sources(found["{name}"])' for name in TABLES),
     ):  # fmt: skip
         assert f"tables.{call}" in cells, call
     prose = re.sub(r"```{code-cell}.*?```", "", page, flags=re.S)
-    assert re.findall(r"\d[\d.]*\s?(?:%|percent)", prose) == ["100 percent"]  # of the critical ratio, the edge of the fits
+    assert re.findall(r"\d[\d.]*\s?(?:%|percent)", prose) == [
+        "100 percent"
+    ]  # of the critical ratio, the edge of the fits
     for name in TABLES:
         assert f"_static/validation_{name}.svg" in prose
         assert (ROOT / "docs" / "_static" / f"validation_{name}.svg").is_file()
@@ -348,7 +438,10 @@ def test_the_page_shows_every_table_and_types_no_result(scripts, found):
     assert len(heads) == 3
     for head, name in zip(heads, TABLES, strict=True):
         counts = tables.counts(found[name])
-        assert f"{counts['cases']} {'cases' if name == 'agreement' else 'tests'}, {counts['figures']} figures" in head
+        assert (
+            f"{counts['cases']} {'cases' if name == 'agreement' else 'tests'}, "
+            f"{counts['figures']} figures" in head
+        )
         assert counts["figures"] == counts["sound"] + counts["aside"] == len(figures(found[name]))
     text = tables.everything(found)
     for key in {case["key"] for name in TABLES for case in found[name]["cases"]}:
@@ -367,12 +460,17 @@ def test_the_page_says_first_that_the_untuned_table_is_small(found):
 
 @pytest.mark.slow
 def test_the_fits_that_ended_at_0_go_below_it(scripts, found):
-    """The least misfit of a second, plain search, one parameter at a time by halves, from another start."""
+    """The least misfit of a second, plain search, one parameter at a time by halves, from another
+    start.
+    """
     rows = {row["key"]: row for row in found["fits"]["refitted"]}
     assert {key: round(row["restitution"], 2) for key, row in rows.items()} == {
         "CF10017": -0.04, "CF11004": -0.04, "CF11013": -0.11, "CF10024": -0.09,
     }  # fmt: skip
-    assert (round(rows["CF11013"]["misfit_at_0"], 2), round(rows["CF11013"]["misfit"], 2)) == (1.73, 0.91)
+    assert (round(rows["CF11013"]["misfit_at_0"], 2), round(rows["CF11013"]["misfit"], 2)) == (
+        1.73,
+        0.91,
+    )
     fits = scripts["measured_fits"]
     for row in fits.rows_of(fits.OVERLAP):
         if row["test_id"] not in rows:
@@ -380,7 +478,11 @@ def test_the_fits_that_ended_at_0_go_below_it(scripts, found):
         here, step = [0.1, 0.9], 0.2
         best = float(fits.misfit(row, restitution=here[0], share=here[1]))
         while step > 1e-5:
-            tried = [(here[0] + dx, min(here[1] + dy, 1.0)) for dx in (-step, 0.0, step) for dy in (-step, 0.0, step)]
+            tried = [
+                (here[0] + dx, min(here[1] + dy, 1.0))
+                for dx in (-step, 0.0, step)
+                for dy in (-step, 0.0, step)
+            ]
             es, shares = np.array(tried).T
             values = fits.misfit(row, restitution=es, share=shares).tolist()
             if min(values) < best:

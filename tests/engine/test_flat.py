@@ -1,4 +1,6 @@
-"""The kernels printed as plain functions of floats give the bits of the kernels, or leave the case to them."""
+"""The kernels printed as plain functions of floats give the bits of the kernels, or leave the case
+to them.
+"""
 
 import itertools
 import math
@@ -16,8 +18,12 @@ from collisions.kernels.status import Status
 from scenes import FAMILIES, draw, solved
 
 SETTINGS = [
-    pytest.param(model, rule, law, carrying, pinned, id=f"{model.name} {rule} {law} {carrying} {pinned}")
-    for model, rule, law, carrying, pinned in itertools.product(MODELS, RULES, LAWS, (False, True), ("", "a", "ab"))
+    pytest.param(
+        model, rule, law, carrying, pinned, id=f"{model.name} {rule} {law} {carrying} {pinned}"
+    )
+    for model, rule, law, carrying, pinned in itertools.product(
+        MODELS, RULES, LAWS, (False, True), ("", "a", "ab")
+    )
     if (rule == "friction" or not LAWS[law].energetic)
     and (
         (model is ECCENTRIC and not carrying)
@@ -39,7 +45,9 @@ def bits(value):
 
 
 def drawn(rng, rule, law, pinned, odd):
-    """Inputs at random: cars that meet, of any mass ratio, and with ``odd`` now and then a number that no car has."""
+    """Inputs at random: cars that meet, of any mass ratio, and with ``odd`` now and then a number
+    that no car has.
+    """
 
     def body(sign, free):
         mass = rng.uniform(500.0, 3000.0) * 10.0 ** rng.choice([0.0, 0.0, -9.0, 9.0])
@@ -51,10 +59,17 @@ def drawn(rng, rule, law, pinned, odd):
             "yaw_rate": rng.choice([0.0, rng.normal()]),
         }
         if free:
-            found |= {"vx": sign * rng.uniform(-5.0, 25.0), "vy": rng.choice([0.0, rng.normal(0.0, 4.0)])}
+            found |= {
+                "vx": sign * rng.uniform(-5.0, 25.0),
+                "vy": rng.choice([0.0, rng.normal(0.0, 4.0)]),
+            }
         if odd and rng.random() < 0.3:
             # A large bare yaw rate is warned of.
-            names = [name for name in found if name != "yaw_rate" and (free or name not in ("mass", "yaw_inertia"))]
+            names = [
+                name
+                for name in found
+                if name != "yaw_rate" and (free or name not in ("mass", "yaw_inertia"))
+            ]
             name = str(rng.choice(names))
             value = float(rng.choice(ODD))
             if math.isfinite(value) or name in ("mass", "yaw_inertia"):
@@ -65,7 +80,8 @@ def drawn(rng, rule, law, pinned, odd):
     a, b = (body(sign, label not in pinned) for sign, label in ((1.0, "a"), (-1.0, "b")))
     angle = float(rng.choice([0.0, rng.normal(0.0, 0.8)]))
     return Inputs(
-        "eccentric", col.Vehicle(**a), col.Vehicle(**b), float(rng.choice([0.0, rng.random(), 1.0])),
+        "eccentric", col.Vehicle(**a), col.Vehicle(**b),
+        float(rng.choice([0.0, rng.random(), 1.0])),
         (math.cos(angle), math.sin(angle)), rule, float(rng.choice(VALUES[rule])), law,
         (float(rng.normal(0.0, 0.5)), float(rng.normal(0.0, 0.5))),
     )  # fmt: skip
@@ -73,7 +89,9 @@ def drawn(rng, rule, law, pinned, odd):
 
 @pytest.mark.parametrize(("model", "rule", "law", "carrying", "pinned"), SETTINGS)
 def test_the_bits_are_those_of_the_kernel(model, rule, law, carrying, pinned):
-    """Cars, extreme ratios and odd numbers; what the function leaves to the kernel is never a plain answer."""
+    """Cars, extreme ratios and odd numbers; what the function leaves to the kernel is never a plain
+    answer.
+    """
     rng = np.random.default_rng([7, len(rule), len(law), len(pinned), carrying])
     answered = left = 0
     for number in range(300):
@@ -113,7 +131,9 @@ def test_extreme_scenes_answer_alike(family, monkeypatch):
     assert sum(isinstance(one, col.Impact) for one in found) > len(scenes) // 3
     for one, other in zip(found, wanted, strict=True):
         if isinstance(other, col.Impact):
-            assert [bits(value) for value in one._answer] == [bits(value) for value in other._answer]
+            assert [bits(value) for value in one._answer] == [
+                bits(value) for value in other._answer
+            ]
         else:
             assert one == other
 

@@ -1,4 +1,6 @@
-"""A kernel replayed block by block gives the bits it gives when it is called; nothing leaks between cases, blocks or threads."""
+"""A kernel replayed block by block gives the bits it gives when it is called; nothing leaks between
+cases, blocks or threads.
+"""
 
 import itertools
 import pickle
@@ -21,7 +23,11 @@ ODD = (0.0, -0.0, 1.0, -1.0, np.inf, -np.inf, np.nan, 5e-324, 1e308)
 
 
 # A law that follows the contact takes friction only.
-LAW_RULES = [(rule, law) for rule, law in itertools.product(RULES, LAWS) if rule == FRICTION or not LAWS[law].energetic]
+LAW_RULES = [
+    (rule, law)
+    for rule, law in itertools.product(RULES, LAWS)
+    if rule == FRICTION or not LAWS[law].energetic
+]
 
 
 def programs():
@@ -30,14 +36,21 @@ def programs():
         yield pytest.param(linear_central, (carrying,), 11, id=f"linear {carrying}")
     for rule, law in LAW_RULES:
         for carrying in (False, True):
-            yield pytest.param(oblique_central, (rule, law, carrying), 12, id=f"oblique {rule} {law} {carrying}")
+            yield pytest.param(
+                oblique_central, (rule, law, carrying), 12, id=f"oblique {rule} {law} {carrying}"
+            )
         for pinned in itertools.product((False, True), repeat=2):
-            yield pytest.param(eccentric, (rule, law, *pinned), 24, id=f"eccentric {rule} {law} {pinned}")
+            yield pytest.param(
+                eccentric, (rule, law, *pinned), 24, id=f"eccentric {rule} {law} {pinned}"
+            )
 
 
 def kinds(dtype):
     """The types of the outputs."""
-    return tuple(np.dtype({"status": np.uint8, "sticks": np.bool_}.get(name, dtype)) for name in Answer._fields)
+    return tuple(
+        np.dtype({"status": np.uint8, "sticks": np.bool_}.get(name, dtype))
+        for name in Answer._fields
+    )
 
 
 def numbers(count, size, dtype, rng, odd):
@@ -50,7 +63,9 @@ def numbers(count, size, dtype, rng, odd):
 
 
 def compare(kernel, settings, inputs, dtype, length):
-    """All outputs of the replay in blocks of a length, against the kernel called on each block; to the bit."""
+    """All outputs of the replay in blocks of a length, against the kernel called on each block; to
+    the bit.
+    """
     texts = tuple(map(input_kind, inputs))
     program = record(kernel, settings, texts, dtype, kinds(dtype))
     size = next(len(value) for value in inputs if isinstance(value, np.ndarray))
@@ -62,19 +77,25 @@ def compare(kernel, settings, inputs, dtype, length):
             block = slice(start, min(start + length, size))
             cut = [value if isinstance(value, float) else value[block] for value in inputs]
             replay(program, cut, [output[block] for output in outputs])
-            for name, output, wanted in zip(Answer._fields, outputs, kernel(*cut, *settings), strict=True):
+            for name, output, wanted in zip(
+                Answer._fields, outputs, kernel(*cut, *settings), strict=True
+            ):
                 expected = np.empty(block.stop - start, output.dtype)
                 expected[...] = wanted
                 np.testing.assert_array_equal(output[block], expected, err_msg=name)
                 # NaN aside, signs of zero included.
                 real = expected == expected
-                np.testing.assert_array_equal(np.signbit(output[block][real] * 1.0), np.signbit(expected[real] * 1.0), name)
+                np.testing.assert_array_equal(
+                    np.signbit(output[block][real] * 1.0), np.signbit(expected[real] * 1.0), name
+                )
 
 
 @pytest.mark.parametrize("dtype", [np.float64, pytest.param(np.float32, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("kernel", "settings", "count"), list(programs()))
 def test_the_bits_are_those_of_the_kernel(kernel, settings, count, dtype):
-    """Ordinary and impossible values, a last block that is short, every model, rule, law and pivot."""
+    """Ordinary and impossible values, a last block that is short, every model, rule,
+    law and pivot.
+    """
     rng = np.random.default_rng(count)
     eps = float(np.finfo(dtype).eps)
     for odd in (False, True):
@@ -85,20 +106,27 @@ def test_the_bits_are_those_of_the_kernel(kernel, settings, count, dtype):
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 @pytest.mark.parametrize(("kernel", "settings", "count"), list(programs()))
 def test_plain_numbers_among_the_arrays(kernel, settings, count, dtype):
-    """Which inputs are arrays is drawn; the others are floats, zeros and infinite masses among them."""
+    """Which inputs are arrays is drawn; the others are floats, zeros and infinite masses among
+    them.
+    """
     rng = np.random.default_rng(count + 1)
     for _ in range(12):
         inputs = numbers(count, 40, dtype, rng, odd=False)
         arrays = set(rng.choice(count, rng.integers(1, count), replace=False).tolist())
         plain = [float(rng.choice([0.5, 1.0, 2.0, abs(value[0])])) for value in inputs]
-        mixed = [value if i in arrays else number for i, (value, number) in enumerate(zip(inputs, plain, strict=True))]
+        mixed = [
+            value if i in arrays else number
+            for i, (value, number) in enumerate(zip(inputs, plain, strict=True))
+        ]
         compare(kernel, (*settings, float(np.finfo(dtype).eps)), mixed, dtype, 16)
 
 
 @pytest.mark.parametrize("bound", [0.0, 0.3, np.inf])
 @pytest.mark.parametrize("rule", RULES)
 def test_plain_bounds(rule, bound):
-    """The tangential bound as one number for all cases, which turns parts of a kernel into constants."""
+    """The tangential bound as one number for all cases, which turns parts of a kernel into
+    constants.
+    """
     rng = np.random.default_rng(5)
     inputs = numbers(24, 100, np.float64, rng, odd=True)
     inputs[3] = bound
@@ -115,11 +143,19 @@ def test_any_number_of_cases(size):
 def test_arrays_of_any_layout():
     """Strided and reversed parts are read as they are."""
     wide = numbers(24, 120, np.float64, np.random.default_rng(3), odd=False)
-    compare(eccentric, (FRICTION, BRACH, False, False, 2.0**-52), [v[::2][::-1] for v in wide], np.float64, 32)
+    compare(
+        eccentric,
+        (FRICTION, BRACH, False, False, 2.0**-52),
+        [v[::2][::-1] for v in wide],
+        np.float64,
+        32,
+    )
 
 
 def test_a_kernel_is_recorded_once():
-    """For the same settings, plain numbers and type; the sign of a zero tells two plain numbers apart."""
+    """For the same settings, plain numbers and type; the sign of a zero tells two plain numbers
+    apart.
+    """
 
     def program(*numbers):
         texts = tuple(number if number is None else number.hex() for number in numbers)
@@ -170,13 +206,20 @@ def scene(size, dtype=np.float64):
             y=rng.normal(0.0, 0.5, size).astype(dtype),
         )
 
-    return car(1.0), car(-1.0), rng.uniform(0.0, 0.5, size).astype(dtype), rng.normal(0.0, 0.1, size).astype(dtype)
+    return (
+        car(1.0),
+        car(-1.0),
+        rng.uniform(0.0, 0.5, size).astype(dtype),
+        rng.normal(0.0, 0.1, size).astype(dtype),
+    )
 
 
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 @pytest.mark.parametrize(("rule", "law"), LAW_RULES)
 def test_large_batches_hold_the_answers_of_small_ones(rule, law, dtype):
-    """Blocks of any length have the same bits, and so have a few cases that are answered one by one."""
+    """Blocks of any length have the same bits, and so have a few cases that are answered one by
+    one.
+    """
     a, b, e, normal = scene(2 * BLOCK + 5, dtype)
     options = {"point": (0.0, 0.1), rule: 0.2, "law": law, "on_failure": "nan"}
     with warnings.catch_warnings():
@@ -184,7 +227,12 @@ def test_large_batches_hold_the_answers_of_small_ones(rule, law, dtype):
         whole = col.eccentric(a, b, e, normal=normal, **options)
         for part in (slice(0, 100), slice(BLOCK - 50, BLOCK + 50), slice(2 * BLOCK, None)):
             cases = [
-                body.replace(**{n: getattr(body, n)[part] for n in ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y")})
+                body.replace(
+                    **{
+                        n: getattr(body, n)[part]
+                        for n in ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y")
+                    }
+                )
                 for body in (a, b)
             ]
             few = col.eccentric(*cases, e[part], normal=normal[part], **options)
@@ -194,18 +242,33 @@ def test_large_batches_hold_the_answers_of_small_ones(rule, law, dtype):
 
 
 def test_refused_cases_touch_no_neighbour():
-    """One case of each kind that is refused, in the middle of a block and at both its ends; the rest keeps its bits."""
+    """One case of each kind that is refused, in the middle of a block and at both its ends; the
+    rest keeps its bits.
+    """
     size = 2 * BLOCK + 9
     a, b, e, normal = scene(size)
     good = col.eccentric(a, b, e, normal=normal, point=(0.0, 0.1), friction=0.3)
     places = [0, 7, BLOCK - 1, BLOCK, size - 1]
     mass, vx, restitution = a.mass.copy(), a.vx.copy(), e.copy()
-    mass[places[0]], mass[places[1]], vx[places[2]], vx[places[3]], restitution[places[4]] = -1.0, np.nan, np.inf, -99.0, 1.5
+    mass[places[0]], mass[places[1]], vx[places[2]], vx[places[3]], restitution[places[4]] = (
+        -1.0,
+        np.nan,
+        np.inf,
+        -99.0,
+        1.5,
+    )
     bad = col.eccentric(
-        a.replace(mass=mass, vx=vx), b, restitution, normal=normal, point=(0.0, 0.1), friction=0.3, on_failure="nan"
+        a.replace(mass=mass, vx=vx),
+        b,
+        restitution,
+        normal=normal,
+        point=(0.0, 0.1),
+        friction=0.3,
+        on_failure="nan",
     )
     assert [bad.status[i] for i in places] == [
-        col.Status.NOT_POSITIVE, col.Status.NOT_FINITE, col.Status.NOT_FINITE, col.Status.SEPARATING, col.Status.BAD_RESTITUTION,
+        col.Status.NOT_POSITIVE, col.Status.NOT_FINITE, col.Status.NOT_FINITE,
+        col.Status.SEPARATING, col.Status.BAD_RESTITUTION,
     ]  # fmt: skip
     for mine, other in zip(list(bad._answer)[1:], list(good._answer)[1:], strict=True):
         np.testing.assert_array_equal(np.delete(mine, places), np.delete(other, places))
@@ -220,7 +283,9 @@ def test_programs_are_shared_and_buffers_are_not():
     found = []
     threads = [
         threading.Thread(
-            target=lambda: found.append(col.eccentric(a, b, e, normal=normal, point=(0.0, 0.1), friction=0.3, threads=2))
+            target=lambda: found.append(
+                col.eccentric(a, b, e, normal=normal, point=(0.0, 0.1), friction=0.3, threads=2)
+            )
         )
         for _ in range(4)
     ]
@@ -233,7 +298,9 @@ def test_programs_are_shared_and_buffers_are_not():
 
 
 def test_what_is_asked_for_later_is_the_same_impact():
-    """The outputs worked out on request, after pickling, and those of an impact with refused cases, blank there too."""
+    """The outputs worked out on request, after pickling, and those of an impact with refused cases,
+    blank there too.
+    """
     a, b, e, normal = scene(BLOCK + 1)
     e = np.where(np.arange(e.size) == 3, 2.0, e)
     impact = col.eccentric(a, b, e, normal=normal, point=(0.0, 0.1), friction=0.3, on_failure="nan")
@@ -248,7 +315,9 @@ def test_what_is_asked_for_later_is_the_same_impact():
 @pytest.mark.parametrize("scratch", [1, 30, 114, 400])
 @pytest.mark.parametrize("threads", [1, 2, 3, 8, 64])
 def test_blocks_of_threads_are_even_and_their_scratch_is_bounded(threads, scratch):
-    """No thread has two blocks more than another; together they take 6 MiB, or what blocks as short as those of one thread do."""
+    """No thread has two blocks more than another; together they take 6 MiB, or what blocks as short
+    as those of one thread do.
+    """
     for size in (BLOCK + 1, 3 * BLOCK + 17, 100_000, 1_000_000):
         length = block_length(size, threads, scratch)
         assert length >= BLOCK
@@ -262,7 +331,9 @@ def test_blocks_of_threads_are_even_and_their_scratch_is_bounded(threads, scratc
 
 @pytest.mark.parametrize("length", [0, 1, 1000, BLOCK])
 def test_arrays_in_one_piece_of_memory(length):
-    """None shares a byte with another; those of a block begin on a page, which halves the time of a call on them."""
+    """None shares a byte with another; those of a block begin on a page, which halves the time of a
+    call on them.
+    """
     dtypes = [np.dtype(one) for one in (np.uint8, np.float64, np.float32, np.float64)]
     memory, arrays = carved(length, dtypes)
     assert [(one.shape, one.dtype) for one in arrays] == [((length,), dtype) for dtype in dtypes]
@@ -275,7 +346,9 @@ def test_arrays_in_one_piece_of_memory(length):
 
 
 def test_spare_memory_that_another_thread_has_just_taken(monkeypatch):
-    """A list that was not empty a moment ago, as it can be without a global lock, is empty when it is taken from."""
+    """A list that was not empty a moment ago, as it can be without a global lock, is empty when it
+    is taken from.
+    """
 
     class Emptied(list):
         def __bool__(self):
@@ -285,15 +358,28 @@ def test_spare_memory_that_another_thread_has_just_taken(monkeypatch):
             return 1
 
     monkeypatch.setattr("collisions.engine.replay._SPARE", Emptied())
-    program = record(lambda x, y: (x + y, x * y * x), (), (None, None), np.float64, (np.dtype(float),) * 2)
-    inputs, outputs = numbers(2, 30, np.float64, np.random.default_rng(3), odd=False), [np.empty(30), np.empty(30)]
+    program = record(
+        lambda x, y: (x + y, x * y * x), (), (None, None), np.float64, (np.dtype(float),) * 2
+    )
+    inputs, outputs = (
+        numbers(2, 30, np.float64, np.random.default_rng(3), odd=False),
+        [np.empty(30), np.empty(30)],
+    )
     replay(program, inputs, outputs)
-    np.testing.assert_array_equal(outputs, [inputs[0] + inputs[1], inputs[0] * inputs[1] * inputs[0]])
+    np.testing.assert_array_equal(
+        outputs, [inputs[0] + inputs[1], inputs[0] * inputs[1] * inputs[0]]
+    )
 
 
 def test_outputs_are_scratch_until_they_are_written():
     """Values between stand in them: half of the buffers are saved."""
-    program = record(eccentric, (FRICTION, BRACH, False, False, 2.0**-52), (None,) * 24, np.float64, kinds(np.float64))
+    program = record(
+        eccentric,
+        (FRICTION, BRACH, False, False, 2.0**-52),
+        (None,) * 24,
+        np.float64,
+        kinds(np.float64),
+    )
     outputs, last = range(24, 24 + len(Answer._fields)), range(24 + len(Answer._fields) + 100)
     written = [chosen(last)[-1] for _, chosen in (*program.calls, *program.late)]
     assert sum(place in outputs for place in written) > 2 * len(Answer._fields)
@@ -306,9 +392,13 @@ def test_a_root_is_recorded_as_numpy_takes_it():
     def kernel(x, y):
         return x**0.5, (x * x) ** 0.5, y**3.0
 
-    inputs = [abs(value) for value in numbers(2, 300, np.float64, np.random.default_rng(8), odd=True)]
+    inputs = [
+        abs(value) for value in numbers(2, 300, np.float64, np.random.default_rng(8), odd=True)
+    ]
     outputs = [np.empty(300) for _ in range(3)]
     with np.errstate(all="ignore"):
-        replay(record(kernel, (), (None, None), np.float64, (np.dtype(float),) * 3), inputs, outputs)
+        replay(
+            record(kernel, (), (None, None), np.float64, (np.dtype(float),) * 3), inputs, outputs
+        )
         for output, wanted in zip(outputs, kernel(*inputs), strict=True):
             np.testing.assert_array_equal(output, wanted)

@@ -16,7 +16,9 @@ READING = {"v": (16.0, 1.0)}
 
 
 def account(prior, observed=None, seed=1, samples=4096):
-    return posterior(lambda v: {"v": v}, {"v": prior}, observed or READING, samples=samples, seed=seed)
+    return posterior(
+        lambda v: {"v": v}, {"v": prior}, observed or READING, samples=samples, seed=seed
+    )
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +28,9 @@ def accounts():
 
 
 def test_factors_and_probabilities_of_normal_accounts(accounts):
-    """A reading of variance 1 about a mean of variance 1: the density is exp(-(16 - mean)^2/4), times what all have in common."""
+    """A reading of variance 1 about a mean of variance 1: the density is exp(-(16 - mean)^2/4),
+    times what all have in common.
+    """
     found = compare(accounts)
     logs = {name: -((16.0 - float(name)) ** 2) / 4.0 for name in accounts}
     for (one, other), factor in found.log_bayes_factors.items():
@@ -36,7 +40,10 @@ def test_factors_and_probabilities_of_normal_accounts(accounts):
         assert found.log_bayes_factors[other, one] == -factor
     total = sum(map(math.exp, logs.values()))
     for name, log in logs.items():
-        assert abs(found.probability[name] - math.exp(log) / total) <= 5.0 * found.probability_error[name]
+        assert (
+            abs(found.probability[name] - math.exp(log) / total)
+            <= 5.0 * found.probability_error[name]
+        )
     assert sum(found.probability.values()) == pytest.approx(1.0, rel=1e-12)
 
 
@@ -52,10 +59,15 @@ def test_a_prior_of_the_accounts_weighs_in(accounts):
 
 @pytest.mark.slow
 def test_errors_of_probabilities_are_those_of_repeated_runs():
-    """The spread over 40 seeds of a probability near a half, against the mean of its stated errors: 40 values tell it to 11 percent."""
+    """The spread over 40 seeds of a probability near a half, against the mean of its stated errors:
+    40 values tell it to 11 percent.
+    """
     found = [
         compare(
-            {"a": account(Normal(16, 1), seed=seed, samples=512), "b": account(Uniform(14, 20), seed=seed + 100, samples=512)}
+            {
+                "a": account(Normal(16, 1), seed=seed, samples=512),
+                "b": account(Uniform(14, 20), seed=seed + 100, samples=512),
+            }
         )
         for seed in range(40)
     ]
@@ -65,11 +77,19 @@ def test_errors_of_probabilities_are_those_of_repeated_runs():
 
 
 def test_a_wider_prior_loses(accounts):
-    """Of a uniform prior of width w around the reading the evidence is 1/w: so is its factor, and the priors are printed."""
+    """Of a uniform prior of width w around the reading the evidence is 1/w: so is its factor, and
+    the priors are printed.
+    """
     found = compare({"narrow": account(Uniform(10, 22)), "wide": account(Uniform(0, 120), seed=2)})
-    factor, error = found.log_bayes_factors["narrow", "wide"], found.log_bayes_factor_errors["narrow", "wide"]
+    factor, error = (
+        found.log_bayes_factors["narrow", "wide"],
+        found.log_bayes_factor_errors["narrow", "wide"],
+    )
     assert abs(factor - math.log(10.0)) <= 5.0 * error
-    assert found.priors == {"narrow": {"v": str(Uniform(10, 22))}, "wide": {"v": str(Uniform(0, 120))}}
+    assert found.priors == {
+        "narrow": {"v": str(Uniform(10, 22))},
+        "wide": {"v": str(Uniform(0, 120))},
+    }
     for text in (repr(found), found._repr_html_()):
         assert "0 to 120" in text
         assert "times" in text
@@ -79,11 +99,17 @@ def test_the_sentence(accounts):
     found = compare(accounts)
     assert found.sentence.startswith("The evidence is ")
     assert 'more probable if "16" is true than if "17" is and ' in found.sentence
-    assert 'than if "14" is. Prior probabilities of 0.333 for "14", 0.333 for "16" and 0.333 for "17" become ' in found.sentence
+    assert (
+        'than if "14" is. Prior probabilities of 0.333 for "14", 0.333 for "16" and 0.333 for '
+        '"17" become ' in found.sentence
+    )
     with pytest.warns(col.CollisionsWarning, match="contradicts itself"):
         far = account(Normal(30, 1))
     found = compare({"here": accounts["16"], "far": far})
-    assert 'more than a million times more probable if "here" is true than if "far" is' in found.sentence
+    assert (
+        'more than a million times more probable if "here" is true than if "far" is'
+        in found.sentence
+    )
     assert found.probability["far"] < 1e-18
     assert json.loads(json.dumps(found.to_dict(), allow_nan=False))["sentence"] == found.sentence
     assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
@@ -104,7 +130,8 @@ def test_evidence_against_every_account_is_warned_of():
         (lambda two: [two], None, "bad_type", "two or more posteriors by name"),
         (lambda two: {"one": two["14"]}, None, "bad_type", "two or more"),
         (lambda two: two | {"x": 3.0}, None, "bad_type", "two or more"),
-        (lambda two: two | {"x": account(Normal(16, 1), {"v": (16.0, 2.0)})}, None, "different_evidence", "of v; only accounts of the same"),
+        (lambda two: two | {"x": account(Normal(16, 1), {"v": (16.0, 2.0)})}, None,
+            "different_evidence", "of v; only accounts of the same"),
         (lambda two: two, {"14": 0.5}, "bad_prior", "a probability for each of 14, 16"),
         (lambda two: two, {"14": 0.5, "16": 0.6}, "bad_prior", "add up to 1"),
         (lambda two: two, {"14": 0.0, "16": 1.0}, "bad_prior", "above 0"),

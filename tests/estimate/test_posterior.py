@@ -1,7 +1,9 @@
-"""posterior: against conjugate closed forms, quadrature in two unknowns, modes of known weight, and censored readings.
+"""posterior: against conjugate closed forms, quadrature in two unknowns, modes of known weight, and
+censored readings.
 
-Errors of sampling come with their own standard errors, from eight islands, so of Student's t with 7 degrees of freedom: beyond five
-of them lies a chance of 0.0016. Seeds are fixed, so nothing here is left to chance from run to run.
+Errors of sampling come with their own standard errors, from eight islands, so of Student's t with 7
+degrees of freedom: beyond five of them lies a chance of 0.0016. Seeds are fixed, so nothing here is
+left to chance from run to run.
 """
 
 import json
@@ -19,7 +21,16 @@ import collisions as col
 from collisions import reconstruct
 from collisions.estimate.evidence import Observation
 from collisions.reconstruct import posterior
-from collisions.uncertainty import Censored, Interval, LogNormal, Normal, Samples, Triangular, Uniform, propagate
+from collisions.uncertainty import (
+    Censored,
+    Interval,
+    LogNormal,
+    Normal,
+    Samples,
+    Triangular,
+    Uniform,
+    propagate,
+)
 from collisions.uncertainty.normal import log_survival
 
 SIGMAS = 5.0
@@ -50,15 +61,23 @@ def phi(z):
 
 
 def test_one_reading_of_a_normal_prior():
-    """Weights 1/2^2 and 1/1^2; the evidence is the density of the reading about the prior's mean, variances added."""
-    found, codes = sampled(lambda v: {"v": v}, {"v": Normal("20 m/s", "2 m/s")}, {"v": ("23 m/s", "1 m/s")})
+    """Weights 1/2^2 and 1/1^2; the evidence is the density of the reading about the prior's mean,
+    variances added.
+    """
+    found, codes = sampled(
+        lambda v: {"v": v}, {"v": Normal("20 m/s", "2 m/s")}, {"v": ("23 m/s", "1 m/s")}
+    )
     close(found["v"].mean, found["v"].mean_standard_error, (20 / 4 + 23) / 1.25)
     close(found["v"].std, found["v"].std_standard_error, math.sqrt(0.8))
     close(found.log_evidence, found.log_evidence_error, log_normal_density(23, 20, math.sqrt(5.0)))
     assert found.log_evidence_error < 0.1
     low, high = found["v"].interval(0.95)
     for end, side in ((low, -1.0), (high, 1.0)):
-        close(end, found["v"].quantile_standard_error(0.5 + 0.475 * side), 22.4 + side * 1.959964 * math.sqrt(0.8))
+        close(
+            end,
+            found["v"].quantile_standard_error(0.5 + 0.475 * side),
+            22.4 + side * 1.959964 * math.sqrt(0.8),
+        )
     chance, error = found.probability(lambda at: at["v"] > 23.0)
     close(chance, error, phi(-0.6 / math.sqrt(0.8)))
     close(found.shrinkage["v"], 0.05, 0.8)
@@ -67,9 +86,13 @@ def test_one_reading_of_a_normal_prior():
     assert not codes
 
 
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2, 3))])
+@pytest.mark.parametrize(
+    "seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2, 3))]
+)
 def test_linear_models_with_correlated_priors(seed):
-    """Five unknowns, three readings: mean, covariance and evidence by the normal equations of numpy.linalg."""
+    """Five unknowns, three readings: mean, covariance and evidence by the normal equations of
+    numpy.linalg.
+    """
     rng = np.random.default_rng(seed)
     matrix, sigma = rng.normal(size=(3, 5)), np.array([0.05, 0.2, 1.0])
     prior = np.eye(5)
@@ -79,27 +102,41 @@ def test_linear_models_with_correlated_priors(seed):
     values = matrix @ rng.multivariate_normal(np.zeros(5), prior) + sigma * rng.normal(size=3)
 
     def model(**u):
-        return {f"y{i}": sum(row[j] * u[name] for j, name in enumerate(names)) for i, row in enumerate(matrix)}
+        return {
+            f"y{i}": sum(row[j] * u[name] for j, name in enumerate(names))
+            for i, row in enumerate(matrix)
+        }
 
     found, _ = sampled(
         model,
         dict.fromkeys(names, Normal(0.0, 1.0)),
-        {f"y{i}": (value, error) for i, (value, error) in enumerate(zip(values, sigma, strict=True))},
+        {
+            f"y{i}": (value, error)
+            for i, (value, error) in enumerate(zip(values, sigma, strict=True))
+        },
         correlation={("u0", "u1"): 0.7, ("u2", "u4"): -0.4},
     )
     total = matrix @ prior @ matrix.T + np.diag(sigma**2)
     gain = prior @ matrix.T @ np.linalg.inv(total)
     mean, covariance = gain @ values, prior - gain @ matrix @ prior
-    exact = -0.5 * values @ np.linalg.solve(total, values) - 0.5 * np.linalg.slogdet(2.0 * np.pi * total)[1]
+    exact = (
+        -0.5 * values @ np.linalg.solve(total, values)
+        - 0.5 * np.linalg.slogdet(2.0 * np.pi * total)[1]
+    )
     close(found.log_evidence, found.log_evidence_error, exact)
     for k, name in enumerate(names):
         close(found[name].mean, found[name].mean_standard_error, mean[k])
         close(found[name].std, found[name].std_standard_error, math.sqrt(covariance[k, k]))
     # 4,096 samples tell a correlation to about 1/64.
     sizes = np.sqrt(np.diagonal(covariance))
-    assert found.correlation["u0", "u1"] == pytest.approx(covariance[0, 1] / sizes[0] / sizes[1], abs=0.08)
+    assert found.correlation["u0", "u1"] == pytest.approx(
+        covariance[0, 1] / sizes[0] / sizes[1], abs=0.08
+    )
     assert found.p_value == pytest.approx(
-        float(mpmath.gammainc(1.5, 0.5 * values @ np.linalg.solve(total, values), regularized=True)), abs=0.05
+        float(
+            mpmath.gammainc(1.5, 0.5 * values @ np.linalg.solve(total, values), regularized=True)
+        ),
+        abs=0.05,
     )
 
 
@@ -116,18 +153,31 @@ CENSORED = {
 
 
 @pytest.mark.parametrize(
-    "case", [pytest.param(name, marks=pytest.mark.slow) if "," in name or "rare" in name else name for name in CENSORED]
+    "case",
+    [
+        pytest.param(name, marks=pytest.mark.slow) if "," in name or "rare" in name else name
+        for name in CENSORED
+    ],
 )
 def test_censored_readings_of_a_normal_prior(case):
-    """Prior N(0, 1): the evidence is the probability of the bounds, and the mean that of a normal cut off by them.
+    """Prior N(0, 1): the evidence is the probability of the bounds, and the mean that of a normal
+    cut off by them.
 
-    With an error s the reading is N(0, 1 + s^2), and the unknown is the reading over 1 + s^2 in the mean.
+    With an error s the reading is N(0, 1 + s^2), and the unknown is the reading over 1 + s^2 in the
+    mean.
     """
     reading, low, high, error = CENSORED[case]
     found, codes = sampled(lambda x: {"x": x}, {"x": Normal(0.0, 1.0)}, {"x": reading})
     spread = math.hypot(1.0, error or 0.0)
-    a, b = (-math.inf if low is None else low / spread), (math.inf if high is None else high / spread)
-    share = float(mpmath.ncdf(b) - mpmath.ncdf(a)) if a < 3 else float(mpmath.erfc(a / mpmath.sqrt(2)) / 2)
+    a, b = (
+        (-math.inf if low is None else low / spread),
+        (math.inf if high is None else high / spread),
+    )
+    share = (
+        float(mpmath.ncdf(b) - mpmath.ncdf(a))
+        if a < 3
+        else float(mpmath.erfc(a / mpmath.sqrt(2)) / 2)
+    )
     mean = float(mpmath.npdf(a) - mpmath.npdf(b)) / share / spread
     close(found.log_evidence, found.log_evidence_error, math.log(share))
     close(found["x"].mean, found["x"].mean_standard_error, mean)
@@ -141,9 +191,17 @@ def test_censored_readings_of_a_normal_prior(case):
 
 @pytest.mark.parametrize("angle", [False, True])
 def test_log_likelihoods_against_mpmath(angle):
-    """Between bounds, far in a tail and in the middle: a few roundings of the logarithm, whose size is at least 1e-10 here."""
+    """Between bounds, far in a tail and in the middle: a few roundings of the logarithm, whose size
+    is at least 1e-10 here.
+    """
     values = np.array([-2.9, -1.0, 0.0, 0.31, 0.5, 1.0, 2.0, 3.1])
-    for low, high, error in ((0.3, 0.4, 0.05), (0.3, 0.31, 1.0), (-1.0, 2.0, 0.1), (0.3, None, 0.1), (None, 0.4, 0.1)):
+    for low, high, error in (
+        (0.3, 0.4, 0.05),
+        (0.3, 0.31, 1.0),
+        (-1.0, 2.0, 0.1),
+        (0.3, None, 0.1),
+        (None, 0.4, 0.1),
+    ):
         if angle and (low is None or high is None):
             with pytest.raises(col.InputError, match="one bound; give both"):
                 Observation("x", Censored(low, high, error)).log_likelihood(values, angle)
@@ -156,7 +214,10 @@ def test_log_likelihoods_against_mpmath(angle):
                 if angle:
                     middle = (mpmath.mpf(low) + mpmath.mpf(high)) / 2
                     at += 2 * mpmath.pi * mpmath.ceil((middle - at) / (2 * mpmath.pi) - 0.5)
-                ends = [mpmath.inf if end is None else (mpmath.mpf(end) - at) / mpmath.mpf(error) for end in (low, high)]
+                ends = [
+                    mpmath.inf if end is None else (mpmath.mpf(end) - at) / mpmath.mpf(error)
+                    for end in (low, high)
+                ]
                 below = 0 if low is None else mpmath.erfc(-ends[0] / mpmath.sqrt(2)) / 2
                 exact = mpmath.log(mpmath.erfc(-ends[1] / mpmath.sqrt(2)) / 2 - below)
                 assert abs(log - exact) <= 1e-12 * (1.0 + abs(exact)), (low, high, error, value)
@@ -174,20 +235,29 @@ def test_log_survival_against_mpmath():
 
 
 def central(speed_a, speed_b):
-    impact = col.linear_central(col.Vehicle(mass=1500, vx=speed_a), col.Vehicle(mass=1000, vx=speed_b), 0.2, on_failure="nan")
+    impact = col.linear_central(
+        col.Vehicle(mass=1500, vx=speed_a),
+        col.Vehicle(mass=1000, vx=speed_b),
+        0.2,
+        on_failure="nan",
+    )
     return {"delta_v_a": impact.a.delta_v, "vx_b": impact.b.after.vx}
 
 
 def test_an_impact_against_quadrature():
-    """Two speeds, one log-normal, one triangular, by the midpoint rule on 1,000 x 1,000 equally likely cells.
+    """Two speeds, one log-normal, one triangular, by the midpoint rule on 1,000 x 1,000 equally
+    likely cells.
 
-    Where the bodies do not meet the model refuses: there the evidence is 0. The jump at that edge is one cell in a thousand wide.
+    Where the bodies do not meet the model refuses: there the evidence is 0. The jump at that edge
+    is one cell in a thousand wide.
     """
     priors = {"speed_a": LogNormal(14.0, 4.0), "speed_b": Triangular(-10.0, 5.0, 20.0)}
     observed = {"delta_v_a": (3.0, 0.4), "vx_b": Normal(14.0, 1.0)}
     found, codes = sampled(central, priors, observed, samples=8192)
     share = (np.arange(1000) + 0.5) / 1000
-    a, b = (part.ravel() for part in np.meshgrid(*(prior.quantile(share) for prior in priors.values())))
+    a, b = (
+        part.ravel() for part in np.meshgrid(*(prior.quantile(share) for prior in priors.values()))
+    )
     closing = a - b
     # Both by hand: (1 + e) m_b/(m_a + m_b) and (1 + e) m_a/(m_a + m_b) of the closing speed.
     log = log_normal_density(3.0, 0.0, 0.4) - 0.5 * ((3.0 - 0.48 * closing) ** 2 - 3.0**2) / 0.4**2
@@ -197,7 +267,11 @@ def test_an_impact_against_quadrature():
     for name, values in (("speed_a", a), ("speed_b", b)):
         mean = np.average(values, weights=weight)
         close(found[name].mean, found[name].mean_standard_error, mean)
-        close(found[name].std, found[name].std_standard_error, math.sqrt(np.average((values - mean) ** 2, weights=weight)))
+        close(
+            found[name].std,
+            found[name].std_standard_error,
+            math.sqrt(np.average((values - mean) ** 2, weights=weight)),
+        )
     # The share of the prior that is refused, and the prediction beside what was read.
     assert found.refused == pytest.approx(np.mean(closing <= 0.0), abs=5 * math.sqrt(0.1 / 8192))
     close(
@@ -205,13 +279,17 @@ def test_an_impact_against_quadrature():
         found.predicted["delta_v_a"].mean_standard_error,
         np.average(0.48 * closing, weights=weight),
     )
-    assert found.residuals["delta_v_a"].over_sigma == pytest.approx((3.0 - found.predicted["delta_v_a"].mean) / 0.4, rel=1e-9)
+    assert found.residuals["delta_v_a"].over_sigma == pytest.approx(
+        (3.0 - found.predicted["delta_v_a"].mean) / 0.4, rel=1e-9
+    )
     assert not codes
 
 
 @pytest.mark.parametrize("unknowns", [2, pytest.param(5, marks=pytest.mark.slow)])
 def test_two_separate_modes_keep_their_weights(unknowns):
-    """A density of two normals 40 deviations apart, 0.8 and 0.2: as the product of a reading of |x| and a coarse one of x."""
+    """A density of two normals 40 deviations apart, 0.8 and 0.2: as the product of a reading of |x|
+    and a coarse one of x.
+    """
     names = [f"u{k}" for k in range(unknowns)]
 
     def model(**u):
@@ -221,49 +299,78 @@ def test_two_separate_modes_keep_their_weights(unknowns):
     sharp = {f"size {name}": (1.0, 0.05) for name in names[1:]} | {"size": (1.0, 0.05)}
     # exp(-0.5 (1 - s)^2/e^2) is 4 times as large for s = 1 as for s = 0.
     found, _ = sampled(
-        model, dict.fromkeys(names, Normal(0.0, 1.0)), sharp | {"side": (1.0, math.sqrt(0.5 / math.log(4.0)))}, samples=8192
+        model,
+        dict.fromkeys(names, Normal(0.0, 1.0)),
+        sharp | {"side": (1.0, math.sqrt(0.5 / math.log(4.0)))},
+        samples=8192,
     )
     close(*found.probability(lambda at: at[names[0]] > 0.0), 0.8)
     close(*found.probability(lambda at: at[names[1]] > 0.0), 0.5)
 
 
 def test_a_bent_reading_has_its_own_shape():
-    """The square of a uniform unknown, read as 0: the density exp(-x^4/2 s^2), whose moments are gamma functions."""
+    """The square of a uniform unknown, read as 0: the density exp(-x^4/2 s^2), whose moments are
+    gamma functions.
+    """
     found, codes = sampled(lambda x: {"o": x**2}, {"x": Uniform(0.0, 10.0)}, {"o": (0.0, 1.0)})
     gamma = [math.gamma(k / 4.0) for k in range(1, 6)]
     # The integral of x^k exp(-x^4/2) from 0 is 2^((k+1)/4) gamma((k+1)/4)/4.
     zeroth, first = 2**0.25 * gamma[0] / 4.0, 2**0.5 * gamma[1] / 4.0
     close(found["x"].mean, found["x"].mean_standard_error, first / zeroth)
-    close(found.log_evidence, found.log_evidence_error, math.log(zeroth / 10.0 / math.sqrt(2.0 * math.pi)))
+    close(
+        found.log_evidence,
+        found.log_evidence_error,
+        math.log(zeroth / 10.0 / math.sqrt(2.0 * math.pi)),
+    )
     assert not codes
 
 
 def test_angles_go_round():
-    """A course of 179 degrees read as -179: 2 degrees apart, and its figures lie about 180 degrees."""
+    """A course of 179 degrees read as -179: 2 degrees apart, and its figures lie about
+    180 degrees.
+    """
 
     def model(course):
-        return {"course": pint.application_registry.Quantity(np.arctan2(np.sin(course), np.cos(course)), "rad")}
+        return {
+            "course": pint.application_registry.Quantity(
+                np.arctan2(np.sin(course), np.cos(course)), "rad"
+            )
+        }
 
-    found, codes = sampled(model, {"course": Normal("179 deg", "2 deg")}, {"course": ("-179 deg", "2 deg")})
+    found, codes = sampled(
+        model, {"course": Normal("179 deg", "2 deg")}, {"course": ("-179 deg", "2 deg")}
+    )
     assert not codes
     close(found["course"].mean, found["course"].mean_standard_error, math.pi)
     assert found.residuals["course"].over_sigma == pytest.approx(0.5, abs=0.1)
     exact = log_normal_density(math.radians(2.0), 0.0, math.radians(2.0 * math.sqrt(2.0)))
     close(found.log_evidence, found.log_evidence_error, exact)
     assert (
-        sampled(model, {"course": Normal("179 deg", "2 deg")}, {"course": Interval("178 deg", "182 deg")})[0].log_evidence < 0.0
+        sampled(
+            model,
+            {"course": Normal("179 deg", "2 deg")},
+            {"course": Interval("178 deg", "182 deg")},
+        )[0].log_evidence
+        < 0.0
     )
 
 
 def test_joint_samples_as_priors_go_on():
-    """The posterior of one reading as the prior of the next is that of both, and what propagates from it too."""
-    model, prior = (lambda x, y: {"s": x + y, "x": x}), {"x": Normal(0.0, 1.0), "y": Normal(0.0, 1.0)}
+    """The posterior of one reading as the prior of the next is that of both, and what propagates
+    from it too.
+    """
+    model, prior = (
+        (lambda x, y: {"s": x + y, "x": x}),
+        {"x": Normal(0.0, 1.0), "y": Normal(0.0, 1.0)},
+    )
     first, _ = sampled(model, prior, {"s": (1.0, 0.5)}, samples=8192)
     again, _ = sampled(model, first.inputs(), {"x": (0.8, 0.5)})
     both, _ = sampled(model, prior, {"s": (1.0, 0.5), "x": (0.8, 0.5)})
     for name in "xy":
         close(
-            again[name].mean, math.hypot(again[name].mean_standard_error, both[name].mean_standard_error, 0.01), both[name].mean
+            again[name].mean,
+            math.hypot(again[name].mean_standard_error, both[name].mean_standard_error, 0.01),
+            both[name].mean,
         )
     close(
         first.log_evidence + again.log_evidence,
@@ -279,16 +386,24 @@ def test_joint_samples_as_priors_go_on():
 
 @pytest.mark.slow
 def test_the_evidence_of_few_samples_is_not_too_high():
-    """Six unknowns, five read to a fifth of their prior's deviation, 64 samples an island: the mean over seeds is the evidence.
+    """Six unknowns, five read to a fifth of their prior's deviation, 64 samples an island: the mean
+    over seeds is the evidence.
 
-    Islands that moved along differences of their own points came out 23 percent too high, eight standard errors of 25 runs.
+    Islands that moved along differences of their own points came out 23 percent too high, eight
+    standard errors of 25 runs.
     """
     names, errors = [f"u{k}" for k in range(6)], 0.2
     exact = 5 * log_normal_density(0.5, 0.0, math.hypot(1.0, errors))
     readings = dict.fromkeys(names[:5], (0.5, errors))
     found = [
         math.exp(
-            sampled(lambda **u: u, dict.fromkeys(names, Normal(0.0, 1.0)), readings, samples=512, seed=seed)[0].log_evidence
+            sampled(
+                lambda **u: u,
+                dict.fromkeys(names, Normal(0.0, 1.0)),
+                readings,
+                samples=512,
+                seed=seed,
+            )[0].log_evidence
             - exact
         )
         for seed in range(25)
@@ -301,7 +416,9 @@ def test_the_evidence_of_few_samples_is_not_too_high():
 
 def test_contradictory_evidence_says_so():
     """Two readings six errors apart, and a reading far beyond its prior."""
-    _, codes = sampled(lambda v: {"p": v, "q": v}, {"v": Uniform(0, 50)}, {"p": (20.0, 1.0), "q": (26.0, 1.0)})
+    _, codes = sampled(
+        lambda v: {"p": v, "q": v}, {"v": Uniform(0, 50)}, {"p": (20.0, 1.0), "q": (26.0, 1.0)}
+    )
     assert codes == ["contradictory"]
     found, codes = sampled(lambda v: {"v": v}, {"v": Normal(20, 1)}, {"v": (10.0, 0.5)})
     assert codes == ["contradictory"]
@@ -310,9 +427,15 @@ def test_contradictory_evidence_says_so():
     assert found.p_value == pytest.approx(math.erfc(math.sqrt(40.0)), rel=0.2)
     assert "contradicts itself" in found.statements[0]
     with pytest.raises(
-        col.NoSolutionError, match=r"meets the bounds observed of delta_v_a: the nearest misses them by"
+        col.NoSolutionError,
+        match=r"meets the bounds observed of delta_v_a: the nearest misses them by",
     ) as caught:
-        posterior(central, {"speed_a": Uniform(0, 20), "speed_b": Uniform(0, 5)}, {"delta_v_a": Interval(50, 60)}, seed=1)
+        posterior(
+            central,
+            {"speed_a": Uniform(0, 20), "speed_b": Uniform(0, 5)},
+            {"delta_v_a": Interval(50, 60)},
+            seed=1,
+        )
     assert caught.value.code == "contradictory"
 
 
@@ -322,38 +445,61 @@ def test_what_the_evidence_does_not_tell_is_said():
     def model(speed, e):
         return {"speed": speed + 0.0 * e}
 
-    found, codes = sampled(model, {"speed": Uniform(0, 40), "e": Uniform(0, 1)}, {"speed": (20.0, 1.0)})
+    found, codes = sampled(
+        model, {"speed": Uniform(0, 40), "e": Uniform(0, 1)}, {"speed": (20.0, 1.0)}
+    )
     assert codes == ["undetermined"]
     assert found.prior_only == ("e",)
     close(found["e"].mean, found["e"].mean_standard_error, 0.5)
-    found, codes = sampled(model, {"speed": Uniform(0, 40), "e": Normal(0.1, 0.05)}, {"speed": (20.0, 1.0)})
+    found, codes = sampled(
+        model, {"speed": Uniform(0, 40), "e": Normal(0.1, 0.05)}, {"speed": (20.0, 1.0)}
+    )
     assert codes == []
-    assert any("says next to nothing of e: what is given of it rests on its prior, 0.1 " in one for one in found.statements)
+    assert any(
+        "says next to nothing of e: what is given of it rests on its prior, 0.1 " in one
+        for one in found.statements
+    )
 
 
 def test_a_model_that_refuses_everywhere_says_so():
     def model(speed_a):
         return {
-            "v": col.linear_central(col.Vehicle(mass=1500, vx=speed_a), col.Vehicle(mass=1000), 0.2, on_failure="nan").b.delta_v
+            "v": col.linear_central(
+                col.Vehicle(mass=1500, vx=speed_a), col.Vehicle(mass=1000), 0.2, on_failure="nan"
+            ).b.delta_v
         }
 
-    with pytest.raises(col.NoSolutionError, match=r"refuses all \d+ points .*speed_a = -15") as caught:
+    with pytest.raises(
+        col.NoSolutionError, match=r"refuses all \d+ points .*speed_a = -15"
+    ) as caught:
         posterior(model, {"speed_a": Uniform(-20, -10)}, {"v": (5.0, 1.0)}, seed=1)
     assert caught.value.code == "refused"
-    with pytest.raises(col.NoSolutionError, match="no point of them fits within numbers that a float holds"):
+    with pytest.raises(
+        col.NoSolutionError, match="no point of them fits within numbers that a float holds"
+    ):
         posterior(lambda x: {"x": x}, {"x": Normal(24.6, 1.0)}, {"x": (0.0, 1e-200)}, seed=1)
 
 
 def test_a_rare_answer_is_found():
     """The model answers for 1 percent of the prior: the evidence counts that."""
-    found, _ = sampled(lambda x: {"x": np.where((x > 0.7) & (x < 0.71), x, np.nan)}, {"x": Uniform(0, 1)}, {"x": (0.705, 10.0)})
-    close(found.log_evidence, found.log_evidence_error, math.log(0.01) + log_normal_density(0.0, 0.0, 10.0))
+    found, _ = sampled(
+        lambda x: {"x": np.where((x > 0.7) & (x < 0.71), x, np.nan)},
+        {"x": Uniform(0, 1)},
+        {"x": (0.705, 10.0)},
+    )
+    close(
+        found.log_evidence,
+        found.log_evidence_error,
+        math.log(0.01) + log_normal_density(0.0, 0.0, 10.0),
+    )
     assert found.refused == pytest.approx(0.99, abs=0.002)
     assert any("no answer for 99% of the prior" in one for one in found.statements)
 
 
 def test_answers_too_rare_to_be_found_say_so():
-    """The first island draws 4,096 points and finds 1 or 2 of the share 1/4096 that has an answer; the next by chance none."""
+    """The first island draws 4,096 points and finds 1 or 2 of the share 1/4096 that has an answer;
+    the next by chance none.
+    """
 
     def model(x):
         return {"x": np.where((x > 0.0) & (x < 1.0 / 4096.0), x, np.nan)}
@@ -361,7 +507,12 @@ def test_answers_too_rare_to_be_found_say_so():
     outcomes = set()
     for seed in range(4):
         try:
-            outcomes.add(sampled(model, {"x": Uniform(0, 1)}, {"x": (0.0, 1.0)}, samples=512, seed=seed)[0].refused > 0.99)
+            outcomes.add(
+                sampled(model, {"x": Uniform(0, 1)}, {"x": (0.0, 1.0)}, samples=512, seed=seed)[
+                    0
+                ].refused
+                > 0.99
+            )
         except col.NoSolutionError as refused:
             seldom = str(refused).startswith("the model answers so seldom that none of 4096 points")
             outcomes.add(seldom and refused.code == "refused")
@@ -372,7 +523,11 @@ def test_a_sample_that_cannot_be_moved_says_so():
     """Three values as a prior, and a reading that leaves one: every sample is the same."""
     found, codes = sampled(lambda x: {"x": x}, {"x": Samples([1.0, 2.0, 3.0])}, {"x": (2.0, 1e-3)})
     assert found["x"].mean == 2.0
-    close(found.log_evidence, found.log_evidence_error, math.log(1 / 3) + log_normal_density(0, 0, 1e-3))
+    close(
+        found.log_evidence,
+        found.log_evidence_error,
+        math.log(1 / 3) + log_normal_density(0, 0, 1e-3),
+    )
     assert set(codes) <= {"islands_disagree", "collapsed"}
 
 
@@ -403,7 +558,14 @@ def test_a_seed_makes_it_reproducible_for_any_number_of_threads():
 @pytest.mark.parametrize("threads", [1, 3])
 def test_progress_rises_to_the_end(threads):
     seen = []
-    posterior(side, *SIDE, samples=1024, seed=1, threads=threads, progress=lambda done, total: seen.append((done, total)))
+    posterior(
+        side,
+        *SIDE,
+        samples=1024,
+        seed=1,
+        threads=threads,
+        progress=lambda done, total: seen.append((done, total)),
+    )
     assert seen[-1] == (1024, 1024)
     assert [done for done, _ in seen] == sorted(done for done, _ in seen)
     assert all(total == 1024 for _, total in seen)
@@ -414,7 +576,9 @@ def test_an_interrupt_returns_the_finished_islands():
         if done >= 0.6 * total:
             raise KeyboardInterrupt
 
-    with pytest.warns(col.CollisionsWarning, match="interrupted; the figures are those of 1024 samples"):
+    with pytest.warns(
+        col.CollisionsWarning, match="interrupted; the figures are those of 1024 samples"
+    ):
         found = posterior(side, *SIDE, samples=2048, seed=1, progress=stop)
     assert found.interrupted
     assert math.isfinite(found.log_evidence_error)
@@ -439,9 +603,18 @@ def test_the_model_may_run_in_several_threads():
 
 def test_shown_and_read_again():
     found = posterior(side, *SIDE, samples=1024, seed=1)
-    assert json.loads(json.dumps(found.to_dict(), allow_nan=False))["log_evidence"] == found.log_evidence
+    assert (
+        json.loads(json.dumps(found.to_dict(), allow_nan=False))["log_evidence"]
+        == found.log_evidence
+    )
     for text in (repr(found), found._repr_html_()):
-        for part in ("speed", "predicted", "log evidence", "agrees with itself", "given the evidence and the priors"):
+        for part in (
+            "speed",
+            "predicted",
+            "log evidence",
+            "agrees with itself",
+            "given the evidence and the priors",
+        ):
             assert part in text.lower()
     again = pickle.loads(pickle.dumps(found))
     assert again.to_dict() == found.to_dict()
@@ -492,7 +665,9 @@ def test_conditions_that_are_none(condition):
     ],
 )
 def test_evidence_out_of_all_reach_is_refused_soon(prior, reading):
-    """So many deviations away the samples crept on without end, or stayed where they were, as likely as one another."""
+    """So many deviations away the samples crept on without end, or stayed where they were, as
+    likely as one another.
+    """
     with pytest.raises(col.NoSolutionError, match="contradicts the priors") as caught:
         posterior(lambda x: {"s": x}, {"x": prior}, {"s": (reading, 1.0)}, samples=512, seed=1)
     assert caught.value.code == "contradictory"
@@ -500,7 +675,9 @@ def test_evidence_out_of_all_reach_is_refused_soon(prior, reading):
 
 @pytest.mark.slow
 def test_evidence_that_would_take_thousands_of_stages_is_refused_soon():
-    """Each of its stages got twenty times as far as where the samples creep, from a likelihood of 1e-250 on."""
+    """Each of its stages got twenty times as far as where the samples creep, from a likelihood of
+    1e-250 on.
+    """
     calls = []
 
     def model(x, y):
@@ -530,10 +707,18 @@ def test_what_the_model_warns_of_is_said_once_with_the_samples_it_is_of():
         return {"speed_b": found.speed_b}
 
     with pytest.warns(col.OutOfRangeWarning, match="speed_b is below 0") as caught:
-        found = posterior(model, {"speed_b_after": Normal(2.0, 0.4)}, {"speed_b": Normal(0.0, 2.0)}, samples=512, seed=1)
+        found = posterior(
+            model,
+            {"speed_b_after": Normal(2.0, 0.4)},
+            {"speed_b": Normal(0.0, 2.0)},
+            samples=512,
+            seed=1,
+        )
     below = int(np.sum(found["speed_b"].values < 0.0))
     assert 0 < below < 512
-    assert [str(one.message).partition(":")[0] for one in caught] == [f"{below} of 512 cases ({100 * below / 512:.3g} %)"]
+    assert [str(one.message).partition(":")[0] for one in caught] == [
+        f"{below} of 512 cases ({100 * below / 512:.3g} %)"
+    ]
     # It stands with the result too, in its table and in its record.
     said = next(one for one in found.statements if "speed_b is below 0" in one)
     assert said.startswith(f"{below} of 512 cases")
@@ -542,9 +727,18 @@ def test_what_the_model_warns_of_is_said_once_with_the_samples_it_is_of():
 
 
 def test_an_output_without_any_answer_has_no_figures():
-    found = posterior(lambda x: {"s": x, "d": np.nan * x}, {"x": Normal(0.0, 1.0)}, {"s": (1.0, 1.0)}, samples=512, seed=1)
+    found = posterior(
+        lambda x: {"s": x, "d": np.nan * x},
+        {"x": Normal(0.0, 1.0)},
+        {"s": (1.0, 1.0)},
+        samples=512,
+        seed=1,
+    )
     output = found["d"]
-    assert all(math.isnan(one) for one in (output.mean, output.std, output.quantile(0.5), *output.interval(0.95)))
+    assert all(
+        math.isnan(one)
+        for one in (output.mean, output.std, output.quantile(0.5), *output.interval(0.95))
+    )
     assert output.failed == 512
     assert str(output.summary())
 
@@ -566,27 +760,42 @@ GOOD = ({"x": Normal(1.0, 0.5)}, {"x": (1.0, 0.1)})
     ("model", "unknowns", "observed", "options", "kind", "code", "text"),
     [
         (3.0, *GOOD, {}, col.InputError, "bad_model", "model must be a function"),
-        (identity, {"y": Normal(1, 1)}, GOOD[1], {}, col.InputError, "bad_model", r"unknowns are y, but the model takes \(x\)"),
-        (lambda x: {"x": math.sqrt(x)}, *GOOD, {}, col.InputError, "bad_model", "numpy in place of math"),
-        (lambda x: {"x": 1.0 if x > 0 else 2.0}, *GOOD, {}, col.InputError, "bad_model", "numpy.where in place of if"),
-        (lambda x: {"x": x - x.mean() + 1.0}, *GOOD, {}, col.InputError, "bad_model", "model mixes cases"),
+        (identity, {"y": Normal(1, 1)}, GOOD[1], {}, col.InputError, "bad_model",
+            r"unknowns are y, but the model takes \(x\)"),
+        (lambda x: {"x": math.sqrt(x)}, *GOOD, {}, col.InputError, "bad_model",
+            "numpy in place of math"),
+        (lambda x: {"x": 1.0 if x > 0 else 2.0}, *GOOD, {}, col.InputError, "bad_model",
+            "numpy.where in place of if"),
+        (lambda x: {"x": x - x.mean() + 1.0}, *GOOD, {}, col.InputError, "bad_model",
+            "model mixes cases"),
         (lambda x: {"x": x[:1]}, *GOOD, {}, col.ShapeError, "bad_shape", "'x'"),
-        (identity, {"x": Interval(0, 1)}, GOOD[1], {}, col.InputError, "bad_prior", "Interval; give a distribution .*Uniform"),
-        (identity, {"x": 1.0}, GOOD[1], {}, col.InputError, "bad_prior", "float; give a distribution"),
-        (identity, {"x": (0, 1)}, GOOD[1], {}, col.InputError, "bad_prior", r"write Uniform\(0, 1\)"),
-        (identity, {}, GOOD[1], {}, col.InputError, "bad_type", "unknowns must be a dict.*an empty one"),
-        (identity, GOOD[0], {"z": (1.0, 0.1)}, {}, col.InputError, "unknown_output", "names z, .*it returns x"),
-        (identity, GOOD[0], {"x": 1.0}, {}, col.InputError, "bad_observation", "number without its error"),
-        (identity, GOOD[0], {"x": Uniform(0, 1)}, {}, col.InputError, "bad_observation", "type Uniform; give Normal"),
-        (identity, GOOD[0], {"x": Normal(1, 1, truncate=(0, None))}, {}, col.InputError, "bad_observation", "bounds belong to unknowns"),
-        (identity, GOOD[0], {"x": Censored(low="3 deg", error="1 deg")}, {}, col.InputError, "bad_observation", "one bound; give both"),
+        (identity, {"x": Interval(0, 1)}, GOOD[1], {}, col.InputError, "bad_prior",
+            "Interval; give a distribution .*Uniform"),
+        (identity, {"x": 1.0}, GOOD[1], {}, col.InputError, "bad_prior",
+            "float; give a distribution"),
+        (identity, {"x": (0, 1)}, GOOD[1], {}, col.InputError, "bad_prior",
+            r"write Uniform\(0, 1\)"),
+        (identity, {}, GOOD[1], {}, col.InputError, "bad_type",
+            "unknowns must be a dict.*an empty one"),
+        (identity, GOOD[0], {"z": (1.0, 0.1)}, {}, col.InputError, "unknown_output",
+            "names z, .*it returns x"),
+        (identity, GOOD[0], {"x": 1.0}, {}, col.InputError, "bad_observation",
+            "number without its error"),
+        (identity, GOOD[0], {"x": Uniform(0, 1)}, {}, col.InputError, "bad_observation",
+            "type Uniform; give Normal"),
+        (identity, GOOD[0], {"x": Normal(1, 1, truncate=(0, None))}, {}, col.InputError,
+            "bad_observation", "bounds belong to unknowns"),
+        (identity, GOOD[0], {"x": Censored(low="3 deg", error="1 deg")}, {}, col.InputError,
+            "bad_observation", "one bound; give both"),
         (identity, *GOOD, {"samples": 500}, col.InputError, "bad_option", "from 512"),
         (identity, *GOOD, {"samples": None}, col.InputError, "bad_option", "from 512"),
-        (identity, *GOOD, {"samples": 1.5}, col.InputError, "bad_option", "samples must be a whole number"),
+        (identity, *GOOD, {"samples": 1.5}, col.InputError, "bad_option",
+            "samples must be a whole number"),
         (identity, *GOOD, {"seed": -1}, col.InputError, "bad_option", "seed must be"),
         (identity, *GOOD, {"threads": 0}, col.InputError, "bad_option", "threads must be"),
         (identity, *GOOD, {"progress": 3}, col.InputError, "bad_option", "progress must be"),
-        (identity, *GOOD, {"correlation": {("x", "y"): 0.5}}, col.InputError, "bad_correlation", "'y' is not an input"),
+        (identity, *GOOD, {"correlation": {("x", "y"): 0.5}}, col.InputError, "bad_correlation",
+            "'y' is not an input"),
     ],
 )  # fmt: skip
 def test_refusals(model, unknowns, observed, options, kind, code, text):

@@ -1,4 +1,6 @@
-"""Every input is used or refused by every solver, law and rule, and printed, recorded and described wherever it was used."""
+"""Every input is used or refused by every solver, law and rule, and printed, recorded and described
+wherever it was used.
+"""
 
 import json
 import math
@@ -13,9 +15,18 @@ from collisions.diagnostics import LIMITS
 from collisions.impact.inputs import ARGUMENTS, CRUSH_UNITS, UNITS
 from collisions.kernels.contact_laws import LAWS, RULES
 
-# Of every input two values, told apart in print from all other numbers, and what has to be given with it to time_resolved.
+# Of every input two values, told apart in print from all other numbers, and what has to be given
+# with it to time_resolved.
 LASTING = {"duration": 0.1013}
-TYRES = travel.Tyres(0.6713, (0.1719, 0.2317, 0.3137, 0.4179), 2.7139, 1.5317, steer=0.0917, cornering=8.317, height=0.5179)
+TYRES = travel.Tyres(
+    0.6713,
+    (0.1719, 0.2317, 0.3137, 0.4179),
+    2.7139,
+    1.5317,
+    steer=0.0917,
+    cornering=8.317,
+    height=0.5179,
+)
 CRUSH = (41237.0, 612370.0, 1.5173)
 VALUES = {
     "restitution": (0.2371, 0.3719, LASTING),
@@ -30,14 +41,22 @@ VALUES = {
     "outside_a": ((312.7, -123.9, 451.3), (-112.3, 223.9, -151.3), LASTING),
     "outside_b": ((317.9, -129.1, 457.1), (-117.9, 229.1, -157.1), LASTING),
 }
-RULE_VALUES = {"friction": (0.1379, 0.1129), "impulse_ratio": (-0.1379, -0.1129), "critical_fraction": (0.5379, 0.6129)}
-# Of a body: the mass is printed by all, what the central models have no use for is refused or printed.
+RULE_VALUES = {
+    "friction": (0.1379, 0.1129),
+    "impulse_ratio": (-0.1379, -0.1129),
+    "critical_fraction": (0.5379, 0.6129),
+}
+# Of a body: the mass is printed by all, what the central models have no use for is refused or
+# printed.
 BODY = {
-    "mass": (1493.7, 1347.1), "yaw_inertia": (2513.7, 3147.9), "vx": (14.137, 16.139), "vy": (1.2137, 2.1379), "yaw_rate": (0.3137, 0.5179),
+    "mass": (1493.7, 1347.1), "yaw_inertia": (2513.7, 3147.9), "vx": (14.137, 16.139),
+    "vy": (1.2137, 2.1379), "yaw_rate": (0.3137, 0.5179),
     "x": (-2.1379, -1.8137), "y": (0.3179, 0.5237), "heading": (0.1537, 0.3179),
 }  # fmt: skip
 SOLVERS = sorted(ARGUMENTS)
-CONTACTS = [(law, rule) for law in LAWS for rule in RULES if rule == "friction" or not LAWS[law].energetic]
+CONTACTS = [
+    (law, rule) for law in LAWS for rule in RULES if rule == "friction" or not LAWS[law].energetic
+]
 
 
 def contact(solver, law, rule):
@@ -58,13 +77,26 @@ def contact(solver, law, rule):
 
 
 def bodies(solver, **changes):
-    """A car that turns and slides, and one that stands; for the central models without what these refuse."""
-    own = {"mass": 1500.0, "yaw_inertia": 2500.0, "vx": 14.0, "vy": 2.0, "yaw_rate": 0.2, "x": -2.0, "y": 0.4, "heading": 0.1}
+    """A car that turns and slides, and one that stands; for the central models without what these
+    refuse.
+    """
+    own = {
+        "mass": 1500.0,
+        "yaw_inertia": 2500.0,
+        "vx": 14.0,
+        "vy": 2.0,
+        "yaw_rate": 0.2,
+        "x": -2.0,
+        "y": 0.4,
+        "heading": 0.1,
+    }
     if solver in ("linear_central", "oblique_central"):
         own["yaw_rate"] = 0.0
     if solver == "linear_central":
         own["vy"] = 0.0
-    return col.Vehicle(**(own | changes)), col.Vehicle(mass=1200.0, yaw_inertia=1900.0, x=2.0, y=0.0, heading=1.3)
+    return col.Vehicle(**(own | changes)), col.Vehicle(
+        mass=1200.0, yaw_inertia=1900.0, x=2.0, y=0.0, heading=1.3
+    )
 
 
 def solved(solver, arguments, **changes):
@@ -78,7 +110,9 @@ def solved(solver, arguments, **changes):
 
 
 def asked(solver, law, rule, name, value):
-    """All arguments with one input at a value; ``time_resolved`` takes one of those that say how long a contact lasts."""
+    """All arguments with one input at a value; ``time_resolved`` takes one of those that say how
+    long a contact lasts.
+    """
     found = contact(solver, law, rule)
     if solver == "time_resolved" and name in ("stiffness", "crush_a", "crush_b"):
         del found["duration"]
@@ -105,7 +139,9 @@ def parts(value):
 
 
 def check_said(impact, name, numbers, other):
-    """Explained, reported with its record, and read back; and what is said of the result moves with the input."""
+    """Explained, reported with its record, and read back; and what is said of the result moves with
+    the input.
+    """
     for form in ("text", "markdown"):
         assert not printed(explain(impact, units="si", form=form), numbers), (name, form)
     page = col.report(impact, form="markdown", units="si", figures=False)
@@ -115,11 +151,15 @@ def check_said(impact, name, numbers, other):
     assert again == impact
     assert again.to_dict() == record
     assert printed(json.dumps(record["inputs"]), numbers) == []
-    assert str(impact.summary(units="si")) + impact._repr_html_() != str(other.summary(units="si")) + other._repr_html_()
+    assert (
+        str(impact.summary(units="si")) + impact._repr_html_()
+        != str(other.summary(units="si")) + other._repr_html_()
+    )
     # With limits that nothing keeps, every check says what it measured.
     limits = dict.fromkeys(LIMITS, 1e-9)
     measured = [
-        [(found.code, found.vehicle, found.measured) for found in col.diagnose(one, limits=limits)] for one in (impact, other)
+        [(found.code, found.vehicle, found.measured) for found in col.diagnose(one, limits=limits)]
+        for one in (impact, other)
     ]
     assert measured[0] != measured[1], name
 
@@ -131,7 +171,9 @@ def schema_of(name):
 
 def test_every_input_has_values_to_try():
     """An input that was added is tried too."""
-    assert VALUES.keys() == UNITS.keys(), "give two values of the new input, and what it needs beside it"
+    assert VALUES.keys() == UNITS.keys(), (
+        "give two values of the new input, and what it needs beside it"
+    )
     assert RULE_VALUES.keys() == RULES.keys()
 
 
@@ -152,11 +194,17 @@ def cases():
             if "law" not in ARGUMENTS[solver] and (law, rule) != ("brach", "friction"):
                 continue
             for name in UNITS:
-                slow = solver == "time_resolved" or (solver == "solve" and name in ("duration", "drag"))
-                marks = (
-                    [pytest.mark.slow] if slow or (law, rule) not in (("brach", "friction"), ("stronge", "friction")) else []
+                slow = solver == "time_resolved" or (
+                    solver == "solve" and name in ("duration", "drag")
                 )
-                yield pytest.param(solver, law, rule, name, marks=marks, id=f"{solver}-{law}-{rule}-{name}")
+                marks = (
+                    [pytest.mark.slow]
+                    if slow or (law, rule) not in (("brach", "friction"), ("stronge", "friction"))
+                    else []
+                )
+                yield pytest.param(
+                    solver, law, rule, name, marks=marks, id=f"{solver}-{law}-{rule}-{name}"
+                )
 
 
 @pytest.mark.parametrize(("solver", "law", "rule", "name"), list(cases()))
@@ -171,8 +219,11 @@ def test_an_input_is_used_or_refused(solver, law, rule, name):
     assert takes, f"{solver} does not take {name} and answered"
     beside = solved(solver, asked(solver, law, rule, name, other))
     if solver == "solve" and name in ("duration", "drag") and rule != "friction":
-        # No contact in time with these rules: said in the reason for the model, with the numbers all the same.
-        assert f"time_resolved takes friction, and {rule} was given" in explain(found, form="text", units="si")
+        # No contact in time with these rules: said in the reason for the model, with the numbers
+        # all the same.
+        assert f"time_resolved takes friction, and {rule} was given" in explain(
+            found, form="text", units="si"
+        )
         assert not printed(explain(found, form="text", units="si"), parts(one))
         return
     assert results(found) != results(beside), f"{solver} does not use {name}"
@@ -183,19 +234,27 @@ def test_an_input_is_used_or_refused(solver, law, rule, name):
 @pytest.mark.parametrize("name", TYRES.named)
 @pytest.mark.parametrize(
     "solver",
-    ["eccentric", pytest.param("solve", marks=pytest.mark.slow), pytest.param("time_resolved", marks=pytest.mark.slow)],
+    [
+        "eccentric",
+        pytest.param("solve", marks=pytest.mark.slow),
+        pytest.param("time_resolved", marks=pytest.mark.slow),
+    ],
 )
 def test_every_number_of_tyres_is_used_and_said(solver, name, label):
     """Both vehicles move and are steered, so that no force of a wheel is 0."""
     value = TYRES.named[name]
-    changed = {"lock": [0.777 if name == f"lock[{i}]" else lock for i, lock in enumerate(TYRES.lock)]}
+    changed = {
+        "lock": [0.777 if name == f"lock[{i}]" else lock for i, lock in enumerate(TYRES.lock)]
+    }
     moved = TYRES.replace(**(changed if "lock" in name else {name: 1.139 * value}))
     arguments = contact(solver, "brach", "friction") | LASTING
     a, b = bodies(solver)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.CollisionsWarning)
         found, beside = (
-            getattr(col, solver)(a, b.replace(vx=-3.0, vy=4.0, yaw_rate=0.5), **arguments, **{f"tyres_{label}": one})
+            getattr(col, solver)(
+                a, b.replace(vx=-3.0, vy=4.0, yaw_rate=0.5), **arguments, **{f"tyres_{label}": one}
+            )
             for one in (TYRES, moved)
         )
     assert results(found) != results(beside)
@@ -213,7 +272,11 @@ def test_every_number_of_tyres_is_used_and_said(solver, name, label):
 def test_what_only_decided_on_the_model_is_said(name, tolerance):
     """solve may take a model that has no use for an input: the pages have it all the same."""
     one = RULE_VALUES[name][0] if name in RULES else VALUES[name][0]
-    arguments = asked("solve", "brach", "friction", name, one) if name != "friction" else contact("solve", "brach", "friction")
+    arguments = (
+        asked("solve", "brach", "friction", name, one)
+        if name != "friction"
+        else contact("solve", "brach", "friction")
+    )
     found = solved("solve", arguments | {"tolerance": tolerance}, vy=0.0, yaw_rate=0.0)
     assert found.model in ("oblique_central", "linear_central")
     assert not printed(explain(found, units="si"), parts(one))
@@ -225,7 +288,9 @@ def test_what_only_decided_on_the_model_is_said(name, tolerance):
 @pytest.mark.parametrize("solver", ["oblique_central", "eccentric", "solve"])
 def test_the_value_of_a_rule_is_used_and_said(solver, law, rule):
     one, other = RULE_VALUES[rule]
-    found, beside = (solved(solver, contact(solver, law, rule) | {rule: value}) for value in (one, other))
+    found, beside = (
+        solved(solver, contact(solver, law, rule) | {rule: value}) for value in (one, other)
+    )
     assert results(found) != results(beside)
     check_said(found, rule, (one,), beside)
 
@@ -238,11 +303,18 @@ def test_every_number_of_a_vehicle_is_used_or_refused(solver, name):
     arguments = contact(solver, "brach", "friction")
     found, beside = (solved(solver, arguments, **{name: value}) for value in (one, other))
     if found is None:
-        assert (solver, name) in {("linear_central", "vy"), ("linear_central", "yaw_rate"), ("oblique_central", "yaw_rate")}
+        assert (solver, name) in {
+            ("linear_central", "vy"),
+            ("linear_central", "yaw_rate"),
+            ("oblique_central", "yaw_rate"),
+        }
         return
     assert results(found) != results(beside)
     assert not printed(explain(found, units="si"), (one,))
-    assert not printed(col.report(found, form="markdown", units="si", figures=False).partition("## Record")[0], (one,))
+    assert not printed(
+        col.report(found, form="markdown", units="si", figures=False).partition("## Record")[0],
+        (one,),
+    )
 
 
 def test_the_units_of_a_crush_stiffness_are_those_of_the_table():

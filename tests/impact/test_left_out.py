@@ -1,4 +1,6 @@
-"""What the impulse idealisation leaves out: by hand, against a contact that takes time, and every refusal."""
+"""What the impulse idealisation leaves out: by hand, against a contact that takes time, and every
+refusal.
+"""
 
 import itertools
 import json
@@ -35,17 +37,23 @@ def t_bone(speed=20.0, restitution=0.1, b=None, **changes):
     """The one of the benchmark."""
     a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=speed, x=-2.2, y=0.0, heading=0.0)
     b = b or col.Vehicle(mass=1200.0, yaw_inertia=2100.0, x=0.8, y=-1.0, heading="90 deg")
-    return col.eccentric(a, b, restitution, **{"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, **changes})
+    return col.eccentric(
+        a, b, restitution, **{"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, **changes}
+    )
 
 
 def spring(e, count=200_000):
-    """Shares of the duration, the share of the impulse that comes in each, and what has passed by its middle.
+    """Shares of the duration, the share of the impulse that comes in each, and what has passed by
+    its middle.
 
-    The force of a spring up to the end of compression and of a stiffer one after it, summed up in steps; 1e-9 of each sum.
+    The force of a spring up to the end of compression and of a stiffer one after it, summed up in
+    steps; 1e-9 of each sum.
     """
     share = (np.arange(count) + 0.5) / count
     phase = (1.0 + e) * share
-    force = np.where(phase < 1.0, np.sin(0.5 * np.pi * phase), np.cos(0.5 * np.pi * (phase - 1.0) / (e or 1.0)))
+    force = np.where(
+        phase < 1.0, np.sin(0.5 * np.pi * phase), np.cos(0.5 * np.pi * (phase - 1.0) / (e or 1.0))
+    )
     force /= force.sum()
     return share, force, np.cumsum(force) - 0.5 * force
 
@@ -62,7 +70,9 @@ def numbers(found):
 
 @pytest.mark.parametrize(("speed", "share"), [(2.0, 0.49), (20.0, 0.049)])
 def test_locked_wheels_in_a_rear_end_impact(speed, share):
-    """0.69 m/s: half of the delta-V at 2 m/s, a twentieth at 20 m/s; delta-V is 0.7 of the speed."""
+    """0.69 m/s: half of the delta-V at 2 m/s, a twentieth at 20 m/s; delta-V is 0.7 of
+    the speed.
+    """
     found = col.left_out(rear_end(speed))
     for side in (found.a, found.b):
         assert side.tyre_delta_v_bound == pytest.approx(0.69, abs=0.005)
@@ -75,7 +85,8 @@ def test_locked_wheels_in_a_rear_end_impact(speed, share):
         assert side.tyre_share == pytest.approx(side.tyre_share_bound)
         assert side.rotation == 0.0
         assert side.geometry_delta_v is side.geometry_share is None
-    # A goes on at 0.3 and B at 0.7 of the speed, half of which they have after more than half of the time.
+    # A goes on at 0.3 and B at 0.7 of the speed, half of which they have after more than half of
+    # the time.
     passed = spring(0.4)[2].mean()
     assert found.a.displacement_x == pytest.approx(0.1 * (1.0 - 0.7 * passed) * speed, rel=1e-8)
     assert found.b.displacement_x == pytest.approx(0.1 * 0.7 * passed * speed, rel=1e-8)
@@ -84,7 +95,9 @@ def test_locked_wheels_in_a_rear_end_impact(speed, share):
 
 
 def test_tyres_of_one_vehicle_are_shared_by_the_contact():
-    """A plastic impact has one common velocity: what the tyres of either take is divided over both masses."""
+    """A plastic impact has one common velocity: what the tyres of either take is divided over both
+    masses.
+    """
     a, b = col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=500.0, vx=-30.0)
     # The common velocity is 0: A slides forward throughout, B backward.
     found = col.left_out(col.linear_central(a, b, 0.0))
@@ -95,22 +108,29 @@ def test_tyres_of_one_vehicle_are_shared_by_the_contact():
 
 @pytest.mark.parametrize("restitution", [0.0, 0.05, 0.3, 0.7, 1.0])
 def test_mutual_crush_is_that_of_a_spring(restitution):
-    """m x'' = -k x: the most is c sqrt(m/k), after a quarter period; a spring of k/e**2 takes e times as long to let go, and
-    gives back the share e**2 of the way. And the closing speed summed up to where it is 0, and to the end.
+    """m x'' = -k x: the most is c sqrt(m/k), after a quarter period; a spring of k/e**2 takes e
+    times as long to let go, and gives back the share e**2 of the way. And the closing speed summed
+    up to where it is 0, and to the end.
     """
     mass, stiffness = 750.0, 400e3
     quarter = 0.5 * math.pi * math.sqrt(mass / stiffness)
     found = col.left_out(rear_end(10.0, restitution), duration=(1.0 + restitution) * quarter)
     crush = 10.0 * math.sqrt(mass / stiffness)
     assert found.mutual_crush == pytest.approx(crush, rel=1e-14)
-    assert found.residual_crush == pytest.approx((1.0 - restitution**2) * crush, rel=1e-14, abs=1e-15)
+    assert found.residual_crush == pytest.approx(
+        (1.0 - restitution**2) * crush, rel=1e-14, abs=1e-15
+    )
     closing = 10.0 - (1.0 + restitution) * 10.0 * spring(restitution)[2]
-    assert found.mutual_crush == pytest.approx(found.duration * np.maximum(closing, 0.0).mean(), rel=1e-8)
+    assert found.mutual_crush == pytest.approx(
+        found.duration * np.maximum(closing, 0.0).mean(), rel=1e-8
+    )
     assert found.residual_crush == pytest.approx(found.duration * closing.mean(), abs=1e-8)
 
 
 def test_crush_at_the_ends_of_restitution():
-    """A share of 2/pi of closing times duration if plastic, of 1/pi if elastic, and then nothing is left."""
+    """A share of 2/pi of closing times duration if plastic, of 1/pi if elastic, and then nothing is
+    left.
+    """
     assert col.left_out(rear_end(10.0, 0.0)).mutual_crush == pytest.approx(2.0 / math.pi)
     elastic = col.left_out(rear_end(10.0, 1.0))
     assert elastic.mutual_crush == pytest.approx(1.0 / math.pi)
@@ -128,44 +148,65 @@ def test_a_car_that_turns_round_pulls_nothing_on_the_whole():
 
 @pytest.mark.parametrize("restitution", [0.0, 0.3, 1.0])
 def test_against_a_wall_in_line_tyres_take_what_the_wall_need_not(restitution):
-    """Delta-V is (1 + e) times the speed, whoever gives it; the wall itself neither moves nor pulls."""
-    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=0.3), col.Vehicle.barrier(), restitution)
+    """Delta-V is (1 + e) times the speed, whoever gives it; the wall itself neither moves nor
+    pulls.
+    """
+    impact = col.linear_central(
+        col.Vehicle(mass=1500.0, vx=0.3), col.Vehicle.barrier(), restitution
+    )
     found = col.left_out(impact)
     assert found.a.tyre_share_bound == pytest.approx(MOST / (0.3 * (1 + restitution)))
     assert found.a.tyre_delta_v == pytest.approx(0.0, abs=1e-12)
-    assert all(value == 0.0 for name, value in numbers(found).items() if name.startswith("b.") and value is not None)
+    assert all(
+        value == 0.0
+        for name, value in numbers(found).items()
+        if name.startswith("b.") and value is not None
+    )
 
 
 def test_oblique_points_slide_along_each_other():
-    """Frictionless at 10 m/s across the normal: 1 m of slide, and tyres against the way each goes."""
+    """Frictionless at 10 m/s across the normal: 1 m of slide, and tyres against the way
+    each goes.
+    """
     a, b = col.Vehicle(mass=1500.0, vx=10.0, vy=0.0), col.Vehicle(mass=1500.0, vy=10.0)
     found = col.left_out(col.oblique_central(a, b, 0.0, normal=0.0, friction=0.0))
     assert found.contact_slide == pytest.approx(1.0)
     assert found.mutual_crush == pytest.approx(2.0 / math.pi)
-    assert (found.b.displacement_x, found.b.displacement_y) == pytest.approx((0.5 * (1.0 - 2.0 / math.pi), 1.0))
-    # A slows from 10 to 5 and is pulled back by all its tyres; B turns its course, and with it the pull, from (0, 1) to (1, 2):
-    # the mean of directions within an angle is no shorter than the cosine of its half.
+    assert (found.b.displacement_x, found.b.displacement_y) == pytest.approx(
+        (0.5 * (1.0 - 2.0 / math.pi), 1.0)
+    )
+    # A slows from 10 to 5 and is pulled back by all its tyres; B turns its course, and with it the
+    # pull, from (0, 1) to (1, 2): the mean of directions within an angle is no shorter than the
+    # cosine of its half.
     assert found.a.tyre_impulse == pytest.approx(1500 * MOST)
     assert math.cos(0.5 * math.atan(0.5)) < found.b.tyre_impulse / (1500 * MOST) < 1.0
     assert found.b.geometry_delta_v is None
 
 
 def test_t_bone():
-    """Rotation and displacement are those of velocities that change as the impulse passes; from its first touch, geometry moves delta-V by a tenth."""
+    """Rotation and displacement are those of velocities that change as the impulse passes; from its
+    first touch, geometry moves delta-V by a tenth.
+    """
     impact = t_bone()
     found = col.left_out(impact)
     passed = spring(0.1)[2].mean()
     assert found.b.rotation == pytest.approx(0.1 * passed * impact.b.after.yaw_rate, rel=1e-8)
-    assert found.a.displacement_x == pytest.approx(0.1 * (20.0 + passed * impact.a.delta_vx), rel=1e-8)
+    assert found.a.displacement_x == pytest.approx(
+        0.1 * (20.0 + passed * impact.a.delta_vx), rel=1e-8
+    )
     assert found.a.geometry_share == pytest.approx(found.b.geometry_share)
-    assert col.left_out(impact, geometry="first_contact").b.geometry_share == pytest.approx(0.1, abs=0.05)
+    assert col.left_out(impact, geometry="first_contact").b.geometry_share == pytest.approx(
+        0.1, abs=0.05
+    )
     assert found.b.geometry_share == pytest.approx(found.b.geometry_delta_v / impact.b.delta_v)
 
 
 def test_geometry_that_does_not_matter():
     """Where both centres are on the normal and nothing turns, the impact is the same later on."""
     a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=20.0, x=-2.2, y=0.0)
-    impact = col.eccentric(a, a.replace(vx=0.0, x=2.2), 0.2, normal=0.0, point=(0.0, 0.0), friction=0.5)
+    impact = col.eccentric(
+        a, a.replace(vx=0.0, x=2.2), 0.2, normal=0.0, point=(0.0, 0.0), friction=0.5
+    )
     assert col.left_out(impact).b.geometry_delta_v == pytest.approx(0.0, abs=1e-12)
 
 
@@ -177,16 +218,20 @@ def test_a_contact_that_takes_no_time_leaves_nothing_out():
 
 
 def test_a_pinned_vehicle():
-    """Its tyres turn it about the pivot: as much as the arm, the inertia and the mass make of their moment."""
+    """Its tyres turn it about the pivot: as much as the arm, the inertia and the mass make of their
+    moment.
+    """
     b = col.Vehicle(mass=1200.0, yaw_inertia=2100.0, x=0.8, y=0.5, pivot=(0.8, -1.0))
     impact = t_bone(b=b, friction=0.0)
     found = col.left_out(impact)
     share = 1200 * 1.5**2 / (2100 + 1200 * 1.5**2)
-    # Wheels at the radius of gyration k: a moment of m (drag g) hypot(arm, k), over m (k^2 + arm^2), times the arm.
+    # Wheels at the radius of gyration k: a moment of m (drag g) hypot(arm, k), over m (k^2 +
+    # arm^2), times the arm.
     gyration = math.sqrt(2100 / 1200)
     assert found.b.tyre_delta_v_bound == pytest.approx(MOST * 1.5 / math.hypot(1.5, gyration))
     assert found.b.tyre_impulse == pytest.approx(1200 * MOST)
-    # A slides forward, B's centre too. Frictionless and in line the contact is one-dimensional: masses along the normal.
+    # A slides forward, B's centre too. Frictionless and in line the contact is one-dimensional:
+    # masses along the normal.
     pushed = (2100 + 1200 * 1.5**2) / 1.0**2
     kick_a, kick_b = -MOST, -MOST * share * 1.0 / 1.5
     common = (1500 * kick_a + pushed * kick_b) / (1500 + pushed)
@@ -198,7 +243,9 @@ def test_a_pinned_vehicle():
 
 
 def test_wheels_at_the_radius_of_gyration_turn_a_pinned_vehicle_no_more_than_is_said():
-    """Four of them on that circle, locked, each pulling across its arm; farther out, as those of a car, they do more."""
+    """Four of them on that circle, locked, each pulling across its arm; farther out, as those of a
+    car, they do more.
+    """
     inertia, mass, x, y = 1333.0, 1000.0, 0.3, 0.2
     b = col.Vehicle(mass=mass, yaw_inertia=inertia, x=x, y=y, pivot=(0.0, 0.0), heading=1.0)
     a = col.Vehicle(mass=900.0, vx=16.67, yaw_inertia=900.0, x=-2.0, y=1.0, heading=0.0)
@@ -208,11 +255,24 @@ def test_wheels_at_the_radius_of_gyration_turn_a_pinned_vehicle_no_more_than_is_
         arms = []
         for sign_x, sign_y in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
             wx, wy = sign_x * ahead, sign_y * left
-            arms.append(math.hypot(x + math.cos(1.0) * wx - math.sin(1.0) * wy, y + math.sin(1.0) * wx + math.cos(1.0) * wy))
-        return MOST * mass * math.fsum(arms) / 4.0 / (inertia + mass * (x * x + y * y)) * math.hypot(x, y)
+            arms.append(
+                math.hypot(
+                    x + math.cos(1.0) * wx - math.sin(1.0) * wy,
+                    y + math.sin(1.0) * wx + math.cos(1.0) * wy,
+                )
+            )
+        return (
+            MOST
+            * mass
+            * math.fsum(arms)
+            / 4.0
+            / (inertia + mass * (x * x + y * y))
+            * math.hypot(x, y)
+        )
 
     gyration = math.sqrt(inertia / mass)
-    # The mean distance of two opposite wheels is at least that of their middle, and that of each from it.
+    # The mean distance of two opposite wheels is at least that of their middle, and that of each
+    # from it.
     least = max(math.hypot(x, y), gyration) / math.hypot(x, y, gyration)
     for angle in np.linspace(0.0, 1.5, 7):
         one = by_wheels(gyration * math.cos(angle), gyration * math.sin(angle))
@@ -225,14 +285,26 @@ TOUCHES = pytest.mark.parametrize("geometry", ["maximum_engagement", "first_cont
 
 
 def in_time(impact, geometry, duration, steps):
-    """How far delta-V moves with the geometry, of A and of B: ``time_resolved`` with places that move and with fixed ones."""
+    """How far delta-V moves with the geometry, of A and of B: ``time_resolved`` with places that
+    move and with fixed ones.
+    """
     given = impact.inputs
-    contact = {"normal": given.normal, "point": given.point, "friction": given.rule_value, "duration": duration, "steps": steps}
+    contact = {
+        "normal": given.normal,
+        "point": given.point,
+        "friction": given.rule_value,
+        "duration": duration,
+        "steps": steps,
+    }
     moves, stands = (
-        col.time_resolved(given.a, given.b, given.restitution, **contact, geometry=one) for one in (geometry, "fixed")
+        col.time_resolved(given.a, given.b, given.restitution, **contact, geometry=one)
+        for one in (geometry, "fixed")
     )
     return [
-        math.hypot(getattr(moves, name).delta_vx - side.delta_vx, getattr(moves, name).delta_vy - side.delta_vy)
+        math.hypot(
+            getattr(moves, name).delta_vx - side.delta_vx,
+            getattr(moves, name).delta_vy - side.delta_vy,
+        )
         for name, side in (("a", stands.a), ("b", stands.b))
     ]
 
@@ -240,7 +312,9 @@ def in_time(impact, geometry, duration, steps):
 @TOUCHES
 @pytest.mark.parametrize("normal", [0.0, 0.3])
 def test_geometry_of_a_short_plastic_contact_is_that_in_time(geometry, normal):
-    """What is linear in the duration, and without friction exact: 0.1 ms in 2000 steps leave a thousandth of it."""
+    """What is linear in the duration, and without friction exact: 0.1 ms in 2000 steps leave a
+    thousandth of it.
+    """
     b = col.Vehicle(mass=1200.0, yaw_inertia=2100.0, vy=10.0, yaw_rate=0.3, x=0.8, y=-1.0)
     impact = t_bone(b=b, restitution=0.0, friction=0.0, normal=normal)
     found = col.left_out(impact, duration=1e-4, geometry=geometry)
@@ -251,13 +325,20 @@ def test_geometry_of_a_short_plastic_contact_is_that_in_time(geometry, normal):
 
 @TOUCHES
 def test_geometry_of_an_impact_is_that_in_time_to_two_percent_of_delta_v(geometry):
-    """T-bones, also of a vehicle that crosses and turns, and a wall; positions at maximum engagement leave 3 to 6 percent."""
+    """T-bones, also of a vehicle that crosses and turns, and a wall; positions at maximum
+    engagement leave 3 to 6 percent.
+    """
     car = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=15.0, x=-1.8, y=0.4)
     crossing = col.Vehicle(mass=1200.0, yaw_inertia=2100.0, vy=10.0, yaw_rate=0.3, x=0.8, y=-1.0)
-    wall = col.eccentric(car, col.Vehicle.barrier(), 0.1, normal="30 deg", point=(0.0, 0.0), friction=0.4)
+    wall = col.eccentric(
+        car, col.Vehicle.barrier(), 0.1, normal="30 deg", point=(0.0, 0.0), friction=0.4
+    )
     for impact in (t_bone(), t_bone(b=crossing), wall):
         found, wanted = col.left_out(impact, geometry=geometry), in_time(impact, geometry, 0.1, 200)
-        for side, estimate, change in ((impact.a, found.a, wanted[0]), (impact.b, found.b, wanted[1])):
+        for side, estimate, change in (
+            (impact.a, found.a, wanted[0]),
+            (impact.b, found.b, wanted[1]),
+        ):
             assert estimate.geometry_delta_v == pytest.approx(change, abs=0.02 * side.delta_v)
         if geometry == "maximum_engagement":
             assert 0.02 < wanted[0] / impact.a.delta_v < 0.07
@@ -274,7 +355,8 @@ def test_positions_are_those_of_maximum_engagement_unless_it_is_said():
     assert one.a.geometry_share == pytest.approx(first.a.geometry_share[1], rel=1e-9)
     for wrong in ("fixed", "first", None, 1, np.array(["first_contact"])):
         with pytest.raises(
-            col.InputError, match="geometry must be 'maximum_engagement' or 'first_contact', which says"
+            col.InputError,
+            match="geometry must be 'maximum_engagement' or 'first_contact', which says",
         ) as caught:
             col.left_out(impact, geometry=wrong)
         assert (caught.value.code, caught.value.fields["argument"]) == ("bad_option", "geometry")
@@ -288,48 +370,64 @@ def test_a_wall_keeps_its_normal_and_the_car_its_place_of_contact():
     wanted = col.left_out(impact).a.geometry_delta_v
     assert wanted > 0.1
     placed = col.left_out(col.eccentric(a, col.Vehicle.barrier(x=1.0, y=0.0), 0.1, **rest))
-    swapped = col.left_out(col.eccentric(col.Vehicle.barrier(), a, 0.1, **{**rest, "normal": "210 deg"}))
+    swapped = col.left_out(
+        col.eccentric(col.Vehicle.barrier(), a, 0.1, **{**rest, "normal": "210 deg"})
+    )
     assert placed.a.geometry_delta_v == pytest.approx(wanted, rel=1e-8)
     assert swapped.b.geometry_delta_v == pytest.approx(wanted, rel=1e-8)
 
 
 @pytest.mark.parametrize("turn", [0.7, 2.5, -1.9])
 def test_the_scene_may_be_turned_and_exchanged(turn):
-    """Nothing depends on the axes or on which vehicle is called A; 1e-9 for the rounding of a change that is scaled up."""
+    """Nothing depends on the axes or on which vehicle is called A; 1e-9 for the rounding of a
+    change that is scaled up.
+    """
     c, s = math.cos(turn), math.sin(turn)
 
     def turned(vehicle):
         place = {"x": c * vehicle.x - s * vehicle.y + 3.0, "y": s * vehicle.x + c * vehicle.y - 2.0}
-        return vehicle.replace(vx=c * vehicle.vx - s * vehicle.vy, vy=s * vehicle.vx + c * vehicle.vy, **place)
+        return vehicle.replace(
+            vx=c * vehicle.vx - s * vehicle.vy, vy=s * vehicle.vx + c * vehicle.vy, **place
+        )
 
-    impact = t_bone(b=col.Vehicle(mass=1200.0, yaw_inertia=2100.0, vy=10.0, yaw_rate=0.3, x=0.8, y=-1.0))
+    impact = t_bone(
+        b=col.Vehicle(mass=1200.0, yaw_inertia=2100.0, vy=10.0, yaw_rate=0.3, x=0.8, y=-1.0)
+    )
     found = col.left_out(impact)
     a, b = turned(impact.a.before), turned(impact.b.before)
     again = col.left_out(col.eccentric(a, b, 0.1, normal=turn, point=(3.0, -2.0), friction=0.5))
-    swapped = col.left_out(col.eccentric(b, a, 0.1, normal=turn + math.pi, point=(3.0, -2.0), friction=0.5))
+    swapped = col.left_out(
+        col.eccentric(b, a, 0.1, normal=turn + math.pi, point=(3.0, -2.0), friction=0.5)
+    )
     skipped = ("displacement_x", "displacement_y", "tyre_impulse_x", "tyre_impulse_y")
     for name in SIDES:
         if name not in skipped:
             assert getattr(again.b, name) == pytest.approx(getattr(found.b, name), rel=1e-9), name
             assert getattr(swapped.a, name) == pytest.approx(getattr(found.b, name), rel=1e-9), name
     for name in TOGETHER:
-        assert getattr(again, name) == pytest.approx(getattr(found, name), rel=1e-9, abs=1e-12), name
+        assert getattr(again, name) == pytest.approx(getattr(found, name), rel=1e-9, abs=1e-12), (
+            name
+        )
 
 
 @pytest.mark.parametrize("law", ["brach", "kudlich-slibar"])
 @pytest.mark.parametrize(
-    "rule", [{"friction": 0.2}, {"friction": math.inf}, {"impulse_ratio": 0.1}, {"critical_fraction": 0.5}]
+    "rule",
+    [{"friction": 0.2}, {"friction": math.inf}, {"impulse_ratio": 0.1}, {"critical_fraction": 0.5}],
 )
 def test_every_law_and_rule_is_asked_again(law, rule):
     """By hand: with a 1024th of the impulse of the tyres from outside.
 
-    The laws are linear in the impulse, for a fraction to the order of what is tried, a 64th of 0.7 of 20 m/s; 1e-8 for the
-    rounding of a change that is scaled up.
+    The laws are linear in the impulse, for a fraction to the order of what is tried, a 64th of 0.7
+    of 20 m/s; 1e-8 for the rounding of a change that is scaled up.
     """
     rule = {"friction": None, **rule}
     impact = t_bone(law=law, **rule)
     found = col.left_out(impact)
-    little = {f"outside_{label}": tuple(part / 1024 for part in getattr(found, f"outside_{label}")) for label in "ab"}
+    little = {
+        f"outside_{label}": tuple(part / 1024 for part in getattr(found, f"outside_{label}"))
+        for label in "ab"
+    }
     pushed = impact.again(**little)
     for name in "ab":
         old, new, side = getattr(impact, name), getattr(pushed, name), getattr(found, name)
@@ -340,7 +438,8 @@ def test_every_law_and_rule_is_asked_again(law, rule):
 
 @pytest.mark.parametrize("friction", [0.2, math.inf])
 def test_tyres_shift_the_velocities_first(friction):
-    """By hand, without impulses from outside: velocities shifted, and the restitution for which the points part as they did.
+    """By hand, without impulses from outside: velocities shifted, and the restitution for which the
+    points part as they did.
 
     Under "brach": for "kudlich-slibar" the restitution is that of the slip too.
     """
@@ -348,7 +447,10 @@ def test_tyres_shift_the_velocities_first(friction):
     found = col.left_out(impact)
     part = 1.0 / 1024
     moved = [
-        side.before.replace(vx=side.before.vx + part * x / side.before.mass, vy=side.before.vy + part * y / side.before.mass)
+        side.before.replace(
+            vx=side.before.vx + part * x / side.before.mass,
+            vy=side.before.vy + part * y / side.before.mass,
+        )
         for side, (x, y) in ((impact.a, found.outside_a), (impact.b, found.outside_b))
     ]
     closing = moved[0].vx - moved[1].vx
@@ -372,7 +474,9 @@ def test_units_of_every_kind():
         {"duration": other.Quantity(80, "ms"), "drag": other.Quantity(0.6, "g_0")},
         {"duration": pint.Quantity(0.08, "s"), "drag": f"{0.6 * GRAVITY!r} m/s**2"},
     ):
-        assert numbers(col.left_out(t_bone(), **arguments)) == pytest.approx(wanted, rel=1e-9, abs=1e-12)
+        assert numbers(col.left_out(t_bone(), **arguments)) == pytest.approx(
+            wanted, rel=1e-9, abs=1e-12
+        )
 
 
 def test_quantities_and_tables():
@@ -408,14 +512,22 @@ def test_pickles():
 
 
 def test_a_batch_is_its_cases():
-    """Speeds, durations and drags broadcast; 1e-9 for the rounding of a change that is scaled up."""
-    speeds, durations, drags = np.array([2.0, 20.0]), np.array([[0.05], [0.1], [0.0]]), np.array([0.3, 0.9])
+    """Speeds, durations and drags broadcast; 1e-9 for the rounding of a change that is
+    scaled up.
+    """
+    speeds, durations, drags = (
+        np.array([2.0, 20.0]),
+        np.array([[0.05], [0.1], [0.0]]),
+        np.array([0.3, 0.9]),
+    )
     found = numbers(col.left_out(t_bone(speeds), duration=durations, drag=drags))
     for value in found.values():
         assert value.shape == (3, 2)
         assert not value.flags.writeable
     for index in np.ndindex(3, 2):
-        one = col.left_out(t_bone(speeds[index[1]]), duration=durations[index[0], 0], drag=drags[index[1]])
+        one = col.left_out(
+            t_bone(speeds[index[1]]), duration=durations[index[0], 0], drag=drags[index[1]]
+        )
         for name, value in numbers(one).items():
             assert found[name][index] == pytest.approx(value, rel=1e-9, abs=1e-12), name
 
@@ -426,7 +538,9 @@ def test_one_impact_of_many_durations_and_many_impacts_of_one():
         col.left_out(rear_end(10.0), duration=np.array([0.05, 0.1])),
         col.left_out(rear_end(np.array([10.0, 10.0]))),
     ):
-        assert found.a.tyre_delta_v.shape == found.mutual_crush.shape == found.duration.shape == (2,)
+        assert (
+            found.a.tyre_delta_v.shape == found.mutual_crush.shape == found.duration.shape == (2,)
+        )
         assert found.a.geometry_delta_v is None
         assert found.b.tyre_delta_v[1] == pytest.approx(MOST)
 
@@ -437,23 +551,33 @@ def test_one_impact_of_many_drags():
     found = col.left_out(rear_end(10.0), drag=drags)
     for index, drag in enumerate(drags):
         one = col.left_out(rear_end(10.0), drag=float(drag))
-        assert found.a.tyre_delta_v_bound[index] == pytest.approx(one.a.tyre_delta_v_bound, rel=1e-15)
+        assert found.a.tyre_delta_v_bound[index] == pytest.approx(
+            one.a.tyre_delta_v_bound, rel=1e-15
+        )
         assert found.b.tyre_delta_v[index] == pytest.approx(one.b.tyre_delta_v, rel=1e-9)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [None, 0.5])
 def test_a_large_batch_is_worked_out_in_blocks(tolerance):
-    """What its cases give alone, and beyond inputs and answers no more memory than 20 MiB, which is no array of all cases.
+    """What its cases give alone, and beyond inputs and answers no more memory than 20 MiB, which is
+    no array of all cases.
 
-    For a block of 16384 cases 150 numbers of 8 bytes are 19 MiB; for all cases at once they would be 229 MiB.
+    For a block of 16384 cases 150 numbers of 8 bytes are 19 MiB; for all cases at once they would
+    be 229 MiB.
     """
     size = 200_000
     speeds = np.linspace(2.0, 20.0, size).reshape(2, -1)
-    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=speeds, x=-2.2, y=np.linspace(0.0, 1.0, size // 2))
+    a = col.Vehicle(
+        mass=1500.0, yaw_inertia=2600.0, vx=speeds, x=-2.2, y=np.linspace(0.0, 1.0, size // 2)
+    )
     b = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=0.8, y=-0.2)
     contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
-    impact = col.eccentric(a, b, 0.1, **contact) if tolerance is None else col.solve(a, b, 0.1, tolerance=tolerance, **contact)
+    impact = (
+        col.eccentric(a, b, 0.1, **contact)
+        if tolerance is None
+        else col.solve(a, b, 0.1, tolerance=tolerance, **contact)
+    )
     tracemalloc.start()
     try:
         found = col.left_out(impact, duration=0.12)
@@ -466,7 +590,11 @@ def test_a_large_batch_is_worked_out_in_blocks(tolerance):
         one = col.left_out(impact.case((row, column)), duration=0.12)
         for name, value in numbers(one).items():
             many = numbers(found)[name][row, column]
-            assert math.isnan(many) if value is None else many == pytest.approx(value, rel=1e-9, abs=1e-12), name
+            assert (
+                math.isnan(many)
+                if value is None
+                else many == pytest.approx(value, rel=1e-9, abs=1e-12)
+            ), name
 
 
 def test_single_precision_stays():
@@ -480,12 +608,17 @@ def test_single_precision_stays():
 
 @pytest.mark.parametrize("kind", [np.float32, np.float64])
 def test_a_linear_impact_at_an_angle_has_estimates_in_every_case(kind):
-    """Both slide one way, so that each loses what its tyres take; the rounding of the pull is not motion across the normal."""
+    """Both slide one way, so that each loses what its tyres take; the rounding of the pull is not
+    motion across the normal.
+    """
     rng = np.random.default_rng(5)
     angle = rng.uniform(-3.0, 3.0, 40_000).astype(kind)
     speed = rng.uniform(5.0, 12.0, angle.size).astype(kind)
     n = np.cos(angle), np.sin(angle)
-    a, b = (col.Vehicle(mass=mass, vx=v * n[0], vy=v * n[1]) for mass, v in ((1500.0, speed), (900.0, kind(0.5) * speed)))
+    a, b = (
+        col.Vehicle(mass=mass, vx=v * n[0], vy=v * n[1])
+        for mass, v in ((1500.0, speed), (900.0, kind(0.5) * speed))
+    )
     impact = col.linear_central(a, b, 0.3, normal=n, on_failure="nan")
     assert np.count_nonzero(impact.refused) == 0
     found = col.left_out(impact)
@@ -496,16 +629,22 @@ def test_a_linear_impact_at_an_angle_has_estimates_in_every_case(kind):
 
 
 def test_one_linear_impact_at_an_angle_against_a_wall():
-    """Where rounding the pull of the tyres was taken for motion across the normal. In line it leaves nothing of delta-V."""
+    """Where rounding the pull of the tyres was taken for motion across the normal. In line it
+    leaves nothing of delta-V.
+    """
     angle, speed = 0.4119811571212382, 1.4832347944330992
     n = math.cos(angle), math.sin(angle)
     car = col.Vehicle(mass=1500.0, vx=speed * n[0], vy=speed * n[1])
-    found = col.left_out(col.linear_central(car, col.Vehicle(mass=math.inf), 0.44644584810264654, normal=n))
+    found = col.left_out(
+        col.linear_central(car, col.Vehicle(mass=math.inf), 0.44644584810264654, normal=n)
+    )
     assert abs(found.a.tyre_delta_v) <= MOST
 
 
 def test_refused_cases_are_nan_and_their_neighbours_untouched():
-    """Those that the impact refused, without another word; those of a bad duration or drag, with one warning."""
+    """Those that the impact refused, without another word; those of a bad duration or drag, with
+    one warning.
+    """
     speeds = np.array([20.0, -1.0, 20.0, 20.0, 20.0])
     impact = t_bone(speeds, on_failure="nan")
     with warnings.catch_warnings():
@@ -515,11 +654,17 @@ def test_refused_cases_are_nan_and_their_neighbours_untouched():
         assert np.isnan(value).tolist() == [False, True, False, False, False]
     durations = np.array([0.1, 0.1, -0.1, math.nan, 0.1])
     drags = np.array([0.7, 0.7, 0.7, 0.7, -0.7])
-    with pytest.warns(col.CollisionsWarning, match="3 of 5 cases cannot be answered and are NaN") as caught:
+    with pytest.warns(
+        col.CollisionsWarning, match="3 of 5 cases cannot be answered and are NaN"
+    ) as caught:
         found = numbers(col.left_out(impact, duration=durations, drag=drags))
     assert len(caught) == 1
     assert caught[0].filename == __file__
-    assert caught[0].message.fields["counts"] == {"not_finite": 1, "negative_duration": 1, "negative_drag": 1}
+    assert caught[0].message.fields["counts"] == {
+        "not_finite": 1,
+        "negative_duration": 1,
+        "negative_drag": 1,
+    }
     one = numbers(col.left_out(t_bone()))
     for name, value in found.items():
         assert np.isnan(value).tolist() == [False, True, True, True, True]
@@ -535,9 +680,13 @@ def test_a_single_refused_impact_is_nan():
 
 
 def test_a_geometry_that_is_no_impact_later_on_is_nan():
-    """One that slides by, and turns, so that the surfaces part when most of the contact is over; alone as in a batch."""
+    """One that slides by, and turns, so that the surfaces part when most of the contact is over;
+    alone as in a batch.
+    """
     for speed in (0.3, np.array([0.3])):
-        a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=speed, vy=-10.0, yaw_rate=3.0, x=-0.8, y=0.0)
+        a = col.Vehicle(
+            mass=1500.0, yaw_inertia=2600.0, vx=speed, vy=-10.0, yaw_rate=3.0, x=-0.8, y=0.0
+        )
         b = col.Vehicle(mass=1200.0, yaw_inertia=2100.0, yaw_rate=3.0, x=0.8, y=0.0)
         impact = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.0)
         found = col.left_out(impact, geometry="first_contact")
@@ -571,7 +720,9 @@ def test_a_batch_without_a_point_has_no_geometry():
     """Also with a case that parts, for which no model is known to be enough."""
     a = col.Vehicle(mass=1500.0, yaw_inertia=math.inf, vx=np.array([10.0, -5.0]))
     b = col.Vehicle(mass=1000.0, yaw_inertia=math.inf)
-    impact = col.solve(a, b, 0.3, normal=0.0, point=None, friction=0.0, tolerance=0.1, on_failure="nan")
+    impact = col.solve(
+        a, b, 0.3, normal=0.0, point=None, friction=0.0, tolerance=0.1, on_failure="nan"
+    )
     assert list(impact.model) == ["linear_central", "eccentric"]
     found = col.left_out(impact)
     assert found.a.geometry_delta_v is None
@@ -582,52 +733,87 @@ def test_a_batch_without_a_point_has_no_geometry():
 
 def least(a=None, b=None, tolerance=0.1, **changes):
     """Nearly in line: what model is the least hangs on the tolerance."""
-    one, other = {"mass": 1500.0, "vx": 10.0, "x": -2.0, "y": 0.0}, {"mass": 1200.0, "x": 2.0, "y": 0.0}
+    one, other = (
+        {"mass": 1500.0, "vx": 10.0, "x": -2.0, "y": 0.0},
+        {"mass": 1200.0, "x": 2.0, "y": 0.0},
+    )
     contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, **changes}
     return col.solve(
-        col.Vehicle(**{**one, **(a or {})}), col.Vehicle(**{**other, **(b or {})}), 0.2, tolerance=tolerance, **contact
+        col.Vehicle(**{**one, **(a or {})}),
+        col.Vehicle(**{**other, **(b or {})}),
+        0.2,
+        tolerance=tolerance,
+        **contact,
     )
 
 
 def test_an_impact_of_solve_without_yaw_inertias():
     """What the linear model leaves out, alone and in a batch, without a point too."""
-    wanted = numbers(col.left_out(col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.2)))
+    wanted = numbers(
+        col.left_out(
+            col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.2)
+        )
+    )
 
     def moved(impact):
         """Without what a central model leaves None."""
-        return {name: value for name, value in numbers(col.left_out(impact)).items() if value is not None}
+        return {
+            name: value
+            for name, value in numbers(col.left_out(impact)).items()
+            if value is not None
+        }
 
     there = {name: value for name, value in wanted.items() if value is not None}
-    assert set(wanted) - set(there) == {f"{side}.geometry_{kind}" for side in "ab" for kind in ("delta_v", "share")}
+    assert set(wanted) - set(there) == {
+        f"{side}.geometry_{kind}" for side in "ab" for kind in ("delta_v", "share")
+    }
     assert moved(least()) == pytest.approx(there, rel=1e-12, abs=1e-12)
     stiff = {"x": None, "y": None, "yaw_inertia": math.inf}
     assert moved(least(stiff, stiff, point=None)) == pytest.approx(there, rel=1e-12, abs=1e-12)
     many = numbers(col.left_out(least({"vx": np.array([10.0, -1.0])}, on_failure="nan")))
     for name, value in many.items():
         assert math.isnan(value[1])
-        assert math.isnan(value[0]) if wanted[name] is None else value[0] == pytest.approx(wanted[name], rel=1e-12, abs=1e-12)
+        assert (
+            math.isnan(value[0])
+            if wanted[name] is None
+            else value[0] == pytest.approx(wanted[name], rel=1e-12, abs=1e-12)
+        )
     longer = col.left_out(least(), duration=np.array([0.1, 0.2]))
     assert longer.a.geometry_delta_v is None
-    assert longer.mutual_crush.tolist() == pytest.approx([wanted["mutual_crush"], 2.0 * wanted["mutual_crush"]])
+    assert longer.mutual_crush.tolist() == pytest.approx(
+        [wanted["mutual_crush"], 2.0 * wanted["mutual_crush"]]
+    )
 
 
 def test_an_impact_of_solve_at_the_edge_of_its_tolerance():
-    """The model that answered is run again, and not the one that the kicked inputs would require."""
+    """The model that answered is run again, and not the one that the kicked inputs
+    would require.
+    """
     body = {"yaw_inertia": 2000.0}
     a, b = {**body, "y": 0.05}, {**body, "vx": -12.0}
     full = least(a, b, tolerance=0.0, friction=0.0)
     edge = 1.15 * full.choice.errors["linear_central"]
     linear, above = (least(a, b, tolerance=edge * (1.0 + by), friction=0.0) for by in (1e-4, 0.2))
-    assert (full.model, linear.model, above.model) == ("eccentric", "linear_central", "linear_central")
+    assert (full.model, linear.model, above.model) == (
+        "eccentric",
+        "linear_central",
+        "linear_central",
+    )
     assert col.left_out(linear).a.tyre_delta_v == col.left_out(above).a.tyre_delta_v
     # The bound on the share of a lever of 0.05 m: 1 percent of the delta-V.
-    assert col.left_out(linear).a.tyre_delta_v == pytest.approx(col.left_out(full).a.tyre_delta_v, rel=0.01)
-    same = col.eccentric(full.a.before, full.b.before, 0.2, normal=0.0, point=(0.0, 0.0), friction=0.0)
+    assert col.left_out(linear).a.tyre_delta_v == pytest.approx(
+        col.left_out(full).a.tyre_delta_v, rel=0.01
+    )
+    same = col.eccentric(
+        full.a.before, full.b.before, 0.2, normal=0.0, point=(0.0, 0.0), friction=0.0
+    )
     assert numbers(col.left_out(full)) == numbers(col.left_out(same))
 
 
 def test_geometry_only_where_the_eccentric_model_answered():
-    """By tolerance: None for a central model alone, NaN in a batch, and the rest of a batch as it is alone."""
+    """By tolerance: None for a central model alone, NaN in a batch, and the rest of a batch as it
+    is alone.
+    """
     tolerances = (0.0, 0.5, 5.0)
     a = {"yaw_inertia": 2000.0, "vy": 3.0, "x": -0.6, "y": -0.15}
     b = {"yaw_inertia": 2000.0, "vx": -2.0, "vy": -4.0, "x": 0.6, "y": 0.15}
@@ -657,10 +843,18 @@ def test_geometry_only_where_the_eccentric_model_answered():
         ({"duration": "x"}, "bad_units", "such as 0.1 (s) or '100 ms'"),
         ({"duration": None}, "not_a_number", "duration must be a number"),
         ({"duration": True}, "not_a_number", "duration must be a number"),
-        ({"duration": [0.1, 0.2]}, "bad_shape", "duration is a list, and takes one value; many cases go in a numpy array"),
+        (
+            {"duration": [0.1, 0.2]},
+            "bad_shape",
+            "duration is a list, and takes one value; many cases go in a numpy array",
+        ),
         ({"duration": "1e308 s"}, "out_of_range", "too large"),
         ({"drag": -0.7}, "negative_drag", "drag must be >= 0, got -0.7"),
-        ({"drag": "5 m"}, "bad_units", "drag: cannot read '5 m' as a drag factor or a deceleration"),
+        (
+            {"drag": "5 m"},
+            "bad_units",
+            "drag: cannot read '5 m' as a drag factor or a deceleration",
+        ),
         ({"drag": math.inf}, "not_finite", "drag must be finite"),
         ({"duration": np.ones(2), "drag": np.ones(3)}, "bad_shape", "duration (2,), drag (3,)"),
         ({"impact": 3.0}, "not_an_impact", "impact must be an Impact, got float"),
@@ -683,7 +877,9 @@ def test_a_mass_too_small_for_its_reciprocal_is_refused():
         col.left_out(col.linear_central(col.Vehicle(mass=5e-324, vx=3.0), struck, 0.3))
     assert caught.value.code == "out_of_range"
     impact = col.linear_central(col.Vehicle(mass=np.array([5e-324, 1500.0]), vx=3.0), struck, 0.3)
-    with pytest.warns(col.CollisionsWarning, match="1 of 2 cases cannot be answered and are NaN .1 out_of_range"):
+    with pytest.warns(
+        col.CollisionsWarning, match="1 of 2 cases cannot be answered and are NaN .1 out_of_range"
+    ):
         found = col.left_out(impact)
     assert np.isnan(found.a.tyre_delta_v).tolist() == [True, False]
 
@@ -696,7 +892,10 @@ def test_all_wrong_arguments_are_named_at_once():
         assert f"\n- {name}" in str(caught.value)
 
 
-@pytest.mark.parametrize(("arguments", "said"), [({"duration": 100}, "'100 ms'"), ({"drag": 6.9}, "'6.9 m/s**2' or '6.9 %'")])
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [({"duration": 100}, "'100 ms'"), ({"drag": 6.9}, "'6.9 m/s**2' or '6.9 %'")],
+)
 def test_bare_numbers_of_a_suspect_size(arguments, said):
     """Read as what they are, with a warning; the same with a unit is beyond suspicion."""
     with pytest.warns(col.SuspectUnitsWarning, match=re.escape(said)) as caught:
@@ -736,10 +935,15 @@ def hold(script, steps=None):
 
 @pytest.mark.slow
 def test_the_reference_is_the_impulse_where_nothing_is_left_out(script):
-    """With the geometry of first contact and no tyres it comes to law "stronge", at second order: twice the steps, a quarter."""
+    """With the geometry of first contact and no tyres it comes to law "stronge", at second order:
+    twice the steps, a quarter.
+    """
     law = script.changes([scene.impact(law="stronge") for scene in script.SCENES])
     once, twice = (
-        np.linalg.norm(script.changes([scene.passed("fixed", steps) for scene in script.SCENES]) - law, axis=(0, 1))
+        np.linalg.norm(
+            script.changes([scene.passed("fixed", steps) for scene in script.SCENES]) - law,
+            axis=(0, 1),
+        )
         for steps in (50, 100)
     )
     assert np.round(np.log2(once / twice)).tolist() == [2.0] * len(script.SCENES)
@@ -747,12 +951,17 @@ def test_the_reference_is_the_impulse_where_nothing_is_left_out(script):
 
 @pytest.mark.slow
 def test_the_reference_has_converged(script):
-    """At second order where wheels slide throughout, as in the sideswipe. Else to what tyres take in one step.
+    """At second order where wheels slide throughout, as in the sideswipe. Else to what tyres take
+    in one step.
 
-    A wheel that starts to slide or stops within a step is held for all of it or for none. The contact shares out what both
-    vehicles miss by that, so neither is off by more than one whole step; what is second order is 1e-4 m/s or less beside it.
+    A wheel that starts to slide or stops within a step is held for all of it or for none. The
+    contact shares out what both vehicles miss by that, so neither is off by more than one whole
+    step; what is second order is 1e-4 m/s or less beside it.
     """
-    found = [script.changes([scene.passed("all", steps) for scene in script.SCENES]) for steps in (100, 200, 400)]
+    found = [
+        script.changes([scene.passed("all", steps) for scene in script.SCENES])
+        for steps in (100, 200, 400)
+    ]
     once, twice = (np.hypot(*(new - old)[:2]) for old, new in itertools.pairwise(found))
     assert once.max() < hold(script, 100)
     assert twice.max() < hold(script, 200)
@@ -762,28 +971,42 @@ def test_the_reference_has_converged(script):
 
 @pytest.mark.slow
 def test_tyres_are_estimated_to_a_factor_of_one_and_a_half(measured):
-    """Sliding with the centre, and at four wheels, which also turn; 1.5 is the margin the design asks for on the estimates."""
+    """Sliding with the centre, and at four wheels, which also turn; 1.5 is the margin the design
+    asks for on the estimates.
+    """
     for row in measured["rows"]:
         for which in ("tyres", "wheels"):
-            assert 1 / 1.5 < row["left_out"]["tyre_delta_v"] / row[which]["delta_v"] < 1.5, (row["scene"], which)
+            assert 1 / 1.5 < row["left_out"]["tyre_delta_v"] / row[which]["delta_v"] < 1.5, (
+                row["scene"],
+                which,
+            )
 
 
 @pytest.mark.slow
 def test_no_tyres_take_more_than_they_can_hold(script):
-    """However they turn: drag times weight times the time that the contact took; of the estimate, the time given."""
+    """However they turn: drag times weight times the time that the contact took; of the estimate,
+    the time given.
+    """
     for scene in script.drawn(20):
-        impact, found = scene.passed("wheels", 50), col.left_out(scene.impact(), duration=script.DURATION, drag=script.DRAG)
+        impact, found = (
+            scene.passed("wheels", 50),
+            col.left_out(scene.impact(), duration=script.DURATION, drag=script.DRAG),
+        )
         for label in "ab":
             side, estimate = getattr(impact, label), getattr(found, label)
             most = script.DRAG * GRAVITY * side.before.mass
-            assert math.hypot(side.tyre_impulse_x, side.tyre_impulse_y) <= most * impact.pulse.duration * (1.0 + 1e-12)
+            assert math.hypot(
+                side.tyre_impulse_x, side.tyre_impulse_y
+            ) <= most * impact.pulse.duration * (1.0 + 1e-12)
             assert estimate.tyre_impulse <= estimate.tyre_impulse_bound * (1.0 + 1e-12)
             assert estimate.tyre_impulse_bound == pytest.approx(most * script.DURATION, rel=1e-12)
 
 
 @pytest.mark.slow
 def test_geometry_is_estimated_to_a_factor_of_one_and_a_half(measured):
-    """From first contact; of what little is left from maximum engagement, to 2 percent of delta-V."""
+    """From first contact; of what little is left from maximum engagement, to 2 percent
+    of delta-V.
+    """
     for row in measured["rows"]:
         moved = row["moving"]["delta_v"]
         if row["scene"].startswith("rear_end"):
@@ -797,7 +1020,9 @@ def test_geometry_is_estimated_to_a_factor_of_one_and_a_half(measured):
 
 @pytest.mark.slow
 def test_estimates_over_random_impacts_are_as_the_docstring_says(measured):
-    """Worked out again; the docstring has the figures of the committed file, which keeps three digits."""
+    """Worked out again; the docstring has the figures of the committed file, which keeps three
+    digits.
+    """
     file = json.loads((ROOT / "docs" / "_generated" / "time_resolved.json").read_text("utf-8"))
     said = " ".join(col.left_out.__doc__.split())
     assert measured["frictions"] == file["frictions"]
@@ -809,10 +1034,15 @@ def test_estimates_over_random_impacts_are_as_the_docstring_says(measured):
         for name in ("tyres", "moving", "engaged"):
             row = committed[name]
             assert measured[key][name]["quantiles"] == pytest.approx(row["quantiles"], rel=0.006)
-            assert measured[key][name]["outside_1.5"] == pytest.approx(row["outside_1.5"], rel=0.006)
+            assert measured[key][name]["outside_1.5"] == pytest.approx(
+                row["outside_1.5"], rel=0.006
+            )
             assert measured[key][name]["vehicles"] == row["vehicles"]
             least, low, *_, high, most = row["quantiles"]
-            assert re.search(rf"{low:.2f} to {high:.2f} of [\w ]+ in 9 of 10, {least:.2f} to {most:.2f} in all", said)
+            assert re.search(
+                rf"{low:.2f} to {high:.2f} of [\w ]+ in 9 of 10, {least:.2f} to {most:.2f} in all",
+                said,
+            )
             assert row["no_estimate"] == 0
 
 
@@ -821,7 +1051,8 @@ def test_estimates_over_random_impacts_are_as_the_docstring_says(measured):
 def test_other_random_impacts_are_as_often_within(script, key):
     """The shares said hold for impacts of another seed, to three standard errors of both samples.
 
-    Both vehicles of an impact go together, so a share of N vehicles has a standard error of sqrt(p (1 - p) / (N/2)).
+    Both vehicles of an impact go together, so a share of N vehicles has a standard error of sqrt(p
+    (1 - p) / (N/2)).
     """
     file = json.loads((ROOT / "docs" / "_generated" / "time_resolved.json").read_text("utf-8"))
     again = script.ratios_of_drawn(80, 50, tuple(file["frictions"][key]), seed=7)
@@ -836,12 +1067,21 @@ def test_other_random_impacts_are_as_often_within(script, key):
 
 
 def parting_as_given(script, key, variant):
-    """A scene followed with that spring for which it takes 0.1 s and the points part at e times the closing speed."""
+    """A scene followed with that spring for which it takes 0.1 s and the points part at e times the
+    closing speed.
+    """
     (scene,) = (one for one in script.SCENES if one.key == key)
     e, duration = scene.restitution, script.DURATION
-    contact = {"normal": scene.normal, "point": scene.point, "friction": scene.friction, **script.VARIANTS[variant]}
+    contact = {
+        "normal": scene.normal,
+        "point": scene.point,
+        "friction": scene.friction,
+        **script.VARIANTS[variant],
+    }
     for _ in range(60):
-        impact = col.time_resolved(*scene.vehicles(), e, **contact, duration=duration, steps=script.STEPS)
+        impact = col.time_resolved(
+            *scene.vehicles(), e, **contact, duration=duration, steps=script.STEPS
+        )
         parts = impact.separation_speed / (scene.restitution * impact.closing_speed)
         lasts = impact.pulse.duration / script.DURATION
         if abs(parts - 1.0) + abs(lasts - 1.0) < 1e-5:
@@ -852,11 +1092,17 @@ def parting_as_given(script, key, variant):
 
 
 def braked_in_line(speed, e, duration, count=20_000):
-    """Share of the delta-V of the front of two equal cars that locked wheels of both take: masses on a line, in small steps.
+    """Share of the delta-V of the front of two equal cars that locked wheels of both take: masses
+    on a line, in small steps.
 
-    Energetic restitution: a spring, let go along one that is 1 / e squared as stiff. Tyres take what they can and no more.
+    Energetic restitution: a spring, let go along one that is 1 / e squared as stiff. Tyres take
+    what they can and no more.
     """
-    stiffness, step, take = 0.5 * ((1.0 + e) * math.pi / (2.0 * duration)) ** 2, duration / count, MOST / 0.1 * duration / count
+    stiffness, step, take = (
+        0.5 * ((1.0 + e) * math.pi / (2.0 * duration)) ** 2,
+        duration / count,
+        MOST / 0.1 * duration / count,
+    )
     a, b, crush, deepest = speed, 0.0, 0.0, 0.0
     while True:
         deepest = max(deepest, crush)
@@ -870,11 +1116,12 @@ def braked_in_line(speed, e, duration, count=20_000):
 
 @pytest.mark.slow
 def test_the_figures_of_the_design(script, measured):
-    """Tyres are half of the delta-V of a rear-end impact at 2 m/s and 5 % at 20 m/s; a T-bone at 20 m/s loses 5 %.
+    """Tyres are half of the delta-V of a rear-end impact at 2 m/s and 5 % at 20 m/s; a T-bone at 20
+    m/s loses 5 %.
 
-    43 % and 5.2 % are those of a force of 0.1 s after which the points part at e times the closing speed, as with impulses from
-    outside. A spring that gives back the part e squared of its work lets them part otherwise where tyres act or the geometry
-    moves: so 48 % and 4.8 %.
+    43 % and 5.2 % are those of a force of 0.1 s after which the points part at e times the closing
+    speed, as with impulses from outside. A spring that gives back the part e squared of its work
+    lets them part otherwise where tyres act or the geometry moves: so 48 % and 4.8 %.
     """
     rows = {(row["scene"], row["side"]): row for row in measured["rows"]}
     two, twenty = (rows[f"rear_end_{speed}", "b"]["wheels"]["share"] for speed in (2, 20))
@@ -883,11 +1130,18 @@ def test_the_figures_of_the_design(script, measured):
     assert rows["t_bone", "b"]["moving"]["magnitude"] == pytest.approx(-0.05, abs=0.005)
     # To what tyres take in a step, and three digits.
     for share, speed in ((two, 2.0), (twenty, 20.0)):
-        assert share == pytest.approx(braked_in_line(speed, 0.4, 0.1), abs=hold(script) / (0.7 * speed), rel=0.005)
-    # The tyres of A hold it in the end: it keeps none of the (1 - e) / 2 of the speed that it would.
-    assert rows["rear_end_2", "a"]["wheels"]["share"] == pytest.approx(0.6 / 1.4, abs=hold(script) / 1.4)
+        assert share == pytest.approx(
+            braked_in_line(speed, 0.4, 0.1), abs=hold(script) / (0.7 * speed), rel=0.005
+        )
+    # The tyres of A hold it in the end: it keeps none of the (1 - e) / 2 of the speed that it
+    # would.
+    assert rows["rear_end_2", "a"]["wheels"]["share"] == pytest.approx(
+        0.6 / 1.4, abs=hold(script) / 1.4
+    )
     # B leaves it at e c = 0.8 m/s, not at 1.4.
-    assert parting_as_given(script, "rear_end_2", "wheels") == pytest.approx(-0.6 / 1.4, abs=hold(script) / 1.4)
+    assert parting_as_given(script, "rear_end_2", "wheels") == pytest.approx(
+        -0.6 / 1.4, abs=hold(script) / 1.4
+    )
     assert parting_as_given(script, "t_bone", "moving") == pytest.approx(-0.052, abs=5e-4)
 
 
@@ -908,11 +1162,15 @@ def test_the_least_restitution_leaves_out_what_none_does(restitution):
     """Restitution takes so long as compression: next to nothing, not a time over nothing."""
     a, b = col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1200.0)
     least, none = (col.left_out(col.linear_central(a, b, e)) for e in (restitution, 0.0))
-    assert (least.mutual_crush, least.a.tyre_delta_v) == pytest.approx((none.mutual_crush, none.a.tyre_delta_v), rel=1e-12)
+    assert (least.mutual_crush, least.a.tyre_delta_v) == pytest.approx(
+        (none.mutual_crush, none.a.tyre_delta_v), rel=1e-12
+    )
 
 
 def test_what_a_refused_scene_without_a_point_leaves_out():
-    """Bodies that move apart are refused whatever else is missing; nothing was left out for them."""
+    """Bodies that move apart are refused whatever else is missing; nothing was left out
+    for them.
+    """
     gate = col.Vehicle(mass=1000.0, yaw_inertia=1300.0, x=2.0, y=1.0, pivot=(2.0, 0.0))
     away = col.Vehicle(mass=1500.0, vx=np.array([-20.0, -10.0]), yaw_inertia=2000.0, x=0.0, y=0.0)
     for a in (away, away.replace(vx=np.array([]))):

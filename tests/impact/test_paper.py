@@ -1,7 +1,9 @@
-"""Examples 1 to 3 of "Application of Impulse Momentum Theory to Vehicle Collisions", and its equations on them.
+"""Examples 1 to 3 of "Application of Impulse Momentum Theory to Vehicle Collisions", and its
+equations on them.
 
-Against exact fractions the answers agree to 1e-14. The printed figures come from speeds rounded to two decimals (22.22 and
-16.67 m/s) or are cut off (7.82, 8.55), so they are met to 1e-2 and no closer.
+Against exact fractions the answers agree to 1e-14. The printed figures come from speeds rounded to
+two decimals (22.22 and 16.67 m/s) or are cut off (7.82, 8.55), so they are met to 1e-2 and no
+closer.
 """
 
 import math
@@ -22,20 +24,29 @@ def near(value, relative=EXACT):
 
 @pytest.fixture
 def example_2():
-    """A, 1100 kg at 80 km/h, into the back of B, 950 kg at rest, with the restitution that leaves B at 60 km/h."""
+    """A, 1100 kg at 80 km/h, into the back of B, 950 kg at rest, with the restitution that leaves B
+    at 60 km/h.
+    """
     a = col.Vehicle(mass="1100 kg", vx="80 km/h", name="A")
     return col.linear_central(a, col.Vehicle(mass="950 kg", name="B"), 35 / 88)
 
 
 @pytest.fixture
 def example_3():
-    """A, 900 kg at 60 km/h and not turning, strikes the end of B, which turns about O at its other end."""
+    """A, 900 kg at 60 km/h and not turning, strikes the end of B, which turns about O at its other
+    end.
+    """
     a = col.Vehicle(mass="900 kg", vx="60 km/h", yaw_inertia=math.inf, x=-1.0, y=4.0, name="A")
-    b = col.Vehicle(mass="1000 kg", yaw_inertia=1000 * 4**2 / 12, x=0.0, y=2.0, pivot=(0.0, 0.0), name="B")
+    b = col.Vehicle(
+        mass="1000 kg", yaw_inertia=1000 * 4**2 / 12, x=0.0, y=2.0, pivot=(0.0, 0.0), name="B"
+    )
     return col.eccentric(a, b, 0.80, normal=0.0, point=(0.0, 4.0), friction=0.0)
 
 
-@pytest.mark.parametrize(("e", "kind"), [(0.0, "plastic"), (0.25, "elastoplastic"), (0.6, "elastoplastic"), (1.0, "elastic")])
+@pytest.mark.parametrize(
+    ("e", "kind"),
+    [(0.0, "plastic"), (0.25, "elastoplastic"), (0.6, "elastoplastic"), (1.0, "elastic")],
+)
 def test_example_1_fixed_body(e, kind):
     """v' = -e v against a fixed body, with the paper's name for each kind of impact."""
     car = col.Vehicle(mass="1100 kg", vx="50 km/h")
@@ -71,14 +82,18 @@ def test_example_2_printed(example_2):
 
 
 def test_example_2_printed_figures_follow_from_rounded_speeds():
-    """7.82 and 0.40 are what the paper's own rounded speeds give, so the tolerance above is theirs and not ours."""
+    """7.82 and 0.40 are what the paper's own rounded speeds give, so the tolerance above is theirs
+    and not ours.
+    """
     v_after = (1100 * 22.22 - 950 * 16.67) / 1100
     assert math.floor(v_after * 100) / 100 == 7.82
     assert round((16.67 - 7.82) / 22.22, 2) == 0.40
 
 
 def test_example_2_refutes_the_printed_sign(example_2):
-    """With the denominator v_B - v_A, as printed, e would be negative; eq (9) and the printed value have v_A - v_B."""
+    """With the denominator v_B - v_A, as printed, e would be negative; eq (9) and the printed value
+    have v_A - v_B.
+    """
     a, b = example_2.a, example_2.b
     as_written = (b.after.vx - a.after.vx) / (b.before.vx - a.before.vx)
     assert as_written == near(Fraction(-35, 88))
@@ -92,7 +107,9 @@ def test_example_2_common_velocity_and_periods(example_2):
     for side in (example_2.a, example_2.b):
         assert side.at_compression.q.vx.m_as("km/h") == near(v_c)
     assert example_2.restitution_impulse / example_2.compression_impulse == near(Fraction(35, 88))
-    assert example_2.compression_impulse + example_2.restitution_impulse == near(example_2.normal_impulse)
+    assert example_2.compression_impulse + example_2.restitution_impulse == near(
+        example_2.normal_impulse
+    )
 
 
 def test_example_2_momentum_and_energy(example_2):
@@ -149,7 +166,9 @@ def test_example_3_restitution_in_three_forms(example_3):
         return vehicle.velocity_at(top)[0]
 
     of_a = (a.at_compression.vx - a.after.vx) / (a.before.vx - a.at_compression.vx)
-    of_turning = (b.at_compression.yaw_rate - b.after.yaw_rate) / (b.before.yaw_rate - b.at_compression.yaw_rate)
+    of_turning = (b.at_compression.yaw_rate - b.after.yaw_rate) / (
+        b.before.yaw_rate - b.at_compression.yaw_rate
+    )
     of_contact = (at(b.at_compression) - at(b.after)) / (at(b.before) - at(b.at_compression))
     assert (of_a, of_turning, of_contact) == (near(0.8), near(0.8), near(0.8))
     assert at(a.at_compression) == near(at(b.at_compression))
@@ -157,22 +176,30 @@ def test_example_3_restitution_in_three_forms(example_3):
 
 
 def test_example_3_refutes_the_misprints(example_3):
-    """The stray "v'_A 4" and 1333 read as the inertia about O each break eq (20), which the answer meets."""
+    """The stray "v'_A 4" and 1333 read as the inertia about O each break eq (20), which the answer
+    meets.
+    """
     turn, va = -example_3.b.after.yaw_rate, example_3.a.after.vx
-    assert 900 * va * 4 + va * 4 + 1000 * 2 * turn * 2 + 1000 * 4**2 / 12 * turn != near(60000, 1e-4)
+    assert 900 * va * 4 + va * 4 + 1000 * 2 * turn * 2 + 1000 * 4**2 / 12 * turn != near(
+        60000, 1e-4
+    )
     assert 3600 * va + 1333 * turn != near(60000, PRINTED)
 
 
 def test_example_3_by_arrays(example_3):
     """A batch of the same case agrees with the single one."""
     a, b = example_3.a.before, example_3.b.before
-    many = col.eccentric(a.replace(vx=np.full(3, a.vx)), b, 0.80, normal=0.0, point=(0.0, 4.0), friction=0.0)
+    many = col.eccentric(
+        a.replace(vx=np.full(3, a.vx)), b, 0.80, normal=0.0, point=(0.0, 4.0), friction=0.0
+    )
     np.testing.assert_allclose(many.b.after.yaw_rate, -405 / 74, rtol=EXACT)
     np.testing.assert_allclose(many.a.after.vx, 950 / 111, rtol=EXACT)
 
 
 def test_oblique_keeps_the_tangential_velocities():
-    """Eq (9) and the text above it: components along the normal as in a linear impact, the others unchanged."""
+    """Eq (9) and the text above it: components along the normal as in a linear impact, the others
+    unchanged.
+    """
     a = col.Vehicle.from_speed(mass="1100 kg", speed="50 km/h", course="30 deg")
     b = col.Vehicle.from_speed(mass="950 kg", speed="40 km/h", course="120 deg")
     e = 0.3

@@ -1,7 +1,9 @@
-"""In a batch every output of a refused case is NaN, or None, its status or no text; and a case is refused exactly as it is alone.
+"""In a batch every output of a refused case is NaN, or None, its status or no text; and a case is
+refused exactly as it is alone.
 
-Every number of every call is spoilt in turn, each way in a case of its own of one batch; what refuses it is found by solving
-each case alone. Outputs are found by their names, so that a new one is looked at too.
+Every number of every call is spoilt in turn, each way in a case of its own of one batch; what
+refuses it is found by solving each case alone. Outputs are found by their names, so that a new one
+is looked at too.
 """
 
 from __future__ import annotations
@@ -29,14 +31,17 @@ from collisions.quantities.attributes import attributes
 
 INF, NAN = math.inf, math.nan
 GAIN = col.Status.ENERGY_GAIN
-# What every number is spoilt with; what a factor spoils is often no more than another case, which then must be answered.
+# What every number is spoilt with; what a factor spoils is often no more than another case, which
+# then must be answered.
 SPOILT = (NAN, INF, -INF, 0.0, -1.0, 2.0, 1e300)
 FACTORS = (-1.0, 0.1, 10.0)
 
 
 @dataclass(frozen=True)
 class Call:
-    """A call of numbers by name, numbers that it answers, and changes of these that refuse it in ways of their own."""
+    """A call of numbers by name, numbers that it answers, and changes of these that refuse it in
+    ways of their own.
+    """
 
     function: Callable[..., Any]
     base: Mapping[str, float]
@@ -82,7 +87,11 @@ OTHERWISE: dict[str, dict[str, Any]] = {
 
 def body(numbers: Mapping[str, Any], label: str) -> col.Vehicle:
     """The vehicle whose numbers begin so."""
-    own = {name.removeprefix(f"{label}."): value for name, value in numbers.items() if name.startswith(f"{label}.")}
+    own = {
+        name.removeprefix(f"{label}."): value
+        for name, value in numbers.items()
+        if name.startswith(f"{label}.")
+    }
     pivot = pair(own, "pivot")
     return col.Vehicle(**own, pivot=pivot)
 
@@ -107,7 +116,9 @@ def forward(model: str) -> Callable[..., Any]:
 
     def call(**numbers: Any) -> Any:
         given = rest_of(numbers, "a", "b")
-        return getattr(col, model)(body(numbers, "a"), body(numbers, "b"), given.pop("restitution"), **given)
+        return getattr(col, model)(
+            body(numbers, "a"), body(numbers, "b"), given.pop("restitution"), **given
+        )
 
     return call
 
@@ -154,7 +165,9 @@ def observed(name: str) -> Callable[..., Any]:
 
     def call(**numbers: Any) -> Any:
         labels = ("a_before", "b_before", "a_after", "b_after")
-        return getattr(reconstruct, name)(*(body(numbers, label) for label in labels), **rest_of(numbers, *labels))
+        return getattr(reconstruct, name)(
+            *(body(numbers, label) for label in labels), **rest_of(numbers, *labels)
+        )
 
     return call
 
@@ -164,7 +177,10 @@ def inline(**numbers: Any) -> Any:
 
 
 def crush(**numbers: Any) -> Any:
-    lists = {name: [numbers.pop(f"{name}[{i}]") for i in range(count)] for name, count in (("widths", 2), ("depths", 3))}
+    lists = {
+        name: [numbers.pop(f"{name}[{i}]") for i in range(count)]
+        for name, count in (("widths", 2), ("depths", 3))
+    }
     return reconstruct.crush_energy(**lists, **numbers)
 
 
@@ -174,7 +190,10 @@ def along(function: Callable[..., Any], segments: int) -> Callable[..., Any]:
     def call(**numbers: Any) -> Any:
         if not segments:
             return function(**numbers)
-        lists = {name: [numbers.pop(f"{name}[{i}]") for i in range(segments)] for name in ("distance", "drag", "grade")}
+        lists = {
+            name: [numbers.pop(f"{name}[{i}]") for i in range(segments)]
+            for name in ("distance", "drag", "grade")
+        }
         return function(**lists, **numbers)
 
     return call
@@ -186,7 +205,9 @@ def path(**numbers: Any) -> Any:
 
 
 def simulate(**numbers: Any) -> Any:
-    vehicle = col.Vehicle(**{name: numbers.pop(name) for name in (*BODY_AT_REST, "vx", "vy", "yaw_rate")})
+    vehicle = col.Vehicle(
+        **{name: numbers.pop(name) for name in (*BODY_AT_REST, "vx", "vy", "yaw_rate")}
+    )
     slope = numbers.pop("slope[0]", 0.0), numbers.pop("slope[1]", 0.0)
     rest = travel.simulate(vehicle, travel.Tyres(**numbers), slope=slope, moments=2).rest
     return {"x": rest.x, "y": rest.y, "heading": rest.heading, "speed": rest.speed}
@@ -202,7 +223,16 @@ STATE = tuple(
 MOTION = tuple(
     f"{side}.before.{name}"
     for side in "ab"
-    for name in ("vx", "vy", "yaw_rate", "speed", "course", "momentum[0]", "momentum[1]", "kinetic_energy")
+    for name in (
+        "vx",
+        "vy",
+        "yaw_rate",
+        "speed",
+        "course",
+        "momentum[0]",
+        "momentum[1]",
+        "kinetic_energy",
+    )
 )
 PLACE = ("normal[0]", "normal[1]", "normal_angle", "point[0]", "point[1]")
 FORWARD = (*STATE, *MOTION, *PLACE, "restitution", "friction")
@@ -215,7 +245,14 @@ IN_LINE = (
     "normal_angle",
     "friction",
 )
-GIVEN = {"va": 20.0, "vb": 2.0, "va_after": 9.6, "vb_after": 15.0, "restitution": 0.3, "energy_loss": 98280.0}
+GIVEN = {
+    "va": 20.0,
+    "vb": 2.0,
+    "va_after": 9.6,
+    "vb_after": 15.0,
+    "restitution": 0.3,
+    "energy_loss": 98280.0,
+}
 STILL = dict.fromkeys(("a.vx", "a.vy", "a.yaw_rate", "b.vx", "b.vy", "b.yaw_rate"), 0.0)
 FIXED = {"a.mass": INF, "b.mass": INF, "a.yaw_inertia": INF, "b.yaw_inertia": INF}
 JAMMED = {
@@ -236,35 +273,71 @@ def calls() -> Iterator[tuple[str, Call]]:
     """All of them, by name."""
     free = {**CAR_A, **CAR_B, **CONTACT}
     special = (STILL, FIXED)
-    flat = {name: 0.0 if name.endswith("yaw_rate") else value for name, value in free.items() if "point" not in name}
+    flat = {
+        name: 0.0 if name.endswith("yaw_rate") else value
+        for name, value in free.items()
+        if "point" not in name
+    }
     straight = {name: 0.0 if name.endswith(".vy") else value for name, value in flat.items()}
-    yield "linear_central", Call(forward("linear_central"), {**straight, "normal": 0.0}, special, FORWARD)
+    yield (
+        "linear_central",
+        Call(forward("linear_central"), {**straight, "normal": 0.0}, special, FORWARD),
+    )
     yield (
         "linear_central, vector",
         Call(
             forward("linear_central"),
-            {**{k: v for k, v in straight.items() if k != "normal"}, "normal[0]": 2.0, "normal[1]": 0.0},
+            {
+                **{k: v for k, v in straight.items() if k != "normal"},
+                "normal[0]": 2.0,
+                "normal[1]": 0.0,
+            },
             ({"normal[0]": 0.0},),
             FORWARD,
         ),
     )
     for rule, bound in RULES.items():
-        yield f"oblique_central, {rule}", Call(forward("oblique_central"), {**flat, rule: bound}, special, FORWARD)
+        yield (
+            f"oblique_central, {rule}",
+            Call(forward("oblique_central"), {**flat, rule: bound}, special, FORWARD),
+        )
         for law in LAWS:
             jammed = ({**JAMMED, "impulse_ratio": -2.0},) if rule == "impulse_ratio" else ()
-            pulls = ({**PULLS, rule: INF if rule == "friction" else 0.5},) if rule != "impulse_ratio" else ()
+            pulls = (
+                ({**PULLS, rule: INF if rule == "friction" else 0.5},)
+                if rule != "impulse_ratio"
+                else ()
+            )
             yield (
                 f"eccentric, {rule}, {law}",
-                Call(forward("eccentric"), {**free, rule: bound}, (*special, *jammed, *pulls), FORWARD, {"law": law}),
+                Call(
+                    forward("eccentric"),
+                    {**free, rule: bound},
+                    (*special, *jammed, *pulls),
+                    FORWARD,
+                    {"law": law},
+                ),
             )
         for name, options in OTHERWISE.items() if rule == "friction" else ():
-            echoes = (*FORWARD, *(f"{side}.outside_{axis}" for side in "ab" for axis in ("x", "y", "yaw")))
-            yield f"eccentric, {name}", Call(forward("eccentric"), {**free, rule: bound}, special, echoes, options)
+            echoes = (
+                *FORWARD,
+                *(f"{side}.outside_{axis}" for side in "ab" for axis in ("x", "y", "yaw")),
+            )
+            yield (
+                f"eccentric, {name}",
+                Call(forward("eccentric"), {**free, rule: bound}, special, echoes, options),
+            )
         for tolerance in (0.0, 0.3, 100.0):
             inputs = {**free, rule: bound, "tolerance": tolerance}
             yield (
                 f"solve, {rule}, {tolerance}",
-                Call(forward("solve"), inputs, special, (*FORWARD, "choice.tolerance"), single=("tolerance",)),
+                Call(
+                    forward("solve"),
+                    inputs,
+                    special,
+                    (*FORWARD, "choice.tolerance"),
+                    single=("tolerance",),
+                ),
             )
         yield (
             f"required_model, {rule}",
@@ -276,11 +349,21 @@ def calls() -> Iterator[tuple[str, Call]]:
                 single=("tolerance",),
             ),
         )
-        pinned = {**free, "b.vx": 0.0, "b.vy": 0.0, "b.pivot[0]": 2.5, "b.pivot[1]": 1.5, rule: bound}
+        pinned = {
+            **free,
+            "b.vx": 0.0,
+            "b.vy": 0.0,
+            "b.pivot[0]": 2.5,
+            "b.pivot[1]": 1.5,
+            rule: bound,
+        }
         yield (
             f"eccentric, pinned, {rule}",
             Call(
-                forward("eccentric"), pinned, ({"b.vx": 3.0}, {"a.mass": INF, "a.yaw_inertia": INF, "a.yaw_rate": 0.0}), FORWARD
+                forward("eccentric"),
+                pinned,
+                ({"b.vx": 3.0}, {"a.mass": INF, "a.yaw_inertia": INF, "a.yaw_rate": 0.0}),
+                FORWARD,
             ),
         )
     held = {**STILL, "a.vx": 0.4, "duration": 0.3, "drag": 0.7, "restitution": 0.3}
@@ -296,8 +379,14 @@ def calls() -> Iterator[tuple[str, Call]]:
         ),
     )
     spinning = {**STILL, "a.vx": 3.0, "a.yaw_rate": 15.0, "duration": 0.5}
-    yield "time_resolved", Call(forward("time_resolved"), timed, (spinning,), FORWARD, {"steps": 25})
-    yield "left_out", Call(left_out, {**free, "friction": 0.4, "duration": 0.1, "drag": 0.7}, special)
+    yield (
+        "time_resolved",
+        Call(forward("time_resolved"), timed, (spinning,), FORWARD, {"steps": 25}),
+    )
+    yield (
+        "left_out",
+        Call(left_out, {**free, "friction": 0.4, "duration": 0.1, "drag": 0.7}, special),
+    )
     yield (
         "methods",
         Call(
@@ -315,13 +404,22 @@ def calls() -> Iterator[tuple[str, Call]]:
                 echoes = (*IN_LINE, *(["restitution"] if "restitution" in known else []))
                 yield (
                     f"central, {', '.join(known)}",
-                    Call(central, {"mass_a": 1500.0, "mass_b": 1200.0, **known}, ({"mass_a": INF, "mass_b": INF},), echoes),
+                    Call(
+                        central,
+                        {"mass_a": 1500.0, "mass_b": 1200.0, **known},
+                        ({"mass_a": INF, "mass_b": INF},),
+                        echoes,
+                    ),
                 )
     backwards = (*STATE, *PLACE, "friction")
     after = {"a.vx": 3.0, "a.vy": 1.6, "b.vx": 6.0, "b.vy": 1.9}
     for rule, bound in {**RULES, "friction": 0.05}.items():
         for law in LAWS:
-            for kind, value in (("restitution", 0.2), ("closing_speed", 12.0), ("energy_loss", 9e3)):
+            for kind, value in (
+                ("restitution", 0.2),
+                ("closing_speed", 12.0),
+                ("energy_loss", 9e3),
+            ):
                 if rule == "critical_fraction" and kind == "energy_loss":
                     continue
                 inputs = {
@@ -331,7 +429,10 @@ def calls() -> Iterator[tuple[str, Call]]:
                     kind: value,
                 }
                 echoes = (*backwards, *(["restitution"] if kind == "restitution" else []))
-                yield f"planar, {rule}, {law}, {kind}", Call(planar, inputs, (STILL, FIXED), echoes, {"law": law})
+                yield (
+                    f"planar, {rule}, {law}, {kind}",
+                    Call(planar, inputs, (STILL, FIXED), echoes, {"law": law}),
+                )
     yawing = tuple(f"{side}.before.yaw_rate" for side in "ab")
     pairs = (
         {"speed_b": 5.0, "delta_v_a": 6.0},
@@ -346,13 +447,29 @@ def calls() -> Iterator[tuple[str, Call]]:
     for known, rule, law in zip(pairs, (*RULES, *RULES), (*LAWS, *LAWS, LAWS[0]), strict=False):
         inputs = {**still, rule: RULES[rule], **known, "course_a": 0.1, "course_b": 2.2}
         echoes = (*backwards, *yawing, "restitution")
-        yield f"speeds, {rule}, {', '.join(known)}", Call(speeds, inputs, (FIXED,), echoes, {"law": law})
+        yield (
+            f"speeds, {rule}, {', '.join(known)}",
+            Call(speeds, inputs, (FIXED,), echoes, {"law": law}),
+        )
     courses = {"course_a": 0.1, "course_b": 1.7, "course_a_after": 0.9, "course_b_after": 0.5}
     going = {"speed_a": 15.0, "speed_b": 12.0, "speed_a_after": 9.0, "speed_b_after": 8.0}
     balance = {"mass_a": 1500.0, "mass_b": 1300.0, **courses}
-    echoes = ("mass_a", "mass_b", *courses, "heading_a", "heading_b", "normal_angle", "outside_impulse_x", "outside_impulse_y")
+    echoes = (
+        "mass_a",
+        "mass_b",
+        *courses,
+        "heading_a",
+        "heading_b",
+        "normal_angle",
+        "outside_impulse_x",
+        "outside_impulse_y",
+    )
     parallel = ({"course_a": 1.7}, {"course_a_after": 0.5})
-    for one, other in (("speed_a", "speed_b"), ("speed_a_after", "speed_b_after"), ("speed_a", "speed_b_after")):
+    for one, other in (
+        ("speed_a", "speed_b"),
+        ("speed_a_after", "speed_b_after"),
+        ("speed_a", "speed_b_after"),
+    ):
         known = {name: speed for name, speed in going.items() if name in (one, other)}
         yield f"momentum, {one}, {other}", Call(momentum, {**balance, **known}, parallel, echoes)
     whole = {
@@ -369,7 +486,13 @@ def calls() -> Iterator[tuple[str, Call]]:
         "momentum, vector",
         Call(
             momentum,
-            {**balance, "speed_a_after": 9.0, "speed_b_after": 8.0, "normal[0]": 1.0, "normal[1]": 0.2},
+            {
+                **balance,
+                "speed_a_after": 9.0,
+                "speed_b_after": 8.0,
+                "normal[0]": 1.0,
+                "normal[1]": 0.2,
+            },
             parallel,
             echoes,
         ),
@@ -378,7 +501,8 @@ def calls() -> Iterator[tuple[str, Call]]:
         "momentum, together",
         Call(
             momentum,
-            {name: value for name, value in balance.items() if name != "course_b_after"} | {"speed_b": 12.0},
+            {name: value for name, value in balance.items() if name != "course_b_after"}
+            | {"speed_b": 12.0},
             ({"course_a": 0.9},),
             echoes,
             {"together": True},
@@ -393,24 +517,49 @@ def calls() -> Iterator[tuple[str, Call]]:
             car = {name[2:]: value for name, value in (CAR_A if label == "a" else CAR_B).items()}
             seen |= {
                 f"{label}_{when}.{name}": value
-                for name, value in {**car, **dict(zip(("vx", "vy", "yaw_rate"), numbers, strict=True))}.items()
+                for name, value in {
+                    **car,
+                    **dict(zip(("vx", "vy", "yaw_rate"), numbers, strict=True)),
+                }.items()
             }
     at = {name: value for name, value in CONTACT.items() if name != "restitution"}
     unturned = {name: value for name, value in seen.items() if not name.endswith("yaw_rate")}
     for name in ("restitution", "friction"):
-        yield name, Call(observed(name), {**seen, **at}, ({f"{side}_before.vx": 0.0 for side in "ab"},))
+        yield (
+            name,
+            Call(observed(name), {**seen, **at}, ({f"{side}_before.vx": 0.0 for side in "ab"},)),
+        )
         yield f"{name}, unturned", Call(observed(name), {**unturned, "normal": 0.1})
     pins = {f"b_{moment}.{name}": 0.0 for moment in ("before", "after") for name in ("vx", "vy")}
-    pins |= {f"b_{moment}.pivot[{i}]": part for moment in ("before", "after") for i, part in enumerate((2.5, 1.5))}
-    others = ({"b_before.vx": 3.0}, {"b_after.vy": 3.0}, {"b_before.yaw_inertia": INF, "b_after.yaw_inertia": INF})
+    pins |= {
+        f"b_{moment}.pivot[{i}]": part
+        for moment in ("before", "after")
+        for i, part in enumerate((2.5, 1.5))
+    }
+    others = (
+        {"b_before.vx": 3.0},
+        {"b_after.vy": 3.0},
+        {"b_before.yaw_inertia": INF, "b_after.yaw_inertia": INF},
+    )
     yield "restitution, pinned", Call(observed("restitution"), {**seen, **at, **pins}, others)
-    for kind in ({"delta_v_a": 6.0}, {"delta_v_b": 6.0}, {"energy_loss": 5e4}, {"ees_a": 6.0, "ees_b": 5.0}):
+    for kind in (
+        {"delta_v_a": 6.0},
+        {"delta_v_b": 6.0},
+        {"energy_loss": 5e4},
+        {"ees_a": 6.0, "ees_b": 5.0},
+    ):
         numbers = {"mass_a": 1500.0, "mass_b": 1300.0, "restitution": 0.2, **kind}
         yield (
             f"inline_closing_speed, {next(iter(kind))}",
             Call(inline, numbers, ({"mass_a": INF, "mass_b": INF}, {"restitution": 1.0})),
         )
-    profile = {"widths[0]": 0.4, "widths[1]": 0.5, "depths[0]": 0.2, "depths[1]": 0.3, "depths[2]": 0.1}
+    profile = {
+        "widths[0]": 0.4,
+        "widths[1]": 0.5,
+        "depths[0]": 0.2,
+        "depths[1]": 0.3,
+        "depths[2]": 0.1,
+    }
     yield (
         "crush_energy",
         Call(
@@ -420,20 +569,44 @@ def calls() -> Iterator[tuple[str, Call]]:
         ),
     )
     stiff = {"stiffness_a": 9e5, "stiffness_b": 5e5}
-    yield "crush_share", Call(reconstruct.crush_share, stiff, (dict.fromkeys(stiff, INF), {"stiffness_a": 0.0}))
+    yield (
+        "crush_share",
+        Call(reconstruct.crush_share, stiff, (dict.fromkeys(stiff, INF), {"stiffness_a": 0.0})),
+    )
     damaged = {"energy": 9e4, "mass_a": 1500.0, "mass_b": 1300.0, "gamma_a": 0.8, "gamma_b": 0.9}
-    yield "crush_delta_v", Call(reconstruct.crush_delta_v, damaged, ({"mass_a": INF, "mass_b": INF}, {"gamma_a": 1.5}))
+    yield (
+        "crush_delta_v",
+        Call(
+            reconstruct.crush_delta_v, damaged, ({"mass_a": INF, "mass_b": INF}, {"gamma_a": 1.5})
+        ),
+    )
     surface = {"distance": 20.0, "drag": 0.7, "grade": 0.05, "end_speed": 3.0}
     several = {
-        f"{name}[{i}]": value / (i + 1.0) for name, value in surface.items() if name != "end_speed" for i in range(2)
+        f"{name}[{i}]": value / (i + 1.0)
+        for name, value in surface.items()
+        if name != "end_speed"
+        for i in range(2)
     } | {"end_speed": 3.0}
-    downhill = ({"drag": 0.0, "grade": -0.4, "end_speed": 1.0}, {"drag": 0.0, "grade": 0.0, "end_speed": 0.0}, {"drag": 1e308})
+    downhill = (
+        {"drag": 0.0, "grade": -0.4, "end_speed": 1.0},
+        {"drag": 0.0, "grade": 0.0, "end_speed": 0.0},
+        {"drag": 1e308},
+    )
     for name in ("speed", "time"):
         yield name, Call(along(getattr(travel, name), 0), surface, downhill)
-        yield f"{name}, several", Call(along(getattr(travel, name), 2), several, ({"drag[1]": 1e308}, {"drag[0]": 1e308}))
+        yield (
+            f"{name}, several",
+            Call(
+                along(getattr(travel, name), 2), several, ({"drag[1]": 1e308}, {"drag[0]": 1e308})
+            ),
+        )
     yield (
         "distance",
-        Call(along(travel.distance, 0), {"speed": 15.0, "drag": 0.7, "grade": 0.05, "end_speed": 3.0}, downhill),
+        Call(
+            along(travel.distance, 0),
+            {"speed": 15.0, "drag": 0.7, "grade": 0.05, "end_speed": 3.0},
+            downhill,
+        ),
     )
     places = {
         "x[0]": 0.0,
@@ -447,21 +620,51 @@ def calls() -> Iterator[tuple[str, Call]]:
         "heading[2]": 2.0,
     }
     ground = {"friction": 0.7, "lock": 0.3, "grade": 0.02, "end_speed": 2.0}
-    yield "path", Call(path, {**places, **ground}, ({"heading[1]": 4.0}, {"x[1]": 0.0, "y[1]": 0.0}, {"friction": 1e308}))
-    car = {"mass": 1500.0, "yaw_inertia": 2400.0, "x": 1.0, "y": 2.0, "heading": 0.3, "vx": 6.0, "vy": 1.0, "yaw_rate": 1.0}
+    yield (
+        "path",
+        Call(
+            path,
+            {**places, **ground},
+            ({"heading[1]": 4.0}, {"x[1]": 0.0, "y[1]": 0.0}, {"friction": 1e308}),
+        ),
+    )
+    car = {
+        "mass": 1500.0,
+        "yaw_inertia": 2400.0,
+        "x": 1.0,
+        "y": 2.0,
+        "heading": 0.3,
+        "vx": 6.0,
+        "vy": 1.0,
+        "yaw_rate": 1.0,
+    }
     size = {"wheelbase": 2.7, "track": 1.5, "height": 0.5}
     wheels = {"friction": 0.7, "lock": 1.0, "steer": 0.1, **size, "slope[0]": 0.01, "slope[1]": 0.0}
     yield (
         "simulate",
-        Call(simulate, {**car, **wheels}, ({"friction": 0.0}, {"slope[0]": 0.9}, {"height": 2.0}, {"mass": math.inf})),
+        Call(
+            simulate,
+            {**car, **wheels},
+            ({"friction": 0.0}, {"slope[0]": 0.9}, {"height": 2.0}, {"mass": math.inf}),
+        ),
     )
     yield (
         "reference.restitution",
-        Call(reference.restitution, {"closing_speed": 3.0}, ({"closing_speed": 30.0}, {"closing_speed": 0.01})),
+        Call(
+            reference.restitution,
+            {"closing_speed": 3.0},
+            ({"closing_speed": 30.0}, {"closing_speed": 0.01}),
+        ),
     )
     yield "reference.restitution_range", Call(reference.restitution_range, {"closing_speed": 3.0})
-    yield "reference.yaw_inertia", Call(reference.yaw_inertia, {"mass": 1500.0, "wheelbase": 2.7, "length": 4.5})
-    yield "reference.yaw_inertia, width", Call(reference.yaw_inertia, {"mass": 1500.0, "length": 4.5, "width": 1.8})
+    yield (
+        "reference.yaw_inertia",
+        Call(reference.yaw_inertia, {"mass": 1500.0, "wheelbase": 2.7, "length": 4.5}),
+    )
+    yield (
+        "reference.yaw_inertia, width",
+        Call(reference.yaw_inertia, {"mass": 1500.0, "length": 4.5, "width": 1.8}),
+    )
 
 
 def pulling() -> dict[str, float]:
@@ -497,7 +700,18 @@ CALLS = dict(calls())
 # ---- what comes back ----
 ARGUMENTS = {"share_a": 0.5, "point": (1.0, 2.0)}
 # Of the whole call, not of a case of it.
-WHOLE = ("model", "law", "name", "method", "reason", "missing", "known", "unknowns", "choice", "reconstruction")
+WHOLE = (
+    "model",
+    "law",
+    "name",
+    "method",
+    "reason",
+    "missing",
+    "known",
+    "unknowns",
+    "choice",
+    "reconstruction",
+)
 
 
 def outputs(found: Any, name: str = "") -> Iterator[tuple[str, Any]]:
@@ -512,9 +726,15 @@ def outputs(found: Any, name: str = "") -> Iterator[tuple[str, Any]]:
     elif isinstance(found, (col.Impact, Side)) or is_dataclass(found):
         kind = type(found)
         given = (
-            [f.name for f in fields(found) if not f.name.startswith("_") and f.name != "given"] if is_dataclass(found) else []
+            [f.name for f in fields(found) if not f.name.startswith("_") and f.name != "given"]
+            if is_dataclass(found)
+            else []
         )
-        for key in (*given, *attributes(kind), *(["model"] if isinstance(found, col.ModelChoice) else [])):
+        for key in (
+            *given,
+            *attributes(kind),
+            *(["model"] if isinstance(found, col.ModelChoice) else []),
+        ):
             try:
                 value = getattr(found, key)
             except col.MissingInputError:
@@ -522,8 +742,14 @@ def outputs(found: Any, name: str = "") -> Iterator[tuple[str, Any]]:
                 continue
             yield from outputs(value, dot + key)
         for key, member in vars(kind).items():
-            if inspect.isfunction(member) and hasattr(member, "unit") and not isinstance(found, col.Vehicle):
-                arguments = {part: ARGUMENTS[part] for part in list(inspect.signature(member).parameters)[1:]}
+            if (
+                inspect.isfunction(member)
+                and hasattr(member, "unit")
+                and not isinstance(found, col.Vehicle)
+            ):
+                arguments = {
+                    part: ARGUMENTS[part] for part in list(inspect.signature(member).parameters)[1:]
+                }
                 yield from outputs(getattr(found, key)(**arguments), f"{dot}{key}()")
     else:
         yield name, found
@@ -531,7 +757,11 @@ def outputs(found: Any, name: str = "") -> Iterator[tuple[str, Any]]:
 
 def at(value: Any, shape: tuple[int, ...], case: int) -> Any:
     """What an output is in one case."""
-    return np.broadcast_to(value, shape).reshape(-1)[case].item() if isinstance(value, np.ndarray) else value
+    return (
+        np.broadcast_to(value, shape).reshape(-1)[case].item()
+        if isinstance(value, np.ndarray)
+        else value
+    )
 
 
 def is_nothing(value: Any) -> bool:
@@ -539,7 +769,9 @@ def is_nothing(value: Any) -> bool:
     return value is None or value == "" or (isinstance(value, float) and math.isnan(value))
 
 
-def check_case(label: str, found: Any, shape: tuple[int, ...], case: int, echoes: tuple[str, ...]) -> None:
+def check_case(
+    label: str, found: Any, shape: tuple[int, ...], case: int, echoes: tuple[str, ...]
+) -> None:
     """No output of a refused case says anything but how it was refused."""
     for name, value in outputs(found):
         value, last = at(value, shape, case), name.rpartition(".")[2].partition("[")[0]
@@ -571,7 +803,11 @@ def columns_of(name: str) -> list[dict[str, float]]:
     found = [dict(base)]
     for number, value in base.items():
         if number not in call.single:
-            found += [{**base, number: worse} for worse in (*SPOILT, *(factor * value for factor in FACTORS)) if worse != value]
+            found += [
+                {**base, number: worse}
+                for worse in (*SPOILT, *(factor * value for factor in FACTORS))
+                if worse != value
+            ]
     return found + [{**base, **changes} for changes in call.changes]
 
 
@@ -586,49 +822,81 @@ def alone(name: str, case: int) -> Any:
 
 
 def together(
-    call: Call, columns: list[dict[str, float]], varied: set[str] | None = None, shape: Any = -1, kind: Any = float
+    call: Call,
+    columns: list[dict[str, float]],
+    varied: set[str] | None = None,
+    shape: Any = -1,
+    kind: Any = float,
 ) -> Any:
     """The answer to all cases at once; numbers that are not varied stay single."""
     numbers: dict[str, Any] = dict(call.base)
     for name in call.base:
         if name not in call.single and (varied is None or name in varied):
             with np.errstate(over="ignore"):
-                numbers[name] = np.array([case[name] for case in columns]).astype(kind).reshape(shape)
+                numbers[name] = (
+                    np.array([case[name] for case in columns]).astype(kind).reshape(shape)
+                )
     return quietly(lambda: call.function(**numbers, **call.options))
 
 
 def parts(found: Any) -> list[Any]:
-    """The answers that have refused cases of their own: the roots of ``speeds``, else the answer itself."""
-    return list(found) if isinstance(found, tuple) and found and isinstance(found[0], col.Impact) else [found]
+    """The answers that have refused cases of their own: the roots of ``speeds``, else the answer
+    itself.
+    """
+    return (
+        list(found)
+        if isinstance(found, tuple) and found and isinstance(found[0], col.Impact)
+        else [found]
+    )
 
 
 def at_rest(impact: Any, output: str) -> bool:
     """Whether this is the course of a vehicle at rest, to which rounding may give one."""
-    return output.endswith(".course") and attrgetter(output.removesuffix("course") + "speed")(impact) < 1e-12
+    return (
+        output.endswith(".course")
+        and attrgetter(output.removesuffix("course") + "speed")(impact) < 1e-12
+    )
 
 
 def check(name: str, chosen: Sequence[int], found: Any, shape: tuple[int, ...]) -> tuple[int, int]:
-    """Looks at these cases of a call in the answer to all of them; gives how many were answered and how many refused."""
+    """Looks at these cases of a call in the answer to all of them; gives how many were answered and
+    how many refused.
+    """
     call, columns = CALLS[name], columns_of(name)
     answered = refused = 0
     for number, case in enumerate(chosen):
         one = alone(name, case)
         is_refused = isinstance(one, col.CollisionsError)
         answered, refused = answered + (not is_refused), refused + is_refused
-        here = f"{name}, { ({key: value for key, value in columns[case].items() if value != call.base[key]}) }"
+        here = (
+            f"{name}, "
+            f"{ ({key: value for key, value in columns[case].items() if value != call.base[key]}) }"
+        )
         for place, part in enumerate(parts(found)):
-            status = at(np.asarray(getattr(part, "status", GAIN if not is_refused else GAIN + 1)), shape, number)
+            status = at(
+                np.asarray(getattr(part, "status", GAIN if not is_refused else GAIN + 1)),
+                shape,
+                number,
+            )
             if place == 0:
-                assert (status > GAIN) == is_refused, f"{here}: {col.Status(status).label}, and alone {one!r}"
+                assert (status > GAIN) == is_refused, (
+                    f"{here}: {col.Status(status).label}, and alone {one!r}"
+                )
             if status > GAIN:
                 check_case(here, part, shape, number, call.echoes)
             elif place == 0:
-                for (output, value), (same, value_alone) in zip(outputs(part), outputs(parts(one)[0]), strict=True):
+                for (output, value), (same, value_alone) in zip(
+                    outputs(part), outputs(parts(one)[0]), strict=True
+                ):
                     assert output == same
                     if isinstance(value_alone, np.ndarray) or at_rest(parts(one)[0], output):
-                        continue  # a history of the contact, which a batch does not keep; a course that is none
+                        # a history of the contact, which a batch does not keep; a course that is
+                        # none
+                        continue
                     value = at(value, shape, number)
-                    assert is_nothing(value) == is_nothing(value_alone), f"{here}: {output} is {value!r}, alone {value_alone!r}"
+                    assert is_nothing(value) == is_nothing(value_alone), (
+                        f"{here}: {output} is {value!r}, alone {value_alone!r}"
+                    )
     return answered, refused
 
 
@@ -647,20 +915,30 @@ EVERY_RUN = (
     "friction",
 )
 LONG = (
-    "linear_central", "oblique_central", "eccentric", "solve", "planar", "speeds", "central", "restitution", "friction", "simulate",
+    "linear_central", "oblique_central", "eccentric", "solve", "planar", "speeds", "central",
+    "restitution", "friction", "simulate",
     "time_resolved",
 )  # fmt: skip
 every_call = pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=pytest.mark.slow if name.startswith(LONG) and name not in EVERY_RUN else ()) for name in CALLS],
+    [
+        pytest.param(
+            name, marks=pytest.mark.slow if name.startswith(LONG) and name not in EVERY_RUN else ()
+        )
+        for name in CALLS
+    ],
 )
 
 
 @every_call
 def test_every_output_of_a_refused_case(name: str) -> None:
-    """Each number of the call spoilt in turn, all in one batch; refused exactly where the case alone is."""
+    """Each number of the call spoilt in turn, all in one batch; refused exactly where the case
+    alone is.
+    """
     columns = columns_of(name)
-    answered, refused = check(name, range(len(columns)), together(CALLS[name], columns), (len(columns),))
+    answered, refused = check(
+        name, range(len(columns)), together(CALLS[name], columns), (len(columns),)
+    )
     assert answered
     assert refused
 
@@ -673,7 +951,9 @@ def test_some_cases_beside_single_numbers(data: Any, name: str) -> None:
     columns = columns_of(name)
     chosen = [0, *data.draw(st.lists(st.integers(0, len(columns) - 1), min_size=1, max_size=5))]
     some = [columns[case] for case in chosen]
-    varied = {number for number, value in some[0].items() if any(case[number] != value for case in some)}
+    varied = {
+        number for number, value in some[0].items() if any(case[number] != value for case in some)
+    }
     others = sorted(set(some[0]) - varied)
     varied |= set(data.draw(st.lists(st.sampled_from(others), max_size=3))) if others else set()
     if not varied - set(CALLS[name].single):
@@ -686,9 +966,14 @@ def test_some_cases_beside_single_numbers(data: Any, name: str) -> None:
 @pytest.mark.parametrize("kind", [np.float32, np.float64])
 @every_call
 def test_many_cases_and_float32(name: str, kind: Any) -> None:
-    """More cases than a block, whose outputs are worked out when they are read; in float32 more is beyond floats."""
+    """More cases than a block, whose outputs are worked out when they are read; in float32 more is
+    beyond floats.
+    """
     call, columns = CALLS[name], columns_of(name)
-    columns = [*columns, *({**call.base, number: large} for number in call.base for large in (1e18, 3e38))]
+    columns = [
+        *columns,
+        *({**call.base, number: large} for number in call.base for large in (1e18, 3e38)),
+    ]
     # What solves by eigenvalues or integrates takes too long for so many.
     repeats = 1 if "speeds" in name or name == "simulate" else BLOCK // len(columns) + 2
     found = together(call, columns * repeats, kind=kind)
@@ -700,15 +985,29 @@ def test_many_cases_and_float32(name: str, kind: Any) -> None:
             if isinstance(value, np.ndarray)
         }
         if not hasattr(part, "status"):
-            # A number that its precision cannot hold is no answer; of a model that has none the error is infinite.
+            # A number that its precision cannot hold is no answer; of a model that has none the
+            # error is infinite.
             for output, value in taken.items():
-                assert value.dtype.kind != "f" or output.startswith("errors.") or not np.isinf(value).any(), output
+                assert (
+                    value.dtype.kind != "f"
+                    or output.startswith("errors.")
+                    or not np.isinf(value).any()
+                ), output
             continue
         for case in np.flatnonzero(part.status[: len(columns)] > GAIN):
             for output, value in taken.items():
                 last = output.rpartition(".")[2].partition("[")[0]
-                if output not in call.echoes and last not in (*WHOLE, "status", "ok", "refused", "complete", "answers"):
-                    assert is_nothing(value[case].item()), f"{name}, {columns[case]}: {output} is {value[case]!r}"
+                if output not in call.echoes and last not in (
+                    *WHOLE,
+                    "status",
+                    "ok",
+                    "refused",
+                    "complete",
+                    "answers",
+                ):
+                    assert is_nothing(value[case].item()), (
+                        f"{name}, {columns[case]}: {output} is {value[case]!r}"
+                    )
 
 
 @every_call
@@ -721,7 +1020,9 @@ def test_a_single_case_that_is_not_to_raise(name: str) -> None:
     for number, case in enumerate(columns_of(name)):
         if isinstance(alone(name, number), col.CollisionsError):
             try:
-                found = quietly(lambda case=case: call.function(**case, **call.options, on_failure="nan"))
+                found = quietly(
+                    lambda case=case: call.function(**case, **call.options, on_failure="nan")
+                )
             except col.InputError:
                 continue  # an argument that cannot be used is refused all the same
             check_case(f"{name}, {case}", found, (), 0, call.echoes)
@@ -739,14 +1040,24 @@ def test_columns_of_refused_cases(name: str) -> None:
             allowed = {output.replace("[0]", ".x").replace("[1]", ".y") for output in call.echoes}
             for key, column in impact.to_columns().items():
                 last = key.rpartition(".")[2]
-                if key not in allowed and last not in (*WHOLE, *RULES, "status", "ok", "refused", "complete", "answers"):
+                if key not in allowed and last not in (
+                    *WHOLE,
+                    *RULES,
+                    "status",
+                    "ok",
+                    "refused",
+                    "complete",
+                    "answers",
+                ):
                     assert all(is_nothing(column[case]) for case in refused), f"{name}: {key}"
 
 
 @pytest.mark.parametrize("place", [{}, {"x": 2.0}])
 @pytest.mark.parametrize("answered", [0, 1])
 def test_a_refused_case_may_lack_a_position(place: dict[str, float], answered: int) -> None:
-    """A central model needs none, and what is refused for its restitution never comes to need one."""
+    """A central model needs none, and what is refused for its restitution never comes
+    to need one.
+    """
     a = col.Vehicle(mass=1000.0, vx=10.0, yaw_inertia=1500.0, x=-2.0, y=0.0)
     spins, e = np.array([0.0, 1.0])[1 - answered :], np.array([0.2, NAN])[1 - answered :]
     b = col.Vehicle(mass=1000.0, yaw_inertia=INF, yaw_rate=spins, **place)
@@ -755,7 +1066,13 @@ def test_a_refused_case_may_lack_a_position(place: dict[str, float], answered: i
     assert impact.refused.tolist() == [False, True][1 - answered :]
     needs = (f"choice.missing.eccentric[{i}]" for i in range(2))
     check_case("solve", impact, (answered + 1,), answered, (*FORWARD, "choice.tolerance", *needs))
-    check_case("left_out", quietly(lambda: col.left_out(impact)), (answered + 1,), answered, ("duration", "drag"))
+    check_case(
+        "left_out",
+        quietly(lambda: col.left_out(impact)),
+        (answered + 1,),
+        answered,
+        ("duration", "drag"),
+    )
     columns = impact.to_columns()
     for name in ("common_velocity", "a.kinetic_energy_change", "b.kinetic_energy_change"):
         assert math.isnan(columns[name][answered])
@@ -774,10 +1091,21 @@ def test_every_reason_of_refusal_is_met() -> None:
     for name, call in CALLS.items():
         for part in parts(together(call, columns_of(name))):
             seen |= set(np.unique(getattr(part, "status", 0)).tolist())
-    assert {status.label for status in col.Status if status > GAIN} == {col.Status(code).label for code in seen if code > GAIN}
+    assert {status.label for status in col.Status if status > GAIN} == {
+        col.Status(code).label for code in seen if code > GAIN
+    }
 
 
-NOT_TO_RAISE = ("linear_central", "oblique_central", "eccentric", "solve", "time_resolved", "central", "planar", "momentum")
+NOT_TO_RAISE = (
+    "linear_central",
+    "oblique_central",
+    "eccentric",
+    "solve",
+    "time_resolved",
+    "central",
+    "planar",
+    "momentum",
+)
 # Of the public functions those that take one case, or none.
 ONE_CASE = {
     col: {"diagnose", "explain", "impact_schema", "report", "what_if"},
@@ -795,19 +1123,31 @@ def test_every_public_function_is_called(module: ModuleType) -> None:
     covered = {name.partition(",")[0] for name in CALLS}
     assert {name for name in public if prefix + name in covered} == public - ONE_CASE[module]
     for name in public:
-        assert ("on_failure" in inspect.signature(getattr(module, name)).parameters) == (name in NOT_TO_RAISE)
+        assert ("on_failure" in inspect.signature(getattr(module, name)).parameters) == (
+            name in NOT_TO_RAISE
+        )
 
 
 def test_a_mean_is_that_of_the_answered_cases() -> None:
-    """A fifth is refused, as the bodies would not part: a restitution of 0 there would lower the mean by a fifth."""
+    """A fifth is refused, as the bodies would not part: a restitution of 0 there would lower the
+    mean by a fifth.
+    """
 
     def model(vb: Any) -> dict[str, Any]:
-        return {"e": reconstruct.central(1500.0, 1200.0, va=20.0, vb=vb, vb_after=12.0, on_failure="nan").restitution}
+        return {
+            "e": reconstruct.central(
+                1500.0, 1200.0, va=20.0, vb=vb, vb_after=12.0, on_failure="nan"
+            ).restitution
+        }
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.CollisionsWarning)
         found = col.uncertainty.propagate(
-            model, {"vb": col.uncertainty.Uniform(0.0, 2.5)}, method="quasi_random", samples=8192, seed=1
+            model,
+            {"vb": col.uncertainty.Uniform(0.0, 2.5)},
+            method="quasi_random",
+            samples=8192,
+            seed=1,
         )
     # 1 + e = (12 - vb) / (5/9 (20 - vb)), which is 1 at vb = 2, and its mean from 0 to there.
     assert found["e"].mean == pytest.approx(0.9 * (2.0 + 8.0 * math.log(0.9)) - 1.0, rel=1e-3)

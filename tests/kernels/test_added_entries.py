@@ -1,4 +1,6 @@
-"""What is added to the tables of laws, rules, domains and kernels is used as it says, or refused: never taken for another."""
+"""What is added to the tables of laws, rules, domains and kernels is used as it says, or refused:
+never taken for another.
+"""
 
 import math
 from dataclasses import replace
@@ -21,7 +23,13 @@ CONTACT = {"normal": 0.1, "point": (0.0, 0.1)}
 
 def law(name, sticking_slip):
     """A law with this slip after sticking."""
-    return Law(name, sticking_slip, no_slip="what is tried", derivation="what is tried", assumption="what is tried")
+    return Law(
+        name,
+        sticking_slip,
+        no_slip="what is tried",
+        derivation="what is tried",
+        assumption="what is tried",
+    )
 
 
 @pytest.fixture
@@ -61,17 +69,25 @@ def test_the_energy_lost_under_a_third_law(half, solver, friction):
         np.testing.assert_allclose(impact.energy_loss, lost, rtol=0.0, atol=1e-8)
         if friction > 1.0:
             assert np.all(impact.regime == "sticking")
-            np.testing.assert_allclose(impact.slip_after, -0.5 * e * impact.slip_before, rtol=0.0, atol=1e-12)
+            np.testing.assert_allclose(
+                impact.slip_after, -0.5 * e * impact.slip_before, rtol=0.0, atol=1e-12
+            )
 
 
 def test_a_new_domain_is_checked_for_one_number():
     """The reader asks the domain itself, in words and with the code of its status."""
-    small = Domain("below 2", ((lambda value: value >= 2.0, Status.BAD_FRACTION),), lambda values: bool(np.all(values < 2.0)))
+    small = Domain(
+        "below 2",
+        ((lambda value: value >= 2.0, Status.BAD_FRACTION),),
+        lambda values: bool(np.all(values < 2.0)),
+    )
     reader = ArgumentReader()
     assert reader.number(1.5, "", "gear", small) == 1.5
     reader.close()
     reader.number(3.0, "", "gear", small)
-    with pytest.raises(col.InputError, match=r"gear must be below 2, got 3\.0: the critical fraction is outside") as raised:
+    with pytest.raises(
+        col.InputError, match=r"gear must be below 2, got 3\.0: the critical fraction is outside"
+    ) as raised:
         reader.close()
     assert (raised.value.code, raised.value.fields["argument"]) == ("bad_fraction", "gear")
 
@@ -80,8 +96,11 @@ def test_every_status_says_its_family():
     """Where it is declared, so that one appended needs no place in a range."""
     families = {
         "impact": "SEPARATING GRAZING NO_CLOSING",
-        "input": "OUT_OF_RANGE NOT_FINITE NOT_POSITIVE BAD_RESTITUTION BAD_FRICTION BAD_FRACTION ZERO_NORMAL PINNED_INFINITE "
-        "PINNED_VELOCITY SPINNING TRANSVERSE NEGATIVE_SIZE WHEEL_LIFTS",
+        "input": (
+            "OUT_OF_RANGE NOT_FINITE NOT_POSITIVE BAD_RESTITUTION BAD_FRICTION BAD_FRACTION "
+            "ZERO_NORMAL PINNED_INFINITE PINNED_VELOCITY SPINNING TRANSVERSE NEGATIVE_SIZE "
+            "WHEEL_LIFTS"
+        ),
     }
     of = {name: family for family, names in families.items() for name in names.split()}
     for status in Status:

@@ -1,4 +1,6 @@
-"""The kernels run on arrays of other libraries as they are; skipped where the extra "elsewhere" is not installed."""
+"""The kernels run on arrays of other libraries as they are; skipped where the extra "elsewhere" is
+not installed.
+"""
 
 import doctest
 import tomllib
@@ -14,7 +16,9 @@ from engine.test_tracing import LAW_RULES, numbers, programs
 
 PAGE = Path(__file__).parents[2] / "docs" / "kernels_elsewhere.md"
 KERNELS = [
-    one if "friction brach (False, False)" in one.id else pytest.param(*one.values, id=one.id, marks=pytest.mark.slow)
+    one
+    if "friction brach (False, False)" in one.id
+    else pytest.param(*one.values, id=one.id, marks=pytest.mark.slow)
     for one in programs()
 ]
 
@@ -31,14 +35,22 @@ def same(found, wanted):
     """To the bit, NaN and all."""
     for name, one, other in zip(Answer._fields, found, wanted, strict=True):
         one = np.asarray(one, dtype=float)
-        np.testing.assert_array_equal(one, np.broadcast_to(np.asarray(other, dtype=float), one.shape), err_msg=name)
+        np.testing.assert_array_equal(
+            one, np.broadcast_to(np.asarray(other, dtype=float), one.shape), err_msg=name
+        )
 
 
 @pytest.mark.parametrize("library", ["jax", "array_api_strict"])
 @pytest.mark.parametrize(("kernel", "settings", "count"), KERNELS)
 def test_the_bits_are_those_of_numpy(kernel, settings, count, library, request):
-    """Operation by operation. JAX takes numbers below the normal range for 0, so it gets no impossible values."""
-    asarray = request.getfixturevalue("jax").numpy.asarray if library == "jax" else pytest.importorskip(library).asarray
+    """Operation by operation. JAX takes numbers below the normal range for 0, so it gets no
+    impossible values.
+    """
+    asarray = (
+        request.getfixturevalue("jax").numpy.asarray
+        if library == "jax"
+        else pytest.importorskip(library).asarray
+    )
     for odd in (False,) if library == "jax" else (False, True):
         cases = numbers(count, 100, np.float64, np.random.default_rng(count), odd)
         with np.errstate(all="ignore"):
@@ -46,29 +58,43 @@ def test_the_bits_are_those_of_numpy(kernel, settings, count, library, request):
 
 
 def test_compiled_and_over_many_cases(jax):
-    """``jit`` may contract a product and a sum, which moves the last digits; ``vmap`` of one case is a batch."""
+    """``jit`` may contract a product and a sum, which moves the last digits; ``vmap`` of one case
+    is a batch.
+    """
     cases = np.abs(np.array(numbers(24, 200, np.float64, np.random.default_rng(3), False)))
     settings = ("friction", "brach", False, False)
     wanted = eccentric(*cases, *settings)
     answered = wanted.status == 0
     assert answered.sum() > 20
-    for solve in (jax.jit(lambda *x: eccentric(*x, *settings)), jax.vmap(lambda *x: eccentric(*x, *settings))):
+    for solve in (
+        jax.jit(lambda *x: eccentric(*x, *settings)),
+        jax.vmap(lambda *x: eccentric(*x, *settings)),
+    ):
         for one, other in zip(solve(*cases), wanted, strict=True):
-            scale = np.max(np.abs(np.asarray(other)[answered]), initial=0.0) if np.ndim(other) else 1.0
+            scale = (
+                np.max(np.abs(np.asarray(other)[answered]), initial=0.0) if np.ndim(other) else 1.0
+            )
             # Levers that nearly cancel cost a factor of 100 or so of the rounding.
             np.testing.assert_allclose(
-                *(np.broadcast_to(np.asarray(each), answered.shape)[answered] for each in (one, other)),
+                *(
+                    np.broadcast_to(np.asarray(each), answered.shape)[answered]
+                    for each in (one, other)
+                ),
                 rtol=1e-12,
                 atol=1e-13 * scale,
             )
 
 
 def test_derivatives(jax):
-    """Of a linear impact in closed form; of an eccentric one as differences of the same kernel give them."""
+    """Of a linear impact in closed form; of an eccentric one as differences of the same kernel give
+    them.
+    """
     mass_a, mass_b, speed, e = 1500.0, 1200.0, 14.0, 0.2
 
     def delta_v(e, mass_a, speed):
-        return linear_central(e, 1.0, 0.0, mass_a, speed, 0.0, 0.0, mass_b, 0.0, 0.0, 0.0, False).delta_vx_b
+        return linear_central(
+            e, 1.0, 0.0, mass_a, speed, 0.0, 0.0, mass_b, 0.0, 0.0, 0.0, False
+        ).delta_vx_b
 
     share = mass_a / (mass_a + mass_b)
     wanted = share * speed, (1 + e) * speed * mass_b / (mass_a + mass_b) ** 2, (1 + e) * share
@@ -81,28 +107,48 @@ def test_derivatives(jax):
     scene = np.array([0.1, 1.0, 0.0, 0.5, 0.0, 0.0, *body_a, *body_b])
     for output in ("delta_yaw_rate_a", "energy_loss", "delta_vx_b"):
         slopes = np.asarray(
-            jax.grad(lambda x, output=output: getattr(eccentric(*x, *settings), output))(jax.numpy.asarray(scene))
+            jax.grad(lambda x, output=output: getattr(eccentric(*x, *settings), output))(
+                jax.numpy.asarray(scene)
+            )
         )
         assert np.all(np.isfinite(slopes))
         for at in range(len(scene)):
             step = 1e-5 * max(1.0, abs(scene[at]))
             ends = [
-                getattr(eccentric(*(scene + side * step * (np.arange(24) == at)).tolist(), *settings), output)
+                getattr(
+                    eccentric(*(scene + side * step * (np.arange(24) == at)).tolist(), *settings),
+                    output,
+                )
                 for side in (-1.0, 1.0)
             ]
             # A central difference errs by its step squared and by rounding over its step.
-            assert slopes[at] == pytest.approx((ends[1] - ends[0]) / (2 * step), rel=1e-6, abs=1e-9 * abs(ends[0]) / step)
+            assert slopes[at] == pytest.approx(
+                (ends[1] - ends[0]) / (2 * step), rel=1e-6, abs=1e-9 * abs(ends[0]) / step
+            )
 
 
 def scenes(rule, rng, count=40):
-    """Inputs of ``eccentric`` [SI] of any impact, one row each; a fifth against a barrier, a third without slip of the masses."""
+    """Inputs of ``eccentric`` [SI] of any impact, one row each; a fifth against a barrier, a third
+    without slip of the masses.
+    """
     angle = rng.uniform(-np.pi, np.pi, count) * rng.choice([0.0, 1.0], count)
     value = {
-        "friction": np.where(rng.random(count) < 0.3, rng.choice([0.0, 1.0, np.inf], count), rng.uniform(0.0, 2.0, count)),
+        "friction": np.where(
+            rng.random(count) < 0.3,
+            rng.choice([0.0, 1.0, np.inf], count),
+            rng.uniform(0.0, 2.0, count),
+        ),
         "impulse_ratio": rng.uniform(-0.5, 0.5, count),
         "critical_fraction": rng.uniform(0.0, 0.99, count),
     }[rule]
-    found = [rng.uniform(0.0, 1.0, count), np.cos(angle), np.sin(angle), value, np.zeros(count), np.zeros(count)]
+    found = [
+        rng.uniform(0.0, 1.0, count),
+        np.cos(angle),
+        np.sin(angle),
+        value,
+        np.zeros(count),
+        np.zeros(count),
+    ]
     for sign in (-1.0, 1.0):
         mass = rng.uniform(800.0, 2500.0, count)
         fixed = (rng.random(count) < 0.2) & (sign > 0.0)
@@ -111,10 +157,21 @@ def scenes(rule, rng, count=40):
             -sign * rng.uniform(2.0, 14.0, count),
             rng.uniform(-9.0, 9.0, count) * rng.choice([0.0, 1.0, 1.0], count),
         )
-        turned = [(u * found[1] - v * found[2], u * found[2] + v * found[1]) for u, v in ((along, across), (ahead, left))]
+        turned = [
+            (u * found[1] - v * found[2], u * found[2] + v * found[1])
+            for u, v in ((along, across), (ahead, left))
+        ]
         inertia = np.where(fixed, np.inf, mass * rng.uniform(0.3, 2.0, count))
         spin = rng.uniform(-2.0, 2.0, count) * rng.choice([0.0, 1.0], count)
-        found += [np.where(fixed, np.inf, mass), inertia, *turned[0], spin, *turned[1], np.zeros(count), np.zeros(count)]
+        found += [
+            np.where(fixed, np.inf, mass),
+            inertia,
+            *turned[0],
+            spin,
+            *turned[1],
+            np.zeros(count),
+            np.zeros(count),
+        ]
     return np.array(found).T
 
 
@@ -132,12 +189,15 @@ def scenes(rule, rng, count=40):
 )
 @pytest.mark.parametrize("central", [False, True])
 def test_every_derivative_of_an_answer_is_that_of_the_answer(jax, rule, law, central):
-    """Of all outputs by all inputs, infinite friction and barriers among them, against differences of the kernel of floats.
+    """Of all outputs by all inputs, infinite friction and barriers among them, against differences
+    of the kernel of floats.
 
     Differences are taken where the cases on both sides slide or stick alike, off the kinks.
     """
     cases = scenes(rule, np.random.default_rng(5))
-    kernel, settings = (oblique_central, (rule, law, True)) if central else (eccentric, (rule, law, False, False))
+    kernel, settings = (
+        (oblique_central, (rule, law, True)) if central else (eccentric, (rule, law, False, False))
+    )
     if central:
         cases = cases[:, [0, 1, 2, 3, 6, 8, 9, 10, 15, 17, 18, 19]]
     names = [name for name in Answer._fields if name not in ("status", "sticks")]
@@ -158,15 +218,23 @@ def test_every_derivative_of_an_answer_is_that_of_the_answer(jax, rule, law, cen
         middle = kernel(*case.tolist(), *settings)
         for at in np.flatnonzero(np.isfinite(case)):
             step = 1e-6 * max(1.0, abs(case[at]))
-            beside = [kernel(*(case + side * step * (np.arange(len(case)) == at)).tolist(), *settings) for side in (-1.0, 1.0)]
-            kinds = {(one.status, one.sticks, one.tangential_impulse > 0.0, one.slip_after > 0.0) for one in (middle, *beside)}
+            beside = [
+                kernel(*(case + side * step * (np.arange(len(case)) == at)).tolist(), *settings)
+                for side in (-1.0, 1.0)
+            ]
+            kinds = {
+                (one.status, one.sticks, one.tangential_impulse > 0.0, one.slip_after > 0.0)
+                for one in (middle, *beside)
+            }
             if len(kinds) > 1 or 0.0 in (case[at], middle.slip_before):
                 continue
             for name, slope in zip(names, slopes[:, at], strict=True):
                 ends = [getattr(one, name) for one in beside]
                 if np.isfinite(ends).all():
                     size = max(map(abs, ends))
-                    wanted = pytest.approx((ends[1] - ends[0]) / (2 * step), rel=1e-4, abs=1e-8 * size / step + 1e-9)
+                    wanted = pytest.approx(
+                        (ends[1] - ends[0]) / (2 * step), rel=1e-4, abs=1e-8 * size / step + 1e-9
+                    )
                     assert slope == wanted, (name, at, case)
                     compared += 1
     assert compared > 500
@@ -179,7 +247,9 @@ def test_a_contact_that_starts_without_slip_has_the_derivative_by_it(jax):
 
     def solve(vy_b):
         b = (*body_b[:3], vy_b, *body_b[4:])
-        return eccentric(0.3, 1.0, 0.0, 0.9, 0.0, 0.0, *body_a, *b, "friction", "stronge", False, False)
+        return eccentric(
+            0.3, 1.0, 0.0, 0.9, 0.0, 0.0, *body_a, *b, "friction", "stronge", False, False
+        )
 
     assert solve(0.0).slip_before == 0.0
     assert solve(0.0).sticks

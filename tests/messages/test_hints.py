@@ -19,7 +19,10 @@ CONTACT = {"normal": 0.0, "point": (0.0, 0.0)}
 @pytest.mark.parametrize(
     ("given", "cure"),
     [
-        ({"mass": 1500.0, "speed": "45 mph"}, "Vehicle.from_speed(speed='45 mph', course='0 deg', ...)"),
+        (
+            {"mass": 1500.0, "speed": "45 mph"},
+            "Vehicle.from_speed(speed='45 mph', course='0 deg', ...)",
+        ),
         ({"weight": "3400 lb"}, "write mass=, such as mass='3400 lb'"),
         ({"mass": 1500.0, "izz": 2000.0}, "write yaw_inertia="),
         ({"mass": 1500.0, "headin": 0.0}, "write heading="),
@@ -39,7 +42,9 @@ def test_a_vehicle_without_a_mass_says_what_a_mass_may_be():
 def test_an_attribute_is_looked_up_where_it_is():
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1000.0), 0.1)
     courses = {"course_a": 0.0, "course_b": 1.5, "course_a_after": 0.5, "course_b_after": 0.6}
-    solution = reconstruct.momentum(mass_a=1500.0, mass_b=1200.0, speed_a_after=8.0, speed_b_after=9.0, **courses)
+    solution = reconstruct.momentum(
+        mass_a=1500.0, mass_b=1200.0, speed_a_after=8.0, speed_b_after=9.0, **courses
+    )
     for owner, name, where in (
         (impact, "delta_v", "impact.a.delta_v or impact.b.delta_v"),
         (impact, "speed", "; write impact.a.after.speed (or .before, or impact.b)"),
@@ -96,33 +101,58 @@ def test_a_list_of_texts_names_the_quantity_to_write():
         (["x", "y"], "pint.Quantity([...], 'mph')"),  # no numbers that were not given
         (["40 mph", "x"], "pint.Quantity([40, ...], 'mph')"),
         (np.array(["40 mph", "50.5 mph"]), "pint.Quantity([40, 50.5], 'mph')"),
-        (np.array([pint.Quantity(40, "mph"), 50.5], dtype=object), "pint.Quantity([40, ...], 'mph')"),
+        (
+            np.array([pint.Quantity(40, "mph"), 50.5], dtype=object),
+            "pint.Quantity([40, ...], 'mph')",
+        ),
         (["40 mph", 3.0], "pint.Quantity([40, ...], 'mph')"),  # what 3.0 was meant in is not known
         (["60 mph", "88 ft/s"], "pint.Quantity([60, 60], 'mph')"),
         (["40 mph", ["50 mph"]], "pint.Quantity([40, ...], 'mph')"),
     ):
         with pytest.raises(col.InputError, match=re.escape(cure)) as caught:
             col.Vehicle(mass=1500.0, vx=other)
-        assert caught.value.code == ("not_a_number" if isinstance(other, np.ndarray) else "bad_units")
+        assert caught.value.code == (
+            "not_a_number" if isinstance(other, np.ndarray) else "bad_units"
+        )
     with pytest.raises(
-        col.UnitsError, match=r"put the unit on the whole: pint\.Quantity\(\[30, 31\], 'mph'\), or give numbers in SI$"
+        col.UnitsError,
+        match=r"put the unit on the whole: pint\.Quantity\(\[30, 31\], 'mph'\), or give numbers "
+        r"in SI$",
     ):
         uncertainty.Samples(["30 mph", "31 mph"])
-    with pytest.raises(col.UnitsError, match=r"friction is a list with '0.6' in it; give numbers, without quotes"):
+    with pytest.raises(
+        col.UnitsError, match=r"friction is a list with '0.6' in it; give numbers, without quotes"
+    ):
         col.eccentric(A, B, 0.1, friction=[0.5, "0.6"], **CONTACT)
     with pytest.raises(col.UnitsError, match=re.escape("pint.Quantity([3400, ...], 'lb')")):
         col.Vehicle(mass=["3400 lb", 1500])
-    with pytest.raises(col.UnitsError, match=r"cannot read '0,5': a number has no comma here, write '0\.5'; give numbers"):
+    with pytest.raises(
+        col.UnitsError,
+        match=r"cannot read '0,5': a number has no comma here, write '0\.5'; give numbers",
+    ):
         col.eccentric(A, B, 0.1, friction=["0,5", "0.6"], **CONTACT)
-    for masses in (["3400 lb", "3,500 lb"], ["3400 lb", " 3,500 lb"], np.array(["3400 lb", "3,500 lb"])):
-        with pytest.raises(col.InputError, match=re.escape("pint.Quantity([3400, 3500], 'lb')")) as caught:
+    for masses in (
+        ["3400 lb", "3,500 lb"],
+        ["3400 lb", " 3,500 lb"],
+        np.array(["3400 lb", "3,500 lb"]),
+    ):
+        with pytest.raises(
+            col.InputError, match=re.escape("pint.Quantity([3400, 3500], 'lb')")
+        ) as caught:
             col.Vehicle(mass=masses)
-        assert f"{masses[1]}': a number has no comma here, write '3500 lb' or '3.500 lb'; put" in str(caught.value)
-    assert col.Vehicle(mass=1500.0, vx=pint.Quantity([40, 50.5], "mph")).vx[1] == pytest.approx(50.5 * 0.44704)
+        assert (
+            f"{masses[1]}': a number has no comma here, write '3500 lb' or '3.500 lb'; put"
+            in str(caught.value)
+        )
+    assert col.Vehicle(mass=1500.0, vx=pint.Quantity([40, 50.5], "mph")).vx[1] == pytest.approx(
+        50.5 * 0.44704
+    )
 
 
 def test_an_attribute_that_cannot_be_worked_out_says_why():
-    """Python asks ``__getattr__`` also when the attribute is there and raises an AttributeError itself."""
+    """Python asks ``__getattr__`` also when the attribute is there and raises an AttributeError
+    itself.
+    """
 
     class Answer(Frozen):
         @derived()
@@ -133,17 +163,24 @@ def test_an_attribute_that_cannot_be_worked_out_says_why():
         _ = Answer().slope
 
 
-@pytest.mark.parametrize("given", ["2100 lb-ft-s2", "2100 ft-lb-sec^2", "2100 slug ft2", "2100 slug-ft^2", "2100 lb*ft*s2"])
+@pytest.mark.parametrize(
+    "given",
+    ["2100 lb-ft-s2", "2100 ft-lb-sec^2", "2100 slug ft2", "2100 slug-ft^2", "2100 lb*ft*s2"],
+)
 def test_what_a_refused_yaw_inertia_is_told_to_write_can_be_read(given):
     with pytest.raises(col.UnitsError, match=r"raised by \*\*, '([^']*)'") as caught:
         col.Vehicle(mass=1500.0, yaw_inertia=given)
     cure = re.search(r"raised by \*\*, '([^']*)'", str(caught.value))[1]
-    assert col.Vehicle(mass=1500.0, yaw_inertia=cure).yaw_inertia == pytest.approx(2847.22, rel=1e-5)  # 2100 slug ft2
+    assert col.Vehicle(mass=1500.0, yaw_inertia=cure).yaw_inertia == pytest.approx(
+        2847.22, rel=1e-5
+    )  # 2100 slug ft2
 
 
 @pytest.mark.parametrize("given", ["30 to 35 mph", "30-35 mph", "35 +/- 2 mph", "35 ± 2 mph"])
 def test_a_range_in_place_of_a_number_is_named(given):
-    with pytest.raises(col.UnitsError, match=r"this is a range; ranges go to collisions\.uncertainty\.propagate"):
+    with pytest.raises(
+        col.UnitsError, match=r"this is a range; ranges go to collisions\.uncertainty\.propagate"
+    ):
         col.Vehicle(mass=1500.0, vx=given)
 
 
@@ -155,7 +192,10 @@ def test_metres_per_hour_are_no_miles_per_hour():
 def test_a_name_of_a_part_says_where_it_is():
     with pytest.raises(AttributeError, match=r"write collisions\.uncertainty\.Normal$"):
         _ = col.Normal
-    with pytest.raises(AttributeError, match=r"write collisions\.plot\.momentum or collisions\.reconstruct\.momentum$"):
+    with pytest.raises(
+        AttributeError,
+        match=r"write collisions\.plot\.momentum or collisions\.reconstruct\.momentum$",
+    ):
         _ = col.momentum
     assert not hasattr(col, "Vehicel")
 
@@ -163,19 +203,43 @@ def test_a_name_of_a_part_says_where_it_is():
 @pytest.mark.parametrize(
     ("call", "cure"),
     [
-        (lambda: uncertainty.Normal("30 mph", std="2 mph"), "Normal has no argument 'std'; write sd="),
-        (lambda: uncertainty.LogNormal(mu=3.0, sd=1.0), "LogNormal has no argument 'mu'; write mean="),
-        (lambda: uncertainty.Uniform(lower=0.6, upper=0.8), "Uniform has no argument 'lower'; write low="),
+        (
+            lambda: uncertainty.Normal("30 mph", std="2 mph"),
+            "Normal has no argument 'std'; write sd=",
+        ),
+        (
+            lambda: uncertainty.LogNormal(mu=3.0, sd=1.0),
+            "LogNormal has no argument 'mu'; write mean=",
+        ),
+        (
+            lambda: uncertainty.Uniform(lower=0.6, upper=0.8),
+            "Uniform has no argument 'lower'; write low=",
+        ),
         (lambda: uncertainty.Triangular(0.6, likely=0.7, high=0.8), "write mode="),
-        (lambda: col.eccentric(A, B, 0.1, mu=0.5, **CONTACT), "eccentric() has no argument 'mu'; write friction="),
-        (lambda: col.eccentric(A, B, e=0.1, friction=0.5, **CONTACT), "eccentric() has no argument 'e'; write restitution="),
+        (
+            lambda: col.eccentric(A, B, 0.1, mu=0.5, **CONTACT),
+            "eccentric() has no argument 'mu'; write friction=",
+        ),
+        (
+            lambda: col.eccentric(A, B, e=0.1, friction=0.5, **CONTACT),
+            "eccentric() has no argument 'e'; write restitution=",
+        ),
         (lambda: col.eccentric(A, B, 0.1, normal=0.0, poi=(0, 0)), "write point="),
         (lambda: col.solve(A, B, cor=0.1), "solve() has no argument 'cor'; write restitution="),
-        (lambda: col.linear_central(A, B, 0.1, friction=0.5), "oblique_central and eccentric have it"),
+        (
+            lambda: col.linear_central(A, B, 0.1, friction=0.5),
+            "oblique_central and eccentric have it",
+        ),
         (lambda: col.oblique_central(A, B, 0.1, normal=0.0, point=(0, 0)), "eccentric has it"),
-        (lambda: reconstruct.speeds(A, B, v_a=1.0), "speeds() has no argument 'v_a'; write speed_a="),
+        (
+            lambda: reconstruct.speeds(A, B, v_a=1.0),
+            "speeds() has no argument 'v_a'; write speed_a=",
+        ),
         (lambda: travel.speed("40 ft", mu=0.7), "speed() has no argument 'mu'; write drag="),
-        (lambda: travel.speed("40 ft", drag=0.7, colour=1), "it has distance, drag, grade, end_speed"),
+        (
+            lambda: travel.speed("40 ft", drag=0.7, colour=1),
+            "it has distance, drag, grade, end_speed",
+        ),
         (lambda: col.diagnose(None, unit="us"), "diagnose() has no argument 'unit'; write units="),
     ],
 )
@@ -189,7 +253,8 @@ PUBLIC = {
     f"{module.__name__}.{name}": getattr(module, name)
     for module in (col, plot, reconstruct, reference, travel, uncertainty)
     for name in module.__all__
-    if inspect.isfunction(getattr(module, name)) and inspect.signature(getattr(module, name)).parameters
+    if inspect.isfunction(getattr(module, name))
+    and inspect.signature(getattr(module, name)).parameters
 }
 
 
@@ -197,7 +262,10 @@ PUBLIC = {
 def test_every_public_function_says_what_arguments_it_has(name):
     names = list(inspect.signature(PUBLIC[name]).parameters)
     assert "unknown" not in names
-    with pytest.raises(TypeError, match=rf"{name.rpartition('.')[2]}\(\) has no argument 'qqq'; it has {', '.join(names)}$"):
+    with pytest.raises(
+        TypeError,
+        match=rf"{name.rpartition('.')[2]}\(\) has no argument 'qqq'; it has {', '.join(names)}$",
+    ):
         PUBLIC[name](qqq=1.0)
 
 
@@ -212,9 +280,13 @@ def test_other_type_errors_stay_as_they_are():
         travel.speed("40 ft")
 
 
-@pytest.mark.parametrize("solver", [col.linear_central, col.oblique_central, col.eccentric, col.time_resolved, col.solve])
+@pytest.mark.parametrize(
+    "solver", [col.linear_central, col.oblique_central, col.eccentric, col.time_resolved, col.solve]
+)
 def test_a_solver_without_a_restitution_asks_for_it(solver):
-    with pytest.raises(col.InputError, match=r"restitution must be a number.*such as 0.4; it was not given"):
+    with pytest.raises(
+        col.InputError, match=r"restitution must be a number.*such as 0.4; it was not given"
+    ):
         solver(A, B)
 
 
@@ -231,15 +303,25 @@ def test_what_is_none_for_want_of_a_heading_says_so():
     impact = col.linear_central(A, B, 0.1)
     for name in ("pdof", "pdof_clock", "delta_v_forward", "delta_v_left"):
         assert getattr(impact.a, name) is None
-        with pytest.raises(col.MissingInputError, match=f"a has no heading, which {name} needs; give heading='30 deg'"):
+        with pytest.raises(
+            col.MissingInputError,
+            match=f"a has no heading, which {name} needs; give heading='30 deg'",
+        ):
             getattr(impact.a.q, name)
-        with pytest.raises(col.MissingInputError, match=f"a has no heading, which {name} needs; give heading='30 deg'"):
+        with pytest.raises(
+            col.MissingInputError,
+            match=f"a has no heading, which {name} needs; give heading='30 deg'",
+        ):
             impact.to_columns(columns=[f"a.{name}"])
-    with pytest.raises(col.InputError, match=r"columns: a\.moment_arm has no value in this impact; leave it out"):
+    with pytest.raises(
+        col.InputError, match=r"columns: a\.moment_arm has no value in this impact; leave it out"
+    ):
         impact.to_columns(columns=["a.moment_arm"])
     with pytest.raises(col.InputError, match=r"columns: point has no value in this impact"):
         impact.to_columns(columns=["point"])
-    with pytest.raises(col.InputError, match=r"there is no column 'a\.delta'; write for example a\.delta_v"):
+    with pytest.raises(
+        col.InputError, match=r"there is no column 'a\.delta'; write for example a\.delta_v"
+    ):
         impact.to_columns(columns=["a.delta"])
     headed = col.linear_central(A.replace(heading="0 deg"), B, 0.1)
     assert headed.a.q.pdof_clock == 12
@@ -257,20 +339,30 @@ def test_a_text_that_no_float_holds_is_not_infinite(given):
 def test_a_page_saved_where_there_is_no_folder_names_the_folder(tmp_path):
     page = col.explain(col.linear_central(A, B, 0.1))
     missing = tmp_path / "cases" / "17"
-    with pytest.raises(FileNotFoundError, match=re.escape(f"there is no folder {str(missing)!r}; make it first")) as refused:
+    with pytest.raises(
+        FileNotFoundError, match=re.escape(f"there is no folder {str(missing)!r}; make it first")
+    ) as refused:
         page.save(missing / "page.md")
     assert refused.value.filename == str(missing / "page.md")
-    with pytest.raises(IsADirectoryError, match=re.escape(f"name a file in it, such as {str(tmp_path / 'report.md')!r}")):
+    with pytest.raises(
+        IsADirectoryError,
+        match=re.escape(f"name a file in it, such as {str(tmp_path / 'report.md')!r}"),
+    ):
         page.save(tmp_path)
     missing.mkdir(parents=True)
     assert page.save(missing / "page.md").read_text(encoding="utf-8") == page
 
 
-@pytest.mark.parametrize(("form", "kind", "suffix"), [("markdown", "Markdown", ".md"), ("text", "plain text", ".txt")])
+@pytest.mark.parametrize(
+    ("form", "kind", "suffix"), [("markdown", "Markdown", ".md"), ("text", "plain text", ".txt")]
+)
 @pytest.mark.parametrize("ending", [".html", ".HTM"])
 def test_only_a_page_of_html_is_saved_under_the_name_of_one(form, kind, suffix, ending, tmp_path):
     impact = col.linear_central(A, B, 0.1)
-    said = f"path ends in {ending}, but this page is {kind}, not HTML; write save({str(tmp_path / f'v1.2{suffix}')!r})"
+    said = (
+        f"path ends in {ending}, but this page is {kind}, not HTML; write "
+        f"save({str(tmp_path / f'v1.2{suffix}')!r})"
+    )
     for make in (col.explain, col.report) if form == "markdown" else (col.explain,):
         page = make(impact, form=form)
         with pytest.raises(col.InputError, match=re.escape(said)) as refused:
@@ -283,21 +375,41 @@ def test_only_a_page_of_html_is_saved_under_the_name_of_one(form, kind, suffix, 
 @pytest.mark.parametrize(
     ("form", "ending", "said"),
     [
-        ("html", ".pdf", "this page is HTML, not PDF; write save({html!r}), open that in a browser and print it to a PDF"),
-        ("html", ".PDF", "this page is HTML, not PDF; write save({html!r}), open that in a browser and print it to a PDF"),
+        (
+            "html",
+            ".pdf",
+            (
+                "this page is HTML, not PDF; write save({html!r}), open that in a browser and "
+                "print it to a PDF"
+            ),
+        ),
+        (
+            "html",
+            ".PDF",
+            (
+                "this page is HTML, not PDF; write save({html!r}), open that in a browser and "
+                "print it to a PDF"
+            ),
+        ),
         ("html", ".docx", "this page is HTML; write save({html!r})"),
         ("html", ".md", "this page is HTML, not Markdown; write save({html!r})"),
         ("html", ".txt", "this page is HTML, not plain text; write save({html!r})"),
         (
             "markdown",
             ".pdf",
-            "this page is Markdown, not PDF; write save({md!r}); to print, write collisions.report(...).save({html!r}), open",
+            (
+                "this page is Markdown, not PDF; write save({md!r}); to print, write "
+                "collisions.report(...).save({html!r}), open"
+            ),
         ),
         ("markdown", ".json", "this page is Markdown; write save({md!r})"),
         (
             "text",
             ".pdf",
-            "this page is plain text, not PDF; write save({txt!r}); to print, write collisions.report(...).save({html!r}), open",
+            (
+                "this page is plain text, not PDF; write save({txt!r}); to print, write "
+                "collisions.report(...).save({html!r}), open"
+            ),
         ),
         ("text", ".md", "this page is plain text, not Markdown; write save({txt!r})"),
     ],
@@ -306,10 +418,15 @@ def test_a_page_is_saved_only_under_an_ending_of_its_form(form, ending, said, tm
     impact = col.linear_central(A, B, 0.1)
     pages = [col.explain(impact, form=form)] if form != "html" else []
     if form == "html":
-        pages = [col.report(impact, figures=False), col.what_if(impact, {"restitution": (0.0, 0.4)})]
+        pages = [
+            col.report(impact, figures=False),
+            col.what_if(impact, {"restitution": (0.0, 0.4)}),
+        ]
     names = {suffix: str(tmp_path / f"r.{suffix}") for suffix in ("html", "md", "txt")}
     for page in pages:
-        with pytest.raises(col.InputError, match=re.escape(f"path ends in {ending}, but {said.format(**names)}")) as refused:
+        with pytest.raises(
+            col.InputError, match=re.escape(f"path ends in {ending}, but {said.format(**names)}")
+        ) as refused:
             page.save(tmp_path / f"r{ending}")
         assert (refused.value.code, refused.value.fields["argument"]) == ("bad_option", "path")
     assert not list(tmp_path.iterdir())
@@ -331,7 +448,9 @@ def test_a_vehicle_named_by_its_letter_is_not_named_twice():
 def test_a_range_of_a_slider_that_leaves_out_the_value_shows_both():
     impact = col.linear_central(A, B, 0.1)
     for ends in ((0.1, 0.1), (0.3, 0.2), (0.2, 0.3)):
-        with pytest.raises(col.InputError, match=re.escape(f"(low, high) in rising order around 0.1, got {ends}")):
+        with pytest.raises(
+            col.InputError, match=re.escape(f"(low, high) in rising order around 0.1, got {ends}")
+        ):
             col.what_if(impact, {"restitution": ends})
     with pytest.raises(col.InputError, match=r"around 30 mph, got \('31 mph', '40 mph'\)"):
         col.what_if(impact, {"speed_a": ("31 mph", "40 mph")})
@@ -343,16 +462,22 @@ def test_pounds_of_an_energy_are_a_force(given):
         reconstruct.crush_delta_v(given, 1500.0, 1500.0)
     cure = re.search(r"'([^']*lbf)'", str(refused.value))[1]
     joule = 50000 * 0.3048 * 0.45359237 * 9.80665  # exact by definition
-    assert reconstruct.crush_delta_v(cure, 1500.0, 1500.0) == pytest.approx(reconstruct.crush_delta_v(joule, 1500.0, 1500.0))
+    assert reconstruct.crush_delta_v(cure, 1500.0, 1500.0) == pytest.approx(
+        reconstruct.crush_delta_v(joule, 1500.0, 1500.0)
+    )
     with pytest.raises(col.UnitsError, match="'300 lbf/in'"):
         reconstruct.crush_energy(1.0, [0.1, 0.2], stiffness_a="300 lb/in", stiffness_b=1e5)
 
 
 def test_arguments_that_have_no_place_are_named():
-    with pytest.raises(TypeError, match="Vehicle takes its arguments by name, as in mass='3400 lb': mass, vx"):
+    with pytest.raises(
+        TypeError, match="Vehicle takes its arguments by name, as in mass='3400 lb': mass, vx"
+    ):
         col.Vehicle("3400 lb")
     with pytest.raises(
-        TypeError, match="speed\\(\\) takes 1 positional argument but 2 were given; write the others by name, such as drag="
+        TypeError,
+        match="speed\\(\\) takes 1 positional argument but 2 were given; write the others by "
+        "name, such as drag=",
     ):
         travel.speed("40 ft", 0.7)
     with pytest.raises(TypeError, match=r"^Normal missing 1 required positional argument: 'sd'$"):
@@ -362,15 +487,31 @@ def test_arguments_that_have_no_place_are_named():
 
 
 def test_the_ends_of_a_range_are_shown_in_their_unit():
-    with pytest.raises(col.InputError, match="in rising order, got 40 mph and 30 mph; exchange them"):
+    with pytest.raises(
+        col.InputError, match="in rising order, got 40 mph and 30 mph; exchange them"
+    ):
         uncertainty.Uniform("40 mph", "30 mph")
-    with pytest.raises(col.InputError, match=r"mode must be from low to high, 30 mph to 40 mph, got 45 mph"):
+    with pytest.raises(
+        col.InputError, match=r"mode must be from low to high, 30 mph to 40 mph, got 45 mph"
+    ):
         uncertainty.Triangular("30 mph", "45 mph", "40 mph")
 
 
 def test_what_holds_the_value_that_is_meant_says_so():
-    impact = col.eccentric(A.replace(yaw_inertia=2000.0, x=-2.0, y=0.0), col.Vehicle.barrier(), 0.1, friction=0.5, **CONTACT)
-    with pytest.raises(col.InputError, match=r"b_after must be a Vehicle, got Side; write its .before or .after"):
+    impact = col.eccentric(
+        A.replace(yaw_inertia=2000.0, x=-2.0, y=0.0),
+        col.Vehicle.barrier(),
+        0.1,
+        friction=0.5,
+        **CONTACT,
+    )
+    with pytest.raises(
+        col.InputError, match=r"b_after must be a Vehicle, got Side; write its .before or .after"
+    ):
         reconstruct.restitution(A, B, A, impact.b, **CONTACT)
-    with pytest.raises(col.InputError, match=r"mass_a must be a number.*write its mass, such as a\.mass"):
-        reconstruct.momentum(A, 1500.0, course_a=0.0, course_b=1.0, course_a_after=0.5, course_b_after=0.5)
+    with pytest.raises(
+        col.InputError, match=r"mass_a must be a number.*write its mass, such as a\.mass"
+    ):
+        reconstruct.momentum(
+            A, 1500.0, course_a=0.0, course_b=1.0, course_a_after=0.5, course_b_after=0.5
+        )

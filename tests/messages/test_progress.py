@@ -17,7 +17,9 @@ V = np.full(3 * STEP, 20.0)
 
 def solve(shown):
     """A batch of three blocks."""
-    return col.linear_central(col.Vehicle(mass=1000.0, vx=V), col.Vehicle(mass=1000.0), 0.1, progress=shown)
+    return col.linear_central(
+        col.Vehicle(mass=1000.0, vx=V), col.Vehicle(mass=1000.0), 0.1, progress=shown
+    )
 
 
 @pytest.fixture
@@ -82,7 +84,9 @@ def test_solve_counts_all_cases_once_whatever_their_models(threads):
     b = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=0.1, y=-y)
     seen = []
     contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, "tolerance": 0.1}
-    impact = col.solve(a, b, 0.2, **contact, threads=threads, progress=lambda *done: seen.append(done))
+    impact = col.solve(
+        a, b, 0.2, **contact, threads=threads, progress=lambda *done: seen.append(done)
+    )
     assert len(set(impact.model)) == 3
     done = [one for one, _ in seen]
     assert {total for _, total in seen} == {size}

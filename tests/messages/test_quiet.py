@@ -1,4 +1,6 @@
-"""Whoever counts refused and gaining cases themselves can have the warnings of them silent, in their own thread only."""
+"""Whoever counts refused and gaining cases themselves can have the warnings of them silent, in
+their own thread only.
+"""
 
 import threading
 import warnings
@@ -35,7 +37,12 @@ def travelled():
 
 def gaining_momentum():
     """Cars that leave with more energy than they came with."""
-    after = {"course_a_after": "-60 deg", "course_b_after": "120 deg", "speed_a_after": 20.0, "speed_b_after": 20.0}
+    after = {
+        "course_a_after": "-60 deg",
+        "course_b_after": "120 deg",
+        "speed_a_after": 20.0,
+        "speed_b_after": 20.0,
+    }
     return reconstruct.momentum(1000.0, 1000.0, course_a=0.0, course_b="90 deg", **after)
 
 
@@ -45,7 +52,10 @@ def gaining_momentum():
         (refused, "refused_cases"),
         (gaining, "energy_gain"),
         (lambda: gaining(3), "energy_gain"),
-        (lambda: col.left_out(col.linear_central(A, B, 0.1), duration=np.array([0.1, -0.1])), "refused_cases"),
+        (
+            lambda: col.left_out(col.linear_central(A, B, 0.1), duration=np.array([0.1, -0.1])),
+            "refused_cases",
+        ),
         (travelled, "refused_cases"),
         (gaining_momentum, "energy_gain"),
     ],
@@ -105,7 +115,9 @@ def test_one_thread_is_silent_and_the_other_is_not():
 
 
 def test_left_out_leaves_the_filters_of_the_program_alone(monkeypatch):
-    """They are shared by all threads: what one changes for a moment, another may restore too late."""
+    """They are shared by all threads: what one changes for a moment, another may
+    restore too late.
+    """
 
     def touched(*_args, **_options):
         raise AssertionError("the filters of the program were changed")

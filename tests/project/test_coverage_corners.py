@@ -1,4 +1,6 @@
-"""Corners that no other test comes to: each is a refusal, a display or a rare kind of batch that a user can meet."""
+"""Corners that no other test comes to: each is a refusal, a display or a rare kind of batch that a
+user can meet.
+"""
 
 import copy
 import json
@@ -21,31 +23,53 @@ CONTACT = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
 
 
 def crash(**changes):
-    rules = {name: changes.pop(name) for name in ("impulse_ratio", "critical_fraction") if name in changes}
+    rules = {
+        name: changes.pop(name)
+        for name in ("impulse_ratio", "critical_fraction")
+        if name in changes
+    }
     return col.eccentric(col.Vehicle(**{**A, **changes}), col.Vehicle(**B), 0.1, **CONTACT, **rules)
 
 
 @pytest.mark.parametrize("count", [3, 20_000])
 def test_a_case_beyond_float32_has_no_answer_at_all(count):
-    """The square of 1e18 m/s times a mass is more than 3e38 J, all that float32 holds; the neighbours are untouched."""
+    """The square of 1e18 m/s times a mass is more than 3e38 J, all that float32 holds; the
+    neighbours are untouched.
+    """
     speeds = np.full(count, 10.0, np.float32)
     speeds[1] = 1e18
     options = {"on_failure": "nan", "normal": 0.0}
-    found = col.linear_central(col.Vehicle(mass=1500.0, vx=speeds), col.Vehicle(mass=1200.0), 0.1, **options)
-    assert [col.Status(int(code)).label for code in found.status[:3]] == ["ok", "out_of_range", "ok"]
+    found = col.linear_central(
+        col.Vehicle(mass=1500.0, vx=speeds), col.Vehicle(mass=1200.0), 0.1, **options
+    )
+    assert [col.Status(int(code)).label for code in found.status[:3]] == [
+        "ok",
+        "out_of_range",
+        "ok",
+    ]
     for name in ("energy_loss", "compression_impulse", "effective_mass", "energy_loss_normal"):
         values = getattr(found, name)
         assert np.isnan(values[1]), name
         assert np.isfinite(np.delete(values, 1)).all(), name
     # Two products and two changes of velocity, each rounded to float32.
-    assert found.a.delta_vx[0] * 1500.0 == pytest.approx(-found.b.delta_vx[0] * 1200.0, rel=4 * 2.0**-23)
+    assert found.a.delta_vx[0] * 1500.0 == pytest.approx(
+        -found.b.delta_vx[0] * 1200.0, rel=4 * 2.0**-23
+    )
 
 
 def test_the_first_case_beyond_float32_is_named():
-    """Alone it would be worked out in float64 and be answered; the batch says which case it was and why."""
+    """Alone it would be worked out in float64 and be answered; the batch says which case it was and
+    why.
+    """
     speeds = np.array([10.0, 1e18, 20.0], np.float32)
     with pytest.raises(col.InputError, match=r"^case 1: ") as caught:
-        col.linear_central(col.Vehicle(mass=1500.0, vx=speeds), col.Vehicle(mass=1200.0), 0.1, normal=0.0, on_failure="raise")
+        col.linear_central(
+            col.Vehicle(mass=1500.0, vx=speeds),
+            col.Vehicle(mass=1200.0),
+            0.1,
+            normal=0.0,
+            on_failure="raise",
+        )
     assert caught.value.code == "out_of_range"
 
 
@@ -58,7 +82,9 @@ def test_a_pivot_needs_the_whole_model(speed):
     solved = col.solve(car, post, 0.8, tolerance=100.0, **scene)
     assert np.all(np.equal(solved.model, "eccentric"))
     # Example 3 of the paper has 60 km/h and b = 1333.3: the yaw rate is in proportion to the speed.
-    np.testing.assert_allclose(solved.b.after.yaw_rate, -405.0 / 74.0 * speed / (50.0 / 3.0), rtol=1e-3)
+    np.testing.assert_allclose(
+        solved.b.after.yaw_rate, -405.0 / 74.0 * speed / (50.0 / 3.0), rtol=1e-3
+    )
 
 
 def test_a_record_of_solve_is_read_before_solve_was_ever_used():
@@ -66,11 +92,15 @@ def test_a_record_of_solve_is_read_before_solve_was_ever_used():
     inputs = {**CONTACT, "tolerance": 1.0}
     record = json.dumps(col.solve(col.Vehicle(**A), col.Vehicle(**B), 0.1, **inputs).to_dict())
     code = (
-        f"import sys, json; sys.path.insert(0, {str(Path(col.__file__).parents[1])!r}); import collisions;"
-        "print(repr(collisions.Impact.from_dict(json.load(sys.stdin)).a.delta_v))"
+        f"import sys, json; sys.path.insert(0, {str(Path(col.__file__).parents[1])!r}); import "
+        "collisions;print(repr(collisions.Impact.from_dict(json.load(sys.stdin)).a.delta_v))"
     )
-    done = subprocess.run([sys.executable, "-c", code], input=record, capture_output=True, text=True, check=True)
-    assert float(done.stdout) == col.solve(col.Vehicle(**A), col.Vehicle(**B), 0.1, **inputs).a.delta_v
+    done = subprocess.run(
+        [sys.executable, "-c", code], input=record, capture_output=True, text=True, check=True
+    )
+    assert (
+        float(done.stdout) == col.solve(col.Vehicle(**A), col.Vehicle(**B), 0.1, **inputs).a.delta_v
+    )
 
 
 def test_an_impact_equals_nothing_else():
@@ -103,11 +133,15 @@ def test_a_report_says_that_cases_had_no_answer():
     inputs = {"vx": Normal(1.0, 1.0)}
 
     def model(vx):
-        wall = col.linear_central(col.Vehicle(mass=1500.0, vx=vx), col.Vehicle.barrier(), 0.1, on_failure="nan")
+        wall = col.linear_central(
+            col.Vehicle(mass=1500.0, vx=vx), col.Vehicle.barrier(), 0.1, on_failure="nan"
+        )
         return {"a.delta_v": wall.a.delta_v}
 
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", col.CollisionsWarning)  # that cases failed is warned of, and asserted here
+        warnings.simplefilter(
+            "ignore", col.CollisionsWarning
+        )  # that cases failed is warned of, and asserted here
         found = propagate(model, inputs, method="monte_carlo", samples=640, seed=1)
     assert found.failed > 0
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=1.0), col.Vehicle.barrier(), 0.1)
@@ -119,7 +153,9 @@ def test_a_report_says_that_cases_had_no_answer():
 @pytest.mark.parametrize("share", ["half", None, object(), [0.5, 2.0], 1.5, -0.1, math.nan, True])
 def test_a_quantile_is_of_a_probability(share):
     """Between 0 and 1; texts, objects and truths are none."""
-    found = propagate(lambda x: {"y": 2.0 * x}, {"x": Normal(1.0, 0.1)}, method="quasi_random", samples=64, seed=1)["y"]
+    found = propagate(
+        lambda x: {"y": 2.0 * x}, {"x": Normal(1.0, 0.1)}, method="quasi_random", samples=64, seed=1
+    )["y"]
     with pytest.raises(col.InputError):
         found.quantile(share)
 
@@ -127,13 +163,23 @@ def test_a_quantile_is_of_a_probability(share):
 def test_second_order_terms_too_large_for_a_float():
     """They are refused and not infinite."""
     with pytest.raises(col.NoSolutionError) as caught:
-        propagate(lambda x: {"y": 1e300 * x * x}, {"x": Normal(1.0, 1e5, truncate=None)}, method="second_order")
+        propagate(
+            lambda x: {"y": 1e300 * x * x},
+            {"x": Normal(1.0, 1e5, truncate=None)},
+            method="second_order",
+        )
     assert caught.value.code == "out_of_range"
 
 
 def speed_in(unit):
     """An output of 10 m/s in another unit."""
-    return propagate(lambda v: {"v": col.Vehicle(mass=1.0, vx=v).q.vx}, {"v": Normal("10 m/s", "1 m/s")})["v"].to(unit).mean
+    return (
+        propagate(
+            lambda v: {"v": col.Vehicle(mass=1.0, vx=v).q.vx}, {"v": Normal("10 m/s", "1 m/s")}
+        )["v"]
+        .to(unit)
+        .mean
+    )
 
 
 LONG = 10**5000  # Python writes no int of more than 4,300 digits
@@ -148,7 +194,10 @@ def test_what_is_no_name_is_refused_by_results_that_are_read_by_name(name):
     for found, code in (
         (propagate(model, known, method="monte_carlo", samples=64, seed=1), "no_output"),
         (col.reconstruct.fit(model, known, {"s": (9.0, 1.0)}), "unknown_name"),
-        (col.reconstruct.posterior(model, known, {"s": (9.0, 1.0)}, samples=512, seed=1), "unknown_name"),
+        (
+            col.reconstruct.posterior(model, known, {"s": (9.0, 1.0)}, samples=512, seed=1),
+            "unknown_name",
+        ),
     ):
         with pytest.raises(col.InputError) as caught:
             found[name]
@@ -158,8 +207,16 @@ def test_what_is_no_name_is_refused_by_results_that_are_read_by_name(name):
 @pytest.mark.parametrize(
     ("call", "code"),
     [
-        (lambda: propagate(lambda x: {"s": x}, {"x": Normal(1, 1)}, correlation={(LONG, "x"): 0.5}), "bad_correlation"),
-        (lambda: propagate(lambda x: {"s": x}, {"x": Normal(1, 1)}, tolerance={LONG: 0.5}), "bad_tolerance"),
+        (
+            lambda: propagate(
+                lambda x: {"s": x}, {"x": Normal(1, 1)}, correlation={(LONG, "x"): 0.5}
+            ),
+            "bad_correlation",
+        ),
+        (
+            lambda: propagate(lambda x: {"s": x}, {"x": Normal(1, 1)}, tolerance={LONG: 0.5}),
+            "bad_tolerance",
+        ),
         (lambda: speed_in(LONG), "bad_units"),
         (lambda: speed_in([LONG]), "bad_units"),
         (lambda: speed_in(3.6), "bad_units"),
@@ -175,7 +232,9 @@ def test_what_is_no_name_is_refused_by_results_that_are_read_by_name(name):
         (lambda: crash().to_columns(columns=[LONG]), "unknown_name"),
         (lambda: crash().to_columns(columns=np.array("x")), "unknown_name"),
         (
-            lambda: col.reconstruct.recorded_pulse([0.0, 0.1, 0.2], [0.0, 1.0, 2.0], polarity="ISO 8855").inputs(np.zeros(2)),
+            lambda: col.reconstruct.recorded_pulse(
+                [0.0, 0.1, 0.2], [0.0, 1.0, 2.0], polarity="ISO 8855"
+            ).inputs(np.zeros(2)),
             "bad_option",
         ),
     ],

@@ -1,4 +1,6 @@
-"""A law put into the table of laws from here is solved, written down, explained and drawn; nothing else has to know its name."""
+"""A law put into the table of laws from here is solved, written down, explained and drawn; nothing
+else has to know its name.
+"""
 
 import inspect
 import math
@@ -16,7 +18,9 @@ from collisions.impact import inputs
 from collisions.kernels import central, contact_laws, eccentric
 from collisions.reporting import report
 
-A = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, vx=15.0, vy=2.0, yaw_rate=0.1, x=-2.0, y=0.4, name="A")
+A = col.Vehicle(
+    mass=1500.0, yaw_inertia=2400.0, vx=15.0, vy=2.0, yaw_rate=0.1, x=-2.0, y=0.4, name="A"
+)
 B = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, vy=9.0, x=2.0, y=-0.2, name="B")
 CONTACT = {"normal": 0.3, "point": (0.1, 0.2), "friction": 2.0, "law": "half back"}
 
@@ -60,10 +64,13 @@ def test_the_impulse_is_that_of_two_linear_equations(e):
     expected = np.linalg.solve(axes @ mobility @ axes.T, change)
     assert impact.regime == "sticking"
     # Two equations of a condition below 10, solved in two ways.
-    assert (impact.normal_impulse, impact.tangential_impulse) == pytest.approx(tuple(expected), rel=1e-13)
+    assert (impact.normal_impulse, impact.tangential_impulse) == pytest.approx(
+        tuple(expected), rel=1e-13
+    )
     assert impact.slip_after == pytest.approx(-0.5 * e * slip, rel=1e-13)
     lost = sum(
-        before.kinetic_energy - after.kinetic_energy for before, after in ((s.before, s.after) for s in (impact.a, impact.b))
+        before.kinetic_energy - after.kinetic_energy
+        for before, after in ((s.before, s.after) for s in (impact.a, impact.b))
     )
     # Differences of energies of 250 kJ.
     assert impact.energy_loss == pytest.approx(lost, abs=1e-9)
@@ -72,7 +79,9 @@ def test_the_impulse_is_that_of_two_linear_equations(e):
 def test_without_levers_the_oblique_central_model_agrees():
     inert = {"yaw_inertia": math.inf, "yaw_rate": 0.0}
     a, b = A.replace(**inert), B.replace(**inert)
-    central = col.oblique_central(a, b, 0.3, **{name: value for name, value in CONTACT.items() if name != "point"})
+    central = col.oblique_central(
+        a, b, 0.3, **{name: value for name, value in CONTACT.items() if name != "point"}
+    )
     full = col.eccentric(a, b, 0.3, **CONTACT)
     assert central.slip_after == pytest.approx(-0.15 * central.slip_before, rel=1e-13)
     assert central.b.delta_v == pytest.approx(full.b.delta_v, rel=1e-13)
@@ -117,10 +126,19 @@ def test_the_slip_that_comes_back_is_drawn():
 def test_speeds_go_back_and_planar_says_that_it_does_not():
     impact = col.eccentric(A, B, 0.3, **CONTACT)
     found = col.reconstruct.speeds(
-        A, B, course_a=A.course, course_b=B.course, restitution=0.3, speed_b=B.speed, delta_v_b=impact.b.delta_v, **CONTACT
+        A,
+        B,
+        course_a=A.course,
+        course_b=B.course,
+        restitution=0.3,
+        speed_b=B.speed,
+        delta_v_b=impact.b.delta_v,
+        **CONTACT,
     )
     assert any(one.a.before.speed == pytest.approx(A.speed, rel=1e-9) for one in found)
-    with pytest.raises(col.InputError, match="planar cannot go back under law 'half back'") as refused:
+    with pytest.raises(
+        col.InputError, match="planar cannot go back under law 'half back'"
+    ) as refused:
         col.reconstruct.planar(impact.a.after, impact.b.after, restitution=0.3, **CONTACT)
     assert refused.value.code == "law_not_reversible"
 
@@ -128,6 +146,9 @@ def test_speeds_go_back_and_planar_says_that_it_does_not():
 @pytest.mark.parametrize("kernel", [central, eccentric])
 def test_what_a_kernel_refuses_has_a_message(kernel):
     """A single case raises it; without one the error would be empty."""
-    raised = set(re.findall(r"Status\.([A-Z_]+)\)", inspect.getsource(kernel))) - {"OK", "ENERGY_GAIN"}
+    raised = set(re.findall(r"Status\.([A-Z_]+)\)", inspect.getsource(kernel))) - {
+        "OK",
+        "ENERGY_GAIN",
+    }
     assert {"SEPARATING", "OUT_OF_RANGE"} < raised
     assert not [name for name in raised if not col.Status[name].message]

@@ -1,4 +1,5 @@
-"""Arbitrary arguments: every call answers in full or raises a CollisionsError; no other exception, no numpy warning, no hang.
+"""Arbitrary arguments: every call answers in full or raises a CollisionsError; no other exception,
+no numpy warning, no hang.
 
 ``COLLISIONS_FUZZ`` sets the number of examples of each test and then draws new ones in every run.
 """
@@ -44,7 +45,9 @@ BUSY = 1e100  # beyond this, products of two numbers may leave the range of floa
 
 
 def examples(share: float = 1.0) -> Any:
-    """The examples of one test: few and the same in every run, or as many as the environment asks for, new each time."""
+    """The examples of one test: few and the same in every run, or as many as the environment asks
+    for, new each time.
+    """
     return settings(
         max_examples=max(1, int((EXAMPLES or 30) * share)),
         derandomize=not EXAMPLES,
@@ -80,7 +83,9 @@ def promptly() -> Any:
 
 
 def attempt(label: str, call: Any) -> Any:
-    """The answer of a call, or the CollisionsError it raised; anything else, numpy's warnings included, is a failure."""
+    """The answer of a call, or the CollisionsError it raised; anything else, numpy's warnings
+    included, is a failure.
+    """
     with promptly(), warnings.catch_warnings():
         warnings.simplefilter("error")
         warnings.simplefilter("ignore", col.CollisionsWarning)
@@ -103,12 +108,18 @@ def must_answer(label: str, call: Any) -> Any:
 
 
 def modest(*objects: Any) -> bool:
-    """Whether every number in there is so far from the ends of the range that no product of two leaves it."""
+    """Whether every number in there is so far from the ends of the range that no product of two
+    leaves it.
+    """
     for value in objects:
         if isinstance(value, col.Vehicle):
             parts = [getattr(value, name) for name in FIELDS if name != "name"]
             if not modest(
-                *(math.nan if name == "mass" else part for name, part in zip(FIELDS, parts, strict=False)), value.mass
+                *(
+                    math.nan if name == "mass" else part
+                    for name, part in zip(FIELDS, parts, strict=False)
+                ),
+                value.mass,
             ):
                 return False
         elif isinstance(value, tuple):
@@ -124,7 +135,8 @@ def modest(*objects: Any) -> bool:
 
 
 FIELDS = ("mass", "vx", "vy", "yaw_rate", "yaw_inertia", "x", "y", "heading", "pivot", "name")
-# In an answered case these may be no finite number: no direction at rest or without an impulse, no slip that needs a pull.
+# In an answered case these may be no finite number: no direction at rest or without an impulse, no
+# slip that needs a pull.
 OPEN = {"impulse_direction", "pdof", "pdof_clock", "impulse_ratio", "critical_impulse_ratio"}
 # These are inputs and not results.
 INPUTS = {
@@ -143,9 +155,12 @@ INPUTS = {
     "reconstruction",
 }
 WORDS = {"kind", "regime"}
-# What the solver itself gives, finite wherever it answers; the rest is finite where no product can leave the range of floats.
-CERTAIN = {"closing_speed", "slip_before", "slip_after", "normal_impulse", "tangential_impulse", "compression_impulse", "effective_mass",
-           "energy_loss", "energy_loss_normal", "energy_loss_tangential", "delta_vx", "delta_vy", "delta_yaw_rate"}  # fmt: skip
+# What the solver itself gives, finite wherever it answers; the rest is finite where no product can
+# leave the range of floats.
+CERTAIN = {"closing_speed", "slip_before", "slip_after", "normal_impulse", "tangential_impulse",
+"compression_impulse", "effective_mass",
+           "energy_loss", "energy_loss_normal", "energy_loss_tangential", "delta_vx", "delta_vy",
+           "delta_yaw_rate"}  # fmt: skip
 
 
 def look_at_vehicle(vehicle: col.Vehicle, *, made_by_hand: bool = True) -> None:
@@ -154,9 +169,9 @@ def look_at_vehicle(vehicle: col.Vehicle, *, made_by_hand: bool = True) -> None:
         value = getattr(vehicle, name)
         for part in value if isinstance(value, tuple) else (value,):
             assert part is None or type(part) is float or isinstance(part, (str, np.ndarray)), name
-            assert not isinstance(part, np.ndarray) or (not part.flags.writeable and part.dtype in (np.float32, np.float64)), (
-                name
-            )
+            assert not isinstance(part, np.ndarray) or (
+                not part.flags.writeable and part.dtype in (np.float32, np.float64)
+            ), name
     for name in ("speed", "course", "momentum", "kinetic_energy"):
         attempt(name, lambda name=name: getattr(vehicle, name))
         attempt(f"q.{name}", lambda name=name: getattr(vehicle.q, name))
@@ -166,10 +181,14 @@ def look_at_vehicle(vehicle: col.Vehicle, *, made_by_hand: bool = True) -> None:
     assert must_answer("pickle", lambda: pickle.loads(pickle.dumps(vehicle))) == vehicle
     if made_by_hand:
         again = attempt("replace", lambda: vehicle.replace())
-        assert isinstance(again, col.CollisionsError) or vehicle.pivot is not None or again == vehicle
+        assert (
+            isinstance(again, col.CollisionsError) or vehicle.pivot is not None or again == vehicle
+        )
 
 
-def check_numbers(label: str, value: Any, refused: Any, shape: tuple[int, ...], finite: bool) -> None:
+def check_numbers(
+    label: str, value: Any, refused: Any, shape: tuple[int, ...], finite: bool
+) -> None:
     """Finite in every answered case, NaN in every refused one."""
     for part in value if isinstance(value, tuple) else (value,):
         assert np.broadcast_shapes(np.shape(part), shape) == shape, label
@@ -181,12 +200,16 @@ def check_numbers(label: str, value: Any, refused: Any, shape: tuple[int, ...], 
 
 
 def look_at_impact(impact: col.Impact) -> None:
-    """Every attribute of an Impact, its refused and its answered cases, and what it can be turned into."""
+    """Every attribute of an Impact, its refused and its answered cases, and what it can be turned
+    into.
+    """
     status = np.asarray(impact.status)
     shape, refused = status.shape, status > col.Status.ENERGY_GAIN
     assert np.array_equal(np.asarray(impact.refused), refused)
     assert np.array_equal(np.asarray(impact.ok), status == col.Status.OK)
-    tame = modest(impact.a.before, impact.b.before, impact.point, impact.normal, impact.inputs.rule_value)
+    tame = modest(
+        impact.a.before, impact.b.before, impact.point, impact.normal, impact.inputs.rule_value
+    )
 
     def look(label: str, owner: Any, name: str) -> None:
         value = must_answer(label, lambda: getattr(owner, name))
@@ -211,8 +234,14 @@ def look_at_impact(impact: col.Impact) -> None:
         attempt_all(name, lambda name=name: look(name, impact, name))
     for side in "ab":
         for name in attributes(type(impact.a)):
-            attempt_all(f"{side}.{name}", lambda side=side, name=name: look(f"{side}.{name}", getattr(impact, side), name))
-        attempt_all("side repr", lambda side=side: repr(getattr(impact, side)) + getattr(impact, side)._repr_html_())
+            attempt_all(
+                f"{side}.{name}",
+                lambda side=side, name=name: look(f"{side}.{name}", getattr(impact, side), name),
+            )
+        attempt_all(
+            "side repr",
+            lambda side=side: repr(getattr(impact, side)) + getattr(impact, side)._repr_html_(),
+        )
     attempt_all("repr", lambda: repr(impact))
     attempt_all("html", lambda: impact._repr_html_())
     attempt_all("pickle", lambda: check_equal(pickle.loads(pickle.dumps(impact)), impact))
@@ -254,16 +283,32 @@ def some_of(fields: Any, *, odd: float = 0.3) -> Any:
     @st.composite
     def build(draw: Any) -> dict[str, Any]:
         shapes = draw(st.sampled_from((SHAPES, ((3,),), ((3,),), ((2, 3), (3,), (2, 1)))))
-        mood = draw(st.sampled_from(("plain", "plain", "numbers", "numbers", "values", "values", "odd", "odd")))
+        mood = draw(
+            st.sampled_from(
+                ("plain", "plain", "numbers", "numbers", "values", "values", "odd", "odd")
+            )
+        )
         found = {}
         for name in fields:
-            if draw(st.integers(0, 9)) < (1 if name in ("mass", "restitution", "normal", "point") else 3):
+            if draw(st.integers(0, 9)) < (
+                1 if name in ("mass", "restitution", "normal", "point") else 3
+            ):
                 continue
             pair = name in ("pivot", "point")
-            kind = plausible(name) if mood == "plain" else numbers(name) if mood == "numbers" else values(name, shapes)
+            kind = (
+                plausible(name)
+                if mood == "plain"
+                else numbers(name)
+                if mood == "numbers"
+                else values(name, shapes)
+            )
             if mood == "odd" and draw(st.floats(0.0, 1.0)) < odd:
                 kind = garbage()
-            found[name] = draw(st.tuples(kind, kind) if pair and not (mood == "odd" and draw(st.booleans())) else kind)
+            found[name] = draw(
+                st.tuples(kind, kind)
+                if pair and not (mood == "odd" and draw(st.booleans()))
+                else kind
+            )
         return found
 
     return build()
@@ -282,11 +327,16 @@ pairs = st.one_of(
 
 
 def called_wrongly(call: Any) -> Any:
-    """The answer of a call whose keywords may be missing or unknown, which Python itself refuses."""
+    """The answer of a call whose keywords may be missing or unknown, which Python
+    itself refuses.
+    """
     try:
         return call()
     except TypeError as error:
-        said = r"missing \d+ required|has no argument|multiple values for (keyword )?argument|keywords must be strings"
+        said = (
+            r"missing \d+ required|has no argument|multiple values for (keyword )?argument|"
+            r"keywords must be strings"
+        )
         if not re.search(said, str(error)):
             raise
         return None
@@ -314,7 +364,9 @@ def _bodies(draw: Any, shapes: Any, everything: bool) -> col.Vehicle:
         if kind == "numbers":
             return numbers(name)
         kinds = ("f4",) if kind == "single" else ("f8", "f8", "f4")
-        return st.one_of(plausible(name), numbers(name), arrays(name, shapes, kinds), arrays(name, shapes, kinds))
+        return st.one_of(
+            plausible(name), numbers(name), arrays(name, shapes, kinds), arrays(name, shapes, kinds)
+        )
 
     if draw(st.integers(0, 9)) == 0:
         return col.Vehicle.barrier()
@@ -334,7 +386,11 @@ def _bodies(draw: Any, shapes: Any, everything: bool) -> col.Vehicle:
         if draw(st.integers(0, 4)):
             fields["vx"] = fields["vy"] = 0.0
     made = attempt("Vehicle", lambda: col.Vehicle(**fields))
-    return made if isinstance(made, col.Vehicle) else col.Vehicle(mass=1200.0, vx=10.0, yaw_inertia=1800.0, x=0.0, y=0.0)
+    return (
+        made
+        if isinstance(made, col.Vehicle)
+        else col.Vehicle(mass=1200.0, vx=10.0, yaw_inertia=1800.0, x=0.0, y=0.0)
+    )
 
 
 @st.composite
@@ -345,12 +401,21 @@ def arguments(draw: Any, model: str, odd: float) -> dict[str, Any]:
     def one(name: str) -> Any:
         if draw(st.floats(0.0, 1.0)) < odd:
             return garbage()
-        return draw(st.sampled_from((plausible(name), numbers(name), values(name, shapes), arrays(name, shapes))))
+        return draw(
+            st.sampled_from(
+                (plausible(name), numbers(name), values(name, shapes), arrays(name, shapes))
+            )
+        )
 
-    found: dict[str, Any] = {"a": draw(bodies(shapes, model == "eccentric")), "b": draw(bodies(shapes, model == "eccentric"))}
+    found: dict[str, Any] = {
+        "a": draw(bodies(shapes, model == "eccentric")),
+        "b": draw(bodies(shapes, model == "eccentric")),
+    }
     found["restitution"] = draw(one("restitution"))
     if model != "linear_central" or draw(st.booleans()):
-        found["normal"] = draw(st.one_of(one("normal"), st.tuples(one("impulse_ratio"), one("impulse_ratio"))))
+        found["normal"] = draw(
+            st.one_of(one("normal"), st.tuples(one("impulse_ratio"), one("impulse_ratio")))
+        )
     if model != "linear_central":
         rule = draw(st.sampled_from(("friction", "impulse_ratio", "critical_fraction")))
         found[rule] = draw(one(rule))
@@ -359,7 +424,17 @@ def arguments(draw: Any, model: str, odd: float) -> dict[str, Any]:
         found["point"] = draw(st.tuples(one("point"), one("point")))
     found["on_failure"] = draw(st.sampled_from((None, "nan", "nan", "raise")))
     if odd:
-        for name in ("a", "b", "law", "on_failure", "threads", "progress", "point", "friction", "nonsense"):
+        for name in (
+            "a",
+            "b",
+            "law",
+            "on_failure",
+            "threads",
+            "progress",
+            "point",
+            "friction",
+            "nonsense",
+        ):
             if draw(st.integers(0, 19)) == 0:
                 found[name] = draw(garbage())
         for name in ("restitution", "normal"):
@@ -374,7 +449,11 @@ every_model = pytest.mark.parametrize("model", MODELS)
 
 @pytest.mark.slow
 @examples(3)
-@given(some_of((*BODY, "pivot")), st.one_of(st.just(""), st.text(max_size=5), anything), st.integers(0, 9))
+@given(
+    some_of((*BODY, "pivot")),
+    st.one_of(st.just(""), st.text(max_size=5), anything),
+    st.integers(0, 9),
+)
 def test_a_vehicle_of_anything(fields: dict[str, Any], name: Any, how: int) -> None:
     """The constructor and the barrier take every field as anything."""
     if how < 2:
@@ -392,7 +471,9 @@ def test_a_vehicle_from_any_speed_and_course(fields: dict[str, Any]) -> None:
     """Speed and course take anything too; the speed that comes back is the one given."""
     if "vx" in fields and len(fields) > 3:
         del fields["vx"]
-    vehicle = attempt("from_speed", lambda: called_wrongly(lambda: col.Vehicle.from_speed(**fields)))
+    vehicle = attempt(
+        "from_speed", lambda: called_wrongly(lambda: col.Vehicle.from_speed(**fields))
+    )
     if isinstance(vehicle, col.Vehicle):
         look_at_vehicle(vehicle)
         speed = fields["speed"]
@@ -402,7 +483,9 @@ def test_a_vehicle_from_any_speed_and_course(fields: dict[str, Any]) -> None:
 
 @examples()
 @given(bodies(), some_of(BODY), st.one_of(st.none(), pairs), st.booleans())
-def test_a_vehicle_replaced_by_anything(vehicle: col.Vehicle, changes: dict[str, Any], pivot: Any, pin: bool) -> None:
+def test_a_vehicle_replaced_by_anything(
+    vehicle: col.Vehicle, changes: dict[str, Any], pivot: Any, pin: bool
+) -> None:
     """Every field of a vehicle can be replaced, or the replacement is refused."""
     if pin:
         changes["pivot"] = pivot
@@ -415,7 +498,10 @@ def test_a_vehicle_replaced_by_anything(vehicle: col.Vehicle, changes: dict[str,
 @given(bodies(), pairs, some_of(("forward", "left", "distance", "angle")))
 def test_places_on_a_vehicle(vehicle: col.Vehicle, point: Any, place: dict[str, Any]) -> None:
     """point and velocity_at take anything; from ordinary numbers come ordinary numbers."""
-    for label, call in (("velocity_at", lambda: vehicle.velocity_at(point)), ("point", lambda: vehicle.point(**place))):
+    for label, call in (
+        ("velocity_at", lambda: vehicle.velocity_at(point)),
+        ("point", lambda: vehicle.point(**place)),
+    ):
         found = attempt(label, call)
         if isinstance(found, col.CollisionsError):
             continue
@@ -424,7 +510,11 @@ def test_places_on_a_vehicle(vehicle: col.Vehicle, point: Any, place: dict[str, 
         for part in found:
             assert type(part) is float or isinstance(part, np.ndarray), (label, type(part))
         inputs = point if label == "velocity_at" else tuple(place.values())
-        if all(type(part) is float for part in inputs) and modest(vehicle, inputs) and all(type(p) is float for p in found):
+        if (
+            all(type(part) is float for part in inputs)
+            and modest(vehicle, inputs)
+            and all(type(p) is float for p in found)
+        ):
             assert all(map(math.isfinite, found)), label
 
 
@@ -471,7 +561,9 @@ def _record(model: str, batch: bool) -> dict[str, Any]:
         "oblique_central": {"normal": 0.2, "friction": math.inf},
         "eccentric": {"normal": 0.2, "point": (1.0, 0.3), "impulse_ratio": 0.1},
     }[model]
-    return json.loads(json.dumps(getattr(col, model)(a, b, 0.2, on_failure="nan", **more).to_dict()))
+    return json.loads(
+        json.dumps(getattr(col, model)(a, b, 0.2, on_failure="nan", **more).to_dict())
+    )
 
 
 RECORDS = {(model, batch): _record(model, batch) for model in MODELS for batch in (False, True)}
@@ -484,16 +576,42 @@ plain_json = st.recursive(
         st.floats(),
         st.text(max_size=5),
         st.sampled_from(
-            ("inf", "nan", "friction", "threads", "on_failure", "law", "normal", "linear_central", "eccentric", "brach", "1 kg")
+            (
+                "inf",
+                "nan",
+                "friction",
+                "threads",
+                "on_failure",
+                "law",
+                "normal",
+                "linear_central",
+                "eccentric",
+                "brach",
+                "1 kg",
+            )
         ),
     ),
     lambda inner: st.one_of(
         st.lists(inner, max_size=3),
-        st.dictionaries(st.sampled_from(("dtype", "shape", "values", "status", "a")), inner, max_size=3),
+        st.dictionaries(
+            st.sampled_from(("dtype", "shape", "values", "status", "a")), inner, max_size=3
+        ),
         st.fixed_dictionaries(
             {
                 "dtype": st.sampled_from(
-                    ("float64", "float32", "object", "bool", "uint8", "U3", "complex128", "float16", "m8[s]", "O", "f8,f8")
+                    (
+                        "float64",
+                        "float32",
+                        "object",
+                        "bool",
+                        "uint8",
+                        "U3",
+                        "complex128",
+                        "float16",
+                        "m8[s]",
+                        "O",
+                        "f8,f8",
+                    )
                 ),
                 "shape": st.lists(st.integers(-2, 3), max_size=3),
                 "values": st.lists(inner, max_size=3),
@@ -505,9 +623,16 @@ plain_json = st.recursive(
 
 
 @examples(2)
-@given(st.sampled_from(sorted(RECORDS)), st.one_of(plain_json, plain_json, garbage()), st.integers(0, 10**6), st.booleans())
+@given(
+    st.sampled_from(sorted(RECORDS)),
+    st.one_of(plain_json, plain_json, garbage()),
+    st.integers(0, 10**6),
+    st.booleans(),
+)
 def test_a_record_of_anything(which: tuple[str, bool], new: Any, at: int, drop: bool) -> None:
-    """A record with one part changed or taken out is solved again or refused, and so is what never was a record."""
+    """A record with one part changed or taken out is solved again or refused, and so is what never
+    was a record.
+    """
     record = copy.deepcopy(RECORDS[which])
     places = [(record, key) for key in record]
     for holder, key in places:
@@ -526,13 +651,22 @@ def test_a_record_of_anything(which: tuple[str, bool], new: Any, at: int, drop: 
         look_at_impact(impact)
 
 
-READ_AS = {"kg": "mass", "m/s": "vx", "rad/s": "yaw_rate", "kg*m**2": "yaw_inertia", "m": "x", "rad": "heading"}
+READ_AS = {
+    "kg": "mass",
+    "m/s": "vx",
+    "rad/s": "yaw_rate",
+    "kg*m**2": "yaw_inertia",
+    "m": "x",
+    "rad": "heading",
+}
 
 
 @examples(4)
 @given(texts(), st.sampled_from(("", *READ_AS)))
 def test_any_text(text: str, unit: str) -> None:
-    """A text is refused or is the number in front of it times the unit behind it, and nothing else."""
+    """A text is refused or is the number in front of it times the unit behind it, and
+    nothing else.
+    """
     name = READ_AS.get(unit)
     if name is None:
         a, b = col.Vehicle(mass=1.0, vx=1.0), col.Vehicle(mass=1.0)
@@ -546,7 +680,11 @@ def test_any_text(text: str, unit: str) -> None:
     read = text.strip()
     ends = [end for end in range(len(read), 0, -1) if _is_float(read[:end])]
     assert ends, text
-    factor = registries()[0].Quantity(1.0, read[ends[0] :].strip() or "dimensionless").m_as(unit or "dimensionless")
+    factor = (
+        registries()[0]
+        .Quantity(1.0, read[ends[0] :].strip() or "dimensionless")
+        .m_as(unit or "dimensionless")
+    )
     assert found == pytest.approx(float(read[: ends[0]]) * factor, rel=1e-14, abs=0.0)
 
 
@@ -559,17 +697,33 @@ def _is_float(text: str) -> bool:
 
 
 @examples(4)
-@given(never_numbers(), st.sampled_from((*BODY, "pivot", "point", "speed", "course", "forward", "angle", "normal", "restitution", "friction", "impulse_ratio", "critical_fraction", "share_a", "normal[0]")))  # fmt: skip
+@given(never_numbers(), st.sampled_from((*BODY, "pivot", "point", "speed", "course", "forward",
+    "angle", "normal", "restitution", "friction", "impulse_ratio", "critical_fraction", "share_a",
+    "normal[0]")))  # fmt: skip
 def test_what_is_never_a_number(value: Any, name: str) -> None:
     """Refused wherever a number is asked for; a mass or a speed is never made of it."""
     a = col.Vehicle(mass=1100.0, vx=20.0, yaw_inertia=1800.0, x=0.0, y=0.0, heading=0.0)
-    scene = {"a": a, "b": a.replace(vx=0.0), "restitution": 0.1, "normal": 0.0, "point": (1.0, 0.3), "friction": 0.3}
+    scene = {
+        "a": a,
+        "b": a.replace(vx=0.0),
+        "restitution": 0.1,
+        "normal": 0.0,
+        "point": (1.0, 0.3),
+        "friction": 0.3,
+    }
     if name in BODY:
         found = attempt(name, lambda: col.Vehicle(**{"mass": 1.0, name: value}))
     elif name == "pivot":
-        found = attempt(name, lambda: col.Vehicle(mass=1.0, yaw_inertia=1.0, x=1.0, y=1.0, pivot=(value, 0.0)))
+        found = attempt(
+            name, lambda: col.Vehicle(mass=1.0, yaw_inertia=1.0, x=1.0, y=1.0, pivot=(value, 0.0))
+        )
     elif name in ("speed", "course"):
-        found = attempt(name, lambda: col.Vehicle.from_speed(**{"mass": 1.0, "speed": 1.0, "course": 0.0, name: value}))
+        found = attempt(
+            name,
+            lambda: col.Vehicle.from_speed(
+                **{"mass": 1.0, "speed": 1.0, "course": 0.0, name: value}
+            ),
+        )
     elif name == "forward":
         found = attempt(name, lambda: a.point(forward=value))
     elif name == "angle":
@@ -616,7 +770,13 @@ def batches(draw: Any, model: str, count: int = 4, worth: Any = plausible) -> di
 def solve(model: str, columns: Any, **options: Any) -> Any:
     """The impact of one case or of all."""
     a, b = (
-        col.Vehicle(**{name.partition(".")[2]: value for name, value in columns.items() if name.startswith(f"{side}.")})
+        col.Vehicle(
+            **{
+                name.partition(".")[2]: value
+                for name, value in columns.items()
+                if name.startswith(f"{side}.")
+            }
+        )
         for side in "ab"
     )
     more = {"normal": columns["normal"], **options}
@@ -635,7 +795,10 @@ def test_a_case_of_a_batch_is_the_case_alone(model: str, data: Any) -> None:
     columns = data.draw(batches(model))
     many = must_answer("batch", lambda: solve(model, columns, on_failure="nan"))
     for i in range(4):
-        alone = attempt("alone", lambda i=i: solve(model, {name: float(value[i]) for name, value in columns.items()}))
+        alone = attempt(
+            "alone",
+            lambda i=i: solve(model, {name: float(value[i]) for name, value in columns.items()}),
+        )
         status = col.Status(int(many.status[i]))
         if isinstance(alone, col.CollisionsError):
             assert alone.code == status.label
@@ -646,15 +809,28 @@ def test_a_case_of_a_batch_is_the_case_alone(model: str, data: Any) -> None:
             for name, value in columns.items()
             if ".v" in name or "rate" in name
         )
-        # 1e-9 covers the promise of 8 eps kappa S_P while kappa stays below 1e5, which ordinary cars and levers do.
-        limits = {"speed": 1e-9 * speeds, "impulse": 1e-9 * speeds * 4e4, "energy": 1e-9 * speeds**2 * 4e4, "mass": 1e-9 * 4e4}
+        # 1e-9 covers the promise of 8 eps kappa S_P while kappa stays below 1e5, which ordinary
+        # cars and levers do.
+        limits = {
+            "speed": 1e-9 * speeds,
+            "impulse": 1e-9 * speeds * 4e4,
+            "energy": 1e-9 * speeds**2 * 4e4,
+            "mass": 1e-9 * 4e4,
+        }
         for name in COMPARED:
             kind = next(kind for kind in limits if kind in name) if "slip" not in name else "speed"
-            assert getattr(many, name)[i] == pytest.approx(getattr(alone, name), rel=1e-9, abs=limits[kind]), name
+            assert getattr(many, name)[i] == pytest.approx(
+                getattr(alone, name), rel=1e-9, abs=limits[kind]
+            ), name
         for side in "ab":
             for name in MOVED:
-                one, other = getattr(getattr(many, side), name)[i], getattr(getattr(alone, side), name)
-                assert one == pytest.approx(other, rel=1e-9, abs=limits["impulse" if "impulse" in name else "speed"] * 100.0), (
+                one, other = (
+                    getattr(getattr(many, side), name)[i],
+                    getattr(getattr(alone, side), name),
+                )
+                assert one == pytest.approx(
+                    other, rel=1e-9, abs=limits["impulse" if "impulse" in name else "speed"] * 100.0
+                ), (
                     side,
                     name,
                 )
@@ -668,7 +844,9 @@ def test_a_spoiled_case_leaves_its_neighbours_alone(model: str, data: Any) -> No
     """Whatever numbers one case holds, the others keep every bit of every attribute."""
     columns = data.draw(batches(model, worth=data.draw(st.sampled_from((plausible, numbers)))))
     where = data.draw(st.integers(0, 3))
-    changed = data.draw(st.lists(st.sampled_from(sorted(columns)), min_size=1, max_size=4, unique=True))
+    changed = data.draw(
+        st.lists(st.sampled_from(sorted(columns)), min_size=1, max_size=4, unique=True)
+    )
     spoiled = {name: value.copy() for name, value in columns.items()}
     for name in changed:
         spoiled[name][where] = data.draw(extreme())
@@ -678,11 +856,21 @@ def test_a_spoiled_case_leaves_its_neighbours_alone(model: str, data: Any) -> No
     for side in (None, "a", "b"):
         owners = (one, other) if side is None else (getattr(one, side), getattr(other, side))
         for name in attributes(type(owners[0])):
-            before, after = (must_answer(name, lambda owner=owner, name=name: getattr(owner, name)) for owner in owners)
+            before, after = (
+                must_answer(name, lambda owner=owner, name=name: getattr(owner, name))
+                for owner in owners
+            )
             if isinstance(before, col.Vehicle):
                 before, after = ((v.vx, v.vy, v.yaw_rate) for v in (before, after))
-            for left, right in zip(*(part if isinstance(part, tuple) else (part,) for part in (before, after)), strict=True):
-                if isinstance(left, np.ndarray) and isinstance(right, np.ndarray) and left.dtype.kind in "fbiu":
+            for left, right in zip(
+                *(part if isinstance(part, tuple) else (part,) for part in (before, after)),
+                strict=True,
+            ):
+                if (
+                    isinstance(left, np.ndarray)
+                    and isinstance(right, np.ndarray)
+                    and left.dtype.kind in "fbiu"
+                ):
                     assert left[rest].tobytes() == right[rest].tobytes(), (side, name)
                 elif isinstance(left, np.ndarray):
                     assert (left[rest] == right[rest]).all(), (side, name)

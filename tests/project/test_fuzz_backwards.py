@@ -1,4 +1,6 @@
-"""Arbitrary arguments to ``reconstruct`` and ``travel``: an answer in order, or a CollisionsError; nothing else, and no hang."""
+"""Arbitrary arguments to ``reconstruct`` and ``travel``: an answer in order, or a CollisionsError;
+nothing else, and no hang.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,15 @@ from hypothesis import strategies as st
 
 import collisions as col
 from collisions import reconstruct, travel
-from project.test_fuzz import attempt, bodies, called_wrongly, check_numbers, examples, look_at_impact, must_answer
+from project.test_fuzz import (
+    attempt,
+    bodies,
+    called_wrongly,
+    check_numbers,
+    examples,
+    look_at_impact,
+    must_answer,
+)
 from strategies import arrays, garbage, never_numbers, numbers, plausible, registries, values
 
 pytestmark = pytest.mark.slow
@@ -42,14 +52,29 @@ def one_of(draw: Any, name: str, odd: float, shapes: Any) -> Any:
     """One argument of the kind, or now and then anything."""
     if draw(st.floats(0.0, 1.0)) < odd:
         return draw(garbage())
-    return draw(st.one_of(plausible(name), plausible(name), numbers(name), values(name, shapes), arrays(name, shapes)))
+    return draw(
+        st.one_of(
+            plausible(name),
+            plausible(name),
+            numbers(name),
+            values(name, shapes),
+            arrays(name, shapes),
+        )
+    )
 
 
 @st.composite
 def keywords(
-    draw: Any, always: dict[str, str], count: int, choice: dict[str, str], odd: float, **options: Any
+    draw: Any,
+    always: dict[str, str],
+    count: int,
+    choice: dict[str, str],
+    odd: float,
+    **options: Any,
 ) -> dict[str, Any]:
-    """All of some arguments, so many of a choice, at times one fewer or more, and the options that were drawn."""
+    """All of some arguments, so many of a choice, at times one fewer or more, and the options that
+    were drawn.
+    """
     shapes = draw(st.sampled_from((((3,),), ((3,),), ((2, 3), (3,), (2, 1)))))
     plain = draw(st.booleans())
     wanted = count + draw(st.sampled_from((0, 0, 0, 0, 0, 0, 0, 0, -1, 1)))
@@ -87,7 +112,9 @@ odd = st.sampled_from((0.0, 0.0, 0.1))
 
 
 def look_at(found: Any) -> None:
-    """Everything that is given back: impacts in full, numbers that are none only where the case was refused."""
+    """Everything that is given back: impacts in full, numbers that are none only where the case was
+    refused.
+    """
     if isinstance(found, col.AmbiguousSolutionError | col.NoSolutionError):
         for solution in getattr(found, "solutions", ()):
             look_at(solution)
@@ -132,7 +159,9 @@ def test_momentum_of_anything(data: Any, oddity: float) -> None:
             together=st.sampled_from((None, None, True)),
             heading_a=st.sampled_from((None, 0.3)),
             normal=st.sampled_from((None, 0.3, (1.0, 2.0))),
-            outside_impulse=st.one_of(st.none(), st.tuples(numbers("outside_impulse"), values("outside_impulse", ((3,),)))),
+            outside_impulse=st.one_of(
+                st.none(), st.tuples(numbers("outside_impulse"), values("outside_impulse", ((3,),)))
+            ),
         )
     )
     for name in sorted(COURSES):
@@ -143,7 +172,12 @@ def test_momentum_of_anything(data: Any, oddity: float) -> None:
         status = np.asarray(found.status)
         refused = status > col.Status.ENERGY_GAIN
         for name in (*found.unknowns, "delta_v_a", "delta_v_b", "condition"):
-            must_answer(name, lambda name=name: check_numbers(name, getattr(found, name), refused, status.shape, False))
+            must_answer(
+                name,
+                lambda name=name: check_numbers(
+                    name, getattr(found, name), refused, status.shape, False
+                ),
+            )
             must_answer(f"q.{name}", lambda name=name: getattr(found.q, name))
         must_answer("sensitivity", lambda: found.sensitivity.q)
         must_answer("repr", lambda: repr(found) + found._repr_html_())
@@ -173,20 +207,30 @@ def test_the_in_line_shortcut_of_anything(data: Any, oddity: float) -> None:
 @examples(2)
 @given(st.data(), bodies(), bodies(), odd)
 def test_planar_of_anything(data: Any, a: col.Vehicle, b: col.Vehicle, oddity: float) -> None:
-    """Any end state, law and one of the three knowns; origins that are answered lead to the end they came from."""
+    """Any end state, law and one of the three knowns; origins that are answered lead to the end
+    they came from.
+    """
     choice = {"restitution": "restitution", "closing_speed": "speed", "energy_loss": "energy_loss"}
     regime = st.sampled_from((None, None, "sliding", "sticking", "given", "frictionless", "bad"))
-    given_to = data.draw(keywords({}, 1, choice, oddity, on_failure=on_failure, regime=regime)) | data.draw(contacts(oddity))
+    given_to = data.draw(
+        keywords({}, 1, choice, oddity, on_failure=on_failure, regime=regime)
+    ) | data.draw(contacts(oddity))
     answer_of("planar", lambda: reconstruct.planar(a, b, **given_to))
 
 
 @examples()
 @given(st.data(), bodies(), bodies(), odd)
 def test_speeds_of_anything(data: Any, a: col.Vehicle, b: col.Vehicle, oddity: float) -> None:
-    """Two vehicles and two things known of them, single cases and batches, restitution a number or a function."""
-    given_to = data.draw(keywords({"restitution": "restitution"}, 2, KNOWN, oddity)) | data.draw(contacts(oddity))
+    """Two vehicles and two things known of them, single cases and batches, restitution a number or
+    a function.
+    """
+    given_to = data.draw(keywords({"restitution": "restitution"}, 2, KNOWN, oddity)) | data.draw(
+        contacts(oddity)
+    )
     for name in ("course_a", "course_b"):
-        given_to[name] = data.draw(st.one_of(plausible("course"), values("course", ((3,),)), st.none()))
+        given_to[name] = data.draw(
+            st.one_of(plausible("course"), values("course", ((3,),)), st.none())
+        )
     if data.draw(st.integers(0, 9)) == 0:
         given_to["restitution"] = some_function(data.draw(st.sampled_from(FUNCTIONS)))
     if data.draw(st.integers(0, 5)) == 0:
@@ -198,10 +242,14 @@ def test_speeds_of_anything(data: Any, a: col.Vehicle, b: col.Vehicle, oddity: f
 
 @examples()
 @given(st.data(), bodies(), bodies(), bodies(), bodies(), odd)
-def test_what_motions_show_of_anything(data: Any, a: Any, b: Any, c: Any, d: Any, oddity: float) -> None:
+def test_what_motions_show_of_anything(
+    data: Any, a: Any, b: Any, c: Any, d: Any, oddity: float
+) -> None:
     """Restitution and friction from four vehicles, one of them at times no vehicle at all."""
     place = data.draw(contacts(oddity))
-    where = {"normal": place["normal"]} | ({"point": place["point"]} if data.draw(st.booleans()) else {})
+    where = {"normal": place["normal"]} | (
+        {"point": place["point"]} if data.draw(st.booleans()) else {}
+    )
     motions = [a, b, c, d]
     if data.draw(st.integers(0, 9)) == 0:
         motions[data.draw(st.integers(0, 3))] = data.draw(garbage())
@@ -217,7 +265,8 @@ def test_crush_energy_of_anything(data: Any, oddity: float) -> None:
     shapes = ((3,),)
     depths = [one_of(data.draw, "width", oddity, shapes) for _ in range(count)]
     widths = [
-        one_of(data.draw, "width", oddity, shapes) for _ in range(max(0, count + data.draw(st.sampled_from((-1, -1, 0)))))
+        one_of(data.draw, "width", oddity, shapes)
+        for _ in range(max(0, count + data.draw(st.sampled_from((-1, -1, 0)))))
     ]
     given_to = {"widths": widths, "depths": depths}
     for name in given_to:
@@ -225,8 +274,15 @@ def test_crush_energy_of_anything(data: Any, oddity: float) -> None:
             given_to[name] = one_of(data.draw, "width", oddity, shapes)
     stiffness = [one_of(data.draw, name, oddity, shapes) for name in ("stiffness_a", "stiffness_b")]
     angle = one_of(data.draw, "angle", oddity, shapes)
-    found = answer_of("crush_energy", lambda: reconstruct.crush_energy(*given_to.values(), *stiffness, force_angle=angle))
-    assert isinstance(found, col.CollisionsError) or (np.asarray(found) >= 0.0).all() or np.isnan(found).any()
+    found = answer_of(
+        "crush_energy",
+        lambda: reconstruct.crush_energy(*given_to.values(), *stiffness, force_angle=angle),
+    )
+    assert (
+        isinstance(found, col.CollisionsError)
+        or (np.asarray(found) >= 0.0).all()
+        or np.isnan(found).any()
+    )
 
 
 @st.composite
@@ -235,7 +291,10 @@ def segments(draw: Any, name: str, count: int, oddity: float) -> Any:
     shapes = ((3,),)
     if draw(st.booleans()):
         return one_of(draw, name, oddity, shapes)
-    return [one_of(draw, name, oddity, shapes) for _ in range(max(0, count + draw(st.sampled_from((0, 0, 0, 0, 1, -1)))))]
+    return [
+        one_of(draw, name, oddity, shapes)
+        for _ in range(max(0, count + draw(st.sampled_from((0, 0, 0, 0, 1, -1)))))
+    ]
 
 
 @examples(2)
@@ -248,7 +307,9 @@ def test_straight_travel_of_anything(data: Any, oddity: float) -> None:
     length = data.draw(segments("distance", count, oddity))
     start = one_of(data.draw, "speed", oddity, ((3,),))
     for name, first in (("speed", length), ("time", length), ("distance", start)):
-        found = answer_of(name, lambda name=name, first=first: getattr(travel, name)(first, **ground))
+        found = answer_of(
+            name, lambda name=name, first=first: getattr(travel, name)(first, **ground)
+        )
         if not isinstance(found, col.CollisionsError) and found is not None:
             assert (np.asarray(found)[~np.isnan(found)] >= 0.0).all()
 
@@ -258,12 +319,17 @@ def test_straight_travel_of_anything(data: Any, oddity: float) -> None:
 def test_paths_of_anything(data: Any, oddity: float) -> None:
     """Positions, headings and surfaces of a run-out."""
     count = data.draw(st.integers(0, 4))
-    points: Any = [tuple(one_of(data.draw, "point", oddity, ((3,),)) for _ in "xy") for _ in range(count)]
+    points: Any = [
+        tuple(one_of(data.draw, "point", oddity, ((3,),)) for _ in "xy") for _ in range(count)
+    ]
     if data.draw(st.booleans()):
         points = data.draw(st.one_of(arrays("point", ((2, 2), (3, 2), (3,))), garbage()))
         count = len(points) if isinstance(points, np.ndarray) and points.ndim else count
     headings = data.draw(segments("heading", count, oddity))
-    ground = {name: data.draw(segments(name, max(1, count - 1), oddity)) for name in ("friction", "lock", "grade")}
+    ground = {
+        name: data.draw(segments(name, max(1, count - 1), oddity))
+        for name in ("friction", "lock", "grade")
+    }
     ground["end_speed"] = one_of(data.draw, "speed", oddity, ((3,),))
     found = answer_of("path", lambda: travel.path(points, headings, **ground))
     if isinstance(found, travel.RunOut):
@@ -276,18 +342,33 @@ def test_paths_of_anything(data: Any, oddity: float) -> None:
 @examples()
 @given(
     never_numbers(),
-    st.sampled_from(("va", "mass_a", "energy_loss", "speed_a", "course_a", "drag", "distance", "lock", "depths")),
+    st.sampled_from(
+        ("va", "mass_a", "energy_loss", "speed_a", "course_a", "drag", "distance", "lock", "depths")
+    ),
 )
 def test_what_is_never_a_number_backwards(value: Any, name: str) -> None:
     """Refused wherever a number is wanted."""
     calls = {
-        "central": (reconstruct.central, {"mass_a": 1.0, "mass_b": 1.0, "va": 2.0, "energy_loss": 0.1, "vb": 0.0}),
+        "central": (
+            reconstruct.central,
+            {"mass_a": 1.0, "mass_b": 1.0, "va": 2.0, "energy_loss": 0.1, "vb": 0.0},
+        ),
         "momentum": (
             reconstruct.momentum,
-            {"mass_a": 1.0, "mass_b": 1.0, "course_a": 0.0, "course_b": 1.0, "speed_a": 1.0, "speed_b": 2.0}
+            {
+                "mass_a": 1.0,
+                "mass_b": 1.0,
+                "course_a": 0.0,
+                "course_b": 1.0,
+                "speed_a": 1.0,
+                "speed_b": 2.0,
+            }
             | {"course_a_after": 0.2, "course_b_after": 0.4},
         ),
-        "path": (travel.path, {"points": [(0, 0), (1, 0)], "headings": [0.0, 0.1], "friction": 0.7, "lock": 0.3}),
+        "path": (
+            travel.path,
+            {"points": [(0, 0), (1, 0)], "headings": [0.0, 0.1], "friction": 0.7, "lock": 0.3},
+        ),
         "time": (travel.time, {"distance": 5.0, "drag": 0.7}),
         "crush_energy": (
             reconstruct.crush_energy,

@@ -1,6 +1,8 @@
-"""Every public name under arbitrary arguments: an answer that is finite or documented, or a CollisionsError; nothing else.
+"""Every public name under arbitrary arguments: an answer that is finite or documented, or a
+CollisionsError; nothing else.
 
-The list of public names is the list of what is fuzzed: a name that is added and not fuzzed fails here.
+The list of public names is the list of what is fuzzed: a name that is added and not fuzzed fails
+here.
 """
 
 from __future__ import annotations
@@ -23,7 +25,17 @@ from collisions import plot, reconstruct, reference, reporting, travel, uncertai
 from collisions.diagnostics import LIMITS
 from collisions.estimate import posterior
 from collisions.travel import motion as motion_of_wheels
-from fuzzing import AGAIN, FUZZED, INCOMPLETE, Case, arguments, fuzzes, incomplete, load_units, public
+from fuzzing import (
+    AGAIN,
+    FUZZED,
+    INCOMPLETE,
+    Case,
+    arguments,
+    fuzzes,
+    incomplete,
+    load_units,
+    public,
+)
 from strategies import registries
 
 pytestmark = pytest.mark.slow
@@ -38,12 +50,16 @@ def test_every_public_name_is_fuzzed() -> None:
     """What is public and what the tests below declare are one list."""
     names = set(public())
     missing, stray = sorted(names - FUZZED.keys()), sorted(FUZZED.keys() - names)
-    assert not missing, f"no fuzz test declares {missing}: call them in a test under @fuzzes(...) in {__name__}"
+    assert not missing, (
+        f"no fuzz test declares {missing}: call them in a test under @fuzzes(...) in {__name__}"
+    )
     assert not stray, f"{stray} are fuzzed, but not public"
 
 
 def test_what_callers_pass_is_known_to_the_last_argument() -> None:
-    """Those that ** stands for are named, so that none of them is left out; an impact is solved again by all of its solver's."""
+    """Those that ** stands for are named, so that none of them is left out; an impact is solved
+    again by all of its solver's.
+    """
     for name, takes in AGAIN.items():
         assert set(takes) == arguments(name) - {"on_failure", "threads", "progress"}, name
     assert {"mass", "name", "pivot"} < arguments("Vehicle.replace")
@@ -51,7 +67,7 @@ def test_what_callers_pass_is_known_to_the_last_argument() -> None:
     assert not arguments("reconstruct.Fit")
 
 
-# --- states and impacts ----------------------------------------------------------------------------------------------------
+# --- states and impacts ---------------------------------------------------------------------------
 
 BODY = ("mass", "vx", "vy", "yaw_rate", "yaw_inertia", "x", "y", "heading")
 NAMES = ("", "", "A", "Golf", "<b>&amp;|$x_1$", "a\nb", "\ud800half", "中文 " * 12, "`~~~ ```")
@@ -60,18 +76,25 @@ PLACED = ("eccentric", "solve", "time_resolved")
 # In a plain answered case these may be no finite number: what each says of it.
 OPEN = frozenset(
     {
-        "Vehicle.mass", "Vehicle.yaw_inertia", "Vehicle.course", "Vehicle.momentum", "Vehicle.kinetic_energy",
+        "Vehicle.mass", "Vehicle.yaw_inertia", "Vehicle.course", "Vehicle.momentum",
+        "Vehicle.kinetic_energy",
         "Side.impulse_direction", "Side.pdof", "Side.pdof_clock",
         "Impact.impulse_ratio", "Impact.critical_impulse_ratio", "Impact.friction",
-        "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers", "ByModel", "ModelChoice.errors", "Inputs.rule_value",
+        "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers", "ByModel",
+        "ModelChoice.errors", "Inputs.rule_value",
     }
 )  # fmt: skip
 
 
 def run_options(case: Case) -> dict[str, Any]:
-    """How a run is carried out; in an odd case at times anything that is no function, which may raise what it likes."""
+    """How a run is carried out; in an odd case at times anything that is no function, which may
+    raise what it likes.
+    """
     reports: list[tuple[int, int]] = []
-    found = {"threads": case.choice((1, 2)), "progress": case.choice((None, False, True, lambda *done: reports.append(done)))}
+    found = {
+        "threads": case.choice((1, 2)),
+        "progress": case.choice((None, False, True, lambda *done: reports.append(done))),
+    }
     if case.mood == "odd" and case.maybe(0.5):
         found[case.choice(sorted(found))] = case.choice((1, 2, 0, None, False, "x", 1.5, -1))
     return {name: found[name] for name in found if case.maybe(0.7)}
@@ -114,7 +137,10 @@ def contact(case: Case, model: str = "eccentric") -> dict[str, Any]:
         found[rule] = math.inf if rule == "friction" and case.maybe(0.1) else case.value(rule)
         found["law"] = case.option("brach", "brach", "kudlich-slibar", "stronge")
         if case.maybe(0.03):
-            found |= {other: case.value(other) for other in ("friction", "impulse_ratio", "critical_fraction")}
+            found |= {
+                other: case.value(other)
+                for other in ("friction", "impulse_ratio", "critical_fraction")
+            }
     if model != "time_resolved" and case.maybe(0.2):
         found["incomplete"] = case.option(True, True, False)
     if model in ("eccentric", "solve") and case.maybe(0.2):
@@ -127,14 +153,19 @@ def contact(case: Case, model: str = "eccentric") -> dict[str, Any]:
 
 def contact_time(case: Case) -> dict[str, Any]:
     """How a contact passes."""
-    found: dict[str, Any] = {"friction": math.inf if case.maybe(0.1) else case.value("friction"), "steps": case.option(10, 12)}
+    found: dict[str, Any] = {
+        "friction": math.inf if case.maybe(0.1) else case.value("friction"),
+        "steps": case.option(10, 12),
+    }
     found["geometry"] = case.option("maximum_engagement", "first_contact", "fixed")
     kind = case.choice(("duration", "stiffness", "crush_a", "crush_b", "both"))
     if kind == "duration":
         found["duration"] = case.value("duration")
     elif kind == "stiffness":
         found["stiffness"] = case.value("stiffness")
-    for name in {"both": ("crush_a", "crush_b")}.get(kind, (kind,) if kind.startswith("crush") else ()):
+    for name in {"both": ("crush_a", "crush_b")}.get(
+        kind, (kind,) if kind.startswith("crush") else ()
+    ):
         found[name] = tuple(case.value(part) for part in ("stiffness_a", "stiffness_b", "width"))
     for name, value in (("drag", "drag"), ("wheelbase", "length"), ("track", "width")):
         if case.maybe(0.5):
@@ -158,7 +189,12 @@ def meeting(case: Case, model: str) -> tuple[col.Vehicle, col.Vehicle, dict[str,
             "x": -reach * c - aside * s,
             "y": -reach * s + aside * c,
         }
-        other = {"vx": second * c, "vy": second * s, "x": off * c + aside * s, "y": off * s - aside * c}
+        other = {
+            "vx": second * c,
+            "vy": second * s,
+            "x": off * c + aside * s,
+            "y": off * s - aside * c,
+        }
         if case.mood not in ("extreme", "odd", "batch"):
             found |= {"point": (case.uniform(-0.3, 0.3), case.uniform(-0.3, 0.3))} if spin else {}
     else:
@@ -198,10 +234,19 @@ def impact_of(case: Case, model: str | None = None) -> Any:
     return found
 
 
-@fuzzes("Vehicle", "Vehicle.barrier", "Vehicle.from_speed", "Vehicle.replace", "Vehicle.point", "Vehicle.velocity_at")
+@fuzzes(
+    "Vehicle",
+    "Vehicle.barrier",
+    "Vehicle.from_speed",
+    "Vehicle.replace",
+    "Vehicle.point",
+    "Vehicle.velocity_at",
+)
 def test_vehicles(case: Case) -> None:
     """Every field and every place may be anything."""
-    fields = {name: case.value(name) for name in BODY if case.maybe(0.8)} | {"name": case.option(*NAMES)}
+    fields = {name: case.value(name) for name in BODY if case.maybe(0.8)} | {
+        "name": case.option(*NAMES)
+    }
     if case.maybe(0.2):
         fields["pivot"] = case.pair("pivot")
         if case.maybe(0.7):
@@ -231,7 +276,15 @@ def test_vehicles(case: Case) -> None:
     if isinstance(changed, col.Vehicle):
         case.look(changed, OPEN)
     names = case.choice(
-        (("forward", "left"), ("forward",), ("left",), ("distance", "angle"), ("distance",), ("forward", "angle"), ())
+        (
+            ("forward", "left"),
+            ("forward",),
+            ("left",),
+            ("distance", "angle"),
+            ("distance",),
+            ("forward", "angle"),
+            (),
+        )
     )
     for label, call, keywords in (
         ("Vehicle.point", made.point, {name: case.value(name) for name in names}),
@@ -244,10 +297,14 @@ def test_vehicles(case: Case) -> None:
 
 
 @fuzzes(
-    *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Pulse", "Inputs", "Side", "Impact.again", "Impact.case", "Impact.ees", "Impact.max_crush_speeds", "Impact.to_dict", "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at",
+    *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Pulse", "Inputs", "Side",
+    "Impact.again", "Impact.case", "Impact.ees", "Impact.max_crush_speeds", "Impact.to_dict",
+    "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at",
 )  # fmt: skip
 def test_impacts(case: Case) -> None:
-    """Any two bodies, any contact; of what is answered everything is read, written down and read back."""
+    """Any two bodies, any contact; of what is answered everything is read, written down and read
+    back.
+    """
     impact = case.choice([impact_of(case, model) for model in SOLVERS])
     if not isinstance(impact, col.Impact):
         impact = known_impact(case.randrange(7))
@@ -264,58 +321,99 @@ def test_impacts(case: Case) -> None:
     case.call("Impact.again", impact.again, **case.spoil(changes_of(case, impact)))
     columns = case.must("Impact.to_columns", impact.to_columns)
     assert {len(column) for column in columns.values()} == {np.size(impact.status)}
-    chosen = {"units": case.option(None, *UNIT_SYSTEMS), "columns": case.sample(sorted(columns), min(2, len(columns)))}
-    case.call("Impact.to_columns", impact.to_columns, **case.spoil({name: chosen[name] for name in chosen if case.maybe(0.7)}))
+    chosen = {
+        "units": case.option(None, *UNIT_SYSTEMS),
+        "columns": case.sample(sorted(columns), min(2, len(columns))),
+    }
+    case.call(
+        "Impact.to_columns",
+        impact.to_columns,
+        **case.spoil({name: chosen[name] for name in chosen if case.maybe(0.7)}),
+    )
     record = case.must("Impact.to_dict", impact.to_dict)
-    twin = case.must("Impact.from_dict", col.Impact.from_dict, json.loads(json.dumps(record, allow_nan=False)))
+    twin = case.must(
+        "Impact.from_dict", col.Impact.from_dict, json.loads(json.dumps(record, allow_nan=False))
+    )
     assert twin == impact, "another impact after to_dict and from_dict"
 
 
 def changes_of(case: Case, impact: col.Impact) -> dict[str, Any]:
-    """Some arguments of the solver that answered, as another case of it has them; now and then one of another solver."""
+    """Some arguments of the solver that answered, as another case of it has them; now and then one
+    of another solver.
+    """
     model = impact.inputs.model
-    drawn = {"a": impact.a.before, "b": vehicle(case), "restitution": case.value("restitution"), **contact(case, model)}
+    drawn = {
+        "a": impact.a.before,
+        "b": vehicle(case),
+        "restitution": case.value("restitution"),
+        **contact(case, model),
+    }
     if case.maybe(0.5):
         drawn["a"] = vehicle(case)
     if model == "solve":
         drawn |= {name: case.value(name) for name in ("tolerance", "duration", "drag")}
     found = {name: drawn[name] for name in drawn if case.maybe(0.35)}
     if case.mood == "odd":
-        found[case.choice(sorted({name for takes in AGAIN.values() for name in takes}))] = case.garbage()
+        found[case.choice(sorted({name for takes in AGAIN.values() for name in takes}))] = (
+            case.garbage()
+        )
     return found
 
 
 def check_balances(impact: col.Impact) -> None:
-    """What the bodies gain of momentum tyres and outside impulses gave, and where the energy went; of free bodies alone."""
+    """What the bodies gain of momentum tyres and outside impulses gave, and where the energy went;
+    of free bodies alone.
+    """
     sides = impact.a, impact.b
     for state in (side.before for side in sides):
         # What is fixed takes up momentum, and a flywheel without end gives energy.
-        if math.isinf(state.mass) or state.pivot is not None or (state.yaw_rate != 0.0 and state.yaw_inertia == math.inf):
+        if (
+            math.isinf(state.mass)
+            or state.pivot is not None
+            or (state.yaw_rate != 0.0 and state.yaw_inertia == math.inf)
+        ):
             return
-    # Rounding of sums that cancel: some hundred roundings of what is summed, and in a contact that takes time of every step.
+    # Rounding of sums that cancel: some hundred roundings of what is summed, and in a contact that
+    # takes time of every step.
     scale = sum(side.before.mass * (1.0 + side.before.speed + side.delta_v) for side in sides)
     for axis in "xy":
         gained = sum(side.before.mass * getattr(side, f"delta_v{axis}") for side in sides)
-        given = sum(getattr(side, f"{what}_{axis}") for side in sides for what in ("tyre_impulse", "outside"))
-        assert abs(gained - given) <= 1e-12 * scale, f"momentum {gained} along {axis} from impulses {given} outside"
+        given = sum(
+            getattr(side, f"{what}_{axis}")
+            for side in sides
+            for what in ("tyre_impulse", "outside")
+        )
+        assert abs(gained - given) <= 1e-12 * scale, (
+            f"momentum {gained} along {axis} from impulses {given} outside"
+        )
     lost = impact.energy_loss + sum(side.tyre_loss - side.outside_work for side in sides)
     gains = [energy_of(side.after) - energy_of(side.before) for side in sides]
     most = sum(energy_of(state) for side in sides for state in (side.before, side.after))
-    assert abs(lost + sum(gains)) <= 1e-10 * most, f"{-sum(gains)} J is gone, {lost} J is said to be"
+    assert abs(lost + sum(gains)) <= 1e-10 * most, (
+        f"{-sum(gains)} J is gone, {lost} J is said to be"
+    )
     for side, gain in zip(sides, gains, strict=True):
-        assert abs(side.kinetic_energy_change - gain) <= 1e-10 * most, f"{side.kinetic_energy_change} J is not {gain} J"
+        assert abs(side.kinetic_energy_change - gain) <= 1e-10 * most, (
+            f"{side.kinetic_energy_change} J is not {gain} J"
+        )
 
 
 def energy_of(vehicle: col.Vehicle) -> float:
     """Of a body whose yaw inertia may be unknown or infinite."""
-    inertia = vehicle.yaw_inertia if vehicle.yaw_inertia is not None and math.isfinite(vehicle.yaw_inertia) else 0.0
+    inertia = (
+        vehicle.yaw_inertia
+        if vehicle.yaw_inertia is not None and math.isfinite(vehicle.yaw_inertia)
+        else 0.0
+    )
     return 0.5 * (vehicle.mass * vehicle.speed**2 + inertia * vehicle.yaw_rate**2)
 
 
 @functools.cache
 def known_impact(which: int) -> col.Impact:
     """Impacts that are answered, for cases whose own are not."""
-    a = col.Vehicle(mass=1500.0, vx=20.0, vy=1.0, yaw_inertia=2400.0, x=-2.0, y=0.4, heading=0.1, name="A")
+    a = col.Vehicle(
+        mass=1500.0, vx=20.0, vy=1.0, yaw_inertia=2400.0, x=-2.0, y=0.4, heading=0.1, name="A"
+    )
     b = col.Vehicle(mass=1200.0, vx=-3.0, yaw_inertia=1700.0, x=2.0, y=0.0, heading=3.0)
     scene: dict[str, Any] = {"normal": 0.1, "point": (0.0, 0.4)}
     speeds = np.array([20.0, 12.0, -20.0])
@@ -323,19 +421,29 @@ def known_impact(which: int) -> col.Impact:
         lambda: col.eccentric(a, b, 0.2, friction=0.4, **scene),
         lambda: col.solve(a, b, 0.2, friction=0.4, tolerance=0.5, **scene),
         lambda: col.eccentric(a, col.Vehicle.barrier(), 0.1, friction=0.02, **scene),
-        lambda: col.eccentric(a.replace(vx=speeds), b, 0.2, friction=0.4, on_failure="nan", **scene),
+        lambda: col.eccentric(a.replace(vx=speeds), b, 0.2, friction=0.4, on_failure="nan",
+        **scene),
         lambda: reconstruct.central(1500.0, 1200.0, va=20.0, vb=0.0, vb_after=13.0),
-        lambda: reconstruct.momentum(1500.0, 1200.0, course_a=0.0, course_b=1.5, course_a_after=0.5, course_b_after=0.8, speed_a_after=9.0, speed_b_after=8.0),
+        lambda: reconstruct.momentum(1500.0, 1200.0, course_a=0.0, course_b=1.5,
+        course_a_after=0.5, course_b_after=0.8, speed_a_after=9.0, speed_b_after=8.0),
         lambda: col.time_resolved(a, b, 0.2, friction=0.4, duration=0.1, drag=0.7, **scene),
     )[which]() if which != 5 else col.linear_central(a.replace(vy=0.0), b, 0.3)  # fmt: skip
 
 
-# --- what is made of an impact ---------------------------------------------------------------------------------------------
+# --- what is made of an impact --------------------------------------------------------------------
 
 UNIT_SYSTEMS = ("si", "metric", "us")
-# Shares of a delta-V that is 0, and what is beyond the model, are no numbers; each says so of itself.
+# Shares of a delta-V that is 0, and what is beyond the model, are no numbers; each says so of
+# itself.
 LEFT_OPEN = frozenset(
-    f"LeftOutSide.{name}" for name in ("tyre_share_bound", "tyre_share", "geometry_share", "geometry_delta_v", "tyre_delta_v")
+    f"LeftOutSide.{name}"
+    for name in (
+        "tyre_share_bound",
+        "tyre_share",
+        "geometry_share",
+        "geometry_delta_v",
+        "tyre_delta_v",
+    )
 )
 
 
@@ -345,7 +453,11 @@ def outline(case: Case) -> Any:
         return case.garbage()
     how = case.random()
     if how < 0.5:
-        return (case.value("length"), case.value("width"), *([case.value("restitution")] if case.maybe(0.3) else []))
+        return (
+            case.value("length"),
+            case.value("width"),
+            *([case.value("restitution")] if case.maybe(0.3) else []),
+        )
     if how < 0.8:
         count, turn = case.randint(3, 7), case.uniform(0.0, 6.0)
         angles = [turn + 2.0 * math.pi * (i + case.uniform(0.0, 0.5)) / count for i in range(count)]
@@ -361,7 +473,8 @@ def what_is_known(case: Case) -> dict[str, Any]:
         ("outline_b", lambda: outline(case)),
         ("duration", lambda: case.value("duration")),
         ("drag", lambda: case.value("drag")),
-        ("limits", lambda: case.option({case.choice(sorted(LIMITS)): case.value("drag") if case.maybe(0.9) else case.text()})),
+        ("limits", lambda: case.option(
+            {case.choice(sorted(LIMITS)): case.value("drag") if case.maybe(0.9) else case.text()})),
         ("crush_energy", lambda: case.value("energy_loss")),
         ("damage_pdof_a", lambda: case.value("angle")),
         ("damage_pdof_b", lambda: case.value("angle")),
@@ -387,24 +500,43 @@ def answer_of(case: Case) -> Any:
 
 
 @fuzzes(
-    "left_out", "LeftOut", "LeftOutSide", "diagnose", "Findings", "diagnostics.Finding", "diagnostics.Limit", "explain", "report",
+    "left_out", "LeftOut", "LeftOutSide", "diagnose", "Findings", "diagnostics.Finding",
+    "diagnostics.Limit", "explain", "report",
     "reporting.replay", "reporting.options", "impact_schema",
 )  # fmt: skip
 def test_what_is_made_of_an_impact(case: Case) -> None:
-    """left_out, diagnose, explain and the report of one impact; the report is read back, whole and spoiled."""
+    """left_out, diagnose, explain and the report of one impact; the report is read back, whole and
+    spoiled.
+    """
     impact = answer_of(case)
     asked = {name: case.value(name) for name in ("duration", "drag")}
     asked["geometry"] = case.option("maximum_engagement", "first_contact")
     left = case.call("left_out", col.left_out, impact, **case.spoil(asked))
     if not isinstance(left, Exception):
-        case.look(left, None if np.any(impact.refused) else LEFT_OPEN | INCOMPLETE if incomplete(impact) else LEFT_OPEN)
+        case.look(
+            left,
+            None
+            if np.any(impact.refused)
+            else LEFT_OPEN | INCOMPLETE
+            if incomplete(impact)
+            else LEFT_OPEN,
+        )
     known = what_is_known(case)
-    findings = case.call("diagnose", col.diagnose, impact, **case.spoil({**known, "units": case.option(*UNIT_SYSTEMS)}))
+    findings = case.call(
+        "diagnose",
+        col.diagnose,
+        impact,
+        **case.spoil({**known, "units": case.option(*UNIT_SYSTEMS)}),
+    )
     if not isinstance(findings, Exception):
-        case.look(findings, frozenset({"diagnostics.Finding.measured", "diagnostics.Finding.limit"}))
+        case.look(
+            findings, frozenset({"diagnostics.Finding.measured", "diagnostics.Finding.limit"})
+        )
         for finding in findings:
             assert finding.code in LIMITS
-            case.look(finding, frozenset({"diagnostics.Finding.measured", "diagnostics.Finding.limit"}))
+            case.look(
+                finding, frozenset({"diagnostics.Finding.measured", "diagnostics.Finding.limit"})
+            )
             case.look(LIMITS[finding.code], frozenset({"diagnostics.Limit.default"}))
     case.look(LIMITS[case.choice(sorted(LIMITS))], frozenset({"diagnostics.Limit.default"}))
     explained(case, impact)
@@ -428,15 +560,33 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
 @fuzzes("what_if", share=0.2)
 def test_pages_of_sliders(case: Case) -> None:
     """Any impact, any names and ends."""
-    names = ("speed_a", "vx_b", "mass_a", "restitution", "friction", "normal", "point_x", "heading_b", case.text())
+    names = (
+        "speed_a",
+        "vx_b",
+        "mass_a",
+        "restitution",
+        "friction",
+        "normal",
+        "point_x",
+        "heading_b",
+        case.text(),
+    )
     ranges = {}
     for name in case.sample(names, 2):
         low, high = sorted((case.number("vx"), case.number("vx")))
-        ranges[name] = case.option((case.value("speed"), case.value("speed")), (low, high), (-1e3, 1e3), (0.0, 1.0))
+        ranges[name] = case.option(
+            (case.value("speed"), case.value("speed")), (low, high), (-1e3, 1e3), (0.0, 1.0)
+        )
     impact = case.option(answer_of(case), known_impact(0), known_impact(5))
-    options = {"units": case.option(None, *UNIT_SYSTEMS)} | {f"outline_{v}": outline(case) for v in "ab" if case.maybe(0.2)}
+    options = {"units": case.option(None, *UNIT_SYSTEMS)} | {
+        f"outline_{v}": outline(case) for v in "ab" if case.maybe(0.2)
+    }
     if isinstance(impact, col.Impact) and case.maybe(0.5):
-        e = impact.restitution if isinstance(impact.restitution, float) and 0.0 <= impact.restitution <= 1.0 else 0.2
+        e = (
+            impact.restitution
+            if isinstance(impact.restitution, float) and 0.0 <= impact.restitution <= 1.0
+            else 0.2
+        )
         ranges = {"restitution": (0.5 * e, 0.5 * (1.0 + e))}
     found = case.call("what_if", col.what_if, impact, ranges, **case.spoil(options))
     assert isinstance(found, Exception) or found.startswith("<!DOCTYPE html>")
@@ -444,7 +594,9 @@ def test_pages_of_sliders(case: Case) -> None:
 
 def uncertainties(case: Case) -> Any:
     """Half-widths of inputs, a propagation, or what is neither."""
-    name = case.choice(("a.vx", "b.vx", "restitution", "friction", "b.after.vx", "energy_loss", "a_delta_v", "x"))
+    name = case.choice(
+        ("a.vx", "b.vx", "restitution", "friction", "b.after.vx", "energy_loss", "a_delta_v", "x")
+    )
     return case.option({name: case.value("speed")}, known_propagation(), None)
 
 
@@ -461,12 +613,18 @@ def explained(case: Case, answer: Any) -> None:
 
 def reported(case: Case, answer: Any, known: dict[str, Any]) -> None:
     """The report of another answer than an impact, read back."""
-    options = known | {"form": case.option("markdown", "html"), "units": case.option(*UNIT_SYSTEMS), "figures": False}
+    options = known | {
+        "form": case.option("markdown", "html"),
+        "units": case.option(*UNIT_SYSTEMS),
+        "figures": False,
+    }
     read_back(case, answer, case.call("report", col.report, answer, **case.spoil(options)))
 
 
 def read_back(case: Case, impact: Any, page: Any) -> None:
-    """A report gives its impact and its options again; what is no report, or a spoiled one, is refused or read."""
+    """A report gives its impact and its options again; what is no report, or a spoiled one, is
+    refused or read.
+    """
     if isinstance(page, Exception):
         text = case.option(case.text(), "<html>", "```json\n{}\n```")
         whole = False
@@ -486,14 +644,18 @@ def read_back(case: Case, impact: Any, page: Any) -> None:
                 at = case.randrange(start, len(text))
                 text = (
                     text[:at]
-                    + case.choice(("1", "e9", "-", '"', "null", "1e999", "0" * 400, "NaN", "[", "{"))
+                    + case.choice(
+                        ("1", "e9", "-", '"', "null", "1e999", "0" * 400, "NaN", "[", "{")
+                    )
                     + text[at + case.randrange(4) :]
                 )
             else:
                 numbers = [i for i in range(max(start, 0), len(text)) if text[i].isdigit()]
                 if numbers:
                     at = case.choice(numbers)
-                    text = text[:at] + case.choice(("7", "9" * 400, "true", "null")) + text[at + 1 :]
+                    text = (
+                        text[:at] + case.choice(("7", "9" * 400, "true", "null")) + text[at + 1 :]
+                    )
     found = case.call("reporting.replay", reporting.replay, text)
     given = case.call("reporting.options", reporting.options, text)
     if whole:
@@ -501,18 +663,28 @@ def read_back(case: Case, impact: Any, page: Any) -> None:
         assert same or isinstance(impact, reconstruct.Fit), f"another answer was read back: {found}"
         assert isinstance(given, dict), given
     for answer in (found, given):
-        assert isinstance(answer, col.Impact | reconstruct.MomentumSolution | dict | col.InputError), answer
+        assert isinstance(
+            answer, col.Impact | reconstruct.MomentumSolution | dict | col.InputError
+        ), answer
 
 
-# --- backwards -------------------------------------------------------------------------------------------------------------
+# --- backwards ------------------------------------------------------------------------------------
 
 MASSES = ("mass_a", "mass_b")
 
 
 def solved(case: Case, name: str, *args: Any, **keywords: Any) -> Any:
     """The answer of a reverse solver, or its refusal, with the answers it has all the same."""
-    found = case.call(f"reconstruct.{name}", getattr(reconstruct, name), *args, **case.spoil(keywords))
-    for one in found.solutions if isinstance(found, col.NoSolutionError) else found if isinstance(found, tuple) else [found]:
+    found = case.call(
+        f"reconstruct.{name}", getattr(reconstruct, name), *args, **case.spoil(keywords)
+    )
+    for one in (
+        found.solutions
+        if isinstance(found, col.NoSolutionError)
+        else found
+        if isinstance(found, tuple)
+        else [found]
+    ):
         if isinstance(one, float):
             assert math.isfinite(one), one
         elif not isinstance(one, Exception):
@@ -534,8 +706,10 @@ def motion(case: Case, impact: Any) -> tuple[Any, Any]:
 
 
 @fuzzes(
-    "reconstruct.central", "reconstruct.inline_closing_speed", "reconstruct.momentum", "reconstruct.MomentumSolution", "Sensitivity",
-    "reconstruct.Reconstruction", "reconstruct.crush_delta_v", "reconstruct.crush_energy", "reconstruct.crush_share",
+    "reconstruct.central", "reconstruct.inline_closing_speed", "reconstruct.momentum",
+    "reconstruct.MomentumSolution", "Sensitivity",
+    "reconstruct.Reconstruction", "reconstruct.crush_delta_v", "reconstruct.crush_energy",
+    "reconstruct.crush_share",
 )  # fmt: skip
 def test_reverse_solvers_of_numbers(case: Case) -> None:
     """Any numbers; with too few, too many and contradictory ones."""
@@ -549,9 +723,15 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
     failing = {"on_failure": case.option(None, "nan", "raise")} if case.maybe(0.3) else {}
     given = {name: case.value(kinds[name]) for name in case.sample(sorted(kinds), count)}
     if case.maybe(0.5):
-        given = {"va": case.uniform(10.0, 30.0), "vb": case.uniform(-20.0, 5.0), "restitution": case.value("restitution")}
+        given = {
+            "va": case.uniform(10.0, 30.0),
+            "vb": case.uniform(-20.0, 5.0),
+            "restitution": case.value("restitution"),
+        }
     if case.maybe(0.1):
-        given |= {"restitution": -case.random()} if "restitution" in given and case.maybe(0.5) else {}
+        given |= (
+            {"restitution": -case.random()} if "restitution" in given and case.maybe(0.5) else {}
+        )
         solved(case, "central", **masses, **given, **failing, incomplete=case.option(True, False))
     else:
         solved(case, "central", **masses, **given, **failing)
@@ -573,17 +753,29 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         lambda v: math.nan,
         lambda v: "x",
     )
-    solved(case, "inline_closing_speed", **masses, restitution=e, **{name: case.value(kind) for name, kind in known.items()})
+    solved(
+        case,
+        "inline_closing_speed",
+        **masses,
+        restitution=e,
+        **{name: case.value(kind) for name, kind in known.items()},
+    )
     courses = {
-        name: case.value("course") for name in ("course_a", "course_b", "course_a_after", "course_b_after") if case.maybe(0.97)
+        name: case.value("course")
+        for name in ("course_a", "course_b", "course_a_after", "course_b_after")
+        if case.maybe(0.97)
     }
     speeds = {
         name: case.value("speed")
-        for name in case.sample(("speed_a", "speed_b", "speed_a_after", "speed_b_after"), case.choice((2, 2, 2, 1, 3)))
+        for name in case.sample(
+            ("speed_a", "speed_b", "speed_a_after", "speed_b_after"), case.choice((2, 2, 2, 1, 3))
+        )
     }
     if case.maybe(0.5):
         speeds = {name: case.value("speed") for name in ("speed_a_after", "speed_b_after")}
-    more = {name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.3)} | failing
+    more = {
+        name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.3)
+    } | failing
     if case.maybe(0.1):
         more["together"] = case.option(True, False)
     if case.maybe(0.2):
@@ -612,7 +804,14 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
     share = solved(case, "crush_share", case.value("stiffness_a"), case.value("stiffness_b"))
     assert not isinstance(share, float) or 0.0 <= share <= 1.0
     gammas = {f"gamma_{side}": case.value("share_a") for side in "ab" if case.maybe(0.7)}
-    both = solved(case, "crush_delta_v", case.value("energy_loss"), case.value("mass_a"), case.value("mass_b"), **gammas)
+    both = solved(
+        case,
+        "crush_delta_v",
+        case.value("energy_loss"),
+        case.value("mass_a"),
+        case.value("mass_b"),
+        **gammas,
+    )
     assert not isinstance(both, tuple) or not isinstance(both[0], float) or min(both) >= 0.0
 
 
@@ -623,29 +822,47 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
     "reconstruct.RecordedPulse.summary",
 )
 def test_recorded_pulses(case: Case) -> None:
-    """A record of anything: with samples that rise it is answered, with its error, and handed on where it ended."""
-    times: Any = np.arange(case.randint(1, 30)) * case.choice((0.01, 0.01, 1e-3, 1e3, -0.01, 0.0, math.nan, 1e-320))
-    shape = np.sin(np.clip(np.arange(times.size) / 11.0, 0.0, 1.0) * 1.5) if isinstance(times, np.ndarray) else 1.0
+    """A record of anything: with samples that rise it is answered, with its error, and handed on
+    where it ended.
+    """
+    times: Any = np.arange(case.randint(1, 30)) * case.choice(
+        (0.01, 0.01, 1e-3, 1e3, -0.01, 0.0, math.nan, 1e-320)
+    )
+    shape = (
+        np.sin(np.clip(np.arange(times.size) / 11.0, 0.0, 1.0) * 1.5)
+        if isinstance(times, np.ndarray)
+        else 1.0
+    )
     given = [times, case.option(-8.0 * shape, case.value("vx"))]
     given += [case.option(2.0 * shape, case.value("vx"))] if case.maybe(0.6) else []
     polarity = case.option("49 CFR 563", "ISO 8855")
-    pulse = case.call("reconstruct.recorded_pulse", reconstruct.recorded_pulse, *given, polarity=polarity)
+    pulse = case.call(
+        "reconstruct.recorded_pulse", reconstruct.recorded_pulse, *given, polarity=polarity
+    )
     if not isinstance(pulse, Exception):
         case.look(pulse, None)
-        assert str(case.must("reconstruct.RecordedPulse.summary", pulse.summary, case.choice(UNIT_SYSTEMS)))
+        assert str(
+            case.must("reconstruct.RecordedPulse.summary", pulse.summary, case.choice(UNIT_SYSTEMS))
+        )
         case.call("reconstruct.RecordedPulse.inputs", pulse.inputs, case.option("a", "b"))
 
 
 @fuzzes("reconstruct.planar", "reconstruct.restitution", "reconstruct.friction")
 def test_reverse_solvers_of_motions(case: Case) -> None:
-    """From the states that an impact ended with, or from any; what is answered leads to them again."""
+    """From the states that an impact ended with, or from any; what is answered leads to
+    them again.
+    """
     a, b, keywords = meeting(case, "eccentric")
     e = case.value("restitution")
     impact = case.call("eccentric", col.eccentric, a, b, e, **keywords)
     after = motion(case, impact)
     known = {"restitution": e}
     if case.maybe(0.4):
-        known = {case.choice(("closing_speed", "energy_loss")): case.value(case.choice(("speed", "energy_loss")))}
+        known = {
+            case.choice(("closing_speed", "energy_loss")): case.value(
+                case.choice(("speed", "energy_loss"))
+            )
+        }
         if isinstance(impact, col.Impact) and case.maybe(0.6):
             known = {name: getattr(impact, name) for name in known}
     if case.maybe(0.3):
@@ -656,7 +873,9 @@ def test_reverse_solvers_of_motions(case: Case) -> None:
     motions = [a, b, *after]
     if case.mood == "odd" and case.maybe(0.1):
         motions[case.randrange(4)] = case.garbage()
-    where = {name: keywords[name] for name in ("normal", "point") if name == "normal" or case.maybe(0.8)}
+    where = {
+        name: keywords[name] for name in ("normal", "point") if name == "normal" or case.maybe(0.8)
+    }
     for name in ("restitution", "friction"):
         solved(case, name, *motions, **where)
 
@@ -667,23 +886,42 @@ def test_speeds(case: Case) -> None:
     a, b, keywords = meeting(case, "eccentric")
     e = case.value("restitution")
     impact = case.call("eccentric", col.eccentric, a, b, e, **keywords)
-    kinds = {"speed_a": "speed", "speed_b": "speed", "delta_v_a": "speed", "delta_v_b": "speed", "energy_loss": "energy_loss"}
+    kinds = {
+        "speed_a": "speed",
+        "speed_b": "speed",
+        "delta_v_a": "speed",
+        "delta_v_b": "speed",
+        "energy_loss": "energy_loss",
+    }
     kinds |= {f"{name}_{side}": "speed" for name in ("ees", "max_crush_speed") for side in "ab"}
     kinds |= {f"delta_v_{part}_{side}": "vx" for part in ("forward", "left") for side in "ab"}
-    names = [case.choice(("speed_a", "speed_b")), case.choice(("delta_v_a", "delta_v_b", "energy_loss"))]
+    names = [
+        case.choice(("speed_a", "speed_b")),
+        case.choice(("delta_v_a", "delta_v_b", "energy_loss")),
+    ]
     if case.maybe(0.3):
         names = case.sample(sorted(kinds), case.choice((2, 2, 2, 1, 3)))
     elif case.maybe(0.3):
-        names = [f"delta_v_{part}_{side}" for side in case.choice(("a", "b", "ab")) for part in ("forward", "left")]
+        names = [
+            f"delta_v_{part}_{side}"
+            for side in case.choice(("a", "b", "ab"))
+            for part in ("forward", "left")
+        ]
     known = {name: case.value(kinds[name]) for name in names}
     courses = {f"course_{side}": case.value("course") for side in "ab"}
     if isinstance(impact, col.Impact) and case.maybe(0.8):
         known = {name: _known_of(impact, name) for name in known}
         courses = {"course_a": impact.a.before.course, "course_b": impact.b.before.course}
         if case.maybe(0.1):
-            known = dict(zip(("ees_a", "ees_b"), impact.ees(case.random()), strict=True)) | {names[0]: known[names[0]]}
+            known = dict(zip(("ees_a", "ees_b"), impact.ees(case.random()), strict=True)) | {
+                names[0]: known[names[0]]
+            }
         elif case.maybe(0.1):
-            both = zip(("max_crush_speed_a", "max_crush_speed_b"), impact.max_crush_speeds(case.random()), strict=True)
+            both = zip(
+                ("max_crush_speed_a", "max_crush_speed_b"),
+                impact.max_crush_speeds(case.random()),
+                strict=True,
+            )
             known = dict(both) | {names[0]: known[names[0]]}
     for name in sorted(courses):
         if case.maybe(0.05):
@@ -709,19 +947,23 @@ def _known_of(impact: col.Impact, name: str) -> Any:
         return impact.energy_loss
     side = getattr(impact, name[-1])
     if name.startswith(("ees", "max_crush")):
-        return (impact.ees if name.startswith("ees") else impact.max_crush_speeds)(0.5)["ab".index(name[-1])]
+        return (impact.ees if name.startswith("ees") else impact.max_crush_speeds)(0.5)[
+            "ab".index(name[-1])
+        ]
     if name.startswith("speed"):
         return side.before.speed
     found = getattr(side, name[:-2])
     return 1.0 if found is None else found
 
 
-# --- fit -------------------------------------------------------------------------------------------------------------------
+# --- fit ------------------------------------------------------------------------------------------
 
 FIT_OPEN = frozenset(
-    f"reconstruct.Fit.{name}" for name in ("values", "covariance", "correlation_matrix", "p_value", "nonlinearity", "bounds", "standard_errors", "contributions")
+    f"reconstruct.Fit.{name}" for name in ("values", "covariance", "correlation_matrix",
+    "p_value", "nonlinearity", "bounds", "standard_errors", "contributions")
 ) | {
-    "Estimate.value", "Estimate.standard_error", "Estimate.low", "Estimate.high", "Values", "Direction.changes",
+    "Estimate.value", "Estimate.standard_error", "Estimate.low", "Estimate.high", "Values",
+    "Direction.changes",
     "uncertainty.Normal.support", "Residual.computed", "Residual.residual", "Residual.over_sigma",
 }  # fmt: skip
 
@@ -739,7 +981,9 @@ def bent(x: Any, y: Any) -> dict[str, Any]:
 
 def struck(x: Any, y: Any) -> dict[str, Any]:
     """An impact."""
-    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=x), col.Vehicle(mass=1200.0, vx=y), 0.2, on_failure="nan")
+    impact = col.linear_central(
+        col.Vehicle(mass=1500.0, vx=x), col.Vehicle(mass=1200.0, vx=y), 0.2, on_failure="nan"
+    )
     return {"s": impact.a.q.delta_v, "d": impact.b.after.vx}
 
 
@@ -751,7 +995,9 @@ def angled(x: Any, y: Any) -> dict[str, Any]:
 def unlawful(case: Case) -> Any:
     """A model that is none."""
     value = case.garbage()
-    return case.choice((value, lambda **inputs: value, lambda **inputs: {"s": value, "d": 0.0}, lambda x: {"s": x}))
+    return case.choice(
+        (value, lambda **inputs: value, lambda **inputs: {"s": value, "d": 0.0}, lambda x: {"s": x})
+    )
 
 
 def stated(case: Case) -> Any:
@@ -787,16 +1033,23 @@ def stated(case: Case) -> Any:
     "Values",
 )
 def test_fit(case: Case) -> None:
-    """Any model, any knowledge before and any observation; one that was answered is read in full."""
+    """Any model, any knowledge before and any observation; one that was answered is
+    read in full.
+    """
     plain = case.maybe(0.4)
     model = straight if plain else case.option(straight, bent, bent, struck, angled)
     unknowns = {name: stated(case) for name in "xy"}
     if plain or case.maybe(0.3):
-        unknowns = {"x": uncertainty.Interval(0.0, 40.0), "y": case.choice((5.0, uncertainty.Normal(4.0, 2.0)))}
+        unknowns = {
+            "x": uncertainty.Interval(0.0, 40.0),
+            "y": case.choice((5.0, uncertainty.Normal(4.0, 2.0))),
+        }
     observed: dict[str, Any] = {
         name: (
             case.value("speed"),
-            case.option(0.5, 1.0, abs(case.number("vx")) + 0.1) if case.mood != "extreme" else abs(case.extreme()),
+            case.option(0.5, 1.0, abs(case.number("vx")) + 0.1)
+            if case.mood != "extreme"
+            else abs(case.extreme()),
         )
         for name in case.choice((("s", "d"), ("s", "d"), ("s",), ("d",), ("s", "z")))
     }
@@ -817,7 +1070,9 @@ def test_fit(case: Case) -> None:
     case.call("reconstruct.Fit", found.__getitem__, case.option("x", case.garbage()))
     for name in found.names:
         case.look(found[name], FIT_OPEN, thorough=False)
-        case.call("Estimate.interval", found[name].interval, case.option(0.95, 0.5, case.value("share_a")))
+        case.call(
+            "Estimate.interval", found[name].interval, case.option(0.95, 0.5, case.value("share_a"))
+        )
 
 
 @functools.cache
@@ -828,9 +1083,11 @@ def known_fit() -> reconstruct.Fit:
 
 
 POSTERIOR_OPEN = FIT_OPEN | {"uncertainty.LogNormal.support"} | {
-    f"reconstruct.{name}" for name in ("Posterior.p_value", "Posterior.correlation", "Posterior.predicted", "Posterior.draws")
+    f"reconstruct.{name}" for name in ("Posterior.p_value", "Posterior.correlation",
+    "Posterior.predicted", "Posterior.draws")
 } | {
-    f"PosteriorOutput.{name}" for name in ("mean", "std", "values", "unit", "mean_standard_error", "std_standard_error")
+    f"PosteriorOutput.{name}" for name in ("mean", "std", "values", "unit", "mean_standard_error",
+    "std_standard_error")
 }  # fmt: skip
 
 
@@ -843,7 +1100,8 @@ def reading(case: Case) -> Any:
             lambda: (value, 0.5),
             lambda: uncertainty.Normal(case.uniform(0.0, 20.0), 0.8),
             lambda: uncertainty.Interval(3.0, case.uniform(4.0, 20.0)),
-            lambda: case.call("uncertainty.Censored", uncertainty.Censored, **case.spoil({"low": low, "high": case.option(None, 17.0), "error": error})),
+            lambda: case.call("uncertainty.Censored", uncertainty.Censored,
+            **case.spoil({"low": low, "high": case.option(None, 17.0), "error": error})),
         )
     )  # fmt: skip
     return made()
@@ -856,10 +1114,14 @@ def posterior_of(case: Case, observed: Any = None) -> Any:
     unknowns: Any = {name: stated(case) for name in "xy"}
     if case.maybe(0.6):
         unknowns = {"x": uncertainty.Uniform(0.0, 40.0), "y": uncertainty.Normal(4.0, 2.0)}
-    observed = observed or {name: reading(case) for name in case.choice((("s", "d"), ("s",), ("d",)))}
+    observed = observed or {
+        name: reading(case) for name in case.choice((("s", "d"), ("s",), ("d",)))
+    }
     if case.mood == "odd":
         model = case.option(model, unlawful(case))
-        unknowns = case.option(unknowns, {"x": case.garbage(), "y": uncertainty.Uniform(0, 1)}, case.garbage())
+        unknowns = case.option(
+            unknowns, {"x": case.garbage(), "y": uncertainty.Uniform(0, 1)}, case.garbage()
+        )
         observed = case.option(observed, {"s": case.garbage()}, case.garbage())
     options = {
         "samples": 512,
@@ -870,7 +1132,14 @@ def posterior_of(case: Case, observed: Any = None) -> Any:
         options |= run_options(case)
     # Islands are followed four at a time: the other four cost as much again, and go the same way.
     with mock.patch.object(posterior, "ISLANDS", 8 if case.maybe(0.1) else 4):
-        return case.call("reconstruct.posterior", reconstruct.posterior, model, unknowns, observed, **case.spoil(options))
+        return case.call(
+            "reconstruct.posterior",
+            reconstruct.posterior,
+            model,
+            unknowns,
+            observed,
+            **case.spoil(options),
+        )
 
 
 @functools.cache
@@ -881,14 +1150,20 @@ def known_posterior(mean: float = 4.0) -> reconstruct.Posterior:
 
 
 @fuzzes(
-    "reconstruct.posterior", "reconstruct.Posterior", "reconstruct.compare", "reconstruct.Comparison", "uncertainty.Censored",
-    *(f"reconstruct.Posterior.{name}" for name in ("inputs", "probability", "to_dict")), "reconstruct.Comparison.to_dict", "reconstruct.Posterior.summary", "reconstruct.Comparison.summary", "PosteriorOutput.summary",
-    *(f"PosteriorOutput{name}" for name in ("", ".record", ".histogram", ".quantile_standard_error", ".may_wrap", ".turned")),
+    "reconstruct.posterior", "reconstruct.Posterior", "reconstruct.compare",
+    "reconstruct.Comparison", "uncertainty.Censored",
+    *(f"reconstruct.Posterior.{name}" for name in ("inputs", "probability", "to_dict")),
+    "reconstruct.Comparison.to_dict", "reconstruct.Posterior.summary",
+    "reconstruct.Comparison.summary", "PosteriorOutput.summary",
+    *(f"PosteriorOutput{name}" for name in ("", ".record", ".histogram",
+    ".quantile_standard_error", ".may_wrap", ".turned")),
     "plot.corner", "plot.residuals",
     share=0.25,
 )  # fmt: skip
 def test_posterior(case: Case) -> None:
-    """Any model, priors and readings; one that was answered is read in full and compared with another."""
+    """Any model, priors and readings; one that was answered is read in full and compared with
+    another.
+    """
     found = posterior_of(case)
     if not isinstance(found, reconstruct.Posterior):
         found = known_posterior()
@@ -903,26 +1178,40 @@ def test_posterior(case: Case) -> None:
         assert json.dumps(case.must("PosteriorOutput.record", output.record), allow_nan=False)
         case.call("PosteriorOutput.histogram", output.histogram, case.option(40, 5, case.garbage()))
         case.call(
-            "PosteriorOutput.quantile_standard_error", output.quantile_standard_error, case.option(0.5, case.value("share_a"))
+            "PosteriorOutput.quantile_standard_error",
+            output.quantile_standard_error,
+            case.option(0.5, case.value("share_a")),
         )
         assert case.must("PosteriorOutput.may_wrap", output.may_wrap) in (True, False)
         assert len(case.must("PosteriorOutput.turned", output.turned, 1.0).values) == found.samples
     if not isinstance(inputs := case.call("reconstruct.Posterior.inputs", found.inputs), Exception):
         assert list(inputs) == list(found)
-    condition = case.option(lambda at: at["x"] > case.uniform(0.0, 10.0), lambda at: at["x"], case.garbage())
+    condition = case.option(
+        lambda at: at["x"] > case.uniform(0.0, 10.0), lambda at: at["x"], case.garbage()
+    )
     chance = case.call("reconstruct.Posterior.probability", found.probability, condition)
     if not isinstance(chance, Exception):
         alone = math.isnan(found["x"].mean_standard_error)  # one island has all of the samples
         assert 0.0 <= chance[0] <= 1.0, chance
         assert math.isnan(chance[1]) if alone else chance[1] >= 0.0, chance
-    one, other = case.choice(((known_posterior(), known_posterior(5.0)), (found, found), (found, known_posterior())))
-    prior = case.option(None, {"one": 0.3, "other": 0.7}, {"one": case.value("share_a"), "other": 0.5})
+    one, other = case.choice(
+        ((known_posterior(), known_posterior(5.0)), (found, found), (found, known_posterior()))
+    )
+    prior = case.option(
+        None, {"one": 0.3, "other": 0.7}, {"one": case.value("share_a"), "other": 0.5}
+    )
     accounts = case.option({"one": one, "other": other}, {"one": one}, case.garbage())
-    compared = case.call("reconstruct.compare", reconstruct.compare, accounts, **case.spoil({"prior": prior}))
+    compared = case.call(
+        "reconstruct.compare", reconstruct.compare, accounts, **case.spoil({"prior": prior})
+    )
     if isinstance(compared, reconstruct.Comparison):
         case.look(compared)
-        assert str(case.must("reconstruct.Comparison.summary", compared.summary, case.choice(UNIT_SYSTEMS)))
-        assert json.dumps(case.must("reconstruct.Comparison.to_dict", compared.to_dict), allow_nan=False)
+        assert str(
+            case.must("reconstruct.Comparison.summary", compared.summary, case.choice(UNIT_SYSTEMS))
+        )
+        assert json.dumps(
+            case.must("reconstruct.Comparison.to_dict", compared.to_dict), allow_nan=False
+        )
         assert math.isclose(sum(compared.probability.values()), 1.0, rel_tol=1e-9)
     if case.maybe(0.2):
         case.call(
@@ -933,10 +1222,15 @@ def test_posterior(case: Case) -> None:
         )
         plt.close("all")
         blank.cache_clear()
-        case.call("plot.residuals", plot.residuals, case.option(found, known_fit(), case.garbage()), axes=blank())
+        case.call(
+            "plot.residuals",
+            plot.residuals,
+            case.option(found, known_fit(), case.garbage()),
+            axes=blank(),
+        )
 
 
-# --- travel ----------------------------------------------------------------------------------------------------------------
+# --- travel ---------------------------------------------------------------------------------------
 
 
 def segments(case: Case, name: str, count: int) -> Any:
@@ -961,7 +1255,11 @@ def test_travel(case: Case) -> None:
         if name == "distance":
             first, over = (
                 start,
-                {"drag": case.value("drag"), "grade": case.value("grade"), "end_speed": case.option(0.0, case.value("vx"))},
+                {
+                    "drag": case.value("drag"),
+                    "grade": case.value("grade"),
+                    "end_speed": case.option(0.0, case.value("vx")),
+                },
             )
         found = case.call(f"travel.{name}", getattr(travel, name), first, **case.spoil(over))
         if not isinstance(found, Exception):
@@ -970,7 +1268,9 @@ def test_travel(case: Case) -> None:
     corners = case.choice((2, 2, 3, 3, 4, 1))
     points: Any = [case.pair("x") for _ in range(corners)]
     if case.maybe(0.1):
-        points = case.option(np.array([case.number("x") for _ in range(2 * corners)]).reshape(corners, 2))
+        points = case.option(
+            np.array([case.number("x") for _ in range(2 * corners)]).reshape(corners, 2)
+        )
     path = {name: segments(case, name, max(1, corners - 1)) for name in ("lock", "grade")} | {
         "friction": segments(case, "drag", max(1, corners - 1))
     }
@@ -978,7 +1278,9 @@ def test_travel(case: Case) -> None:
         "headings": case.option(
             *[
                 [
-                    0.3 * case.value("heading") if case.mood in ("plain", "extreme") else case.value("heading")
+                    0.3 * case.value("heading")
+                    if case.mood in ("plain", "extreme")
+                    else case.value("heading")
                     for _ in range(corners)
                 ]
             ]
@@ -989,31 +1291,53 @@ def test_travel(case: Case) -> None:
         "window": case.option("7 m", 0.0, case.value("distance")),
     }
     if case.maybe(0.4):
-        path |= {"point_error": case.option(0.1, case.value("distance")), "heading_error": case.option("3 deg", 0.0)}
+        path |= {
+            "point_error": case.option(0.1, case.value("distance")),
+            "heading_error": case.option("3 deg", 0.0),
+        }
     found = case.call("travel.path", travel.path, points, **case.spoil(path))
     if isinstance(found, travel.RunOut):
         # A way that ends where it began has no straight course.
         closed = repr(points[0]) == repr(points[-1])
         free = {"travel.RunOut.course_difference", *(["travel.RunOut.straight_course"] * closed)}
-        if case.mood == "plain" and found.speed_error is not None and (found.speed_error == math.inf or case.maybe(0.05)):
+        if (
+            case.mood == "plain"
+            and found.speed_error is not None
+            and (found.speed_error == math.inf or case.maybe(0.05))
+        ):
             wanted = speed_error(points, path)
-            assert math.isnan(wanted) or math.isclose(found.speed_error, wanted, rel_tol=1e-6, abs_tol=1e-9), wanted
-            free |= {f"travel.RunOut.{name}" for name in ("speed_error", "yaw_rate_error") if wanted == math.inf}
+            assert math.isnan(wanted) or math.isclose(
+                found.speed_error, wanted, rel_tol=1e-6, abs_tol=1e-9
+            ), wanted
+            free |= {
+                f"travel.RunOut.{name}"
+                for name in ("speed_error", "yaw_rate_error")
+                if wanted == math.inf
+            }
         case.look(found, frozenset(free))
 
 
 def speed_error(points: list[Any], path: dict[str, Any]) -> float:
-    """That of a path of plain numbers, from the speeds with each of its readings off; NaN if one of those is no path."""
+    """That of a path of plain numbers, from the speeds with each of its readings off; NaN if one of
+    those is no path.
+    """
     place, turn = path["point_error"], math.radians(3.0) if path["heading_error"] else 0.0
-    exact = {name: value for name, value in path.items() if name not in ("point_error", "heading_error")}
+    exact = {
+        name: value for name, value in path.items() if name not in ("point_error", "heading_error")
+    }
     total = 0.0
     for i in range(3 * len(points)):
         ends = []
         for sign in (1.0, -1.0):
-            off = [[x, y, heading] for (x, y), heading in zip(points, path["headings"], strict=True)]
+            off = [
+                [x, y, heading] for (x, y), heading in zip(points, path["headings"], strict=True)
+            ]
             off[i // 3][i % 3] += sign * (place, place, turn)[i % 3]
             try:
-                run = travel.path([(x, y) for x, y, _ in off], **{**exact, "headings": [heading for *_, heading in off]})
+                run = travel.path(
+                    [(x, y) for x, y, _ in off],
+                    **{**exact, "headings": [heading for *_, heading in off]},
+                )
             except col.NoSolutionError:
                 return math.inf
             except col.CollisionsError:
@@ -1024,7 +1348,8 @@ def speed_error(points: list[Any], path: dict[str, Any]) -> float:
 
 
 @fuzzes(
-    "travel.Tyres", "travel.Tyres.replace", "travel.Tyres.summary", "travel.simulate", "travel.SimulatedPath",
+    "travel.Tyres", "travel.Tyres.replace", "travel.Tyres.summary", "travel.simulate",
+    "travel.SimulatedPath",
     "travel.SimulatedPath.at", "travel.SimulatedPath.summary", "plot.path", share=0.2,
 )  # fmt: skip
 def test_simulated_travel(case: Case) -> None:
@@ -1032,7 +1357,10 @@ def test_simulated_travel(case: Case) -> None:
     mass = case.number("mass")
     # A lorry with the yaw inertia of a wheelbarrow takes ten thousand steps.
     body = vehicle(case, mass=mass, yaw_inertia=mass * case.uniform(0.5, 4.0))
-    given: dict[str, Any] = {"friction": case.value("drag"), "lock": case.option(case.value("lock"), [case.value("lock")] * 4)}
+    given: dict[str, Any] = {
+        "friction": case.value("drag"),
+        "lock": case.option(case.value("lock"), [case.value("lock")] * 4),
+    }
     size = case.choice(("wheelbase", "wheelbase", "distance"))
     given |= {"wheelbase": case.value(size), "track": case.value(size)}
     if case.maybe(0.3):
@@ -1054,15 +1382,20 @@ def test_simulated_travel(case: Case) -> None:
         found = case.call("travel.simulate", travel.simulate, body, tyres, **case.spoil(ground))
     if isinstance(found, travel.SimulatedPath):
         assert np.all(np.diff(found.time, axis=0)[~np.isnan(np.diff(found.time, axis=0))] >= 0.0)
-        assert str(case.must("travel.SimulatedPath.summary", found.summary, case.choice(UNIT_SYSTEMS)))
+        assert str(
+            case.must("travel.SimulatedPath.summary", found.summary, case.choice(UNIT_SYSTEMS))
+        )
         case.must("travel.SimulatedPath.at", found.at, 0.3)
-        case.look(found, frozenset({"travel.SimulatedPath.marks", "Vehicle.course", "Vehicle.yaw_inertia"}))
+        case.look(
+            found,
+            frozenset({"travel.SimulatedPath.marks", "Vehicle.course", "Vehicle.yaw_inertia"}),
+        )
         if case.maybe(0.2):
             outlines = {f"outline_{v}": outline(case) if case.maybe(0.3) else None for v in "ab"}
             drawn(case, "path", found, case.option(None, found), **outlines)
 
 
-# --- uncertainty -----------------------------------------------------------------------------------------------------------
+# --- uncertainty ----------------------------------------------------------------------------------
 
 KINDS = ("Normal", "LogNormal", "Uniform", "Triangular", "Interval", "Samples")
 INPUT_OPEN = frozenset(f"uncertainty.{name}.support" for name in KINDS)
@@ -1084,7 +1417,9 @@ def stated_numbers(case: Case, kind: str) -> list[Any]:
     if case.mood == "written" and kind != "Samples":
         return [f"{value!r} m/s" for value in found]
     if case.mood in ("extreme", "odd") and case.maybe(0.7):
-        found[case.randrange(len(found))] = case.value(name) if case.mood == "extreme" else case.garbage()
+        found[case.randrange(len(found))] = (
+            case.value(name) if case.mood == "extreme" else case.garbage()
+        )
     if case.mood == "batch" and kind == "Samples":
         return [case.array(name)]
     return found
@@ -1095,34 +1430,55 @@ def distribution(case: Case, kind: str) -> Any:
     keywords = {}
     args = stated_numbers(case, kind)
     if kind in ("Normal", "LogNormal") and case.maybe(0.4):
-        ends = [f"{end!r} m/s" if case.mood == "written" else end for end in (case.number("speed"), 50.0)]
+        ends = [
+            f"{end!r} m/s" if case.mood == "written" else end
+            for end in (case.number("speed"), 50.0)
+        ]
         keywords["truncate"] = case.option(
-            (ends[0], ends[1]), (ends[0], None), (None, ends[1]), (case.value("vx"), case.value("vx"))
+            (ends[0], ends[1]),
+            (ends[0], None),
+            (None, ends[1]),
+            (case.value("vx"), case.value("vx")),
         )
     return case.call(f"uncertainty.{kind}", getattr(uncertainty, kind), *args, **keywords)
 
 
 @fuzzes(
-    *(f"uncertainty.{kind}" for kind in KINDS), "uncertainty.Distribution", "uncertainty.Normal.between", "uncertainty.LogNormal.between",
-    "uncertainty.Samples.joint", "uncertainty.Distribution.quantile", "uncertainty.Distribution.scored",
+    *(f"uncertainty.{kind}" for kind in KINDS), "uncertainty.Distribution",
+    "uncertainty.Normal.between", "uncertainty.LogNormal.between",
+    "uncertainty.Samples.joint", "uncertainty.Distribution.quantile",
+    "uncertainty.Distribution.scored",
 )  # fmt: skip
 def test_distributions(case: Case) -> None:
     """Made of anything; quantiles and scores of anything; every quantile lies in the support."""
     made = [distribution(case, kind) for kind in KINDS]
     low, high = case.choice(
-        ((1.0, 2.0), sorted((case.number("speed"), case.number("speed"))), (case.value("speed"), case.value("speed")))
+        (
+            (1.0, 2.0),
+            sorted((case.number("speed"), case.number("speed"))),
+            (case.value("speed"), case.value("speed")),
+        )
     )
     coverage = case.option(0.95, case.random(), case.value("share_a"), case.extreme())
     for kind in ("Normal", "LogNormal"):
         options = (
-            {"truncate": case.option(None, (low, None), (low, high), (case.value("vx"), case.value("vx")))}
+            {
+                "truncate": case.option(
+                    None, (low, None), (low, high), (case.value("vx"), case.value("vx"))
+                )
+            }
             if case.maybe(0.3)
             else {}
         )
         between = getattr(uncertainty, kind).between
-        made.append(case.call(f"uncertainty.{kind}.between", between, low, high, coverage, **case.spoil(options)))
+        made.append(
+            case.call(
+                f"uncertainty.{kind}.between", between, low, high, coverage, **case.spoil(options)
+            )
+        )
     columns = {
-        name: case.option([1.0, 2.0, case.value("vx")], case.array("vx", (3,)), case.value("vx")) for name in ("one", "two")
+        name: case.option([1.0, 2.0, case.value("vx")], case.array("vx", (3,)), case.value("vx"))
+        for name in ("one", "two")
     }
     joint = case.call("uncertainty.Samples.joint", uncertainty.Samples.joint, **columns)
     if isinstance(joint, dict):
@@ -1141,19 +1497,33 @@ def test_distributions(case: Case) -> None:
         ):
             if not isinstance(found, Exception):
                 assert type(found) is float or found.dtype == np.float64, (label, found)
-                assert np.all((found >= start) & (found <= end)), f"{label} of {one!r} is {found}, outside {start} to {end}"
+                assert np.all((found >= start) & (found <= end)), (
+                    f"{label} of {one!r} is {found}, outside {start} to {end}"
+                )
     case.look(
-        case.choice([one for one in made if isinstance(one, uncertainty.Distribution)] or [uncertainty.Uniform(0, 1)]),
+        case.choice(
+            [one for one in made if isinstance(one, uncertainty.Distribution)]
+            or [uncertainty.Uniform(0, 1)]
+        ),
         INPUT_OPEN,
     )
 
 
-METHODS = ("first_order", "second_order", "latin_hypercube", "quasi_random", "monte_carlo", "interval")
+METHODS = (
+    "first_order",
+    "second_order",
+    "latin_hypercube",
+    "quasi_random",
+    "monte_carlo",
+    "interval",
+)
 OUTPUT_OPEN = INPUT_OPEN | {
     f"uncertainty.{name}"
     for name in (
-        "Output.mean_standard_error", "Output.std_standard_error", "Output.contribution_standard_errors", "Output.contributions",
-        "Output.total_contributions", "Output.mean", "Output.std", "Output.values", "Output.unit", "Shares.first_error", "Shares.total_error", "Shares.total",
+        "Output.mean_standard_error", "Output.std_standard_error",
+        "Output.contribution_standard_errors", "Output.contributions",
+        "Output.total_contributions", "Output.mean", "Output.std", "Output.values", "Output.unit",
+        "Shares.first_error", "Shares.total_error", "Shares.total",
         "Shares.first", "Histogram.standard_errors", "Propagation.correlation",
     )
 }  # fmt: skip
@@ -1168,10 +1538,18 @@ def rear_end(speed: Any, restitution: Any, mass: Any) -> dict[str, Any]:
 
 def scaled(speed: Any, restitution: Any, mass: Any) -> dict[str, Any]:
     """Numbers of any size, with and without a unit; whatever it is called with."""
-    count = next((len(value) for value in (speed, restitution, mass) if isinstance(value, np.ndarray)), 1)
-    x, _, y = (value if isinstance(value, float | np.ndarray) else 1.0 for value in (speed, restitution, mass))
+    count = next(
+        (len(value) for value in (speed, restitution, mass) if isinstance(value, np.ndarray)), 1
+    )
+    x, _, y = (
+        value if isinstance(value, float | np.ndarray) else 1.0
+        for value in (speed, restitution, mass)
+    )
     turned = np.broadcast_to(np.arctan2(x, y), count)
-    return {"delta_v": np.broadcast_to(np.divide(x * x, y), count), "energy_loss": registries()[0].Quantity(turned, "rad")}
+    return {
+        "delta_v": np.broadcast_to(np.divide(x * x, y), count),
+        "energy_loss": registries()[0].Quantity(turned, "rad"),
+    }
 
 
 def propagation(case: Case) -> Any:
@@ -1183,7 +1561,9 @@ def propagation(case: Case) -> Any:
         middle = 0.5 * (ends[0] + ends[1])
         inputs[name] = case.choice(
             (
-                lambda ends=ends, middle=middle: uncertainty.Normal(middle, 0.2 * (ends[1] - ends[0]), truncate=(0.0, None)),
+                lambda ends=ends, middle=middle: uncertainty.Normal(
+                    middle, 0.2 * (ends[1] - ends[0]), truncate=(0.0, None)
+                ),
                 lambda ends=ends: uncertainty.Uniform(*ends),
                 lambda ends=ends, middle=middle: uncertainty.Triangular(ends[0], middle, ends[1]),
                 lambda ends=ends, middle=middle: uncertainty.Samples([*ends, middle]),
@@ -1207,7 +1587,9 @@ def propagation(case: Case) -> Any:
         if case.maybe(0.1):
             # Wide enough to be met by some hundred cases.
             del options["samples"]
-            options["tolerance"] = case.option(case.uniform(1e3, 1e6), {"delta_v": case.uniform(1.0, 5.0)}, "5 m/s")
+            options["tolerance"] = case.option(
+                case.uniform(1e3, 1e6), {"delta_v": case.uniform(1.0, 5.0)}, "5 m/s"
+            )
     if case.maybe(0.1):
         options |= run_options(case)
     if case.maybe(0.2):
@@ -1217,27 +1599,35 @@ def propagation(case: Case) -> Any:
         inputs[case.choice(sorted(inputs))] = case.extreme()
         model = scaled
     if case.mood == "odd":
-        name = case.choice(("model", "inputs", "method", "samples", "seed", "correlation", "input", "input"))
+        name = case.choice(
+            ("model", "inputs", "method", "samples", "seed", "correlation", "input", "input")
+        )
         value = case.garbage()
         if name == "input":
             inputs[case.choice(sorted(inputs))] = value
             model = scaled
         elif name == "model":
-            model = case.choice((value, lambda **inputs: value, lambda **inputs: {"delta_v": value}))
+            model = case.choice(
+                (value, lambda **inputs: value, lambda **inputs: {"delta_v": value})
+            )
         elif name == "inputs":
             inputs = case.choice((value, {}, {"speed": uncertainty.Uniform(0, 1), 3: 1.0}))
         else:
             options[name] = value
             if name == "samples" and isinstance(value, int) and value > 10**4:
                 options[name] = 64
-    return case.call("uncertainty.propagate", uncertainty.propagate, model, inputs, **case.spoil(options))
+    return case.call(
+        "uncertainty.propagate", uncertainty.propagate, model, inputs, **case.spoil(options)
+    )
 
 
 @fuzzes(
     "Note",
-    "uncertainty.propagate", "uncertainty.Propagation", "uncertainty.Propagation.to_dict", "uncertainty.Output", "uncertainty.Shares",
+    "uncertainty.propagate", "uncertainty.Propagation", "uncertainty.Propagation.to_dict",
+    "uncertainty.Output", "uncertainty.Shares",
     "uncertainty.Histogram",
-    *(f"uncertainty.Output.{name}" for name in ("quantile", "quantile_standard_error", "interval", "histogram", "row", "record")),
+    *(f"uncertainty.Output.{name}" for name in ("quantile", "quantile_standard_error", "interval",
+    "histogram", "row", "record")),
 )  # fmt: skip
 def test_propagation(case: Case) -> None:
     """Any inputs, model and method; every figure of every output."""
@@ -1246,10 +1636,17 @@ def test_propagation(case: Case) -> None:
         found = known_propagation()
     sampled = found.method not in ("first_order", "second_order", "interval")
     shares = case.maybe(0.15) and not (sampled and case.maybe(0.8))
-    case.look({name: getattr(found, name) for name in ("method", "samples", "failed", "seed", "interrupted")})
+    case.look(
+        {
+            name: getattr(found, name)
+            for name in ("method", "samples", "failed", "seed", "interrupted")
+        }
+    )
     if shares:
         case.look(found, OUTPUT_OPEN)
-        assert json.dumps(case.must("uncertainty.Propagation.to_dict", found.to_dict), allow_nan=False)
+        assert json.dumps(
+            case.must("uncertainty.Propagation.to_dict", found.to_dict), allow_nan=False
+        )
     else:
         known_shares(case)
     case.call("uncertainty.Propagation", found.__getitem__, case.option("delta_v", case.garbage()))
@@ -1259,22 +1656,34 @@ def test_propagation(case: Case) -> None:
         for label in ("quantile", "quantile_standard_error"):
             case.call(f"uncertainty.Output.{label}", getattr(output, label), p)
         ends = case.call(
-            "uncertainty.Output.interval", output.interval, case.option(0.95, case.random(), case.value("share_a"))
+            "uncertainty.Output.interval",
+            output.interval,
+            case.option(0.95, case.random(), case.value("share_a")),
         )
         assert isinstance(ends, Exception) or not ends[0] > ends[1]
-        bars = case.call("uncertainty.Output.histogram", output.histogram, case.option(40, 1, 7, case.randrange(-5, 200)))
+        bars = case.call(
+            "uncertainty.Output.histogram",
+            output.histogram,
+            case.option(40, 1, 7, case.randrange(-5, 200)),
+        )
         if isinstance(bars, uncertainty.Histogram):
             case._look_at(bars, uncertainty.Histogram, OUTPUT_OPEN, False)
             assert len(bars.edges) == len(bars.shares) + 1
         assert len(case.must("uncertainty.Output.row", output.row)) == 2
         if shares:
-            assert json.dumps(case.must("uncertainty.Output.record", output.record), allow_nan=False)
+            assert json.dumps(
+                case.must("uncertainty.Output.record", output.record), allow_nan=False
+            )
 
 
 @functools.cache
 def known_propagation() -> uncertainty.Propagation:
     """A propagation whose shares are worked out once."""
-    inputs = {"speed": uncertainty.Normal(10.0, 1.0), "restitution": uncertainty.Uniform(0.0, 0.3), "mass": 1500.0}
+    inputs = {
+        "speed": uncertainty.Normal(10.0, 1.0),
+        "restitution": uncertainty.Uniform(0.0, 0.3),
+        "mass": 1500.0,
+    }
     return uncertainty.propagate(rear_end, inputs, method="first_order")
 
 
@@ -1288,22 +1697,28 @@ def known_shares(case: Case) -> None:
     case._look_at(output._shares(), uncertainty.Shares, OUTPUT_OPEN, False)
 
 
-# --- summaries -------------------------------------------------------------------------------------------------------------
+# --- summaries ------------------------------------------------------------------------------------
 
 
 @fuzzes("options")
 def test_options(case: Case) -> None:
     """Any value; numbers are read as before after the block."""
-    with contextlib.suppress(col.InputError), case.must("options", col.options, require_units=case.maybe(0.5)):
+    with (
+        contextlib.suppress(col.InputError),
+        case.must("options", col.options, require_units=case.maybe(0.5)),
+    ):
         case.call("Vehicle", col.Vehicle, mass=case.value("mass"), vx=case.value("vx"))
     case.call("options", col.options, require_units=case.garbage())
     col.options(require_units=False)
 
 
 @fuzzes(
-    "Vehicle.summary", "Impact.summary", "Side.summary", "ModelChoice.summary", "LeftOut.summary", "LeftOutSide.summary", "Pulse.summary",
-    "Findings.summary", "Estimate.summary", "Residual.summary", "reconstruct.Fit.summary", "reconstruct.MomentumSolution.summary",
-    "travel.RunOut.summary", "uncertainty.Propagation.summary", "uncertainty.Output.to", "uncertainty.Output.summary",
+    "Vehicle.summary", "Impact.summary", "Side.summary", "ModelChoice.summary", "LeftOut.summary",
+    "LeftOutSide.summary", "Pulse.summary",
+    "Findings.summary", "Estimate.summary", "Residual.summary", "reconstruct.Fit.summary",
+    "reconstruct.MomentumSolution.summary",
+    "travel.RunOut.summary", "uncertainty.Propagation.summary", "uncertainty.Output.to",
+    "uncertainty.Output.summary",
 )  # fmt: skip
 def test_summaries(case: Case) -> None:
     """A table of any result, in any units, as text and for a notebook."""
@@ -1311,22 +1726,49 @@ def test_summaries(case: Case) -> None:
     results: dict[str, Any] = {"Vehicle": a}
     if case.maybe(0.2):
         # These are always the same; only the units differ.
-        results |= {"reconstruct.Fit": known_fit(), "Estimate": known_fit()["x"], "Residual": known_fit().residuals["s"]}
+        results |= {
+            "reconstruct.Fit": known_fit(),
+            "Estimate": known_fit()["x"],
+            "Residual": known_fit().residuals["s"],
+        }
         results |= {"uncertainty.Propagation": known_propagation(), "Pulse": known_impact(6).pulse}
         results |= {"uncertainty.Output": known_propagation()["delta_v"]}
-    impact = case.call("eccentric", col.eccentric, a, b, case.number("restitution"), **found, on_failure="nan")
+    impact = case.call(
+        "eccentric", col.eccentric, a, b, case.number("restitution"), **found, on_failure="nan"
+    )
     if isinstance(impact, col.Impact):
         left = case.call("left_out", col.left_out, impact)
         findings = case.call("diagnose", col.diagnose, impact)
-        results |= {"Impact": impact, "Side": impact.b, "LeftOut": left, "LeftOutSide": getattr(left, "a", None)}
+        results |= {
+            "Impact": impact,
+            "Side": impact.b,
+            "LeftOut": left,
+            "LeftOutSide": getattr(left, "a", None),
+        }
         results |= {"Findings": findings}
-    courses = {name: case.number("heading") for name in ("course_a", "course_b", "course_a_after", "course_b_after")}
-    known = {"speed_a_after": case.number("speed"), "speed_b_after": case.number("speed"), **courses}
+    courses = {
+        name: case.number("heading")
+        for name in ("course_a", "course_b", "course_a_after", "course_b_after")
+    }
+    known = {
+        "speed_a_after": case.number("speed"),
+        "speed_b_after": case.number("speed"),
+        **courses,
+    }
     results["reconstruct.MomentumSolution"] = case.call(
-        "reconstruct.momentum", reconstruct.momentum, case.number("mass"), case.number("mass"), **known
+        "reconstruct.momentum",
+        reconstruct.momentum,
+        case.number("mass"),
+        case.number("mass"),
+        **known,
     )
     results["travel.RunOut"] = case.call(
-        "travel.path", travel.path, [(0.0, 0.0), (case.number("x"), 20.0)], [0.0, 1.0], friction=0.7, lock=case.random()
+        "travel.path",
+        travel.path,
+        [(0.0, 0.0), (case.number("x"), 20.0)],
+        [0.0, 1.0],
+        friction=0.7,
+        lock=case.random(),
     )
     results["ModelChoice"] = case.call("required_model", col.required_model, a, b, 0.1, **found)
     for name, result in results.items():
@@ -1334,7 +1776,9 @@ def test_summaries(case: Case) -> None:
             table = case.call(f"{name}.summary", result.summary, case.option(None, *UNIT_SYSTEMS))
             if not isinstance(table, Exception):
                 assert isinstance(str(table) + table._repr_html_(), str)
-    ends = case.call("uncertainty.Output.to", known_in_mph().to, case.option("mph", "km/h", "ft/s", "kg"))
+    ends = case.call(
+        "uncertainty.Output.to", known_in_mph().to, case.option("mph", "km/h", "ft/s", "kg")
+    )
     assert isinstance(ends, Exception) or ends.mean > 0.0
 
 
@@ -1342,29 +1786,46 @@ def test_summaries(case: Case) -> None:
 def known_in_mph() -> uncertainty.Output:
     """An output with a unit."""
     speed = uncertainty.Normal("30 mph", "2 mph")
-    return uncertainty.propagate(lambda v: {"v": col.Vehicle(mass=1.0, vx=v).q.vx}, {"v": speed}, seed=1, samples=64)["v"]
+    return uncertainty.propagate(
+        lambda v: {"v": col.Vehicle(mass=1.0, vx=v).q.vx}, {"v": speed}, seed=1, samples=64
+    )["v"]
 
 
-# --- reference -------------------------------------------------------------------------------------------------------------
+# --- reference ------------------------------------------------------------------------------------
 
 
 @fuzzes(
-    "reference.restitution", "reference.restitution_range", "reference.restitution_by_overlap", "reference.drag_factor", "reference.yaw_inertia", "reference.Published",
+    "reference.restitution", "reference.restitution_range", "reference.restitution_by_overlap",
+    "reference.drag_factor", "reference.yaw_inertia", "reference.Published",
     "reference.Fit",
 )  # fmt: skip
 def test_reference(case: Case) -> None:
     """Published values of anything."""
     speed = case.value("speed")
     e = case.call(
-        "reference.restitution", reference.restitution, speed, **case.spoil({"outside": case.option("warn", "refuse")})
+        "reference.restitution",
+        reference.restitution,
+        speed,
+        **case.spoil({"outside": case.option("warn", "refuse")}),
     )
-    assert isinstance(e, Exception) or np.all((np.asarray(e) >= 0.0) & (np.asarray(e) <= 1.0) | np.isnan(e)), e
+    assert isinstance(e, Exception) or np.all(
+        (np.asarray(e) >= 0.0) & (np.asarray(e) <= 1.0) | np.isnan(e)
+    ), e
     assert not isinstance(e, float) or math.isfinite(e)
     ends = case.call("reference.restitution_range", reference.restitution_range, speed)
     assert isinstance(ends, Exception) or np.all((ends[0] <= ends[1]) | np.isnan(ends[0])), ends
-    case.call("reference.restitution_by_overlap", reference.restitution_by_overlap, case.value("restitution"))
+    case.call(
+        "reference.restitution_by_overlap",
+        reference.restitution_by_overlap,
+        case.value("restitution"),
+    )
     surface = case.option("new dry asphalt", "travelled dry asphalt", "polished dry asphalt", "ice")
-    row = case.call("reference.drag_factor", reference.drag_factor, surface, **case.spoil({"speed": case.value("speed")}))
+    row = case.call(
+        "reference.drag_factor",
+        reference.drag_factor,
+        surface,
+        **case.spoil({"speed": case.value("speed")}),
+    )
     row = case.choice(reference.PUBLISHED) if isinstance(row, Exception) else row
     case.look(row)
     case.look(case.choice(reference.FITS))
@@ -1378,11 +1839,13 @@ def test_reference(case: Case) -> None:
         size["width"] = case.option(None, case.value("width"))
     if case.maybe(0.2):
         size["outside"] = case.option("warn", "refuse")
-    inertia = case.call("reference.yaw_inertia", reference.yaw_inertia, case.value("mass"), **case.spoil(size))
+    inertia = case.call(
+        "reference.yaw_inertia", reference.yaw_inertia, case.value("mass"), **case.spoil(size)
+    )
     assert not isinstance(inertia, float) or 0.0 <= inertia < math.inf, inertia
 
 
-# --- plot ------------------------------------------------------------------------------------------------------------------
+# --- plot -----------------------------------------------------------------------------------------
 
 
 @functools.cache
@@ -1397,7 +1860,10 @@ def drawn(case: Case, name: str, *args: Any, **options: Any) -> None:
     if axes.has_data() or axes.texts:
         axes.clear()
     found = case.call(
-        f"plot.{name}", getattr(plot, name), *args, **case.spoil({**options, "axes": axes, "units": case.option(*UNIT_SYSTEMS)})
+        f"plot.{name}",
+        getattr(plot, name),
+        *args,
+        **case.spoil({**options, "axes": axes, "units": case.option(*UNIT_SYSTEMS)}),
     )
     if isinstance(found, plt.Axes):
         assert found is axes or case.mood == "odd"
@@ -1409,7 +1875,15 @@ def drawn(case: Case, name: str, *args: Any, **options: Any) -> None:
         plt.close(number)
 
 
-@fuzzes("plot.energy", "plot.force_time", "plot.impulse_plane", "plot.momentum", "plot.pulse", "plot.scene", share=0.1)
+@fuzzes(
+    "plot.energy",
+    "plot.force_time",
+    "plot.impulse_plane",
+    "plot.momentum",
+    "plot.pulse",
+    "plot.scene",
+    share=0.1,
+)
 def test_pictures_of_an_impact(case: Case) -> None:
     """Every picture of an impact of any size."""
     impact = answer_of(case)
@@ -1431,23 +1905,46 @@ def test_pictures_of_an_uncertainty(case: Case) -> None:
     if not isinstance(found, uncertainty.Propagation):
         found = known_propagation()
     output = case.option(found[case.choice(list(found))])
-    drawn(case, "distribution", output, coverage=case.option(0.95, 0.5, case.value("share_a")), bins=case.option(30, 10, 1))
+    drawn(
+        case,
+        "distribution",
+        output,
+        coverage=case.option(0.95, 0.5, case.value("share_a")),
+        bins=case.option(30, 10, 1),
+    )
     drawn(case, "contributions", *case.choice(((output,), (found, case.option(*found)), (found,))))
 
 
-# --- errors ----------------------------------------------------------------------------------------------------------------
+# --- errors ---------------------------------------------------------------------------------------
 
-ERRORS = [name for name, value in public().items() if isinstance(value, type) and issubclass(value, Exception)]
+ERRORS = [
+    name
+    for name, value in public().items()
+    if isinstance(value, type) and issubclass(value, Exception)
+]
 
 
 @fuzzes(*ERRORS, "Status")
 def test_errors(case: Case) -> None:
-    """Every error and warning carries what it was given, through a copy and a pickle too; every status has its words."""
+    """Every error and warning carries what it was given, through a copy and a pickle too; every
+    status has its words.
+    """
     for name in ERRORS:
         fields = {"argument": case.text(), "value": case.number("vx")}
-        made = case.call(name, getattr(col, name), case.text(), code=case.choice(("bad_shape", "", "x")), **fields)
+        made = case.call(
+            name,
+            getattr(col, name),
+            case.text(),
+            code=case.choice(("bad_shape", "", "x")),
+            **fields,
+        )
         for twin in (pickle.loads(pickle.dumps(made)), copy.copy(made)):
-            assert (type(twin), str(twin), twin.code, twin.fields) == (type(made), str(made), made.code, made.fields)
+            assert (type(twin), str(twin), twin.code, twin.fields) == (
+                type(made),
+                str(made),
+                made.code,
+                made.fields,
+            )
     status = case.must("Status", col.Status, case.choice(list(col.Status)))
     assert status.sentence
     assert status.label == status.name.lower()

@@ -1,7 +1,8 @@
 """What is tested is what is installed: one copy of the package, complete, with nothing beside it.
 
-The imports come first, when tests are collected: doctests are found by the path of their source, and a module that is loaded
-already is taken from where it is loaded. Where the package is installed, that is the built wheel.
+The imports come first, when tests are collected: doctests are found by the path of their source,
+and a module that is loaded already is taken from where it is loaded. Where the package is
+installed, that is the built wheel.
 """
 
 import importlib
@@ -16,7 +17,10 @@ import collisions
 
 SOURCE = Path(__file__).resolve().parent.parent.parent / "src" / "collisions"
 USED = Path(collisions.__file__).resolve().parent
-MODULES = [importlib.import_module(found.name) for found in pkgutil.walk_packages(collisions.__path__, "collisions.")]
+MODULES = [
+    importlib.import_module(found.name)
+    for found in pkgutil.walk_packages(collisions.__path__, "collisions.")
+]
 
 
 def installed():
@@ -39,7 +43,9 @@ def shipped(folder):
 
 
 def test_every_module_is_of_one_copy():
-    """No module comes from the sources beside an installed package, whichever test loaded it first."""
+    """No module comes from the sources beside an installed package, whichever test
+    loaded it first.
+    """
     assert len(MODULES) > 100
     assert {Path(module.__file__).resolve().is_relative_to(USED) for module in MODULES} == {True}
 
@@ -47,7 +53,11 @@ def test_every_module_is_of_one_copy():
 def test_doctests_run_on_that_copy(request):
     """Those of this run, whose path in the sources is all that pytest shows."""
     doctests = [item for item in request.session.items if isinstance(item, pytest.DoctestItem)]
-    files = {Path(item.dtest.globs["__file__"]).resolve() for item in doctests if "__file__" in item.dtest.globs}
+    files = {
+        Path(item.dtest.globs["__file__"]).resolve()
+        for item in doctests
+        if "__file__" in item.dtest.globs
+    }
     assert all(file.is_relative_to(USED) for file in files)
 
 

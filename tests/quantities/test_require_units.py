@@ -41,7 +41,9 @@ def crash():
 )
 def test_a_bare_number_is_refused_by_name(name, value):
     with col.options(require_units=True):
-        with pytest.raises(col.UnitsError, match=f"^{name} = .* has no unit, and options") as refused:
+        with pytest.raises(
+            col.UnitsError, match=f"^{name} = .* has no unit, and options"
+        ) as refused:
             col.Vehicle(**{**WITH_UNITS, name: value})
         assert refused.value.fields["argument"] == name
     col.Vehicle(**{**WITH_UNITS, name: value})
@@ -49,7 +51,10 @@ def test_a_bare_number_is_refused_by_name(name, value):
 
 def test_all_bare_numbers_are_named_at_once_and_0_and_infinity_need_no_unit():
     with col.options(require_units=True):
-        with pytest.raises(col.UnitsError, match=r"(?s)3 arguments cannot be used.*mass = 1500.*vx = 20.*heading = 1"):
+        with pytest.raises(
+            col.UnitsError,
+            match=r"(?s)3 arguments cannot be used.*mass = 1500.*vx = 20.*heading = 1",
+        ):
             col.Vehicle(mass=1500.0, vx=20.0, heading=1.0, x=0.0)
         assert col.Vehicle(mass=np.inf, vx=0, x=0.0, heading=np.zeros(2)).mass == np.inf
         assert col.Vehicle.barrier().vx == 0.0
@@ -60,7 +65,9 @@ def test_all_bare_numbers_are_named_at_once_and_0_and_infinity_need_no_unit():
         assert col.Vehicle.from_speed(mass="1500 kg", speed="20 m/s", course="90 deg").vy == 20.0
         with pytest.raises(col.UnitsError, match="heading = 1"):
             col.Vehicle(**WITH_UNITS).replace(heading=1)
-        assert col.Vehicle(**WITH_UNITS).replace(heading="1 deg").mass == pytest.approx(3400 * 0.45359237)
+        assert col.Vehicle(**WITH_UNITS).replace(heading="1 deg").mass == pytest.approx(
+            3400 * 0.45359237
+        )
 
 
 def test_solvers_and_travel_refuse_too():
@@ -71,10 +78,14 @@ def test_solvers_and_travel_refuse_too():
         for name, value in (("normal", 1.0), ("point", (1.0, 0.0))):
             with pytest.raises(col.UnitsError, match=name):
                 col.eccentric(a, b, 0.1, **{**contact, name: value})
-        assert col.eccentric(a, b, 0.1, **{**contact, "normal": (1, 0)}).ok  # a direction has no unit
+        assert col.eccentric(
+            a, b, 0.1, **{**contact, "normal": (1, 0)}
+        ).ok  # a direction has no unit
         with pytest.raises(col.UnitsError, match="distance"):
             travel.speed(20, drag=0.7)
-        assert travel.speed("20 m", drag=0.7) == pytest.approx((2 * 0.7 * 9.80665 * 20) ** 0.5, rel=1e-12)
+        assert travel.speed("20 m", drag=0.7) == pytest.approx(
+            (2 * 0.7 * 9.80665 * 20) ** 0.5, rel=1e-12
+        )
         with pytest.raises(col.UnitsError, match="mass_a"):
             reconstruct.inline_closing_speed(1500, "1500 kg", 0.1, delta_v_b="10 mph")
 
@@ -110,7 +121,9 @@ def test_functions_of_a_result_and_published_values_refuse_too():
             "duration": lambda: col.left_out(impact, duration=0.1),
             "a.delta_v": lambda: col.explain(impact, uncertainty={"a.delta_v": 0.5}),
             "speed_a": lambda: col.what_if(impact, {"speed_a": (10, 30)}),
-            "outline_a": lambda: col.what_if(impact, {"restitution": (0.0, 0.5)}, outline_a=(4.5, 2.0)),
+            "outline_a": lambda: col.what_if(
+                impact, {"restitution": (0.0, 0.5)}, outline_a=(4.5, 2.0)
+            ),
             "closing_speed": lambda: reference.restitution_range(4.0),
             "speed": lambda: reference.drag_factor("travelled dry asphalt", speed=20),
             "value": lambda: 0.1 in reference.CONTACT_DURATION,
@@ -126,7 +139,11 @@ def test_functions_of_a_result_and_published_values_refuse_too():
 
 def test_a_report_can_be_made_again_where_units_are_required():
     with col.options(require_units=True):
-        given = {"outline_a": ("4.5 m", "2 m"), "limits": {"near_collinear": "20 deg"}, "damage_delta_v_b": ("10 m/s", "2 m/s")}
+        given = {
+            "outline_a": ("4.5 m", "2 m"),
+            "limits": {"near_collinear": "20 deg"},
+            "damage_delta_v_b": ("10 m/s", "2 m/s"),
+        }
         page = col.report(crash(), figures=False, duration="90 ms", crush_energy="10 kJ", **given)
         assert col.report(replay(page), **options(page)) == page
     assert col.report(replay(page), **options(page)) == page
@@ -134,7 +151,9 @@ def test_a_report_can_be_made_again_where_units_are_required():
 
 @pytest.mark.slow
 def test_what_follows_from_inputs_with_units_works(tmp_path):
-    """Records, pages, findings, pictures, models of a propagation: their numbers are the package's own."""
+    """Records, pages, findings, pictures, models of a propagation: their numbers are the package's
+    own.
+    """
     pytest.importorskip("matplotlib").use("agg")
     with col.options(require_units=True):
         impact = crash()
@@ -153,16 +172,28 @@ def test_what_follows_from_inputs_with_units_works(tmp_path):
         contact = {"normal": "0 deg", "point": ("0 ft", 0), "friction": 0.5}
         col.solve(impact.a.before, impact.b.before, 0.1, **contact)
         slides = impact.again(friction=0.1)
-        planar = reconstruct.planar(slides.a.after, slides.b.after, restitution=0.1, **{**contact, "friction": 0.1})
+        planar = reconstruct.planar(
+            slides.a.after, slides.b.after, restitution=0.1, **{**contact, "friction": 0.1}
+        )
         assert planar.a.before.vx == pytest.approx(impact.a.before.vx, rel=1e-9)
 
         def model(speed):
             a = impact.a.before.replace(vx=speed)
-            return {"delta_v": col.eccentric(a, impact.b.before, 0.1, on_failure="nan", **contact).b.q.delta_v}
+            return {
+                "delta_v": col.eccentric(
+                    a, impact.b.before, 0.1, on_failure="nan", **contact
+                ).b.q.delta_v
+            }
 
-        found = uncertainty.propagate(model, {"speed": uncertainty.Normal("45 mph", "2 mph")}, samples=64, seed=1)
+        found = uncertainty.propagate(
+            model, {"speed": uncertainty.Normal("45 mph", "2 mph")}, samples=64, seed=1
+        )
         assert found["delta_v"].mean == pytest.approx(impact.b.delta_v, rel=0.02)
-        fitted = reconstruct.fit(model, {"speed": uncertainty.Interval("1 mph", "90 mph")}, {"delta_v": ("10 m/s", "1 m/s")})
+        fitted = reconstruct.fit(
+            model,
+            {"speed": uncertainty.Interval("1 mph", "90 mph")},
+            {"delta_v": ("10 m/s", "1 m/s")},
+        )
         assert fitted["speed"].determined
 
 
@@ -212,7 +243,11 @@ def test_it_holds_in_its_own_thread_and_task_only():
 def test_an_array_with_a_unit_has_one():
     quantity = pint.get_application_registry().Quantity
     with col.options(require_units=True):
-        cars = col.Vehicle(mass="1500 kg", vx=quantity(np.array([30.0, 35.0]), "mph"), heading=quantity([700.0, 710.0], "deg"))
+        cars = col.Vehicle(
+            mass="1500 kg",
+            vx=quantity(np.array([30.0, 35.0]), "mph"),
+            heading=quantity([700.0, 710.0], "deg"),
+        )
         assert cars.vx[0] == pytest.approx(13.4112, rel=1e-15)
         with pytest.raises(col.UnitsError, match=r"vx = .* has no unit"):
             col.Vehicle(mass="1500 kg", vx=np.array([30.0, 35.0]))

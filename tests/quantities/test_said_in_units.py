@@ -1,4 +1,6 @@
-"""Refusals, and warnings of solvers, name values in the units that the inputs were given in; fields of an error stay SI."""
+"""Refusals, and warnings of solvers, name values in the units that the inputs were given in; fields
+of an error stay SI.
+"""
 
 import re
 
@@ -15,27 +17,35 @@ ORIGIN = ("0 ft", "0 ft")
 
 
 def a(**more):
-    return col.Vehicle(**({"mass": "3400 lb", "yaw_inertia": "60000 lb*ft**2", "x": "-7 ft", "y": "0 ft"} | more))
+    return col.Vehicle(
+        **({"mass": "3400 lb", "yaw_inertia": "60000 lb*ft**2", "x": "-7 ft", "y": "0 ft"} | more)
+    )
 
 
 def b(**more):
-    return col.Vehicle(**({"mass": "2900 lb", "yaw_inertia": "45000 lb*ft**2", "x": "7 ft", "y": "1 ft"} | more))
+    return col.Vehicle(
+        **({"mass": "2900 lb", "yaw_inertia": "45000 lb*ft**2", "x": "7 ft", "y": "1 ft"} | more)
+    )
 
 
 CONTACT = {"normal": "0 deg", "point": ORIGIN, "friction": 0.1}
 REFUSED = {
     "separating": (lambda: col.linear_central(a(vx="-35 mph"), b(), 0.1), "closing speed -35 mph"),
-    "eccentric": (lambda: col.eccentric(a(vx="-35 mph"), b(), 0.1, **CONTACT), "closing speed -35 mph"),
-    "solve": (lambda: col.solve(a(vx="-35 mph"), b(), 0.1, **CONTACT, tolerance="1 mph"), "closing speed -35 mph"),
+    "eccentric": (lambda: col.eccentric(a(vx="-35 mph"), b(), 0.1, **CONTACT),
+    "closing speed -35 mph"),
+    "solve": (lambda: col.solve(a(vx="-35 mph"), b(), 0.1, **CONTACT, tolerance="1 mph"),
+    "closing speed -35 mph"),
     "in time": (
         lambda: col.time_resolved(a(vx="-35 mph"), b(), 0.1, **CONTACT, duration="100 ms"),
         "closing speed -35 mph",
     ),
     "spinning": (
-        lambda: col.oblique_central(a(vx="35 mph", yaw_rate="20 deg/s"), b(), 0.1, normal="0 deg", friction=0.3),
+        lambda: col.oblique_central(a(vx="35 mph", yaw_rate="20 deg/s"), b(), 0.1, normal="0 deg",
+        friction=0.3),
         "yaw_rate = 20°/s",
     ),
-    "across": (lambda: col.linear_central(a(vx="35 mph", vy="5 mph"), b(), 0.1), "moves at 5 mph across"),
+    "across": (lambda: col.linear_central(a(vx="35 mph", vy="5 mph"), b(), 0.1),
+    "moves at 5 mph across"),
     "pushed apart": (
         lambda: col.eccentric(
             a(vx="5 mph"), b(), 0.1, **CONTACT, outside_a=("-3000 lbf*s", "0 lbf*s", "0 lbf*ft*s"),
@@ -48,15 +58,18 @@ REFUSED = {
         "va = 10 mph, vb = 20 mph, restitution = 0.1 mean a closing speed of -10 mph",
     ),
     "central, energy": (
-        lambda: rc.central("3400 lb", "2900 lb", va="30 mph", vb="20 mph", energy_loss="500000 ft*lbf"),
+        lambda: rc.central("3400 lb", "2900 lb", va="30 mph", vb="20 mph",
+        energy_loss="500000 ft*lbf"),
         "energy_loss = 500000 ft·lbf: with these masses",
     ),
     "central, plastic": (
-        lambda: rc.central("3400 lb", "2900 lb", va_after="10 mph", vb_after="12 mph", restitution=0.0),
+        lambda: rc.central("3400 lb", "2900 lb", va_after="10 mph", vb_after="12 mph",
+        restitution=0.0),
         "vb_after - va_after is 2 mph",
     ),
     "central, two": (
-        lambda: rc.central("3400 lb", "2900 lb", vb="5 mph", va_after="16.1905 mph", energy_loss="31391 ft*lbf"),
+        lambda: rc.central("3400 lb", "2900 lb", vb="5 mph", va_after="16.1905 mph",
+        energy_loss="31391 ft*lbf"),
         "mph with e",
     ),
     "planar, together": (
@@ -64,23 +77,27 @@ REFUSED = {
         "separation speed -30 mph along the normal",
     ),
     "planar, faster": (
-        lambda: rc.planar(a(vx="3 mph"), b(vx="9 mph", vy="4 mph"), closing_speed="2 mph", **CONTACT),
+        lambda: rc.planar(a(vx="3 mph"), b(vx="9 mph", vy="4 mph"), closing_speed="2 mph",
+        **CONTACT),
         "separation speed 6 mph, slip after 4 mph, closing_speed=2 mph",
     ),
     "observed": (
-        lambda: rc.restitution(a(vx="3 mph"), b(vx="9 mph"), a(), b(), normal="0 deg", point=ORIGIN),
+        lambda: rc.restitution(a(vx="3 mph"), b(vx="9 mph"), a(), b(), normal="0 deg",
+        point=ORIGIN),
         "closing speed -6 mph along the normal",
     ),
     "speeds": (
         lambda: rc.speeds(
-            a(), b(), course_a="0 deg", course_b="180 deg", speed_b="60 mph", energy_loss="1 ft*lbf", restitution=0.1,
+            a(), b(), course_a="0 deg", course_b="180 deg", speed_b="60 mph",
+                energy_loss="1 ft*lbf", restitution=0.1,
             forward_only=True, **CONTACT,
         ),
         "fit speed_b = 60 mph and energy_loss = 1 ft·lbf with this",
     ),
     # 1.8 = g (1 + e) / 2 with 0.3 below 3 m/s and 0.1 above.
     "inline": (
-        lambda: rc.inline_closing_speed("2000 lb", "2000 lb", lambda v: 0.3 if v < 3 else 0.1, delta_v_a=f"{1.8 / MPH} mph"),
+        lambda: rc.inline_closing_speed("2000 lb", "2000 lb", lambda v: 0.3 if v < 3 else 0.1,
+        delta_v_a=f"{1.8 / MPH} mph"),
         f"at closing speeds of {3.6 / 1.3 / MPH:.6g} mph and {3.6 / 1.1 / MPH:.6g} mph",
     ),
 }  # fmt: skip
@@ -106,7 +123,9 @@ def test_the_fields_stay_si():
     assert caught.value.fields["separation_speed"] == pytest.approx(-30 * MPH, rel=1e-12)
 
 
-@pytest.mark.parametrize(("speed", "said"), [("-35 km/h", "-35 km/h"), (-10.0, "-10 m/s"), ("-10 m/s", "-10 m/s")])
+@pytest.mark.parametrize(
+    ("speed", "said"), [("-35 km/h", "-35 km/h"), (-10.0, "-10 m/s"), ("-10 m/s", "-10 m/s")]
+)
 def test_the_other_systems(speed, said):
     """Bare numbers are SI."""
     body = {"mass": 1500.0} if isinstance(speed, float) else {"mass": "1500 kg"}
@@ -119,7 +138,9 @@ def test_degrees_beside_metres_per_second():
     with pytest.raises(col.InputError, match="yaw_rate = 20°/s"):
         col.oblique_central(a, col.Vehicle(mass="900 kg"), 0.1, normal=0.0, friction=0.1)
     with pytest.raises(col.InputError, match=r"yaw_rate = 0\.3 rad/s"):
-        col.oblique_central(a.replace(yaw_rate=0.3), col.Vehicle(mass="900 kg"), 0.1, normal=0.0, friction=0.1)
+        col.oblique_central(
+            a.replace(yaw_rate=0.3), col.Vehicle(mass="900 kg"), 0.1, normal=0.0, friction=0.1
+        )
 
 
 def test_the_first_refused_case_of_a_batch():

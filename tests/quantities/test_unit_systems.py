@@ -1,4 +1,6 @@
-"""One table of units and one check: explanations, reports, findings and figures write a quantity alike."""
+"""One table of units and one check: explanations, reports, findings and figures write a quantity
+alike.
+"""
 
 import pint
 import pytest
@@ -22,20 +24,28 @@ IMPACT = col.linear_central(col.Vehicle(mass=1100, vx=20.0), col.Vehicle(mass=95
 def test_every_unit_is_of_its_kind(kind, system):
     """By pint, to the last digits of a factor; no conversion moves the zero."""
     label = unit_of(kind, system)
-    assert UREG.Quantity(1.0, SI_UNITS[kind]).m_as(label) == pytest.approx(scale_of(kind, system), rel=1e-15)
+    assert UREG.Quantity(1.0, SI_UNITS[kind]).m_as(label) == pytest.approx(
+        scale_of(kind, system), rel=1e-15
+    )
     assert UREG.Quantity(0.0, SI_UNITS[kind]).m_as(label) == 0.0
 
 
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_mass_length_and_inertia_go_together(system):
-    """1/m + r**2/I adds up as it is printed: I over m r**2 is 1 in the units of a system, without a factor."""
-    inertia, mass, length = (UREG.Quantity(1.0, unit_of(kind, system)) for kind in ("inertia", "mass", "length"))
+    """1/m + r**2/I adds up as it is printed: I over m r**2 is 1 in the units of a system, without a
+    factor.
+    """
+    inertia, mass, length = (
+        UREG.Quantity(1.0, unit_of(kind, system)) for kind in ("inertia", "mass", "length")
+    )
     # A power of a length is rounded a few times.
     assert (inertia / mass / length**2).m_as("") == pytest.approx(1.0, rel=1e-14)
 
 
 def test_a_unit_is_that_of_one_kind():
-    """A number of which only the unit is known has one kind; seconds are those of any time but a contact's, plain numbers no impulse ratio."""
+    """A number of which only the unit is known has one kind; seconds are those of any time but a
+    contact's, plain numbers no impulse ratio.
+    """
     assert len(KIND_OF) == len(SI_UNITS) - 2
     assert KIND_OF["s"] == "time"
     assert KIND_OF[""] == "number"
@@ -43,10 +53,19 @@ def test_a_unit_is_that_of_one_kind():
 
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_a_quantity_is_written_alike(system):
-    """A speed, a PDOF, a length and a yaw rate, by the three that write; each has its own signs for degrees and powers."""
-    for kind, value in (("speed", 12.34567), ("angle", 0.54321), ("length", 3.45678), ("yaw rate", 2.34567)):
+    """A speed, a PDOF, a length and a yaw rate, by the three that write; each has its own signs for
+    degrees and powers.
+    """
+    for kind, value in (
+        ("speed", 12.34567),
+        ("angle", 0.54321),
+        ("length", 3.45678),
+        ("yaw rate", 2.34567),
+    ):
         page = System(system).answer(value, kind)
-        case = MomentumCase(answer=None, damage={}, crush_energy=None, duration=0.1, drag=0.7, units=system)
+        case = MomentumCase(
+            answer=None, damage={}, crush_energy=None, duration=0.1, drag=0.7, units=system
+        )
         label = Units(system).text(value, SI_UNITS[kind])
         # An angle stands beside a limit, with one decimal more.
         assert case.number(value, kind).startswith(page.split()[0])
@@ -61,7 +80,9 @@ def test_units_are_checked_in_one_way(units):
     """The four that take ``units=`` refuse what is no system with one text and one code."""
     said = set()
     for function in (explain, report, diagnose, plot.energy):
-        with pytest.raises(col.InputError, match="units must be 'si', 'metric' or 'us', got") as caught:
+        with pytest.raises(
+            col.InputError, match="units must be 'si', 'metric' or 'us', got"
+        ) as caught:
             function(IMPACT, units=units)
         assert (caught.value.code, caught.value.fields["argument"]) == ("bad_option", "units")
         said.add(str(caught.value))
@@ -70,7 +91,12 @@ def test_units_are_checked_in_one_way(units):
 
 @pytest.mark.parametrize(
     ("value", "decimals", "text"),
-    [(9.994e14, -12, "999000000000000"), (1e15, 2, "1e+15"), (-1.7e308, -305, "-1.7e+308"), (-0.004, 2, "0.00")],
+    [
+        (9.994e14, -12, "999000000000000"),
+        (1e15, 2, "1e+15"),
+        (-1.7e308, -305, "-1.7e+308"),
+        (-0.004, 2, "0.00"),
+    ],
 )
 def test_numbers_beyond_what_a_float_holds_are_short(value, decimals, text):
     """A float has at most 17 digits, so an impulse of 1e150 N s is not printed with 150."""

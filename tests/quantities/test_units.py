@@ -40,7 +40,14 @@ def value_error_code(call):
 
 def test_numbers_are_si_and_stay_python_floats():
     """Ints, numpy scalars and 0-d arrays all become Python floats."""
-    for given in (1100, 1100.0, np.int32(1100), np.float32(1100), np.float64(1100), np.array(1100.0)):
+    for given in (
+        1100,
+        1100.0,
+        np.int32(1100),
+        np.float32(1100),
+        np.float64(1100),
+        np.array(1100.0),
+    ):
         assert type(col.Vehicle(mass=given).mass) is float
         assert col.Vehicle(mass=given).mass == 1100.0
 
@@ -64,7 +71,9 @@ def test_numbers_are_si_and_stay_python_floats():
     ],
 )
 def test_unit_strings(text, field, expected):
-    """One plain number and one unit; conversion factors are exact by definition, so 4 eps covers their products."""
+    """One plain number and one unit; conversion factors are exact by definition, so 4 eps covers
+    their products.
+    """
     given = {"mass": 1.0, field: text}
     assert getattr(col.Vehicle(**given), field) == pytest.approx(expected, rel=4 * 2**-52)
 
@@ -99,7 +108,9 @@ def test_unit_strings(text, field, expected):
     ],
 )
 def test_strings_that_are_not_one_number_and_one_unit(text):
-    """Handed to pint whole, some of these become other numbers and one hangs; all are refused, quoting the text."""
+    """Handed to pint whole, some of these become other numbers and one hangs; all are refused,
+    quoting the text.
+    """
     with pytest.raises(col.UnitsError) as caught:
         col.Vehicle(mass=1.0, vx=text)
     assert repr(text)[:40] in str(caught.value)
@@ -114,7 +125,9 @@ def test_thousands_with_a_space_are_refused():
 
 
 def test_whatever_pint_raises_is_a_units_error():
-    """Undefined units and wrong dimensions name the argument, quote the text and say what to write."""
+    """Undefined units and wrong dimensions name the argument, quote the text and say
+    what to write.
+    """
     for text in ("5 parsecs_per_fortnight_squared", "5 kg"):
         with pytest.raises(col.UnitsError, match=r"vx: .*'80 km/h'") as caught:
             col.Vehicle(mass=1.0, vx=text)
@@ -135,7 +148,9 @@ def test_one_error_names_every_wrong_argument():
 
 def test_a_quantity_is_never_stripped(ureg):
     """np.asarray(Quantity) drops the unit in silence; the reader converts instead."""
-    assert col.Vehicle(mass=1.0, vx=ureg.Quantity(30, "mph")).vx == pytest.approx(30 * EXACT["mph"], rel=1e-15)
+    assert col.Vehicle(mass=1.0, vx=ureg.Quantity(30, "mph")).vx == pytest.approx(
+        30 * EXACT["mph"], rel=1e-15
+    )
     many = col.Vehicle(mass=1.0, vx=ureg.Quantity(np.array([30.0, 60.0]), "mph")).vx
     np.testing.assert_allclose(many, [30 * EXACT["mph"], 60 * EXACT["mph"]], rtol=1e-15)
 
@@ -149,7 +164,9 @@ def test_quantities_of_several_registries_mix(ureg):
 
 
 def test_registries_that_define_a_unit_differently_stay_apart():
-    """A factor kept for one registry is not used for another in which the same name means something else."""
+    """A factor kept for one registry is not used for another in which the same name means something
+    else.
+    """
     ureg = pint.UnitRegistry()
     other = pint.UnitRegistry()
     ureg.define("stein = 6 kg")
@@ -172,7 +189,9 @@ def test_a_context_is_obeyed_and_forgotten():
 
 
 def test_a_text_without_a_unit_is_no_angle_after_it_was_a_proportion():
-    """Units of texts are kept once read; that a proportion has none makes no bare text an angle or a speed."""
+    """Units of texts are kept once read; that a proportion has none makes no bare text an angle or
+    a speed.
+    """
     a, b = col.Vehicle(mass=1500, vx=10), col.Vehicle(mass=1200)
     assert col.linear_central(a, b, "0.4").restitution == 0.4
     for argument, text in (("vx", "20"), ("yaw_rate", "1")):
@@ -182,7 +201,9 @@ def test_a_text_without_a_unit_is_no_angle_after_it_was_a_proportion():
 
 @pytest.mark.slow
 def test_texts_are_read_by_the_registry_of_the_moment():
-    """A unit that one application registry defines is unknown to the next, and one defined differently differs."""
+    """A unit that one application registry defines is unknown to the next, and one defined
+    differently differs.
+    """
     before = pint.get_application_registry().get()
     try:
         for length in (1.7, 1.8):
@@ -207,20 +228,38 @@ def decimal_registry():
 
 
 def test_quantities_of_a_registry_that_counts_in_decimal():
-    """Its Quantities hold Decimals, or floats that it cannot convert itself; also in arrays, pairs and outlines."""
+    """Its Quantities hold Decimals, or floats that it cannot convert itself; also in arrays, pairs
+    and outlines.
+    """
     q = pint.UnitRegistry(non_int_type=Decimal).Quantity
-    car = col.Vehicle(mass=q(Decimal("1100.5"), "kg"), vx=q(90.0, "km/h"), heading=q(Decimal(-30), "deg"), x=q(7, "ft"), y=0)
-    assert (car.mass, car.vx, car.heading, car.x) == (1100.5, 25.0, -math.pi / 6, pytest.approx(7 * EXACT["ft"], rel=2**-52))
+    car = col.Vehicle(
+        mass=q(Decimal("1100.5"), "kg"),
+        vx=q(90.0, "km/h"),
+        heading=q(Decimal(-30), "deg"),
+        x=q(7, "ft"),
+        y=0,
+    )
+    assert (car.mass, car.vx, car.heading, car.x) == (
+        1100.5,
+        25.0,
+        -math.pi / 6,
+        pytest.approx(7 * EXACT["ft"], rel=2**-52),
+    )
     speeds = (np.array([Decimal(18), Decimal("inf")]), np.array([18.0, math.inf]))
     for given in speeds:
         assert col.Vehicle(mass=1.0, vx=q(given, "km/h")).vx.tolist() == [5.0, math.inf]
     for pair in (q([Decimal(1), Decimal(-2)], "km"), (q(Decimal(1), "km"), q(-2.0, "km"))):
         assert car.replace(heading=0.0).velocity_at(pair) == (25.0, 0.0)
     wall = col.Vehicle.barrier()
-    impact = col.oblique_central(car, wall, q(Decimal("12.5"), "percent"), normal=q(Decimal(0), "deg"), friction=0.0)
+    impact = col.oblique_central(
+        car, wall, q(Decimal("12.5"), "percent"), normal=q(Decimal(0), "deg"), friction=0.0
+    )
     assert (impact.restitution, impact.normal, impact.a.after.vx) == (0.125, (1.0, 0.0), -3.125)
     corners = np.array([[2, 1], [-2, 1], [-2, -1], [2, -1]]) * Decimal(1)
-    findings = [col.diagnose(impact, outline_a=outline) for outline in (q(corners, "m"), corners.astype(float))]
+    findings = [
+        col.diagnose(impact, outline_a=outline)
+        for outline in (q(corners, "m"), corners.astype(float))
+    ]
     assert findings[0] == findings[1]
 
 
@@ -229,22 +268,30 @@ def test_decimals_that_no_float_can_hold_are_refused(number):
     """Alone and in an array."""
     q = pint.UnitRegistry(non_int_type=Decimal).Quantity
     for value in (Decimal(number), np.array([Decimal(1), Decimal(number)])):
-        assert value_error_code(lambda value=value: col.Vehicle(mass=q(value, "kg"))) == "not_a_number"
+        assert (
+            value_error_code(lambda value=value: col.Vehicle(mass=q(value, "kg"))) == "not_a_number"
+        )
 
 
 def test_an_application_registry_that_counts_in_decimal(decimal_registry):
     """Texts are read, .q gives what the registry can convert, and what came out goes in again."""
     a = col.Vehicle(mass="1.1 tonne", vx="90 km/h", heading="30 deg")
     assert (a.mass, a.vx, a.heading) == (1100.0, 25.0, math.pi / 6)
-    batch = col.linear_central(a.replace(vx=np.array([20.0, 25.0])), col.Vehicle(mass=1100.0), "50 %")
+    batch = col.linear_central(
+        a.replace(vx=np.array([20.0, 25.0])), col.Vehicle(mass=1100.0), "50 %"
+    )
     impact = batch.case(1)
     assert impact.a.after.q.vx == decimal_registry.Quantity(Decimal(impact.a.after.vx), "m/s")
-    assert float(impact.a.after.q.vx.m_as("km/h")) == pytest.approx(impact.a.after.vx * 3.6, rel=1e-15)
+    assert float(impact.a.after.q.vx.m_as("km/h")) == pytest.approx(
+        impact.a.after.vx * 3.6, rel=1e-15
+    )
     assert float(impact.a.q.pdof.m_as("deg")) == pytest.approx(30.0, rel=1e-15)
     assert [part.m_as("percent") for part in impact.q.normal] == [100, 0]
     per_hour = batch.a.after.q.vx.to("km/h")
     assert per_hour.magnitude.astype(float) == pytest.approx(batch.a.after.vx * 3.6, rel=1e-15)
-    assert col.Vehicle(mass=a.q.mass.to("lb"), vx=per_hour).vx == pytest.approx(batch.a.after.vx, rel=2 * 2**-52)
+    assert col.Vehicle(mass=a.q.mass.to("lb"), vx=per_hour).vx == pytest.approx(
+        batch.a.after.vx, rel=2 * 2**-52
+    )
     assert impact.q.ees(0.5)[0].m_as("mph") > 0
     assert col.uncertainty.Normal("90 km/h", "9 km/h").mean == 25.0
     assert math.isinf(col.Vehicle.barrier().q.mass.magnitude)
@@ -258,7 +305,8 @@ texts = json.loads(input())
 a = col.Vehicle(**texts)
 found = [a.mass, a.vx, a.x, a.y, a.yaw_inertia, a.heading]
 impact = col.linear_central(a, col.Vehicle(mass="1200 kg", x="3 m"), 0.1)
-found += [str(impact.q.energy_loss.to("kJ").units), str(a.q.mass.units), str(a.q.vx.units), str(impact.summary(units="us"))]
+found += [str(impact.q.energy_loss.to("kJ").units), str(a.q.mass.units), str(a.q.vx.units), \
+str(impact.summary(units="us"))]
 for text in ("1500 KG", "3000 LB"):
     try:
         found.append(col.Vehicle(mass=text).mass)
@@ -270,8 +318,17 @@ print(json.dumps(found))
 
 @pytest.mark.parametrize("seed", ["1", "2", "3"])
 def test_a_registry_that_passes_over_upper_and_lower_case(seed):
-    """What is written in its own case is that unit; sets of names, in an order of chance, made "kg" kilogauss."""
-    texts = {"mass": "3000 lb", "vx": "40 km/h", "x": "7 cm", "y": "7 mm", "yaw_inertia": "2000 kg*m**2", "heading": "90 deg"}
+    """What is written in its own case is that unit; sets of names, in an order of chance, made "kg"
+    kilogauss.
+    """
+    texts = {
+        "mass": "3000 lb",
+        "vx": "40 km/h",
+        "x": "7 cm",
+        "y": "7 mm",
+        "yaw_inertia": "2000 kg*m**2",
+        "heading": "90 deg",
+    }
     done = subprocess.run(
         [sys.executable, "-c", IN_ANY_CASE],
         input=json.dumps(texts), capture_output=True, text=True, check=True,
@@ -281,7 +338,9 @@ def test_a_registry_that_passes_over_upper_and_lower_case(seed):
     plain = col.Vehicle(**texts)
     assert numbers == [plain.mass, plain.vx, plain.x, plain.y, plain.yaw_inertia, plain.heading]
     assert (joule, kilogram, speed) == ("kilojoule", "kilogram", "meter / second")
-    assert summary == str(col.linear_central(plain, col.Vehicle(mass="1200 kg", x="3 m"), 0.1).summary(units="us"))
+    assert summary == str(
+        col.linear_central(plain, col.Vehicle(mass="1200 kg", x="3 m"), 0.1).summary(units="us")
+    )
     # Capitals may be more than one unit, which is said, or one only.
     assert "'1500 KG' cannot be taken as kg; 'KG' is written 'kg'" in capitals
     assert pounds == plain.mass
@@ -290,14 +349,22 @@ def test_a_registry_that_passes_over_upper_and_lower_case(seed):
 def test_a_quantity_whose_registry_took_its_unit_for_another():
     registry = pint.UnitRegistry(case_sensitive=False)
     quantity = registry.Quantity(1500, registry.parse_units("kilogauss"))
-    with pytest.raises(col.UnitsError, match="its registry, made with case_sensitive=False, may have taken another unit"):
+    with pytest.raises(
+        col.UnitsError,
+        match="its registry, made with case_sensitive=False, may have taken another unit",
+    ):
         col.Vehicle(mass=quantity)
 
 
 @pytest.mark.parametrize("count", [50, 100_000])
-@pytest.mark.parametrize("form", ["1", "1!", "1 ", "1 a  ", "a  ", "1,", "1-", "1.", "1e", "'", "(a ", "a/", "°", "[", "1'"])
+@pytest.mark.parametrize(
+    "form",
+    ["1", "1!", "1 ", "1 a  ", "a  ", "1,", "1-", "1.", "1e", "'", "(a ", "a/", "°", "[", "1'"],
+)
 def test_texts_of_any_length_are_refused_at_once(form, count):
-    """A pattern that matches in many ways tries them all: 60 letters and spaces took a second, 100,000 digits days."""
+    """A pattern that matches in many ways tries them all: 60 letters and spaces took a second,
+    100,000 digits days.
+    """
     for text in ((form * count)[:count] + "!", "1 " + (form * count)[:count] + "!"):
         with pytest.raises(col.UnitsError, match="mass: cannot read"):
             col.Vehicle(mass=text)
@@ -307,9 +374,13 @@ def test_texts_of_any_length_are_refused_at_once(form, count):
             travel.speed("20 m", drag=text)
 
 
-@pytest.mark.parametrize("text", ["1_0 kg", "\u0661\u0662 kg", "\uff11 kg", "1_000", "\u0661,\u0665 kg", "1\u00b2 kg"])
+@pytest.mark.parametrize(
+    "text", ["1_0 kg", "\u0661\u0662 kg", "\uff11 kg", "1_000", "\u0661,\u0665 kg", "1\u00b2 kg"]
+)
 def test_digits_that_python_alone_reads_are_no_number(text):
-    """float() reads 1_0 as 10, and the digits of other scripts; nobody who types them means that here."""
+    """float() reads 1_0 as 10, and the digits of other scripts; nobody who types them means that
+    here.
+    """
     for call in (
         lambda: col.Vehicle(mass=text),
         lambda: uncertainty.Normal(text, "1 kg"),
@@ -326,17 +397,26 @@ def test_digits_that_python_alone_reads_are_no_number(text):
 def test_the_default_system_of_a_registry_changes_nothing():
     """to_base_units() follows the registry's default system; the reader names its target."""
     registry = pint.UnitRegistry(system="imperial")
-    assert col.Vehicle(mass=registry.Quantity(1, "lb")).mass == pytest.approx(EXACT["lb"], rel=1e-15)
+    assert col.Vehicle(mass=registry.Quantity(1, "lb")).mass == pytest.approx(
+        EXACT["lb"], rel=1e-15
+    )
 
 
 def test_degrees_typed_as_a_bare_number_are_suspected():
-    """20 degrees typed as 20 pass as 20 rad: a warning says so; the value is still what was written."""
+    """20 degrees typed as 20 pass as 20 rad: a warning says so; the value is still what was
+    written.
+    """
     with pytest.warns(col.SuspectUnitsWarning, match="'20 deg'"):
         assert col.Vehicle(mass=1.0, heading=20).heading == 20.0
     with pytest.warns(col.SuspectUnitsWarning, match="'31 deg/s'"):
         col.Vehicle(mass=1.0, yaw_rate=31.0)
     with pytest.warns(col.SuspectUnitsWarning, match="normal = 55"):
-        col.linear_central(col.Vehicle(mass=1.0, vx=math.cos(55), vy=math.sin(55)), col.Vehicle(mass=1.0), 0.1, normal=55)
+        col.linear_central(
+            col.Vehicle(mass=1.0, vx=math.cos(55), vy=math.sin(55)),
+            col.Vehicle(mass=1.0),
+            0.1,
+            normal=55,
+        )
     with pytest.warns(col.SuspectUnitsWarning, match="heading"):
         col.Vehicle(mass=1.0, heading=np.array([0.1, np.nan, -20.0]))
 
@@ -356,9 +436,13 @@ def test_the_suspicion_points_at_the_caller():
     assert caught[0].filename == __file__
 
 
-@pytest.mark.parametrize("given", ["1 Hz", "60 kHz", "3 bpm", "3 curie", "3 baud", "3 strain/s", "3 percent/s"])
+@pytest.mark.parametrize(
+    "given", ["1 Hz", "60 kHz", "3 bpm", "3 curie", "3 baud", "3 strain/s", "3 percent/s"]
+)
 def test_hertz_is_no_yaw_rate(given):
-    """pint takes 1 Hz for 1 rad/s; it is a count of turns, so it is refused. So are other counts, and proportions."""
+    """pint takes 1 Hz for 1 rad/s; it is a count of turns, so it is refused. So are other counts,
+    and proportions.
+    """
     with pytest.raises(col.UnitsError, match="deg/s"):
         col.Vehicle(mass=1.0, yaw_rate=given)
 
@@ -399,7 +483,9 @@ def test_what_counts_needs_a_word_of_what_it_counts():
     ],
 )
 def test_units_that_hardly_anybody_means_by_their_name(field, given, said):
-    """Pint puts prefixes before everything: "80 kmph" would be 80 thousand miles an hour, "1.5 mt" 1.5 kg."""
+    """Pint puts prefixes before everything: "80 kmph" would be 80 thousand miles an hour, "1.5 mt"
+    1.5 kg.
+    """
     with pytest.raises(col.UnitsError, match=said) as caught:
         col.Vehicle(**{"mass": 1500, field: given})
     assert caught.value.code == "bad_units"
@@ -419,7 +505,9 @@ def test_units_that_hardly_anybody_means_by_their_name(field, given, said):
 )
 def test_prefixes_that_are_meant(field, given, value):
     """Of what is no rate, and in a quotient."""
-    assert getattr(col.Vehicle(**{"mass": 1500, field: given}), field) == pytest.approx(value, rel=1e-15)
+    assert getattr(col.Vehicle(**{"mass": 1500, field: given}), field) == pytest.approx(
+        value, rel=1e-15
+    )
 
 
 def test_a_kilopond_is_never_a_thousand():
@@ -438,7 +526,9 @@ def test_a_mil_of_the_caller():
 
 def test_revolutions_are_a_yaw_rate():
     """rpm carries its turns with it."""
-    assert col.Vehicle(mass=1.0, yaw_rate="1 rpm").yaw_rate == pytest.approx(2 * math.pi / 60, rel=4 * 2**-52)
+    assert col.Vehicle(mass=1.0, yaw_rate="1 rpm").yaw_rate == pytest.approx(
+        2 * math.pi / 60, rel=4 * 2**-52
+    )
 
 
 def test_an_angle_is_no_proportion():
@@ -474,12 +564,26 @@ def test_an_angle_is_no_proportion():
     ],
 )
 def test_an_angle_or_a_proportion_inside_another_unit_is_refused(field, given, strange, ureg):
-    """pint multiplies by 180/pi or 0.01 in silence: "5 m/s/deg" is 286 m/s to it. As a text and as a Quantity."""
+    """pint multiplies by 180/pi or 0.01 in silence: "5 m/s/deg" is 286 m/s to it. As a text and as
+    a Quantity.
+    """
     number, _, unit = given.partition(" ")
-    for value in (given, ureg.Quantity(float(number), unit), ureg.Quantity(np.array([float(number)]), unit)):
-        given_to = {"mass": 1.0, "vx": 1.0} if field == "restitution" else {"mass": 1.0, field: value}
-        with pytest.raises(col.UnitsError, match=rf"{field}: .* cannot be taken as .*{strange} has no place in it"):
-            col.linear_central(col.Vehicle(**given_to), col.Vehicle(mass=1.0), value if field == "restitution" else 0.1)
+    for value in (
+        given,
+        ureg.Quantity(float(number), unit),
+        ureg.Quantity(np.array([float(number)]), unit),
+    ):
+        given_to = (
+            {"mass": 1.0, "vx": 1.0} if field == "restitution" else {"mass": 1.0, field: value}
+        )
+        with pytest.raises(
+            col.UnitsError, match=rf"{field}: .* cannot be taken as .*{strange} has no place in it"
+        ):
+            col.linear_central(
+                col.Vehicle(**given_to),
+                col.Vehicle(mass=1.0),
+                value if field == "restitution" else 0.1,
+            )
 
 
 @pytest.mark.parametrize(
@@ -499,20 +603,27 @@ def test_an_angle_or_a_proportion_inside_another_unit_is_refused(field, given, s
 )
 def test_units_that_hold_the_angle_they_should(field, given, expected):
     """A yaw rate holds one angle, a heading is one; whatever cancels is gone."""
-    assert getattr(col.Vehicle(**{"mass": 1.0, field: given}), field) == pytest.approx(expected, rel=4 * 2**-52)
+    assert getattr(col.Vehicle(**{"mass": 1.0, field: given}), field) == pytest.approx(
+        expected, rel=4 * 2**-52
+    )
 
 
 def test_speeds_per_degree_go_out_and_are_no_input_of_a_model(ureg):
-    """Sensitivities have angles below the line: .q gives them, and a model may answer them. As an input "m/s/deg" is refused.
+    """Sensitivities have angles below the line: .q gives them, and a model may answer them. As an
+    input "m/s/deg" is refused.
 
-    It would reach the model as a bare number, 57 times what is written, where a Vehicle refuses it for a speed.
+    It would reach the model as a bare number, 57 times what is written, where a Vehicle refuses it
+    for a speed.
     """
     found = col.reconstruct.momentum(
-        1100.0, 950.0, course_a="0 deg", course_b="90 deg", course_a_after="30 deg", course_b_after="40 deg",
+        1100.0, 950.0, course_a="0 deg", course_b="90 deg", course_a_after="30 deg",
+        course_b_after="40 deg",
         speed_a_after=8.0, speed_b_after=9.0,
     )  # fmt: skip
     per_degree = found.q.sensitivity["speed_a"]["course_b_after"]
-    assert per_degree.m_as("m/s/deg") == pytest.approx(math.radians(found.sensitivity["speed_a"]["course_b_after"]), rel=1e-15)
+    assert per_degree.m_as("m/s/deg") == pytest.approx(
+        math.radians(found.sensitivity["speed_a"]["course_b_after"]), rel=1e-15
+    )
     uncertainty = col.uncertainty
     for given in (ureg.Quantity(2.0, "m/s/deg"), "2 m/s/deg"):
         for stated in (
@@ -523,13 +634,17 @@ def test_speeds_per_degree_go_out_and_are_no_input_of_a_model(ureg):
             lambda given: uncertainty.Interval(0, given),
             lambda given: given,
         ):
-            with pytest.raises(col.UnitsError, match="an angle stands above the line and alone there") as refused:
+            with pytest.raises(
+                col.UnitsError, match="an angle stands above the line and alone there"
+            ) as refused:
                 read_input("speed", stated(given))
             assert refused.value.code == "bad_units"
     with pytest.raises(col.UnitsError, match="plain number in SI"):
         uncertainty.Samples(ureg.Quantity(np.array([1.0, 2.0]), "m/s/deg"))
     result = uncertainty.propagate(
-        lambda x: {"slope": x * ureg.Quantity(1.0, "m/s/deg")}, {"x": uncertainty.Normal(2, 1)}, method="first_order"
+        lambda x: {"slope": x * ureg.Quantity(1.0, "m/s/deg")},
+        {"x": uncertainty.Normal(2, 1)},
+        method="first_order",
     )
     assert result["slope"].unit == "m/s/rad"
     assert result["slope"].mean == pytest.approx(2.0 * 180.0 / math.pi, rel=1e-12)
@@ -561,7 +676,9 @@ def test_a_list_of_quantities_is_caught_as_it_is_read(ureg):
 
 
 def test_arrays_are_copied_and_locked(ureg):
-    """An SI array in a Quantity shares memory with the caller: changing it afterwards must change nothing here."""
+    """An SI array in a Quantity shares memory with the caller: changing it afterwards must change
+    nothing here.
+    """
     for wrap in (lambda array: array, lambda array: ureg.Quantity(array, "m/s")):
         source = np.array([1.0, 2.0])
         vehicle = col.Vehicle(mass=1.0, vx=wrap(source))
@@ -591,7 +708,9 @@ def test_arrays_are_copied_and_locked(ureg):
     ],
 )
 def test_what_is_not_a_number(given):
-    """Booleans, complex, objects, texts in arrays, masks: refused with the argument and the type."""
+    """Booleans, complex, objects, texts in arrays, masks: refused with the argument and
+    the type.
+    """
     with pytest.raises(col.InputError, match="vx"):
         col.Vehicle(mass=1.0, vx=given)
 
@@ -621,7 +740,12 @@ def test_arrays_with_units_of_another_library_are_refused():
 def test_pairs(ureg):
     """A pair is two parts of any kind, one length-2 Quantity, or one length-2 array."""
     wall = col.Vehicle(mass=1.0, yaw_rate=0.0, x=0.0, y=0.0, vx=3.0)
-    for point in (("1 m", 2.0), ["1 m", "200 cm"], ureg.Quantity([1.0, 2.0], "m"), np.array([1.0, 2.0])):
+    for point in (
+        ("1 m", 2.0),
+        ["1 m", "200 cm"],
+        ureg.Quantity([1.0, 2.0], "m"),
+        np.array([1.0, 2.0]),
+    ):
         assert wall.velocity_at(point) == (3.0, 0.0)
     for point in (
         1.0,
@@ -651,10 +775,16 @@ def test_pairs(ureg):
     ],
 )
 def test_quarter_turns_are_exact(degrees, expected, ureg):
-    """Degrees are reduced before they are converted, so 90 deg is exactly (0, 1), however it is written."""
+    """Degrees are reduced before they are converted, so 90 deg is exactly (0, 1), however it is
+    written.
+    """
     n = np.array(expected, dtype=float)
     a = col.Vehicle(mass=1.0, vx=n[0], vy=n[1])
-    for normal in (f"{degrees} deg", ureg.Quantity(degrees, "degree"), ureg.Quantity(np.array([float(degrees)]), "deg")):
+    for normal in (
+        f"{degrees} deg",
+        ureg.Quantity(degrees, "degree"),
+        ureg.Quantity(np.array([float(degrees)]), "deg"),
+    ):
         impact = col.linear_central(a, col.Vehicle(mass=1.0), 0.5, normal=normal)
         found = np.array([np.ravel(part)[0] for part in impact.normal])
         assert found.tolist() == n.tolist()
@@ -670,7 +800,9 @@ def test_degrees_beside_a_quarter_turn_keep_their_digits():
 
 
 def test_normals_as_tuple_array_and_list():
-    """A tuple is a vector and is normalised, an array is angles, a list is refused with both spellings."""
+    """A tuple is a vector and is normalised, an array is angles, a list is refused with both
+    spellings.
+    """
     a, b = col.Vehicle(mass=1.0, vx=3.0, vy=4.0), col.Vehicle(mass=1.0)
 
     def solve(normal):
@@ -691,13 +823,17 @@ def test_a_unit_normal_can_be_given_again():
     generator = np.random.default_rng(7)
     angles = generator.uniform(-3, 3, 2000)
     a, b = col.Vehicle(mass=1.0, vx=np.cos(angles), vy=np.sin(angles)), col.Vehicle(mass=1.0)
-    many = col.oblique_central(a, b, 0.5, normal=(7 * np.cos(angles), 7 * np.sin(angles)), friction=0.0)
+    many = col.oblique_central(
+        a, b, 0.5, normal=(7 * np.cos(angles), 7 * np.sin(angles)), friction=0.0
+    )
     again = col.oblique_central(a, b, 0.5, normal=many.normal, friction=0.0)
     assert np.array_equal(many.normal[0], again.normal[0])
     assert np.array_equal(many.normal[1], again.normal[1])
     for angle in angles[:300]:
         one = col.Vehicle(mass=1.0, vx=math.cos(angle), vy=math.sin(angle))
-        n = col.oblique_central(one, b, 0.5, normal=(7 * math.cos(angle), 7 * math.sin(angle)), friction=0.0).normal
+        n = col.oblique_central(
+            one, b, 0.5, normal=(7 * math.cos(angle), 7 * math.sin(angle)), friction=0.0
+        ).normal
         assert col.oblique_central(one, b, 0.5, normal=n, friction=0.0).normal == n
 
 
@@ -705,12 +841,10 @@ def test_a_unit_normal_can_be_given_again():
 def test_pint_is_loaded_only_for_units():
     """Importing and solving with numbers never loads pint; the first unit does."""
     code = (
-        "import sys, collisions as col\n"
-        "a = col.Vehicle(mass=1000.0, vx=20.0); b = col.Vehicle(mass=1200.0)\n"
-        "impact = col.linear_central(a, b, 0.2); impact.energy_loss; impact.to_dict(); repr(impact)\n"
-        "assert 'pint' not in sys.modules and 'matplotlib' not in sys.modules\n"
-        "impact.q.energy_loss\n"
-        "assert 'pint' in sys.modules\n"
+        "import sys, collisions as col\na = col.Vehicle(mass=1000.0, vx=20.0); b = "
+        "col.Vehicle(mass=1200.0)\nimpact = col.linear_central(a, b, 0.2); impact.energy_loss; "
+        "impact.to_dict(); repr(impact)\nassert 'pint' not in sys.modules and 'matplotlib' not "
+        "in sys.modules\nimpact.q.energy_loss\nassert 'pint' in sys.modules\n"
     )
     subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
 
@@ -721,7 +855,9 @@ def test_results_come_back_in_the_callers_registry():
     a = col.Vehicle(mass="1100 kg", vx="80 km/h", heading="0 deg")
     impact = col.linear_central(a, col.Vehicle(mass=950.0), 0.4)
     assert impact.q.energy_loss + registry.Quantity(1.0, "kJ") > registry.Quantity(100.0, "kJ")
-    assert impact.a.after.q.vx.to("km/h").magnitude == pytest.approx(impact.a.after.vx * 3.6, rel=1e-14)
+    assert impact.a.after.q.vx.to("km/h").magnitude == pytest.approx(
+        impact.a.after.vx * 3.6, rel=1e-14
+    )
     assert impact.q.a.delta_v.m_as("m/s") == impact.a.delta_v
     assert impact.q.normal[0].dimensionless
     assert a.q.name == ""
@@ -731,22 +867,34 @@ def test_results_come_back_in_the_callers_registry():
 
 
 def test_a_quantity_that_needs_an_input_says_which():
-    """Without a heading pdof is None; its Quantity is asked for to be converted, and what None cannot do tells nothing."""
+    """Without a heading pdof is None; its Quantity is asked for to be converted, and what None
+    cannot do tells nothing.
+    """
     golf = col.Vehicle(mass=1000.0, vx=20.0, name="Golf")
     impact = col.linear_central(golf.replace(heading=0.0), golf.replace(vx=0.0), 0.1)
     for name in ("pdof", "delta_v_forward", "delta_v_left"):
         assert getattr(impact.b, name) is None
         with pytest.raises(
-            col.MissingInputError, match=rf"b \(Golf\) has no heading, which {name} needs; give heading="
+            col.MissingInputError,
+            match=rf"b \(Golf\) has no heading, which {name} needs; give heading=",
         ) as caught:
             getattr(impact.b.q, name)
-        assert (caught.value.code, caught.value.fields["argument"]) == ("missing_heading", "heading")
+        assert (caught.value.code, caught.value.fields["argument"]) == (
+            "missing_heading",
+            "heading",
+        )
         assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
         # What looks whether it is there, as completion does, finds that it is not.
         assert hasattr(impact.a.q, name)
         assert not hasattr(impact.q.b, name)
-    for name, code in (("heading", "missing_heading"), ("x", "missing_position"), ("yaw_inertia", "missing_inertia")):
-        with pytest.raises(col.MissingInputError, match=rf"no {name}, which \.q\.{name} needs; give {name}=") as caught:
+    for name, code in (
+        ("heading", "missing_heading"),
+        ("x", "missing_position"),
+        ("yaw_inertia", "missing_inertia"),
+    ):
+        with pytest.raises(
+            col.MissingInputError, match=rf"no {name}, which \.q\.{name} needs; give {name}="
+        ) as caught:
             getattr(golf.q, name)
         assert caught.value.code == code
     # None where nothing is missing: a free body, a central model.
@@ -757,7 +905,9 @@ def test_a_quantity_that_needs_an_input_says_which():
 def test_methods_of_q_give_quantities():
     """Their bare results would silently lose the unit; what is no quantity is not offered."""
     a = col.Vehicle(mass=1000.0, vx=20.0, x=0.0, y=0.0, heading=0.0, yaw_inertia=1500.0)
-    impact = col.eccentric(a, a.replace(vx=0.0, x=4.0), 0.1, normal=0.0, point=(2.0, 0.5), friction=0.5)
+    impact = col.eccentric(
+        a, a.replace(vx=0.0, x=4.0), 0.1, normal=0.0, point=(2.0, 0.5), friction=0.5
+    )
     for pair in (a.q.velocity_at((1.0, 1.0)), impact.a.q.delta_v_at((1.0, 1.0)), impact.q.ees(0.5)):
         assert all(part.check("[length] / [time]") for part in pair)
     assert a.q.point(forward=1.0)[0].m_as("cm") == pytest.approx(100.0, rel=1e-15)
@@ -797,7 +947,9 @@ def test_every_declared_unit_is_one_pint_knows():
 
 
 def test_texts_are_kept_for_reports(ureg):
-    """What was written with a unit is kept beside the number, and follows the vehicle when other fields change."""
+    """What was written with a unit is kept beside the number, and follows the vehicle when other
+    fields change.
+    """
     vehicle = col.Vehicle(mass=" 1100 kg", vx=ureg.Quantity(50, "mph"), vy=2.0)
     assert vehicle.given == {"mass": "1100 kg", "vx": "50.0 mile_per_hour"}
     assert vehicle.replace(vy=3.0).given == vehicle.given

@@ -1,9 +1,12 @@
-"""reconstruct.central: all twenty questions against 50 digits, two answers, no answer, batches and what comes back.
+"""reconstruct.central: all twenty questions against 50 digits, two answers, no answer, batches and
+what comes back.
 
-The reference solves the three equations that the knowns give by Newton's method in 50 digits, from the forward equations (5),
-(6) and (8) alone; its Jacobian also says how well-posed each question is. The bound is that of numerics section 5 for central
-impacts, 4 eps of every datum, carried through that Jacobian. Data are, as there, the masses, the restitution, the energy and the
-*differences* of the velocities: where those hardly tell the answer, no arithmetic can do better, and the bound says so by itself.
+The reference solves the three equations that the knowns give by Newton's method in 50 digits, from
+the forward equations (5), (6) and (8) alone; its Jacobian also says how well-posed each question
+is. The bound is that of numerics section 5 for central impacts, 4 eps of every datum, carried
+through that Jacobian. Data are, as there, the masses, the restitution, the energy and the
+*differences* of the velocities: where those hardly tell the answer, no arithmetic can do better,
+and the bound says so by itself.
 """
 
 import itertools
@@ -62,7 +65,9 @@ def outputs(impact):
 
 @dataclass(frozen=True)
 class Exact:
-    """The six numbers in 50 digits, how far each may be off, and the condition; nothing if the question has no one answer."""
+    """The six numbers in 50 digits, how far each may be off, and the condition; nothing if the
+    question has no one answer.
+    """
 
     values: dict[str, Any]
     within: dict[str, float]
@@ -83,7 +88,9 @@ def inverse_of(rows):
 
 @cache
 def solved_exactly(mass_a, mass_b, known, start):
-    """Newton's method for va, vb and e from the forward equations, beginning at the impact that the knowns came from."""
+    """Newton's method for va, vb and e from the forward equations, beginning at the impact that the
+    knowns came from.
+    """
     yields = [mp.mpf(0) if math.isinf(m) else 1 / mp.mpf(m) for m in (mass_a, mass_b)]
     share_a, share_b = (y / (yields[0] + yields[1]) for y in yields)
     mass = 1 / (yields[0] + yields[1])
@@ -106,32 +113,53 @@ def solved_exactly(mass_a, mass_b, known, start):
         if inverse is None:
             return None
         misses = [value - forward[name][0] for name, value in known.items()]
-        step = [sum(column[k] * miss for column, miss in zip(inverse, misses, strict=True)) for k in range(3)]
+        step = [
+            sum(column[k] * miss for column, miss in zip(inverse, misses, strict=True))
+            for k in range(3)
+        ]
         va, vb, e = va + step[0], vb + step[1], e + step[2]
         if max(abs(step[0]), abs(step[1]), abs(step[2]) * g) < mp.mpf(10) ** -30 * g:
             break
     g, r = va - vb, e * (va - vb)
 
-    # What (va, vb, e) make of each datum, by its relative change. Of the masses the shares change by their product.
+    # What (va, vb, e) make of each datum, by its relative change. Of the masses the shares change
+    # by their product.
     def answer_to(column, size):
         return tuple(part * size for part in column)
 
     by_mass = []
     for sign, part in ((-1, share_a), (1, share_b)):
         moved = -sign * share_a * share_b * (1 + e) * g
-        moves = [{"va_after": moved, "vb_after": moved, "energy_loss": part * loss}.get(name, mp.zero) for name in known]
-        by_mass.append(tuple(-sum(column[k] * move for column, move in zip(inverse, moves, strict=True)) for k in range(3)))
+        moves = [
+            {"va_after": moved, "vb_after": moved, "energy_loss": part * loss}.get(name, mp.zero)
+            for name in known
+        ]
+        by_mass.append(
+            tuple(
+                -sum(column[k] * move for column, move in zip(inverse, moves, strict=True))
+                for k in range(3)
+            )
+        )
     raw = [answer_to(column, value) for column, value in zip(inverse, known.values(), strict=True)]
     condition = sum(abs(column[0]) + abs(column[1]) for column in (*raw, *by_mass)) / g
     # The size of a velocity as a datum is the largest difference it takes part in.
     velocities = [value for name, value in known.items() if name in VELOCITIES]
-    sizes = [max(abs(value - v) for v in velocities) if name in VELOCITIES else value for name, value in known.items()]
-    data = [*(answer_to(column, size) for column, size in zip(inverse, sizes, strict=True)), *by_mass]
-    off_a, off_b = (4 * EPS * (abs(v) + sum(abs(column[k]) for column in data)) for k, v in ((0, va), (1, vb)))
+    sizes = [
+        max(abs(value - v) for v in velocities) if name in VELOCITIES else value
+        for name, value in known.items()
+    ]
+    data = [
+        *(answer_to(column, size) for column, size in zip(inverse, sizes, strict=True)),
+        *by_mass,
+    ]
+    off_a, off_b = (
+        4 * EPS * (abs(v) + sum(abs(column[k]) for column in data)) for k, v in ((0, va), (1, vb))
+    )
     off_g = 4 * EPS * (g + sum(abs(column[0] - column[1]) for column in data))
     off_r = 4 * EPS * (r + sum(abs(e * (column[0] - column[1]) + g * column[2]) for column in data))
     off_e = (off_r + e * off_g) / g
-    # The velocities are rounded on their way out, but the forward solver works from the closing speed: its own promises.
+    # The velocities are rounded on their way out, but the forward solver works from the closing
+    # speed: its own promises.
     change = (1 + e) * g
     within = {
         "va": off_a,
@@ -167,7 +195,9 @@ def starts(family):
         elif family == "barrier b":
             mass_b = INF
         impact = col.linear_central(
-            col.Vehicle(mass=mass_a, vx=va), col.Vehicle(mass=mass_b, vx=vb), generator.uniform(0.02, 0.98)
+            col.Vehicle(mass=mass_a, vx=va),
+            col.Vehicle(mass=mass_b, vx=vb),
+            generator.uniform(0.02, 0.98),
         )
         found.append((mass_a, mass_b, outputs(impact)))
     return found
@@ -180,18 +210,29 @@ def cases(names, family):
     for mass_a, mass_b, start in starts(family):
         known = {name: start[name] for name in names}
         begin = start["va"], start["vb"], start["restitution"]
-        found.append((mass_a, mass_b, start, known, solved_exactly(mass_a, mass_b, tuple(known.items()), begin)))
+        found.append(
+            (
+                mass_a,
+                mass_b,
+                start,
+                known,
+                solved_exactly(mass_a, mass_b, tuple(known.items()), begin),
+            )
+        )
     return found
 
 
 def alone(names, family):
-    """The six numbers found for each case, or the code of its refusal; of two answers the one that the knowns came from."""
+    """The six numbers found for each case, or the code of its refusal; of two answers the one that
+    the knowns came from.
+    """
     for mass_a, mass_b, start, known, _ in cases(names, family):
         try:
             yield outputs(reconstruct.central(mass_a, mass_b, **known))
         except col.AmbiguousSolutionError as error:
             yield min(
-                map(outputs, error.solutions), key=lambda one: abs(one["va"] - start["va"]) + abs(one["vb"] - start["vb"])
+                map(outputs, error.solutions),
+                key=lambda one: abs(one["va"] - start["va"]) + abs(one["vb"] - start["vb"]),
             )
         except col.NoSolutionError as error:
             yield error.code
@@ -202,11 +243,21 @@ def together(names, family):
     known = {name: np.array([case[3][name] for case in cases(names, family)]) for name in names}
     masses = (np.array([case[i] for case in cases(names, family)]) for i in (0, 1))
     found = reconstruct.central(*masses, **known, on_failure="nan")
-    columns = {name: value.tolist() for name, value in outputs(found).items() if isinstance(value, np.ndarray)}
+    columns = {
+        name: value.tolist()
+        for name, value in outputs(found).items()
+        if isinstance(value, np.ndarray)
+    }
     assert columns.keys() == set(NAMES)
     for i, code in enumerate(found.status.tolist()):
         answer = {name: column[i] for name, column in columns.items()}
-        yield answer if code == 0 else None if code == col.Status.AMBIGUOUS else col.Status(code).label
+        yield (
+            answer
+            if code == 0
+            else None
+            if code == col.Status.AMBIGUOUS
+            else col.Status(code).label
+        )
         assert (code == 0) == bool(np.isfinite(list(answer.values())).all())
         assert (code == 0) == math.isfinite(found.reconstruction.condition[i])
 
@@ -216,8 +267,12 @@ def together(names, family):
 @pytest.mark.parametrize("family", FAMILIES)
 @twenty
 def test_the_impact_that_the_knowns_came_from_is_found(names, family, way):
-    """Every case of every family; where the equations leave it open (a barrier keeps its velocity), it is refused."""
-    for answer, (mass_a, mass_b, _, known, exact) in zip(way(names, family), cases(names, family), strict=True):
+    """Every case of every family; where the equations leave it open (a barrier keeps its velocity),
+    it is refused.
+    """
+    for answer, (mass_a, mass_b, _, known, exact) in zip(
+        way(names, family), cases(names, family), strict=True
+    ):
         if exact is None:
             assert answer == "infinite_mass", (mass_a, mass_b, known)
         elif answer is None:
@@ -227,12 +282,21 @@ def test_the_impact_that_the_knowns_came_from_is_found(names, family, way):
             assert isinstance(answer, dict), (answer, mass_a, mass_b, known)
             for name, value in answer.items():
                 off = abs(float(value - exact.values[name]))
-                assert off <= exact.within[name], (name, off / exact.within[name], exact.condition, mass_a, mass_b, known)
+                assert off <= exact.within[name], (
+                    name,
+                    off / exact.within[name],
+                    exact.condition,
+                    mass_a,
+                    mass_b,
+                    known,
+                )
 
 
 @twenty
 def test_the_condition_is_that_of_the_exact_equations(names):
-    """To 1e-3 where it is below 1000: it is worked out from steps of 1e-6, of which a curved answer makes 1e-6 x 1000."""
+    """To 1e-3 where it is below 1000: it is worked out from steps of 1e-6, of which a curved answer
+    makes 1e-6 x 1000.
+    """
     compared = 0
     for mass_a, mass_b, _, known, exact in cases(names, "traffic"):
         try:
@@ -247,7 +311,9 @@ def test_the_condition_is_that_of_the_exact_equations(names):
 
 @extremes
 def test_a_badly_posed_question_says_so():
-    """Speeds of 60 m/s that differ by 1e-9: a relative error of a velocity is 1e10 times larger in the closing speed."""
+    """Speeds of 60 m/s that differ by 1e-9: a relative error of a velocity is 1e10 times larger in
+    the closing speed.
+    """
     for names in TWENTY:
         for mass_a, mass_b, _, known, exact in cases(names, "near speeds"):
             try:
@@ -262,11 +328,17 @@ def test_a_badly_posed_question_says_so():
 
 
 def lost(names, mass_a, mass_b, e):
-    """The code with which a plastic or an elastic impact cannot be told from these knowns, by what the equations leave open."""
+    """The code with which a plastic or an elastic impact cannot be told from these knowns, by what
+    the equations leave open.
+    """
     known = set(names)
     kept_by = ((mass_a, {"va", "va_after"}), (mass_b, {"vb", "vb_after"}))
     if any(math.isinf(mass) and kept <= known for mass, kept in kept_by):
-        return "infinite_mass" if len(known & set(VELOCITIES)) == 3 or not {"va", "vb"} <= known else None
+        return (
+            "infinite_mass"
+            if len(known & set(VELOCITIES)) == 3 or not {"va", "vb"} <= known
+            else None
+        )
     if e == 1.0 and {"restitution", "energy_loss"} <= known:
         return "undetermined"
     if e == 0.0 and known == {"va_after", "vb_after", "restitution"}:
@@ -283,20 +355,28 @@ def lost(names, mass_a, mass_b, e):
 @pytest.mark.parametrize("family", ["traffic", "barrier a", "barrier b"])
 @twenty
 def test_plastic_and_elastic_impacts(names, family, e):
-    """Found again with e of 0 or 1, which rounding must not turn into -1e-16 or NaN; or refused for what is lost.
+    """Found again with e of 0 or 1, which rounding must not turn into -1e-16 or NaN; or refused for
+    what is lost.
 
-    16 roundings of the data, times the condition; e is the square root of its rounding where the loss is all there was.
+    16 roundings of the data, times the condition; e is the square root of its rounding where the
+    loss is all there was.
     """
     for mass_a, mass_b, start in starts(family):
         a, b = col.Vehicle(mass=mass_a, vx=start["va"]), col.Vehicle(mass=mass_b, vx=start["vb"])
         forward = outputs(col.linear_central(a, b, e))
         if e == 0.0 and not math.isfinite(mass_a + mass_b):
             # Exactly, which the forward solver meets to its rounding.
-            forward["va_after"] = forward["vb_after"] = forward["va" if math.isinf(mass_a) else "vb"]
+            forward["va_after"] = forward["vb_after"] = forward[
+                "va" if math.isinf(mass_a) else "vb"
+            ]
         known = {name: forward[name] for name in names}
         expected = lost(names, mass_a, mass_b, e)
         if expected:
-            error = refusal(lambda mass_a=mass_a, mass_b=mass_b, known=known: reconstruct.central(mass_a, mass_b, **known))
+            error = refusal(
+                lambda mass_a=mass_a, mass_b=mass_b, known=known: reconstruct.central(
+                    mass_a, mass_b, **known
+                )
+            )
             assert error.code == expected, (mass_a, mass_b, known)
             continue
         try:
@@ -304,24 +384,45 @@ def test_plastic_and_elastic_impacts(names, family, e):
         except col.AmbiguousSolutionError as error:
             assert e == 0.0
             found = error.solutions
-        near = min(found, key=lambda one: abs(one.a.before.vx - start["va"]) + abs(one.b.before.vx - start["vb"]))
+        near = min(
+            found,
+            key=lambda one: abs(one.a.before.vx - start["va"]) + abs(one.b.before.vx - start["vb"]),
+        )
         condition = near.reconstruction.condition
         within = 16 * EPS * (1 + condition)
-        assert abs(near.a.before.vx - start["va"]) <= within * near.closing_speed, (mass_a, mass_b, known)
-        assert abs(near.b.before.vx - start["vb"]) <= within * near.closing_speed, (mass_a, mass_b, known)
+        assert abs(near.a.before.vx - start["va"]) <= within * near.closing_speed, (
+            mass_a,
+            mass_b,
+            known,
+        )
+        assert abs(near.b.before.vx - start["vb"]) <= within * near.closing_speed, (
+            mass_a,
+            mass_b,
+            known,
+        )
         rooted = e == 0.0 and names == ("va", "vb", "energy_loss")
-        assert abs(near.restitution - e) <= (4 * math.sqrt(EPS) if rooted else 8 * within), (mass_a, mass_b, known)
+        assert abs(near.restitution - e) <= (4 * math.sqrt(EPS) if rooted else 8 * within), (
+            mass_a,
+            mass_b,
+            known,
+        )
 
 
 # Two answers
 
 
 def roots_by_search(mass_a, mass_b, names, known):
-    """How often the loss, as the restitution goes from 0 to 1 in steps, passes the one given: each a root."""
+    """How often the loss, as the restitution goes from 0 to 1 in steps, passes the one given: each
+    a root.
+    """
     share_a, share_b = mass_b / (mass_a + mass_b), mass_a / (mass_a + mass_b)
     e = np.linspace(0.0, 1.0, 20001)
     p, q = (share_a, share_b) if names == TWO_ROOTS[0] else (share_b, share_a)
-    difference = known["va"] - known["vb_after"] if names == TWO_ROOTS[0] else known["va_after"] - known["vb"]
+    difference = (
+        known["va"] - known["vb_after"]
+        if names == TWO_ROOTS[0]
+        else known["va_after"] - known["vb"]
+    )
     with np.errstate(divide="ignore"):
         closing = difference / (p - q * e)
         mismatch = mass_a * share_a / 2 * (1 - e**2) * closing**2 - known["energy_loss"]
@@ -332,7 +433,9 @@ def roots_by_search(mass_a, mass_b, names, known):
 @pytest.mark.slow
 @pytest.mark.parametrize("names", TWO_ROOTS, ids="-".join)
 def test_every_root_is_found_and_no_more(names):
-    """As many as a search over the restitution shows; both run forward to what was known, and one is what it came from."""
+    """As many as a search over the restitution shows; both run forward to what was known, and one
+    is what it came from.
+    """
     generator = random.Random(7)
     counted = {1: 0, 2: 0}
     for _ in range(300):
@@ -340,7 +443,9 @@ def test_every_root_is_found_and_no_more(names):
         va = generator.uniform(-20, 40)
         vb = va - generator.uniform(1, 40)
         e = generator.uniform(0.0, 1.0)
-        start = outputs(col.linear_central(col.Vehicle(mass=mass_a, vx=va), col.Vehicle(mass=mass_b, vx=vb), e))
+        start = outputs(
+            col.linear_central(col.Vehicle(mass=mass_a, vx=va), col.Vehicle(mass=mass_b, vx=vb), e)
+        )
         known = {name: start[name] for name in names}
         try:
             found = (reconstruct.central(mass_a, mass_b, **known),)
@@ -350,28 +455,44 @@ def test_every_root_is_found_and_no_more(names):
             assert isinstance(found, tuple)
             assert code == "ambiguous"
             for solution in found:
-                assert f"va = {solution.a.before.vx:.6g} m/s with e = {solution.restitution:.4g}" in text
+                assert (
+                    f"va = {solution.a.before.vx:.6g} m/s with e = {solution.restitution:.4g}"
+                    in text
+                )
         assert len(found) == roots_by_search(mass_a, mass_b, names, known), (mass_a, mass_b, known)
         counted[len(found)] += 1
         for solution in found:
-            again = outputs(col.linear_central(solution.a.before, solution.b.before, solution.restitution))
+            again = outputs(
+                col.linear_central(solution.a.before, solution.b.before, solution.restitution)
+            )
             for name, value in known.items():
-                # 64 roundings of the largest term: near a double root the two speeds move much, what they lead to does not.
-                scale = value if name == "energy_loss" else abs(va) + abs(vb) + solution.closing_speed
-                assert abs(again[name] - value) <= 64 * EPS * scale * (1 + solution.closing_speed / (va - vb)) ** 2
+                # 64 roundings of the largest term: near a double root the two speeds move much,
+                # what they lead to does not.
+                scale = (
+                    value if name == "energy_loss" else abs(va) + abs(vb) + solution.closing_speed
+                )
+                assert (
+                    abs(again[name] - value)
+                    <= 64 * EPS * scale * (1 + solution.closing_speed / (va - vb)) ** 2
+                )
     assert min(counted.values()) > 20
 
 
 def test_a_third_velocity_decides_between_two_answers():
     """Each solution is what its own velocities give, and pickles with the error."""
-    with pytest.raises(col.AmbiguousSolutionError, match="two impacts fit va, vb_after, energy_loss") as caught:
+    with pytest.raises(
+        col.AmbiguousSolutionError, match="two impacts fit va, vb_after, energy_loss"
+    ) as caught:
         reconstruct.central(1500.0, 2500.0, va=25.0, vb_after=15.0, energy_loss=150e3)
-    # With shares 5/8 and 3/8 the loss rises to its most at e = 3/5 and falls from there: a root on either side.
+    # With shares 5/8 and 3/8 the loss rises to its most at e = 3/5 and falls from there: a root on
+    # either side.
     low, high = sorted(caught.value.solutions, key=lambda one: one.restitution)
     assert low.restitution < 0.6 < high.restitution
     for one in (low, high):
         begin = one.a.before.vx, one.b.before.vx, one.restitution
-        exact = solved_exactly(1500.0, 2500.0, (("va", 25.0), ("vb_after", 15.0), ("energy_loss", 150e3)), begin)
+        exact = solved_exactly(
+            1500.0, 2500.0, (("va", 25.0), ("vb_after", 15.0), ("energy_loss", 150e3)), begin
+        )
         assert one.reconstruction.condition == pytest.approx(exact.condition, rel=1e-4)
     for one in (low, high):
         decided = reconstruct.central(1500.0, 2500.0, va=25.0, vb=one.b.before.vx, vb_after=15.0)
@@ -399,70 +520,112 @@ def test_two_answers_in_a_batch():
 M = (1000.0, 1500.0)  # shares 3/5 and 2/5, reduced mass 600 kg
 HEAVY = (2500.0, 1000.0)  # shares 2/7 and 5/7
 REFUSED = [
-    # More energy than there is: 600 x 20^2 / 2, and from a change of velocity of 15 = 3/5 (1+e) g, 600 x 25^2 / 2.
-    ("contradictory", M, {"va": 20, "vb": 0, "energy_loss": 2e5}, ["no impact fits", "at least 0 J and at most 120000 J"]),
-    ("not_separating", M, {"va": 20, "va_after": 5, "energy_loss": 2e5}, ["still approach", "at most 187500 J"]),
-    ("not_separating", M, {"vb": 0, "vb_after": 10, "energy_loss": 2e6}, ["still approach", "at most 187500 J"]),
+    # More energy than there is: 600 x 20^2 / 2, and from a change of velocity of 15 = 3/5 (1+e) g,
+    # 600 x 25^2 / 2.
+    ("contradictory", M, {"va": 20, "vb": 0, "energy_loss": 2e5},
+        ["no impact fits", "at least 0 J and at most 120000 J"]),
+    ("not_separating", M, {"va": 20, "va_after": 5, "energy_loss": 2e5},
+        ["still approach", "at most 187500 J"]),
+    ("not_separating", M, {"vb": 0, "vb_after": 10, "energy_loss": 2e6},
+        ["still approach", "at most 187500 J"]),
     # The bounce at e = q/p = 2/3 loses most: 600 x 10^2 / 2 / (3/5 - 2/5).
-    ("contradictory", M, {"va": 20, "vb_after": 10, "energy_loss": 2e5}, ["at least 0 J and at most 150000 J"]),
+    ("contradictory", M, {"va": 20, "vb_after": 10, "energy_loss": 2e5},
+        ["at least 0 J and at most 150000 J"]),
     # Less than momentum demands: even a plastic impact with 10 = 2/7 g loses 5000/7 x 35^2 / 2.
-    ("not_separating", HEAVY, {"va": 20, "vb_after": 10, "energy_loss": 1e5}, ["at least 437500 J", "restitution"]),
-    ("not_separating", (1000, 2500), {"vb": -20, "va_after": -10, "energy_loss": 1e5}, ["at least 437500 J"]),
-    ("contradictory", (1000, 1000), {"va": 10, "vb_after": 10, "energy_loss": 1e4}, ["at least 0 J and at most 0 J"]),
+    ("not_separating", HEAVY, {"va": 20, "vb_after": 10, "energy_loss": 1e5},
+        ["at least 437500 J", "restitution"]),
+    ("not_separating", (1000, 2500), {"vb": -20, "va_after": -10, "energy_loss": 1e5},
+        ["at least 437500 J"]),
+    ("contradictory", (1000, 1000), {"va": 10, "vb_after": 10, "energy_loss": 1e4},
+        ["at least 0 J and at most 0 J"]),
     ("contradictory", M, {"va": 10, "va_after": 10, "energy_loss": 10}, ["at most 0 J"]),
-    ("contradictory", M, {"va": 20, "restitution": 1, "energy_loss": 10}, ["loses no energy", "two velocities"]),
+    ("contradictory", M, {"va": 20, "restitution": 1, "energy_loss": 10},
+        ["loses no energy", "two velocities"]),
     # Gain: 19 = 2/5 (1+e) 20.
-    ("contradictory", M, {"va": 20, "vb": 0, "vb_after": 19}, ["restitution of 1.375", "gain energy"]),
-    ("contradictory", (1000, 1000), {"va": 10, "vb_after": 8, "restitution": 1}, ["va and vb_after are equal", "differ by 2 m/s"]),
-    ("contradictory", (INF, 1000), {"va": 0, "vb_after": 3, "restitution": 0}, ["va and vb_after are equal", "differ by -3 m/s"]),
+    ("contradictory", M, {"va": 20, "vb": 0, "vb_after": 19},
+        ["restitution of 1.375", "gain energy"]),
+    ("contradictory", (1000, 1000), {"va": 10, "vb_after": 8, "restitution": 1},
+        ["va and vb_after are equal", "differ by 2 m/s"]),
+    ("contradictory", (INF, 1000), {"va": 0, "vb_after": 3, "restitution": 0},
+        ["va and vb_after are equal", "differ by -3 m/s"]),
     # Parted bodies still approaching: 1 = 2/5 (1+e) 20.
-    ("not_separating", M, {"va": 20, "vb": 0, "vb_after": 1}, ["still approach", "restitution -0.875", "pass through"]),
-    ("not_separating", M, {"va_after": 12, "vb_after": 10, "energy_loss": 10}, ["va_after = 12", "still approach"]),
+    ("not_separating", M, {"va": 20, "vb": 0, "vb_after": 1},
+        ["still approach", "restitution -0.875", "pass through"]),
+    ("not_separating", M, {"va_after": 12, "vb_after": 10, "energy_loss": 10},
+        ["va_after = 12", "still approach"]),
     # No approach.
-    ("separating", M, {"va": 10, "vb": 20, "restitution": 0.1}, ["closing speed of -10 m/s", "from A to B", "exchange A and B"]),
+    ("separating", M, {"va": 10, "vb": 20, "restitution": 0.1},
+        ["closing speed of -10 m/s", "from A to B", "exchange A and B"]),
     ("separating", M, {"va": 10, "vb": 20, "energy_loss": 10}, ["closing speed of -10 m/s"]),
     ("separating", M, {"va": 10, "va_after": 12, "restitution": 0.1}, ["moved apart"]),
     ("separating", M, {"va": 10, "va_after": 12, "energy_loss": 10}, ["bodies moved apart"]),
     ("separating", M, {"va": 10, "vb_after": 20, "energy_loss": 1e9}, ["no approach"]),
     ("separating", M, {"va": 10, "vb_after": 20, "energy_loss": 100}, ["bodies moved apart"]),
-    ("separating", M, {"va_after": 12, "vb_after": 10, "restitution": 0.1}, ["closing speed of -20 m/s"]),
-    ("no_closing", M, {"va": 10, "vb": 10, "restitution": 0.1}, ["closing speed of 0", "no impact"]),
+    ("separating", M, {"va_after": 12, "vb_after": 10, "restitution": 0.1},
+        ["closing speed of -20 m/s"]),
+    ("no_closing", M, {"va": 10, "vb": 10, "restitution": 0.1},
+        ["closing speed of 0", "no impact"]),
     ("no_closing", M, {"va": 10, "va_after": 10, "restitution": 0.1}, ["closing speed of 0"]),
     ("no_closing", M, {"va": 10, "va_after": 10, "energy_loss": 0}, ["closing speed of 0"]),
     ("no_closing", M, {"va_after": 12, "vb_after": 12, "restitution": 0.1}, ["closing speed of 0"]),
     ("no_closing", M, {"va": 20, "restitution": 0.5, "energy_loss": 0}, ["closing speed of 0"]),
     # What leaves no trace.
-    ("inverse_e0", M, {"va_after": 12, "vb_after": 12, "restitution": 0}, ["va_after = 12 m/s, vb_after = 12 m/s, restitution = 0: after a plastic impact (restitution = 0) both have one velocity, and nothing is left of the closing speed", "energy_loss, va or vb"]),
-    ("inverse_e0", M, {"va_after": 9, "vb_after": 10, "restitution": 0}, ["va_after = 9 m/s, vb_after = 10 m/s", "both have one velocity (here vb_after - va_after is 1 m/s, which contradicts that)", "instead of restitution"]),
-    ("undetermined", M, {"vb": 20, "restitution": 1, "energy_loss": 0}, ["any closing speed", "another velocity"]),
-    ("undetermined", (1000, 1000), {"va": 10, "vb_after": 10, "restitution": 1}, ["any closing speed"]),
-    ("undetermined", (1000, 1000), {"vb": 10, "va_after": 10, "energy_loss": 0}, ["any closing speed"]),
-    ("undetermined", (INF, 1000), {"va": 3, "vb_after": 3, "restitution": 0}, ["any closing speed"]),
-    ("infinite_mass", (INF, 1000), {"va": 20, "va_after": 20, "restitution": 0.5}, ["infinite mass keeps its velocity", "the other body"]),
-    ("infinite_mass", (1000, INF), {"vb": 0, "vb_after": 0, "energy_loss": 5e4}, ["infinite mass keeps its velocity"]),
-    ("infinite_mass", (INF, 1000), {"va": 20, "va_after": 20, "vb": 0}, ["infinite mass keeps its velocity"]),
-    ("immovable", (INF, INF), {"va": 20, "vb": 0, "restitution": 0.5}, ["both masses are infinite", "finite mass"]),
+    ("inverse_e0", M, {"va_after": 12, "vb_after": 12, "restitution": 0},
+        [("va_after = 12 m/s, vb_after = 12 m/s, restitution = 0: after a plastic impact "
+          "(restitution = 0) both have one velocity, and nothing is left of the closing speed"),
+          "energy_loss, va or vb"]),
+    ("inverse_e0", M, {"va_after": 9, "vb_after": 10, "restitution": 0},
+        ["va_after = 9 m/s, vb_after = 10 m/s",
+            "both have one velocity (here vb_after - va_after is 1 m/s, which contradicts that)",
+            "instead of restitution"]),
+    ("undetermined", M, {"vb": 20, "restitution": 1, "energy_loss": 0},
+        ["any closing speed", "another velocity"]),
+    ("undetermined", (1000, 1000), {"va": 10, "vb_after": 10, "restitution": 1},
+        ["any closing speed"]),
+    ("undetermined", (1000, 1000), {"vb": 10, "va_after": 10, "energy_loss": 0},
+        ["any closing speed"]),
+    ("undetermined", (INF, 1000), {"va": 3, "vb_after": 3, "restitution": 0},
+        ["any closing speed"]),
+    ("infinite_mass", (INF, 1000), {"va": 20, "va_after": 20, "restitution": 0.5},
+        ["infinite mass keeps its velocity", "the other body"]),
+    ("infinite_mass", (1000, INF), {"vb": 0, "vb_after": 0, "energy_loss": 5e4},
+        ["infinite mass keeps its velocity"]),
+    ("infinite_mass", (INF, 1000), {"va": 20, "va_after": 20, "vb": 0},
+        ["infinite mass keeps its velocity"]),
+    ("immovable", (INF, INF), {"va": 20, "vb": 0, "restitution": 0.5},
+        ["both masses are infinite", "finite mass"]),
     # Arguments.
     ("not_positive", (0, 1000), {"va": 20, "vb": 0, "restitution": 0.5}, ["mass_a must be > 0"]),
     ("not_positive", (1000, -INF), {"va": 20, "vb": 0, "restitution": 0.5}, ["mass_b must be > 0"]),
-    ("bad_restitution", M, {"va": 20, "vb": 0, "restitution": 1 + EPS}, ["restitution must be from 0 to 1"]),
-    ("bad_restitution", M, {"va": 20, "vb": 0, "restitution": -5e-324}, ["restitution must be from 0 to 1"]),
-    ("negative_energy", M, {"va": 20, "vb": 0, "energy_loss": "-1 kJ"}, ["energy_loss must be >= 0, got '-1 kJ'"]),
+    ("bad_restitution", M, {"va": 20, "vb": 0, "restitution": 1 + EPS},
+        ["restitution must be from 0 to 1"]),
+    ("bad_restitution", M, {"va": 20, "vb": 0, "restitution": -5e-324},
+        ["restitution must be from 0 to 1"]),
+    ("negative_energy", M, {"va": 20, "vb": 0, "energy_loss": "-1 kJ"},
+        ["energy_loss must be >= 0, got '-1 kJ'"]),
     ("not_finite", M, {"va": math.nan, "vb": 0, "restitution": 0.5}, ["va is NaN"]),
     ("not_finite", M, {"va": INF, "vb": 0, "restitution": 0.5}, ["va must be finite"]),
     ("not_finite", M, {"va": 20, "vb": 0, "energy_loss": INF}, ["energy_loss must be finite"]),
     ("bad_units", M, {"va": "20 kg", "vb": 0, "restitution": 0.5}, ["va: '20 kg'", "m/s"]),
     ("not_a_number", M, {"va": True, "vb": 0, "restitution": 0.5}, ["va must be a number"]),
     ("out_of_range", M, {"va": 1e200, "vb": 0, "restitution": 0.5}, ["not a finite number"]),
-    ("bad_shape", M, {"va": np.ones(2), "vb": np.ones(3), "restitution": 0.5}, ["va (2,), vb (3,)"]),
+    ("bad_shape", M, {"va": np.ones(2), "vb": np.ones(3), "restitution": 0.5},
+        ["va (2,), vb (3,)"]),
     # How many.
-    ("too_few_knowns", M, {"va": 20, "vb": 0}, ["exactly 3 of va, vb, va_after, vb_after, restitution, energy_loss", "got 2 (va, vb)", "give 1 of va_after, vb_after, restitution, energy_loss"]),
+    ("too_few_knowns", M, {"va": 20, "vb": 0},
+        ["exactly 3 of va, vb, va_after, vb_after, restitution, energy_loss", "got 2 (va, vb)",
+            "give 1 of va_after, vb_after, restitution, energy_loss"]),
     ("too_few_knowns", M, {}, ["got 0 (none)", "give 3 of va, vb"]),
-    ("too_many_knowns", M, {"va": 20, "vb": 0, "vb_after": 5, "restitution": 0.5}, ["got 4 (va, vb, vb_after, restitution)", "leave out 1"]),
+    ("too_many_knowns", M, {"va": 20, "vb": 0, "vb_after": 5, "restitution": 0.5},
+        ["got 4 (va, vb, vb_after, restitution)", "leave out 1"]),
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("code", "masses", "known", "said"), REFUSED, ids=[f"{i}-{row[0]}" for i, row in enumerate(REFUSED)])
+@pytest.mark.parametrize(
+    ("code", "masses", "known", "said"),
+    REFUSED,
+    ids=[f"{i}-{row[0]}" for i, row in enumerate(REFUSED)],
+)
 def test_refusals_say_why(code, masses, known, said):
     """The error of its family, with the numbers in its message; it survives pickling."""
     error = refusal(lambda: reconstruct.central(*masses, **known))
@@ -473,7 +636,14 @@ def test_refusals_say_why(code, masses, known, said):
         "bad_shape": col.ShapeError,
         "bad_units": col.UnitsError,
     }
-    for name in ("contradictory", "not_separating", "inverse_e0", "undetermined", "infinite_mass", "immovable"):
+    for name in (
+        "contradictory",
+        "not_separating",
+        "inverse_e0",
+        "undetermined",
+        "infinite_mass",
+        "immovable",
+    ):
         kind[name] = col.NoSolutionError
     assert type(error) is kind.get(code, col.InputError)
     for part in said:
@@ -484,38 +654,58 @@ def test_refusals_say_why(code, masses, known, said):
 
 def test_the_closing_speed_comes_with_the_refusal():
     """NoImpactError carries it, as from the forward solvers."""
-    assert refusal(lambda: reconstruct.central(*M, va=10.0, vb=20.0, restitution=0.1)).closing_speed == -10.0
+    assert (
+        refusal(lambda: reconstruct.central(*M, va=10.0, vb=20.0, restitution=0.1)).closing_speed
+        == -10.0
+    )
 
 
 def test_all_wrong_arguments_are_named_at_once():
     """One error for every argument that cannot be used."""
-    error = refusal(lambda: reconstruct.central(-1.0, "2 m", va=math.nan, restitution=3.0, energy_loss=-1.0))
+    error = refusal(
+        lambda: reconstruct.central(-1.0, "2 m", va=math.nan, restitution=3.0, energy_loss=-1.0)
+    )
     assert isinstance(error, col.UnitsError)
     for name in ("mass_a", "mass_b", "va", "restitution", "energy_loss"):
         assert f"- {name}" in str(error)
 
 
-@pytest.mark.parametrize(("masses", "names", "largest"), [(M, ("va", "vb"), 120e3), (M, ("va", "vb_after"), 150e3)])
+@pytest.mark.parametrize(
+    ("masses", "names", "largest"), [(M, ("va", "vb"), 120e3), (M, ("va", "vb_after"), 150e3)]
+)
 def test_the_limit_that_the_message_names_is_the_limit(masses, names, largest):
     """A millionth below it is solved, a millionth above is refused."""
     known = dict(zip(names, (20.0, 0.0 if names[1] == "vb" else 10.0), strict=True))
-    below = reconstruct.central(*masses, **known, energy_loss=np.full(1, largest * (1 - 1e-6)), on_failure="nan")
+    below = reconstruct.central(
+        *masses, **known, energy_loss=np.full(1, largest * (1 - 1e-6)), on_failure="nan"
+    )
     assert below.status.tolist() == [col.Status.OK if names[1] == "vb" else col.Status.AMBIGUOUS]
-    assert refusal(lambda: reconstruct.central(*masses, **known, energy_loss=largest * (1 + 1e-6))).code == "contradictory"
+    assert (
+        refusal(
+            lambda: reconstruct.central(*masses, **known, energy_loss=largest * (1 + 1e-6))
+        ).code
+        == "contradictory"
+    )
 
 
 def test_the_least_energy_is_the_least():
     """A plastic impact at 437.5 kJ; a millionth less is refused."""
     least = reconstruct.central(*HEAVY, va=20.0, vb_after=10.0, energy_loss=437500.0 * (1 + 1e-6))
     assert least.restitution == pytest.approx(0.0, abs=1e-5)
-    assert refusal(lambda: reconstruct.central(*HEAVY, va=20.0, vb_after=10.0, energy_loss=437500.0 * (1 - 1e-6)))
+    assert refusal(
+        lambda: reconstruct.central(
+            *HEAVY, va=20.0, vb_after=10.0, energy_loss=437500.0 * (1 - 1e-6)
+        )
+    )
 
 
 # Batches
 
 
 def test_a_refused_case_leaves_its_neighbours_alone():
-    """Each case gets the status of its own refusal and NaN; the others are bit for bit what they are without it."""
+    """Each case gets the status of its own refusal and NaN; the others are bit for bit what they
+    are without it.
+    """
     va = np.array([20.0, np.nan, 20.0, -5.0, 20.0, 20.0, 20.0])
     vb = np.array([0.0, 0.0, 0.0, 0.0, 20.0, 0.0, 0.0])
     e = np.array([0.5, 0.5, 2.0, 0.5, 0.5, 0.5, 0.25])
@@ -524,7 +714,15 @@ def test_a_refused_case_leaves_its_neighbours_alone():
         found = reconstruct.central(mass, 1500.0, va=va, vb=vb, restitution=e)
     assert len(caught) == 1
     assert caught[0].filename == __file__
-    labels = ["ok", "not_finite", "bad_restitution", "separating", "no_closing", "not_positive", "ok"]
+    labels = [
+        "ok",
+        "not_finite",
+        "bad_restitution",
+        "separating",
+        "no_closing",
+        "not_positive",
+        "ok",
+    ]
     assert [col.Status(code).label for code in found.status.tolist()] == labels
     good = np.array([label == "ok" for label in labels])
     for name in ("closing_speed", "energy_loss", "normal_impulse"):
@@ -537,13 +735,23 @@ def test_a_refused_case_leaves_its_neighbours_alone():
     assert first.value.code == "not_finite"
     # The sentence of a case is that of the case alone: it names the argument.
     with pytest.raises(col.InputError, match=r"^case 1: vb_after must be finite, got inf"):
-        reconstruct.central(1000.0, 1500.0, va=12.0, vb=3.0, vb_after=np.array([9.0, math.inf]), on_failure="raise")
+        reconstruct.central(
+            1000.0, 1500.0, va=12.0, vb=3.0, vb_after=np.array([9.0, math.inf]), on_failure="raise"
+        )
     with pytest.raises(col.InputError, match=r"^case 0: mass_a must be > 0 .*got 0\.0"):
-        reconstruct.central(np.array([0.0, 900.0]), 1500.0, va=12.0, restitution=0.1, energy_loss=900.0, on_failure="raise")
+        reconstruct.central(
+            np.array([0.0, 900.0]),
+            1500.0,
+            va=12.0,
+            restitution=0.1,
+            energy_loss=900.0,
+            on_failure="raise",
+        )
 
 
 @pytest.mark.parametrize(("code", "masses", "known", "said"), [row for row in REFUSED if row[0] in (
-    "contradictory", "not_separating", "separating", "no_closing", "inverse_e0", "undetermined", "infinite_mass", "immovable")])  # fmt: skip
+    "contradictory", "not_separating", "separating", "no_closing", "inverse_e0", "undetermined",
+    "infinite_mass", "immovable")])  # fmt: skip
 def test_every_refusal_has_its_status_in_a_batch(code, masses, known, said):
     """The same code as alone; asked to raise, the same error with the same numbers."""
     batch = {name: np.full(2, float(value)) for name, value in known.items()}
@@ -560,7 +768,12 @@ def test_every_refusal_has_its_status_in_a_batch(code, masses, known, said):
 def test_arguments_broadcast():
     """Two by three cases, each as if alone."""
     found = reconstruct.central(
-        np.array([[900.0], [1800.0]]), 1000.0, va=np.array([10.0, 20.0, 30.0]), vb=0.0, vb_after=8.0, on_failure="nan"
+        np.array([[900.0], [1800.0]]),
+        1000.0,
+        va=np.array([10.0, 20.0, 30.0]),
+        vb=0.0,
+        vb_after=8.0,
+        on_failure="nan",
     )
     assert found.restitution.shape == (2, 3)
     assert found.reconstruction.condition.shape == (2, 3)
@@ -572,13 +785,23 @@ def test_arguments_broadcast():
 @pytest.mark.parametrize("e", [0.0, 0.3, 1.0])
 @twenty
 def test_float32_stays_float32(names, e):
-    """In and out in single precision, worked out in double: as near as the knowns, rounded to 24 bits, allow."""
-    start = outputs(col.linear_central(col.Vehicle(mass=1100.0, vx=22.0), col.Vehicle(mass=950.0, vx=4.0), e))
+    """In and out in single precision, worked out in double: as near as the knowns, rounded to 24
+    bits, allow.
+    """
+    start = outputs(
+        col.linear_central(col.Vehicle(mass=1100.0, vx=22.0), col.Vehicle(mass=950.0, vx=4.0), e)
+    )
     if lost(names, 1100.0, 950.0, e):
         return
     known = {name: np.array([start[name]] * 2, dtype=np.float32) for name in names}
     found = reconstruct.central(1100.0, 950.0, **known, on_failure="nan")
-    for value in (found.closing_speed, found.restitution, found.b.after.vx, found.energy_loss, found.reconstruction.condition):
+    for value in (
+        found.closing_speed,
+        found.restitution,
+        found.b.after.vx,
+        found.energy_loss,
+        found.reconstruction.condition,
+    ):
         assert value.dtype == np.float32
     if names in TWO_ROOTS and found.status[0] == col.Status.AMBIGUOUS:
         return
@@ -597,7 +820,9 @@ def test_float32_stays_float32(names, e):
 @extremes
 @twenty
 def test_a_record_and_a_case_of_a_batch_keep_the_digits(names):
-    """What leaves as a record or as one of a batch is the closing speed found, not the difference of rounded velocities."""
+    """What leaves as a record or as one of a batch is the closing speed found, not the difference
+    of rounded velocities.
+    """
     mass_a, mass_b, start, known, _ = cases(names, "near speeds")[0]
     try:
         found = reconstruct.central(mass_a, mass_b, **known)
@@ -609,7 +834,10 @@ def test_a_record_and_a_case_of_a_batch_keep_the_digits(names):
     assert again == found
     assert again.closing_speed == found.closing_speed
     many = reconstruct.central(
-        mass_a, mass_b, **{name: np.array([value, value]) for name, value in known.items()}, on_failure="nan"
+        mass_a,
+        mass_b,
+        **{name: np.array([value, value]) for name, value in known.items()},
+        on_failure="nan",
     )
     assert many.ok.all() or names in TWO_ROOTS
     if many.ok.all():
@@ -617,11 +845,15 @@ def test_a_record_and_a_case_of_a_batch_keep_the_digits(names):
     # Velocities that were changed in the record are taken as they stand.
     record = found.to_dict()
     record["inputs"]["a"]["vx"] += 1.0
-    assert col.Impact.from_dict(record).closing_speed == pytest.approx(1.0 + found.closing_speed, rel=1e-12)
+    assert col.Impact.from_dict(record).closing_speed == pytest.approx(
+        1.0 + found.closing_speed, rel=1e-12
+    )
 
 
 def test_example_2_of_the_paper():
-    """1100 kg at 80 km/h into 950 kg at rest, which leaves at 60: 310/11 km/h and 35/88 exactly; 7.82 m/s and 0.40 in print."""
+    """1100 kg at 80 km/h into 950 kg at rest, which leaves at 60: 310/11 km/h and 35/88 exactly;
+    7.82 m/s and 0.40 in print.
+    """
     found = reconstruct.central("1100 kg", "950 kg", va="80 km/h", vb="0 km/h", vb_after="60 km/h")
     assert found.a.after.q.vx.m_as("km/h") == pytest.approx(310 / 11, rel=1e-14)
     assert found.restitution == pytest.approx(35 / 88, rel=1e-14)
@@ -643,7 +875,9 @@ def test_example_2_of_the_paper():
 
 
 def test_published_impacts_backwards():
-    """L01 railroad cars, and L03, whose print (80 m/s) lost a sign: 80/3 m/s leaves the van at the 15 m/s that were seen."""
+    """L01 railroad cars, and L03, whose print (80 m/s) lost a sign: 80/3 m/s leaves the van at the
+    15 m/s that were seen.
+    """
     published = Path(__file__).parents[2] / "validation" / "data" / "worked_examples.json"
     cases = {case["id"]: case for case in json.loads(published.read_text("utf-8"))}
 
@@ -652,18 +886,30 @@ def test_published_impacts_backwards():
 
     masses = number("L01", "inputs", "m_A"), number("L01", "inputs", "m_B")
     cars = reconstruct.central(
-        *masses, va=number("L01", "inputs", "v_A"), vb=0.0, vb_after=number("L01", "inputs", "v_B_after")
+        *masses,
+        va=number("L01", "inputs", "v_A"),
+        vb=0.0,
+        vb_after=number("L01", "inputs", "v_B_after"),
     )
     assert cars.restitution == pytest.approx(number("L01", "published_outputs", "e"), rel=1e-14)
-    assert cars.a.after.vx == pytest.approx(number("L01", "published_outputs", "v_A_after"), rel=1e-13)
+    assert cars.a.after.vx == pytest.approx(
+        number("L01", "published_outputs", "v_A_after"), rel=1e-13
+    )
     masses = number("L03", "inputs", "m1"), number("L03", "inputs", "m2")
     van = reconstruct.central(
-        *masses, vb=0.0, vb_after=number("L03", "inputs", "v2_after"), restitution=number("L03", "inputs", "e")
+        *masses,
+        vb=0.0,
+        vb_after=number("L03", "inputs", "v2_after"),
+        restitution=number("L03", "inputs", "e"),
     )
     assert van.a.before.vx == pytest.approx(80 / 3, rel=1e-14)
     # Half a unit in the last digit of the figures worked out apart.
-    assert van.a.before.vx == pytest.approx(number("L03", "recomputed_outputs", "v1_before"), abs=5e-5)
-    assert van.a.after.vx == pytest.approx(number("L03", "recomputed_outputs", "v1_after"), abs=5e-5)
+    assert van.a.before.vx == pytest.approx(
+        number("L03", "recomputed_outputs", "v1_before"), abs=5e-5
+    )
+    assert van.a.after.vx == pytest.approx(
+        number("L03", "recomputed_outputs", "v1_after"), abs=5e-5
+    )
     assert abs(van.a.before.vx - number("L03", "published_outputs", "v1_before")) > 50
     # And the printed speeds are no impact: the car would come out of the front of the van.
     printed = {"va": 80.0, "va_after": 55.0, "vb_after": 15.0}
@@ -676,12 +922,18 @@ def test_units_of_arguments():
     plain = reconstruct.central(1000.0, 1500.0, va=20.0, vb=0.0, energy_loss=50e3)
     for known in (
         {"va": "72 km/h", "vb": "0 mph", "energy_loss": "50 kJ"},
-        {"va": other.Quantity(72.0, "km/h"), "vb": other.Quantity(0.0, "m/s"), "energy_loss": other.Quantity(50.0, "kJ")},
+        {
+            "va": other.Quantity(72.0, "km/h"),
+            "vb": other.Quantity(0.0, "m/s"),
+            "energy_loss": other.Quantity(50.0, "kJ"),
+        },
     ):
         found = reconstruct.central("1 tonne", other.Quantity(1.5e6, "g"), **known)
         assert found.restitution == pytest.approx(plain.restitution, rel=4 * EPS)
         assert found.q.energy_loss.m_as("kJ") == pytest.approx(50.0, rel=8 * EPS)
-    many = reconstruct.central(1000.0, 1500.0, va=other.Quantity(np.array([72.0, 36.0]), "km/h"), vb=0.0, restitution=0.5)
+    many = reconstruct.central(
+        1000.0, 1500.0, va=other.Quantity(np.array([72.0, 36.0]), "km/h"), vb=0.0, restitution=0.5
+    )
     assert many.closing_speed.tolist() == pytest.approx([20.0, 10.0], rel=4 * EPS)
 
 
@@ -691,15 +943,23 @@ def answers():
     return [
         reconstruct.central(1100.0, 950.0, va=22.0, vb=0.0, vb_after=16.0),
         reconstruct.central(1100.0, INF, va=np.array([22.0, 11.0]), vb=0.0, restitution=0.1),
-        reconstruct.central(1100.0, 950.0, vb=0.0, restitution=e, energy_loss=40e3, on_failure="nan"),
+        reconstruct.central(
+            1100.0, 950.0, vb=0.0, restitution=e, energy_loss=40e3, on_failure="nan"
+        ),
     ]
 
 
 @pytest.mark.parametrize("which", range(3))
 def test_where_an_impact_came_from(which):
-    """Method, knowns and condition stay with it, through strict JSON, pickling and into the columns of a table."""
+    """Method, knowns and condition stay with it, through strict JSON, pickling and into the columns
+    of a table.
+    """
     found = answers()[which]
-    known = [("va", "vb", "vb_after"), ("va", "vb", "restitution"), ("vb", "restitution", "energy_loss")][which]
+    known = [
+        ("va", "vb", "vb_after"),
+        ("va", "vb", "restitution"),
+        ("vb", "restitution", "energy_loss"),
+    ][which]
     assert found.reconstruction.method == "central"
     assert found.reconstruction.known == known
     again = col.Impact.from_dict(json.loads(json.dumps(found.to_dict(), allow_nan=False)))
@@ -713,7 +973,9 @@ def test_where_an_impact_came_from(which):
     assert columns["reconstruction.condition"] == pytest.approx(
         np.atleast_1d(found.reconstruction.condition).tolist(), nan_ok=True
     )
-    assert columns["a.before.vx"] == pytest.approx(np.atleast_1d(found.a.before.vx).tolist(), nan_ok=True)
+    assert columns["a.before.vx"] == pytest.approx(
+        np.atleast_1d(found.a.before.vx).tolist(), nan_ok=True
+    )
     assert len({len(column) for column in columns.values()}) == 1
     with pytest.raises(AttributeError):
         found.reconstruction.condition = 0.0
@@ -739,10 +1001,17 @@ def test_a_single_refused_case_may_be_answered_with_nan():
 
 
 def test_a_speed_beyond_float32_is_refused():
-    """It would be 3.40282357e38 m/s, and float32 ends at 3.40282347e38: refused, without a warning of numpy's."""
+    """It would be 3.40282357e38 m/s, and float32 ends at 3.40282347e38: refused, without a warning
+    of numpy's.
+    """
     after = np.array([-1e-28, 1.02084714e11], dtype=np.float32)
     found = reconstruct.central(
-        mass_a=300.0, mass_b=9.999999269030633e29, va_after=after, restitution=0.0, vb=0.0, on_failure="nan"
+        mass_a=300.0,
+        mass_b=9.999999269030633e29,
+        va_after=after,
+        restitution=0.0,
+        vb=0.0,
+        on_failure="nan",
     )
     assert found.refused.all()
     assert np.isnan(found.energy_loss).all()
@@ -759,14 +1028,17 @@ def test_the_largest_speed_of_all_beside_an_energy_is_refused_without_a_word_of_
 
 @extremes
 def test_a_refused_neighbour_leaves_the_digits_of_a_tiny_closing_speed():
-    """A case of a batch, another of which the forward solver refuses, is solved again from the closing speed that was found."""
+    """A case of a batch, another of which the forward solver refuses, is solved again from the
+    closing speed that was found.
+    """
     known = {"va": 30.0, "restitution": 0.5}
     alone = reconstruct.central(1000.0, 1200.0, **known, energy_loss=1e-13)
     with pytest.warns(col.CollisionsWarning, match="1 of 2 cases"):
         both = reconstruct.central(1000.0, 1200.0, **known, energy_loss=np.array([1e-13, 1e308]))
     assert both.refused.tolist() == [False, True]
     assert np.isnan(both.inputs.contact_velocity[0]).tolist() == [False, True]
-    # loss = m g^2 (1 - e^2) / 2 and P = m (1 + e) g, with m = 6000 / 11: the rounded speeds leave seven digits.
+    # loss = m g^2 (1 - e^2) / 2 and P = m (1 + e) g, with m = 6000 / 11: the rounded speeds leave
+    # seven digits.
     reduced = 6000.0 / 11.0
     impulse = 1.5 * reduced * math.sqrt(2.0 * 1e-13 / (0.75 * reduced))
     for impact in (alone, both.case(0), col.Impact.from_dict(both.to_dict()).case(0)):
@@ -775,11 +1047,15 @@ def test_a_refused_neighbour_leaves_the_digits_of_a_tiny_closing_speed():
 
 @pytest.mark.parametrize("batch", [False, True])
 def test_a_separation_of_one_unit_in_the_last_place_is_warned_of(batch):
-    """What is left of the difference of the velocities after is rounding, and so is the closing speed found from it."""
+    """What is left of the difference of the velocities after is rounding, and so is the closing
+    speed found from it.
+    """
     after = np.nextafter(10.0, 11.0)
     given = np.array([after, 11.0]) if batch else after
     e = np.array([1e-15, 0.2]) if batch else 1e-15
-    with pytest.warns(col.IllConditionedWarning, match="a change of a millionth of what is known") as caught:
+    with pytest.warns(
+        col.IllConditionedWarning, match="a change of a millionth of what is known"
+    ) as caught:
         found = reconstruct.central(1500.0, 1200.0, va_after=10.0, vb_after=given, restitution=e)
     assert [one.message.code for one in caught] == ["ill_conditioned"]
     assert np.max(found.reconstruction.condition) > 1e15
@@ -789,14 +1065,26 @@ def test_a_separation_of_one_unit_in_the_last_place_is_warned_of(batch):
 def test_headings_give_what_is_seen_from_a_vehicle():
     """A head-on impact: the force comes from ahead for both, and the whole delta-V is backwards."""
     found = col.reconstruct.central(
-        "1500 kg", "1200 kg", va="50 km/h", vb="-20 km/h", restitution=0.1, heading_a="0 deg", heading_b="180 deg"
+        "1500 kg",
+        "1200 kg",
+        va="50 km/h",
+        vb="-20 km/h",
+        restitution=0.1,
+        heading_a="0 deg",
+        heading_b="180 deg",
     )
     for side in (found.a, found.b):
         assert side.pdof == pytest.approx(0.0, abs=1e-12)
         assert side.delta_v_forward == pytest.approx(-side.delta_v, rel=1e-12)
     assert dict(found.b.before.given)["heading"] == "180 deg"
-    plain = col.reconstruct.central("1500 kg", "1200 kg", va="50 km/h", vb="-20 km/h", restitution=0.1)
-    assert (found.a.after.vx, found.b.after.vx, found.energy_loss) == (plain.a.after.vx, plain.b.after.vx, plain.energy_loss)
+    plain = col.reconstruct.central(
+        "1500 kg", "1200 kg", va="50 km/h", vb="-20 km/h", restitution=0.1
+    )
+    assert (found.a.after.vx, found.b.after.vx, found.energy_loss) == (
+        plain.a.after.vx,
+        plain.b.after.vx,
+        plain.energy_loss,
+    )
     assert found.reconstruction.condition == plain.reconstruction.condition
     assert plain.a.pdof is None
     again = col.Impact.from_dict(found.to_dict())
@@ -808,14 +1096,27 @@ def test_headings_of_a_batch_and_of_its_refused_case():
     headings = np.array([0.0, math.pi, 0.1])
     with pytest.warns(col.CollisionsWarning, match="1 of 3 cases were refused"):
         found = col.reconstruct.central(
-            1500.0, 1200.0, va=np.array([10.0, 9.0, -1.0]), vb=0.0, restitution=0.1, heading_a=headings
+            1500.0,
+            1200.0,
+            va=np.array([10.0, 9.0, -1.0]),
+            vb=0.0,
+            restitution=0.1,
+            heading_a=headings,
         )
     assert found.a.pdof[:2] == pytest.approx([0.0, math.pi], abs=1e-12)
     with pytest.raises(col.NoImpactError, match=r"^case 2: "):
         col.reconstruct.central(
-            1500.0, 1200.0, va=np.array([10.0, 9.0, -1.0]), vb=0.0, restitution=0.1, heading_a=headings, on_failure="raise"
+            1500.0,
+            1200.0,
+            va=np.array([10.0, 9.0, -1.0]),
+            vb=0.0,
+            restitution=0.1,
+            heading_a=headings,
+            on_failure="raise",
         )
-    only = col.reconstruct.central(1500.0, 1200.0, va=10.0, vb=0.0, restitution=0.1, heading_b=headings)
+    only = col.reconstruct.central(
+        1500.0, 1200.0, va=10.0, vb=0.0, restitution=0.1, heading_b=headings
+    )
     assert only.inputs.shape == (3,)
 
 

@@ -1,4 +1,6 @@
-"""What planar says where it refuses: the ranges it names hold the truth, and what it advises leads on."""
+"""What planar says where it refuses: the ranges it names hold the truth, and what it advises leads
+on.
+"""
 
 import itertools
 import math
@@ -15,21 +17,31 @@ from scenes import LAWS
 
 A = col.Vehicle(mass=1500.0, yaw_inertia=2200.0, x=-1.8, y=0.5, vx=15.0)
 B = col.Vehicle(mass=1300.0, yaw_inertia=1800.0, x=1.8, y=-1.0, vx=-7.0)
-JAMMING = {"normal": 0.0, "point": (0.0, 0.0), "friction": 1.5}  # K_nn < mu |K_nt|: jams at a ratio of -1.494
+JAMMING = {
+    "normal": 0.0,
+    "point": (0.0, 0.0),
+    "friction": 1.5,
+}  # K_nn < mu |K_nt|: jams at a ratio of -1.494
 
 
 # The range of slips that stuck
 
 
 def test_the_range_is_open_where_friction_jams():
-    """One end is in the solutions; a slip far beyond what both ends would allow sticks too, at ratios up to the one that jams."""
+    """One end is in the solutions; a slip far beyond what both ends would allow sticks too, at
+    ratios up to the one that jams.
+    """
     end = col.eccentric(A, B, 0.1, **JAMMING)
     assert end.regime == "sticking"
     with pytest.raises(col.NoSolutionError, match="holds the one end of the range") as caught:
         planar(end.a.after, end.b.after, restitution=0.1, **JAMMING)
     (low,) = caught.value.solutions
     limit = -1.0 / (end.effective_mass * _coupling(end))
-    for words in ("it is open", f"towards {limit:.4g}, where the bodies jam", f"between {limit:.4g} and 1.5"):
+    for words in (
+        "it is open",
+        f"towards {limit:.4g}, where the bodies jam",
+        f"between {limit:.4g} and 1.5",
+    ):
         assert words in str(caught.value)
     assert low.impulse_ratio == pytest.approx(1.5, rel=1e-12)
     # A contact that slides at 300 m/s sticks, and ends without slip as well.
@@ -48,7 +60,9 @@ def _coupling(impact):
 
 @pytest.mark.parametrize("off", [1e-5, -1e-5])
 def test_a_small_slip_names_an_open_range_that_holds_the_truth(off):
-    """The true slip before is 0; the range of which only one end is an impact goes to infinity on the other side."""
+    """The true slip before is 0; the range of which only one end is an impact goes to infinity on
+    the other side.
+    """
     end = col.eccentric(A, B, 0.1, **JAMMING)
     a_after = end.a.after.replace(yaw_rate=end.a.after.yaw_rate + off)
     with pytest.warns(col.IllConditionedWarning, match="nothing|anything above") as caught:
@@ -61,7 +75,9 @@ def test_a_small_slip_names_an_open_range_that_holds_the_truth(off):
     # A slip of the order of what sliding leaves is not taken for none, though the range is open.
     slid = col.eccentric(A, B.replace(vy=-80.0), 0.1, **JAMMING)
     assert slid.regime == "sliding"
-    assert planar(slid.a.after, slid.b.after, restitution=0.1, **JAMMING).slip_before == pytest.approx(slid.slip_before)
+    assert planar(
+        slid.a.after, slid.b.after, restitution=0.1, **JAMMING
+    ).slip_before == pytest.approx(slid.slip_before)
 
 
 # What cannot be told from rounding
@@ -75,7 +91,9 @@ def test_a_separation_of_rounding_is_said_to_be_that():
         planar(end.a.after, end.b.after, restitution=1e-15, **contact)
     assert caught.value.code == "not_separating"
     assert "do not part" not in str(caught.value)
-    shown = re.search(r"separation speed (\S+) m/s, of which rounding may be (\S+) m/s", str(caught.value))
+    shown = re.search(
+        r"separation speed (\S+) m/s, of which rounding may be (\S+) m/s", str(caught.value)
+    )
     assert abs(float(shown[1])) < float(shown[2]) < 1e-11
 
 
@@ -88,7 +106,9 @@ def test_a_closing_speed_of_rounding_is_said_to_be_that(solver):
     with pytest.raises(col.NoImpactError, match="which cannot be told from rounding") as caught:
         solver(a, b, *after, normal=0.0)
     assert caught.value.closing_speed == a.vx - b.vx
-    with pytest.raises(col.NoImpactError, match=r"closing speed -1 m/s along the normal, which must point"):
+    with pytest.raises(
+        col.NoImpactError, match=r"closing speed -1 m/s along the normal, which must point"
+    ):
         solver(a, b.replace(vx=61.0), *after, normal=0.0)
 
 
@@ -96,10 +116,18 @@ def test_a_case_of_a_batch_is_refused_as_alone():
     """Text and solutions included."""
     end = col.eccentric(A, B, 0.1, **JAMMING)
     inputs = {"a_after": end.a.after, "b_after": end.b.after, **JAMMING}
-    for given in ({"restitution": 0.1}, {"restitution": 0.0}, {"closing_speed": 0.5}, {"restitution": 0.1, "regime": "given"}):
+    for given in (
+        {"restitution": 0.1},
+        {"restitution": 0.0},
+        {"closing_speed": 0.5},
+        {"restitution": 0.1, "regime": "given"},
+    ):
         with pytest.raises(col.NoSolutionError) as alone:
             planar(**inputs, **given)
-        many = {name: value if isinstance(value, str) else np.array([value]) for name, value in given.items()}
+        many = {
+            name: value if isinstance(value, str) else np.array([value])
+            for name, value in given.items()
+        }
         with pytest.raises(col.NoSolutionError) as caught:
             planar(**inputs, **many, on_failure="raise")
         assert str(caught.value) == f"case 0: {alone.value}"
@@ -122,15 +150,22 @@ def _ratio(text, refusal):
 
 def _tangential(given, **rule):
     return {
-        name: value for name, value in given.items() if name not in ("friction", "critical_fraction", "impulse_ratio")
+        name: value
+        for name, value in given.items()
+        if name not in ("friction", "critical_fraction", "impulse_ratio")
     } | rule
 
 
 def _known(given, **kind):
-    return {name: value for name, value in given.items() if name not in ("restitution", "closing_speed", "energy_loss")} | kind
+    return {
+        name: value
+        for name, value in given.items()
+        if name not in ("restitution", "closing_speed", "energy_loss")
+    } | kind
 
 
-# What a message may advise, and how it is followed: from what was given, the end that was, the text and the refusal.
+# What a message may advise, and how it is followed: from what was given, the end that was, the text
+# and the refusal.
 ADVICE = {
     r"leave out regime=": lambda given, end, text, refusal: {**given, "regime": None},
     r"(?:decides is|or) regime='(\w+)'": lambda given, end, text, refusal: {
@@ -146,15 +181,18 @@ ADVICE = {
     r"give friction= or": lambda given, end, text, refusal: _tangential(given, friction=0.3),
     r"write friction=0": lambda given, end, text, refusal: _tangential(given, friction=0.0),
     r"law='kudlich-slibar'": lambda given, end, text, refusal: {**given, "law": "kudlich-slibar"},
-    r"give closing_speed=": lambda given, end, text, refusal: _known(given, closing_speed=end.closing_speed),
+    r"give closing_speed=": lambda given, end, text,
+    refusal: _known(given, closing_speed=end.closing_speed),
     r"at least the separation speed": lambda given, end, text, refusal: _known(
         given, closing_speed=1.5 * refusal.fields["separation_speed"]
     ),
-    r"closing_speed= or energy_loss=": lambda given, end, text, refusal: _known(given, energy_loss=max(end.energy_loss, 1.0)),
+    r"closing_speed= or energy_loss=": lambda given, end, text,
+    refusal: _known(given, energy_loss=max(end.energy_loss, 1.0)),
     r"give at least [\d.e+]+ J": lambda given, end, text, refusal: _known(
         given, energy_loss=1.01 * float(re.search(r"at least ([\d.e+]+) J", text)[1])
     ),
-    r"restitution= (?:or closing_speed= )?instead": lambda given, end, text, refusal: _known(given, restitution=0.4),
+    r"restitution= (?:or closing_speed= )?instead": lambda given, end, text,
+    refusal: _known(given, restitution=0.4),
     r"restitution= or closing_speed= instead": lambda given, end, text, refusal: _known(
         given, closing_speed=2.0 * refusal.fields["separation_speed"]
     ),
@@ -172,16 +210,26 @@ def follow(given, end, before=(), depth=0):
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", col.CollisionsWarning)
-            planar(end.a.after, end.b.after, **{name: value for name, value in given.items() if value is not None})
+            planar(
+                end.a.after,
+                end.b.after,
+                **{name: value for name, value in given.items() if value is not None},
+            )
         return 1
     except col.NoSolutionError as refusal:
         text = str(refusal)
         assert not (set(before) & advised(text)), (before, text)
         assert advised(text) or "check" in text, text
-        return sum(follow(ADVICE[one](given, end, text, refusal), end, (*before, one), depth + 1) for one in advised(text))
+        return sum(
+            follow(ADVICE[one](given, end, text, refusal), end, (*before, one), depth + 1)
+            for one in advised(text)
+        )
 
 
-PIN = A.replace(vx=0.0, yaw_rate=2.0, pivot=(-1.0, -2.0)), B.replace(vx=0.0, yaw_rate=1.5, pivot=(1.5, 2.0))
+PIN = (
+    A.replace(vx=0.0, yaw_rate=2.0, pivot=(-1.0, -2.0)),
+    B.replace(vx=0.0, yaw_rate=1.5, pivot=(1.5, 2.0)),
+)
 MOTIONS = {
     "sticks": (A, B.replace(vy=0.3)),
     "slides": (A, B.replace(vy=-80.0)),
@@ -189,8 +237,10 @@ MOTIONS = {
     "both pinned": PIN,
     "wall": (A.replace(vy=-4.0), col.Vehicle.barrier()),
 }
-TANGENTIAL = ({"friction": 0.3}, {"friction": 1.5}, {"friction": math.inf}, {"friction": 0.0}, {"critical_fraction": 1.0},
-              {"critical_fraction": 0.5}, {"impulse_ratio": 0.2}, {"impulse_ratio": -4.0}, {"impulse_ratio": 4.0})  # fmt: skip
+TANGENTIAL = ({"friction": 0.3}, {"friction": 1.5}, {"friction": math.inf}, {"friction": 0.0},
+{"critical_fraction": 1.0},
+              {"critical_fraction": 0.5}, {"impulse_ratio": 0.2}, {"impulse_ratio": -4.0},
+                  {"impulse_ratio": 4.0})  # fmt: skip
 SAMPLE = 20  # of 540 questions on each of nine ends; all of them were asked once
 REGIMES = (None, "sliding", "sticking", "given", "frictionless")
 
@@ -199,13 +249,17 @@ REGIMES = (None, "sliding", "sticking", "given", "frictionless")
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("motion", MOTIONS)
 def test_advice_leads_out(motion, law):
-    """What a message advises does not end in one that advises the same, and some of it ends in an answer.
+    """What a message advises does not end in one that advises the same, and some of it ends in an
+    answer.
 
-    The end of an impact is put to planar as it was, and with another friction, law, regime, closing speed, energy or
-    restitution; every advice of every refusal is followed with a value that the message allows.
+    The end of an impact is put to planar as it was, and with another friction, law, regime, closing
+    speed, energy or restitution; every advice of every refusal is followed with a value that the
+    message allows.
     """
     rng, refused, led = random.Random(f"{motion} {law}"), 0, 0
-    for e, rule in itertools.product((0.0, 1e-15, 0.2), ({"friction": 0.3}, {"friction": 1.5}, {"impulse_ratio": -0.1})):
+    for e, rule in itertools.product(
+        (0.0, 1e-15, 0.2), ({"friction": 0.3}, {"friction": 1.5}, {"impulse_ratio": -0.1})
+    ):
         a, b, way = *MOTIONS[motion], (-1.0, 0.0) if motion == "both pinned" else (1.0, 0.0)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", col.EnergyGainWarning)
@@ -215,7 +269,14 @@ def test_advice_leads_out(motion, law):
         knowns += [{"energy_loss": share * max(end.energy_loss, 1.0)} for share in (1.0, 1e-3)]
         cases = list(itertools.product(knowns, TANGENTIAL, REGIMES, LAWS))
         for known, other, regime, another in rng.sample(cases, SAMPLE):
-            given = {"normal": end.normal, "point": end.point, "law": another, "regime": regime, **known, **other}
+            given = {
+                "normal": end.normal,
+                "point": end.point,
+                "law": another,
+                "regime": regime,
+                **known,
+                **other,
+            }
             if "energy_loss" in known and other.get("critical_fraction") == 0.5:
                 continue
             answers = follow(given, end)

@@ -1,4 +1,6 @@
-"""The pulse of a recorder: totals and direction of a known shape, polarity, whether it ended, files, and every refusal."""
+"""The pulse of a recorder: totals and direction of a known shape, polarity, whether it ended,
+files, and every refusal.
+"""
 
 import copy
 import math
@@ -24,11 +26,16 @@ def haversine(time, length=0.11):
 
 
 def test_totals_of_a_known_pulse():
-    """Integrated by hand: the whole of it at its end, the direction from both components, the time of the last sample in it."""
-    pulse = recorded_pulse(TIME, -40 * KMH * haversine(TIME), 12 * KMH * haversine(TIME), polarity="49 CFR 563")
+    """Integrated by hand: the whole of it at its end, the direction from both components, the time
+    of the last sample in it.
+    """
+    pulse = recorded_pulse(
+        TIME, -40 * KMH * haversine(TIME), 12 * KMH * haversine(TIME), polarity="49 CFR 563"
+    )
     assert pulse.ended
     assert pulse.delta_v_forward == pytest.approx(-40 * KMH, rel=1e-14)
-    # Pushed to the right, positive by Part 563: struck from the front left, which is negative as a PDOF.
+    # Pushed to the right, positive by Part 563: struck from the front left, which is negative as a
+    # PDOF.
     assert pulse.delta_v_left == pytest.approx(-12 * KMH, rel=1e-14)
     assert pulse.pdof == pytest.approx(-math.atan2(12, 40), rel=1e-14)
     assert pulse.delta_v == pytest.approx(math.hypot(40, 12) * KMH, rel=1e-14)
@@ -37,7 +44,9 @@ def test_totals_of_a_known_pulse():
     assert pulse.error_left == pytest.approx(1.2 * KMH, rel=1e-14)
     assert pulse.q.delta_v.m_as("km/h") == pytest.approx(math.hypot(40, 12), rel=1e-14)
     # The other polarity is the other side.
-    mirrored = recorded_pulse(TIME, -40 * KMH * haversine(TIME), 12 * KMH * haversine(TIME), polarity="ISO 8855")
+    mirrored = recorded_pulse(
+        TIME, -40 * KMH * haversine(TIME), 12 * KMH * haversine(TIME), polarity="ISO 8855"
+    )
     assert mirrored.delta_v_left == -pulse.delta_v_left
     assert mirrored.pdof == -pulse.pdof
     for twin in (pickle.loads(pickle.dumps(pulse)), copy.deepcopy(pulse)):
@@ -50,25 +59,35 @@ def test_totals_of_a_known_pulse():
         "Recorded pulse", "delta-V", "delta-V forward", "delta-V left", "PDOF", "duration", "ended",
         "recorded time", "recorded forward", "recorded left",
     ]  # fmt: skip
-    assert re.search(r"delta-V forward +-40.0 km/h, within 4.0 km/h\n", str(pulse.summary("metric")))
+    assert re.search(
+        r"delta-V forward +-40.0 km/h, within 4.0 km/h\n", str(pulse.summary("metric"))
+    )
     assert re.search(r"ended +yes\nrecorded time +0 to 0.250 s\n", str(pulse.summary()))
     assert "to -0 m" not in repr(pulse)
 
 
 def test_the_signs_are_those_of_an_impact():
-    """The recorder of a car that was struck, by Part 563, gives the components and the PDOF that the impact has."""
+    """The recorder of a car that was struck, by Part 563, gives the components and the PDOF that
+    the impact has.
+    """
     car = col.Vehicle(mass=1500.0, yaw_inertia=math.inf, x=0.0, y=0.0, heading=2.0, vx=3.0)
     other = col.Vehicle(mass=1800.0, yaw_inertia=math.inf, x=-4.0, y=1.0, heading=0.1, vx=20.0)
     side = col.eccentric(other, car, 0.1, normal=0.0, point=(-2.0, 0.2), friction=0.4).b
     shape = haversine(TIME)
-    pulse = recorded_pulse(TIME, side.delta_v_forward * shape, -side.delta_v_left * shape, polarity="49 CFR 563")
+    pulse = recorded_pulse(
+        TIME, side.delta_v_forward * shape, -side.delta_v_left * shape, polarity="49 CFR 563"
+    )
     assert pulse.delta_v_left == pytest.approx(side.delta_v_left, rel=1e-14)
     assert pulse.pdof == pytest.approx(side.pdof, rel=1e-14)
 
 
-@pytest.mark.parametrize(("stop", "ended"), [(0.06, False), (0.09, False), (0.11, False), (0.12, True), (0.25, True)])
+@pytest.mark.parametrize(
+    ("stop", "ended"), [(0.06, False), (0.09, False), (0.11, False), (0.12, True), (0.25, True)]
+)
 def test_whether_it_ended(stop, ended):
-    """The last 20 ms change 40 km/h by 4.4 up to 110 ms, by 0.4 up to 120 (0.8 is the limit of 49 CFR 563.5)."""
+    """The last 20 ms change 40 km/h by 4.4 up to 110 ms, by 0.4 up to 120 (0.8 is the limit of 49
+    CFR 563.5).
+    """
     time = TIME[stop + 1e-9 >= TIME]
     change = 40 * (haversine(time[-1:]) - haversine(time[-1:] - 0.02))[0]
     assert (change <= 0.8) == ended
@@ -76,9 +95,13 @@ def test_whether_it_ended(stop, ended):
         pulse = recorded_pulse(time, -40 * KMH * haversine(time), polarity="49 CFR 563")
         assert (pulse.evidence[0].mean, pulse.evidence[1]) == (pulse.delta_v_forward, None)
         assert pulse.evidence[0].sd == pytest.approx(4 * KMH / math.sqrt(3), rel=1e-14)
-        assert pulse.inputs("b")["delta_v_forward_b"].support == pytest.approx((-44 * KMH, -36 * KMH), rel=1e-12)
+        assert pulse.inputs("b")["delta_v_forward_b"].support == pytest.approx(
+            (-44 * KMH, -36 * KMH), rel=1e-12
+        )
         return
-    with pytest.warns(col.OutOfRangeWarning, match="while delta-V still changes.*is a lower bound") as caught:
+    with pytest.warns(
+        col.OutOfRangeWarning, match="while delta-V still changes.*is a lower bound"
+    ) as caught:
         pulse = recorded_pulse(time, -40 * KMH * haversine(time), polarity="49 CFR 563")
     assert caught[0].message.code == "pulse_cut"
     assert caught[0].filename == __file__
@@ -93,14 +116,22 @@ def test_whether_it_ended(stop, ended):
 
 
 def test_a_cut_pulse_is_evidence_of_at_least_so_much():
-    """In a posterior it only rules out less: with a flat prior what is left lies beyond the bound, to its error."""
+    """In a posterior it only rules out less: with a flat prior what is left lies beyond the bound,
+    to its error.
+    """
     time = TIME[TIME <= 0.0601]
     with pytest.warns(col.OutOfRangeWarning):
-        pulse = recorded_pulse(time, -40 * KMH * haversine(time), 9 * KMH * haversine(time), polarity="ISO 8855")
+        pulse = recorded_pulse(
+            time, -40 * KMH * haversine(time), 9 * KMH * haversine(time), polarity="ISO 8855"
+        )
     forward, left = pulse.evidence
     unknowns = {"forward": uncertainty.Uniform(-20.0, 0.0), "left": uncertainty.Uniform(-5.0, 5.0)}
     found = posterior(
-        lambda forward, left: {"f": forward, "l": left}, unknowns, {"f": forward, "l": left}, samples=1024, seed=1
+        lambda forward, left: {"f": forward, "l": left},
+        unknowns,
+        {"f": forward, "l": left},
+        samples=1024,
+        seed=1,
     )
     assert found["forward"].interval(0.99)[1] < pulse.delta_v_forward + 3 * pulse.error_forward
     assert found["forward"].mean == pytest.approx((pulse.delta_v_forward - 20.0) / 2, abs=0.5)
@@ -108,13 +139,24 @@ def test_a_cut_pulse_is_evidence_of_at_least_so_much():
 
 
 def test_it_goes_into_speeds():
-    """Its inputs have the names of the arguments; their middles are the answer of the components."""
-    pulse = recorded_pulse(TIME, -6.0 * haversine(TIME), -1.0 * haversine(TIME), polarity="49 CFR 563")
+    """Its inputs have the names of the arguments; their middles are the answer of the
+    components.
+    """
+    pulse = recorded_pulse(
+        TIME, -6.0 * haversine(TIME), -1.0 * haversine(TIME), polarity="49 CFR 563"
+    )
     inputs = pulse.inputs("a")
     assert list(inputs) == ["delta_v_forward_a", "delta_v_left_a"]
     a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.0, heading=0.0)
     b = col.Vehicle(mass=1300.0, yaw_inertia=2000.0, x=2.0, y=0.8)
-    contact = {"course_a": 0.0, "course_b": 1.4, "restitution": 0.1, "normal": 0.0, "point": (0.0, 0.4), "friction": math.inf}
+    contact = {
+        "course_a": 0.0,
+        "course_b": 1.4,
+        "restitution": 0.1,
+        "normal": 0.0,
+        "point": (0.0, 0.4),
+        "friction": math.inf,
+    }
     (found,) = speeds(a, b, **contact, **{name: one.mean for name, one in inputs.items()})
     assert found.a.delta_v_left == pytest.approx(1.0, rel=1e-12)
     # A small component is known to half the step of 1 km/h at best.
@@ -128,13 +170,23 @@ def test_it_goes_into_speeds():
 
 
 def test_files(tmp_path):
-    """A CSV with its units in the header reads as the arrays do; a byte order mark and empty lines do not matter."""
+    """A CSV with its units in the header reads as the arrays do; a byte order mark and empty lines
+    do not matter.
+    """
     registry = pint.get_application_registry()
     forward, lateral = -40 * haversine(TIME), 12 * haversine(TIME)
     path = tmp_path / "pulse.csv"
-    rows = [f"{1000 * t!r},{f!r}, {s!r}" for t, f, s in zip(TIME.tolist(), forward.tolist(), lateral.tolist(), strict=True)]
-    path.write_text("\n".join(["\ufefftime [ms],longitudinal [km/h],lateral [km/h]", *rows, "", ""]), encoding="utf-8")
-    by_arrays = recorded_pulse(registry.Quantity(1000 * TIME, "ms"), registry.Quantity(forward, "km/h"), registry.Quantity(lateral, "km/h"), polarity="49 CFR 563")  # fmt: skip
+    rows = [
+        f"{1000 * t!r},{f!r}, {s!r}"
+        for t, f, s in zip(TIME.tolist(), forward.tolist(), lateral.tolist(), strict=True)
+    ]
+    path.write_text(
+        "\n".join(["\ufefftime [ms],longitudinal [km/h],lateral [km/h]", *rows, "", ""]),
+        encoding="utf-8",
+    )
+    by_arrays = recorded_pulse(registry.Quantity(1000 * TIME, "ms"),
+        registry.Quantity(forward, "km/h"), registry.Quantity(lateral, "km/h"),
+            polarity="49 CFR 563")  # fmt: skip
     for given in (path, str(path)):
         by_file = recorded_pulse(given, polarity="49 CFR 563")
         assert by_file.delta_v_left == pytest.approx(by_arrays.delta_v_left, rel=1e-14)
@@ -164,7 +216,8 @@ def written(path, heads, columns, separator=",", **how):
     return path
 
 
-TIMES, FORWARD, LATERAL = ([f"{value:.2f}" for value in column] for column in (1000 * TIME, -40 * haversine(TIME), 9 * haversine(TIME)))  # fmt: skip
+TIMES, FORWARD, LATERAL = ([f"{value:.2f}" for value in column] for column in (1000 * TIME,
+    -40 * haversine(TIME), 9 * haversine(TIME)))  # fmt: skip
 MPH = 1609.344 / 3600  # exact by definition
 
 
@@ -177,41 +230,69 @@ MPH = 1609.344 / 3600  # exact by definition
         ("Time (msec)\tDelta-V, longitudinal (MPH)\tDelta-V, lateral (MPH)", "tfl", "\t", MPH),
         ('Time (msec),"Delta-V, lateral (MPH)","Delta-V, longitudinal (MPH)"', "tlf", ",", MPH),
         ("Time (ms);Lateral Delta-V (km/h);Longitudinal Delta-V (km/h)", "tlf", ";", KMH),
-        ("TIME (MSEC);LATERAL VELOCITY CHANGE (KPH);LONGITUDINAL VELOCITY CHANGE (KPH);", "tlf ", ";", KMH),
-        ("Time [ms];\u0394v long. [km/h];\u0394v lat. (positive to the right) [km/h]", "tfl", ";", KMH),
+        (
+            "TIME (MSEC);LATERAL VELOCITY CHANGE (KPH);LONGITUDINAL VELOCITY CHANGE (KPH);",
+            "tlf ",
+            ";",
+            KMH,
+        ),
+        (
+            "Time [ms];\u0394v long. [km/h];\u0394v lat. (positive to the right) [km/h]",
+            "tfl",
+            ";",
+            KMH,
+        ),
         ("Time [ms];forward [km/h];positive from left to right [km/h]", "tfl", ";", KMH),
         ("time_ms [ms];delta_v_longitudinal [m/s];delta_v_lateral [m/sec]", "tfl", ";", 1.0),
     ],
 )
 @pytest.mark.parametrize("comma", [False, True])
 def test_columns_are_those_of_their_heads(heads, order, separator, unit, comma, tmp_path):
-    """The same numbers under heads in any order, as reports write them; a place in the file says nothing."""
+    """The same numbers under heads in any order, as reports write them; a place in the file says
+    nothing.
+    """
     if comma and separator == ",":
         return
     columns = {"t": TIMES, "f": FORWARD, "l": LATERAL, " ": [""] * len(TIMES)}
-    cells = [[cell.replace(".", ",") if comma else cell for cell in columns[which]] for which in order]
+    cells = [
+        [cell.replace(".", ",") if comma else cell for cell in columns[which]] for which in order
+    ]
     for encoding in ("utf-8", "utf-8-sig", "utf-16"):
         path = written(tmp_path / "pulse.csv", heads, cells, separator, encoding=encoding)
         pulse = recorded_pulse(path, polarity="49 CFR 563")
         np.testing.assert_allclose(pulse.time, [float(cell) / 1000 for cell in TIMES], rtol=1e-15)
-        np.testing.assert_allclose(pulse.forward, [unit * float(cell) for cell in FORWARD], rtol=1e-14)
-        np.testing.assert_allclose(pulse.left, [-unit * float(cell) for cell in LATERAL], rtol=1e-14)
+        np.testing.assert_allclose(
+            pulse.forward, [unit * float(cell) for cell in FORWARD], rtol=1e-14
+        )
+        np.testing.assert_allclose(
+            pulse.left, [-unit * float(cell) for cell in LATERAL], rtol=1e-14
+        )
 
 
 def test_what_a_recorder_does_not_have(tmp_path):
-    """SNA in all of the lateral column is no lateral column; in the last rows the record is shorter."""
-    heads, none, last = "Time (ms),Longitudinal (km/h),Lateral (km/h)", ["SNA"] * len(TIMES), ["N/A"] * 3
+    """SNA in all of the lateral column is no lateral column; in the last rows the record is
+    shorter.
+    """
+    heads, none, last = (
+        "Time (ms),Longitudinal (km/h),Lateral (km/h)",
+        ["SNA"] * len(TIMES),
+        ["N/A"] * 3,
+    )
     path = written(tmp_path / "pulse.csv", heads, [TIMES, FORWARD, none])
     pulse = recorded_pulse(path, polarity="49 CFR 563")
     assert (pulse.delta_v_left, pulse.pdof) == (None, None)
     assert pulse.delta_v_forward == pytest.approx(-40 * KMH, rel=1e-14)
     for times in (TIMES, TIMES[:-3] + last):
         path = written(
-            tmp_path / "pulse.csv", heads, [times, FORWARD[:-3] + last, [*LATERAL[:-3], "SNA", "sna", "Not available"]]
+            tmp_path / "pulse.csv",
+            heads,
+            [times, FORWARD[:-3] + last, [*LATERAL[:-3], "SNA", "sna", "Not available"]],
         )
         assert len(recorded_pulse(path, polarity="49 CFR 563").time) == len(TIME) - 3
     # A record that is not available to its end stops early.
-    path = written(tmp_path / "pulse.csv", heads, [TIMES, FORWARD[:7] + none[7:], LATERAL[:7] + none[7:]])
+    path = written(
+        tmp_path / "pulse.csv", heads, [TIMES, FORWARD[:7] + none[7:], LATERAL[:7] + none[7:]]
+    )
     with pytest.warns(col.OutOfRangeWarning, match=r"stops at 0\.06 s"):
         assert not recorded_pulse(path, polarity="49 CFR 563").ended
 
@@ -219,7 +300,11 @@ def test_what_a_recorder_does_not_have(tmp_path):
 # Heads or cells, and what the refusal says of them.
 TABLES = [
     ("time [ms],lateral [km/h]", "0,1\n10,2", "no column whose head says 'longitudinal'"),
-    ("time [ms],delta-V [km/h]", "0,1\n10,2", r"'delta-V \[km/h\]' may be neither time, longitudinal nor lateral"),
+    (
+        "time [ms],delta-V [km/h]",
+        "0,1\n10,2",
+        r"'delta-V \[km/h\]' may be neither time, longitudinal nor lateral",
+    ),
     ("sample [ms],longitudinal [km/h]", "0,1\n10,2", "may be neither"),
     ("time [ms],longitudinal [km/h],longitudinal [mph]", "0,1,2\n10,2,3", "are both longitudinal"),
     ("time [ms],longitudinal lateral [km/h]", "0,1\n10,2", "may be longitudinal or lateral"),
@@ -230,10 +315,26 @@ TABLES = [
     ("time [ms],max delta-V longitudinal [km/h]", "0,1\n10,2", "says 'max'"),
     ("time [ms],longitudinal [km/h],resultant [km/h]", "0,1,2\n10,2,3", "says 'resultant'"),
     ("time [ms],longitudinal (positive rearward) [km/h]", "0,1\n10,2", "says 'rearward'"),
-    ("time [ms],longitudinal [km/h],lateral (positive left) [km/h]", "0,1,2\n10,2,3", "positive to the right"),
-    ("time [ms],longitudinal [km/h],left [km/h]", "0,1,2\n10,2,3", "says left, and by polarity='49 CFR 563'"),
-    ("time [ms],longitudinal [km/h],lateral left/right [km/h]", "0,1,2\n10,2,3", "says left or right"),
-    ("time [ms],longitudinal [km/h],lateral (negative left) [km/h]", "0,1,2\n10,2,3", "says 'negative'"),
+    (
+        "time [ms],longitudinal [km/h],lateral (positive left) [km/h]",
+        "0,1,2\n10,2,3",
+        "positive to the right",
+    ),
+    (
+        "time [ms],longitudinal [km/h],left [km/h]",
+        "0,1,2\n10,2,3",
+        "says left, and by polarity='49 CFR 563'",
+    ),
+    (
+        "time [ms],longitudinal [km/h],lateral left/right [km/h]",
+        "0,1,2\n10,2,3",
+        "says left or right",
+    ),
+    (
+        "time [ms],longitudinal [km/h],lateral (negative left) [km/h]",
+        "0,1,2\n10,2,3",
+        "says 'negative'",
+    ),
     ("time [ms],longitudinal (MPH [km/h])", "0,1\n10,2", "has two units"),
     ("time [ms],longitudinal (MPH) [km/h]", "0,1\n10,2", "has two units"),
     ("time [ms],longitudinal", "0,1\n10,2", "has no unit"),
@@ -248,10 +349,22 @@ TABLES = [
     ("time [ms],longitudinal [km/h]", "0,\u22121\n10,2", "could not convert"),
     ("time [ms];longitudinal [km/h]", "0;-1,5\n10;-2.5", "has a decimal comma and '-2.5' a point"),
     ("time [ms],longitudinal [km/h]", '0,"-1,5"\n10,"-2,5"', "semicolons or tabs"),
-    ("time [ms],longitudinal [km/h]", "0,1\n10,SNA\n20,2", "longitudinal is not available in row 3"),
-    ("time [ms],longitudinal [km/h],lateral [km/h]", "0,1,1\n10,2,SNA", "lateral is not available in row 3"),
+    (
+        "time [ms],longitudinal [km/h]",
+        "0,1\n10,SNA\n20,2",
+        "longitudinal is not available in row 3",
+    ),
+    (
+        "time [ms],longitudinal [km/h],lateral [km/h]",
+        "0,1,1\n10,2,SNA",
+        "lateral is not available in row 3",
+    ),
     ("time [ms],longitudinal [km/h]", "SNA,0\n10,1", "could not convert 'SNA'"),
-    ("time [ms],longitudinal [km/h]", "0," + "1" * 200_000, "it is no table \\(field larger than field limit"),
+    (
+        "time [ms],longitudinal [km/h]",
+        "0," + "1" * 200_000,
+        "it is no table \\(field larger than field limit",
+    ),
     ("time [ms],longitudinal [km/h]", "0," + "1" * 1_000, "row 2 has a cell of 1000 characters"),
     ("time [ms],longitudinal [km/h]", '0,"1', "it is no table"),
     ("time [ms],longitudinal [km/h]", '0,"1"2', "it is no table"),
@@ -260,7 +373,9 @@ TABLES = [
 ]
 
 
-@pytest.mark.parametrize(("heads", "cells", "said"), TABLES, ids=[f"{i}" for i in range(len(TABLES))])
+@pytest.mark.parametrize(
+    ("heads", "cells", "said"), TABLES, ids=[f"{i}" for i in range(len(TABLES))]
+)
 def test_tables_that_say_something_else_are_refused(heads, cells, said, tmp_path):
     path = tmp_path / "pulse.csv"
     path.write_text(f"{heads}\n{cells}", encoding="utf-8", newline="")
@@ -271,7 +386,13 @@ def test_tables_that_say_something_else_are_refused(heads, cells, said, tmp_path
 
 
 @pytest.mark.parametrize(
-    "data", [b"time [ms],longitudinal [km/h] \xe9\n0,1", b"\xff\xfet\x00i", b"\x00" * 50, bytes(range(256))]
+    "data",
+    [
+        b"time [ms],longitudinal [km/h] \xe9\n0,1",
+        b"\xff\xfet\x00i",
+        b"\x00" * 50,
+        bytes(range(256)),
+    ],
 )
 def test_files_that_are_no_text_are_refused(data, tmp_path):
     path = tmp_path / "pulse.csv"
@@ -294,14 +415,24 @@ def test_a_cut_record_of_exactly_0_says_nothing_of_the_side():
     time = TIME[TIME <= 0.0601]
     for zero in (0.0, -0.0):
         with pytest.warns(col.OutOfRangeWarning):
-            pulse = recorded_pulse(time, -40 * KMH * haversine(time), zero * time, polarity="49 CFR 563")
+            pulse = recorded_pulse(
+                time, -40 * KMH * haversine(time), zero * time, polarity="49 CFR 563"
+            )
         assert pulse.evidence[0].high == pulse.delta_v_forward
         assert pulse.evidence[1] is None
     with pytest.warns(col.OutOfRangeWarning):
-        assert recorded_pulse(time, 0.0 * time, -40 * KMH * haversine(time), polarity="ISO 8855").evidence[0] is None
+        assert (
+            recorded_pulse(
+                time, 0.0 * time, -40 * KMH * haversine(time), polarity="ISO 8855"
+            ).evidence[0]
+            is None
+        )
     # One that has ended there says that it is 0, to its error.
     whole = recorded_pulse(TIME, -40 * KMH * haversine(TIME), 0.0 * TIME, polarity="49 CFR 563")
-    assert (whole.evidence[1].mean, whole.evidence[1].sd) == (0.0, pytest.approx(0.5 * KMH / math.sqrt(3), rel=1e-14))
+    assert (whole.evidence[1].mean, whole.evidence[1].sd) == (
+        0.0,
+        pytest.approx(0.5 * KMH / math.sqrt(3), rel=1e-14),
+    )
 
 
 SHAPE = -10 * haversine(TIME)
@@ -319,7 +450,9 @@ REFUSALS = [
 
 
 @pytest.mark.parametrize(
-    ("code", "given", "options", "said"), REFUSALS, ids=[f"{i}-{row[0]}" for i, row in enumerate(REFUSALS)]
+    ("code", "given", "options", "said"),
+    REFUSALS,
+    ids=[f"{i}-{row[0]}" for i, row in enumerate(REFUSALS)],
 )
 def test_refusals(code, given, options, said):
     """Each names the argument and what to write."""

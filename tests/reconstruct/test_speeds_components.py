@@ -1,4 +1,6 @@
-"""Speeds from components of delta-V: round trips, closed forms, conditions, what is refused, and folds of the magnitude."""
+"""Speeds from components of delta-V: round trips, closed forms, conditions, what is refused, and
+folds of the magnitude.
+"""
 
 import math
 import pickle
@@ -14,7 +16,11 @@ from collisions import uncertainty
 from collisions.reconstruct import speeds
 from scenes import LAWS
 
-VALUES = {"friction": (0.0, 0.3, 0.8, math.inf), "impulse_ratio": (-0.4, 0.3), "critical_fraction": (0.0, 1.0)}
+VALUES = {
+    "friction": (0.0, 0.3, 0.8, math.inf),
+    "impulse_ratio": (-0.4, 0.3),
+    "critical_fraction": (0.0, 1.0),
+}
 A = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.0, heading=0.1)
 B = col.Vehicle(mass=1300.0, yaw_inertia=2000.0, x=2.0, y=0.8, heading=1.5)
 COURSES = {"course_a": 0.1, "course_b": 1.5}
@@ -31,13 +37,18 @@ def hits(seed=1, count=60):
     rng, found = np.random.default_rng(seed), []
     while len(found) < count:
         rule = ("friction", "friction", "impulse_ratio", "critical_fraction")[rng.integers(4)]
-        contact = {"normal": rng.uniform(-0.6, 0.6), "point": tuple(rng.uniform((-0.4, -0.8), (0.4, 0.8)).tolist())}
+        contact = {
+            "normal": rng.uniform(-0.6, 0.6),
+            "point": tuple(rng.uniform((-0.4, -0.8), (0.4, 0.8)).tolist()),
+        }
         contact |= {rule: float(rng.choice(VALUES[rule])), "law": LAWS[rng.integers(2)]}
         courses, both = rng.uniform(-3, 3, 2), rng.uniform(1, 25, 2)
         bodies = [
             body(
-                both[i], courses[i], mass=rng.uniform(800, 3000), yaw_inertia=rng.uniform(800, 4000), x=x + rng.uniform(-0.5, 0.5),
-                y=rng.uniform(-1, 1), yaw_rate=rng.choice((0.0, rng.uniform(-1, 1))), heading=rng.uniform(-3, 3),
+                both[i], courses[i], mass=rng.uniform(800, 3000),
+                    yaw_inertia=rng.uniform(800, 4000), x=x + rng.uniform(-0.5, 0.5),
+                y=rng.uniform(-1, 1), yaw_rate=rng.choice((0.0, rng.uniform(-1, 1))),
+                heading=rng.uniform(-3, 3),
             )
             for i, x in enumerate((-2.0, 2.0))
         ]  # fmt: skip
@@ -51,12 +62,22 @@ def hits(seed=1, count=60):
 
 
 def recorded(impact, *labels, parts=("forward", "left")):
-    return {f"delta_v_{part}_{label}": getattr(getattr(impact, label), f"delta_v_{part}") for label in labels for part in parts}
+    return {
+        f"delta_v_{part}_{label}": getattr(getattr(impact, label), f"delta_v_{part}")
+        for label in labels
+        for part in parts
+    }
 
 
 def solve_back(impact, courses, contact, **known):
     a, b = (side.before.replace(vx=77.0, vy=-55.0) for side in (impact.a, impact.b))
-    given = {"course_a": courses[0], "course_b": courses[1], "restitution": impact.restitution, **contact, **known}
+    given = {
+        "course_a": courses[0],
+        "course_b": courses[1],
+        "restitution": impact.restitution,
+        **contact,
+        **known,
+    }
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.CollisionsWarning)
         return speeds(a, b, **given)
@@ -64,7 +85,9 @@ def solve_back(impact, courses, contact, **known):
 
 def off(one, other):
     return max(
-        abs(getattr(getattr(one, s).before, v) - getattr(getattr(other, s).before, v)) for s in "ab" for v in ("vx", "vy")
+        abs(getattr(getattr(one, s).before, v) - getattr(getattr(other, s).before, v))
+        for s in "ab"
+        for v in ("vx", "vy")
     )
 
 
@@ -74,28 +97,39 @@ KNOWNS = {
     "both": lambda impact, both: recorded(impact, "a", "b"),
     "both forward": lambda impact, both: recorded(impact, "a", "b", parts=("forward",)),
     "and a speed": lambda impact, both: recorded(impact, "a") | {"speed_b": both[1]},
-    "forward and a speed": lambda impact, both: recorded(impact, "a", parts=("forward",)) | {"speed_b": both[1]},
+    "forward and a speed": lambda impact, both: (
+        recorded(impact, "a", parts=("forward",)) | {"speed_b": both[1]}
+    ),
 }
 
 
 @pytest.mark.parametrize("kind", KNOWNS)
 def test_round_trips(kind):
-    """The speeds come out again to rounding times the condition; where the contact slid, one of them must be known."""
+    """The speeds come out again to rounding times the condition; where the contact slid, one of
+    them must be known.
+    """
     answered = 0
     for impact, both, courses, contact in hits():
         known = KNOWNS[kind](impact, both)
         sticks = impact.regime == "sticking" or contact.get("critical_fraction") == 1.0
         if "speed_b" not in known and not sticks:
-            with pytest.raises(col.NoSolutionError, match=r"slides.*give one of the speeds") as caught:
+            with pytest.raises(
+                col.NoSolutionError, match=r"slides.*give one of the speeds"
+            ) as caught:
                 solve_back(impact, courses, contact, **known)
             assert caught.value.code == "undetermined"
             continue
         found = solve_back(impact, courses, contact, **known)
         nearest = min(found, key=lambda root: off(root, impact))
-        # Some tens of eps of what was given, as much larger as the condition says; the ratio a root may hang on is not in it.
-        allowed = 1e-12 * max(nearest.reconstruction.condition, 1.0) * (impact.closing_speed + sum(both))
+        # Some tens of eps of what was given, as much larger as the condition says; the ratio a root
+        # may hang on is not in it.
+        allowed = (
+            1e-12 * max(nearest.reconstruction.condition, 1.0) * (impact.closing_speed + sum(both))
+        )
         assert off(nearest, impact) < allowed
-        assert nearest.reconstruction.known == tuple(sorted(known, key=lambda name: not name.startswith("speed")))
+        assert nearest.reconstruction.known == tuple(
+            sorted(known, key=lambda name: not name.startswith("speed"))
+        )
         answered += 1
     assert answered > 15
 
@@ -103,7 +137,11 @@ def test_round_trips(kind):
 def test_a_batch_is_its_cases():
     """As one by one; refused cases are NaN with their status, the others untouched."""
     sticks = [
-        hit for hit in hits() if hit[0].regime == "sticking" and hit[3]["law"] == "kudlich-slibar" and "friction" in hit[3]
+        hit
+        for hit in hits()
+        if hit[0].regime == "sticking"
+        and hit[3]["law"] == "kudlich-slibar"
+        and "friction" in hit[3]
     ][:4]
     impacts, _, courses, contacts = zip(*sticks, strict=True)
 
@@ -112,11 +150,15 @@ def test_a_batch_is_its_cases():
 
     a, b = (
         col.Vehicle(
-            **{n: together(lambda i, s=s, n=n: getattr(getattr(i, s).before, n)) for n in ("mass", "yaw_inertia", "x", "y", "yaw_rate", "heading")}
+            **{n: together(lambda i, s=s, n=n: getattr(getattr(i, s).before, n)) for n in ("mass",
+            "yaw_inertia", "x", "y", "yaw_rate", "heading")}
         )
         for s in "ab"
     )  # fmt: skip
-    known = {name: together(lambda i, name=name: recorded(i, "a", "b")[name]) for name in recorded(impacts[0], "a", "b")}
+    known = {
+        name: together(lambda i, name=name: recorded(i, "a", "b")[name])
+        for name in recorded(impacts[0], "a", "b")
+    }
     contact = {
         "normal": np.array([c["normal"] for c in contacts]),
         "point": tuple(np.array([c["point"] for c in contacts]).T),
@@ -130,7 +172,9 @@ def test_a_batch_is_its_cases():
     for i, (impact, _, ways, one) in enumerate(sticks):
         (alone,) = solve_back(impact, ways, one, **recorded(impact, "a", "b"))
         assert found.a.before.speed[i] == pytest.approx(alone.a.before.speed, rel=1e-13)
-        assert found.reconstruction.condition[i] == pytest.approx(alone.reconstruction.condition, rel=1e-9)
+        assert found.reconstruction.condition[i] == pytest.approx(
+            alone.reconstruction.condition, rel=1e-9
+        )
     # A third of them contradictory, NaN, or of nothing.
     spoilt = known | {"delta_v_left_a": known["delta_v_left_a"] * [1.0, math.nan, 1.0, 1.0]}
     spoilt["delta_v_forward_b"] = known["delta_v_forward_b"] * [1.0, 1.0, -9.0, 1.0]
@@ -139,10 +183,19 @@ def test_a_batch_is_its_cases():
     assert mixed.refused.tolist() == [False, True, True, False]
     assert mixed.a.before.vx[[0, 3]].tolist() == found.a.before.vx[[0, 3]].tolist()
     assert col.Status(int(mixed.status[2])).label == "contradictory"
-    single = {name: value.astype(np.float32) for name, value in (known | contact).items() if isinstance(value, np.ndarray)}
+    single = {
+        name: value.astype(np.float32)
+        for name, value in (known | contact).items()
+        if isinstance(value, np.ndarray)
+    }
     single = contact | single | {"point": tuple(p.astype(np.float32) for p in contact["point"])}
     a32, b32 = (
-        v.replace(**{n: getattr(v, n).astype(np.float32) for n in ("mass", "yaw_inertia", "x", "y", "yaw_rate", "heading")})
+        v.replace(
+            **{
+                n: getattr(v, n).astype(np.float32)
+                for n in ("mass", "yaw_inertia", "x", "y", "yaw_rate", "heading")
+            }
+        )
         for v in (a, b)
     )
     with warnings.catch_warnings():
@@ -156,7 +209,9 @@ def test_a_batch_is_its_cases():
 
 
 def points(**changes):
-    """Point masses that stay together: dV_a is the share of B's mass of the velocity of B relative to A."""
+    """Point masses that stay together: dV_a is the share of B's mass of the velocity of B relative
+    to A.
+    """
     masses = {"a": 1500.0, "b": 1200.0} | changes
     a, b = (
         col.Vehicle(mass=masses[s], yaw_inertia=math.inf, x=x, y=0.0, heading=h)
@@ -165,23 +220,38 @@ def points(**changes):
     return (
         a,
         b,
-        {"course_a": 0.3, "course_b": 2.0, "restitution": 0.0, "normal": 0.5, "point": (0.0, 0.0), "friction": math.inf},
+        {
+            "course_a": 0.3,
+            "course_b": 2.0,
+            "restitution": 0.0,
+            "normal": 0.5,
+            "point": (0.0, 0.0),
+            "friction": math.inf,
+        },
     )
 
 
 def test_closed_form_and_condition_of_point_masses():
-    """Relative velocity (va ua - vb ub) = -dV_a / f_b: two equations, solved and differentiated with 40 digits."""
+    """Relative velocity (va ua - vb ub) = -dV_a / f_b: two equations, solved and differentiated
+    with 40 digits.
+    """
     a, b, contact = points()
     known = {"delta_v_forward_a": -7.0, "delta_v_left_a": 4.0}
     (found,) = speeds(a, b, **contact, **known)
     with mpmath.workdps(40):
         share = mpmath.mpf(1200) / 2700
-        ways = mpmath.matrix([[mpmath.cos("0.3"), -mpmath.cos(2)], [mpmath.sin("0.3"), -mpmath.sin(2)]])
-        axes = mpmath.matrix([[mpmath.cos("0.3"), -mpmath.sin("0.3")], [mpmath.sin("0.3"), mpmath.cos("0.3")]])
+        ways = mpmath.matrix(
+            [[mpmath.cos("0.3"), -mpmath.cos(2)], [mpmath.sin("0.3"), -mpmath.sin(2)]]
+        )
+        axes = mpmath.matrix(
+            [[mpmath.cos("0.3"), -mpmath.sin("0.3")], [mpmath.sin("0.3"), mpmath.cos("0.3")]]
+        )
         per_known = -(ways**-1) * axes / share
         exact = per_known * mpmath.matrix([-7, 4])
         closing = (ways * exact).T * mpmath.matrix([mpmath.cos("0.5"), mpmath.sin("0.5")])
-        condition = max(abs(per_known[i, 0] * 7) + abs(per_known[i, 1] * 4) for i in range(2)) / closing[0]
+        condition = (
+            max(abs(per_known[i, 0] * 7) + abs(per_known[i, 1] * 4) for i in range(2)) / closing[0]
+        )
     # The angles are rounded to 1e-16, which moves the answers by some eps.
     assert found.a.before.speed == pytest.approx(float(exact[0]), rel=1e-14)
     assert found.b.before.speed == pytest.approx(float(exact[1]), rel=1e-14)
@@ -191,23 +261,43 @@ def test_closed_form_and_condition_of_point_masses():
     assert one.b.before.speed == pytest.approx(float(exact[1]), rel=1e-13)
     by_b = 1 / abs(math.cos(2.0 - 0.3)) / float(share)
     by_a = abs(1 / math.cos(2.0 - 0.3)) * float(exact[0])
-    assert one.reconstruction.condition == pytest.approx((by_b * 7 + by_a) / float(closing[0]), rel=1e-12)
+    assert one.reconstruction.condition == pytest.approx(
+        (by_b * 7 + by_a) / float(closing[0]), rel=1e-12
+    )
 
 
 def test_two_recorders_give_the_mean_of_their_impulses():
-    """The impulse is linear in the speeds of a contact that sticks, so least squares is the mean of both answers."""
+    """The impulse is linear in the speeds of a contact that sticks, so least squares is the mean of
+    both answers.
+    """
     a, b = A.replace(yaw_rate=0.2), B
-    hit = col.eccentric(body(15.0, 0.1, **fields(a)), body(12.0, 1.5, **fields(b)), 0.1, **CONTACT, friction=math.inf)
-    of_a = {"delta_v_forward_a": hit.a.delta_v_forward * 1.05, "delta_v_left_a": hit.a.delta_v_left * 0.97}
-    of_b = {"delta_v_forward_b": hit.b.delta_v_forward * 0.96, "delta_v_left_b": hit.b.delta_v_left * 1.02}
+    hit = col.eccentric(
+        body(15.0, 0.1, **fields(a)),
+        body(12.0, 1.5, **fields(b)),
+        0.1,
+        **CONTACT,
+        friction=math.inf,
+    )
+    of_a = {
+        "delta_v_forward_a": hit.a.delta_v_forward * 1.05,
+        "delta_v_left_a": hit.a.delta_v_left * 0.97,
+    }
+    of_b = {
+        "delta_v_forward_b": hit.b.delta_v_forward * 0.96,
+        "delta_v_left_b": hit.b.delta_v_left * 1.02,
+    }
     given = {**COURSES, **CONTACT, "restitution": 0.1, "friction": math.inf}
-    (by_a,), (by_b,), (by_both,) = (speeds(a, b, **given, **known) for known in (of_a, of_b, of_a | of_b))
+    (by_a,), (by_b,), (by_both,) = (
+        speeds(a, b, **given, **known) for known in (of_a, of_b, of_a | of_b)
+    )
     for side in "ab":
         mean = (getattr(by_a, side).before.speed + getattr(by_b, side).before.speed) / 2
         assert getattr(by_both, side).before.speed == pytest.approx(mean, rel=1e-13)
     # Beyond the stated accuracy they are warned of, far beyond it refused.
     louder = of_a | {name: 1.3 * value for name, value in of_b.items()}
-    with pytest.warns(col.IllConditionedWarning, match="the stated accuracy of recorders is 10%") as caught:
+    with pytest.warns(
+        col.IllConditionedWarning, match="the stated accuracy of recorders is 10%"
+    ) as caught:
         speeds(a, b, **given, **louder)
     assert caught[0].message.code == "recorders_differ"
     assert caught[0].filename == __file__
@@ -217,22 +307,36 @@ def test_two_recorders_give_the_mean_of_their_impulses():
 
 
 def fields(vehicle):
-    return {name: getattr(vehicle, name) for name in ("mass", "yaw_inertia", "x", "y", "yaw_rate", "heading")}
+    return {
+        name: getattr(vehicle, name)
+        for name in ("mass", "yaw_inertia", "x", "y", "yaw_rate", "heading")
+    }
 
 
 def test_a_sliding_contact_takes_the_impulse_along_its_friction():
-    """With a speed known the measured impulse is projected on the direction (1, mu): least squares by hand."""
+    """With a speed known the measured impulse is projected on the direction (1, mu): least squares
+    by hand.
+    """
     mu, a, b = 0.1, A, B
-    hit = col.eccentric(body(15.0, 0.1, **fields(a)), body(12.0, 1.5, **fields(b)), 0.1, **CONTACT, friction=mu)
+    hit = col.eccentric(
+        body(15.0, 0.1, **fields(a)), body(12.0, 1.5, **fields(b)), 0.1, **CONTACT, friction=mu
+    )
     assert hit.regime == "sliding"
-    known = {"delta_v_forward_a": 0.96 * hit.a.delta_v_forward, "delta_v_left_a": 1.05 * hit.a.delta_v_left}
+    known = {
+        "delta_v_forward_a": 0.96 * hit.a.delta_v_forward,
+        "delta_v_left_a": 1.05 * hit.a.delta_v_left,
+    }
     given = {**COURSES, **CONTACT, "restitution": 0.1, "friction": mu}
     (found,) = speeds(a, b, **given, **known, speed_b=12.0)
     assert found.regime == "sliding"
     assert found.b.before.speed == pytest.approx(12.0, rel=1e-13)
     angle = 0.1 - 0.1  # heading of A less the normal
-    pn = -a.mass * (known["delta_v_forward_a"] * math.cos(angle) - known["delta_v_left_a"] * math.sin(angle))
-    pt = -a.mass * (known["delta_v_forward_a"] * math.sin(angle) + known["delta_v_left_a"] * math.cos(angle))
+    pn = -a.mass * (
+        known["delta_v_forward_a"] * math.cos(angle) - known["delta_v_left_a"] * math.sin(angle)
+    )
+    pt = -a.mass * (
+        known["delta_v_forward_a"] * math.sin(angle) + known["delta_v_left_a"] * math.cos(angle)
+    )
     sign = math.copysign(1.0, hit.tangential_impulse)
     assert found.normal_impulse == pytest.approx((pn + sign * mu * pt) / (1 + mu * mu), rel=1e-12)
     # The pair alone: its direction only repeats the friction.
@@ -240,14 +344,19 @@ def test_a_sliding_contact_takes_the_impulse_along_its_friction():
         speeds(a, b, **given, **known)
     assert caught.value.code == "undetermined"
     # Within the friction but within the accuracy of its edge, sticking is taken and the doubt said.
-    inside = {"delta_v_forward_a": 1.05 * hit.a.delta_v_forward, "delta_v_left_a": hit.a.delta_v_left}
+    inside = {
+        "delta_v_forward_a": 1.05 * hit.a.delta_v_forward,
+        "delta_v_left_a": hit.a.delta_v_left,
+    }
     with pytest.warns(col.IllConditionedWarning, match="it was taken to stick") as caught:
         speeds(a, b, **given, **inside)
     assert [w.message.code for w in caught] == ["may_slide"]
 
 
 def test_no_speed_fits_the_components_better():
-    """With one speed known, against a scan of the other by the forward solver: stuck, slid, or on the edge between both."""
+    """With one speed known, against a scan of the other by the forward solver: stuck, slid, or on
+    the edge between both.
+    """
     rng, edges, answered = np.random.default_rng(5), 0, 0
     frictional = [hit for hit in hits(seed=3, count=80) if 0.0 < hit[3].get("friction", 0.0) < 1.0]
     for impact, both, courses, true_contact in frictional:
@@ -257,10 +366,14 @@ def test_no_speed_fits_the_components_better():
         noise = 0.1 * impact.a.delta_v * rng.uniform(-1, 1, 2)
         known = {name: value + off for (name, value), off in zip(exact.items(), noise, strict=True)}
         others = both[1] + np.linspace(-30.0, 30.0, 6001)
-        scanned = impact.b.before.replace(vx=others * math.cos(courses[1]), vy=others * math.sin(courses[1]))
+        scanned = impact.b.before.replace(
+            vx=others * math.cos(courses[1]), vy=others * math.sin(courses[1])
+        )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", col.CollisionsWarning)
-            seen = col.eccentric(impact.a.before, scanned, impact.restitution, **contact, on_failure="nan").a
+            seen = col.eccentric(
+                impact.a.before, scanned, impact.restitution, **contact, on_failure="nan"
+            ).a
         misfits = np.hypot(*(getattr(seen, name[:-2]) - value for name, value in known.items()))
         least = np.nanmin(misfits)
         root, refusal = None, None
@@ -299,21 +412,27 @@ def test_forward_only_leaves_backward_roots_out():
         first, second = fold(np.array([28.5, 40.0]))
     assert np.isfinite(first.b.before.speed).all()
     only, rest = fold(np.array([28.5, 40.0]), forward_only=True)
-    assert only.b.before.speed.tolist() == pytest.approx([first.b.before.speed[0], second.b.before.speed[1]])
+    assert only.b.before.speed.tolist() == pytest.approx(
+        [first.b.before.speed[0], second.b.before.speed[1]]
+    )
     assert np.isnan(rest.b.before.speed).tolist() == [False, True]
 
 
 def fold_scene():
-    """Point masses that stay together, of which A's delta-V is least, 28.247 km/h, where B goes at 47.3.
+    """Point masses that stay together, of which A's delta-V is least, 28.247 km/h, where B goes at
+    47.3.
 
-    dV_a^2 = f^2 ((w - w0)^2 + q^2) with f the share of B's mass, w0 and q the parts of A's velocity along and across the course
-    of B; f and q are such that 28.3 and 28.5 km/h are met 8.4 and 18.4 km/h on either side.
+    dV_a^2 = f^2 ((w - w0)^2 + q^2) with f the share of B's mass, w0 and q the parts of A's velocity
+    along and across the course of B; f and q are such that 28.3 and 28.5 km/h are met 8.4 and 18.4
+    km/h on either side.
     """
     share = math.sqrt((28.5**2 - 28.3**2) / (18.4**2 - 8.4**2))
     across = math.sqrt(28.3**2 / share**2 - 8.4**2)
     speed, course = math.hypot(across, 47.3), math.atan2(across, 47.3)
     a = col.Vehicle(mass=1500.0, yaw_inertia=math.inf, x=0.0, y=0.0, heading=0.0)
-    b = col.Vehicle(mass=1500.0 * share / (1 - share), yaw_inertia=math.inf, x=2.0, y=0.0, heading=course)
+    b = col.Vehicle(
+        mass=1500.0 * share / (1 - share), yaw_inertia=math.inf, x=2.0, y=0.0, heading=course
+    )
     contact = {"restitution": 0.0, "normal": -0.9, "point": (1.0, 0.0), "friction": math.inf}
 
     def solve(delta_v, **options):
@@ -324,10 +443,14 @@ def fold_scene():
 
 
 def test_the_magnitude_is_a_fold():
-    """38.9 or 55.7 km/h at 28.3, 28.9 or 65.7 at 28.5, none at 28.2; a range that reaches it is warned of."""
+    """38.9 or 55.7 km/h at 28.3, 28.9 or 65.7 at 28.5, none at 28.2; a range that reaches it is
+    warned of.
+    """
     fold = fold_scene()
     for delta_v, met in ((28.3, (38.9, 55.7)), (28.5, (28.9, 65.7))):
-        assert sorted(3.6 * root.b.before.speed for root in fold(delta_v)) == pytest.approx(met, abs=0.05)
+        assert sorted(3.6 * root.b.before.speed for root in fold(delta_v)) == pytest.approx(
+            met, abs=0.05
+        )
     with pytest.raises(col.NoSolutionError):
         fold(28.2)
 
@@ -336,18 +459,32 @@ def test_the_magnitude_is_a_fold():
 
     for low, high in ((28.2, 28.4), (28.3, 28.5)):
         with pytest.warns(col.CollisionsWarning) as caught:
-            uncertainty.propagate(model, {"delta_v": uncertainty.Uniform(low, high)}, method="quasi_random", samples=64, seed=1)
+            uncertainty.propagate(
+                model,
+                {"delta_v": uncertainty.Uniform(low, high)},
+                method="quasi_random",
+                samples=64,
+                seed=1,
+            )
         assert "fold" in {warning.message.code for warning in caught}, (low, high)
     # Far from the fold, and in a plain table of cases, nothing is said.
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        uncertainty.propagate(model, {"delta_v": uncertainty.Uniform(29.2, 29.4)}, method="quasi_random", samples=64, seed=1)
+        uncertainty.propagate(
+            model,
+            {"delta_v": uncertainty.Uniform(29.2, 29.4)},
+            method="quasi_random",
+            samples=64,
+            seed=1,
+        )
         fold(np.array([28.3, 28.5]))
 
 
 @pytest.mark.slow
 def test_an_interval_that_reaches_a_fold_is_warned_of():
-    """The ends of a range through the place where two answers meet are those of different answers."""
+    """The ends of a range through the place where two answers meet are those of
+    different answers.
+    """
     with pytest.warns(col.CollisionsWarning) as caught:
         uncertainty.propagate(
             lambda delta_v: {"speed_b": fold_scene()(delta_v)[0].b.before.speed},
@@ -358,16 +495,26 @@ def test_an_interval_that_reaches_a_fold_is_warned_of():
 
 
 def test_components_have_no_fold():
-    """The same crash by its components: one answer, linear through the place where the magnitude is least."""
+    """The same crash by its components: one answer, linear through the place where the magnitude is
+    least.
+    """
     a, b, contact = points()
 
     def model(forward):
-        return {"speed_b": speeds(a, b, **contact, delta_v_forward_a=forward, delta_v_left_a=4.0)[0].b.before.speed}
+        return {
+            "speed_b": speeds(a, b, **contact, delta_v_forward_a=forward, delta_v_left_a=4.0)[
+                0
+            ].b.before.speed
+        }
 
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         spread = uncertainty.propagate(
-            model, {"forward": uncertainty.Normal(-7.0, 0.3)}, method="quasi_random", samples=256, seed=1
+            model,
+            {"forward": uncertainty.Normal(-7.0, 0.3)},
+            method="quasi_random",
+            samples=256,
+            seed=1,
         )
     slope = (model(-6.0)["speed_b"] - model(-8.0)["speed_b"]) / 2
     # The sampling error of a standard deviation of a linear model by a lattice of 256.
@@ -377,24 +524,33 @@ def test_components_have_no_fold():
 GIVEN = {**COURSES, **CONTACT, "restitution": 0.1, "friction": math.inf}
 PAIR = {"delta_v_forward_a": -5.0, "delta_v_left_a": 1.0}
 REFUSALS = [
-    ("missing_heading", col.MissingInputError, {}, {"a": A.replace(heading=None)}, "a has no heading"),
+    ("missing_heading", col.MissingInputError, {}, {"a": A.replace(heading=None)},
+        "a has no heading"),
     ("bad_combination", col.InputError, {"delta_v_b": 3.0}, {}, "delta_v_b are not taken together"),
-    ("bad_combination", col.InputError, {"energy_loss": 3.0}, {}, "beside components of delta-V give a speed"),
+    ("bad_combination", col.InputError, {"energy_loss": 3.0}, {},
+        "beside components of delta-V give a speed"),
     ("too_many_knowns", col.InputError, {"speed_a": 9.0, "speed_b": 3.0}, {}, "forward problem"),
-    ("too_few_knowns", col.InputError, {"delta_v_left_a": None}, {}, "delta_v_forward_a alone leaves the speeds open"),
-    ("bad_combination", col.InputError, {"restitution": lambda g: 0.1}, {}, "take a number for the restitution"),
-    ("bad_combination", col.InputError, {"friction": None, "critical_fraction": 0.5}, {}, "no critical_fraction between"),
-    ("infinite_mass", col.NoSolutionError, {}, {"a": A.replace(mass=math.inf)}, "that of an infinite mass"),
+    ("too_few_knowns", col.InputError, {"delta_v_left_a": None}, {},
+        "delta_v_forward_a alone leaves the speeds open"),
+    ("bad_combination", col.InputError, {"restitution": lambda g: 0.1}, {},
+        "take a number for the restitution"),
+    ("bad_combination", col.InputError, {"friction": None, "critical_fraction": 0.5}, {},
+        "no critical_fraction between"),
+    ("infinite_mass", col.NoSolutionError, {}, {"a": A.replace(mass=math.inf)},
+        "that of an infinite mass"),
     ("bad_units", col.InputError, {"delta_v_left_a": "3 kg"}, {}, "delta_v_left_a"),
     ("not_finite", col.InputError, {"delta_v_left_a": math.nan}, {}, "delta_v_left_a is NaN"),
     ("one_tangential", col.InputError, {"friction": None}, {}, "friction"),
     ("undetermined", col.NoSolutionError, {"course_b": 0.1}, {}, "give one of the speeds"),
-    ("contradictory", col.NoSolutionError, {"delta_v_forward_a": 5.0}, {}, "fit delta_v_forward_a = 5 m/s and delta_v_left_a = 1 m/s"),
+    ("contradictory", col.NoSolutionError, {"delta_v_forward_a": 5.0}, {},
+        "fit delta_v_forward_a = 5 m/s and delta_v_left_a = 1 m/s"),
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize(
-    ("code", "kind", "changed", "bodies", "said"), REFUSALS, ids=[f"{i}-{row[0]}" for i, row in enumerate(REFUSALS)]
+    ("code", "kind", "changed", "bodies", "said"),
+    REFUSALS,
+    ids=[f"{i}-{row[0]}" for i, row in enumerate(REFUSALS)],
 )
 def test_refusals(code, kind, changed, bodies, said):
     """The error of its family, with what to give instead."""
@@ -409,10 +565,14 @@ def test_extremes_of_scale(size):
     (usual,) = speeds(A, B, **GIVEN, **PAIR)
     (fast,) = speeds(A, B, **GIVEN, **{name: size * value for name, value in PAIR.items()})
     assert fast.a.before.speed == pytest.approx(size * usual.a.before.speed, rel=1e-13)
-    a, b = (body.replace(mass=size * body.mass, yaw_inertia=size * body.yaw_inertia) for body in (A, B))
+    a, b = (
+        body.replace(mass=size * body.mass, yaw_inertia=size * body.yaw_inertia) for body in (A, B)
+    )
     (heavy,) = speeds(a, b, **GIVEN, **PAIR)
     assert heavy.a.before.speed == pytest.approx(usual.a.before.speed, rel=1e-13)
-    assert heavy.reconstruction.condition == pytest.approx(usual.reconstruction.condition, rel=1e-12)
+    assert heavy.reconstruction.condition == pytest.approx(
+        usual.reconstruction.condition, rel=1e-12
+    )
 
 
 def test_texts_records_reports_and_explanations():
@@ -429,7 +589,10 @@ def test_texts_records_reports_and_explanations():
     assert "-18 km/h" in page
     assert col.reporting.replay(page) == found
     text = col.explain(found, form="text")
-    assert "Delta-V of A was known by its components in the axes of the vehicle (forward, left)" in text
+    assert (
+        "Delta-V of A was known by its components in the axes of the vehicle (forward, left)"
+        in text
+    )
     # Two recorders that do not quite agree are met as well as they agree.
     more = {
         "delta_v_forward_b": f"{1.04 * found.b.delta_v_forward:.9f} m/s",

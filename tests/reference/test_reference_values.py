@@ -1,4 +1,6 @@
-"""Published values: against where they were published, their ranges, sources, refusals and warnings."""
+"""Published values: against where they were published, their ranges, sources, refusals and
+warnings.
+"""
 
 import itertools
 import math
@@ -19,17 +21,22 @@ VIRGINIA = {
     10: 5, 15: 11, 20: 19, 25: 30, 30: 43, 35: 58, 40: 76, 45: 96, 50: 119, 55: 144,
     60: 171, 65: 201, 70: 233, 75: 268, 80: 305, 85: 344, 90: 386, 95: 430, 100: 476,
 }  # fmt: skip
-# Small-overlap tests, pycrash Brach Matrix.xlsx: share of the critical ratio in percent, critical ratio, restitution.
+# Small-overlap tests, pycrash Brach Matrix.xlsx: share of the critical ratio in percent, critical
+# ratio, restitution.
 SMALL_OVERLAP = [
-    (100, -1.98, 0.0), (98.9, -2.006, 0.147), (82.3, -1.909, 0.0), (89.5, -1.903, 0.0), (100, -1.944, 0.039),
-    (97.4, -1.705, 0.253), (100, -2.048, 0.0), (100, -2.041, 0.022), (99.3, -1.718, 0.15), (100, -1.839, 0.231),
+    (100, -1.98, 0.0), (98.9, -2.006, 0.147), (82.3, -1.909, 0.0), (89.5, -1.903, 0.0),
+        (100, -1.944, 0.039),
+    (97.4, -1.705, 0.253), (100, -2.048, 0.0), (100, -2.041, 0.022), (99.3, -1.718, 0.15),
+        (100, -1.839, 0.231),
 ]  # fmt: skip
 
 
 # Restitution
 
 
-@pytest.mark.parametrize(("mph", "e"), [(2, 0.4876), (3, 0.4418), (5, 0.3826), (7, 0.3394), (10, 0.2871), (15, 0.2161)])
+@pytest.mark.parametrize(
+    ("mph", "e"), [(2, 0.4876), (3, 0.4418), (5, 0.3826), (7, 0.3394), (10, 0.2871), (15, 0.2161)]
+)
 def test_the_fit_has_the_values_of_the_shared_table(mph, e):
     """To the last of its four digits."""
     assert reference.restitution(f"{mph} mph") == pytest.approx(e, abs=5e-5)
@@ -47,14 +54,18 @@ def test_it_is_warned_of_beyond_its_range_and_refused_where_it_is_none():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         reference.restitution("2 mph"), reference.restitution("15 mph")
-    with pytest.warns(col.OutOfRangeWarning, match="closing_speed 15 m/s lies outside the range") as caught:
+    with pytest.warns(
+        col.OutOfRangeWarning, match="closing_speed 15 m/s lies outside the range"
+    ) as caught:
         assert 0.0 < reference.restitution(15.0) < 0.05
     assert caught[0].filename == __file__
     assert "SAE 2002-01-0540" in str(caught[0].message)
     with pytest.warns(col.OutOfRangeWarning):
         reference.restitution("58.7 km/h")
     for speed in ("58.8 km/h", 30.0, 0.07):
-        with pytest.raises(col.InputError, match="no restitution; it holds from 2 to 15 mph") as refused:
+        with pytest.raises(
+            col.InputError, match="no restitution; it holds from 2 to 15 mph"
+        ) as refused:
             reference.restitution(speed)
         assert refused.value.code == "outside_reference"
 
@@ -78,7 +89,9 @@ def test_many_at_once():
     assert caught[0].message.fields["counts"] == {"outside_reference": 1, "refused": 4}
     assert np.isnan(found).tolist() == [False, False, False, True, True, True, True]
     # math.log10 and numpy's may differ by a rounding.
-    assert found[:2] == pytest.approx([reference.restitution(speed) for speed in (1.0, 5.0)], rel=4e-16)
+    assert found[:2] == pytest.approx(
+        [reference.restitution(speed) for speed in (1.0, 5.0)], rel=4e-16
+    )
     assert not found.flags.writeable
     with pytest.warns(col.OutOfRangeWarning, match="5 have no answer"):
         assert np.isnan(reference.restitution(speeds, outside="refuse")[2])
@@ -117,7 +130,9 @@ def test_the_plausible_range_holds_what_was_measured():
     assert reference.restitution_range("30 m/s") == (0.0, 0.3)
     low, high = reference.restitution_range(np.array([0.5, 5.0, 30.0, -1.0]))
     assert low[:3].tolist() == [0.0] * 3
-    assert high[:3] == pytest.approx([reference.restitution_range(speed)[1] for speed in (0.5, 5.0, 30.0)], rel=4e-16)
+    assert high[:3] == pytest.approx(
+        [reference.restitution_range(speed)[1] for speed in (0.5, 5.0, 30.0)], rel=4e-16
+    )
     assert np.isnan(high[3])
     with pytest.raises(col.InputError, match="must be >= 0"):
         reference.restitution_range(-1.0)
@@ -127,7 +142,9 @@ def test_the_plausible_range_holds_what_was_measured():
 
 
 def test_yaw_inertia_of_the_car_that_could_be_compared():
-    """2008 Ford Fusion in pycrash: 3574.2 lb, 190 in, wheelbase 107 in, 6 ft wide, 2336.3 slug ft2; what the quality says."""
+    """2008 Ford Fusion in pycrash: 3574.2 lb, 190 in, wheelbase 107 in, 6 ft wide, 2336.3 slug ft2;
+    what the quality says.
+    """
     measured = pint.get_application_registry().Quantity(2336.3, "slug*ft**2").m_as("kg*m**2")
     size = {"mass": "3574.2 lb", "length": "190 inch"}
     low = reference.yaw_inertia(**size, wheelbase="107 inch")
@@ -140,15 +157,25 @@ def test_yaw_inertia_of_the_car_that_could_be_compared():
 
 def test_yaw_inertia_of_the_published_input_set():
     """Schreier and Nelson's cars, as recomputed from eeswebgl: 998.3477 and 2681.4224 kg m2."""
-    for mass, wheelbase, length, expected in ((880, 2.4, 3.725, 998.3477), (1600, 2.795, 4.725, 2681.4224)):
-        assert reference.yaw_inertia(mass, length=length, wheelbase=wheelbase) == pytest.approx(expected, abs=5e-5)
+    for mass, wheelbase, length, expected in (
+        (880, 2.4, 3.725, 998.3477),
+        (1600, 2.795, 4.725, 2681.4224),
+    ):
+        assert reference.yaw_inertia(mass, length=length, wheelbase=wheelbase) == pytest.approx(
+            expected, abs=5e-5
+        )
 
 
 def test_the_rectangle_is_one():
     """Against a sum over cells; halving their size quarters the error, which is (1/400)**2."""
-    across, along = ((np.arange(400) + 0.5) / 400 - 0.5)[:, np.newaxis] * 1.8, ((np.arange(400) + 0.5) / 400 - 0.5) * 4.5
+    across, along = (
+        ((np.arange(400) + 0.5) / 400 - 0.5)[:, np.newaxis] * 1.8,
+        ((np.arange(400) + 0.5) / 400 - 0.5) * 4.5,
+    )
     summed = 1500.0 * np.mean(across**2 + along**2)
-    assert reference.yaw_inertia(1500, length=4.5, width=1.8) == pytest.approx(summed, rel=1 / 400**2 * 1.01)
+    assert reference.yaw_inertia(1500, length=4.5, width=1.8) == pytest.approx(
+        summed, rel=1 / 400**2 * 1.01
+    )
 
 
 def test_yaw_inertia_outside_and_in_batches():
@@ -160,7 +187,9 @@ def test_yaw_inertia_outside_and_in_batches():
     assert refused.value.code == "outside_reference"
     with pytest.warns(col.OutOfRangeWarning, match="of 3 cases 1 lie outside"):
         found = reference.yaw_inertia(np.array([1000.0, 2500.0, -1.0]), length=4.5, width=1.8)
-    assert found[0] == pytest.approx(reference.yaw_inertia(1000.0, length=4.5, width=1.8), rel=1e-15)
+    assert found[0] == pytest.approx(
+        reference.yaw_inertia(1000.0, length=4.5, width=1.8), rel=1e-15
+    )
     assert np.isnan(found).tolist() == [False, False, True]
 
 
@@ -168,7 +197,9 @@ def test_yaw_inertia_outside_and_in_batches():
 
 
 def test_drag_behind_the_table_of_virginia():
-    """Every braking distance to the foot, by the formula of the course sheets that the quality names."""
+    """Every braking distance to the foot, by the formula of the course sheets that the quality
+    names.
+    """
     drag = reference.DRAG_FACTORS[-1]
     assert drag.low == drag.high == 0.70
     assert "30 times 0.70" in drag.quality
@@ -189,7 +220,8 @@ def test_drag_factors_of_the_table():
             assert "mfes.com" in row.source
 
 
-# EDSMAC manual, Table 2-7, with the surfaces in its order: dry below and above 30 mph, wet below and above.
+# EDSMAC manual, Table 2-7, with the surfaces in its order: dry below and above 30 mph, wet below
+# and above.
 EDSMAC = """
 new concrete           0.80 - 1.20 | 0.70 - 1.00 | 0.50 - 0.80 | 0.40 - 0.75
 travelled concrete     0.60 - 0.80 | 0.60 - 0.75 | 0.45 - 0.70 | 0.45 - 0.65
@@ -212,37 +244,62 @@ def test_drag_factors_of_every_surface():
     """Each cell of the table, and that there are no others."""
     cells = 0
     for line in EDSMAC.strip().splitlines():
-        name, *ends = re.match(r"([a-z ]+?) +" + r" \| ".join([r"([\d.]+) - ([\d.]+)"] * 4), line).groups()
-        for at, (state, speed) in enumerate(itertools.product(("dry", "wet"), ("20 mph", "40 mph"))):
+        name, *ends = re.match(
+            r"([a-z ]+?) +" + r" \| ".join([r"([\d.]+) - ([\d.]+)"] * 4), line
+        ).groups()
+        for at, (state, speed) in enumerate(
+            itertools.product(("dry", "wet"), ("20 mph", "40 mph"))
+        ):
             worn, _, road = name.rpartition(" ")
-            surface = f"{worn} {state} {road}" if worn in ("new", "travelled", "polished") else f"{state} {name}"
+            surface = (
+                f"{worn} {state} {road}"
+                if worn in ("new", "travelled", "polished")
+                else f"{state} {name}"
+            )
             row = reference.drag_factor(surface, speed=speed)
-            assert (row.low, row.high) == (float(ends[2 * at]), float(ends[2 * at + 1])), (line, state, speed)
+            assert (row.low, row.high) == (float(ends[2 * at]), float(ends[2 * at + 1])), (
+                line,
+                state,
+                speed,
+            )
             assert "Table 2-7" in row.source
             cells += 1
     assert cells + 1 == len(reference.DRAG_FACTORS)  # one stands in a statute
 
 
 def test_values_read_at_second_hand():
-    """As Colliseum, EDSMAC Table 2-6, 49 CFR 563 and ESV 2005 have them; what is quoted of others says so."""
+    """As Colliseum, EDSMAC Table 2-6, 49 CFR 563 and ESV 2005 have them; what is quoted of others
+    says so.
+    """
     ends = {
         "CONTACT_DURATION": (0.078, 0.147, 0.115), "CONTACT_DURATION_BRAKED": (0.088, 0.124, 0.109),
-        "RESTITUTION_LOW_SPEED_HALF": (0.173, 0.247, None), "RESTITUTION_LOW_SPEED_FULL": (0.328, 0.38, None),
+        "RESTITUTION_LOW_SPEED_HALF": (0.173, 0.247, None),
+        "RESTITUTION_LOW_SPEED_FULL": (0.328, 0.38, None),
         "ROLLING_RESISTANCE": (0.010, 0.013, None), "ENGINE_BRAKING_HIGH": (0.15, 0.2, None),
-        "ENGINE_BRAKING_LOW": (0.2, 0.4, None), "RECORDER_ACCURACY": (-0.1, 0.1, None), "YAW_INERTIA_INDEX": (0.89, 1.13, None),
+        "ENGINE_BRAKING_LOW": (0.2, 0.4, None), "RECORDER_ACCURACY": (-0.1, 0.1, None),
+        "YAW_INERTIA_INDEX": (0.89, 1.13, None),
     }  # fmt: skip
     for name, values in ends.items():
         row = getattr(reference, name)
         assert (row.low, row.high, row.typical) == values, name
         assert row in reference.PUBLISHED
-        assert ("colliseum" in row.source or "quoted" in row.source) == ("Second hand" in row.quality), name
+        assert ("colliseum" in row.source or "quoted" in row.source) == (
+            "Second hand" in row.quality
+        ), name
     assert reference.RECORDER_ERROR.typical == 0.06
     assert reference.RECORDER_RESOLUTION.q.low.m_as("km/h") == pytest.approx(1.0, rel=1e-15)
 
 
 @pytest.mark.parametrize(
     ("overlap", "ends"),
-    [(0.1, (0, 0.15)), ("45 %", (0, 0.15)), (0.46, (0.1, 0.2)), (0.5, (0.1, 0.2)), ("55 %", (0.15, 0.3)), (1.0, (0.15, 0.3))],
+    [
+        (0.1, (0, 0.15)),
+        ("45 %", (0, 0.15)),
+        (0.46, (0.1, 0.2)),
+        (0.5, (0.1, 0.2)),
+        ("55 %", (0.15, 0.3)),
+        (1.0, (0.15, 0.3)),
+    ],
 )
 def test_restitution_by_overlap(overlap, ends):
     """VuF 2000, p. 275: under, about and over half of the width."""
@@ -259,7 +316,10 @@ def test_impulse_ratios_of_the_tests():
     shares = reference.SHARE_OF_CRITICAL_SMALL_OVERLAP
     assert (min(row[0] for row in SMALL_OVERLAP) / 100, 1.0) == (shares.low, shares.high)
     e = reference.RESTITUTION_SMALL_OVERLAP
-    assert (min(row[2] for row in SMALL_OVERLAP), max(row[2] for row in SMALL_OVERLAP)) == (e.low, e.high)
+    assert (min(row[2] for row in SMALL_OVERLAP), max(row[2] for row in SMALL_OVERLAP)) == (
+        e.low,
+        e.high,
+    )
     # pycrash test_inputs_rose.py: tests 4363, 4364, 4438, 4474.
     oblique = reference.IMPULSE_RATIO_OBLIQUE
     assert (min(0.51, 0.42, 0.44, 0.40), max(0.51, 0.42, 0.44, 0.40)) == (oblique.low, oblique.high)
@@ -306,18 +366,54 @@ def test_no_name_twice():
         (lambda: reference.restitution(math.nan), "not_finite", "closing_speed is NaN"),
         (lambda: reference.restitution(5.0, outside="nan"), "bad_option", "outside must be 'warn'"),
         (lambda: reference.restitution(5.0, outside=3), "bad_option", "got 3"),
-        (lambda: reference.yaw_inertia(1500, length=4.5), "one_form", "exactly one of wheelbase= and width=, got none"),
-        (lambda: reference.yaw_inertia(1500, length=4.5, wheelbase=2.7, width=1.8), "one_form", "got both"),
-        (lambda: reference.yaw_inertia(-1, length=4.5, width=1.8), "not_positive", "mass must be > 0"),
-        (lambda: reference.yaw_inertia(1500, length=2.7, wheelbase=4.5), "bad_dimensions", "is not below length 2.7 m"),
-        (lambda: reference.yaw_inertia(1e308, length=4.5, width=1.8), "out_of_range", "not a finite number"),
+        (
+            lambda: reference.yaw_inertia(1500, length=4.5),
+            "one_form",
+            "exactly one of wheelbase= and width=, got none",
+        ),
+        (
+            lambda: reference.yaw_inertia(1500, length=4.5, wheelbase=2.7, width=1.8),
+            "one_form",
+            "got both",
+        ),
+        (
+            lambda: reference.yaw_inertia(-1, length=4.5, width=1.8),
+            "not_positive",
+            "mass must be > 0",
+        ),
+        (
+            lambda: reference.yaw_inertia(1500, length=2.7, wheelbase=4.5),
+            "bad_dimensions",
+            "is not below length 2.7 m",
+        ),
+        (
+            lambda: reference.yaw_inertia(1e308, length=4.5, width=1.8),
+            "out_of_range",
+            "not a finite number",
+        ),
         (lambda: reference.drag_factor("mud", speed=10.0), "unknown_surface", "'new dry asphalt'"),
-        (lambda: reference.restitution_by_overlap(0.0), "bad_fraction", "overlap must be > 0 and at most 1, got 0"),
+        (
+            lambda: reference.restitution_by_overlap(0.0),
+            "bad_fraction",
+            "overlap must be > 0 and at most 1, got 0",
+        ),
         (lambda: reference.restitution_by_overlap("150 %"), "bad_fraction", "at most 1"),
         (lambda: reference.restitution_by_overlap(np.ones(2)), "bad_shape", "ask for each"),
-        (lambda: reference.drag_factor("new dry asphalt", speed=-1.0), "negative_speed", "speed must be >= 0"),
-        (lambda: reference.drag_factor("new dry asphalt", speed=np.ones(2)), "bad_shape", "ask for each"),
-        (lambda: reference.drag_factor("mud", speed="x"), "bad_units", "2 arguments cannot be used"),
+        (
+            lambda: reference.drag_factor("new dry asphalt", speed=-1.0),
+            "negative_speed",
+            "speed must be >= 0",
+        ),
+        (
+            lambda: reference.drag_factor("new dry asphalt", speed=np.ones(2)),
+            "bad_shape",
+            "ask for each",
+        ),
+        (
+            lambda: reference.drag_factor("mud", speed="x"),
+            "bad_units",
+            "2 arguments cannot be used",
+        ),
     ],
 )
 def test_refusals(call, code, said):
@@ -346,7 +442,10 @@ def test_values_and_formulas_with_their_units():
     assert reference.INTER_VEHICLE_FRICTION.q.typical == registry.Quantity(0.55, "dimensionless")
     low, high, unit = reference.RESTITUTION_FIT.q.ranges["closing_speed"]
     # 0.44704 m/s is a mile per hour exactly.
-    assert (low.m_as("mph"), high.m_as("mph")) == (pytest.approx(2.0, rel=1e-15), pytest.approx(15.0, rel=1e-15))
+    assert (low.m_as("mph"), high.m_as("mph")) == (
+        pytest.approx(2.0, rel=1e-15),
+        pytest.approx(15.0, rel=1e-15),
+    )
     assert unit == "m/s"
     for fit in reference.FITS:
         assert fit.q.ranges.keys() == fit.ranges.keys()
@@ -362,7 +461,9 @@ def test_a_yaw_inertia_of_nothing_is_refused(name):
 
 
 def test_membership_reads_units_and_refuses_what_is_no_number():
-    """A range is asked with the unit or without; texts that are no number, arrays and objects are refused, not compared."""
+    """A range is asked with the unit or without; texts that are no number, arrays and objects are
+    refused, not compared.
+    """
     assert "60 %" in reference.INTER_VEHICLE_FRICTION
     assert "70 ms" not in reference.CONTACT_DURATION
     assert 0.108 in reference.CONTACT_DURATION

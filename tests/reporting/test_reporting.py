@@ -1,4 +1,6 @@
-"""report: what stands on the page is what the pieces say, the page is one HTML that asks for nothing, and it can be made again."""
+"""report: what stands on the page is what the pieces say, the page is one HTML that asks for
+nothing, and it can be made again.
+"""
 
 import html
 import json
@@ -43,18 +45,39 @@ HOLDS_ITSELF.append(HOLDS_ITSELF)
 
 
 def golf(**changes):
-    given = {"mass": "1500 kg", "yaw_inertia": 2600, "vx": "54 km/h", "x": -2.2, "y": 0.0, "heading": "0 deg", "name": "Golf"}
+    given = {
+        "mass": "1500 kg",
+        "yaw_inertia": 2600,
+        "vx": "54 km/h",
+        "x": -2.2,
+        "y": 0.0,
+        "heading": "0 deg",
+        "name": "Golf",
+    }
     return col.Vehicle(**{**given, **changes})
 
 
 def polo(**changes):
-    given = {"mass": UREG.Quantity(2600, "lb"), "yaw_inertia": 2100, "x": 0.9, "y": 0.1, "heading": "-90 deg", "name": "Polo"}
+    given = {
+        "mass": UREG.Quantity(2600, "lb"),
+        "yaw_inertia": 2100,
+        "x": 0.9,
+        "y": 0.1,
+        "heading": "-90 deg",
+        "name": "Polo",
+    }
     return col.Vehicle.from_speed(speed="30 km/h", course="-90 deg", **{**given, **changes})
 
 
 def crash(a=None, b=None, e=0.1, **options):
-    options = {"friction": 0.5} | options if not {"impulse_ratio", "critical_fraction"} & options.keys() else options
-    return col.eccentric(a or golf(), b or polo(), e, **{"normal": "10 deg", "point": (0.0, 0.0), **options})
+    options = (
+        {"friction": 0.5} | options
+        if not {"impulse_ratio", "critical_fraction"} & options.keys()
+        else options
+    )
+    return col.eccentric(
+        a or golf(), b or polo(), e, **{"normal": "10 deg", "point": (0.0, 0.0), **options}
+    )
 
 
 def gaining():
@@ -83,10 +106,13 @@ IMPACTS = {
     "oblique": lambda: col.oblique_central(golf(), polo(), 0.2, normal=0.2, friction=0.3),
     "pinned": pinned,
     "example 2": example_2,
-    "planar": lambda: reconstruct.planar(crash().a.after, crash().b.after, normal="10 deg", point=(0, 0), restitution=0.1,
+    "planar": lambda: reconstruct.planar(crash().a.after, crash().b.after, normal="10 deg",
+    point=(0, 0), restitution=0.1,
                                           friction=0.5, regime="sliding"),
-    "solve, full": lambda: col.solve(golf(), polo(), 0.1, normal="10 deg", point=(0, 0), friction=0.5),
-    "solve, linear": lambda: col.solve(golf(), golf(vx=0.0, x=2.2), 0.1, normal=0, point=(0, 0), friction=0.5, tolerance=0.1),
+    "solve, full": lambda: col.solve(golf(), polo(), 0.1, normal="10 deg", point=(0, 0),
+    friction=0.5),
+    "solve, linear": lambda: col.solve(golf(), golf(vx=0.0, x=2.2), 0.1, normal=0, point=(0, 0),
+    friction=0.5, tolerance=0.1),
     "energy gain": gaining,
     "evil": lambda: crash(golf(name=EVIL), polo(name="a\u202eb\x00c\n# d 漢")),
 }  # fmt: skip
@@ -104,11 +130,21 @@ def impacts():
 
 
 def spread(*names, method="quasi_random", **changes):
-    """Outputs of these names, all of them without one; two of an answer, one with a unit and one without."""
+    """Outputs of these names, all of them without one; two of an answer, one with a unit and one
+    without.
+    """
 
     def model(speed, restitution):
         with_speed = golf(vx=speed)
-        answer = col.eccentric(with_speed, polo(), restitution, normal="10 deg", point=(0, 0), friction=0.5, on_failure="nan")
+        answer = col.eccentric(
+            with_speed,
+            polo(),
+            restitution,
+            normal="10 deg",
+            point=(0, 0),
+            friction=0.5,
+            on_failure="nan",
+        )
         found = {
             "b.delta_v": answer.b.q.delta_v,
             "a_after_vx": answer.a.after.vx,
@@ -117,7 +153,11 @@ def spread(*names, method="quasi_random", **changes):
         }
         return {name: found[name] for name in names or found}
 
-    inputs = {"speed": uncertainty.Normal("54 km/h", "2 km/h"), "restitution": uncertainty.Uniform(0.05, 0.15), **changes}
+    inputs = {
+        "speed": uncertainty.Normal("54 km/h", "2 km/h"),
+        "restitution": uncertainty.Uniform(0.05, 0.15),
+        **changes,
+    }
     options = {"samples": 64, "seed": 1} if method == "quasi_random" else {}
     return uncertainty.propagate(model, inputs, method=method, **options)
 
@@ -154,7 +194,11 @@ class Page(HTMLParser):
         names = [name for name, _ in attrs]
         assert len(set(names)) == len(names)
         self.ids += [value for name, value in attrs if name == "id"]
-        self.urls += [value for name, value in attrs if name in ("src", "href", "xlink:href", "action", "data", "srcset")]
+        self.urls += [
+            value
+            for name, value in attrs
+            if name in ("src", "href", "xlink:href", "action", "data", "srcset")
+        ]
 
     def of(self, tag):
         return [text for element, text in self.texts if element == tag]
@@ -162,8 +206,14 @@ class Page(HTMLParser):
 
 def rows(page):
     """The rows of all tables of a Markdown page, without escapes."""
-    lines = [line for line in page.splitlines() if line.startswith("| ") and not line.startswith("| --- ")]
-    return [tuple(re.sub(r"\\(.)", r"\1", part) for part in line[2:-2].split(" | ")) for line in lines]
+    lines = [
+        line
+        for line in page.splitlines()
+        if line.startswith("| ") and not line.startswith("| --- ")
+    ]
+    return [
+        tuple(re.sub(r"\\(.)", r"\1", part) for part in line[2:-2].split(" | ")) for line in lines
+    ]
 
 
 def section(page, name):
@@ -202,7 +252,8 @@ def test_with_everything_it_is_the_same_too_and_in_another_process():
     )
     page = subprocess.run(
         [sys.executable, "-c", code], check=True, capture_output=True, cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": str(ROOT / "src"), "PYTHONHASHSEED": "1", "MPLBACKEND": "agg"},
+        env={**os.environ, "PYTHONPATH": str(ROOT / "src"), "PYTHONHASHSEED": "1",
+        "MPLBACKEND": "agg"},
     ).stdout.decode()  # fmt: skip
     with mpl.rc_context({"font.size": 17, "svg.fonttype": "path", "axes.facecolor": "red"}):
         assert everything(replay(page)) == page
@@ -216,8 +267,10 @@ def rear_end():
 
 def everything(impact):
     return report(
-        impact, title="Case 7", units="metric", uncertainty=spread("b.delta_v"), outline_a=(4.2, 1.8), outline_b=("13 ft", 1.7, 0.2),
-        duration="90 ms", drag=0.6, limits={"normal": 0.5}, share_a="50 %", notes=["One.", "Two <b>."], derivation=True,
+        impact, title="Case 7", units="metric", uncertainty=spread("b.delta_v"),
+        outline_a=(4.2, 1.8), outline_b=("13 ft", 1.7, 0.2),
+        duration="90 ms", drag=0.6, limits={"normal": 0.5}, share_a="50 %",
+        notes=["One.", "Two <b>."], derivation=True,
     )  # fmt: skip
 
 
@@ -256,7 +309,10 @@ def test_names_stay_names(impacts, evil_page):
     assert "B (a\ufffdb\ufffdc # d 漢)" in page.of("caption")
     text = report(impacts["evil"], form="markdown").split("```json")[0]
     assert not re.search(r"(?<!\\)[<>`$]", text)
-    assert {row[0] for row in rows(text.replace("\\|", "¦"))} >= {f"A ({EVIL})".replace("|", "¦"), "contact"}
+    assert {row[0] for row in rows(text.replace("\\|", "¦"))} >= {
+        f"A ({EVIL})".replace("|", "¦"),
+        "contact",
+    }
 
 
 def test_markdown_cannot_be_broken_by_a_note(impacts):
@@ -269,24 +325,37 @@ def test_markdown_cannot_be_broken_by_a_note(impacts):
 
 
 def test_parts_stand_in_order(impacts):
-    text = report(impacts["eccentric"], form="markdown", uncertainty=spread(), notes="A word.", derivation=True)
+    text = report(
+        impacts["eccentric"],
+        form="markdown",
+        uncertainty=spread(),
+        notes="A word.",
+        derivation=True,
+    )
     assert re.findall(r"^##? (.*)$", text, re.MULTILINE) == [
-        "Impact of A (Golf) and B (Polo)", "Inputs", "Assumptions", "Results", "Uncertainty, given the stated inputs", "Findings",
+        "Impact of A (Golf) and B (Polo)", "Inputs", "Assumptions", "Results",
+        "Uncertainty, given the stated inputs", "Findings",
         "Notes", "Figures", "Derivation", "References", "Record",
     ]  # fmt: skip
     assert f"Calculated with collisions {col.__version__}." in text
-    assert "Application of Impulse Momentum Theory to Vehicle Collisions" in section(text, "References")
+    assert "Application of Impulse Momentum Theory to Vehicle Collisions" in section(
+        text, "References"
+    )
 
 
 @pytest.mark.parametrize("form", ["html", "markdown"])
 def test_an_energy_gain_stands_first(form, impacts):
     text = report(impacts["energy gain"], form=form, units="si", figures=False)
     first = text.split("</h1>\n" if form == "html" else "\n\n")[1]
-    assert first.startswith('<p class="stressed">Energy gain of ' if form == "html" else "**Energy gain of ")
+    assert first.startswith(
+        '<p class="stressed">Energy gain of ' if form == "html" else "**Energy gain of "
+    )
     loss = impacts["energy gain"].energy_loss
     assert loss < 0.0
     # Three figures are printed.
-    assert float(re.search(r"Energy gain of ([\d.]+) J", first)[1]) == pytest.approx(-loss, rel=5e-3)
+    assert float(re.search(r"Energy gain of ([\d.]+) J", first)[1]) == pytest.approx(
+        -loss, rel=5e-3
+    )
     assert "Energy gain" not in report(impacts["oblique"], form=form, figures=False)
 
 
@@ -300,27 +369,40 @@ def test_inputs_are_shown_as_given():
     assert ("B (Polo)", "speed", "8.333 m/s, given as 30 km/h") in si
     assert ("B (Polo)", "course", "-1.571 rad, given as -90°") in si
     assert ("A (Golf)", "yaw inertia about the centre of mass", "2600 kg·m²") in si
-    assert ("B", "pivot O (x, y)", "x: 0 m, given as 0 ft; y: 0 m") in rows(report(pinned(), form="markdown"))
+    assert ("B", "pivot O (x, y)", "x: 0 m, given as 0 ft; y: 0 m") in rows(
+        report(pinned(), form="markdown")
+    )
 
 
 @pytest.mark.parametrize(("units", "other"), [("metric", False), ("si", True)])
 def test_given_as_is_explained_where_it_stands(units, other):
     """And nowhere else: every input of this car and wall is in metric units."""
     car = col.Vehicle(mass="1500 kg", vx="54 km/h")
-    page = report(col.linear_central(car, col.Vehicle.barrier(), 0.1), form="markdown", units=units, figures=False)
+    page = report(
+        col.linear_central(car, col.Vehicle.barrier(), 0.1),
+        form="markdown",
+        units=units,
+        figures=False,
+    )
     assert (", given as 54 km/h" in page, "“Given as”" in page) == (other, other)
 
 
 @pytest.mark.parametrize("units", ["si", "metric", "us"])
 @pytest.mark.parametrize("name", ["eccentric", "oblique", "pinned", "example 2", "solve, linear"])
 def test_results_are_those_of_explain(name, units, impacts):
-    """The derivation is tested against the paper; here its table of answers must come back, row by row."""
+    """The derivation is tested against the paper; here its table of answers must come back, row by
+    row.
+    """
     impact = impacts[name]
     text = report(impact, form="markdown", units=units)
     explained = explain(impact, units=units).split("\n## Answers\n")[1].split("\n## ")[0]
     shown = rows(section(text, "Results"))
     for of, what, value in rows(explained)[1:]:
-        assert any(row[0][0] == of[0] and row[1:] == (what, typeset(value)) for row in shown), (of, what, value)
+        assert any(row[0][0] == of[0] and row[1:] == (what, typeset(value)) for row in shown), (
+            of,
+            what,
+            value,
+        )
     assert shown[-1] == ("contact", "kind", impact.kind)
 
 
@@ -333,13 +415,20 @@ def test_ees_needs_a_share():
         if "if A took up 25 percent" in row[1]
     }
     # 0.01 m/s is the last digit printed.
-    for name, energy in (("EES (ISO 12353)", impact.energy_loss), ("speed of maximum crush", impact.energy_absorbed)):
+    for name, energy in (
+        ("EES (ISO 12353)", impact.energy_loss),
+        ("speed of maximum crush", impact.energy_absorbed),
+    ):
         for who, part, mass in (("A (Golf)", 0.25, 1500.0), ("B (Polo)", 0.75, 2600 * 0.45359237)):
-            assert float(shown[who, name].split()[0]) == pytest.approx(math.sqrt(2 * part * energy / mass), abs=0.006)
+            assert float(shown[who, name].split()[0]) == pytest.approx(
+                math.sqrt(2 * part * energy / mass), abs=0.006
+            )
 
 
 def test_components_of_a_recorder_are_printed_and_kept():
-    """A pair (forward, left) stands among the inputs as it was given, and goes into the report that is made again."""
+    """A pair (forward, left) stands among the inputs as it was given, and goes into the report that
+    is made again.
+    """
     page = report(crash(), form="markdown", units="si", damage_delta_v_a=("-20 km/h", 1.5))
     assert "forward: -5.556 m/s, given as -20 km/h; left: 1.5 m/s" in page
     assert "and its damage shows 5.75 m/s from 0.264 rad" in page
@@ -348,8 +437,14 @@ def test_components_of_a_recorder_are_printed_and_kept():
 
 def in_words(source):
     """The source of a limit, with published values by the names they have under References."""
-    source = source.replace("reference.restitution_range", "the published range of restitution (see References)")
-    return re.sub(r"reference\.(\w+)", lambda found: f"“{getattr(reference, found[1]).name}” (see References)", source)
+    source = source.replace(
+        "reference.restitution_range", "the published range of restitution (see References)"
+    )
+    return re.sub(
+        r"reference\.(\w+)",
+        lambda found: f"“{getattr(reference, found[1]).name}” (see References)",
+        source,
+    )
 
 
 def test_every_finding_is_told(impacts):
@@ -357,7 +452,9 @@ def test_every_finding_is_told(impacts):
     for name in ("pinned", "eccentric", "energy gain"):
         found = diagnose(impacts[name], limits=limits, units="si")
         assert found
-        text = re.sub(r"\\(.)", r"\1", report(impacts[name], form="markdown", units="si", limits=limits))
+        text = re.sub(
+            r"\\(.)", r"\1", report(impacts[name], form="markdown", units="si", limits=limits)
+        )
         for finding in found:
             assert f"**{label_of(finding.code)}" in section(text, "Findings")
             assert finding.sentence in text
@@ -365,14 +462,22 @@ def test_every_finding_is_told(impacts):
         assert "- **Limit of tyre impulse:** 0.01, set for this report." in text
     assert "FIT" not in text
     pins = re.sub(r"\\(.)", r"\1", report(impacts["pinned"], form="markdown"))
-    assert "Basis of the limit: the published range of restitution (see References)." in section(pins, "Findings")
+    assert "Basis of the limit: the published range of restitution (see References)." in section(
+        pins, "Findings"
+    )
     assert "Cipriani and others, SAE 2002-01-0540" in section(pins, "References")
     none = report(pinned(), form="markdown", limits={"restitution": 0.9, "normal": 1.0})
     assert "which proves nothing by itself." in section(none, "Findings")
 
 
 def test_limits_of_every_unit_can_be_shown(impacts):
-    text = report(impacts["eccentric"], form="markdown", units="us", limits=dict.fromkeys(LIMITS, 1e-3), figures=False)
+    text = report(
+        impacts["eccentric"],
+        form="markdown",
+        units="us",
+        limits=dict.fromkeys(LIMITS, 1e-3),
+        figures=False,
+    )
     printed = section(text, "Assumptions")
     assert printed.count("set for this report.") == len(LIMITS)
     # 1 g in pounds, to four figures; and 0.001 m in feet, to two decimals and two more.
@@ -387,13 +492,19 @@ def test_assumptions_say_what_is_left_out(impacts):
     assert "for a contact of 0.05 s and tyres with a drag factor of 0.5" in printed
     # 0.5 x 9.80665 m/s2 x 0.05 s, two decimals.
     share = 100.0 * 0.5 * 9.80665 * 0.05 / impact.a.delta_v
-    assert ("A (Golf)", "delta-V from its own tyres, upper bound", f"0.25 m/s ({share:.0f} percent)") in rows(printed)
+    assert (
+        "A (Golf)",
+        "delta-V from its own tyres, upper bound",
+        f"0.25 m/s ({share:.0f} percent)",
+    ) in rows(printed)
     assert "**Law:** Brach" in printed
     assert f"**Tangential impulse:** {impact.regime}" in printed
     assert "**Law:** Kudlich" in report(impacts["other law"], form="markdown")
     assert "Law:" not in report(impacts["wall"], form="markdown")
     # A wall has no tyres.
-    assert {row[0] for row in rows(section(report(impacts["wall"], form="markdown"), "Assumptions"))} == {
+    assert {
+        row[0] for row in rows(section(report(impacts["wall"], form="markdown"), "Assumptions"))
+    } == {
         "of",
         "contact",
         "A (Golf)",
@@ -405,22 +516,38 @@ BARE = re.compile(r"(?<![\w.])[-+]?(?:nan|inf)(?![\w])")
 
 
 def sideswipes():
-    """Ordinary sideswipes: bodies that slide along each other and turn, so that some part before the contact ends."""
+    """Ordinary sideswipes: bodies that slide along each other and turn, so that some part before
+    the contact ends.
+    """
     rng = random.Random(3)
     for _ in range(60):
         turning = rng.uniform(-3.0, 3.0)
-        a = col.Vehicle(mass=1500, yaw_inertia=2600, vx=25.0, vy=rng.choice((0.5, 2.0)), yaw_rate=turning, x=-1.2, y=-1.0)
-        b = col.Vehicle(mass=1300, yaw_inertia=2100, vx=rng.choice((0.0, 20.0)), yaw_rate=turning, x=0.8, y=1.0)
+        a = col.Vehicle(
+            mass=1500,
+            yaw_inertia=2600,
+            vx=25.0,
+            vy=rng.choice((0.5, 2.0)),
+            yaw_rate=turning,
+            x=-1.2,
+            y=-1.0,
+        )
+        b = col.Vehicle(
+            mass=1300, yaw_inertia=2100, vx=rng.choice((0.0, 20.0)), yaw_rate=turning, x=0.8, y=1.0
+        )
         normal, e = 0.5 * math.pi + rng.uniform(-0.2, 0.2), rng.choice((0.0, 0.2))
         try:
-            yield col.eccentric(a, b, e, normal=normal, point=(0.0, 0.0), friction=rng.choice((0.0, 0.4)))
+            yield col.eccentric(
+                a, b, e, normal=normal, point=(0.0, 0.0), friction=rng.choice((0.0, 0.4))
+            )
         except col.NoImpactError:
             continue
 
 
 @pytest.mark.slow
 def test_no_text_prints_a_bare_nan():
-    """Where left_out has no answer for the geometry the report says so and why; so do the findings and the tables."""
+    """Where left_out has no answer for the geometry the report says so and why; so do the findings
+    and the tables.
+    """
     undefined = 0
     for impact in sideswipes():
         # So long that what moves from maximum engagement leaves some of them without an answer.
@@ -435,12 +562,17 @@ def test_no_text_prints_a_bare_nan():
             *(f.sentence for f in diagnose(impact, duration="3 s")),
         ]
         assert not [one for text in texts for one in text.split("\n") if BARE.search(one)]
-        printed = {row[0]: row[2] for row in rows(section(text, "Assumptions")) if "positions and normal" in row[1]}
+        printed = {
+            row[0]: row[2]
+            for row in rows(section(text, "Assumptions"))
+            if "positions and normal" in row[1]
+        }
         for label, side in (("A", left.a), ("B", left.b)):
             lost = math.isnan(side.geometry_delta_v)
             undefined += lost
             assert lost == printed[label].startswith(
-                "not defined: the model has no answer with the places and the normal of other moments of the contact"
+                "not defined: the model has no answer with the places and the normal of other "
+                "moments of the contact"
             )
     assert undefined > 4
 
@@ -452,17 +584,25 @@ def test_a_figure_of_one_case_has_no_spread():
     def asked(least):
         def model(speed):
             vehicles = col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1200.0)
-            delta_v = col.linear_central(*vehicles, 0.1).b.q.delta_v * np.where(speed >= least, 1.0, np.nan)
+            delta_v = col.linear_central(*vehicles, 0.1).b.q.delta_v * np.where(
+                speed >= least, 1.0, np.nan
+            )
             return {"b_delta_v": delta_v, "twice": 2.0 * delta_v.magnitude, "speed": speed}
 
         speed = uncertainty.Normal(10.0, 0.1)
-        return uncertainty.propagate(model, {"speed": speed}, method="quasi_random", seed=1, samples=64)
+        return uncertainty.propagate(
+            model, {"speed": speed}, method="quasi_random", seed=1, samples=64
+        )
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.OutOfRangeWarning)
         found = asked(np.max(asked(0.0)["speed"].values))
     assert math.isnan(found["b_delta_v"].std)
-    for text in (repr(found), found._repr_html_(), report(impact, form="markdown", uncertainty=found, figures=False)):
+    for text in (
+        repr(found),
+        found._repr_html_(),
+        report(impact, form="markdown", uncertainty=found, figures=False),
+    ):
         text = text.partition("```json")[0]
         assert "in the one case that has an answer, so no spread is known" in text
         assert not BARE.search(text)
@@ -471,7 +611,10 @@ def test_a_figure_of_one_case_has_no_spread():
 def test_reverse_and_choice_are_told(impacts):
     text = report(impacts["example 2"], form="markdown")
     assert "## Inputs" not in text
-    assert "Known besides masses and geometry: velocity of A before, velocity of B before, velocity of B after" in text
+    assert (
+        "Known besides masses and geometry: velocity of A before, velocity of B before, velocity "
+        "of B after" in text
+    )
     assert "Condition " in section(text, "How the rest was found")
     assert "$" not in text.split("```json")[0]
     chosen = report(impacts["solve, linear"], form="markdown")
@@ -485,7 +628,11 @@ def test_uncertainty_is_told():
     part = section(text, "Uncertainty, given the stated inputs")
     output = known["b.delta_v"]
     # Two figures of the standard deviation.
-    assert ("B: delta-V", "mean ± standard deviation", f"{output.mean:.2f} ± {output.std:.2f} m/s") in rows(part)
+    assert (
+        "B: delta-V",
+        "mean ± standard deviation",
+        f"{output.mean:.2f} ± {output.std:.2f} m/s",
+    ) in rows(part)
     low, high = output.interval()
     assert ("B: delta-V", "95 percent interval", f"{low:.2f} to {high:.2f} m/s") in rows(part)
     shares = (output.contributions["speed"], output.total_contributions["speed"])
@@ -498,10 +645,14 @@ def test_uncertainty_is_told():
     assert "64 cases, all with an answer, seed 1" in part
     assert "54 ± 2 km/h" in part
     # The answers of that name are rounded to it, also under the other spelling.
-    assert ("B (Polo)", "delta-V", f"{impact.b.delta_v:.2f} ± {output.std:.2f} m/s") in rows(section(text, "Results"))
+    assert ("B (Polo)", "delta-V", f"{impact.b.delta_v:.2f} ± {output.std:.2f} m/s") in rows(
+        section(text, "Results")
+    )
     spread_of_a = known["a_after_vx"].std
     assert any(
-        f"± {spread_of_a:.2f} m/s" in row[2] for row in rows(section(text, "Results")) if row[1] == "velocity after, along x"
+        f"± {spread_of_a:.2f} m/s" in row[2]
+        for row in rows(section(text, "Results"))
+        if row[1] == "velocity after, along x"
     )
     assert "lies outside" not in text
 
@@ -510,12 +661,17 @@ def test_a_range_with_a_share_is_reported_as_it_was_stated():
     """Also where bare numbers are written in the units of the page."""
 
     def model(speed_a, restitution):
-        impact = col.linear_central(col.Vehicle(mass=1500.0, vx=speed_a), col.Vehicle(mass=1200.0), restitution)
+        impact = col.linear_central(
+            col.Vehicle(mass=1500.0, vx=speed_a), col.Vehicle(mass=1200.0), restitution
+        )
         return {"b.delta_v": impact.b.q.delta_v}
 
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.1)
     between = uncertainty.Normal.between
-    known = {"speed_a": between(9.5, 10.5, 0.95), "restitution": between("9 percent", "11 percent", 0.9)}
+    known = {
+        "speed_a": between(9.5, 10.5, 0.95),
+        "restitution": between("9 percent", "11 percent", 0.9),
+    }
     found = uncertainty.propagate(model, known, method="first_order")
     text = report(impact, form="markdown", units="metric", uncertainty=found, figures=False)
     part = section(text, "Uncertainty, given the stated inputs")
@@ -537,7 +693,9 @@ def test_intervals_and_local_methods():
     assert "mean, wherever in the intervals the truth is" in part
     assert "variance from" not in part
     local = spread("b.delta_v", method="first_order")
-    assert ", seed" not in section(report(crash(), form="markdown", uncertainty=local), "Uncertainty, given the stated inputs")
+    assert ", seed" not in section(
+        report(crash(), form="markdown", uncertainty=local), "Uncertainty, given the stated inputs"
+    )
     page = Page(report(rear_end(), uncertainty=local))
     # A local method has contributions, and nothing that was drawn.
     assert page.tags.count("svg") == 2 + 1
@@ -547,9 +705,13 @@ def test_intervals_and_local_methods():
 
 @pytest.mark.slow
 def test_figures_show_this_impact(impacts):
-    drawn = Page(report(impacts["eccentric"], units="metric", outline_a=(4.2, 1.8), outline_b=(4.0, 1.7)))
+    drawn = Page(
+        report(impacts["eccentric"], units="metric", outline_a=(4.2, 1.8), outline_b=(4.0, 1.7))
+    )
     assert drawn.tags.count("svg") == 4
-    assert {"scene.a.outline", "scene.b.outline", "scene.contact", "energy.figure_1"} <= set(drawn.ids)
+    assert {"scene.a.outline", "scene.b.outline", "scene.contact", "energy.figure_1"} <= set(
+        drawn.ids
+    )
     assert any("54.0 km/h" in text for text in drawn.of("text"))
     assert "svg" not in Page(report(impacts["wall"], figures=False)).tags
     assert "The figures are in the HTML form" in report(impacts["wall"], form="markdown")
@@ -558,10 +720,14 @@ def test_figures_show_this_impact(impacts):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in IMPACTS if name != "evil"])
 def test_every_letter_of_a_figure_can_be_read(name, impacts):
-    """Math text would stand on the page as its source: formulas are off there, as names are none."""
+    """Math text would stand on the page as its source: formulas are off there, as names
+    are none.
+    """
     spreads = spread("b.delta_v", "own") if name == "eccentric" else None
     printed = Page(report(impacts[name], uncertainty=spreads)).of("text")
-    assert sum(bool(re.fullmatch(r"\u2212?[\d.]+", text)) for text in printed) >= 4  # the axis of energy alone
+    assert (
+        sum(bool(re.fullmatch(r"\u2212?[\d.]+", text)) for text in printed) >= 4
+    )  # the axis of energy alone
     assert not set("".join(printed)) & set("$\\{}")
 
 
@@ -586,12 +752,16 @@ def test_without_matplotlib_the_rest_is_there(impacts, monkeypatch):
 
 def test_importing_it_does_not_import_matplotlib_or_pint():
     code = "import sys, collisions.reporting; assert not {'matplotlib', 'pint'} & set(sys.modules)"
-    subprocess.run([sys.executable, "-c", code], check=True, env={"PYTHONPATH": str(ROOT / "src"), "PATH": ""})
+    subprocess.run(
+        [sys.executable, "-c", code], check=True, env={"PYTHONPATH": str(ROOT / "src"), "PATH": ""}
+    )
 
 
 def test_the_derivation_is_that_of_explain(impacts):
     impact = impacts["pinned"]
-    assert explain(impact, form="text", units="metric") in Page(report(impact, derivation=True, figures=False)).of("pre")
+    assert explain(impact, form="text", units="metric") in Page(
+        report(impact, derivation=True, figures=False)
+    ).of("pre")
     text = report(impact, form="markdown", units="si", derivation=True)
     assert explain(impact, units="si").split("\n## Given\n")[1].split("\n## ")[0].strip() in text
 
@@ -600,13 +770,25 @@ def test_the_derivation_is_that_of_explain(impacts):
     ("change", "code", "said"),
     [
         ({"form": "pdf"}, "bad_option", "form must be one of 'html', 'markdown', got 'pdf'"),
-        ({"units": "imperial"}, "bad_option", "units must be 'si', 'metric' or 'us', got 'imperial'"),
+        (
+            {"units": "imperial"},
+            "bad_option",
+            "units must be 'si', 'metric' or 'us', got 'imperial'",
+        ),
         ({"figures": "no"}, "bad_option", "figures must be True or False"),
         ({"derivation": 1}, "bad_option", "derivation must be True or False"),
         ({"title": 7}, "not_a_text", "title must be a text that says something, got 7"),
         ({"title": "  "}, "not_a_text", "title must be"),
-        ({"notes": 7}, "not_a_text", "notes must be a text, a list of texts, or a dict of them by input, got int"),
-        ({"notes": ["a", None]}, "not_a_text", "notes must be a text that says something, got None"),
+        (
+            {"notes": 7},
+            "not_a_text",
+            "notes must be a text, a list of texts, or a dict of them by input, got int",
+        ),
+        (
+            {"notes": ["a", None]},
+            "not_a_text",
+            "notes must be a text that says something, got None",
+        ),
         ({"uncertainty": {"energy_loss": 3.0}}, "bad_option", "explain(impact, uncertainty=...)"),
         ({"share_a": 1.5}, "bad_fraction", "share_a"),
         ({"outline_a": 3.0}, "bad_shape", "outline_a must be"),
@@ -644,23 +826,38 @@ def tampered(page, change):
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (lambda r: r["impact"]["inputs"]["a"].update(vx="64 km/h"), "a.vx was given as '64 km/h', which is 15.0 in"),
-        (lambda r: r["impact"]["inputs"]["b"].update(course="90 deg"), "b.vy was given as '30 km/h at 90 deg'"),
-        (lambda r: r["impact"]["inputs"]["b"].update(heading="-80 deg"), "b.heading was given as '-80 deg'"),
+        (
+            lambda r: r["impact"]["inputs"]["a"].update(vx="64 km/h"),
+            "a.vx was given as '64 km/h', which is 15.0 in",
+        ),
+        (
+            lambda r: r["impact"]["inputs"]["b"].update(course="90 deg"),
+            "b.vy was given as '30 km/h at 90 deg'",
+        ),
+        (
+            lambda r: r["impact"]["inputs"]["b"].update(heading="-80 deg"),
+            "b.heading was given as '-80 deg'",
+        ),
         (
             lambda r: r["other_texts"]["a"].update(vx="64 km/h"),
             "a.vx was given as '64 km/h', which is not its number, 15.0 m/s",
         ),
         (lambda r: r["other_texts"]["b"].update(course="90 deg"), "b.course was given as '90 deg'"),
         (lambda r: r["other_texts"]["b"].update(speed="40 km/h"), "b.speed was given as '40 km/h'"),
-        (lambda r: r["other_texts"]["a"].update(tyres="4"), "a has no 'tyres' that could have been given"),
+        (
+            lambda r: r["other_texts"]["a"].update(tyres="4"),
+            "a has no 'tyres' that could have been given",
+        ),
         (lambda r: r["other_texts"]["a"].update({"pivot[0]": "1 m"}), "a has no 'pivot[0]'"),
         (lambda r: r["other_texts"]["a"].update({"mass[0]": "1 kg"}), "a has no 'mass[0]'"),
         (lambda r: r["other_texts"].update(b=[1]), "how b was given is no dict"),
         (lambda r: r.pop("other_texts"), "how else a and b were given"),
         (lambda r: r.update(format="x"), "not of the format 'collisions report 2'"),
         (lambda r: r.update(impact=3), "it has no impact"),
-        (lambda r: r["impact"]["inputs"].update(model="none"), "record is not what Impact.to_dict() gives"),
+        (
+            lambda r: r["impact"]["inputs"].update(model="none"),
+            "record is not what Impact.to_dict() gives",
+        ),
         (lambda r: r["impact"]["inputs"]["a"].update(mass=-5.0), "mass"),
     ],
 )
@@ -672,9 +869,18 @@ def test_a_record_that_was_changed_is_refused(change, said):
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (lambda r: r["impact"]["inputs"].update(restitution=0.2), "its inputs do not give its restitution, 0.1, but 0.2"),
-        (lambda r: r["impact"]["results"].update(energy_loss=3.0), "its inputs do not give its energy_loss, 3.0, but 89100"),
-        (lambda r: r["impact"]["results"]["b"].update(delta_v=12.0), "its inputs do not give its b.delta_v, 12.0, but 11.0"),
+        (
+            lambda r: r["impact"]["inputs"].update(restitution=0.2),
+            "its inputs do not give its restitution, 0.1, but 0.2",
+        ),
+        (
+            lambda r: r["impact"]["results"].update(energy_loss=3.0),
+            "its inputs do not give its energy_loss, 3.0, but 89100",
+        ),
+        (
+            lambda r: r["impact"]["results"]["b"].update(delta_v=12.0),
+            "its inputs do not give its b.delta_v, 12.0, but 11.0",
+        ),
         (
             lambda r: r["impact"]["results"].update(kind="plastic"),
             "its inputs do not give its kind, 'plastic', but 'elastoplastic'",
@@ -683,31 +889,52 @@ def test_a_record_that_was_changed_is_refused(change, said):
 )
 def test_results_of_a_record_must_be_those_of_its_inputs(change, said):
     """Whoever changes an input or a result alone is found out."""
-    page = report(col.linear_central(col.Vehicle(mass=900, vx=20.0), col.Vehicle(mass=900), 0.1), form="markdown")
+    page = report(
+        col.linear_central(col.Vehicle(mass=900, vx=20.0), col.Vehicle(mass=900), 0.1),
+        form="markdown",
+    )
     with pytest.raises(col.InputError, match=re.escape(said)) as caught:
         replay(tampered(page, change))
     assert (caught.value.code, caught.value.fields["argument"]) == ("bad_record", "text")
     # What another machine may round is let through.
-    assert replay(tampered(page, lambda r: r["impact"]["results"].update(energy_loss=89100.000001))).energy_loss == 89100.0
+    assert (
+        replay(
+            tampered(page, lambda r: r["impact"]["results"].update(energy_loss=89100.000001))
+        ).energy_loss
+        == 89100.0
+    )
 
 
 def test_a_number_beyond_floats_is_no_number_of_the_record():
-    """JSON holds whole numbers of any size; wherever one stands it is refused, and named as what the inputs do not give."""
+    """JSON holds whole numbers of any size; wherever one stands it is refused, and named as what
+    the inputs do not give.
+    """
     page = report(crash(), form="markdown")
     for huge in (10**400, -(10**400)):
         with pytest.raises(col.InputError, match="its inputs do not give its energy_loss"):
-            replay(tampered(page, lambda r, huge=huge: r["impact"]["results"].update(energy_loss=huge)))
+            replay(
+                tampered(page, lambda r, huge=huge: r["impact"]["results"].update(energy_loss=huge))
+            )
         for part in ("inputs", "results"):
             for name in tuple(json.loads(json.dumps(crash().to_dict()))[part]):
                 with pytest.raises(col.InputError):
-                    replay(tampered(page, lambda r, huge=huge, part=part, name=name: r["impact"][part].update({name: huge})))
+                    replay(
+                        tampered(
+                            page,
+                            lambda r, huge=huge, part=part, name=name: r["impact"][part].update(
+                                {name: huge}
+                            ),
+                        )
+                    )
 
 
 @pytest.mark.parametrize(
     ("text", "code"),
     [
-        (None, "not_a_text"), ("", "no_record"), ("# A page\n", "no_record"), ("<html></html>", "no_record"),
-        ("```json\n{\n```", "bad_record"), ("```json\n[]\n```", "bad_record"), (f"```json\n{'[' * 100_000}\n```", "bad_record"),
+        (None, "not_a_text"), ("", "no_record"), ("# A page\n", "no_record"),
+            ("<html></html>", "no_record"),
+        ("```json\n{\n```", "bad_record"), ("```json\n[]\n```", "bad_record"),
+            (f"```json\n{'[' * 100_000}\n```", "bad_record"),
     ],
 )  # fmt: skip
 def test_what_is_no_report_is_refused(text, code):
@@ -721,7 +948,9 @@ def test_what_is_no_report_is_refused(text, code):
 def test_a_unit_of_another_registry_is_kept_as_it_was_written():
     registry = pint.UnitRegistry()
     registry.define("slugfest = 14.6 kg")
-    impact = col.linear_central(golf(mass=registry.Quantity(100.0, "slugfest")), col.Vehicle(mass=900), 0.1)
+    impact = col.linear_central(
+        golf(mass=registry.Quantity(100.0, "slugfest")), col.Vehicle(mass=900), 0.1
+    )
     page = report(impact, form="markdown")
     assert ("A (Golf)", "mass", "1460 kg, given as 100.0 slugfest") in rows(page)
     assert report(replay(page), form="markdown") == page
@@ -732,7 +961,14 @@ def test_a_unit_of_another_registry_is_kept_as_it_was_written():
 
 def in_texts():
     """The scene of ``crash`` with units on every number of the contact."""
-    return col.eccentric(golf(), polo(), "10 %", normal="10 deg", point=("1 in", UREG.Quantity(2.0, "inch")), friction="0.5")
+    return col.eccentric(
+        golf(),
+        polo(),
+        "10 %",
+        normal="10 deg",
+        point=("1 in", UREG.Quantity(2.0, "inch")),
+        friction="0.5",
+    )
 
 
 def test_the_contact_is_shown_as_given():
@@ -742,7 +978,11 @@ def test_the_contact_is_shown_as_given():
     assert ("contact", "normal, direction from A into B", "10°") in us
     # An inch is 0.0254 m and a twelfth of a foot.
     assert ("contact", "contact point (x, y)", "0.0254 m, 0.0508 m, given as 1 in, 2.0 inch") in si
-    assert ("contact", "contact point (x, y)", "0.0833 ft, 0.1667 ft, given as 1 in, 2.0 inch") in us
+    assert (
+        "contact",
+        "contact point (x, y)",
+        "0.0833 ft, 0.1667 ft, given as 1 in, 2.0 inch",
+    ) in us
     assert ("contact", "restitution e", "0.1, given as 10 %") in si
     for rule in ("impulse_ratio", "critical_fraction"):
         page = report(crash(**{rule: "10 %"}), form="markdown")
@@ -752,7 +992,9 @@ def test_the_contact_is_shown_as_given():
 
 def test_no_value_is_said_to_be_si_that_was_not():
     """Also one of a batch, of which the unit is kept but no text."""
-    many = col.linear_central(golf(vx=UREG.Quantity([36.0, 54.0], "km/h")), col.Vehicle(mass=900), "20 %")
+    many = col.linear_central(
+        golf(vx=UREG.Quantity([36.0, 54.0], "km/h")), col.Vehicle(mass=900), "20 %"
+    )
     page = report(many.case(0), form="markdown")
     assert "SI numbers" not in page
     assert ("A (Golf)", "velocity along x", "36 km/h") in rows(page)
@@ -765,7 +1007,11 @@ def test_the_schema_is_a_new_dict_in_every_part():
     """It may be changed, as its docstring says: the next one is whole."""
     parts, written = [impact_schema()], json.dumps(impact_schema())
     for part in parts:
-        parts += [one for one in (part.values() if isinstance(part, dict) else part) if isinstance(one, (dict, list))]
+        parts += [
+            one
+            for one in (part.values() if isinstance(part, dict) else part)
+            if isinstance(one, (dict, list))
+        ]
     for part in parts:
         part.clear()
     assert json.dumps(impact_schema()) == written
@@ -778,9 +1024,14 @@ def test_texts_go_with_the_impact(make):
     contact = {"normal": "10 deg", "point": ("1 in", 0.0), "friction": 0.5}
     plain = {"normal": math.radians(10.0), "point": (0.0254, 0.0), "friction": 0.5}
     if make == "in_texts":
-        impact, same = (col.eccentric(golf(), polo(), e, **where) for e, where in (("10 %", contact), (0.1, plain)))
+        impact, same = (
+            col.eccentric(golf(), polo(), e, **where)
+            for e, where in (("10 %", contact), (0.1, plain))
+        )
     elif make == "solved":
-        impact, same = (col.solve(golf(), polo(), e, **where) for e, where in (("10 %", contact), (0.1, plain)))
+        impact, same = (
+            col.solve(golf(), polo(), e, **where) for e, where in (("10 %", contact), (0.1, plain))
+        )
     else:
         impact = col.eccentric(golf(vx=[15.0, 16.0]), polo(), "10 %", **contact).case(0)
         same = col.eccentric(golf(vx=15.0), polo(), 0.1, **plain)
@@ -788,7 +1039,11 @@ def test_texts_go_with_the_impact(make):
     record = json.loads(json.dumps(impact.to_dict()))
     jsonschema.validate(record, impact_schema())
     inputs = record["inputs"]
-    assert (inputs["restitution"], inputs["normal"], inputs["point"]) == ("10 %", "10 deg", ["1 in", 0.0])
+    assert (inputs["restitution"], inputs["normal"], inputs["point"]) == (
+        "10 %",
+        "10 deg",
+        ["1 in", 0.0],
+    )
     for one in (impact, pickle.loads(pickle.dumps(impact)), col.Impact.from_dict(record)):
         assert one == impact
         assert one.inputs.given == given
@@ -802,7 +1057,10 @@ def solved_backwards():
     """What each reverse solver was given, in texts."""
     central = reconstruct.central("2425 lb", "2094 lb", va="50 mph", vb="0 mph", vb_after="37 mph")
     end = crash(friction=0.02)
-    after = {label: side.after.replace(vx=f"{side.after.vx!r} m/s") for label, side in (("a", end.a), ("b", end.b))}
+    after = {
+        label: side.after.replace(vx=f"{side.after.vx!r} m/s")
+        for label, side in (("a", end.a), ("b", end.b))
+    }
     contact = {"normal": "10 deg", "point": (0, 0), "friction": 0.5}
     planar = reconstruct.planar(
         after["a"],
@@ -811,7 +1069,8 @@ def solved_backwards():
         regime="sliding",
         **(contact | {"friction": 0.02}),
     )
-    (speeds, *_) = reconstruct.speeds(golf(), polo(), course_a="0 deg", course_b="-90 deg", speed_b="30 km/h",
+    (speeds, *_) = reconstruct.speeds(golf(), polo(), course_a="0 deg", course_b="-90 deg",
+        speed_b="30 km/h",
                                       delta_v_a="5 m/s", restitution="10 %", **contact)  # fmt: skip
     return {"central": central, "planar": planar, "speeds": speeds}
 
@@ -824,11 +1083,16 @@ def test_what_a_reverse_solver_was_given_stands_on_its_report(solver):
     shown = rows(page)
     wanted = {
         # A pound is 0.45359237 kg and a mile per hour 0.44704 m/s.
-        "central": [("A", "mass", "1100 kg, given as 2425 lb"), ("A", "velocity along x", "22.352 m/s, given as 50 mph"),
+        "central": [("A", "mass", "1100 kg, given as 2425 lb"),
+        ("A", "velocity along x", "22.352 m/s, given as 50 mph"),
                     ("known", "velocity of B after", "16.54 m/s, given as 37 mph")],
-        "planar": [("A (Golf)", "mass", "1500 kg"), ("known", "closing speed", f"{impact.closing_speed:.4g} m/s, given as {impact.closing_speed:.12g} m/s")],
-        "speeds": [("A (Golf)", "mass", "1500 kg"), ("known", "speed of B before", "8.333 m/s, given as 30 km/h"),
-                   ("known", "course of B before", "-1.571 rad, given as -90°"), ("known", "delta-V of A", "5 m/s"),
+        "planar": [("A (Golf)", "mass", "1500 kg"),
+        ("known", "closing speed",
+            f"{impact.closing_speed:.4g} m/s, given as {impact.closing_speed:.12g} m/s")],
+        "speeds": [("A (Golf)", "mass", "1500 kg"),
+        ("known", "speed of B before", "8.333 m/s, given as 30 km/h"),
+                   ("known", "course of B before", "-1.571 rad, given as -90°"),
+                       ("known", "delta-V of A", "5 m/s"),
                    ("contact", "restitution e", "0.1, given as 10 %")],
     }  # fmt: skip
     for row in wanted[solver]:
@@ -842,7 +1106,12 @@ def test_what_a_reverse_solver_was_given_stands_on_its_report(solver):
 @pytest.mark.parametrize(
     ("solver", "name", "text", "said"),
     [
-        ("central", "vb_after", "40 mph", "vb_after was given as '40 mph', but the velocity of B after is 16.540"),
+        (
+            "central",
+            "vb_after",
+            "40 mph",
+            "vb_after was given as '40 mph', but the velocity of B after is 16.540",
+        ),
         ("planar", "closing_speed", "10 m/s", "closing_speed was given as '10 m/s'"),
         ("planar", "a_after.vx", "1 m/s", "a_after.vx was given as '1 m/s'"),
         ("speeds", "course_b", "-80 deg", "course_b was given as '-80 deg'"),
@@ -859,7 +1128,13 @@ def test_texts_that_a_reverse_solver_was_given_must_come_out(solver, name, text,
 
 def test_a_number_that_four_figures_do_not_hold_is_shown_in_full():
     """What somebody typed; a number that was worked out has its digits in the record."""
-    shown = rows(report(crash(golf(mass=1234.567, heading=math.pi / 7.0), e=0.1234567), form="markdown", units="us"))
+    shown = rows(
+        report(
+            crash(golf(mass=1234.567, heading=math.pi / 7.0), e=0.1234567),
+            form="markdown",
+            units="us",
+        )
+    )
     assert ("A (Golf)", "mass", "2722 lb, exactly 1234.567 kg") in shown
     assert ("contact", "restitution e", "0.1235, exactly 0.1234567") in shown
     assert ("A (Golf)", "heading", "25.71°") in shown
@@ -873,7 +1148,8 @@ def test_a_number_that_four_figures_do_not_hold_is_shown_in_full():
 def test_damage_that_contradicts_stands_on_the_page():
     """All that diagnose takes, among the inputs as given, and the findings they make."""
     evidence = {
-        "crush_energy": "20 kJ", "damage_pdof_a": "40 deg", "damage_pdof_b": -1.0, "damage_delta_v_a": UREG.Quantity(50.0, "km/hour"),
+        "crush_energy": "20 kJ", "damage_pdof_a": "40 deg", "damage_pdof_b": -1.0,
+        "damage_delta_v_a": UREG.Quantity(50.0, "km/hour"),
         "damage_delta_v_b": 3.0,
     }  # fmt: skip
     page = report(crash(), form="markdown", units="si", **evidence)
@@ -882,7 +1158,8 @@ def test_damage_that_contradicts_stands_on_the_page():
     assert ("damage of A", "PDOF that the damage shows", "0.6981 rad, given as 40°") in given
     assert ("damage of B", "PDOF that the damage shows", "-1 rad") in given
     assert any(
-        row[:2] == ("damage of A", "delta-V that the damage or the recorder shows") and "given as 50 km/h" in row[2]
+        row[:2] == ("damage of A", "delta-V that the damage or the recorder shows")
+        and "given as 50 km/h" in row[2]
         for row in given
     )
     found = {finding.code for finding in diagnose(crash(), **evidence)}
@@ -910,15 +1187,21 @@ def test_evidence_is_refused_as_by_diagnose(change, code):
 
 
 def test_only_what_was_measured_is_counted():
-    """Of point masses without outlines, evidence and reconstruction: what needs those is named as not made."""
-    impact = col.oblique_central(golf(heading=None), polo(heading=None, x=4.0), 0.1, normal=0, friction=0.5)
+    """Of point masses without outlines, evidence and reconstruction: what needs those is named as
+    not made.
+    """
+    impact = col.oblique_central(
+        golf(heading=None), polo(heading=None, x=4.0), 0.1, normal=0, friction=0.5
+    )
     limits = dict.fromkeys([finding.code for finding in diagnose(impact)], math.inf)
     text = section(report(impact, form="markdown", limits=limits), "Findings").replace("\\", "")
     made = int(re.search(r"None of the (\d+) checks that were made found anything", text)[1])
     others = set(re.search(r"or are switched off: (.*)\.", text)[1].split(", "))
     codes = (
-        "near_collinear", "restitution_negative", "speed_backwards", "momentum_energy", "pdof_off_damage", "delta_v_off_damage",
-        "yaw_against_lever", "outlines_overlap", "outlines_gap", "outlines_interpenetrate", "point_outside", "ill_conditioned",
+        "near_collinear", "restitution_negative", "speed_backwards", "momentum_energy",
+        "pdof_off_damage", "delta_v_off_damage",
+        "yaw_against_lever", "outlines_overlap", "outlines_gap", "outlines_interpenetrate",
+        "point_outside", "ill_conditioned",
         "not_unique", *limits,
     )  # fmt: skip
     assert others >= {label_of(code) for code in codes}
@@ -933,18 +1216,27 @@ def test_only_what_was_measured_is_counted():
 
 def sliding(speed):
     """A contact that slides whatever the speed, so that the direction of its impulse stays."""
-    answer = col.eccentric(golf(vx=speed), polo(), 0.1, normal="10 deg", point=(0, 0), friction=0.02)
+    answer = col.eccentric(
+        golf(vx=speed), polo(), 0.1, normal="10 deg", point=(0, 0), friction=0.02
+    )
     return {"impulse_ratio": answer.impulse_ratio, "a.pdof": answer.a.q.pdof}
 
 
 @pytest.mark.slow
 def test_an_interval_has_a_range_and_no_deviation():
     """The deviation within leaves out how far the interval goes."""
-    inputs = {"speed": uncertainty.Interval("40 km/h", "70 km/h"), "restitution": uncertainty.Uniform(0.05, 0.15)}
+    inputs = {
+        "speed": uncertainty.Interval("40 km/h", "70 km/h"),
+        "restitution": uncertainty.Uniform(0.05, 0.15),
+    }
 
     def model(speed, restitution):
         answer = crash(golf(vx=speed), e=restitution, on_failure="nan")
-        return {"b.delta_v": answer.b.q.delta_v, "energy_loss": answer.q.energy_loss, "own": speed + restitution}
+        return {
+            "b.delta_v": answer.b.q.delta_v,
+            "energy_loss": answer.q.energy_loss,
+            "own": speed + restitution,
+        }
 
     known = uncertainty.propagate(model, inputs, method="quasi_random", samples=64, seed=1)
     page = report(crash(), form="markdown", units="si", uncertainty=known, derivation=True)
@@ -952,18 +1244,24 @@ def test_an_interval_has_a_range_and_no_deviation():
     assert high - low > 10.0 * max(known["b.delta_v"].std)
     assert not re.search(r"± [\d(]", page.split("```json")[0])
     assert page.count("m/s (") >= 2
-    assert ("B (Polo)", "delta-V", f"{crash().b.delta_v:.2f} m/s ({low:.2f} to {high:.2f} m/s)") in rows(
-        section(page, "Results")
-    )
+    assert (
+        "B (Polo)",
+        "delta-V",
+        f"{crash().b.delta_v:.2f} m/s ({low:.2f} to {high:.2f} m/s)",
+    ) in rows(section(page, "Results"))
 
 
 @pytest.mark.parametrize(("away", "centred"), [(0.09, True), (0.11, False), (-0.11, False)])
 def test_a_deviation_stands_only_beside_the_mean_of_its_propagation(away, centred):
-    """A tenth of the deviation off, ± would name another middle than the propagation has: its range is given."""
+    """A tenth of the deviation off, ± would name another middle than the propagation has: its range
+    is given.
+    """
     impact = crash()
     mean = impact.closing_speed + 0.5 * away
     drawn = {"speed": uncertainty.Normal(mean, 0.5)}
-    known = uncertainty.propagate(lambda speed: {"closing_speed": speed}, drawn, method="first_order")
+    known = uncertainty.propagate(
+        lambda speed: {"closing_speed": speed}, drawn, method="first_order"
+    )
     low, high = mean - 0.98, mean + 0.98  # 1.96 deviations
     number = f"{impact.closing_speed:.2f}"
     stated = f"{number} ± 0.50 m/s" if centred else f"{number} m/s ({low:.2f} to {high:.2f} m/s)"
@@ -976,12 +1274,23 @@ def test_a_deviation_stands_only_beside_the_mean_of_its_propagation(away, centre
 
 
 def test_intervals_alone_have_no_mean():
-    inputs = {"speed": uncertainty.Interval("50 km/h", "58 km/h"), "restitution": uncertainty.Interval(0.05, 0.15)}
-    known = uncertainty.propagate(lambda **given: {"b.delta_v": crash(golf(vx=given["speed"]), e=given["restitution"]).b.q.delta_v},
+    inputs = {
+        "speed": uncertainty.Interval("50 km/h", "58 km/h"),
+        "restitution": uncertainty.Interval(0.05, 0.15),
+    }
+    known = uncertainty.propagate(lambda **given: {
+    "b.delta_v": crash(golf(vx=given["speed"]), e=given["restitution"]).b.q.delta_v},
                                   inputs, method="interval")  # fmt: skip
-    part = section(report(crash(), form="markdown", units="si", uncertainty=known), "Uncertainty, given the stated inputs")
+    part = section(
+        report(crash(), form="markdown", units="si", uncertainty=known),
+        "Uncertainty, given the stated inputs",
+    )
     low, high = known["b.delta_v"].interval()
-    assert ("B: delta-V", "range, wherever in the intervals the truth is", f"{low:.2f} to {high:.2f} m/s") in rows(part)
+    assert (
+        "B: delta-V",
+        "range, wherever in the intervals the truth is",
+        f"{low:.2f} to {high:.2f} m/s",
+    ) in rows(part)
     assert "mean" not in part
     assert "95 percent" not in part
 
@@ -989,9 +1298,13 @@ def test_intervals_alone_have_no_mean():
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["quasi_random", "monte_carlo", "first_order"])
 def test_rounding_is_no_deviation(method):
-    """Of a ratio that is always the friction: no dust for digits, no shares of nothing, and no alarm."""
+    """Of a ratio that is always the friction: no dust for digits, no shares of nothing, and no
+    alarm.
+    """
     options = {} if method == "first_order" else {"samples": 64, "seed": 1}
-    known = uncertainty.propagate(sliding, {"speed": uncertainty.Normal("54 km/h", "1 km/h")}, method=method, **options)
+    known = uncertainty.propagate(
+        sliding, {"speed": uncertainty.Normal("54 km/h", "1 km/h")}, method=method, **options
+    )
     impact = crash(friction=0.02)
     page = report(impact, uncertainty=known, form="markdown", units="metric")
     part = section(page, "Uncertainty, given the stated inputs")
@@ -1001,22 +1314,33 @@ def test_rounding_is_no_deviation(method):
     assert "nan" not in part
     assert not re.search(r"\d\.\d{6}", part)
     assert "lies outside" not in page
-    assert ("contact", "impulse ratio", f"{impact.impulse_ratio:.3f}") in rows(section(page, "Results"))
+    assert ("contact", "impulse ratio", f"{impact.impulse_ratio:.3f}") in rows(
+        section(page, "Results")
+    )
     drawn = Page(report(rear_end(), uncertainty=known))
     assert "impulse ratio has no figures, because it is the same in every case." in drawn.of("p")
 
 
 def test_shares_stay_within_0_and_100_percent():
     """A small sample puts some of them outside, by less than their error."""
-    inputs = {"speed": uncertainty.Normal("54 km/h", "9 km/h"), "nothing": uncertainty.Normal(0.0, 1e-3)}
+    inputs = {
+        "speed": uncertainty.Normal("54 km/h", "9 km/h"),
+        "nothing": uncertainty.Normal(0.0, 1e-3),
+    }
 
     def model(speed, nothing):
-        return {"b.delta_v": crash(golf(vx=speed + 0.0 * nothing)).b.q.delta_v, "own": speed + nothing}
+        return {
+            "b.delta_v": crash(golf(vx=speed + 0.0 * nothing)).b.q.delta_v,
+            "own": speed + nothing,
+        }
 
     known = uncertainty.propagate(model, inputs, method="monte_carlo", samples=200, seed=3)
     shares = [share for name in known for share in known[name].contributions.values()]
     assert any(share > 1.005 or share < 0.0 for share in shares)
-    part = section(report(crash(), form="markdown", units="si", uncertainty=known), "Uncertainty, given the stated inputs")
+    part = section(
+        report(crash(), form="markdown", units="si", uncertainty=known),
+        "Uncertainty, given the stated inputs",
+    )
     printed = [row[2] for row in rows(part) if row[1].startswith("variance")]
     assert printed
     for text in printed:
@@ -1029,21 +1353,31 @@ def test_shares_stay_within_0_and_100_percent():
 
 def test_the_options_of_a_page_are_in_its_record():
     given = {
-        "title": "Case 7", "units": "us", "outline_a": (4.2, 1.8), "outline_b": (("13 ft", 1.0), (-2.0, 1.0), (-2.0, -1.0)),
-        "duration": UREG.Quantity(90.0, "ms"), "drag": 0.6, "limits": {"normal": math.inf, "pdof_off_damage": "20 deg"}, "share_a": "50 %",
-        "notes": ["One.", "Two <b>."], "derivation": True, "damage_pdof_a": "10 deg", "crush_energy": 81e3,
+        "title": "Case 7", "units": "us", "outline_a": (4.2, 1.8),
+        "outline_b": (("13 ft", 1.0), (-2.0, 1.0), (-2.0, -1.0)),
+        "duration": UREG.Quantity(90.0, "ms"), "drag": 0.6,
+        "limits": {"normal": math.inf, "pdof_off_damage": "20 deg"}, "share_a": "50 %",
+        "notes": ["One.", "Two <b>."], "derivation": True, "damage_pdof_a": "10 deg",
+        "crush_energy": 81e3,
     }  # fmt: skip
     for form in ("html", "markdown"):
         page = report(crash(), form=form, figures=False, **given)
         found = options(page)
-        assert found.keys() == given.keys() | {"figures"} | ({"form"} if form == "markdown" else set())
+        assert found.keys() == given.keys() | {"figures"} | (
+            {"form"} if form == "markdown" else set()
+        )
         assert found["limits"] == given["limits"]
         assert report(replay(page), **found) == page
     assert options(report(crash(), figures=False)) == {"units": "metric", "figures": False}
-    drawn = uncertainty.propagate(lambda speed: {"own": speed}, {"speed": uncertainty.Normal(15.0, 1.0)}, samples=64,
+    drawn = uncertainty.propagate(lambda speed: {"own": speed},
+    {"speed": uncertainty.Normal(15.0, 1.0)}, samples=64,
                                   method="quasi_random", seed=5)  # fmt: skip
     _, _, rest = report(crash(), form="markdown", uncertainty=drawn).partition("```json\n")
-    assert json.loads(rest.partition("```")[0])["uncertainty"] == {"method": "quasi_random", "samples": 64, "seed": 5}
+    assert json.loads(rest.partition("```")[0])["uncertainty"] == {
+        "method": "quasi_random",
+        "samples": 64,
+        "seed": 5,
+    }
 
 
 def test_a_unit_that_only_another_registry_has_is_kept_as_its_number():
@@ -1102,7 +1436,9 @@ def test_sticking_and_sliding_say_what_is_so():
     assert one_way.regime == other_way.regime == "sliding"
     assert one_way.impulse_ratio * other_way.impulse_ratio < 0.0
     for impact in (one_way, other_way):
-        assert "the impulse ratio has the size of the friction given" in report(impact, form="markdown")
+        assert "the impulse ratio has the size of the friction given" in report(
+            impact, form="markdown"
+        )
     back = crash(law="kudlich-slibar")
     assert back.slip_after * back.slip_before < 0.0
     ends = "slip ends during the contact, with less than the friction given"
@@ -1116,15 +1452,24 @@ def test_sticking_and_sliding_say_what_is_so():
 
 
 def test_a_velocity_that_was_worked_out_says_of_what():
-    """That of a pinned body of its yaw rate, and that of speed and course of these, which both stand there."""
+    """That of a pinned body of its yaw rate, and that of speed and course of these, which both
+    stand there.
+    """
     pin = {"x": 0.0, "y": 2.0, "pivot": (0.0, 0.0), "yaw_inertia": 1333.0, "yaw_rate": 0.5}
     a = col.Vehicle(mass=900, vx=20.0, yaw_inertia=2000.0, x=-2.0, y=4.0)
     hung = rows(
-        report(col.eccentric(a, col.Vehicle(mass=1000, **pin), 0.1, normal=0, point=(0, 4), friction=0), form="markdown")
+        report(
+            col.eccentric(
+                a, col.Vehicle(mass=1000, **pin), 0.1, normal=0, point=(0, 4), friction=0
+            ),
+            form="markdown",
+        )
     )
     # 0.5 rad/s x 2 m, to the left of the arm.
     assert ("B", "velocity along x", "-1 m/s, worked out from yaw rate and pivot") in hung
-    b = col.Vehicle.from_speed(speed="30 km/h", course=-0.5 * math.pi, mass=1200, yaw_inertia=2100, x=0.9, y=0.1)
+    b = col.Vehicle.from_speed(
+        speed="30 km/h", course=-0.5 * math.pi, mass=1200, yaw_inertia=2100, x=0.9, y=0.1
+    )
     shown = rows(report(crash(b=b), form="markdown", units="metric"))
     assert ("B", "speed", "30 km/h") in shown
     assert ("B", "course", "-90°") in shown
@@ -1138,7 +1483,9 @@ def test_half_a_place_as_text_says_which_half():
     assert ("contact", "contact point (x, y)", printed) in shown
 
 
-@pytest.mark.parametrize("contact", [{"normal": (3.0, 4.0)}, {"normal": 6.2}, {"e": UREG.Quantity(10, "percent")}])
+@pytest.mark.parametrize(
+    "contact", [{"normal": (3.0, 4.0)}, {"normal": 6.2}, {"e": UREG.Quantity(10, "percent")}]
+)
 def test_no_row_is_said_to_be_as_it_was_given(contact):
     """What is kept of it is a number, of a normal its direction."""
     page = report(crash(**contact), form="markdown")
@@ -1150,9 +1497,16 @@ def test_shares_of_inputs_that_act_together():
     """A product of two with mean 0: each has nothing by itself, and everything in all."""
     inputs = {"one": uncertainty.Normal(0.0, 1.0), "other": uncertainty.Normal(0.0, 1.0)}
     known = uncertainty.propagate(
-        lambda one, other: {"product": one * other}, inputs, method="quasi_random", samples=2048, seed=2
+        lambda one, other: {"product": one * other},
+        inputs,
+        method="quasi_random",
+        samples=2048,
+        seed=2,
     )
-    part = section(report(crash(), form="markdown", units="si", uncertainty=known), "Uncertainty, given the stated inputs")
+    part = section(
+        report(crash(), form="markdown", units="si", uncertainty=known),
+        "Uncertainty, given the stated inputs",
+    )
     shown = {row[1]: row[2] for row in rows(part) if row[0] == "product"}
     for name in inputs:
         alone, in_all = re.findall(r"(\d+)(?: ± \d+)? %", shown[f"variance from {name}"])
@@ -1162,8 +1516,15 @@ def test_shares_of_inputs_that_act_together():
     assert int(shown["sum of the shares"].removesuffix(" %")) < 40
     assert "by more than their errors, the rest comes from interactions" in part
     # Sums have none: by themselves and in all are the same, and the shares make up the whole.
-    linear = uncertainty.propagate(lambda one, other: {"sum": one + other}, inputs, method="first_order")
-    shown = rows(section(report(crash(), form="markdown", uncertainty=linear), "Uncertainty, given the stated inputs"))
+    linear = uncertainty.propagate(
+        lambda one, other: {"sum": one + other}, inputs, method="first_order"
+    )
+    shown = rows(
+        section(
+            report(crash(), form="markdown", uncertainty=linear),
+            "Uncertainty, given the stated inputs",
+        )
+    )
     assert ("sum", "variance from one", "50 %, in all 50 %") in shown
     assert ("sum", "sum of the shares", "100 %") in shown
 
@@ -1203,9 +1564,17 @@ def test_the_reason_of_a_choice_may_be_worded_otherwise(impacts):
     """Its numbers may not."""
     impact = impacts["solve, linear"]
     page = report(impact, form="markdown")
-    assert replay(tampered(page, lambda r: r["impact"]["results"]["choice"].update(reason="Another."))) == impact
+    assert (
+        replay(tampered(page, lambda r: r["impact"]["results"]["choice"].update(reason="Another.")))
+        == impact
+    )
     with pytest.raises(col.InputError, match=r"its inputs do not give its choice\.errors"):
-        replay(tampered(page, lambda r: r["impact"]["results"]["choice"]["errors"].update(linear_central=3.0)))
+        replay(
+            tampered(
+                page,
+                lambda r: r["impact"]["results"]["choice"]["errors"].update(linear_central=3.0),
+            )
+        )
 
 
 # Planar momentum and fits
@@ -1230,12 +1599,22 @@ def crossed(**changes):
 MOMENTA = {
     "all": crossed,
     "plain": lambda: crossed(normal=None, outside_impulse=None),
-    "normal of one angle": lambda: crossed(normal="-20 deg", outside_impulse=UREG.Quantity([0.3, 0.1], "kN*s")),
+    "normal of one angle": lambda: crossed(
+        normal="-20 deg", outside_impulse=UREG.Quantity([0.3, 0.1], "kN*s")
+    ),
     "bare normal": lambda: crossed(normal=-0.3),
     "together": lambda: reconstruct.momentum(
-        1200, 1800, course_a="90 deg", course_b=0.0, course_a_after="40 deg", speed_a_after="8 m/s", together=True
+        1200,
+        1800,
+        course_a="90 deg",
+        course_b=0.0,
+        course_a_after="40 deg",
+        speed_a_after="8 m/s",
+        together=True,
     ),
-    "energy gain": lambda: crossed(speed_a_after="90 km/h", course_a_after="150 deg", outside_impulse=None),
+    "energy gain": lambda: crossed(
+        speed_a_after="90 km/h", course_a_after="150 deg", outside_impulse=None
+    ),
 }
 
 
@@ -1249,7 +1628,14 @@ def momentum_of(name):
 @pytest.mark.parametrize("name", MOMENTA)
 def test_planar_momentum_has_a_report_that_can_be_made_again(name, form):
     for units in ("si", "metric", "us"):
-        page = report(momentum_of(name), form=form, units=units, derivation=True, damage_delta_v_a="9 m/s", title="Crossing")
+        page = report(
+            momentum_of(name),
+            form=form,
+            units=units,
+            derivation=True,
+            damage_delta_v_a="9 m/s",
+            title="Crossing",
+        )
         again = replay(page)
         assert isinstance(again, reconstruct.MomentumSolution)
         assert report(again, **options(page)) == page
@@ -1269,7 +1655,10 @@ def test_inputs_and_answers_of_planar_momentum_are_shown():
     assert ("contact", "normal, direction from A into B", "-116.6°") in found
     assert ("both", "impulse from outside, along y", "-0.1 kN·s") in found
     printed = explain(solution, units="metric")
-    assert {(of, what, typeset(value)) for of, what, value in rows(printed[printed.index("## Answers") :])} <= set(found)
+    assert {
+        (of, what, typeset(value))
+        for of, what, value in rows(printed[printed.index("## Answers") :])
+    } <= set(found)
     moved = solution.q.sensitivity["speed_a"]["course_b_after"].m_as("km/h/deg")
     assert ("speed of A before", "moved by course of B after", f"{moved:+.3g} km/h per °") in found
     assert f"{len(diagnose(solution).measured)} checks" in section(page, "Findings")
@@ -1288,7 +1677,9 @@ def test_inputs_and_answers_of_planar_momentum_are_shown():
 
 @pytest.mark.slow
 def test_samples_drawn_together_are_told_without_shares():
-    """A joint group has all variance; bare numbers are SI, and in the unit of the page where their input is the impact's."""
+    """A joint group has all variance; bare numbers are SI, and in the unit of the page where their
+    input is the impact's.
+    """
     impact = crash(golf(vx=15.0))
     values = np.linspace(14.0, 16.0, 64)
     columns = {
@@ -1298,13 +1689,20 @@ def test_samples_drawn_together_are_told_without_shares():
         "speed_b": values,
     }
     known = uncertainty.propagate(
-        lambda speed_a, **_: {"a.before.speed": 1.0 * speed_a, "impulse_ratio": speed_a / 1000.0, "own": speed_a},
+        lambda speed_a, **_: {"a.before.speed": 1.0 * speed_a, "impulse_ratio": speed_a / 1000.0,
+        "own": speed_a},
         uncertainty.Samples.joint(**columns),
         method="quasi_random", samples=64, seed=1,
     )  # fmt: skip
     page = report(impact, form="markdown", units="metric", uncertainty=known)
     shown = rows(section(page, "Uncertainty, given the stated inputs"))
-    assert {of for of, *_ in shown} == {"of", "A: speed before", "impulse ratio", "own", "Inputs as stated"}
+    assert {of for of, *_ in shown} == {
+        "of",
+        "A: speed before",
+        "impulse ratio",
+        "own",
+        "Inputs as stated",
+    }
     assert not any("variance" in what or "shares" in what for _, what, _ in shown)
     stated = {what: text for of, what, text in shown if of == "Inputs as stated"}
     assert stated["speed_a"] == "one of 64 values from 50.4 km/h to 57.6 km/h"
@@ -1313,7 +1711,9 @@ def test_samples_drawn_together_are_told_without_shares():
     # That of B is another: whether this one is a speed is not known.
     assert stated["speed_b"] == "one of 64 values from 14 to 16, in SI units"
     drawn = Page(report(impact, units="metric", uncertainty=known))
-    assert any(text.startswith("A: speed before, in the cases drawn") for text in drawn.of("figcaption"))
+    assert any(
+        text.startswith("A: speed before, in the cases drawn") for text in drawn.of("figcaption")
+    )
     assert any("A: speed before" in text for text in drawn.of("text"))
     assert not any("share of its variance" in text for text in drawn.of("figcaption"))
 
@@ -1338,12 +1738,17 @@ def test_a_record_of_planar_momentum_that_was_changed_is_refused(old, new, said)
 
 
 def fitted():
-    speeds = {"speed_golf": uncertainty.Interval("0 km/h", "150 km/h"), "speed <b>": uncertainty.Normal("52 km/h", "5 km/h")}
+    speeds = {
+        "speed_golf": uncertainty.Interval("0 km/h", "150 km/h"),
+        "speed <b>": uncertainty.Normal("52 km/h", "5 km/h"),
+    }
 
     def model(**speed):
         return {"east": 1800 * speed["speed <b>"], "south": 1200 * speed["speed_golf"]}
 
-    return reconstruct.fit(model, speeds, {"east": ("27.8 kN*s", "1300 N*s"), "south": (21e3, 1300.0)})
+    return reconstruct.fit(
+        model, speeds, {"east": ("27.8 kN*s", "1300 N*s"), "south": (21e3, 1300.0)}
+    )
 
 
 @pytest.mark.parametrize("form", ["html", "markdown"])
@@ -1357,8 +1762,16 @@ def test_a_fit_has_a_report(form):
     else:
         record = page.rpartition("```json\n")[2].rpartition("```")[0]
         for name, one in found.residuals.items():
-            assert (name, "stated less computed, over the standard error", f"{one.over_sigma:+.2f}") in rows(page)
-        assert ("speed_golf", "estimate", f"{3.6 * found['speed_golf'].value:.1f} ± 3.9 km/h") in rows(page)
+            assert (
+                name,
+                "stated less computed, over the standard error",
+                f"{one.over_sigma:+.2f}",
+            ) in rows(page)
+        assert (
+            "speed_golf",
+            "estimate",
+            f"{3.6 * found['speed_golf'].value:.1f} ± 3.9 km/h",
+        ) in rows(page)
         assert ("east", "observed", "27.8 kN·s ± 1.3 kN·s") in rows(page)
     assert json.loads(record)["fit"] == json.loads(json.dumps(found.to_dict()))
     with pytest.raises(col.InputError, match="its model is code") as caught:
@@ -1366,7 +1779,9 @@ def test_a_fit_has_a_report(form):
     assert caught.value.code == "no_record"
 
 
-@pytest.mark.parametrize("name", ["outline_a", "share_a", "drag", "duration", "limits", "crush_energy", "damage_pdof_a"])
+@pytest.mark.parametrize(
+    "name", ["outline_a", "share_a", "drag", "duration", "limits", "crush_energy", "damage_pdof_a"]
+)
 def test_options_that_an_answer_has_no_part_for_are_refused(name):
     given = {"outline_a": (4.0, 1.8), "limits": {"restitution": 0.9}}.get(name, 0.4)
     for answer in (fitted(), crossed()) if name in ("outline_a", "share_a") else (fitted(),):
@@ -1397,7 +1812,8 @@ def test_an_outline_of_momentum_is_refused_whatever_it_is(outline):
 def test_each_vehicle_has_one_table_and_the_evidence_is_not_called_stated():
     """Rows of A and B may alternate; the evidence is computed."""
     found = col.reconstruct.momentum(
-        1500, 1300, course_a=0.0, course_b="90 deg", course_a_after="35 deg", course_b_after="50 deg",
+        1500, 1300, course_a=0.0, course_b="90 deg", course_a_after="35 deg",
+        course_b_after="50 deg",
         speed_a_after=10.0, speed_b_after=11.0,
     )  # fmt: skip
     page = report(found)
@@ -1405,7 +1821,9 @@ def test_each_vehicle_has_one_table_and_the_evidence_is_not_called_stated():
     assert re.findall("<caption>(.*?)</caption>", inputs) == ["A", "B"]
     priors, seen = {"x": col.uncertainty.Uniform(0.0, 1.0)}, {"x": col.uncertainty.Normal(0.5, 0.1)}
     text = report(
-        col.reconstruct.posterior(lambda x: {"x": x}, priors, seen, samples=512, seed=1), form="markdown", figures=False
+        col.reconstruct.posterior(lambda x: {"x": x}, priors, seen, samples=512, seed=1),
+        form="markdown",
+        figures=False,
     )
     (row,) = [row for row in rows(text) if row[0] == "log evidence"]
     assert "stated" not in row[1]
@@ -1421,11 +1839,17 @@ def test_the_published_drag_stands_beside_the_drag_with_its_source(impacts):
     """The manual of Baker, travelled dry asphalt: 0.60 to 0.80 below 30 mph, 0.55 to 0.70 above."""
     impact = impacts["eccentric"]
     found, page = published(impact, "drag")
-    text = "0.6 to 0.8 below 30 mph, 0.55 to 0.7 from there on (Baker, Traffic Accident Investigation Manual)"
+    text = (
+        "0.6 to 0.8 below 30 mph, 0.55 to 0.7 from there on (Baker, Traffic Accident "
+        "Investigation Manual)"
+    )
     assert found == [text]
     assert "| contact | drag of the tyres taken | 0.7 |" in page
     assert "drag published for locked wheels on travelled dry asphalt" in page
-    assert "For comparison with the drag: drag factor, travelled dry asphalt, above 30 mph; Baker" in page
+    assert (
+        "For comparison with the drag: drag factor, travelled dry asphalt, above 30 mph; Baker"
+        in page
+    )
     place = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
     a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=20.0, x=-2.2, y=0.0, heading=0.0)
     b = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=2.2, y=0.0, heading=0.0)
@@ -1437,10 +1861,14 @@ def test_each_published_restitution_has_its_source():
     """By the closing speed: nothing below 2 mph, the fit up to 15 mph, a rule and tests above."""
     for speed, source in {
         "1 mph": "none: no value is published for so low a speed",
-        "3 mph": "0 to 0.54 (Cipriani and others, SAE 2002-01-0540, plus half the range of SAE 931842)",
+        ("3 mph"): (
+            "0 to 0.54 (Cipriani and others, SAE 2002-01-0540, plus half the range of SAE 931842)"
+        ),
         "40 mph": "0 to 0.3 (EDCRASH manual, to 0.25; tests, to 0.253; rounded up)",
     }.items():
-        impact = col.linear_central(col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1500.0), 0.2)
+        impact = col.linear_central(
+            col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1500.0), 0.2
+        )
         assert published(impact, "restitution")[0] == [source]
 
 
@@ -1449,17 +1877,27 @@ def test_notes_stand_beside_drag_duration_outlines_and_law():
     b = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=2.2, y=0.0, heading=0.0)
     place = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
     impact, outline = col.eccentric(a, b, 0.1, **place), ("4.2 m", "1.8 m")
-    notes = {"drag": "Measured.", "duration": "Of the recorder.", "outline_a": "By the maker.", "law": "The usual one."}
+    notes = {
+        "drag": "Measured.",
+        "duration": "Of the recorder.",
+        "outline_a": "By the maker.",
+        "law": "The usual one.",
+    }
     page = report(impact, form="markdown", outline_a=outline, notes=notes)
     assert "| contact | duration taken | 0.1 s. Of the recorder. |" in page
     assert "| contact | drag of the tyres taken | 0.7. Measured. |" in page
-    assert "- **Outline of A:** 4.2 m long and 1.8 m wide, about the centre of mass. By the maker.\n" in page
+    assert (
+        "- **Outline of A:** 4.2 m long and 1.8 m wide, about the centre of mass. By the maker.\n"
+        in page
+    )
     assert "| contact | law of restitution | Brach. The usual one. |" in page
     assert report(replay(page), **options(page)) == page
     with pytest.raises(col.InputError, match="'outline_b', which is no input of this page"):
         report(impact, outline_a=outline, notes={"outline_b": "By the maker."})
     followed = col.time_resolved(a, b, 0.1, **place, duration="100 ms", drag=0.7, geometry="fixed")
-    page = report(followed, form="markdown", notes={"drag": "Measured.", "duration": "Of the recorder."})
+    page = report(
+        followed, form="markdown", notes={"drag": "Measured.", "duration": "Of the recorder."}
+    )
     assert re.search(r"\| nominal duration \| [^|]*100 ms\. Of the recorder\. \|", page)
     assert "| drag of the tyres | 0.7. Measured. |" in page
     with pytest.raises(col.InputError, match="'law', which is no input of this page"):
@@ -1467,16 +1905,23 @@ def test_notes_stand_beside_drag_duration_outlines_and_law():
 
 
 def test_delta_v_in_the_axes_of_the_vehicle_takes_the_spread_of_its_propagation(impacts):
-    """As a recorder counts it: the row has the ±, the heading is in words, and explain derives what it prints."""
+    """As a recorder counts it: the row has the ±, the heading is in words, and explain derives what
+    it prints.
+    """
     impact, names = impacts["eccentric"], ("a.delta_v_forward", "a.delta_v_left")
     values = {name: getattr(impact.a, name[2:]) for name in names}
     known = uncertainty.propagate(
-        lambda factor: {name: factor * value for name, value in values.items()}, {"factor": uncertainty.Normal(1.0, 0.1)}
+        lambda factor: {name: factor * value for name, value in values.items()},
+        {"factor": uncertainty.Normal(1.0, 0.1)},
     )
     page = report(impact, form="markdown", units="us", uncertainty=known)
     working = col.explain(impact, units="us", form="text", uncertainty=known)
     for what in ("delta-V forward", "delta-V to the left (recorders count to the right)"):
-        (text,) = (text for of, row, text in rows(section(page, "Results")) if of.startswith("A") and row == what)
+        (text,) = (
+            text
+            for of, row, text in rows(section(page, "Results"))
+            if of.startswith("A") and row == what
+        )
         assert "±" in text
         assert (f"A: {what}", "mean ± standard deviation", text) in rows(page)
         assert what in working
@@ -1494,7 +1939,9 @@ def test_a_page_of_planar_momentum_compares_no_duration(impacts):
 
 
 def test_the_basis_of_a_limit_is_no_name_in_python():
-    """It is what the list of references calls the published value, which stands there with its source."""
+    """It is what the list of references calls the published value, which stands there with its
+    source.
+    """
     page = report(crash(friction=0.01), form="markdown", duration="3 s")
     told, listed = section(page, "Findings"), section(page, "References")
     assert "reference." not in told
@@ -1507,24 +1954,36 @@ def test_numbers_that_have_no_unit_are_not_said_to_be_in_si_units():
     """A drag factor; what an input of another name is, nobody can tell."""
     inputs = {"drag": uncertainty.Interval(0.6, 0.8), "friction_b": uncertainty.Interval(0.3, 0.5)}
     inputs["distance"] = uncertainty.Interval(19.0, 21.0)
-    known = uncertainty.propagate(lambda drag, friction_b, distance: {"own": drag + friction_b + distance}, inputs)
-    stated = {what: text for of, what, text in rows(report(crossed(), form="markdown", uncertainty=known)) if "stated" in of}
+    known = uncertainty.propagate(
+        lambda drag, friction_b, distance: {"own": drag + friction_b + distance}, inputs
+    )
+    stated = {
+        what: text
+        for of, what, text in rows(report(crossed(), form="markdown", uncertainty=known))
+        if "stated" in of
+    }
     assert stated["drag"] == "0.6 to 0.8, no distribution assumed"
     assert stated["friction_b"] == "0.3 to 0.5, no distribution assumed"
     assert stated["distance"] == "19 to 21, no distribution assumed, in SI units"
 
 
 def test_a_conversion_with_all_its_digits_is_not_repeated_as_given():
-    """A Quantity that was worked out is written by nobody; one with few digits is repeated, as a text is."""
+    """A Quantity that was worked out is written by nobody; one with few digits is repeated, as a
+    text is.
+    """
     worked_out, typed = pint.Quantity(50.0 / 3.0, "m/s"), pint.Quantity(12.5, "m/s")
-    found = rows(report(crossed(speed_a_after=worked_out, speed_b_after=typed), form="markdown", units="us"))
+    found = rows(
+        report(crossed(speed_a_after=worked_out, speed_b_after=typed), form="markdown", units="us")
+    )
     assert ("A", "speed after", "37.28 mph") in found
     assert ("B", "speed after", "27.96 mph, given as 12.5 m/s") in found
 
 
 def test_an_input_that_does_not_move_a_speed_has_a_zero_without_a_sign():
     """Along the course of A after, which is that of B before, momentum tells nothing about A."""
-    found = rows(report(crossed(course_a_after="0 deg", outside_impulse=None), form="markdown", units="us"))
+    found = rows(
+        report(crossed(course_a_after="0 deg", outside_impulse=None), form="markdown", units="us")
+    )
     assert ("speed of A before", "moved by speed of A after", "0 mph per mph") in found
     assert not any(text.startswith(("+0 ", "-0 ")) for *_, text in found)
 
@@ -1532,14 +1991,26 @@ def test_an_input_that_does_not_move_a_speed_has_a_zero_without_a_sign():
 def _planar():
     ahead = col.eccentric(A, B, 0.3, normal=0.2, point=(0.0, 0.0), friction=0.3)
     return reconstruct.planar(
-        ahead.a.after, ahead.b.after, restitution=0.3, friction=0.3, normal=0.2, point=(0.0, 0.0), regime=ahead.regime
+        ahead.a.after,
+        ahead.b.after,
+        restitution=0.3,
+        friction=0.3,
+        normal=0.2,
+        point=(0.0, 0.0),
+        regime=ahead.regime,
     )
 
 
 def _found():
     yield reconstruct.central(1100.0, 950.0, va=22.0, vb=0.0, vb_after=16.0)
     yield _planar()
-    known = {"course_a": 0.0, "course_b": math.pi / 2, "restitution": 0.1, "speed_b": 9.0, "energy_loss": 60000.0}
+    known = {
+        "course_a": 0.0,
+        "course_b": math.pi / 2,
+        "restitution": 0.1,
+        "speed_b": 9.0,
+        "energy_loss": 60000.0,
+    }
     yield from reconstruct.speeds(A, B, **known, normal=0.2, point=(0.0, 0.0), friction=0.3)
 
 
@@ -1562,4 +2033,6 @@ def test_what_a_record_says_of_its_reconstruction_is_worked_out_again(changed):
         page = report(impact, form="markdown")
         assert report(replay(page), **options(page)) == page
         with pytest.raises(col.InputError):
-            replay(tampered(page, lambda r: r["impact"]["results"]["reconstruction"].update(changed)))
+            replay(
+                tampered(page, lambda r: r["impact"]["results"]["reconstruction"].update(changed))
+            )

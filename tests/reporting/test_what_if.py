@@ -1,4 +1,6 @@
-"""The page solves what Python solves: its JavaScript is run, and every number compared; the page itself asks for nothing."""
+"""The page solves what Python solves: its JavaScript is run, and every number compared; the page
+itself asks for nothing.
+"""
 
 import html
 import json
@@ -22,14 +24,33 @@ from collisions.reporting import what_if as what_if_page
 from collisions.reporting.what_if import results
 from javascript import CHROMIUM, answers, moved
 
-A = col.Vehicle(mass="1500 kg", yaw_inertia="2400 kg*m**2", vx="50 km/h", x=-2.0, y=0.4, heading="0 deg", name="Golf")
-B = col.Vehicle(mass="1200 kg", yaw_inertia="1700 kg*m**2", vy="40 km/h", x=0.8, y=-1.2, heading="90 deg", name="Polo")
+A = col.Vehicle(
+    mass="1500 kg",
+    yaw_inertia="2400 kg*m**2",
+    vx="50 km/h",
+    x=-2.0,
+    y=0.4,
+    heading="0 deg",
+    name="Golf",
+)
+B = col.Vehicle(
+    mass="1200 kg",
+    yaw_inertia="1700 kg*m**2",
+    vy="40 km/h",
+    x=0.8,
+    y=-1.2,
+    heading="90 deg",
+    name="Polo",
+)
 SCENE = {"normal": "0 deg", "point": (0.0, 0.0)}
 IMPACT = col.eccentric(A, B, 0.1, friction=0.5, **SCENE)
 RANGES = {
-    "speed_a": ("30 km/h", "80 km/h"), "course_a": ("-20 deg", "20 deg"), "speed_b": (5.0, 20.0), "course_b": ("60 deg", "120 deg"), "restitution": (0.0, 0.4),
-    "friction": (0.0, 0.9), "normal": ("-30 deg", "30 deg"), "mass_b": ("900 kg", "2000 kg"), "yaw_inertia_a": (2000, 3000), "yaw_rate_b": ("-20 deg/s", "20 deg/s"),
-    "x_a": (-2.5, -1.5), "y_a": (0.0, 0.8), "heading_b": ("80 deg", "100 deg"), "point_x": (-0.3, 0.3), "point_y": (-0.5, 0.5),
+    "speed_a": ("30 km/h", "80 km/h"), "course_a": ("-20 deg", "20 deg"), "speed_b": (5.0, 20.0),
+    "course_b": ("60 deg", "120 deg"), "restitution": (0.0, 0.4),
+    "friction": (0.0, 0.9), "normal": ("-30 deg", "30 deg"), "mass_b": ("900 kg", "2000 kg"),
+    "yaw_inertia_a": (2000, 3000), "yaw_rate_b": ("-20 deg/s", "20 deg/s"),
+    "x_a": (-2.5, -1.5), "y_a": (0.0, 0.8), "heading_b": ("80 deg", "100 deg"),
+    "point_x": (-0.3, 0.3), "point_y": (-0.5, 0.5),
 }  # fmt: skip
 
 
@@ -46,28 +67,41 @@ def in_slider(end):
 
 def cases(ranges, count):
     """Slider numbers drawn from the ranges."""
-    return np.random.default_rng(len(ranges)).uniform(*np.array([*ranges.values()], dtype=float).T, (count, len(ranges)))
+    return np.random.default_rng(len(ranges)).uniform(
+        *np.array([*ranges.values()], dtype=float).T, (count, len(ranges))
+    )
 
 
 def solved_by_hand(numbers):
     """The impact of these slider numbers by the public functions."""
     at = dict(zip(RANGES, numbers, strict=True))
     a = col.Vehicle.from_speed(
-        mass=1500.0, yaw_inertia=at["yaw_inertia_a"], speed=at["speed_a"], course=f"{at['course_a']!r} deg", x=at["x_a"], y=at["y_a"], heading="0 deg"
+        mass=1500.0, yaw_inertia=at["yaw_inertia_a"], speed=at["speed_a"],
+        course=f"{at['course_a']!r} deg", x=at["x_a"], y=at["y_a"], heading="0 deg"
     )  # fmt: skip
     b = col.Vehicle.from_speed(
-        mass=at["mass_b"], yaw_inertia=1700.0, speed=at["speed_b"], course=f"{at['course_b']!r} deg", yaw_rate=at["yaw_rate_b"], x=0.8, y=-1.2, heading=f"{at['heading_b']!r} deg"
+        mass=at["mass_b"], yaw_inertia=1700.0, speed=at["speed_b"],
+        course=f"{at['course_b']!r} deg", yaw_rate=at["yaw_rate_b"], x=0.8, y=-1.2,
+        heading=f"{at['heading_b']!r} deg"
     )  # fmt: skip
     point = at["point_x"], at["point_y"]
     return col.eccentric(
-        a, b, at["restitution"], normal=f"{at['normal']!r} deg", point=point, friction=at["friction"], on_failure="nan"
+        a,
+        b,
+        at["restitution"],
+        normal=f"{at['normal']!r} deg",
+        point=point,
+        friction=at["friction"],
+        on_failure="nan",
     )
 
 
 def test_every_output_is_that_of_the_public_functions():
-    """Fifteen sliders anywhere: the page's numbers are those of ``eccentric`` with vehicles made anew.
+    """Fifteen sliders anywhere: the page's numbers are those of ``eccentric`` with vehicles made
+    anew.
 
-    Sine, cosine and arctangent of the engine may be an ulp off; what cancels a little makes some ulps of it.
+    Sine, cosine and arctangent of the engine may be an ulp off; what cancels a little makes some
+    ulps of it.
     """
     drawn = cases({name: [in_slider(end) for end in ends] for name, ends in RANGES.items()}, 200)
     names = list(results(IMPACT, {}))
@@ -83,13 +117,22 @@ def test_every_output_is_that_of_the_public_functions():
             if name not in ("status", "nx", "ny", "px", "py"):
                 wanted = attrgetter(name)(impact)
                 scale = 30.0  # m/s, rad/s, rad and m
-                scale = impact.energy_loss if name == "energy_loss" else impact.normal_impulse if "impulse" in name else scale
+                scale = (
+                    impact.energy_loss
+                    if name == "energy_loss"
+                    else impact.normal_impulse
+                    if "impulse" in name
+                    else scale
+                )
                 assert abs(at[name] - wanted) <= 1e-13 * scale, name
         assert (at["nx"], at["ny"]) == pytest.approx(impact.normal, rel=1e-15, abs=1e-16)
     assert answered > 150
 
 
-@pytest.mark.parametrize("which", ["linear", "oblique", "eccentric", "ratio", "pinned", "wall", "solve", "kudlich-slibar"])
+@pytest.mark.parametrize(
+    "which",
+    ["linear", "oblique", "eccentric", "ratio", "pinned", "wall", "solve", "kudlich-slibar"],
+)
 def test_without_angles_the_bits_are_those_of_python(which):
     """Nothing but + - * / and square roots: not a bit may differ, refused cases included."""
     wall, gate = col.Vehicle.barrier(name='<wall> & "co"'), B.replace(vy=0.0, pivot=(0.8, 2.0))
@@ -101,7 +144,9 @@ def test_without_angles_the_bits_are_those_of_python(which):
         "pinned": lambda: col.eccentric(A, gate, 0.1, friction=0.5, **SCENE),
         "wall": lambda: col.eccentric(A, wall, 0.1, friction=0.5, **SCENE),
         "solve": lambda: col.solve(A, B, 0.1, friction=0.5, tolerance=0.5, **SCENE),
-        "kudlich-slibar": lambda: col.eccentric(A, B, 0.1, friction=0.5, law="kudlich-slibar", **SCENE),
+        "kudlich-slibar": lambda: col.eccentric(
+            A, B, 0.1, friction=0.5, law="kudlich-slibar", **SCENE
+        ),
     }[which]()
     ranges = {"speed_a": (0.0, 30.0), "restitution": (0.0, 1.0), "mass_a": (800.0, 2000.0)}
     if which in ("oblique", "eccentric", "kudlich-slibar", "wall", "solve", "pinned"):
@@ -117,11 +162,20 @@ def test_without_angles_the_bits_are_those_of_python(which):
     found = answers(script(what_if(impact, ranges)), drawn)
     for name, column in zip(wanted, found.T, strict=True):
         if "pdof" in name or "delta_v" in name or "speed" in name.removeprefix("closing_"):
-            # Functions of the engine, at most some ulps off; a direction may come out at either end of its turn.
-            np.testing.assert_allclose(column, np.broadcast_to(wanted[name], len(drawn)), rtol=1e-15, atol=1e-15, err_msg=name)
+            # Functions of the engine, at most some ulps off; a direction may come out at either end
+            # of its turn.
+            np.testing.assert_allclose(
+                column,
+                np.broadcast_to(wanted[name], len(drawn)),
+                rtol=1e-15,
+                atol=1e-15,
+                err_msg=name,
+            )
         else:
             np.testing.assert_array_equal(
-                column, np.broadcast_to(np.asarray(wanted[name], dtype=float), len(drawn)), err_msg=name
+                column,
+                np.broadcast_to(np.asarray(wanted[name], dtype=float), len(drawn)),
+                err_msg=name,
             )
     assert (wanted["status"] == col.Status.OK).sum() > 100
 
@@ -139,14 +193,23 @@ def test_without_angles_the_bits_are_those_of_python(which):
                 col.solve(A, B, 0.1, friction=0.5, tolerance=0.5, **SCENE),
             )
         ),
-        col.reconstruct.speeds(A, B, course_a=0.0, course_b="90 deg", delta_v_a=6.0, speed_b=10.0, restitution=0.1, friction=0.5, **SCENE)[0],
-        col.reconstruct.planar(IMPACT.a.after, IMPACT.b.after, restitution=0.1, friction=0.5, **SCENE),
+        col.reconstruct.speeds(A, B, course_a=0.0, course_b="90 deg", delta_v_a=6.0, speed_b=10.0,
+            restitution=0.1, friction=0.5, **SCENE)[0],
+        col.reconstruct.planar(IMPACT.a.after, IMPACT.b.after, restitution=0.1, friction=0.5,
+            **SCENE),
     ],
 )  # fmt: skip
 def test_the_page_starts_at_the_impact(impact):
     """Whatever the impact was given, and however it was found: nothing of it is left out."""
     at = results(impact, {})
-    for name in ("a.delta_v", "b.delta_yaw_rate", "a.pdof", "b.after.speed", "closing_speed", "energy_loss"):
+    for name in (
+        "a.delta_v",
+        "b.delta_yaw_rate",
+        "a.pdof",
+        "b.after.speed",
+        "closing_speed",
+        "energy_loss",
+    ):
         assert at[name] == pytest.approx(attrgetter(name)(impact), rel=1e-9), name
     speed = {"speed_a": (0.5 * impact.a.before.speed, 2.0 * impact.a.before.speed)}
     (row,) = answers(script(what_if(impact, speed)), [[impact.a.before.speed]])
@@ -154,12 +217,16 @@ def test_the_page_starts_at_the_impact(impact):
 
 
 def test_the_page():
-    """Small, alone, with its sliders written in it, each with a label; names are text and no tags."""
+    """Small, alone, with its sliders written in it, each with a label; names are text
+    and no tags.
+    """
     impact = IMPACT.again(b=B.replace(name="<script>alert(1)</script> & co"))
     page = what_if(impact, RANGES, units="us")
     assert len(page.encode()) < 50_000
     assert not re.search(r"https?:|src=|href=|@import|url\(|fetch\(|XMLHttp", page)
-    sliders = re.findall(r'<input type="range" id="(\w+)" min="([^"]+)" max="([^"]+)" value="([^"]+)"', page)
+    sliders = re.findall(
+        r'<input type="range" id="(\w+)" min="([^"]+)" max="([^"]+)" value="([^"]+)"', page
+    )
     assert [name for name, *_ in sliders] == list(RANGES)
     assert all(float(low) <= float(value) <= float(high) for _, low, high, value in sliders)
     for name in RANGES:
@@ -168,7 +235,9 @@ def test_the_page():
     assert "<script>alert" not in page
     assert page.count("<script>") == 1
     assert "createElement" not in page
-    assert float({name: value for name, *_, value in sliders}["speed_a"]) == pytest.approx(50 / 1.609344, rel=1e-12)
+    assert float({name: value for name, *_, value in sliders}["speed_a"]) == pytest.approx(
+        50 / 1.609344, rel=1e-12
+    )
     assert page == what_if(impact, RANGES, units="us")
     assert page.form == "html"
 
@@ -180,7 +249,8 @@ def test_the_page():
         ({"speed_c": (1, 2)}, "bad_inputs", "'speed_c' is no input"),
         ({"impulse_ratio": (0, 1)}, "bad_inputs", "'impulse_ratio' is no input"),
         ({"speed_a": 3.0}, "bad_range", "speed_a must be a pair"),
-        ({"speed_a": (20.0, 5.0)}, "bad_range", "in rising order around 50 km/h, got (20.0, 5.0), in m/s"),
+        ({"speed_a": (20.0, 5.0)}, "bad_range",
+            "in rising order around 50 km/h, got (20.0, 5.0), in m/s"),
         ({"speed_a": (20.0, 30.0)}, "bad_range", "around 50 km/h, got (20.0, 30.0), in m/s"),
         ({"speed_a": (5.0, math.inf)}, "bad_range", "pair of finite numbers"),
         ({"restitution": (0.0, 1.5)}, "bad_restitution", "restitution must be from 0 to 1"),
@@ -189,7 +259,8 @@ def test_the_page():
         ({"speed_a": ("5 kg", "6 kg")}, "bad_units", "2 arguments"),
         ({"speed_a": (5.0, 20.0), "vx_a": (5.0, 20.0)}, "speed_twice", "two ways"),
         ({"speed_a": (np.array([1.0]), 20.0)}, "bad_range", "pair of finite numbers"),
-        ({"normal": (pint.Quantity(np.array([1.0, 1e307]), "rad"), "20 deg")}, "bad_range", "pair of finite numbers"),
+        ({"normal": (pint.Quantity(np.array([1.0, 1e307]), "rad"), "20 deg")}, "bad_range",
+            "pair of finite numbers"),
     ],
 )  # fmt: skip
 def test_ranges_that_are_refused(ranges, code, text):
@@ -200,7 +271,9 @@ def test_ranges_that_are_refused(ranges, code, text):
 
 
 def test_impacts_that_are_refused():
-    """A batch, a refused case, something else; units that nobody knows; a standing car without a course."""
+    """A batch, a refused case, something else; units that nobody knows; a standing car without a
+    course.
+    """
     many = col.eccentric(A.replace(vx=np.array([10.0, 12.0])), B, 0.1, friction=0.5, **SCENE)
     with pytest.raises(col.ShapeError):
         what_if(many, {"speed_a": (1.0, 20.0)})
@@ -209,17 +282,26 @@ def test_impacts_that_are_refused():
     with pytest.raises(col.InputError, match="units must be"):
         what_if(IMPACT, {"speed_a": (1.0, 20.0)}, units="cgs")
     stepped = col.time_resolved(A, B, 0.1, friction=0.5, duration="100 ms", **SCENE)
-    with pytest.raises(col.InputError, match="what_if has no page for time_resolved; solve the case by eccentric"):
+    with pytest.raises(
+        col.InputError, match="what_if has no page for time_resolved; solve the case by eccentric"
+    ):
         what_if(stepped, {"speed_a": (1.0, 20.0)})
     standing = col.eccentric(A, B.replace(vy=0.0), 0.1, friction=0.5, **SCENE)
     with pytest.raises(col.InputError, match="give course_b a range too"):
         what_if(standing, {"speed_b": (0.0, 20.0)})
     assert what_if(standing, {"speed_b": (0.0, 20.0), "course_b": ("80 deg", "100 deg")})
-    given = col.Vehicle.from_speed(mass=1200, speed=0, course="90 deg", yaw_inertia=1700, x=0.8, y=-1.2)
+    given = col.Vehicle.from_speed(
+        mass=1200, speed=0, course="90 deg", yaw_inertia=1700, x=0.8, y=-1.2
+    )
     page = what_if(col.eccentric(A, given, 0.1, friction=0.5, **SCENE), {"speed_b": (0.0, 20.0)})
     (row,) = answers(script(page), [[10.0]])
     (wanted,) = answers(
-        script(what_if(col.eccentric(A, given.replace(vy=10.0), 0.1, friction=0.5, **SCENE), {"speed_b": (0.0, 20.0)})),
+        script(
+            what_if(
+                col.eccentric(A, given.replace(vy=10.0), 0.1, friction=0.5, **SCENE),
+                {"speed_b": (0.0, 20.0)},
+            )
+        ),
         [[10.0]],
     )
     np.testing.assert_allclose(row, wanted, rtol=1e-14, atol=1e-15)
@@ -236,18 +318,29 @@ def test_a_course_beyond_half_a_turn_starts_where_it_is():
 def test_from_a_case_file(tmp_path):
     """Over what is uncertain in it, or over the ranges that it names."""
     file, page = tmp_path / "case.toml", tmp_path / "page.html"
-    text = '[a]\nmass = 1500\nvx = "50 km/h +/- 5 km/h"\n[b]\nmass = 1200\n[linear_central]\nrestitution = "0.1 .. 0.3"\n[propagate]\nmethod = "first_order"\n'
+    text = (
+        '[a]\nmass = 1500\nvx = "50 km/h +/- 5 km/h"\n[b]\nmass = 1200\n[linear_central]\n'
+        'restitution = "0.1 .. 0.3"\n[propagate]\nmethod = "first_order"\n'
+    )
     file.write_text(text, encoding="utf-8")
     assert main([str(file), "--what-if", str(page)]) == 0
-    sliders = re.findall(r'<input type="range" id="(\w+)" min="([^"]+)" max="([^"]+)"', page.read_text(encoding="utf-8"))
+    sliders = re.findall(
+        r'<input type="range" id="(\w+)" min="([^"]+)" max="([^"]+)"',
+        page.read_text(encoding="utf-8"),
+    )
     assert [(name, round(float(low), 9), round(float(high), 9)) for name, low, high in sliders] == [
         ("vx_a", 35.0, 65.0),
         ("restitution", 0.1, 0.3),
     ]
     file.write_text(text + '[what_if.ranges]\nspeed_a = ["0 mph", "60 mph"]\n', encoding="utf-8")
     assert main([str(file), "--what-if", str(page), "--units", "us"]) == 0
-    assert re.findall(r'id="(\w+)" min="0.0" max="([^"]+)"', page.read_text(encoding="utf-8"))[0][0] == "speed_a"
-    file.write_text(text.replace(" +/- 5 km/h", "").replace('"0.1 .. 0.3"', "0.1"), encoding="utf-8")
+    assert (
+        re.findall(r'id="(\w+)" min="0.0" max="([^"]+)"', page.read_text(encoding="utf-8"))[0][0]
+        == "speed_a"
+    )
+    file.write_text(
+        text.replace(" +/- 5 km/h", "").replace('"0.1 .. 0.3"', "0.1"), encoding="utf-8"
+    )
     assert main([str(file), "--what-if", str(page)]) == 2
 
 
@@ -262,16 +355,28 @@ def test_outlines_are_drawn_as_given(tmp_path):
     template = Path(what_if_page.__file__).parents[1] / "cases" / "case_template.toml"
     assert main([str(template), "--what-if", str(tmp_path / "page.html")]) == 0
     outlines = json.loads(
-        re.search(r"^const data = (.*);$", (tmp_path / "page.html").read_text(encoding="utf-8"), re.MULTILINE)[1]
+        re.search(
+            r"^const data = (.*);$",
+            (tmp_path / "page.html").read_text(encoding="utf-8"),
+            re.MULTILINE,
+        )[1]
     )["outlines"]
     assert (outlines["a"][0], outlines["b"][0]) == ([2.1, 0.9], [2.0, 0.85])
 
 
-COLOURS = {"#1f5fa8": "a", "#b3541e": "b", "#a01040": "impulse", "#6a6a6a": "normal", "#1a1a1a": "point"}
+COLOURS = {
+    "#1f5fa8": "a",
+    "#b3541e": "b",
+    "#a01040": "impulse",
+    "#6a6a6a": "normal",
+    "#1a1a1a": "point",
+}
 
 
 def elements(scene):
-    """Every element of the picture: its name, its colour by what has it, whether it is dashed, and its numbers."""
+    """Every element of the picture: its name, its colour by what has it, whether it is dashed, and
+    its numbers.
+    """
     found = []
     for name, text in re.findall(r"<(\w+)((?: [\w-]+=\"[^\"]*\")+)", scene):
         given = dict(re.findall(r' ([\w-]+)="([^"]*)"', text))
@@ -286,7 +391,9 @@ def elements(scene):
 
 
 def arrows(scene):
-    """Each arrow, y up, as (whose, whether dashed, foot, tip); its head is the triangle that follows its line."""
+    """Each arrow, y up, as (whose, whether dashed, foot, tip); its head is the triangle that
+    follows its line.
+    """
     found, parts = [], elements(scene)
     for (name, whose, dashed, at), (other, _, _, head) in pairwise(parts):
         if name == "line" and other == "polygon" and "points" in head:
@@ -298,7 +405,11 @@ def arrows(scene):
 def looks_ahead(scene, whose):
     """Where a drawn vehicle stands and the unit vector along which its nose points, y up."""
     (colour,) = [colour for colour, name in COLOURS.items() if name == whose]
-    group = r'<g transform="translate\((\S+) (\S+)\) rotate\((\S+)\)" fill="' + colour + '".*?<path d="M([^"]*)"'
+    group = (
+        r'<g transform="translate\((\S+) (\S+)\) rotate\((\S+)\)" fill="'
+        + colour
+        + '".*?<path d="M([^"]*)"'
+    )
     ((x, y, degrees, path),) = re.findall(group, scene)
     left, tip, right = (np.array(corner.split(","), dtype=float) for corner in path.split(" L"))
     nose, turn = tip - (left + right) / 2, math.radians(float(degrees))
@@ -309,7 +420,9 @@ def looks_ahead(scene, whose):
 
 
 def check_scene(shown, impact):
-    """The picture has the places, headings, velocities, impulse and normal of this impact, each in its own direction."""
+    """The picture has the places, headings, velocities, impulse and normal of this impact, each in
+    its own direction.
+    """
     scene, drawn = shown["scene"], arrows(shown["scene"])
     normals = [at for name, whose, _, at in elements(scene) if name == "line" and whose == "normal"]
     (at,) = normals
@@ -322,7 +435,9 @@ def check_scene(shown, impact):
         side = getattr(impact, label)
         place, ahead = looks_ahead(scene, label)
         np.testing.assert_allclose(place, (side.before.x, side.before.y), atol=1e-12)
-        np.testing.assert_allclose(ahead, (math.cos(side.before.heading), math.sin(side.before.heading)), atol=1e-9)
+        np.testing.assert_allclose(
+            ahead, (math.cos(side.before.heading), math.sin(side.before.heading)), atol=1e-9
+        )
         own = [(dashed, foot, tip) for whose, dashed, foot, tip in drawn if whose == label]
         if impact.ok:
             (_, foot, tip), (dashed, start, end) = own
@@ -346,11 +461,17 @@ def check_scene(shown, impact):
 
 
 def check_numbers(shown, impact):
-    """Each number of the table is that of its own vehicle, in km/h and degrees; the energy has three figures."""
+    """Each number of the table is that of its own vehicle, in km/h and degrees; the energy has
+    three figures.
+    """
     wanted = {}
     for label in "ab":
         side = getattr(impact, label)
-        for name, value in (("before.speed", side.before.speed), ("after.speed", side.after.speed), ("delta_v", side.delta_v)):
+        for name, value in (
+            ("before.speed", side.before.speed),
+            ("after.speed", side.after.speed),
+            ("delta_v", side.delta_v),
+        ):
             wanted[f"{label}.{name}"] = f"{3.6 * value:.1f} km/h"
         wanted[f"{label}.pdof"] = f"{math.degrees(side.pdof):.0f}°"
         wanted[f"{label}.delta_yaw_rate"] = f"{math.degrees(side.delta_yaw_rate):.0f}°/s"
@@ -359,26 +480,56 @@ def check_numbers(shown, impact):
     wanted["energy_loss"] = f"{kilojoules:.{1 if kilojoules < 99.95 else 0}f} kJ"
     assert not impact.ok or 10.0 < kilojoules < 1000.0
     assert shown["cells"] == (wanted if impact.ok else dict.fromkeys(wanted, "–"))
-    said = f"delta-V {wanted['a.delta_v']}, B (Polo): delta-V {wanted['b.delta_v']}, energy lost {wanted['energy_loss']}."
+    said = (
+        f"delta-V {wanted['a.delta_v']}, B (Polo): delta-V {wanted['b.delta_v']}, energy lost "
+        f"{wanted['energy_loss']}."
+    )
     assert shown["said"] == (f"A (Golf): {said}" if impact.ok else "")
     assert bool(shown["status"]) != impact.ok
 
 
 def test_what_is_drawn_and_written_is_the_answer():
-    """At every move of a slider, in node: places, headings, arrows and numbers are those of the public functions.
+    """At every move of a slider, in node: places, headings, arrows and numbers are those of the
+    public functions.
 
-    The contact slides at the first two frictions and sticks at the third, so that no two of them have one answer.
+    The contact slides at the first two frictions and sticks at the third, so that no two of them
+    have one answer.
     """
     a, b = A.replace(heading="-25 deg"), B.replace(heading="110 deg", yaw_rate="20 deg/s")
-    sliders = {"speed_a": ("30 km/h", "80 km/h"), "friction": (0.0, 0.9), "normal": ("-180 deg", "180 deg")}
-    sliders |= {"heading_b": ("60 deg", "120 deg"), "course_b": ("60 deg", "120 deg"), "point_y": (-0.5, 0.5)}
-    given = {"speed_a": 50.0, "friction": 0.5, "normal": 0.0, "heading_b": 110.0, "course_b": 90.0, "point_y": 0.0}
+    sliders = {
+        "speed_a": ("30 km/h", "80 km/h"),
+        "friction": (0.0, 0.9),
+        "normal": ("-180 deg", "180 deg"),
+    }
+    sliders |= {
+        "heading_b": ("60 deg", "120 deg"),
+        "course_b": ("60 deg", "120 deg"),
+        "point_y": (-0.5, 0.5),
+    }
+    given = {
+        "speed_a": 50.0,
+        "friction": 0.5,
+        "normal": 0.0,
+        "heading_b": 110.0,
+        "course_b": 90.0,
+        "point_y": 0.0,
+    }
 
     def solved(**at):
         one = a.replace(vx=f"{at['speed_a']} km/h")
-        turned = {"course": f"{at['course_b']} deg", "heading": f"{at['heading_b']} deg", "yaw_rate": "20 deg/s"}
-        other = col.Vehicle.from_speed(mass=1200, yaw_inertia=1700, x=0.8, y=-1.2, speed="40 km/h", **turned, name="Polo")
-        contact = {"normal": f"{at['normal']} deg", "point": (0.0, at["point_y"]), "friction": at["friction"]}
+        turned = {
+            "course": f"{at['course_b']} deg",
+            "heading": f"{at['heading_b']} deg",
+            "yaw_rate": "20 deg/s",
+        }
+        other = col.Vehicle.from_speed(
+            mass=1200, yaw_inertia=1700, x=0.8, y=-1.2, speed="40 km/h", **turned, name="Polo"
+        )
+        contact = {
+            "normal": f"{at['normal']} deg",
+            "point": (0.0, at["point_y"]),
+            "friction": at["friction"],
+        }
         return col.eccentric(one, other, 0.1, **contact, on_failure="nan")
 
     moves = [
@@ -406,18 +557,28 @@ def test_what_is_drawn_and_written_is_the_answer():
 
 
 def test_keys_move_a_slider_by_its_step():
-    """The power of ten that makes 10 to 100 steps, by a page five of them, and never beyond the ends."""
+    """The power of ten that makes 10 to 100 steps, by a page five of them, and never beyond the
+    ends.
+    """
     ranges = {"friction": (0.0, 0.9), "speed_a": ("30 km/h", "80 km/h"), "mass_b": (900, 2000)}
     presses = [
-        ("friction", "ArrowUp", 0.51), ("friction", "ArrowRight", 0.52), ("friction", "PageUp", 0.57), ("friction", "PageDown", 0.52), ("friction", "ArrowLeft", 0.51),
-        ("friction", "ArrowDown", 0.50), ("speed_a", "PageUp", 55.0), ("speed_a", "ArrowDown", 54.0), ("mass_b", "PageDown", 900.0), ("mass_b", "ArrowUp", 1000.0), ("mass_b", "PageUp", 1500.0),
+        ("friction", "ArrowUp", 0.51), ("friction", "ArrowRight", 0.52),
+            ("friction", "PageUp", 0.57), ("friction", "PageDown", 0.52),
+                ("friction", "ArrowLeft", 0.51),
+        ("friction", "ArrowDown", 0.50), ("speed_a", "PageUp", 55.0),
+            ("speed_a", "ArrowDown", 54.0), ("mass_b", "PageDown", 900.0),
+                ("mass_b", "ArrowUp", 1000.0), ("mass_b", "PageUp", 1500.0),
     ]  # fmt: skip
-    seen = moved(what_if(IMPACT, ranges, units="metric"), *(("press", name, key, {}) for name, key, _ in presses))
+    seen = moved(
+        what_if(IMPACT, ranges, units="metric"),
+        *(("press", name, key, {}) for name, key, _ in presses),
+    )
     for shown, (name, key, wanted) in zip(seen[1:], presses, strict=True):
         assert shown["values"][name] == wanted, (name, key)
     assert seen[3]["outputs"]["friction-value"] == seen[3]["aria"]["friction"] == "0.570"
     unmoved = moved(
-        what_if(IMPACT, ranges), *(("press", "friction", "ArrowUp", {f"{key}Key": True}) for key in ("alt", "ctrl", "meta"))
+        what_if(IMPACT, ranges),
+        *(("press", "friction", "ArrowUp", {f"{key}Key": True}) for key in ("alt", "ctrl", "meta")),
     )
     assert all(shown == unmoved[0] for shown in unmoved)
 
@@ -438,16 +599,23 @@ def test_a_wall_is_a_line_across_the_normal_and_a_truck_is_none():
     assert looks_ahead(shown["scene"], "b")[1] == pytest.approx((0.0, 1.0), abs=1e-12)
     (shown,) = moved(what_if(col.eccentric(A, wall, 0.1, **normal), ranges))
     ((x1, y1), (x2, y2)), = [
-        ((at["x1"][0], -at["y1"][0]), (at["x2"][0], -at["y2"][0])) for name, whose, _, at in elements(shown["scene"]) if name == "line" and whose == "b"
+        ((at["x1"][0], -at["y1"][0]), (at["x2"][0], -at["y2"][0])) for name, whose, _,
+            at in elements(shown["scene"]) if name == "line" and whose == "b"
     ]  # fmt: skip
     along = np.array([x2 - x1, y2 - y1])
-    assert along @ (math.cos(math.radians(20)), math.sin(math.radians(20))) == pytest.approx(0.0, abs=1e-9 * np.hypot(*along))
-    assert not [at for name, whose, _, at in elements(shown["scene"]) if name == "g" and whose == "b"]
+    assert along @ (math.cos(math.radians(20)), math.sin(math.radians(20))) == pytest.approx(
+        0.0, abs=1e-9 * np.hypot(*along)
+    )
+    assert not [
+        at for name, whose, _, at in elements(shown["scene"]) if name == "g" and whose == "b"
+    ]
 
 
 @pytest.mark.slow
 def test_moved_in_a_browser(tmp_path):
-    """The page in Chromium with its sliders moved by events: the texts in its table are the numbers of Python."""
+    """The page in Chromium with its sliders moved by events: the texts in its table are the numbers
+    of Python.
+    """
     chromium = next(filter(shutil.which, ("chromium", "chromium-browser", "google-chrome")), None)
     if chromium is None:
         pytest.skip("needs Chromium")
@@ -457,20 +625,34 @@ def test_moved_in_a_browser(tmp_path):
       document.getElementById(name).value = value;
       document.getElementById(name).dispatchEvent(new Event("input", { bubbles: true }));
     }
-    const press = (key, more) => document.getElementById("friction").dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, ...more }));
+    const press = (key, more) => document.getElementById("friction").dispatchEvent(new \
+KeyboardEvent("keydown", { key, bubbles: true, ...more }));
     press("ArrowUp");
     press("PageUp");
     press("ArrowRight", { altKey: true });
     </script></body>"""
     file = tmp_path / "page.html"
-    ranges = {"speed_a": ("30 km/h", "80 km/h"), "friction": (0.0, 0.9), "normal": ("-30 deg", "30 deg")}
+    ranges = {
+        "speed_a": ("30 km/h", "80 km/h"),
+        "friction": (0.0, 0.9),
+        "normal": ("-30 deg", "30 deg"),
+    }
     file.write_text(what_if(IMPACT, ranges).replace("</body>", moved), encoding="utf-8")
-    command = [chromium, *CHROMIUM, f"--user-data-dir={tmp_path}/profile", "--dump-dom", file.as_uri()]
+    command = [
+        chromium,
+        *CHROMIUM,
+        f"--user-data-dir={tmp_path}/profile",
+        "--dump-dom",
+        file.as_uri(),
+    ]
     page = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120).stdout
-    impact = col.eccentric(A.replace(vx="70 km/h"), B, 0.1, friction=0.09, normal="-20 deg", point=(0.0, 0.0))
+    impact = col.eccentric(
+        A.replace(vx="70 km/h"), B, 0.1, friction=0.09, normal="-20 deg", point=(0.0, 0.0)
+    )
     assert impact.regime == "sliding"  # so that every step of the slider has an answer of its own
     shown = {
-        name: html.unescape(text) for name, text in re.findall(r'<td (?:colspan="2" )?id="([\w.]+)"[^>]*>([^<]*)</td>', page)
+        name: html.unescape(text)
+        for name, text in re.findall(r'<td (?:colspan="2" )?id="([\w.]+)"[^>]*>([^<]*)</td>', page)
     }
     for label, side in (("a", impact.a), ("b", impact.b)):
         assert shown[f"{label}.delta_v"] == f"{side.q.delta_v.m_as('km/h'):.1f} km/h"
@@ -493,7 +675,9 @@ def test_a_refused_case_says_why_in_the_browser():
 
 
 def test_an_incomplete_impact_has_its_restitution_moved_below_zero():
-    """Where the solver takes it with ``incomplete=True``, the slider does; elsewhere it is refused as there."""
+    """Where the solver takes it with ``incomplete=True``, the slider does; elsewhere it is refused
+    as there.
+    """
     ranges = {"restitution": (-0.6, 0.3)}
     scene = {"friction": 0.5, **SCENE}
     page = what_if(col.eccentric(A, B, -0.2, incomplete=True, **scene), ranges)

@@ -1,4 +1,6 @@
-"""Smoothed run-outs: errors stated against drawn ones, denser surveys against coarse ones, batches, and what is refused."""
+"""Smoothed run-outs: errors stated against drawn ones, denser surveys against coarse ones, batches,
+and what is refused.
+"""
 
 import math
 import warnings
@@ -21,34 +23,51 @@ TRUTH = np.array([18.0, 0.4, 3.0])
 
 @pytest.fixture(scope="module")
 def body():
-    """A body integrated forward by its own tyres; where it was at every moment, and the length of its way until then."""
+    """A body integrated forward by its own tyres; where it was at every moment, and the length of
+    its way until then.
+    """
     states, headings = slide(GROUND["lock"], duration=2.2, steps=4400)
-    return states, headings, np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(states[:, :2], axis=0).T))])
+    return (
+        states,
+        headings,
+        np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(states[:, :2], axis=0).T))]),
+    )
 
 
 def survey(body, spacing, errors=None, **options):
-    """``path`` of points at this spacing; with a generator, of 300 surveys with errors of the points and headings."""
+    """``path`` of points at this spacing; with a generator, of 300 surveys with errors of the
+    points and headings.
+    """
     states, headings, lengths = body
     at = np.searchsorted(lengths, np.linspace(0.0, lengths[-1], round(lengths[-1] / spacing) + 1))
     if errors is None:
         points, turned = states[at, :2], headings[at]
     else:
-        points = [tuple(place[:, None] + errors.uniform(-0.1, 0.1, (2, 300))) for place in states[at, :2]]
+        points = [
+            tuple(place[:, None] + errors.uniform(-0.1, 0.1, (2, 300))) for place in states[at, :2]
+        ]
         turned = [angle + errors.normal(0.0, math.radians(3.0), 300) for angle in headings[at]]
     return travel.path(points, turned, **GROUND, end_speed=float(states[-1, 2]), **options)
 
 
 def off(run):
     """Root of the mean square of the errors of speed, course and yaw rate."""
-    return np.sqrt([np.mean((getattr(run, name) - truth) ** 2) for name, truth in zip(NAMES, TRUTH, strict=True)])
+    return np.sqrt(
+        [
+            np.mean((getattr(run, name) - truth) ** 2)
+            for name, truth in zip(NAMES, TRUTH, strict=True)
+        ]
+    )
 
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:the yaw alone")
 def test_a_denser_survey_is_never_worse(body):
-    """Three points at 0.8 m give the course to 10 degrees, least squares over 7 m to 1.9; denser is better still.
+    """Three points at 0.8 m give the course to 10 degrees, least squares over 7 m to 1.9; denser is
+    better still.
 
-    300 surveys: their root mean square is good to 1 / sqrt(600) = 4 %; two standard deviations of a ratio are 12 %.
+    300 surveys: their root mean square is good to 1 / sqrt(600) = 4 %; two standard deviations of a
+    ratio are 12 %.
     """
     found = [off(survey(body, spacing, np.random.default_rng(5))) for spacing in (3.2, 0.8, 0.4)]
     for coarse, dense in pairwise(found):
@@ -62,19 +81,27 @@ def test_a_denser_survey_is_never_worse(body):
 
 @pytest.mark.parametrize("spacing", [3.0, 0.8])
 def test_stated_errors_are_those_of_drawn_surveys(body, spacing):
-    """The standard deviation of 300 surveys is good to 4 %, so three of these; the first order leaves out below 1 %."""
+    """The standard deviation of 300 surveys is good to 4 %, so three of these; the first order
+    leaves out below 1 %.
+    """
     stated = survey(body, spacing, **ERRORS)
     drawn = survey(body, spacing, np.random.default_rng(6))
     for name in NAMES:
-        assert getattr(stated, f"{name}_error") == pytest.approx(float(np.std(getattr(drawn, name))), rel=0.13), name
+        assert getattr(stated, f"{name}_error") == pytest.approx(
+            float(np.std(getattr(drawn, name))), rel=0.13
+        ), name
     # Without errors the answers are the same, and nothing is said of errors.
     plain = survey(body, spacing)
     assert (plain.speed, plain.course, plain.speed_error) == (stated.speed, stated.course, None)
 
 
 def test_the_error_of_a_line_through_two_points_in_closed_form():
-    """Course: both ends across, sqrt(2) sigma / L. Speed of locked wheels: half the relative error of the length."""
-    run = travel.path([(0, 0), (3, 4)], [0.2, 0.4], friction=0.7, lock=1, point_error=1e-4, heading_error=2e-4)
+    """Course: both ends across, sqrt(2) sigma / L. Speed of locked wheels: half the relative error
+    of the length.
+    """
+    run = travel.path(
+        [(0, 0), (3, 4)], [0.2, 0.4], friction=0.7, lock=1, point_error=1e-4, heading_error=2e-4
+    )
     assert run.course_error == pytest.approx(math.sqrt(2.0) * 1e-4 / 5.0, rel=1e-6)
     assert run.speed_error == pytest.approx(run.speed * 0.5 * math.sqrt(2.0) * 1e-4 / 5.0, rel=1e-6)
     # The rate is turn * speed / (2 L), and grows as the root of 1 / L.
@@ -83,7 +110,9 @@ def test_the_error_of_a_line_through_two_points_in_closed_form():
 
 
 def test_a_parabola_is_found_whatever_the_window():
-    """Flat, so that its arc is its x but for slope**2 / 2 = 2e-5; in map coordinates, whose grid is 1e-9 m, too."""
+    """Flat, so that its arc is its x but for slope**2 / 2 = 2e-5; in map coordinates, whose grid is
+    1e-9 m, too.
+    """
     x = np.linspace(0.0, 12.0, 25)
     for window in (0, 3, 7, 100):
         for east, north in ((0.0, 0.0), (5e5, 5e6)):
@@ -95,12 +124,21 @@ def test_a_parabola_is_found_whatever_the_window():
 
 
 def test_windows_and_errors_of_a_batch(body):
-    """Arrays of windows and errors: each case as alone; refused ones are NaN, and their neighbours stay."""
+    """Arrays of windows and errors: each case as alone; refused ones are NaN, and their neighbours
+    stay.
+    """
     x, window = np.array([12.0, 13.0, 14.0, 12.0, 12.0]), np.array([7.0, 3.0, 0.0, -1.0, 7.0])
     error = np.array([0.1, 0.1, 0.2, 0.1, -0.1])
     points, headings = [(0, 0), (3, 0.5), (6, 1.5), (9, 1.7)], [0, 0.2, 0.5, 0.9, 1.0]
     with pytest.warns(col.CollisionsWarning, match="2 of 5 cases") as caught:
-        run = travel.path([*points, (x, 2.0)], headings, **GROUND, window=window, point_error=error, heading_error=0.05)
+        run = travel.path(
+            [*points, (x, 2.0)],
+            headings,
+            **GROUND,
+            window=window,
+            point_error=error,
+            heading_error=0.05,
+        )
     assert caught[0].message.fields["counts"] == {"negative_distance": 1, "negative_length": 1}
     for i in range(3):
         at = {"window": float(window[i]), "point_error": float(error[i]), "heading_error": 0.05}
@@ -111,28 +149,50 @@ def test_windows_and_errors_of_a_batch(body):
             assert type(getattr(alone, name)) is float
             assert np.isnan(getattr(run, name)[3:]).all()
             assert not getattr(run, name).flags.writeable
-    small = travel.path([(0, 0), (np.float32([5.0, 6.0]), 1)], [0, 1], **GROUND, point_error=0.1, heading_error=0.1)
+    small = travel.path(
+        [(0, 0), (np.float32([5.0, 6.0]), 1)], [0, 1], **GROUND, point_error=0.1, heading_error=0.1
+    )
     assert small.speed.dtype == small.course_error.dtype == np.float32
-    empty = travel.path([(0, 0), (np.array([]), 1)], [0, 1], **GROUND, point_error=0.1, heading_error=0.1)
+    empty = travel.path(
+        [(0, 0), (np.array([]), 1)], [0, 1], **GROUND, point_error=0.1, heading_error=0.1
+    )
     assert empty.speed_error.shape == (0,)
 
 
 def test_a_fast_yaw_is_warned_of():
-    """Above 0.5 of the speed over 1.5 m; the drag is then that of wheels which slip less than these did, as simulate shows."""
-    car = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, x=0.0, y=0.0, heading=0.0, vx=12.0, yaw_rate=5.0)
+    """Above 0.5 of the speed over 1.5 m; the drag is then that of wheels which slip less than these
+    did, as simulate shows.
+    """
+    car = col.Vehicle(
+        mass=1500.0, yaw_inertia=2400.0, x=0.0, y=0.0, heading=0.0, vx=12.0, yaw_rate=5.0
+    )
     way = travel.simulate(car, TYRES, moments=31)
     points, headings = np.column_stack([way.x, way.y])[::2], way.heading[::2]
-    with pytest.warns(col.OutOfRangeWarning, match=r"the yaw alone makes the wheels slip at more than 0\.5 of the speed"):
+    with pytest.warns(
+        col.OutOfRangeWarning,
+        match=r"the yaw alone makes the wheels slip at more than 0\.5 of the speed",
+    ):
         run = travel.path(points, headings, friction=0.7, lock=0.6)
     assert 1.03 * 12.0 < run.speed < 1.15 * 12.0
     slower = travel.simulate(car.replace(yaw_rate=1.0), TYRES, moments=31)
-    run = travel.path(np.column_stack([slower.x, slower.y])[::2], slower.heading[::2], friction=0.7, lock=0.6)
+    run = travel.path(
+        np.column_stack([slower.x, slower.y])[::2], slower.heading[::2], friction=0.7, lock=0.6
+    )
     assert run.speed == pytest.approx(12.0, rel=0.01)
 
 
 def test_an_error_without_bound_is_said_to_be_infinite():
     """Downhill, hardly held: with the path a little shorter, no speed leads to this end."""
-    run = travel.path([(0, 0), (9, 0)], [0, 0], friction=0, lock=1, grade=-0.1, end_speed=4.3, point_error=0.5, heading_error=0)
+    run = travel.path(
+        [(0, 0), (9, 0)],
+        [0, 0],
+        friction=0,
+        lock=1,
+        grade=-0.1,
+        end_speed=4.3,
+        point_error=0.5,
+        heading_error=0,
+    )
     assert run.speed_error == math.inf
 
 
@@ -143,10 +203,22 @@ def test_an_error_without_bound_is_said_to_be_infinite():
         ({"window": "7 s"}, "bad_units", "window"),
         ({"window": [7.0, 7.0]}, "bad_shape", "window is a list"),
         ({"window": math.nan}, "not_finite", "window is NaN"),
-        ({"point_error": 0.1}, "missing_error", "heading_error is missing beside point_error; give 0"),
+        (
+            {"point_error": 0.1},
+            "missing_error",
+            "heading_error is missing beside point_error; give 0",
+        ),
         ({"heading_error": 0.1}, "missing_error", "point_error is missing beside heading_error"),
-        ({"point_error": -0.1, "heading_error": 0}, "negative_length", "point_error must be >= 0, got -0.1; it is a standard"),
-        ({"point_error": 0.1, "heading_error": "-1 deg"}, "negative_length", "heading_error must be >= 0, got '-1 deg'"),
+        (
+            {"point_error": -0.1, "heading_error": 0},
+            "negative_length",
+            "point_error must be >= 0, got -0.1; it is a standard",
+        ),
+        (
+            {"point_error": 0.1, "heading_error": "-1 deg"},
+            "negative_length",
+            "heading_error must be >= 0, got '-1 deg'",
+        ),
         ({"point_error": math.inf, "heading_error": 0}, "not_finite", "point_error must be finite"),
     ],
 )
@@ -162,6 +234,8 @@ def test_errors_beside_the_answers_have_units():
     """In the repr and as Quantities."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        run = travel.path([(0, 0), (5, 1), (9, 3)], ["0 deg", "20 deg", "40 deg"], **GROUND, **ERRORS)
+        run = travel.path(
+            [(0, 0), (5, 1), (9, 3)], ["0 deg", "20 deg", "40 deg"], **GROUND, **ERRORS
+        )
     assert run.q.course_error.m_as("deg") == pytest.approx(math.degrees(run.course_error))
     assert f"speed_error={run.speed_error:.6g} m/s" in repr(run)

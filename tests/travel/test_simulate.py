@@ -1,4 +1,6 @@
-"""``travel.simulate``: closed forms, an independent integration, the balance of energy, evidence for ``fit``, and refusals."""
+"""``travel.simulate``: closed forms, an independent integration, the balance of energy, evidence
+for ``fit``, and refusals.
+"""
 
 import inspect
 import math
@@ -23,33 +25,49 @@ STANDING = 0.02
 
 
 def counted(speed):
-    """The slip that a wheel counts with, as the docstring has it; speeds are over that of the vehicle."""
+    """The slip that a wheel counts with, as the docstring has it; speeds are over that of the
+    vehicle.
+    """
     return np.where(speed < STANDING, (STANDING + speed**2 / STANDING) / 2.0, speed)
 
 
 def accelerations(state, tyres, ground, slope=(0.0, 0.0), mass=1500.0, inertia=2400.0):
-    """Of the centre of mass and in yaw, by angles of slip; ``ground`` gives the friction at places of the wheels."""
+    """Of the centre of mass and in yaw, by angles of slip; ``ground`` gives the friction at places
+    of the wheels.
+    """
     vx, vy, w, x, y, heading = state
     length, width = tyres["wheelbase"], tyres["track"]
     a, b = np.array([1, 1, -1, -1]) * length / 2, np.array([1, -1, 1, -1]) * width / 2
     steer = heading + np.array([1, 1, 0, 0]) * tyres.get("steer", 0.0)
-    rx, ry = a * math.cos(heading) - b * math.sin(heading), a * math.sin(heading) + b * math.cos(heading)
+    rx, ry = (
+        a * math.cos(heading) - b * math.sin(heading),
+        a * math.sin(heading) + b * math.cos(heading),
+    )
     speed = math.sqrt(vx**2 + vy**2 + (w * math.hypot(length, width) / 2) ** 2)
     ux, uy = (vx - w * ry) / speed, (vy + w * rx) / speed
     along, across = np.cos(steer) * ux + np.sin(steer) * uy, np.cos(steer) * uy - np.sin(steer) * ux
     mu, lock = ground(x + rx, y + ry), np.broadcast_to(tyres["lock"], 4)
     loads, height = np.ones(4), tyres.get("height", 0.0)
     for _ in range(100 if height else 1):
-        brake = np.where((lock >= 1.0) | (mu == 0.0), 1.0, lock * tyres["friction"] / np.maximum(mu * loads, 1e-9))
+        brake = np.where(
+            (lock >= 1.0) | (mu == 0.0),
+            1.0,
+            lock * tyres["friction"] / np.maximum(mu * loads, 1e-9),
+        )
         x_part = np.clip(along / counted(np.hypot(along, across)), -brake, brake)
         with np.errstate(divide="ignore", invalid="ignore"):
             z = np.fmin(1.0, tyres.get("cornering", 9.5) * np.abs(across / along) / (3.0 * mu))
         rest = np.sqrt(np.maximum(0.0, 1.0 - x_part**2))
-        most = np.minimum(np.minimum(rest, 1.0 - (1.0 - z) ** 3), np.abs(across) / counted(np.abs(across)))
+        most = np.minimum(
+            np.minimum(rest, 1.0 - (1.0 - z) ** 3), np.abs(across) / counted(np.abs(across))
+        )
         y_part = np.sign(across) * most
         px = -mu * loads * (np.cos(steer) * x_part - np.sin(steer) * y_part) / 4
         py = -mu * loads * (np.sin(steer) * x_part + np.cos(steer) * y_part) / 4
-        ahead, aside = ((math.cos(turned) * px + math.sin(turned) * py).sum() for turned in (heading, heading + math.pi / 2))
+        ahead, aside = (
+            (math.cos(turned) * px + math.sin(turned) * py).sum()
+            for turned in (heading, heading + math.pi / 2)
+        )
         before = loads
         loads = 1.0 - 2.0 * height * (np.sign(a) * ahead / length + np.sign(b) * aside / width)
         if np.max(np.abs(loads - before)) < 1e-9:
@@ -59,9 +77,11 @@ def accelerations(state, tyres, ground, slope=(0.0, 0.0), mass=1500.0, inertia=2
 
 
 def integrated(start, tyres, surfaces=None, slope=(0.0, 0.0), rtol=1e-8, nearest=0.25):
-    """scipy's integration over time divided by speed, until 1e-3 of the speed is left; place and heading of rest, way, time.
+    """scipy's integration over time divided by speed, until 1e-3 of the speed is left; place and
+    heading of rest, way, time.
 
-    What is left, a millionth of the way, goes on straight. ``nearest`` [m] is the longest way in a step.
+    What is left, a millionth of the way, goes on straight. ``nearest`` [m] is the longest way in a
+    step.
     """
     reach = math.hypot(tyres["wheelbase"], tyres["track"]) / 2
 
@@ -88,9 +108,18 @@ def integrated(start, tyres, surfaces=None, slope=(0.0, 0.0), rtol=1e-8, nearest
 
     slow.terminal = True
     longest = nearest / first if surfaces else np.inf
-    scale = np.array([first, first, first / reach, first**2 / G, first**2 / G, 1.0, first / G, first**2 / G])
+    scale = np.array(
+        [first, first, first / reach, first**2 / G, first**2 / G, 1.0, first / G, first**2 / G]
+    )
     end = solve_ivp(
-        rates, (0.0, 1e4), [*start, 0.0, 0.0], rtol=rtol, atol=1e-2 * rtol * scale, max_step=longest, events=slow, method="RK45"
+        rates,
+        (0.0, 1e4),
+        [*start, 0.0, 0.0],
+        rtol=rtol,
+        atol=1e-2 * rtol * scale,
+        max_step=longest,
+        events=slow,
+        method="RK45",
     )
     assert end.status == 1
     state = end.y[:, -1]
@@ -100,7 +129,17 @@ def integrated(start, tyres, surfaces=None, slope=(0.0, 0.0), rtol=1e-8, nearest
     return state[3:6] + 0.5 * left * state[:3], state[7], state[6] + left, end
 
 
-def drive(vehicle, *, friction=0.7, lock=1.0, wheelbase=2.7, track=1.5, surfaces=None, slope=(0, 0), **options):
+def drive(
+    vehicle,
+    *,
+    friction=0.7,
+    lock=1.0,
+    wheelbase=2.7,
+    track=1.5,
+    surfaces=None,
+    slope=(0, 0),
+    **options,
+):
     """``simulate`` with the tyres of a car."""
     rest = {name: options.pop(name) for name in ("steer", "cornering", "height") if name in options}
     tyres = travel.Tyres(friction, lock, wheelbase, track, **rest)
@@ -116,7 +155,9 @@ def moving(vx, vy, yaw_rate, heading=0.0):
 
 @pytest.mark.parametrize("heading", [0.0, 0.7, math.pi / 2, -2.5])
 def test_a_straight_skid_on_locked_wheels(heading):
-    """Whatever the heading, v**2 / (2 g mu) along the course in v / (g mu); 5e-7 is the force that a slow wheel lacks."""
+    """Whatever the heading, v**2 / (2 g mu) along the course in v / (g mu); 5e-7 is the force that
+    a slow wheel lacks.
+    """
     path = drive(CAR.replace(heading=heading), friction=0.7, lock=1)
     assert path.rest.x == pytest.approx(14.0**2 / (2 * G * 0.7), rel=2e-6)
     assert path.time[-1] == pytest.approx(14.0 / (G * 0.7), rel=2e-6)
@@ -128,18 +169,28 @@ def test_a_straight_skid_on_locked_wheels(heading):
 
 @pytest.mark.parametrize(("lock", "arm"), [(1.0, ARM), (0.0, 1.35)])
 def test_a_spin_on_the_spot(lock, arm):
-    """Locked wheels drag at their arm, free ones, which slide sideways, at half the wheelbase: w**2 I / (2 mu m g arm)."""
+    """Locked wheels drag at their arm, free ones, which slide sideways, at half the wheelbase: w**2
+    I / (2 mu m g arm).
+    """
     path = drive(moving(0.0, 0.0, -5.0), friction=0.7, lock=lock)
-    assert path.rest.heading == pytest.approx(-25.0 * 2400.0 / (2 * 0.7 * 1500.0 * G * arm), rel=2e-6)
+    assert path.rest.heading == pytest.approx(
+        -25.0 * 2400.0 / (2 * 0.7 * 1500.0 * G * arm), rel=2e-6
+    )
     assert path.time[-1] == pytest.approx(5.0 * 2400.0 / (0.7 * 1500.0 * G * arm), rel=2e-6)
     assert math.hypot(path.rest.x, path.rest.y) < 1e-9
 
 
-@pytest.mark.parametrize(("lock", "degrees"), [(0.1, 40.0), (0.35, 0.0), (0.35, 75.0), (0.8, 20.0), (0.0, 90.0)])
+@pytest.mark.parametrize(
+    ("lock", "degrees"), [(0.1, 40.0), (0.35, 0.0), (0.35, 75.0), (0.8, 20.0), (0.0, 90.0)]
+)
 def test_without_yaw_the_drag_is_that_of_path(lock, degrees):
-    """A body that cannot turn, at a crab angle where the tyre slides: at first its force along the course is that of ``path``."""
+    """A body that cannot turn, at a crab angle where the tyre slides: at first its force along the
+    course is that of ``path``.
+    """
     heading = math.radians(degrees)
-    path = drive(CAR.replace(heading=heading, yaw_inertia=math.inf), friction=0.7, lock=lock, moments=3001)
+    path = drive(
+        CAR.replace(heading=heading, yaw_inertia=math.inf), friction=0.7, lock=lock, moments=3001
+    )
     slowed = -np.diff(path.x[:3], 2)[0] / path.time[1] ** 2 / G
     run = travel.path([(0, 0), (1, 0)], [heading] * 2, friction=0.7, lock=lock)
     # Second differences of 3000 moments: the acceleration changes by 1e-3 in one of them.
@@ -148,7 +199,8 @@ def test_without_yaw_the_drag_is_that_of_path(lock, degrees):
 
 @pytest.mark.slow
 def test_a_rolling_wheel_recovers_as_fiala_has_it():
-    """Little slip at 10 m/s on free wheels: the sideways speed falls as z' = -(c g / v)(z - z**2 + z**3 / 3), z = c tan / (3 mu).
+    """Little slip at 10 m/s on free wheels: the sideways speed falls as z' = -(c g / v)(z - z**2 +
+    z**3 / 3), z = c tan / (3 mu).
 
     Time from z to 0.1 by quadrature; with lock 0.02 the speed falls by 0.4 % in it.
     """
@@ -179,13 +231,22 @@ CASES = {
 def scene(number):
     """A random scene: every kind of lock, steer, area, height and slope."""
     generator = np.random.default_rng(number)
-    start = [*(generator.uniform(4.0, 16.0) * np.array([1.0, 0.0])), *generator.normal(0.0, [3.0, 2.0])]
+    start = [
+        *(generator.uniform(4.0, 16.0) * np.array([1.0, 0.0])),
+        *generator.normal(0.0, [3.0, 2.0]),
+    ]
     vx, vy, w = start[0], start[2], start[3]
     kind = number % 4
     lock = (
-        float(generator.uniform(0.15, 1.0)), 1.0, generator.choice([0.05, 0.1, 0.4, 1.0], 4), generator.uniform(0.1, 1.0, 4)
+        float(generator.uniform(0.15, 1.0)), 1.0, generator.choice([0.05, 0.1, 0.4, 1.0], 4),
+            generator.uniform(0.1, 1.0, 4)
     )[kind]  # fmt: skip
-    tyres = {"friction": float(generator.uniform(0.4, 0.9)), "lock": lock, "wheelbase": 2.6, "track": 1.5}
+    tyres = {
+        "friction": float(generator.uniform(0.4, 0.9)),
+        "lock": lock,
+        "wheelbase": 2.6,
+        "track": 1.5,
+    }
     if number % 5 == 1:
         tyres["steer"] = float(generator.uniform(-0.4, 0.4))
     if number % 5 == 2:
@@ -202,9 +263,13 @@ def scene(number):
     return (vx, vy, w, 0.0, 0.0, float(generator.normal())), tyres, surfaces, slope
 
 
-@pytest.mark.parametrize("number", [*range(12), *(pytest.param(i, marks=pytest.mark.slow) for i in range(12, 300))])
+@pytest.mark.parametrize(
+    "number", [*range(12), *(pytest.param(i, marks=pytest.mark.slow) for i in range(12, 300))]
+)
 def test_an_independent_integration_comes_to_the_same_rest(number):
-    """scipy's method in another variable, by angles, wheel by wheel: the promised place and heading, for 300 random scenes."""
+    """scipy's method in another variable, by angles, wheel by wheel: the promised place and
+    heading, for 300 random scenes.
+    """
     start, tyres, surfaces, slope = scene(number)
     (x, y, heading), way, time, _ = integrated(start, tyres, surfaces, slope)
     vehicle = moving(*start[:3], start[5])
@@ -217,29 +282,39 @@ def test_an_independent_integration_comes_to_the_same_rest(number):
 
 @pytest.mark.parametrize("name", CASES)
 def test_places_and_velocities_on_the_way(name):
-    """Against the same integration: within 2 mm and 1 mrad beside the promise, and velocities within 0.01 m/s; ``at`` too."""
+    """Against the same integration: within 2 mm and 1 mrad beside the promise, and velocities
+    within 0.01 m/s; ``at`` too.
+    """
     vx, vy, w, heading, lock, steer = CASES[name]
     tyres = {"friction": 0.7, "lock": lock, "wheelbase": 2.7, "track": 1.5, "steer": steer}
     *_, end = integrated((vx, vy, w, 0.0, 0.0, heading), tyres)
-    path = drive(moving(vx, vy, w, heading), lock=list(np.broadcast_to(lock, 4)), steer=steer, moments=301)
+    path = drive(
+        moving(vx, vy, w, heading), lock=list(np.broadcast_to(lock, 4)), steer=steer, moments=301
+    )
     within = {"x": 2e-3, "y": 2e-3, "heading": 1e-3, "vx": 1e-2, "vy": 1e-2, "yaw_rate": 1e-2}
     times = path.time[path.time < end.y[6, -1]]
     for row, column in (("vx", 0), ("vy", 1), ("yaw_rate", 2), ("x", 3), ("y", 4), ("heading", 5)):
         wanted = np.interp(times, end.y[6], end.y[column])
         # The steps of the other are joined by straight lines.
         finest = np.max(np.abs(np.diff(end.y[column]))) ** 2
-        assert getattr(path, row)[: len(times)] == pytest.approx(wanted, abs=within[row] + PROMISE + 0.2 * finest), row
+        assert getattr(path, row)[: len(times)] == pytest.approx(
+            wanted, abs=within[row] + PROMISE + 0.2 * finest
+        ), row
     for moment in (0.0, 0.37, 0.5 * path.time[-1], path.time[-1], 99.0):
         there = path.at(moment)
         for row in within:
-            assert getattr(there, row) == pytest.approx(np.interp(moment, path.time, getattr(path, row)), abs=3e-3), row
+            assert getattr(there, row) == pytest.approx(
+                np.interp(moment, path.time, getattr(path, row)), abs=3e-3
+            ), row
     assert path.at(99.0) == path.rest
     assert path.at("0 s").vx == pytest.approx(vx)
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_the_tyres_take_the_energy_that_there_was(name):
-    """The work of the forces along the path that was found is the kinetic energy, which never rises."""
+    """The work of the forces along the path that was found is the kinetic energy, which never
+    rises.
+    """
     vx, vy, w, heading, lock, steer = CASES[name]
     start = moving(vx, vy, w, heading)
     path = drive(start, lock=list(np.broadcast_to(lock, 4)), steer=steer, moments=2001)
@@ -262,7 +337,9 @@ STRIP = [(11.5, -9.0), (14.5, -9.0), (14.5, 9.0), (11.5, 9.0)]
 
 
 def test_a_strip_of_ice_is_not_stepped_over():
-    """Locked wheels at 30 m/s over 3 m of no friction: each axle skids 3 m less of it, so that the rest is 3 m further."""
+    """Locked wheels at 30 m/s over 3 m of no friction: each axle skids 3 m less of it, so that the
+    rest is 3 m further.
+    """
     car = CAR.replace(vx=30.0)
     plain, iced = drive(car), drive(car, surfaces=[(STRIP, 0.0)])
     assert plain.rest.x == pytest.approx(30.0**2 / (2 * G * 0.7), rel=1e-12)
@@ -272,7 +349,9 @@ def test_a_strip_of_ice_is_not_stepped_over():
 
 
 def in_closed_form(vx, friction, strips):
-    """Where a car on locked wheels comes to rest straight ahead: the energy that each axle takes over each strip."""
+    """Where a car on locked wheels comes to rest straight ahead: the energy that each axle takes
+    over each strip.
+    """
 
     def taken(x):
         total = 0.0
@@ -290,11 +369,19 @@ def in_closed_form(vx, friction, strips):
 
 
 def test_straight_skids_over_strips_in_closed_form():
-    """400 random ones, in one batch and some alone: to a hundred-thousandth of the way, where the promise is a thousandth."""
+    """400 random ones, in one batch and some alone: to a hundred-thousandth of the way, where the
+    promise is a thousandth.
+    """
     generator = np.random.default_rng(7)
-    vx, friction, mu = generator.uniform(3, 35, 400), generator.uniform(0.3, 0.9, 400), generator.uniform(0, 1, (2, 400))
+    vx, friction, mu = (
+        generator.uniform(3, 35, 400),
+        generator.uniform(0.3, 0.9, 400),
+        generator.uniform(0, 1, (2, 400)),
+    )
     edges = [(3.0, 3.7), (9.0, 12.0)]
-    surfaces = [([(a, -9), (b, -9), (b, 9), (a, 9)], part) for (a, b), part in zip(edges, mu, strict=True)]
+    surfaces = [
+        ([(a, -9), (b, -9), (b, 9), (a, 9)], part) for (a, b), part in zip(edges, mu, strict=True)
+    ]
     path = drive(CAR.replace(vx=vx), friction=friction, surfaces=surfaces, moments=2)
     for i in range(400):
         strips = [(a, b, part[i]) for (a, b), part in zip(edges, mu, strict=True)]
@@ -302,12 +389,16 @@ def test_straight_skids_over_strips_in_closed_form():
         assert path.rest.x[i] == pytest.approx(wanted, rel=1e-5), i
         if i % 40 == 0:
             one = [(corners, float(part[i])) for corners, part in surfaces]
-            alone = drive(CAR.replace(vx=float(vx[i])), friction=float(friction[i]), surfaces=one, moments=2)
+            alone = drive(
+                CAR.replace(vx=float(vx[i])), friction=float(friction[i]), surfaces=one, moments=2
+            )
             assert alone.rest.x == pytest.approx(wanted, rel=1e-5)
 
 
 def test_marks_end_at_edges():
-    """Wheels of lock 0.4 that are locked on ice alone, straight ahead: marks at the moments on the ice, by each wheel's place."""
+    """Wheels of lock 0.4 that are locked on ice alone, straight ahead: marks at the moments on the
+    ice, by each wheel's place.
+    """
     path = drive(CAR.replace(vx=20.0), lock=0.4, surfaces=[(STRIP, 0.1)], moments=2001)
     for (x, _), place in zip(path.marks, (1.35, 1.35, -1.35, -1.35), strict=True):
         on = (path.x + place > 11.5) & (path.x + place < 14.5)
@@ -318,7 +409,9 @@ def test_marks_end_at_edges():
 @pytest.mark.parametrize("rise", [0.05, -0.05, 0.12])
 @pytest.mark.parametrize("course", [0.0, 2.1])
 def test_a_skid_on_a_slope(rise, course):
-    """Straight up or down: the distance of ``travel.distance`` with that grade, in whatever direction."""
+    """Straight up or down: the distance of ``travel.distance`` with that grade, in whatever
+    direction.
+    """
     slope = (rise * math.cos(course), rise * math.sin(course))
     car = CAR.replace(vx=14.0 * math.cos(course), vy=14.0 * math.sin(course), heading=0.4)
     path = drive(car, slope=slope)
@@ -327,37 +420,56 @@ def test_a_skid_on_a_slope(rise, course):
 
 
 def test_a_slope_that_the_brakes_do_not_hold_is_refused():
-    """A car that stops uphill and rolls back, one that speeds up, and one that stands; across the slope it holds."""
+    """A car that stops uphill and rolls back, one that speeds up, and one that stands; across the
+    slope it holds.
+    """
     for car in (CAR, CAR.replace(vx=-14.0), CAR.replace(vx=0.0), CAR.replace(yaw_rate=1.0)):
         with pytest.raises(col.NoSolutionError, match="slope") as caught:
             drive(car, lock=0.05, slope=(0.1, 0.0))
         assert caught.value.code == "never_stops"
     assert drive(CAR.replace(vx=0.0), lock=0.15, slope=(0.1, 0.0)).rest.x == 0.0
-    assert drive(CAR.replace(vx=0.0, heading=math.pi / 2), lock=0.05, slope=(0.1, 0.0)).rest.x == 0.0
+    assert (
+        drive(CAR.replace(vx=0.0, heading=math.pi / 2), lock=0.05, slope=(0.1, 0.0)).rest.x == 0.0
+    )
     vx = np.array([14.0, 14.0, 0.0])
     with pytest.warns(col.CollisionsWarning, match="1 of 3"):
-        path = drive(CAR.replace(vx=vx), lock=np.array([0.05, 0.3, 0.3]), slope=(0.1, 0.0), moments=2)
+        path = drive(
+            CAR.replace(vx=vx), lock=np.array([0.05, 0.3, 0.3]), slope=(0.1, 0.0), moments=2
+        )
     assert np.isfinite(path.rest.x).tolist() == [False, True, True]
 
 
 def test_load_transfer_moves_the_rest_of_spins_only():
-    """Locked wheels straight ahead use the whole friction under any load; spun, the rest moves by some percent."""
+    """Locked wheels straight ahead use the whole friction under any load; spun, the rest moves by
+    some percent.
+    """
     assert drive(CAR, height=0.55).rest.x == pytest.approx(drive(CAR).rest.x, rel=1e-9)
     spun = moving(12.0, 2.0, 4.0)
-    plain, high, low = (drive(spun, lock=0.3, height=height, tolerance=1e-9) for height in (None, 0.55, 1e-9))
-    assert 1e-3 < math.dist((plain.rest.x, plain.rest.y), (high.rest.x, high.rest.y)) / plain.rest.x < 0.15
-    assert (low.rest.x, low.rest.heading) == pytest.approx((plain.rest.x, plain.rest.heading), rel=1e-5)
+    plain, high, low = (
+        drive(spun, lock=0.3, height=height, tolerance=1e-9) for height in (None, 0.55, 1e-9)
+    )
+    assert (
+        1e-3
+        < math.dist((plain.rest.x, plain.rest.y), (high.rest.x, high.rest.y)) / plain.rest.x
+        < 0.15
+    )
+    assert (low.rest.x, low.rest.heading) == pytest.approx(
+        (plain.rest.x, plain.rest.heading), rel=1e-5
+    )
 
 
 def test_a_braked_wheel_that_stands_does_not_chatter():
-    """A car that turns about its jammed wheel, and cars let on their brakes: a few hundred steps, not thousands."""
+    """A car that turns about its jammed wheel, and cars let on their brakes: a few hundred steps,
+    not thousands.
+    """
     generator = np.random.default_rng(2)
     most = 0
     counted_steps = motion._of_floats
 
     for _ in range(60):
         vx, vy, w = generator.normal(0.0, [4.0, 3.0, 4.0])
-        # One wheel at least that is held; a car that hardly slows takes many steps because it goes far.
+        # One wheel at least that is held; a car that hardly slows takes many steps because it goes
+        # far.
         lock = generator.permuted([1.0, *generator.choice([0.0, 0.05, 0.5, 1.0], 3)]).tolist()
         steps = 0
 
@@ -383,12 +495,15 @@ def test_all_cases_of_a_long_run_keep_the_promise(request):
     generator = np.random.default_rng(11)
     count = 100
     cars = CAR.replace(
-        vx=generator.uniform(3, 18, count), vy=generator.normal(0, 3, count), yaw_rate=generator.normal(0, 2.5, count),
+        vx=generator.uniform(3, 18, count), vy=generator.normal(0, 3, count),
+        yaw_rate=generator.normal(0, 2.5, count),
         heading=generator.normal(0, 1, count),
     )  # fmt: skip
     lock = [generator.uniform(0.05, 1.0, count) for _ in range(4)]
     for surfaces in (None, [(STRIP, 0.15)]):
-        fine, plain = (drive(cars, lock=lock, surfaces=surfaces, tolerance=tol) for tol in (5e-9, 5e-7))
+        fine, plain = (
+            drive(cars, lock=lock, surfaces=surfaces, tolerance=tol) for tol in (5e-9, 5e-7)
+        )
         way = np.hypot(np.diff(fine.x, axis=0), np.diff(fine.y, axis=0)).sum(axis=0)
         off = np.hypot(fine.rest.x - plain.rest.x, fine.rest.y - plain.rest.y) / way
         assert np.max(off) < PROMISE
@@ -400,17 +515,29 @@ def test_the_scene_may_be_turned_moved_and_mirrored():
     vx, vy, w, heading, lock, steer = CASES["one jammed"]
     here = drive(moving(vx, vy, w, heading), friction=0.7, lock=list(lock), steer=steer)
     there = drive(
-        moving(-vy, vx, w, heading + math.pi / 2).replace(x=500.0, y=-200.0), friction=0.7, lock=list(lock), steer=steer
+        moving(-vy, vx, w, heading + math.pi / 2).replace(x=500.0, y=-200.0),
+        friction=0.7,
+        lock=list(lock),
+        steer=steer,
     )
-    assert (there.rest.x - 500.0, there.rest.y + 200.0) == pytest.approx((-here.rest.y, here.rest.x), abs=1e-6)
-    mirrored = drive(moving(vx, -vy, -w, -heading), friction=0.7, lock=[lock[1], lock[0], lock[3], lock[2]], steer=-steer)
+    assert (there.rest.x - 500.0, there.rest.y + 200.0) == pytest.approx(
+        (-here.rest.y, here.rest.x), abs=1e-6
+    )
+    mirrored = drive(
+        moving(vx, -vy, -w, -heading),
+        friction=0.7,
+        lock=[lock[1], lock[0], lock[3], lock[2]],
+        steer=-steer,
+    )
     assert (mirrored.rest.x, -mirrored.rest.y, -mirrored.rest.heading) == pytest.approx(
         (here.rest.x, here.rest.y, here.rest.heading), abs=1e-9
     )
 
 
 def test_mass_does_not_matter_but_its_share_in_the_inertia_does():
-    """Friction is in proportion to mass; extremes of it and of the speed, whose rest is in proportion to its square."""
+    """Friction is in proportion to mass; extremes of it and of the speed, whose rest is in
+    proportion to its square.
+    """
     one = drive(moving(10.0, 2.0, 3.0), friction=0.7, lock=0.5)
     for factor in (1e-150, 1e150):
         other = moving(10.0, 2.0, 3.0).replace(mass=1500.0 * factor, yaw_inertia=2400.0 * factor)
@@ -433,7 +560,9 @@ def test_marks_are_left_where_a_tyre_slides():
     assert np.isnan(gx).any()
     straight = drive(CAR, friction=0.7, lock=0.05)
     assert all(np.isnan(part).all() for mark in straight.marks for part in mark)
-    broadside = drive(CAR.replace(heading=math.pi / 2, yaw_inertia=math.inf), friction=0.7, lock=0.05)
+    broadside = drive(
+        CAR.replace(heading=math.pi / 2, yaw_inertia=math.inf), friction=0.7, lock=0.05
+    )
     assert all(np.isfinite(part).all() for mark in broadside.marks for part in mark)
 
 
@@ -442,8 +571,17 @@ def test_a_simulated_path_is_a_frozen_record_with_units():
     path = drive(moving(9.0, 0.0, 9.0).replace(name="A"), friction=0.6, lock=0.6, moments=7)
     assert path.time.shape == path.x.shape == path.marks[3][1].shape == (7,)
     assert (path.time[0], path.x[0], path.heading[0]) == (0.0, 0.0, 0.0)
-    assert (path.rest.x, path.rest.y, path.rest.heading) == (path.x[-1], path.y[-1], path.heading[-1])
-    assert (path.rest.speed, path.rest.yaw_rate, path.rest.name, path.rest.mass) == (0.0, 0.0, "A", 1500.0)
+    assert (path.rest.x, path.rest.y, path.rest.heading) == (
+        path.x[-1],
+        path.y[-1],
+        path.heading[-1],
+    )
+    assert (path.rest.speed, path.rest.yaw_rate, path.rest.name, path.rest.mass) == (
+        0.0,
+        0.0,
+        "A",
+        1500.0,
+    )
     assert path.rest.heading > 2 * math.pi
     assert not path.x.flags.writeable
     assert path.q.time.check("[time]")
@@ -467,13 +605,22 @@ def test_a_vehicle_at_rest_stays():
 
 
 def test_a_batch_is_its_cases_and_refused_ones_are_nan():
-    """Arrays of the vehicle, the ground and the wheels broadcast; each case is as alone, and its neighbours do not matter."""
+    """Arrays of the vehicle, the ground and the wheels broadcast; each case is as alone, and its
+    neighbours do not matter.
+    """
     vx, w = np.array([10.0, 14.0, 9.0, math.nan, 12.0, 11.0]), np.array([[2.0], [-3.0]])
     friction = np.array([0.7, 0.5, 0.7, 0.7, 0.0, -0.7])
     jammed = np.array([0.5, 1.0, 1.5, 0.5, 0.5, 0.5])
     with pytest.warns(col.CollisionsWarning, match="8 of 12 cases") as caught:
-        path = drive(moving(vx, 1.0, w), friction=friction, lock=[jammed, 0.3, 0.3, 0.3], moments=11)
-    assert caught[0].message.fields["counts"] == {"not_finite": 2, "bad_friction": 2, "bad_fraction": 2, "never_stops": 2}
+        path = drive(
+            moving(vx, 1.0, w), friction=friction, lock=[jammed, 0.3, 0.3, 0.3], moments=11
+        )
+    assert caught[0].message.fields["counts"] == {
+        "not_finite": 2,
+        "bad_friction": 2,
+        "bad_fraction": 2,
+        "never_stops": 2,
+    }
     assert path.x.shape == path.marks[0][0].shape == (11, 2, 6)
     assert path.rest.x.shape == (2, 6)
     for i, j in np.ndindex(2, 2):
@@ -484,24 +631,33 @@ def test_a_batch_is_its_cases_and_refused_ones_are_nan():
             moments=11,
         )
         for name in ("time", "x", "y", "heading"):
-            # The same steps; numpy rounds sines of arrays of other lengths otherwise, and a step can differ in its last digit.
-            assert getattr(path, name)[:, i, j] == pytest.approx(getattr(alone, name), rel=1e-9, abs=1e-9), name
+            # The same steps; numpy rounds sines of arrays of other lengths otherwise, and a step
+            # can differ in its last digit.
+            assert getattr(path, name)[:, i, j] == pytest.approx(
+                getattr(alone, name), rel=1e-9, abs=1e-9
+            ), name
     assert np.isnan(path.rest.heading[:, 2:]).all()
     assert np.isnan(path.time[:, :, 2:]).all()
 
 
 def test_arrays_stay_what_they_are():
     """float32 stays float32, an empty batch is an answer."""
-    assert drive(CAR.replace(vx=np.float32([3.0, 4.0])), friction=0.7, lock=1).rest.x.dtype == np.float32
+    assert (
+        drive(CAR.replace(vx=np.float32([3.0, 4.0])), friction=0.7, lock=1).rest.x.dtype
+        == np.float32
+    )
     empty = drive(CAR.replace(vx=np.array([])), friction=0.7, lock=1, moments=5)
     assert (empty.x.shape, empty.rest.x.shape) == ((5, 0), (0,))
 
 
 def test_units_of_every_kind():
     """Texts and Quantities give the same rest."""
-    wanted = drive(moving(10.0, 1.0, 2.0), friction=0.6, lock=0.4, wheelbase=2.6, track=1.6, steer=0.1)
+    wanted = drive(
+        moving(10.0, 1.0, 2.0), friction=0.6, lock=0.4, wheelbase=2.6, track=1.6, steer=0.1
+    )
     found = drive(
-        moving("36 km/h", "1 m/s", 2.0), friction="60 %", lock=["40 %"] * 4, wheelbase="260 cm", track="1600 mm",
+        moving("36 km/h", "1 m/s", 2.0), friction="60 %", lock=["40 %"] * 4, wheelbase="260 cm",
+            track="1600 mm",
         steer=f"{math.degrees(0.1)} deg",
     )  # fmt: skip
     assert (found.rest.x, found.rest.y, found.rest.heading) == pytest.approx(
@@ -514,19 +670,32 @@ def test_units_of_every_kind():
 
 @pytest.mark.slow
 def test_places_of_rest_are_evidence_for_fit():
-    """Speed, course and yaw rate at separation from the place and heading of rest and the friction, within their errors."""
+    """Speed, course and yaw rate at separation from the place and heading of rest and the friction,
+    within their errors.
+    """
     truth = moving(12.0, 3.0, 2.5)
     rest = drive(truth, friction=0.7, lock=0.5, moments=2).rest
 
     def model(vx, vy, yaw_rate):
-        end = drive(CAR.replace(vx=vx, vy=vy, yaw_rate=yaw_rate), friction=0.7, lock=0.5, moments=2).rest
+        end = drive(
+            CAR.replace(vx=vx, vy=vy, yaw_rate=yaw_rate), friction=0.7, lock=0.5, moments=2
+        ).rest
         return {"x": end.x, "y": end.y, "heading": end.heading}
 
-    priors = {name: col.uncertainty.Normal(mean, 1.0) for name, mean in (("vx", 11.5), ("vy", 2.5), ("yaw_rate", 2.0))}
-    observed = {"x": (rest.x, 0.1), "y": (rest.y, 0.1), "heading": (f"{rest.heading} rad", "0.03 rad")}
+    priors = {
+        name: col.uncertainty.Normal(mean, 1.0)
+        for name, mean in (("vx", 11.5), ("vy", 2.5), ("yaw_rate", 2.0))
+    }
+    observed = {
+        "x": (rest.x, 0.1),
+        "y": (rest.y, 0.1),
+        "heading": (f"{rest.heading} rad", "0.03 rad"),
+    }
     fit = reconstruct.fit(model, priors, observed)
     for name in priors:
-        assert fit[name].value == pytest.approx(getattr(truth, name), abs=0.5 * fit[name].standard_error), name
+        assert fit[name].value == pytest.approx(
+            getattr(truth, name), abs=0.5 * fit[name].standard_error
+        ), name
         assert fit[name].standard_error < 0.5
 
 
@@ -539,32 +708,87 @@ def test_places_of_rest_are_evidence_for_fit():
         (CAR, {"friction": -0.7}, "bad_friction", "friction must be >= 0, got -0.7"),
         (CAR, {"friction": math.nan}, "not_finite", "friction"),
         (CAR, {"friction": 0.0}, "never_stops", "nothing slows it, since friction or lock are 0"),
-        (CAR.replace(yaw_rate=2.0), {"friction": 0.0}, "never_stops", "nothing slows it, since friction or lock are 0"),
-        (CAR, {"lock": 0.0}, "never_stops", "nothing slows it, since friction or lock are 0 (a wheel of lock 0 rolls on)"),
-        (CAR.replace(vy=2.0, yaw_rate=2.0), {"lock": 0.0}, "never_stops", "a wheel of lock 0 rolls on"),
+        (
+            CAR.replace(yaw_rate=2.0),
+            {"friction": 0.0},
+            "never_stops",
+            "nothing slows it, since friction or lock are 0",
+        ),
+        (
+            CAR,
+            {"lock": 0.0},
+            "never_stops",
+            "nothing slows it, since friction or lock are 0 (a wheel of lock 0 rolls on)",
+        ),
+        (
+            CAR.replace(vy=2.0, yaw_rate=2.0),
+            {"lock": 0.0},
+            "never_stops",
+            "a wheel of lock 0 rolls on",
+        ),
         (CAR.replace(vx=0.01), {"lock": 0.0}, "never_stops", "a wheel of lock 0 rolls on"),
-        (CAR, {"friction": 0.0, "lock": 0.5, "surfaces": [(STRIP, 0.7)]}, "bad_friction", "the friction of the common ground"),
+        (
+            CAR,
+            {"friction": 0.0, "lock": 0.5, "surfaces": [(STRIP, 0.7)]},
+            "bad_friction",
+            "the friction of the common ground",
+        ),
         (CAR, {"height": 0.6, "surfaces": [(STRIP, 1.2)]}, "wheel_lifts", "a wheel lifts off"),
         (CAR, {"slope": 0.05}, "bad_shape", "slope must be a pair"),
-        (CAR, {"tolerance": 1.0}, "bad_option", "tolerance must be one number from 1e-10 to 0.01, got 1.0"),
+        (
+            CAR,
+            {"tolerance": 1.0},
+            "bad_option",
+            "tolerance must be one number from 1e-10 to 0.01, got 1.0",
+        ),
         (CAR, {"tolerance": np.ones(2)}, "bad_option", "tolerance must be one number"),
         (CAR, {"lock": 1.1}, "bad_fraction", "lock must be from 0 to 1, got 1.1"),
         (CAR, {"lock": math.nan}, "bad_fraction", "lock must be from 0 to 1"),
         (CAR, {"lock": [1, 1, 1, -1]}, "bad_fraction", "lock[3] must be from 0 to 1"),
-        (CAR, {"lock": [1, 1]}, "bad_shape", "lock is a list of 2; give one value for all wheels, or four: front left"),
-        (CAR, {"lock": np.ones(2), "friction": np.ones(3)}, "bad_shape", "friction (3,), lock (2,)"),
+        (
+            CAR,
+            {"lock": [1, 1]},
+            "bad_shape",
+            "lock is a list of 2; give one value for all wheels, or four: front left",
+        ),
+        (
+            CAR,
+            {"lock": np.ones(2), "friction": np.ones(3)},
+            "bad_shape",
+            "friction (3,), lock (2,)",
+        ),
         (CAR, {"wheelbase": 0.0}, "not_positive", "wheelbase must be > 0, got 0.0"),
         (CAR, {"track": "-1 m"}, "not_positive", "track must be > 0, got '-1 m'"),
         (CAR, {"track": math.inf}, "not_finite", "track must be finite"),
         (CAR, {"track": -math.inf}, "not_positive", "track must be > 0, got -inf"),
         (CAR, {"steer": math.nan}, "not_finite", "steer is NaN"),
         (CAR, {"cornering": 0}, "not_positive", "cornering must be > 0"),
-        (CAR, {"moments": 1}, "bad_option", "moments must be a whole number from 2 to 100000, got 1"),
+        (
+            CAR,
+            {"moments": 1},
+            "bad_option",
+            "moments must be a whole number from 2 to 100000, got 1",
+        ),
         (CAR, {"moments": 10.0}, "bad_option", "got 10.0"),
         (CAR, {"surfaces": 0.7}, "bad_shape", "surfaces[0] must be a pair of corners"),
-        (CAR, {"surfaces": [([(0, 0), (1, 1)], 0.5)]}, "bad_shape", "surfaces[0] must be a pair of corners"),
-        (CAR, {"surfaces": [([(0, 0), (1, 1), (0, 1)], -0.5)]}, "bad_friction", "surfaces[0] must be >= 0"),
-        (CAR, {"surfaces": [([(0, 0), (1, 1), (0, np.ones(2))], 0.5)]}, "bad_shape", "the same for every case"),
+        (
+            CAR,
+            {"surfaces": [([(0, 0), (1, 1)], 0.5)]},
+            "bad_shape",
+            "surfaces[0] must be a pair of corners",
+        ),
+        (
+            CAR,
+            {"surfaces": [([(0, 0), (1, 1), (0, 1)], -0.5)]},
+            "bad_friction",
+            "surfaces[0] must be >= 0",
+        ),
+        (
+            CAR,
+            {"surfaces": [([(0, 0), (1, 1), (0, np.ones(2))], 0.5)]},
+            "bad_shape",
+            "the same for every case",
+        ),
         (CAR.replace(heading=None), {}, "missing_heading", "has no heading, which simulate needs"),
         (CAR.replace(yaw_inertia=None), {}, "missing_inertia", "has no yaw_inertia"),
         (CAR.replace(x=None), {}, "missing_position", "has no x"),

@@ -1,4 +1,6 @@
-"""Run-outs: against published tables, against 50 digits, against a body integrated forward in time, and every refusal."""
+"""Run-outs: against published tables, against 50 digits, against a body integrated forward in time,
+and every refusal.
+"""
 
 import inspect
 import json
@@ -37,7 +39,9 @@ STRAIGHT = [(0.0, 0.0), (5.0, 0.0), (9.0, 0.0)]
 
 
 def test_standard_gravity_is_the_one_of_the_definition():
-    """The value fixed by the 3rd General Conference on Weights and Measures; and 30 is 0.14 % of speed above it."""
+    """The value fixed by the 3rd General Conference on Weights and Measures; and 30 is 0.14 % of
+    speed above it.
+    """
     assert travel.GRAVITY == 9.80665
     assert math.sqrt(30 / THIRTY) == pytest.approx(1.0014, abs=5e-5)
     assert math.sqrt(32.2 * FOOT / travel.GRAVITY) == pytest.approx(1.0004, abs=5e-5)
@@ -45,53 +49,74 @@ def test_standard_gravity_is_the_one_of_the_definition():
 
 # Code of Virginia, section 46.2-880: speed [mph], braking distance of automobiles [ft].
 VIRGINIA = [
-    (10, 5), (15, 11), (20, 19), (25, 30), (30, 43), (35, 58), (40, 76), (45, 96), (50, 119), (55, 144), (60, 171), (65, 201),
+    (10, 5), (15, 11), (20, 19), (25, 30), (30, 43), (35, 58), (40, 76), (45, 96), (50, 119),
+        (55, 144), (60, 171), (65, 201),
     (70, 233), (75, 268), (80, 305), (85, 344),
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize(("mph", "feet"), VIRGINIA)
 def test_the_stopping_distances_of_the_code_of_virginia(mph, feet):
-    """The table is in whole feet with 30 for the constant, at a drag factor of 0.7 by its longest row (85**2 / 30 / 344)."""
+    """The table is in whole feet with 30 for the constant, at a drag factor of 0.7 by its longest
+    row (85**2 / 30 / 344).
+    """
     found = travel.distance(f"{mph} mph", drag=0.7) / FOOT
     assert found * THIRTY / 30 == pytest.approx(feet, abs=0.5)
 
 
 def test_the_skid_of_a_test_question():
-    """gauthmath.com: 65 mph on dry asphalt of 0.8 leaves skids of 176 ft, in whole feet, with 30 or 32.2 ft/s2."""
+    """gauthmath.com: 65 mph on dry asphalt of 0.8 leaves skids of 176 ft, in whole feet, with 30 or
+    32.2 ft/s2.
+    """
     assert travel.distance("65 mph", drag=0.8) / FOOT * THIRTY / 30 == pytest.approx(176, abs=0.5)
 
 
 @pytest.mark.parametrize(
     ("feet", "end", "drag", "published", "within"),
     [
-        # e-z.net/~ts/speedch.htm, read from a chart: 40 ft is about 30 mph; 60 ft into a 30 mph impact about 46 to 48.
+        # e-z.net/~ts/speedch.htm, read from a chart: 40 ft is about 30 mph; 60 ft into a 30 mph
+        # impact about 46 to 48.
         (40, 0, 0.7, 29, 0.5),
         (40, 0, 0.8, 31, 0.5),
         (60, 30, 0.7, 46.5, 0.5),
         (60, 30, 0.8, 48.5, 0.5),
-        # e-z.net/~ts/combine.htm: 30 mph lost in one slide, then 20, then 10, is 37 mph in whole miles per hour.
+        # e-z.net/~ts/combine.htm: 30 mph lost in one slide, then 20, then 10, is 37 mph in whole
+        # miles per hour.
         (30**2 / THIRTY / 0.7, math.hypot(20, 10), 0.7, 37, 0.5),
     ],
 )
 def test_published_slides(feet, end, drag, published, within):
-    """To the digits that were printed; the 0.14 % between 30 and the exact constant is below them."""
+    """To the digits that were printed; the 0.14 % between 30 and the exact constant is
+    below them.
+    """
     found = travel.speed(feet * FOOT, drag=drag, end_speed=end * MPH) / MPH
     assert found == pytest.approx(published, abs=within)
 
 
 def test_the_metric_sheet_of_the_ontario_police():
-    """S = 15.9 sqrt((f + e) d) in km/h, from J. Twelves, Skid to Stop Formula; 15.9 is rounded by up to 0.05 in 15.9."""
+    """S = 15.9 sqrt((f + e) d) in km/h, from J. Twelves, Skid to Stop Formula; 15.9 is rounded by
+    up to 0.05 in 15.9.
+    """
     found = 3.6 * travel.speed(20.0, drag=0.65, grade=-0.04)
     assert found == pytest.approx(15.9 * math.sqrt(0.61 * 20), rel=0.05 / 15.9)
 
 
 def test_the_slide_after_the_inline_collision_of_tar_origin():
-    """Example L14: 66 ft at 0.65 is 35.8748 mph with 30 f d, exactly sqrt(30 / 29.9139) above ours; rel for its 6 digits."""
+    """Example L14: 66 ft at 0.65 is 35.8748 mph with 30 f d, exactly sqrt(30 / 29.9139) above ours;
+    rel for its 6 digits.
+    """
     found = travel.speed("66 ft", drag=0.65) / MPH
     assert found * math.sqrt(30 / THIRTY) == pytest.approx(35.8748, rel=2e-6)
-    cases = json.loads((Path(__file__).parents[2] / "validation" / "data" / "worked_examples.json").read_text("utf-8"))
-    (example,) = (case for case in (cases if isinstance(cases, list) else cases["cases"]) if case["id"] == "L14")
+    cases = json.loads(
+        (Path(__file__).parents[2] / "validation" / "data" / "worked_examples.json").read_text(
+            "utf-8"
+        )
+    )
+    (example,) = (
+        case
+        for case in (cases if isinstance(cases, list) else cases["cases"])
+        if case["id"] == "L14"
+    )
     assert example["recomputed_outputs"]["v_common"] == {"value": 35.8748, "unit": "mph"}
 
 
@@ -104,7 +129,9 @@ def exact(segments, end):
         square = mpmath.mpf(end) ** 2
         found = [mpmath.sqrt(square)]
         for d, f, g in reversed(segments):
-            square += 2 * mpmath.mpf(travel.GRAVITY) * (mpmath.mpf(f) + mpmath.mpf(g)) * mpmath.mpf(d)
+            square += (
+                2 * mpmath.mpf(travel.GRAVITY) * (mpmath.mpf(f) + mpmath.mpf(g)) * mpmath.mpf(d)
+            )
             found.append(mpmath.sqrt(square) if square >= 0 else mpmath.nan)
         found.reverse()
         slopes = [d * mpmath.sqrt(1 + mpmath.mpf(g) ** 2) for d, _, g in segments]
@@ -116,9 +143,13 @@ def exact(segments, end):
 @run_often
 @given(st.lists(st.tuples(lengths, st.floats(0.31, 1.4), grades), min_size=1, max_size=6), speeds)
 def test_speed_and_time_keep_their_digits(segments, end):
-    """2 eps for the speed gained over a segment, one more for each sum of squares; the times add three: one and a half each for
-    the length of the slope and for the quotient."""
-    given_ = {"drag": [f for _, f, _ in segments], "grade": [g for _, _, g in segments], "end_speed": end}
+    """2 eps for the speed gained over a segment, one more for each sum of squares; the times add
+    three: one and a half each for the length of the slope and for the quotient."""
+    given_ = {
+        "drag": [f for _, f, _ in segments],
+        "grade": [g for _, _, g in segments],
+        "end_speed": end,
+    }
     start = travel.speed([d for d, _, _ in segments], **given_)
     duration = travel.time([d for d, _, _ in segments], **given_)
     found, times = exact(segments, end)
@@ -131,7 +162,9 @@ def test_speed_and_time_keep_their_digits(segments, end):
 @run_often
 @given(lengths, st.floats(0.0, 0.1), st.floats(-0.4, -0.11), speeds)
 def test_downhill_beyond_the_drag_the_condition_is_all_that_is_lost(d, f, g, end):
-    """2 eps in each of two squares that are subtracted: 4 eps times their sum over their difference, and 1 for the product."""
+    """2 eps in each of two squares that are subtracted: 4 eps times their sum over their
+    difference, and 1 for the product.
+    """
     (start, _), _ = exact([(d, f, g)], end)
     if mpmath.isnan(start) or start < 1e-3:
         with warnings.catch_warnings():
@@ -141,7 +174,9 @@ def test_downhill_beyond_the_drag_the_condition_is_all_that_is_lost(d, f, g, end
                     travel.speed(d, drag=f, grade=g, end_speed=end)
         return
     condition = (2 * end**2 - float(start) ** 2) / float(start) ** 2
-    assert travel.speed(d, drag=f, grade=g, end_speed=end) == pytest.approx(float(start), rel=(1 + 4 * condition) * EPS)
+    assert travel.speed(d, drag=f, grade=g, end_speed=end) == pytest.approx(
+        float(start), rel=(1 + 4 * condition) * EPS
+    )
 
 
 @run_often
@@ -150,11 +185,15 @@ def test_distance_keeps_its_digits(one, other, f, g):
     """Six roundings of half an eps."""
     if f + g == 0.0:
         return
-    start, end = (max(one, other), min(one, other)) if f + g > 0 else (min(one, other), max(one, other))
+    start, end = (
+        (max(one, other), min(one, other)) if f + g > 0 else (min(one, other), max(one, other))
+    )
     with mpmath.workdps(50):
         work = 2 * mpmath.mpf(travel.GRAVITY) * (mpmath.mpf(f) + mpmath.mpf(g))
         wanted = float((mpmath.mpf(start) ** 2 - mpmath.mpf(end) ** 2) / work)
-    assert travel.distance(start, drag=f, grade=g, end_speed=end) == pytest.approx(wanted, rel=3 * EPS, abs=5e-324)
+    assert travel.distance(start, drag=f, grade=g, end_speed=end) == pytest.approx(
+        wanted, rel=3 * EPS, abs=5e-324
+    )
 
 
 def test_nearly_equal_speeds_keep_their_difference():
@@ -163,17 +202,23 @@ def test_nearly_equal_speeds_keep_their_difference():
     found = travel.distance(30.0 + 2e-9, drag=0.7, end_speed=30.0)
     # 2e-9 itself is rounded when it is added to 30, to 1.8e-15.
     assert found == pytest.approx(wanted, rel=2e-6)
-    assert found == pytest.approx(((30.0 + 2e-9) - 30.0) * (60.0 + 2e-9) / (2 * travel.GRAVITY * 0.7), rel=4 * EPS)
+    assert found == pytest.approx(
+        ((30.0 + 2e-9) - 30.0) * (60.0 + 2e-9) / (2 * travel.GRAVITY * 0.7), rel=4 * EPS
+    )
 
 
-@pytest.mark.parametrize(("d", "f"), [(1e300, 1e-10), (1e-300, 1e10), (1e200, 1e-200), (1e-160, 1e-160), (1e308, 100.0)])
+@pytest.mark.parametrize(
+    ("d", "f"), [(1e300, 1e-10), (1e-300, 1e10), (1e200, 1e-200), (1e-160, 1e-160), (1e308, 100.0)]
+)
 @pytest.mark.filterwarnings("ignore::collisions.SuspectUnitsWarning")
 def test_products_do_not_overflow_where_the_answer_does_not(d, f):
     """The roots are taken before the product."""
     with mpmath.workdps(50):
         wanted = float(mpmath.sqrt(2 * mpmath.mpf(travel.GRAVITY) * mpmath.mpf(d) * mpmath.mpf(f)))
     assert travel.speed(d, drag=f) == pytest.approx(wanted, rel=3 * EPS)
-    assert travel.speed(d, drag=0, grade=-f, end_speed=2 * wanted) == pytest.approx(math.sqrt(3) * wanted, rel=6 * EPS)
+    assert travel.speed(d, drag=0, grade=-f, end_speed=2 * wanted) == pytest.approx(
+        math.sqrt(3) * wanted, rel=6 * EPS
+    )
 
 
 # Identities
@@ -182,7 +227,9 @@ def test_products_do_not_overflow_where_the_answer_does_not(d, f):
 @run_often
 @given(lengths, drags, st.floats(0.0, 0.3), speeds)
 def test_there_and_back(d, f, g, end):
-    """distance undoes speed; where hardly any speed is lost, a distance is as uncertain as the speeds: 8 eps of v**2."""
+    """distance undoes speed; where hardly any speed is lost, a distance is as uncertain as the
+    speeds: 8 eps of v**2.
+    """
     start = travel.speed(d, drag=f, grade=g, end_speed=end)
     back = travel.distance(start, drag=f, grade=g, end_speed=end)
     assert back == pytest.approx(d, abs=8 * EPS * (d + start**2 / (2 * travel.GRAVITY * (f + g))))
@@ -209,15 +256,19 @@ def test_the_time_is_the_change_of_speed_over_the_deceleration(d, f, end):
 
 
 def slid_down(slopes, end, steps=200):
-    """A point mass followed back in time over inclined planes, by the forces on it: weight, load across the plane, and drag.
+    """A point mass followed back in time over inclined planes, by the forces on it: weight, load
+    across the plane, and drag.
 
-    Of each slope drag, grade and duration, the last one first. Plan distances, speed, and how long it took; Runge-Kutta, which is
-    exact where a force is constant.
+    Of each slope drag, grade and duration, the last one first. Plan distances, speed, and how long
+    it took; Runge-Kutta, which is exact where a force is constant.
     """
     speed, plans = end, []
     for drag, grade, duration in slopes:
         angle = math.atan(grade)
-        along, across = np.array([math.cos(angle), math.sin(angle)]), np.array([-math.sin(angle), math.cos(angle)])
+        along, across = (
+            np.array([math.cos(angle), math.sin(angle)]),
+            np.array([-math.sin(angle), math.cos(angle)]),
+        )
         weight = np.array([0.0, -9.80665])
         load = -(weight @ across)
 
@@ -240,24 +291,38 @@ def slid_down(slopes, end, steps=200):
 
 @pytest.mark.parametrize(
     "slopes",
-    [[(0.7, 0.1, 1.5)], [(0.6, -0.2, 2.0)], [(0.45, 0.3, 0.8), (0.7, -0.08, 1.1), (0.2, -0.25, 0.7)], [(0.0, -0.2, 3.0)]],
+    [
+        [(0.7, 0.1, 1.5)],
+        [(0.6, -0.2, 2.0)],
+        [(0.45, 0.3, 0.8), (0.7, -0.08, 1.1), (0.2, -0.25, 0.7)],
+        [(0.0, -0.2, 3.0)],
+    ],
 )
 def test_speed_time_and_distance_are_those_of_a_body_on_inclined_planes(slopes):
-    """Lengths of the plan, speeds along the slope, times over it; 200 steps of some roundings each are below 1e-12."""
+    """Lengths of the plan, speeds along the slope, times over it; 200 steps of some roundings each
+    are below 1e-12.
+    """
     end = 12.0 if slopes[0][0] else 30.0
     plans, start, duration = slid_down(slopes, end)
-    ground = {"drag": [drag for drag, _, _ in slopes][::-1], "grade": [grade for _, grade, _ in slopes][::-1]}
+    ground = {
+        "drag": [drag for drag, _, _ in slopes][::-1],
+        "grade": [grade for _, grade, _ in slopes][::-1],
+    }
     assert travel.speed(plans[::-1], **ground, end_speed=end) == pytest.approx(start, rel=1e-12)
     assert travel.time(plans[::-1], **ground, end_speed=end) == pytest.approx(duration, rel=1e-12)
     if len(slopes) == 1:
         drag, grade, _ = slopes[0]
         found = travel.distance(start, drag=drag, grade=grade, end_speed=end)
         # From a difference of speeds: of two squares, each of a speed that is off by 1e-12.
-        assert found == pytest.approx(plans[0], rel=4e-12 * (start**2 + end**2) / abs(start**2 - end**2))
+        assert found == pytest.approx(
+            plans[0], rel=4e-12 * (start**2 + end**2) / abs(start**2 - end**2)
+        )
 
 
 def test_times_and_yaw_rate_of_a_path_are_those_over_the_slope():
-    """A body that yaws evenly down two slopes: its own times and rate; 1e-12 as above, and sums and quotients of them."""
+    """A body that yaws evenly down two slopes: its own times and rate; 1e-12 as above, and sums and
+    quotients of them.
+    """
     slopes = [(0.7, -0.2, 1.2), (0.7, 0.15, 0.9)]
     (last, first), start, duration = slid_down(slopes, 5.0)
     run = travel.path(
@@ -275,13 +340,17 @@ def test_times_and_yaw_rate_of_a_path_are_those_over_the_slope():
 
 
 def test_order_of_surfaces_matters_to_the_time_only():
-    """The speed at the start is the same either way; ice first takes less time, because it is crossed fast."""
+    """The speed at the start is the same either way; ice first takes less time, because it is
+    crossed fast.
+    """
     one = {"distance": [10.0, 20.0], "drag": [0.7, 0.2]}
     other = {"distance": [20.0, 10.0], "drag": [0.2, 0.7]}
     assert travel.speed(one["distance"], drag=one["drag"]) == pytest.approx(
         travel.speed(other["distance"], drag=other["drag"]), rel=4 * EPS
     )
-    assert travel.time(one["distance"], drag=one["drag"]) > 1.2 * travel.time(other["distance"], drag=other["drag"])
+    assert travel.time(one["distance"], drag=one["drag"]) > 1.2 * travel.time(
+        other["distance"], drag=other["drag"]
+    )
 
 
 def test_nothing_happens_over_no_distance():
@@ -291,7 +360,8 @@ def test_nothing_happens_over_no_distance():
     assert travel.speed(0, drag=0.7, end_speed=3) == 3.0
     assert travel.distance(3.0, drag=0.7, end_speed=3.0) == 0.0
     assert travel.time(10.0, drag=0, end_speed=5.0) == 2.0
-    # Coasting keeps the very bits, which the root of 2.0 squared would not; and no distance is not minus nothing.
+    # Coasting keeps the very bits, which the root of 2.0 squared would not; and no distance is not
+    # minus nothing.
     assert travel.speed(10.0, drag=0, end_speed=2.0) == 2.0
     assert math.copysign(1.0, travel.distance(3.0, drag=0.1, grade=-0.2, end_speed=3.0)) == 1.0
 
@@ -300,7 +370,9 @@ def test_nothing_happens_over_no_distance():
 
 
 def test_units_of_every_kind():
-    """US units, percent, decelerations, and Quantities of another registry give the same floats; 4 eps for the factors."""
+    """US units, percent, decelerations, and Quantities of another registry give the same floats; 4
+    eps for the factors.
+    """
     other = other_registry()
     wanted = travel.speed(60 * FOOT, drag=0.62, grade=-0.05, end_speed=30 * MPH)
     for arguments in (
@@ -311,8 +383,18 @@ def test_units_of_every_kind():
             "grade": -0.05,
             "end_speed": "44 ft/s",
         },
-        {"distance": "60 ft", "drag": f"{0.62 * travel.GRAVITY!r} m/s**2", "grade": -0.05, "end_speed": "30 mph"},
-        {"distance": "60 ft", "drag": other.Quantity(0.62, "g_0"), "grade": -0.05, "end_speed": "30 mph"},
+        {
+            "distance": "60 ft",
+            "drag": f"{0.62 * travel.GRAVITY!r} m/s**2",
+            "grade": -0.05,
+            "end_speed": "30 mph",
+        },
+        {
+            "distance": "60 ft",
+            "drag": other.Quantity(0.62, "g_0"),
+            "grade": -0.05,
+            "end_speed": "30 mph",
+        },
         {
             "distance": "60 ft",
             "drag": pint.Quantity(0.62 * travel.GRAVITY / FOOT, "ft/s**2"),
@@ -321,15 +403,17 @@ def test_units_of_every_kind():
         },
     ):
         assert travel.speed(**arguments) == pytest.approx(wanted, rel=4 * EPS)
-    assert travel.speed([other.Quantity(60, "ft")], drag=["62 %"], grade=["-5 %"], end_speed="30 mph") == pytest.approx(
-        wanted, rel=4 * EPS
-    )
+    assert travel.speed(
+        [other.Quantity(60, "ft")], drag=["62 %"], grade=["-5 %"], end_speed="30 mph"
+    ) == pytest.approx(wanted, rel=4 * EPS)
 
 
 def test_a_deceleration_is_taken_on_the_level():
     """6.5 m/s**2 up a grade of 10 % slows by 6.5 + 0.98 m/s**2."""
     rate = 6.5 + 0.1 * travel.GRAVITY
-    assert travel.distance(20.0, drag="6.5 m/s**2", grade=0.1) == pytest.approx(200.0 / rate, rel=4 * EPS)
+    assert travel.distance(20.0, drag="6.5 m/s**2", grade=0.1) == pytest.approx(
+        200.0 / rate, rel=4 * EPS
+    )
 
 
 @pytest.mark.parametrize(
@@ -337,10 +421,16 @@ def test_a_deceleration_is_taken_on_the_level():
     [
         (
             {"drag": 6.9},
-            "drag = 6.9 is read as a fraction of gravity; if another unit was meant, write '6.9 m/s**2' or '6.9 %'",
+            (
+                "drag = 6.9 is read as a fraction of gravity; if another unit was meant, write "
+                "'6.9 m/s**2' or '6.9 %'"
+            ),
         ),
         ({"drag": np.array([0.7, 70.0, math.nan])}, "'70 m/s**2' or '70 %'"),
-        ({"drag": 0.7, "grade": -4}, "grade = 4 is read as the rise over the run; if another unit was meant, write '4 %'"),
+        (
+            {"drag": 0.7, "grade": -4},
+            "grade = 4 is read as the rise over the run; if another unit was meant, write '4 %'",
+        ),
     ],
 )
 @pytest.mark.filterwarnings("ignore:1 of 3 cases")
@@ -386,23 +476,66 @@ def refusal(call):
             1,
             {"drag": "5 m"},
             "bad_units",
-            "drag: cannot read '5 m' as a drag factor or a deceleration; write 0.7, '70 %', '6.9 m/s**2'",
+            (
+                "drag: cannot read '5 m' as a drag factor or a deceleration; write 0.7, '70 %', "
+                "'6.9 m/s**2'"
+            ),
         ),
         (1, {"drag": "x"}, "bad_units", "'22.5 ft/s**2'"),
         (1, {"drag": 0.7, "grade": "3 deg"}, "bad_units", "grade: '3 deg'"),
         ([], {"drag": 0.7}, "bad_shape", "distance is an empty list"),
         (5.0, {"drag": []}, "bad_shape", "drag is a list"),
-        ([1, 2, 3], {"drag": [0.7, 0.5]}, "bad_shape", "drag is a list of 2, and there are 3 segments"),
-        ((1, 2), {"drag": 0.7, "grade": (0.1,)}, "bad_shape", "grade is a tuple of 1, and there are 2 segments"),
-        (1, {"drag": [0.7, 0.5]}, "bad_shape", "distance is one surface; give distance as a list too"),
+        (
+            [1, 2, 3],
+            {"drag": [0.7, 0.5]},
+            "bad_shape",
+            "drag is a list of 2, and there are 3 segments",
+        ),
+        (
+            (1, 2),
+            {"drag": 0.7, "grade": (0.1,)},
+            "bad_shape",
+            "grade is a tuple of 1, and there are 2 segments",
+        ),
+        (
+            1,
+            {"drag": [0.7, 0.5]},
+            "bad_shape",
+            "distance is one surface; give distance as a list too",
+        ),
         ([1, [2, 3]], {"drag": 0.7}, "bad_shape", "distance[1] is a list, and takes one value"),
-        (1, {"drag": 0.7, "end_speed": [1, 2]}, "bad_shape", "end_speed is a list, and takes one value"),
+        (
+            1,
+            {"drag": 0.7, "end_speed": [1, 2]},
+            "bad_shape",
+            "end_speed is a list, and takes one value",
+        ),
         (np.ones(3), {"drag": np.ones(2)}, "bad_shape", "distance (3,), drag (2,)"),
         ([np.ones(3), 1.0], {"drag": np.ones(2)}, "bad_shape", "distance[0] (3,), drag (2,)"),
-        (10, {"drag": 0}, "contradictory", "nothing slows the vehicle there, and it is to come to rest"),
-        (10, {"drag": 0.02, "grade": -0.05}, "contradictory", "square of its speed before would be -5.88399 m2/s2"),
-        ([5, 10], {"drag": 0.1, "grade": [0, -0.2], "end_speed": 1}, "contradictory", "distance[1]: drag + grade is -0.1"),
-        (1e308, {"drag": 1.0, "end_speed": 1.7e308, "grade": 1e308}, "out_of_range", "too large or too small"),
+        (
+            10,
+            {"drag": 0},
+            "contradictory",
+            "nothing slows the vehicle there, and it is to come to rest",
+        ),
+        (
+            10,
+            {"drag": 0.02, "grade": -0.05},
+            "contradictory",
+            "square of its speed before would be -5.88399 m2/s2",
+        ),
+        (
+            [5, 10],
+            {"drag": 0.1, "grade": [0, -0.2], "end_speed": 1},
+            "contradictory",
+            "distance[1]: drag + grade is -0.1",
+        ),
+        (
+            1e308,
+            {"drag": 1.0, "end_speed": 1.7e308, "grade": 1e308},
+            "out_of_range",
+            "too large or too small",
+        ),
         (1e308, {"drag": 9e306, "end_speed": 1.7e308}, "out_of_range", "too large or too small"),
     ],
 )
@@ -417,11 +550,15 @@ def test_refused_run_outs(distance, rest, code, said):
 
 
 def test_the_refusal_says_by_how_much():
-    """A vehicle that ends at 1 m/s after 10 m down a net grade of 3 %: 1 - 2 g 0.03 10 = -4.88399."""
+    """A vehicle that ends at 1 m/s after 10 m down a net grade of 3 %: 1 - 2 g 0.03 10
+    = -4.88399.
+    """
     error = refusal(lambda: travel.speed(10, drag=0.02, grade=-0.05, end_speed=1.0))
     assert isinstance(error, col.NoSolutionError)
     # -0.03 is the rounded sum of two decimals, 1 eps of 0.05 beside it.
-    assert error.fields["missing"] == pytest.approx(1.0 - 2 * travel.GRAVITY * 0.03 * 10, rel=16 * EPS)
+    assert error.fields["missing"] == pytest.approx(
+        1.0 - 2 * travel.GRAVITY * 0.03 * 10, rel=16 * EPS
+    )
 
 
 def test_all_wrong_arguments_are_named_at_once():
@@ -438,11 +575,21 @@ def test_all_wrong_arguments_are_named_at_once():
         (10, {"drag": 0}, "never_stops", "the vehicle never stops: drag + grade is 0"),
         (10, {"drag": 0.1, "grade": -0.1, "end_speed": 2}, "never_stops", "never slows to 2 m/s"),
         (10, {"drag": 0.1, "grade": -0.2}, "never_stops", "drag + grade is -0.1"),
-        (10, {"drag": 0.7, "end_speed": 12}, "contradictory", "end_speed 12 m/s is above speed 10 m/s"),
+        (
+            10,
+            {"drag": 0.7, "end_speed": 12},
+            "contradictory",
+            "end_speed 12 m/s is above speed 10 m/s",
+        ),
         (10, {"drag": 0, "end_speed": 12}, "contradictory", "does not speed the vehicle up"),
         (10, {"drag": 0, "end_speed": 10}, "any_distance", "keeps its 10 m/s over any distance"),
         (-10, {"drag": 0.7}, "negative_speed", "speed must be >= 0"),
-        ([10, 20], {"drag": 0.7}, "bad_shape", "speed is a list, and takes one value; many cases go in a numpy array"),
+        (
+            [10, 20],
+            {"drag": 0.7},
+            "bad_shape",
+            "speed is a list, and takes one value; many cases go in a numpy array",
+        ),
         (10, {"drag": [0.7]}, "bad_shape", "drag is a list, and takes one value"),
         (np.ones(3), {"drag": np.ones(2)}, "bad_shape", "speed (3,), drag (2,)"),
         (1e200, {"drag": 0.7}, "out_of_range", "too large"),
@@ -460,7 +607,9 @@ def test_refused_distances(speed, rest, code, said):
 
 
 def test_a_batch_is_its_cases():
-    """Every argument an array, broadcast, against the scalar calls; math and numpy differ by an ulp in hypot."""
+    """Every argument an array, broadcast, against the scalar calls; math and numpy differ by an ulp
+    in hypot.
+    """
     d, f = np.linspace(1, 60, 7), np.array([[0.3], [0.8]])
     g, end = np.array([[[-0.1]], [[0.0]], [[0.1]]]), np.linspace(0, 20, 7)
     for ask in (travel.speed, travel.time):
@@ -470,7 +619,9 @@ def test_a_batch_is_its_cases():
         for index in np.ndindex(3, 2, 7):
             case = [float(np.broadcast_to(x, (3, 2, 7))[index]) for x in (d, f, g, end)]
             one = ask(case[0], drag=case[1], grade=case[2], end_speed=case[3])
-            two = ask([case[0], 2.0], drag=[case[1], "5 m/s**2"], grade=[case[2], 0.0], end_speed=case[3])
+            two = ask(
+                [case[0], 2.0], drag=[case[1], "5 m/s**2"], grade=[case[2], 0.0], end_speed=case[3]
+            )
             assert batch[index] == pytest.approx(one, rel=4 * EPS)
             assert parts[index] == pytest.approx(two, rel=4 * EPS)
     back = travel.distance(travel.speed(d, drag=f, end_speed=end), drag=f, end_speed=end)
@@ -481,7 +632,9 @@ def test_cases_without_an_answer_are_nan_and_counted_once():
     """Their neighbours are untouched."""
     d = np.array([10.0, -1.0, math.nan, 10.0, 10.0, math.inf])
     f = np.array([0.7, 0.7, 0.7, 0.0, -0.1, 0.7])
-    with pytest.warns(col.CollisionsWarning, match="5 of 6 cases cannot be answered and are NaN") as caught:
+    with pytest.warns(
+        col.CollisionsWarning, match="5 of 6 cases cannot be answered and are NaN"
+    ) as caught:
         found = travel.speed(d, drag=f)
     assert len(caught) == 1
     assert caught[0].filename == __file__
@@ -497,7 +650,9 @@ def test_cases_without_an_answer_are_nan_and_counted_once():
     assert not found.flags.writeable
     assert not travel.speed(d[:1], drag=f[:1]).flags.writeable
     # Arrays of their own, where one number is that of every case.
-    same = travel.path([(0.0, 0.0), (5.0, 0.5)], [0.1, 0.2], friction=np.array([0.5, 0.6]), lock=1.0)
+    same = travel.path(
+        [(0.0, 0.0), (5.0, 0.5)], [0.1, 0.2], friction=np.array([0.5, 0.6]), lock=1.0
+    )
     assert same.distance.flags.c_contiguous
     assert not same.distance.flags.writeable
     with pytest.warns(col.CollisionsWarning, match="5 of 6"):
@@ -506,14 +661,19 @@ def test_cases_without_an_answer_are_nan_and_counted_once():
 
 def test_one_reason_may_come_from_several_arguments():
     """NaN in two arrays, in two cases."""
-    with pytest.warns(col.CollisionsWarning, match=re.escape("2 of 3 cases cannot be answered and are NaN (2 not_finite)")):
+    with pytest.warns(
+        col.CollisionsWarning,
+        match=re.escape("2 of 3 cases cannot be answered and are NaN (2 not_finite)"),
+    ):
         travel.speed(np.array([1.0, math.nan, 1.0]), drag=np.array([0.7, 0.7, math.inf]))
 
 
 def test_distances_without_an_answer_are_nan():
     """Also those that only one argument as an array makes many."""
     with pytest.warns(col.CollisionsWarning, match="4 of 5 cases") as caught:
-        found = travel.distance(10.0, drag=0.1, grade=np.array([0.0, -0.1, -0.2, math.nan, -math.inf]), end_speed=5)
+        found = travel.distance(
+            10.0, drag=0.1, grade=np.array([0.0, -0.1, -0.2, math.nan, -math.inf]), end_speed=5
+        )
     assert caught[0].message.fields["counts"] == {"not_finite": 2, "contradictory": 2}
     assert np.isnan(found).tolist() == [False, True, True, True, True]
     with pytest.warns(col.CollisionsWarning, match="1 of 2 cases"):
@@ -523,7 +683,9 @@ def test_distances_without_an_answer_are_nan():
 def test_a_wrong_scalar_is_wrong_for_every_case():
     """It raises, whatever the arrays beside it."""
     assert refusal(lambda: travel.speed(np.ones(3), drag=-1.0)).code == "negative_drag"
-    assert refusal(lambda: travel.speed([np.ones(3), 10.0], drag=[0.7, 0.0])).code == "contradictory"
+    assert (
+        refusal(lambda: travel.speed([np.ones(3), 10.0], drag=[0.7, 0.0])).code == "contradictory"
+    )
 
 
 def test_arrays_stay_what_they_are():
@@ -541,46 +703,69 @@ def test_arrays_stay_what_they_are():
 
 
 def test_straight_with_locked_wheels_it_is_the_speed():
-    """Whatever the heading, locked wheels drag alike; 6 eps for the sine and cosine of the crab angle."""
+    """Whatever the heading, locked wheels drag alike; 6 eps for the sine and cosine of the crab
+    angle.
+    """
     for heading in (0.0, 0.3, math.pi / 2, 2.5, -3.0):
-        run = travel.path(STRAIGHT, [heading] * 3, friction=[0.7, 0.5], lock=1, grade=[0.0, 0.05], end_speed=4.0)
+        run = travel.path(
+            STRAIGHT, [heading] * 3, friction=[0.7, 0.5], lock=1, grade=[0.0, 0.05], end_speed=4.0
+        )
         wanted = travel.speed([5.0, 4.0], drag=[0.7, 0.5], grade=[0.0, 0.05], end_speed=4.0)
         assert run.speed == run.speeds[0] == pytest.approx(wanted, rel=6 * EPS)
         assert run.time == pytest.approx(
             travel.time([5.0, 4.0], drag=[0.7, 0.5], grade=[0.0, 0.05], end_speed=4.0), rel=6 * EPS
         )
-        assert (run.course, run.yaw_rate, run.course_difference, run.distance) == (0.0, 0.0, 0.0, 9.0)
+        assert (run.course, run.yaw_rate, run.course_difference, run.distance) == (
+            0.0,
+            0.0,
+            0.0,
+            9.0,
+        )
         assert run.speeds[-1] == 4.0
 
 
 def most_work(crab, friction, lock):
-    """The largest work against the slip of a force in the friction circle that the brake can hold, by trying 200 001 forces."""
+    """The largest work against the slip of a force in the friction circle that the brake can hold,
+    by trying 200 001 forces.
+    """
     angle = np.linspace(0.0, 2.0 * math.pi, 200_001)
     held = np.abs(np.cos(angle)) <= lock + 1e-15
-    ends = np.array([math.acos(lock), -math.acos(lock), math.pi - math.acos(lock), math.pi + math.acos(lock)])
+    ends = np.array(
+        [math.acos(lock), -math.acos(lock), math.pi - math.acos(lock), math.pi + math.acos(lock)]
+    )
     angle = np.concatenate([angle[held], ends])
-    return float(np.max(friction * (np.cos(angle) * math.cos(crab) + np.sin(angle) * math.sin(crab))))
+    return float(
+        np.max(friction * (np.cos(angle) * math.cos(crab) + np.sin(angle) * math.sin(crab)))
+    )
 
 
 @pytest.mark.parametrize("lock", [0.0, 0.1, 0.35, 0.8, 1.0])
 @pytest.mark.parametrize("degrees", [0, 10, 45, 90, 120, 180, 250, -60])
 def test_the_drag_is_the_most_work_of_what_the_brake_and_the_circle_allow(lock, degrees):
-    """The same force by search; the step of 3e-5 rad misses at most its square over 8 of the maximum."""
+    """The same force by search; the step of 3e-5 rad misses at most its square over 8 of the
+    maximum.
+    """
     crab = math.radians(degrees)
     wanted = most_work(crab, 0.8, lock)
     run = travel.path([(0, 0), (0, 10)], ["90 deg"] * 2, friction=0.8, lock=1, end_speed=5)
     assert run.drags == (0.8,)
-    run = travel.path([(0, 0), (10, 0)], [f"{degrees} deg"] * 2, friction=0.8, lock=lock, end_speed=5)
+    run = travel.path(
+        [(0, 0), (10, 0)], [f"{degrees} deg"] * 2, friction=0.8, lock=lock, end_speed=5
+    )
     assert run.drags[0] == pytest.approx(wanted, abs=2e-10)
     assert math.cos(run.crab_angles[0]) == pytest.approx(math.cos(crab), abs=2 * EPS)
     assert math.sin(run.crab_angles[0]) == pytest.approx(math.sin(crab), abs=4 * EPS)
 
 
 def test_the_drag_has_the_limits_published_for_the_crash_equation():
-    """Rose, Rollover Accident Reconstruction, CRASH Model: the braking level at no sideslip, 1 at 90 deg or full braking."""
+    """Rose, Rollover Accident Reconstruction, CRASH Model: the braking level at no sideslip, 1 at
+    90 deg or full braking.
+    """
 
     def normalised(degrees, lock):
-        (drag,) = travel.path([(0, 0), (10, 0)], [f"{degrees} deg"] * 2, friction=0.8, lock=lock, end_speed=1).drags
+        (drag,) = travel.path(
+            [(0, 0), (10, 0)], [f"{degrees} deg"] * 2, friction=0.8, lock=lock, end_speed=1
+        ).drags
         return drag / 0.8
 
     for lock in (0.0, 0.2, 0.6):
@@ -594,11 +779,14 @@ def test_the_drag_has_the_limits_published_for_the_crash_equation():
         assert normalised(degrees, 0) == pytest.approx(math.sin(math.radians(degrees)), abs=2 * EPS)
 
 
-def slide(lock, friction=0.7, start=18.0, yaw_rate=3.0, course=0.4, bend=0.02, duration=1.4, steps=2800):
-    """A body integrated forward: its path bends by ``bend`` rad/m, its yaw rate falls, and its braked tyres drag.
+def slide(
+    lock, friction=0.7, start=18.0, yaw_rate=3.0, course=0.4, bend=0.02, duration=1.4, steps=2800
+):
+    """A body integrated forward: its path bends by ``bend`` rad/m, its yaw rate falls, and its
+    braked tyres drag.
 
-    Classical Runge-Kutta; with this step its error is below 1e-9, which halving the step confirms. The vehicle points to the left
-    of its way throughout, where the drag has no kink.
+    Classical Runge-Kutta; with this step its error is below 1e-9, which halving the step confirms.
+    The vehicle points to the left of its way throughout, where the drag has no kink.
     """
 
     def heading(t):
@@ -628,28 +816,46 @@ def slide(lock, friction=0.7, start=18.0, yaw_rate=3.0, course=0.4, bend=0.02, d
 
 @pytest.mark.parametrize("lock", [0.0, 0.3, 1.0])
 def test_a_body_integrated_forward_is_found_backward(lock):
-    """Without smoothing the error falls fourfold when the points are twice as many, and is small with 28 segments."""
+    """Without smoothing the error falls fourfold when the points are twice as many, and is small
+    with 28 segments.
+    """
     states, headings = slide(lock)
     finer, _ = slide(lock, steps=5600)
     assert np.max(np.abs(finer[::2] - states)) < 1e-9
     errors = []
     for every in (400, 200, 100, 50):
         run = travel.path(
-            states[::every, :2], headings[::every], friction=0.7, lock=lock, end_speed=float(states[-1, 2]), window=0
+            states[::every, :2],
+            headings[::every],
+            friction=0.7,
+            lock=lock,
+            end_speed=float(states[-1, 2]),
+            window=0,
         )
-        errors.append([abs(run.speed - 18.0), abs(run.course - 0.4), abs(run.yaw_rate - 3.0), abs(run.time - 1.4)])
-    # The crab angle is a mean, the chord shorter than the arc, the tangents parabolas: all of second order, a factor of 16 in two
-    # steps in the limit. 10 allows for the terms of higher order; a method of first order would have 4.
+        errors.append(
+            [
+                abs(run.speed - 18.0),
+                abs(run.course - 0.4),
+                abs(run.yaw_rate - 3.0),
+                abs(run.time - 1.4),
+            ]
+        )
+    # The crab angle is a mean, the chord shorter than the arc, the tangents parabolas: all of
+    # second order, a factor of 16 in two steps in the limit. 10 allows for the terms of higher
+    # order; a method of first order would have 4.
     coarse, middle, fine, finest = np.array(errors)
     assert np.all(fine < coarse / 10), errors
     assert np.all(finest < middle / 10), errors
-    # With 28 segments the crab angle changes by at most 2.5 / 28 in each, so the drag of its mean is off by 0.09**2 / 24 = 3.4e-4:
-    # of at most 9.6 m/s lost, of the 1.4 s, and of the 3 rad/s. The tangent by 0.9 m * 1.8 m * 0.02**2 / 6.
+    # With 28 segments the crab angle changes by at most 2.5 / 28 in each, so the drag of its mean
+    # is off by 0.09**2 / 24 = 3.4e-4: of at most 9.6 m/s lost, of the 1.4 s, and of the 3 rad/s.
+    # The tangent by 0.9 m * 1.8 m * 0.02**2 / 6.
     assert np.all(fine < [3.3e-3, 1.1e-4, 1e-3, 4.8e-4]), errors
 
 
 def test_locked_wheels_on_an_arc_against_the_closed_form():
-    """A constant deceleration on a circle: all is known in closed form, and the speed depends on the length alone."""
+    """A constant deceleration on a circle: all is known in closed form, and the speed depends on
+    the length alone.
+    """
     radius, start, friction = 30.0, 15.0, 0.6
     rate = friction * 9.80665
     total = start / rate
@@ -658,7 +864,8 @@ def test_locked_wheels_on_an_arc_against_the_closed_form():
     points = np.column_stack([radius * np.sin(s / radius), radius * (1.0 - np.cos(s / radius))])
     headings = 0.5 + 4.0 * (t - t * t / (2 * total))
     run = travel.path(points, headings, friction=friction, lock=1, window=0)
-    # Chords are shorter than their arcs by (L / R)**2 / 24 of the longest L = 0.96 m: 4e-5 of the length, half of it of speed.
+    # Chords are shorter than their arcs by (L / R)**2 / 24 of the longest L = 0.96 m: 4e-5 of the
+    # length, half of it of speed.
     assert run.speed == pytest.approx(start, rel=3e-5)
     assert run.time == pytest.approx(total, rel=1e-4)
     # The parabola misses the tangent by the third derivative: L1 (L1 + L2) / 6 / R**2 = 3e-4 rad.
@@ -681,10 +888,18 @@ def test_two_points_have_the_tangents_of_the_chord():
 
 
 def test_the_tangents_hold_for_points_at_uneven_distances():
-    """A heading that is a parabola in time is found exactly; a flat parabola of the path to its slope times its square."""
+    """A heading that is a parabola in time is found exactly; a flat parabola of the path to its
+    slope times its square.
+    """
     rate, times = 0.7 * travel.GRAVITY, np.array([0.0, 0.3, 1.0, 1.4])
     points = np.column_stack([15.0 * times - rate * times**2 / 2, np.zeros(4)])
-    run = travel.path(points, 0.2 + 2.0 * times - 0.5 * times**2, friction=0.7, lock=1, end_speed=15.0 - rate * 1.4)
+    run = travel.path(
+        points,
+        0.2 + 2.0 * times - 0.5 * times**2,
+        friction=0.7,
+        lock=1,
+        end_speed=15.0 - rate * 1.4,
+    )
     assert run.yaw_rate == pytest.approx(2.0, rel=64 * EPS)
     x = np.array([0.0, 1.0, 4.0, 5.0])
     run = travel.path(np.column_stack([x, 1e-3 * x**2]), np.zeros(4), **FULL_LOCK)
@@ -703,19 +918,25 @@ def test_headings_count_on_through_turns():
     """A full turn more or less on all of them changes nothing, and one within them is a spin."""
     points = [(0, 0), (4, 0), (8, 0), (12, 0)]
     once = travel.path(points, ["0 deg", "80 deg", "170 deg", "250 deg"], friction=0.7, lock=0.2)
-    again = travel.path(points, ["720 deg", "800 deg", "890 deg", "970 deg"], friction=0.7, lock=0.2)
+    again = travel.path(
+        points, ["720 deg", "800 deg", "890 deg", "970 deg"], friction=0.7, lock=0.2
+    )
     # 4 pi more in a heading rounds it by 2e-15, and crab angles and turns with it.
     assert again.drags == pytest.approx(once.drags, abs=1e-14)
     assert again.yaw_rate == pytest.approx(once.yaw_rate, abs=1e-13)
     assert once.yaw_rate > 0
-    other_way = travel.path(points, ["0 deg", "-80 deg", "-170 deg", "-250 deg"], friction=0.7, lock=0.2)
+    other_way = travel.path(
+        points, ["0 deg", "-80 deg", "-170 deg", "-250 deg"], friction=0.7, lock=0.2
+    )
     assert other_way.yaw_rate == -once.yaw_rate
     assert other_way.speed == once.speed
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         travel.path(points, [6.0, 7.0, 8.0, 9.0], friction=0.7, lock=0.2)
         travel.path(points, np.array([6.0, 7.0, 8.0, 9.0]), friction=0.7, lock=0.2)
-    with pytest.warns(col.SuspectUnitsWarning, match=re.escape("headings[0] = 90 is read as rad")) as caught:
+    with pytest.warns(
+        col.SuspectUnitsWarning, match=re.escape("headings[0] = 90 is read as rad")
+    ) as caught:
         travel.path(points, [90, 91, 92, 93], friction=0.7, lock=0.2)
     assert len(caught) == 1
 
@@ -731,34 +952,59 @@ def test_the_scene_may_be_turned_and_moved():
     assert there.course == pytest.approx(here.course + math.pi / 2, rel=8 * EPS)
 
 
-PATH_PARTS = ("speed", "course", "yaw_rate", "time", "distance", "straight_course", "course_difference")
+PATH_PARTS = (
+    "speed",
+    "course",
+    "yaw_rate",
+    "time",
+    "distance",
+    "straight_course",
+    "course_difference",
+)
 
 
 def test_a_batch_of_paths_is_each_of_them_alone():
-    """Arrays in place of single numbers: every case as if it were asked alone, in the shape they broadcast to."""
+    """Arrays in place of single numbers: every case as if it were asked alone, in the shape they
+    broadcast to.
+    """
     generator = np.random.default_rng(8)
     xs = np.cumsum(generator.uniform(1.0, 6.0, (4, 5)), axis=0)
     ys = generator.uniform(-1.0, 1.0, (4, 5))
     turned = np.cumsum(generator.uniform(-1.4, 1.4, (4, 5)), axis=0)
     friction, lock = generator.uniform(0.5, 0.8, 5), generator.uniform(0.1, 1.0, (2, 1))
-    run = travel.path(list(zip(xs, ys, strict=True)), list(turned), friction=friction, lock=lock, grade=[0.0, 0.01, 0.0])
+    run = travel.path(
+        list(zip(xs, ys, strict=True)),
+        list(turned),
+        friction=friction,
+        lock=lock,
+        grade=[0.0, 0.01, 0.0],
+    )
     assert run.speed.shape == (2, 5)
     assert not run.speed.flags.writeable
     for i, j in np.ndindex(2, 5):
         points = list(zip(xs[:, j].tolist(), ys[:, j].tolist(), strict=True))
         alone = travel.path(
-            points, turned[:, j].tolist(), friction=float(friction[j]), lock=float(lock[i, 0]), grade=[0, 0.01, 0]
+            points,
+            turned[:, j].tolist(),
+            friction=float(friction[j]),
+            lock=float(lock[i, 0]),
+            grade=[0, 0.01, 0],
         )
         for name in PATH_PARTS:
-            # numpy and math differ in the last bit of sine and arctangent; a yaw rate is a difference of two rates.
-            assert getattr(run, name)[i, j] == pytest.approx(getattr(alone, name), rel=64 * EPS, abs=64 * EPS), name
+            # numpy and math differ in the last bit of sine and arctangent; a yaw rate is a
+            # difference of two rates.
+            assert getattr(run, name)[i, j] == pytest.approx(
+                getattr(alone, name), rel=64 * EPS, abs=64 * EPS
+            ), name
         for name in ("speeds", "crab_angles", "drags"):
             many = [part[i, j] for part in getattr(run, name)]
             assert many == pytest.approx(getattr(alone, name), rel=64 * EPS, abs=64 * EPS), name
 
 
 def test_refused_paths_of_a_batch_leave_their_neighbours():
-    """A case that cannot be answered is NaN in every answer, counted by its kind, and the first stays as it is alone."""
+    """A case that cannot be answered is NaN in every answer, counted by its kind, and the first
+    stays as it is alone.
+    """
     good = travel.path([(0.0, 0.0), (5.0, 1.0)], [0.0, 1.0], friction=0.7, lock=0.5)
     #        good  coincident  turned  friction  lock  end_speed  never stops
     x = np.array([5.0, 0.0, 5.0, 5.0, 5.0, 5.0, 5.0, math.nan])
@@ -768,7 +1014,9 @@ def test_refused_paths_of_a_batch_leave_their_neighbours():
     lock = np.array([0.5, 0.5, 0.5, 0.5, 1.1, 0.5, 0.5, 0.5])
     end = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0])
     with pytest.warns(col.CollisionsWarning) as caught:
-        run = travel.path([(0.0, 0.0), (x, y)], [0.0, turn], friction=friction, lock=lock, end_speed=end)
+        run = travel.path(
+            [(0.0, 0.0), (x, y)], [0.0, turn], friction=friction, lock=lock, end_speed=end
+        )
     refused = [one.message for one in caught if one.message.code == "refused_cases"]
     assert refused[0].fields["counts"] == {
         "not_finite": 1,
@@ -791,7 +1039,9 @@ def test_paths_in_units_of_every_kind():
     other = other_registry()
     points, headings = [(0, 0), (20, -5), (40, -8)], [0, 70, 130]
     metres = [(x * FOOT, y * FOOT) for x, y in points]
-    wanted = travel.path(metres, [f"{h} deg" for h in headings], friction=0.7, lock=0.2, end_speed=5 * MPH)
+    wanted = travel.path(
+        metres, [f"{h} deg" for h in headings], friction=0.7, lock=0.2, end_speed=5 * MPH
+    )
     for places in (
         np.array(metres),
         other.Quantity(points, "ft"),
@@ -805,7 +1055,9 @@ def test_paths_in_units_of_every_kind():
             [other.Quantity(h, "deg") for h in headings],
             tuple(math.radians(h) for h in headings),
         ):
-            run = travel.path(places, turned, friction="70 %", lock=["20 %", 0.2], grade="0 %", end_speed="5 mph")
+            run = travel.path(
+                places, turned, friction="70 %", lock=["20 %", 0.2], grade="0 %", end_speed="5 mph"
+            )
             assert run.speed == pytest.approx(wanted.speed, rel=8 * EPS)
             assert run.yaw_rate == pytest.approx(wanted.yaw_rate, rel=16 * EPS)
             assert run.course == pytest.approx(wanted.course, rel=8 * EPS)
@@ -814,17 +1066,32 @@ def test_paths_in_units_of_every_kind():
 @pytest.mark.parametrize(
     ("points", "headings", "rest", "code", "said"),
     [
-        ([(0, 0)], [0], FULL_LOCK, "too_few_points", "points holds 1, and a path needs at least two"),
+        (
+            [(0, 0)],
+            [0],
+            FULL_LOCK,
+            "too_few_points",
+            "points holds 1, and a path needs at least two",
+        ),
         ([], [], FULL_LOCK, "too_few_points", "points holds 0"),
         (
             3.0,
             [0, 0],
             FULL_LOCK,
             "bad_shape",
-            "points is one number; give a list with one for each point, or an array of shape (n, 2)",
+            (
+                "points is one number; give a list with one for each point, or an array of shape "
+                "(n, 2)"
+            ),
         ),
         (np.zeros((3, 3)), [0, 0, 0], FULL_LOCK, "bad_shape", "points is an array of shape (3, 3)"),
-        ([(0, 0), (1, 1, 1), (2, 2)], [0, 0, 0], FULL_LOCK, "bad_shape", "points[1] must be a pair (x, y), got (1, 1, 1)"),
+        (
+            [(0, 0), (1, 1, 1), (2, 2)],
+            [0, 0, 0],
+            FULL_LOCK,
+            "bad_shape",
+            "points[1] must be a pair (x, y), got (1, 1, 1)",
+        ),
         ([(0, 0), 7], [0, 0], FULL_LOCK, "bad_shape", "points[1] must be a pair (x, y), got 7"),
         (
             [(0, 0), (np.zeros(2), np.ones(3))],
@@ -834,7 +1101,13 @@ def test_paths_in_units_of_every_kind():
             "do not broadcast together: points[1][0] (2,), points[1][1] (3,)",
         ),
         ([(0, 0), (math.nan, 1)], [0, 0], FULL_LOCK, "not_finite", "points[1][0] is NaN"),
-        (np.array([[0, 0], [math.inf, 1]]), [0, 0], FULL_LOCK, "not_finite", "points[1][0] must be finite"),
+        (
+            np.array([[0, 0], [math.inf, 1]]),
+            [0, 0],
+            FULL_LOCK,
+            "not_finite",
+            "points[1][0] must be finite",
+        ),
         (
             [(0, 0), (3, 4), (3, 4)],
             [0, 0, 0],
@@ -843,26 +1116,134 @@ def test_paths_in_units_of_every_kind():
             "points[1] and points[2] are the same place (3, 4)",
         ),
         (STRAIGHT, [0, 0], FULL_LOCK, "bad_shape", "headings holds 2 and points holds 3"),
-        (STRAIGHT, 0.0, FULL_LOCK, "bad_shape", "headings is one number; give a list with one for each point"),
-        (STRAIGHT, np.zeros((3, 1)), FULL_LOCK, "bad_shape", "headings is an array of shape (3, 1)"),
+        (
+            STRAIGHT,
+            0.0,
+            FULL_LOCK,
+            "bad_shape",
+            "headings is one number; give a list with one for each point",
+        ),
+        (
+            STRAIGHT,
+            np.zeros((3, 1)),
+            FULL_LOCK,
+            "bad_shape",
+            "headings is an array of shape (3, 1)",
+        ),
         (STRAIGHT, [0, math.nan, 0], FULL_LOCK, "not_finite", "headings[1] is NaN"),
         (STRAIGHT, np.array([0, math.nan, 0]), FULL_LOCK, "not_finite", "headings[1] is NaN"),
-        (STRAIGHT, [0, [1], 0], FULL_LOCK, "bad_shape", "headings[1] is a list, and takes one value"),
-        (STRAIGHT, [0, np.zeros(2), np.zeros(3)], FULL_LOCK, "bad_shape", "do not broadcast together: headings[1] (2,)"),
-        (STRAIGHT, ["0 deg", "north", 0], FULL_LOCK, "bad_units", "headings[1]: cannot read 'north'"),
-        (STRAIGHT, ["350 deg", "10 deg", 0], FULL_LOCK, "turns_too_far", "headings[0] to headings[1] turn by -340 deg"),
-        (STRAIGHT, ["350 deg", "10 deg", 0], FULL_LOCK, "turns_too_far", "(350 deg, then 370 deg), and give points between"),
-        (STRAIGHT, [0, 30, 60], FULL_LOCK, "turns_too_far", "bare numbers are radians, so write degrees as '30 deg'"),
-        (STRAIGHT, np.array([0.0, 30.0, 60.0]), FULL_LOCK, "turns_too_far", "so write degrees as '30 deg'"),
-        (STRAIGHT, [0, 0, 0], {"friction": -0.1, "lock": 1}, "bad_friction", "friction must be >= 0, got -0.1"),
-        (STRAIGHT, [0, 0, 0], {"friction": math.inf, "lock": 1}, "not_finite", "friction must be finite, got inf"),
-        (STRAIGHT, [0, 0, 0], {"friction": pint.Quantity(math.nan), "lock": 1}, "not_finite", "friction must be finite"),
-        (STRAIGHT, [0, 0, 0], {"friction": [0.7, -1], "lock": 1}, "bad_friction", "friction[1] must be >= 0"),
-        (STRAIGHT, [0, 0, 0], {"friction": [0.7], "lock": 1}, "bad_shape", "friction is a list of 1, and there are 2 segments"),
-        (STRAIGHT, [0, 0, 0], {"friction": np.ones(2), "lock": np.ones(3)}, "bad_shape", "friction (2,)"),
-        (STRAIGHT, [0, 0, 0], {"friction": 0.7, "lock": 1.01}, "bad_fraction", "lock must be from 0 to 1, got 1.01"),
-        (STRAIGHT, [0, 0, 0], {"friction": 0.7, "lock": [1, -0.1]}, "bad_fraction", "lock[1] must be from 0 to 1"),
-        (STRAIGHT, [0, 0, 0], {"friction": 0.7, "lock": math.nan}, "bad_fraction", "lock must be from 0 to 1, got nan"),
+        (
+            STRAIGHT,
+            [0, [1], 0],
+            FULL_LOCK,
+            "bad_shape",
+            "headings[1] is a list, and takes one value",
+        ),
+        (
+            STRAIGHT,
+            [0, np.zeros(2), np.zeros(3)],
+            FULL_LOCK,
+            "bad_shape",
+            "do not broadcast together: headings[1] (2,)",
+        ),
+        (
+            STRAIGHT,
+            ["0 deg", "north", 0],
+            FULL_LOCK,
+            "bad_units",
+            "headings[1]: cannot read 'north'",
+        ),
+        (
+            STRAIGHT,
+            ["350 deg", "10 deg", 0],
+            FULL_LOCK,
+            "turns_too_far",
+            "headings[0] to headings[1] turn by -340 deg",
+        ),
+        (
+            STRAIGHT,
+            ["350 deg", "10 deg", 0],
+            FULL_LOCK,
+            "turns_too_far",
+            "(350 deg, then 370 deg), and give points between",
+        ),
+        (
+            STRAIGHT,
+            [0, 30, 60],
+            FULL_LOCK,
+            "turns_too_far",
+            "bare numbers are radians, so write degrees as '30 deg'",
+        ),
+        (
+            STRAIGHT,
+            np.array([0.0, 30.0, 60.0]),
+            FULL_LOCK,
+            "turns_too_far",
+            "so write degrees as '30 deg'",
+        ),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {"friction": -0.1, "lock": 1},
+            "bad_friction",
+            "friction must be >= 0, got -0.1",
+        ),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {"friction": math.inf, "lock": 1},
+            "not_finite",
+            "friction must be finite, got inf",
+        ),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {"friction": pint.Quantity(math.nan), "lock": 1},
+            "not_finite",
+            "friction must be finite",
+        ),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {"friction": [0.7, -1], "lock": 1},
+            "bad_friction",
+            "friction[1] must be >= 0",
+        ),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {"friction": [0.7], "lock": 1},
+            "bad_shape",
+            "friction is a list of 1, and there are 2 segments",
+        ),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {"friction": np.ones(2), "lock": np.ones(3)},
+            "bad_shape",
+            "friction (2,)",
+        ),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {"friction": 0.7, "lock": 1.01},
+            "bad_fraction",
+            "lock must be from 0 to 1, got 1.01",
+        ),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {"friction": 0.7, "lock": [1, -0.1]},
+            "bad_fraction",
+            "lock[1] must be from 0 to 1",
+        ),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {"friction": 0.7, "lock": math.nan},
+            "bad_fraction",
+            "lock must be from 0 to 1, got nan",
+        ),
         (
             STRAIGHT,
             [0, 0, 0],
@@ -870,10 +1251,34 @@ def test_paths_in_units_of_every_kind():
             "bad_shape",
             "lock is a list of 3, and there are 2 segments",
         ),
-        (STRAIGHT, [0, 0, 0], {**FULL_LOCK, "grade": [0.1]}, "bad_shape", "grade is a list of 1, and there are 2 segments"),
-        (STRAIGHT, [0, 0, 0], {**FULL_LOCK, "grade": "steep"}, "bad_units", "grade: cannot read 'steep'"),
-        (STRAIGHT, [0, 0, 0], {**FULL_LOCK, "end_speed": -1}, "negative_speed", "end_speed must be >= 0, got -1"),
-        (STRAIGHT, [0, 0, 0], {"friction": 0.7, "lock": 0}, "contradictory", "points[1] to points[2]: drag + grade is 0"),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {**FULL_LOCK, "grade": [0.1]},
+            "bad_shape",
+            "grade is a list of 1, and there are 2 segments",
+        ),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {**FULL_LOCK, "grade": "steep"},
+            "bad_units",
+            "grade: cannot read 'steep'",
+        ),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {**FULL_LOCK, "end_speed": -1},
+            "negative_speed",
+            "end_speed must be >= 0, got -1",
+        ),
+        (
+            STRAIGHT,
+            [0, 0, 0],
+            {"friction": 0.7, "lock": 0},
+            "contradictory",
+            "points[1] to points[2]: drag + grade is 0",
+        ),
         (
             STRAIGHT,
             [0, 0, 0],
@@ -882,8 +1287,20 @@ def test_paths_in_units_of_every_kind():
             "points[1] to points[2]: drag + grade is -0.1",
         ),
         ([(0, 0), (1e308, 1e308)], [0, 0], FULL_LOCK, "out_of_range", "too large or too small"),
-        ([(0, 0), (1e-300, 0)], [0, 1], {**FULL_LOCK, "end_speed": 1e20}, "out_of_range", "too large or too small"),
-        ([(0, 0), (5e-324, 0)], [0, 1], {**FULL_LOCK, "end_speed": 1e300}, "out_of_range", "too large or too small"),
+        (
+            [(0, 0), (1e-300, 0)],
+            [0, 1],
+            {**FULL_LOCK, "end_speed": 1e20},
+            "out_of_range",
+            "too large or too small",
+        ),
+        (
+            [(0, 0), (5e-324, 0)],
+            [0, 1],
+            {**FULL_LOCK, "end_speed": 1e300},
+            "out_of_range",
+            "too large or too small",
+        ),
     ],
 )
 def test_refused_paths(points, headings, rest, code, said):
@@ -895,10 +1312,16 @@ def test_refused_paths(points, headings, rest, code, said):
 
 @pytest.mark.parametrize(
     "headings",
-    [["350 deg", "10 deg", "20 deg"], pint.Quantity([350.0, 10.0, 20.0], "deg"), ["350 deg", pint.Quantity(10, "deg"), 0]],
+    [
+        ["350 deg", "10 deg", "20 deg"],
+        pint.Quantity([350.0, 10.0, 20.0], "deg"),
+        ["350 deg", pint.Quantity(10, "deg"), 0],
+    ],
 )
 def test_headings_with_units_are_not_told_to_write_them(headings):
-    """10 deg is what was meant; only a jump at a full turn, or a spin that was faster than the points, can be mended."""
+    """10 deg is what was meant; only a jump at a full turn, or a spin that was faster than the
+    points, can be mended.
+    """
     text = str(refusal(lambda: travel.path(STRAIGHT, headings, **FULL_LOCK)))
     assert "turn by -340 deg" in text
     assert "count headings on without a jump at a full turn (350 deg, then 370 deg)" in text
@@ -909,15 +1332,30 @@ def test_headings_with_units_are_not_told_to_write_them(headings):
 
 def test_all_wrong_arguments_of_a_path_are_named_at_once():
     """Also those beside points that cannot be read."""
-    text = str(refusal(lambda: travel.path([(0, 0)], ["x"], friction=[-1, -2], lock=2, grade="y", end_speed=-1)))
-    for name in ("points", "headings[0]", "friction[0]", "friction[1]", "lock", "grade", "end_speed"):
+    text = str(
+        refusal(
+            lambda: travel.path([(0, 0)], ["x"], friction=[-1, -2], lock=2, grade="y", end_speed=-1)
+        )
+    )
+    for name in (
+        "points",
+        "headings[0]",
+        "friction[0]",
+        "friction[1]",
+        "lock",
+        "grade",
+        "end_speed",
+    ):
         assert f"\n- {name}" in text
 
 
 def test_a_wide_segment_is_warned_of_where_it_matters():
-    """One crab angle for more than a quarter turn is crude, unless locked wheels drag alike at every angle."""
+    """One crab angle for more than a quarter turn is crude, unless locked wheels drag alike at
+    every angle.
+    """
     with pytest.warns(
-        col.OutOfRangeWarning, match=re.escape("points[1] to points[2]: the vehicle turns by more than 90 deg")
+        col.OutOfRangeWarning,
+        match=re.escape("points[1] to points[2]: the vehicle turns by more than 90 deg"),
     ) as caught:
         travel.path(STRAIGHT, ["0 deg", "90 deg", "190 deg"], friction=0.7, lock=[0.1, 0.1])
     assert caught[0].message.fields["segments"] == (1,)
@@ -940,14 +1378,28 @@ def test_the_course_difference_is_wrapped():
     run = travel.path([(0, 0), (-5, 0.2), (-10, -0.3)], [0, 0, 0], **FULL_LOCK)
     assert run.course > 3.0
     assert run.straight_course < -3.0
-    assert run.course_difference == pytest.approx(run.course - run.straight_course - 2 * math.pi, abs=8 * EPS)
+    assert run.course_difference == pytest.approx(
+        run.course - run.straight_course - 2 * math.pi, abs=8 * EPS
+    )
     assert -0.2 < run.course_difference < -0.1
 
 
 def test_a_run_out_is_a_frozen_record_with_units():
-    """Floats and tuples of floats, Quantities under .q, six digits and units in the repr, ready for the state after an impact."""
-    run = travel.path([(0, 0), (6, 2), (12, 3)], ["0 deg", "50 deg", "90 deg"], friction=0.7, lock=0.3)
-    for name in ("speed", "course", "yaw_rate", "time", "distance", "straight_course", "course_difference"):
+    """Floats and tuples of floats, Quantities under .q, six digits and units in the repr, ready for
+    the state after an impact.
+    """
+    run = travel.path(
+        [(0, 0), (6, 2), (12, 3)], ["0 deg", "50 deg", "90 deg"], friction=0.7, lock=0.3
+    )
+    for name in (
+        "speed",
+        "course",
+        "yaw_rate",
+        "time",
+        "distance",
+        "straight_course",
+        "course_difference",
+    ):
         assert type(getattr(run, name)) is float
     for name, count in (("speeds", 3), ("crab_angles", 2), ("drags", 2)):
         assert [type(part) for part in getattr(run, name)] == [float] * count
@@ -955,38 +1407,58 @@ def test_a_run_out_is_a_frozen_record_with_units():
     assert run.q.yaw_rate.check("1/[time]")
     assert run.q.time.check("[time]")
     assert run.q.distance.m_as("ft") == pytest.approx(run.distance / FOOT, rel=2 * EPS)
-    assert run.q.course_difference.m_as("deg") == pytest.approx(math.degrees(run.course_difference), rel=4 * EPS)
-    assert [part.m_as("deg") for part in run.q.crab_angles] == pytest.approx([math.degrees(x) for x in run.crab_angles])
-    assert repr(run).startswith(f"RunOut(speed={run.speed:.6g} m/s, course={run.course:.6g} rad, yaw_rate=")
+    assert run.q.course_difference.m_as("deg") == pytest.approx(
+        math.degrees(run.course_difference), rel=4 * EPS
+    )
+    assert [part.m_as("deg") for part in run.q.crab_angles] == pytest.approx(
+        [math.degrees(x) for x in run.crab_angles]
+    )
+    assert repr(run).startswith(
+        f"RunOut(speed={run.speed:.6g} m/s, course={run.course:.6g} rad, yaw_rate="
+    )
     assert f"course_difference={run.course_difference:.6g} rad)" in repr(run)
     assert "<caption>Run-out</caption>" in run._repr_html_()
     assert pickle.loads(pickle.dumps(run)) == run
     with pytest.raises(AttributeError):
         run.speed = 3.0
-    after = col.Vehicle.from_speed(speed=run.speed, course=run.course, yaw_rate=run.yaw_rate, mass=1200)
+    after = col.Vehicle.from_speed(
+        speed=run.speed, course=run.course, yaw_rate=run.yaw_rate, mass=1200
+    )
     assert after.speed == pytest.approx(run.speed, rel=4 * EPS)
 
 
 @pytest.mark.parametrize("function", [travel.speed, travel.distance, travel.time, travel.path])
 def test_what_is_documented_of_each_function(function):
-    """The sections a reader needs: what goes in, what comes out, what is refused and warned of, one worked example."""
+    """The sections a reader needs: what goes in, what comes out, what is refused and warned of, one
+    worked example.
+    """
     text = inspect.getdoc(function)
     for section in ("Parameters", "Returns", "Raises", "Warns", "Examples"):
         assert f"\n{section}\n{'-' * len(section)}\n" in text
-    named = re.findall(r"^([a-z_, ]+?)(?: :|$)", text.split("Parameters\n")[1].split("Returns\n")[0], re.MULTILINE)
-    assert {name for line in named for name in line.split(", ")} >= set(inspect.signature(function).parameters)
+    named = re.findall(
+        r"^([a-z_, ]+?)(?: :|$)", text.split("Parameters\n")[1].split("Returns\n")[0], re.MULTILINE
+    )
+    assert {name for line in named for name in line.split(", ")} >= set(
+        inspect.signature(function).parameters
+    )
 
 
 def test_every_function_of_travel_has_a_docstring():
     """Also those that are not public, where a name is shared between the files."""
     for module in (travel.run_out, travel.surfaces, travel.straight):
         for name, member in vars(module).items():
-            if inspect.isfunction(member) and member.__module__ == module.__name__ and not name.startswith("_"):
+            if (
+                inspect.isfunction(member)
+                and member.__module__ == module.__name__
+                and not name.startswith("_")
+            ):
                 assert member.__doc__, name
 
 
 @pytest.mark.parametrize(
-    "number", [5, "5", pint.Quantity(5, ""), np.array([0.1, 5.0])], ids=["bare", "text", "quantity", "array"]
+    "number",
+    [5, "5", pint.Quantity(5, ""), np.array([0.1, 5.0])],
+    ids=["bare", "text", "quantity", "array"],
 )
 def test_a_number_without_a_unit_is_suspected_however_it_is_written(number):
     """5 for 5 percent as a grade, and as a drag; "500 %" is what somebody meant."""
@@ -994,7 +1466,9 @@ def test_a_number_without_a_unit_is_suspected_however_it_is_written(number):
         travel.speed("20 m", drag=0.7, grade=number)
     with pytest.warns(col.SuspectUnitsWarning, match="drag = 5 is read as a fraction of gravity"):
         travel.speed("20 m", drag=number)
-    with pytest.warns(col.SuspectUnitsWarning, match="friction = 5 is read as a fraction of the load"):
+    with pytest.warns(
+        col.SuspectUnitsWarning, match="friction = 5 is read as a fraction of the load"
+    ):
         travel.path([(0.0, 0.0), (9.0, 1.0)], [0.0, 1.0], friction=number, lock=1.0)
     travel.speed("20 m", drag="500 %")
 

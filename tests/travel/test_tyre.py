@@ -1,4 +1,6 @@
-"""The force of a tyre, and ``travel.Tyres``: against the integrated spin of a braked wheel, closed forms, and refusals."""
+"""The force of a tyre, and ``travel.Tyres``: against the integrated spin of a braked wheel, closed
+forms, and refusals.
+"""
 
 import math
 import pickle
@@ -11,16 +13,26 @@ import collisions as col
 from collisions import travel
 from collisions.engine.floats import compile_for_floats
 from collisions.impact.records import tyres_of, tyres_record
-from collisions.kernels.tyre import STANDING, Tyres, brake_share, tyre_force, tyre_forces, wheel_forces
+from collisions.kernels.tyre import (
+    STANDING,
+    Tyres,
+    brake_share,
+    tyre_force,
+    tyre_forces,
+    wheel_forces,
+)
 
-# Of a wheel: radius [m], inertia [kg*m**2], load [N], speed of its hub [m/s]; what it comes to does not depend on them.
+# Of a wheel: radius [m], inertia [kg*m**2], load [N], speed of its hub [m/s]; what it comes to does
+# not depend on them.
 RADIUS, INERTIA, LOAD, SPEED = 0.3, 1.2, 3700.0, 12.0
 
 
 def spun(lock, degrees, friction=0.7, ground=0.7, load=1.0):
-    """Share of the friction that drags, and force along and across over friction times load, of a wheel that spins freely.
+    """Share of the friction that drags, and force along and across over friction times load, of a
+    wheel that spins freely.
 
-    Friction acts against the slip of its contact, and the brake holds a moment against the spin; integrated until it is steady.
+    Friction acts against the slip of its contact, and the brake holds a moment against the spin;
+    integrated until it is steady.
     """
     along, across = SPEED * math.cos(math.radians(degrees)), SPEED * math.sin(math.radians(degrees))
     moment, most = lock * friction * LOAD * RADIUS, ground * load * LOAD
@@ -42,26 +54,42 @@ def spun(lock, degrees, friction=0.7, ground=0.7, load=1.0):
 
 @pytest.mark.parametrize(
     ("lock", "degrees", "share"),
-    [(0.1, 20, 0.434), (0.3, 30, 0.737), (0.5, 45, 0.966), (0.8, 20, 0.957), (0.2, 90, 1.0), (1.0, 35, 1.0), (0.6, 130, None)],
+    [
+        (0.1, 20, 0.434),
+        (0.3, 30, 0.737),
+        (0.5, 45, 0.966),
+        (0.8, 20, 0.957),
+        (0.2, 90, 1.0),
+        (1.0, 35, 1.0),
+        (0.6, 130, None),
+    ],
 )
 def test_a_braked_wheel_is_one_that_spins_until_its_brake_holds_it(lock, degrees, share):
-    """The integrated spin, to its three digits: what drags, in the kernel and in ``path``; and both parts of the force."""
+    """The integrated spin, to its three digits: what drags, in the kernel and in ``path``; and both
+    parts of the force.
+    """
     drags, x, y = spun(lock, degrees)
     if share is not None:
         assert drags == pytest.approx(share, abs=6e-4)
     turned = math.radians(degrees)
     along, across = tyre_force(math.cos(turned), math.sin(turned), lock, 0.7, math.inf)
     assert (-along, -across) == pytest.approx((x, y), abs=1e-3)
-    run = travel.path([(0, 0), (10, 0)], [f"{degrees} deg"] * 2, friction=0.7, lock=lock, end_speed=3)
+    run = travel.path(
+        [(0, 0), (10, 0)], [f"{degrees} deg"] * 2, friction=0.7, lock=lock, end_speed=3
+    )
     assert run.drags[0] / 0.7 == pytest.approx(drags, abs=1e-3)
 
 
 @pytest.mark.parametrize(("ground", "load"), [(0.1, 1.0), (0.9, 1.0), (0.7, 1.4), (0.35, 0.6)])
 def test_the_moment_of_a_brake_stays_on_other_ground_and_under_other_loads(ground, load):
-    """A wheel braked at 0.4 is locked on ice, and rolls more freely on better ground: the integrated spin of the same brake."""
+    """A wheel braked at 0.4 is locked on ice, and rolls more freely on better ground: the
+    integrated spin of the same brake.
+    """
     _, x, y = spun(0.4, 25, ground=ground, load=load)
     brake = brake_share(0.4, 0.7, ground, load)
-    along, across = tyre_force(math.cos(math.radians(25)), math.sin(math.radians(25)), brake, ground, math.inf)
+    along, across = tyre_force(
+        math.cos(math.radians(25)), math.sin(math.radians(25)), brake, ground, math.inf
+    )
     assert (-along, -across) == pytest.approx((x, y), abs=1e-3)
     assert brake_share(1.0, 0.7, ground, load) == 1.0
     assert brake_share(0.4, 0.7, 0.0, load) == 1.0
@@ -69,10 +97,11 @@ def test_the_moment_of_a_brake_stays_on_other_ground_and_under_other_loads(groun
 
 @pytest.mark.parametrize("tangent", [0.01, 0.05, 0.15])
 def test_at_small_slip_the_side_force_is_fialas(tangent):
-    """1 - (1 - z)**3 of the brush model, by integrating the shear of its patch: bristles bend until the parabolic pressure slides.
+    """1 - (1 - z)**3 of the brush model, by integrating the shear of its patch: bristles bend until
+    the parabolic pressure slides.
 
-    The pressure over a patch of length 1 is 6 x (1 - x) for a load of 1; stiffness of a bristle 2 c, so that the slope at
-    no slip is the cornering stiffness c.
+    The pressure over a patch of length 1 is 6 x (1 - x) for a load of 1; stiffness of a bristle 2
+    c, so that the slope at no slip is the cornering stiffness c.
     """
     friction, cornering = 0.7, 9.5
     x = np.linspace(0.0, 1.0, 200_001)
@@ -86,7 +115,9 @@ def test_at_small_slip_the_side_force_is_fialas(tangent):
 
 
 def test_no_force_jumps_where_a_wheel_stands():
-    """From any side the force falls to none with the slip; above ``STANDING`` it is whole, whatever is nearly 0."""
+    """From any side the force falls to none with the slip; above ``STANDING`` it is whole, whatever
+    is nearly 0.
+    """
     for angle in np.linspace(0.0, 2.0 * math.pi, 37):
         for lock in (0.0, 0.3, 1.0):
             x, y = tyre_force(1e-9 * math.cos(angle), 1e-9 * math.sin(angle), lock, 0.7, 9.5)
@@ -100,7 +131,9 @@ def test_no_force_jumps_where_a_wheel_stands():
 def test_forces_never_leave_the_circle_nor_push():
     """100,000 random wheels: within the circle, against both parts of the motion."""
     generator = np.random.default_rng(3)
-    along, across = generator.normal(0.0, 1.0, (2, 100_000)) * 10.0 ** generator.uniform(-6, 1, 100_000)
+    along, across = generator.normal(0.0, 1.0, (2, 100_000)) * 10.0 ** generator.uniform(
+        -6, 1, 100_000
+    )
     lock, mu, cornering = (
         generator.uniform(0.0, 1.2, 100_000),
         generator.uniform(0.0, 1.0, 100_000),
@@ -119,11 +152,15 @@ def by_floats(*numbers):
 
 
 def test_floats_rows_and_recordings_agree():
-    """The same vehicles one by one, in rows of arrays, and compiled: to rounding, with steer and load transfer."""
+    """The same vehicles one by one, in rows of arrays, and compiled: to rounding, with steer and
+    load transfer.
+    """
     generator = np.random.default_rng(5)
     many = np.array([
-        *generator.uniform(0, 1, (4, 50)), generator.uniform(0.3, 0.9, 50), generator.uniform(5, 12, 50), np.full(50, 1.35),
-        np.full(50, 0.75), np.full(50, math.cos(0.2)), np.full(50, math.sin(0.2)), np.full(50, 0.2), np.full(50, 0.33),
+        *generator.uniform(0, 1, (4, 50)), generator.uniform(0.3, 0.9, 50),
+        generator.uniform(5, 12, 50), np.full(50, 1.35),
+        np.full(50, 0.75), np.full(50, math.cos(0.2)), np.full(50, math.sin(0.2)),
+            np.full(50, 0.2), np.full(50, 0.33),
         *generator.uniform(0.1, 0.9, (4, 50)), *generator.normal(0, 1, (3, 50)),
     ])  # fmt: skip
     rows = Tyres((many[:4],), *many[4:12])
@@ -131,25 +168,47 @@ def test_floats_rows_and_recordings_agree():
     compiled = compile_for_floats(by_floats, tuple(f"[{i}]" for i in range(19)), ())
     for i in range(50):
         numbers = tuple(many[:, i].tolist())
-        assert by_floats(*numbers) == pytest.approx([part[i] for part in wanted], rel=1e-12, abs=1e-14)
+        assert by_floats(*numbers) == pytest.approx(
+            [part[i] for part in wanted], rel=1e-12, abs=1e-14
+        )
         # x ** 0.5 and sqrt(x) can differ in the last digit.
         assert compiled(numbers) == pytest.approx(by_floats(*numbers), rel=1e-13, abs=1e-15)
 
 
 def test_load_transfer_holds_the_vehicle_upright():
-    """The loads found carry the weight, and their moments about the centre of mass balance those of the forces at its height."""
+    """The loads found carry the weight, and their moments about the centre of mass balance those of
+    the forces at its height.
+    """
     height, ahead, left = 0.5, 1.35, 0.75
-    tyres = Tyres((0.3, 0.8, 0.2, 1.0), 0.7, 9.5, ahead, left, 1.0, 0.0, height / (2 * ahead), height / (2 * left))
+    tyres = Tyres(
+        (0.3, 0.8, 0.2, 1.0),
+        0.7,
+        9.5,
+        ahead,
+        left,
+        1.0,
+        0.0,
+        height / (2 * ahead),
+        height / (2 * left),
+    )
     here = (0.7, 0.5, 0.7, 0.9)
     wheels = wheel_forces(tyres, here, 0.9, 0.3, 0.2, transfers=True)
     loads = [load / 4.0 for *_, load in wheels]
-    forces = [(mu * load * x, mu * load * y) for mu, load, (x, y, _) in zip(here, loads, wheels, strict=True)]
+    forces = [
+        (mu * load * x, mu * load * y)
+        for mu, load, (x, y, _) in zip(here, loads, wheels, strict=True)
+    ]
     fx, fy = (sum(force[at] for force in forces) for at in (0, 1))
     places = [(ahead, left), (ahead, -left), (-ahead, left), (-ahead, -left)]
     assert sum(loads) == pytest.approx(1.0, abs=1e-12)
-    # Eight passes: the loads are off by what is left of the last change, the moments [m, over the weight] by a thousandth.
-    assert sum(load * x for load, (x, _) in zip(loads, places, strict=True)) == pytest.approx(-height * fx, abs=1e-3)
-    assert sum(load * y for load, (_, y) in zip(loads, places, strict=True)) == pytest.approx(-height * fy, abs=1e-3)
+    # Eight passes: the loads are off by what is left of the last change, the moments [m, over the
+    # weight] by a thousandth.
+    assert sum(load * x for load, (x, _) in zip(loads, places, strict=True)) == pytest.approx(
+        -height * fx, abs=1e-3
+    )
+    assert sum(load * y for load, (_, y) in zip(loads, places, strict=True)) == pytest.approx(
+        -height * fy, abs=1e-3
+    )
 
 
 # Tyres
@@ -175,7 +234,8 @@ def test_tyres_are_a_frozen_record_with_units():
     assert first.locks == (1.0, 0.05, 0.05, 0.05)
     assert tyres_record(first)["track"] == "60 in"
     assert repr(first) == (
-        "Tyres(friction=0.7, lock=(1, 0.05, 0.05, 0.05), wheelbase=2.7 m, track=1.524 m, steer=0.0523599 rad, cornering=9.5)"
+        "Tyres(friction=0.7, lock=(1, 0.05, 0.05, 0.05), wheelbase=2.7 m, track=1.524 m, "
+        "steer=0.0523599 rad, cornering=9.5)"
     )
     assert "height" not in repr(first)
     with pytest.raises(col.InputError, match="tyres have friction"):
@@ -190,7 +250,11 @@ def test_tyres_are_a_frozen_record_with_units():
         ({"lock": 1.1}, "bad_fraction", "lock must be from 0 to 1, got 1.1"),
         ({"lock": math.nan}, "bad_fraction", "lock must be from 0 to 1"),
         ({"lock": [1, 1, 1, -1]}, "bad_fraction", "lock[3] must be from 0 to 1"),
-        ({"lock": [1, 1]}, "bad_shape", "lock is a list of 2; give one value for all wheels, or four: front left"),
+        (
+            {"lock": [1, 1]},
+            "bad_shape",
+            "lock is a list of 2; give one value for all wheels, or four: front left",
+        ),
         ({"wheelbase": 0.0}, "not_positive", "wheelbase must be > 0, got 0.0"),
         ({"track": "-1 m"}, "not_positive", "track must be > 0, got '-1 m'"),
         ({"track": math.inf}, "not_finite", "track must be finite"),
@@ -209,7 +273,9 @@ def test_refused_tyres(options, code, said):
 
 
 def test_the_size_of_the_vehicle_is_asked_for():
-    """A truck with the wheelbase of a car comes to rest metres elsewhere: no default, and a hint for other words."""
+    """A truck with the wheelbase of a car comes to rest metres elsewhere: no default, and a hint
+    for other words.
+    """
     with pytest.raises(col.InputError, match=r"wheelbase.*was not given"):
         travel.Tyres(0.7, 1)
     with pytest.raises(TypeError, match="write friction="):

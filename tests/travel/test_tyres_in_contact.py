@@ -1,4 +1,6 @@
-"""Tyres that roll, brake and steer during a contact: against scipy's integration, written from the definitions."""
+"""Tyres that roll, brake and steer during a contact: against scipy's integration, written from the
+definitions.
+"""
 
 import json
 import math
@@ -19,15 +21,20 @@ CONTACT = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.3}
 
 
 class Integrated:
-    """A contact with a linear spring and four wheels a vehicle, as ordinary differential equations; complex numbers are vectors.
+    """A contact with a linear spring and four wheels a vehicle, as ordinary differential equations;
+    complex numbers are vectors.
 
-    The wheels are those of the definition: rolling until the brake can hold them, Fiala's side force, the friction circle.
-    Friction at the contact turns round within 1 mm/s of slip, the force of a wheel within 1 cm/s of its motion.
+    The wheels are those of the definition: rolling until the brake can hold them, Fiala's side
+    force, the friction circle. Friction at the contact turns round within 1 mm/s of slip, the force
+    of a wheel within 1 cm/s of its motion.
     """
 
     def __init__(self, a, b, e, contact, stiffness, tyres):
         self.bodies, self.e, self.k, self.tyres = (a, b), e, stiffness, tyres
-        self.mu, self.n = contact["friction"], complex(math.cos(contact["normal"]), math.sin(contact["normal"]))
+        self.mu, self.n = (
+            contact["friction"],
+            complex(math.cos(contact["normal"]), math.sin(contact["normal"])),
+        )
         self.on = [complex(*contact["point"]) - complex(body.x, body.y) for body in (a, b)]
 
     def wheels(self, label, turn, v, w):
@@ -58,9 +65,18 @@ class Integrated:
     def geometry(self, s):
         """Turns of both, contact point, normal, closing speed and slip."""
         turns = [complex(math.cos(s[at + 5]), math.sin(s[at + 5])) for at in (0, 6)]
-        points = [complex(s[at + 3], s[at + 4]) + turn * on for at, turn, on in zip((0, 6), turns, self.on, strict=True)]
-        middle, normal = 0.5 * sum(points), self.n * complex(math.cos(0.5 * (s[5] + s[11])), math.sin(0.5 * (s[5] + s[11])))
-        at = [complex(s[i], s[i + 1]) + 1j * s[i + 2] * (middle - complex(s[i + 3], s[i + 4])) for i in (0, 6)]
+        points = [
+            complex(s[at + 3], s[at + 4]) + turn * on
+            for at, turn, on in zip((0, 6), turns, self.on, strict=True)
+        ]
+        middle, normal = (
+            0.5 * sum(points),
+            self.n * complex(math.cos(0.5 * (s[5] + s[11])), math.sin(0.5 * (s[5] + s[11]))),
+        )
+        at = [
+            complex(s[i], s[i + 1]) + 1j * s[i + 2] * (middle - complex(s[i + 3], s[i + 4]))
+            for i in (0, 6)
+        ]
         relative = (at[1] - at[0]) / normal
         return turns, middle, normal, -relative.real, relative.imag
 
@@ -74,19 +90,36 @@ class Integrated:
             arm = middle - complex(s[i + 3], s[i + 4])
             total = sign * push + pull
             spin = (sign * (arm.conjugate() * push).imag + moment) / body.yaw_inertia
-            found += [total.real / body.mass, total.imag / body.mass, spin, s[i], s[i + 1], s[i + 2]]
+            found += [
+                total.real / body.mass,
+                total.imag / body.mass,
+                spin,
+                s[i],
+                s[i + 1],
+                s[i + 2],
+            ]
         return [*found, closing]
 
     def run(self):
         """Change of velocity (vx, vy, yaw rate) of A and of B."""
-        start = [p for body in self.bodies for p in (body.vx, body.vy, body.yaw_rate, body.x, body.y, 0.0)] + [0.0]
+        start = [
+            p
+            for body in self.bodies
+            for p in (body.vx, body.vy, body.yaw_rate, body.x, body.y, 0.0)
+        ] + [0.0]
         options = {"method": "LSODA", "rtol": 1e-9, "atol": 1e-10, "max_step": 1e-3}
 
         def together(t, s):
             return self.geometry(s)[3]
 
         together.terminal = True
-        first = solve_ivp(lambda t, s: self.rates(s, self.k * s[12]), (0.0, 1.0), start, events=together, **options)
+        first = solve_ivp(
+            lambda t, s: self.rates(s, self.k * s[12]),
+            (0.0, 1.0),
+            start,
+            events=together,
+            **options,
+        )
         assert first.status == 1
         deepest = first.y[12, -1]
 
@@ -97,7 +130,9 @@ class Integrated:
             return back(s)
 
         apart.terminal = True
-        last = solve_ivp(lambda t, s: self.rates(s, back(s)), (0.0, 1.0), first.y[:, -1], events=apart, **options)
+        last = solve_ivp(
+            lambda t, s: self.rates(s, back(s)), (0.0, 1.0), first.y[:, -1], events=apart, **options
+        )
         assert last.status == 1
         end = last.y[:, -1]
         return np.array([end[at + i] - start[at + i] for at in (0, 6) for i in range(3)])
@@ -105,13 +140,30 @@ class Integrated:
 
 def car(vx, vy, x, y, heading, mass=1500.0, yaw_rate=0.0):
     return col.Vehicle(
-        mass=mass, yaw_inertia=1.7 * mass, vx=vx, vy=vy, x=x, y=y, heading=math.radians(heading), yaw_rate=yaw_rate
+        mass=mass,
+        yaw_inertia=1.7 * mass,
+        vx=vx,
+        vy=vy,
+        x=x,
+        y=y,
+        heading=math.radians(heading),
+        yaw_rate=yaw_rate,
     )
 
 
 SCENES = {
-    "T-bone, both roll": (car(9.0, 0, -2.2, 0.1, 0), car(0, 12.0, 0.8, -1.0, 90, 1200.0), ROLLING, STRUCK),
-    "T-bone, struck at rest": (car(8.0, 0, -2.2, 0.0, 0), car(0, 0, 0.8, -0.9, 90, 1200.0), ROLLING, STRUCK),
+    "T-bone, both roll": (
+        car(9.0, 0, -2.2, 0.1, 0),
+        car(0, 12.0, 0.8, -1.0, 90, 1200.0),
+        ROLLING,
+        STRUCK,
+    ),
+    "T-bone, struck at rest": (
+        car(8.0, 0, -2.2, 0.0, 0),
+        car(0, 0, 0.8, -0.9, 90, 1200.0),
+        ROLLING,
+        STRUCK,
+    ),
     "T-bone, slow": (car(5.0, 0, -2.2, 0.1, 0), car(0, 8.0, 0.8, 0.6, 90, 1300.0), ROLLING, STRUCK),
     "T-bone, striking car brakes and steers": (
         car(9.0, 0, -2.2, 0.1, 0),
@@ -125,54 +177,96 @@ SCENES = {
         Tyres(0.8, [1, 0, 0, 0], 2.7, 1.5),
         STRUCK,
     ),
-    "only A has tyres": (car(9.0, 0, -2.2, 0.1, 0), car(0, 9.0, 0.8, -1.0, 90), Tyres(0.7, 1, 2.7, 1.5), None),
+    "only A has tyres": (
+        car(9.0, 0, -2.2, 0.1, 0),
+        car(0, 9.0, 0.8, -1.0, 90),
+        Tyres(0.7, 1, 2.7, 1.5),
+        None,
+    ),
 }
 
 
 def far(found, wanted, a, b):
-    """How far apart for the worse vehicle, over its own change: delta-V, and yaw rate by the radius of gyration."""
+    """How far apart for the worse vehicle, over its own change: delta-V, and yaw rate by the radius
+    of gyration.
+    """
     shares = []
     for at, body in ((0, a), (3, b)):
         scale = np.array([1.0, 1.0, math.sqrt(body.yaw_inertia / body.mass)])
-        shares.append(np.linalg.norm((found[at : at + 3] - wanted[at : at + 3]) * scale) / np.linalg.norm(wanted[at : at + 2]))
+        shares.append(
+            np.linalg.norm((found[at : at + 3] - wanted[at : at + 3]) * scale)
+            / np.linalg.norm(wanted[at : at + 2])
+        )
     return max(shares)
 
 
 def changes(impact):
-    return np.array([p for side in (impact.a, impact.b) for p in (side.delta_vx, side.delta_vy, side.delta_yaw_rate)])
+    return np.array(
+        [
+            p
+            for side in (impact.a, impact.b)
+            for p in (side.delta_vx, side.delta_vy, side.delta_yaw_rate)
+        ]
+    )
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_against_scipy(name):
-    """Within 0.5 % of delta-V at the usual 100 steps; the same with 400 steps to a quarter of that."""
+    """Within 0.5 % of delta-V at the usual 100 steps; the same with 400 steps to a
+    quarter of that.
+    """
     a, b, tyres_a, tyres_b = SCENES[name]
     wanted = Integrated(a, b, 0.2, CONTACT, 4e5, (tyres_a, tyres_b)).run()
     found = {}
     for steps in (100, 400):
         found[steps] = col.time_resolved(
-            a, b, 0.2, **CONTACT, stiffness=4e5, tyres_a=tyres_a, tyres_b=tyres_b, geometry="first_contact", steps=steps
+            a,
+            b,
+            0.2,
+            **CONTACT,
+            stiffness=4e5,
+            tyres_a=tyres_a,
+            tyres_b=tyres_b,
+            geometry="first_contact",
+            steps=steps,
         )
     assert far(changes(found[100]), wanted, a, b) < 5e-3
     assert far(changes(found[400]), wanted, a, b) < 1.25e-3
 
 
 def test_no_drag_is_near_rolling_wheels():
-    """The rough form in a T-bone on rolling wheels: with the drag that fits best it is 4 to 9 percent off; tyres 0.1."""
+    """The rough form in a T-bone on rolling wheels: with the drag that fits best it is 4 to 9
+    percent off; tyres 0.1.
+    """
     a, b, tyres_a, tyres_b = SCENES["T-bone, struck at rest"]
     wanted = Integrated(a, b, 0.2, CONTACT, 4e5, (tyres_a, tyres_b)).run()
 
     def off(drag):
-        found = col.time_resolved(a, b, 0.2, **CONTACT, stiffness=4e5, drag=float(drag), geometry="first_contact", steps=50)
+        found = col.time_resolved(
+            a,
+            b,
+            0.2,
+            **CONTACT,
+            stiffness=4e5,
+            drag=float(drag),
+            geometry="first_contact",
+            steps=50,
+        )
         return far(changes(found), wanted, a, b)
 
     best = minimize_scalar(off, bounds=(0.0, 1.0), method="bounded").fun
     tyres = {"tyres_a": tyres_a, "tyres_b": tyres_b, "geometry": "first_contact"}
     assert 0.03 < best < 0.12
-    assert far(changes(col.time_resolved(a, b, 0.2, **CONTACT, stiffness=4e5, **tyres)), wanted, a, b) < best / 30.0
+    assert (
+        far(changes(col.time_resolved(a, b, 0.2, **CONTACT, stiffness=4e5, **tyres)), wanted, a, b)
+        < best / 30.0
+    )
 
 
 def test_the_impulse_with_tyres_is_between():
-    """With fixed places, of what tyres change the rung between leaves less than 0.6, and less than a third in the median."""
+    """With fixed places, of what tyres change the rung between leaves less than 0.6, and less than
+    a third in the median.
+    """
     left = []
     for a, b, tyres_a, tyres_b in SCENES.values():
         contact = CONTACT | {"duration": 0.1, "tyres_a": tyres_a, "tyres_b": tyres_b}
@@ -185,20 +279,32 @@ def test_the_impulse_with_tyres_is_between():
 
 
 def test_the_impulse_of_locked_wheels_by_hand():
-    """Sliding ahead all the while, the tyres give 0.7 m g T against the motion; a car that they would stop they only stop."""
+    """Sliding ahead all the while, the tyres give 0.7 m g T against the motion; a car that they
+    would stop they only stop.
+    """
     locked = Tyres(0.7, 1, 2.7, 1.5)
     a, b = car(15.0, 0, -2.2, 0, 0), car(4.0, 0, 2.2, 0, 0)
     impact = col.eccentric(a, b, 0.3, **CONTACT, duration="0.1 s", tyres_a=locked, tyres_b=locked)
     for side in (impact.a, impact.b):
         assert side.tyre_impulse_x == pytest.approx(-0.7 * 1500.0 * GRAVITY * 0.1, rel=1e-12)
         assert side.tyre_impulse_y == pytest.approx(0.0, abs=1e-9)
-        assert side.tyre_loss == pytest.approx(-side.tyre_impulse_x * 0.5 * (side.before.vx + side.after.vx), rel=1e-12)
+        assert side.tyre_loss == pytest.approx(
+            -side.tyre_impulse_x * 0.5 * (side.before.vx + side.after.vx), rel=1e-12
+        )
         assert side.outside_x == 0.0
     given = (impact.a.tyre_impulse_x, 0.0), (impact.b.tyre_impulse_x, 0.0)
     same = col.eccentric(a, b, 0.3, **CONTACT, outside_a=given[0], outside_b=given[1])
     assert changes(impact) == pytest.approx(changes(same), rel=1e-12)
     both = col.eccentric(
-        a, b, 0.3, **CONTACT, outside_a=(100.0, 0.0), outside_b=(0.0, 0.0), duration=0.1, tyres_a=locked, tyres_b=locked
+        a,
+        b,
+        0.3,
+        **CONTACT,
+        outside_a=(100.0, 0.0),
+        outside_b=(0.0, 0.0),
+        duration=0.1,
+        tyres_a=locked,
+        tyres_b=locked,
     )
     assert both.a.outside_x == 100.0
     assert both.momentum_residual < 1e-9
@@ -222,7 +328,9 @@ SOLVERS = {
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_records_batches_and_balances(solver):
-    """A record is solved again to the same, a batch is its cases, energies and momenta balance, the page has every tyre."""
+    """A record is solved again to the same, a batch is its cases, energies and momenta balance, the
+    page has every tyre.
+    """
     jsonschema = pytest.importorskip("jsonschema")
     from collisions.reporting import replay
 
@@ -244,20 +352,37 @@ def test_records_batches_and_balances(solver):
             case = many.case((i, j))
             for label in "ab":
                 side, whole = getattr(case, label), getattr(many, label)
-                for name in ("delta_vx", "delta_vy", "delta_yaw_rate", "tyre_impulse_x", "tyre_impulse_y", "tyre_moment"):
-                    assert getattr(whole, name)[i, j] == pytest.approx(getattr(side, name), rel=1e-9, abs=1e-6), name
+                for name in (
+                    "delta_vx",
+                    "delta_vy",
+                    "delta_yaw_rate",
+                    "tyre_impulse_x",
+                    "tyre_impulse_y",
+                    "tyre_moment",
+                ):
+                    assert getattr(whole, name)[i, j] == pytest.approx(
+                        getattr(side, name), rel=1e-9, abs=1e-6
+                    ), name
     assert np.all(np.isnan(many.a.tyre_impulse_x[2]))
     assert changes(many.case((0, 0))) == pytest.approx(changes(one), rel=1e-9)
     before, after = (
         sum(0.5 * v.mass * v.speed**2 + 0.5 * v.yaw_inertia * v.yaw_rate**2 for v in states)
         for states in ((one.a.before, one.b.before), (one.a.after, one.b.after))
     )
-    assert one.energy_loss + one.a.tyre_loss + one.b.tyre_loss == pytest.approx(before - after, rel=1e-12)
-    assert one.a.kinetic_energy_change + one.b.kinetic_energy_change == pytest.approx(after - before, rel=1e-12)
+    assert one.energy_loss + one.a.tyre_loss + one.b.tyre_loss == pytest.approx(
+        before - after, rel=1e-12
+    )
+    assert one.a.kinetic_energy_change + one.b.kinetic_energy_change == pytest.approx(
+        after - before, rel=1e-12
+    )
     assert one.momentum_residual < 1e-9
     page = col.report(one, form="markdown")
     assert replay(page) == one
-    for text in ("tyres of A: braking (lock), front left", "tyres of B: height of the centre of mass", "270 cm"):
+    for text in (
+        "tyres of A: braking (lock), front left",
+        "tyres of B: height of the centre of mass",
+        "270 cm",
+    ):
         assert text in page
     assert "drag of the tyres taken" not in page
     assert "tyre_impulse" not in [finding.code for finding in col.diagnose(one)]
@@ -267,7 +392,9 @@ def test_records_batches_and_balances(solver):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_cases_that_differ_by_their_tyres_alone(solver):
-    """Arrays of tyres make a batch of what else is one case; float32 stays float32 where all arrays are."""
+    """Arrays of tyres make a batch of what else is one case; float32 stays float32 where all arrays
+    are.
+    """
     options = CONTACT | {"duration": 0.1, "tyres_b": STRUCK}
     for kind in (np.float64, np.float32):
         locks = np.array([0.0, 0.3, 1.0], dtype=kind)
@@ -298,12 +425,19 @@ def test_more_cases_than_a_block(monkeypatch):
 
 
 def test_the_least_model_with_tyres():
-    """The eccentric candidate has its tyres; without a rung in time the central ones do not come into question."""
+    """The eccentric candidate has its tyres; without a rung in time the central ones do not come
+    into question.
+    """
     options = CONTACT | TYRES | {"duration": 0.1}
     choice = col.required_model(A, B, 0.1, **options, tolerance=0.5)
-    between, passed = col.eccentric(A, B, 0.1, **options), col.time_resolved(A, B, 0.1, **options, steps=25)
+    between, passed = (
+        col.eccentric(A, B, 0.1, **options),
+        col.time_resolved(A, B, 0.1, **options, steps=25),
+    )
     apart = (changes(between) - changes(passed)) * ([1.0, 1.0, math.sqrt(1.7)] * 2)
-    assert choice.errors["eccentric"] == pytest.approx(max(np.linalg.norm(apart[:3]), np.linalg.norm(apart[3:])), rel=1e-9)
+    assert choice.errors["eccentric"] == pytest.approx(
+        max(np.linalg.norm(apart[:3]), np.linalg.norm(apart[3:])), rel=1e-9
+    )
     bare = col.required_model(A, B, 0.1, **CONTACT, duration=0.1, tolerance=0.5)
     assert bare.errors["eccentric"] != choice.errors["eccentric"]
     ratio = {**options, "impulse_ratio": 0.1, "tolerance": 50.0}
@@ -323,7 +457,10 @@ def test_what_is_left_out_with_tyres():
         assert own.tyre_impulse_x == pytest.approx(side.tyre_impulse_x, rel=1e-12)
         assert own.tyre_impulse_y == pytest.approx(side.tyre_impulse_y, rel=1e-12)
         assert own.tyre_delta_v_bound == pytest.approx(0.7 * GRAVITY * 0.1, rel=1e-12)
-        moved = math.hypot(side.delta_vx - getattr(instant, label).delta_vx, side.delta_vy - getattr(instant, label).delta_vy)
+        moved = math.hypot(
+            side.delta_vx - getattr(instant, label).delta_vx,
+            side.delta_vy - getattr(instant, label).delta_vy,
+        )
         assert own.tyre_delta_v == pytest.approx(moved, rel=0.05)
     nothing = col.left_out(between)
     assert nothing.duration == 0.1
@@ -343,11 +480,21 @@ def test_what_is_left_out_with_tyres():
         ({"duration": None}, "one_stiffness", "duration"),
         ({"a": A.replace(heading=None)}, "missing_heading", "heading"),
         (
-            {"tyres_b": TYRES["tyres_b"].replace(friction=np.array([0.7, -0.1])), "on_failure": "raise"},
+            {
+                "tyres_b": TYRES["tyres_b"].replace(friction=np.array([0.7, -0.1])),
+                "on_failure": "raise",
+            },
             "bad_friction",
             "case 1",
         ),
-        ({"tyres_b": TYRES["tyres_b"].replace(height=np.array([0.5, 2.0])), "on_failure": "raise"}, "wheel_lifts", "case 1"),
+        (
+            {
+                "tyres_b": TYRES["tyres_b"].replace(height=np.array([0.5, 2.0])),
+                "on_failure": "raise",
+            },
+            "wheel_lifts",
+            "case 1",
+        ),
     ],
 )
 def test_refusals(solver, changes, code, text):

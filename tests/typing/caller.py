@@ -1,4 +1,6 @@
-"""What a typed caller writes, with every public function and every kind of input; read by type checkers, never run."""
+"""What a typed caller writes, with every public function and every kind of input; read by type
+checkers, never run.
+"""
 
 # pyright: strict
 
@@ -9,14 +11,31 @@ import numpy.typing as npt
 
 import collisions as col
 from collisions import plot, reconstruct, reference, reporting, travel, uncertainty
-from collisions.uncertainty import Censored, Interval, LogNormal, Normal, Samples, Triangular, Uniform
+from collisions.uncertainty import (
+    Censored,
+    Interval,
+    LogNormal,
+    Normal,
+    Samples,
+    Triangular,
+    Uniform,
+)
 
 speed: Any = col.Vehicle(mass=1.0, vx="80 km/h").q.vx
 angles: npt.NDArray[np.float64] = np.array([0.0, 0.1])
 
 # A vehicle from a text, a Quantity, a whole number, a numpy number, a float, an array and a list.
-a = col.Vehicle(mass="1100 kg", vx=speed, x=0, y=np.float64(0.0), yaw_inertia=1800, heading=0.0, name="A")
-b = col.Vehicle(mass=950.0, vx=np.array([1.0, 2.0]), vy=[0.0, 0.1], x="2 m", y=0.4, yaw_inertia=np.float32(1500.0))
+a = col.Vehicle(
+    mass="1100 kg", vx=speed, x=0, y=np.float64(0.0), yaw_inertia=1800, heading=0.0, name="A"
+)
+b = col.Vehicle(
+    mass=950.0,
+    vx=np.array([1.0, 2.0]),
+    vy=[0.0, 0.1],
+    x="2 m",
+    y=0.4,
+    yaw_inertia=np.float32(1500.0),
+)
 wall = col.Vehicle.barrier(heading="90 deg")
 pinned = col.Vehicle(mass=900, yaw_inertia=1200, x=0, y=1, pivot=("1 m", 0.0))
 turned = col.Vehicle.from_speed(mass=900, speed=speed, course="90 deg").replace(
@@ -30,7 +49,13 @@ def of_a_vehicle(vehicle: col.Vehicle) -> dict[str, float]:
     """Attributes need no cast."""
     vx, vy = vehicle.velocity_at((1.0, "2 m"))
     px, py = vehicle.momentum
-    return {"speed": vehicle.speed, "course": vehicle.course, "energy": vehicle.kinetic_energy, "vx": vx - vy, "p": px + py}
+    return {
+        "speed": vehicle.speed,
+        "course": vehicle.course,
+        "energy": vehicle.kinetic_energy,
+        "vx": vx - vy,
+        "p": px + py,
+    }
 
 
 def of_an_impact(impact: col.Impact) -> float:
@@ -58,18 +83,34 @@ def forward_solvers() -> tuple[col.Impact, ...]:
     """Every way to say the normal, the point and the tangent."""
     in_line = col.linear_central(a, wall, "20 %", normal=0, on_failure="nan")
     central = col.oblique_central(a, b, 0.1, normal=(1, 0), impulse_ratio=-0.2, progress=True)
-    full = col.eccentric(a, b, 0.1, normal=angles, point=("1 m", 0.0), friction=0.5, law="kudlich-slibar", threads=2)
+    full = col.eccentric(
+        a, b, 0.1, normal=angles, point=("1 m", 0.0), friction=0.5, law="kudlich-slibar", threads=2
+    )
     passed = col.linear_central(a, b, -0.1, incomplete=True)
     pushed = col.eccentric(
-        a, b, 0.1, normal=0, point=corner, friction=1, law="stronge", outside_a=(1.0, "2 N*s"), outside_b=(1, 2, angles)
+        a,
+        b,
+        0.1,
+        normal=0,
+        point=corner,
+        friction=1,
+        law="stronge",
+        outside_a=(1.0, "2 N*s"),
+        outside_b=(1, 2, angles),
     )
     complete: bool = passed.complete
-    least = col.solve(a, b, angles, normal="10 deg", point=corner, critical_fraction=1, tolerance="1 km/h")
-    choice = col.required_model(a, b, 0.2, normal=(0.6, 0.8), point=[0.0, 1.0], friction=np.inf, tolerance=0.1)
+    least = col.solve(
+        a, b, angles, normal="10 deg", point=corner, critical_fraction=1, tolerance="1 km/h"
+    )
+    choice = col.required_model(
+        a, b, 0.2, normal=(0.6, 0.8), point=[0.0, 1.0], friction=np.inf, tolerance=0.1
+    )
     assert_type(choice, col.ModelChoice)
     error: float = choice.errors["linear_central"]
     crush = ("60 kN/m", 700e3, "1.5 m")
-    passed_in_time = col.time_resolved(a, b, 0.1, normal=angles, point=corner, friction=0.5, crush_a=crush, drag=0.7, steps=50)
+    passed_in_time = col.time_resolved(
+        a, b, 0.1, normal=angles, point=corner, friction=0.5, crush_a=crush, drag=0.7, steps=50
+    )
     force: Any = None if passed_in_time.pulse is None else passed_in_time.pulse.force
     print(force)
     more = (pushed, passed) if complete else ()
@@ -79,30 +120,61 @@ def forward_solvers() -> tuple[col.Impact, ...]:
 
 def around(impact: col.Impact) -> str:
     """What can be said of an impact."""
-    sliders = col.what_if(impact, {"speed_a": ("40 km/h", 20), "restitution": (0.0, 0.4)}, outline_a=("4.2 m", 1.8), units="us")
+    sliders = col.what_if(
+        impact,
+        {"speed_a": ("40 km/h", 20), "restitution": (0.0, 0.4)},
+        outline_a=("4.2 m", 1.8),
+        units="us",
+    )
     sliders.save("page.html")
-    assert_type(reporting.replay(str(col.report(impact))), col.Impact | reconstruct.MomentumSolution)
+    assert_type(
+        reporting.replay(str(col.report(impact))), col.Impact | reconstruct.MomentumSolution
+    )
     known: dict[str, Any] = reporting.options(str(col.report(impact)))
     one: col.Impact = impact.case(0).again(restitution=0.2, friction="0.4")
     vx, vy = one.a.delta_v_at((1, "2 m"))
     own, other = one.max_crush_speeds("50 %")
-    print(known, vx + vy + own + other, impact.summary("us"), impact.a.summary(), impact.a.after.summary(units="metric"))
+    print(
+        known,
+        vx + vy + own + other,
+        impact.summary("us"),
+        impact.a.summary(),
+        impact.a.after.summary(units="metric"),
+    )
     schema: dict[str, Any] = col.impact_schema()
     beside = col.left_out(impact, duration="100 ms", drag=0.7)
     share: float = beside.b.tyre_share
     sentences = [finding.sentence for finding in col.diagnose(impact, duration=0.1, drag=0.7)]
-    page: str = str(col.report(impact, title="Two cars", form="markdown", units="metric", duration="100 ms", share_a=0.5))
+    page: str = str(
+        col.report(
+            impact,
+            title="Two cars",
+            form="markdown",
+            units="metric",
+            duration="100 ms",
+            share_a=0.5,
+        )
+    )
     derivation: str = page + str(col.explain(impact, units="us", form="text"))
     return derivation + str(share) + str(schema) + "".join(sentences)
 
 
 def labels(impact: col.Impact, choice: col.ModelChoice) -> str:
-    """Those of a single case are Literals; a batch has arrays of them, which are asked for as such."""
-    if impact.kind == "plastic" or impact.regime == "sticking" or impact.law == "stronge" or impact.model == "eccentric":
+    """Those of a single case are Literals; a batch has arrays of them, which are asked
+    for as such.
+    """
+    if (
+        impact.kind == "plastic"
+        or impact.regime == "sticking"
+        or impact.law == "stronge"
+        or impact.model == "eccentric"
+    ):
         return impact.regime
     if impact.status == col.Status.OK and impact.status.sentence:
         return impact.status.label
-    many = np.count_nonzero(np.asarray(impact.regime) == "sliding") + np.count_nonzero(np.asarray(impact.status) == 0)
+    many = np.count_nonzero(np.asarray(impact.regime) == "sliding") + np.count_nonzero(
+        np.asarray(impact.status) == 0
+    )
     answered: int = impact.ok.sum() + impact.refused.sum()
     with col.options(require_units=True):
         return choice.model if choice.model == "linear_central" else f"{many} {answered}"
@@ -123,37 +195,88 @@ def backwards() -> float:
     )
     before = reconstruct.planar(a, b, normal=0, point=(0, 0), restitution=0.2, friction=0.5)
     several = reconstruct.speeds(
-        a, b, course_a=0, course_b=None, speed_b=0.0, delta_v_b="10 km/h", restitution=0.1, normal=0, point=(0, 0), friction=0.5
+        a,
+        b,
+        course_a=0,
+        course_b=None,
+        speed_b=0.0,
+        delta_v_b="10 km/h",
+        restitution=0.1,
+        normal=0,
+        point=(0, 0),
+        friction=0.5,
     )
     closing: float = reconstruct.inline_closing_speed(1500, 1200, 0.1, delta_v_b=speed)
     energy: float = reconstruct.crush_energy(["1.5 m"], [[0.1, 0.2]], 35000.0, 450000.0)
     e: float = reconstruct.restitution(a, b, a, b, normal=0)
     mu: float = reconstruct.friction(a, b, a, b, normal=0, point=corner)
-    fitted = reconstruct.fit(dict[str, Any], {"speed": Interval(5, "90 km/h")}, {"after": Normal(8, 0.5)})
+    fitted = reconstruct.fit(
+        dict[str, Any], {"speed": Interval(5, "90 km/h")}, {"after": Normal(8, 0.5)}
+    )
     assert_type(fitted, reconstruct.Fit)
-    seen: dict[str, Any] = {"after": Censored(low="8 m/s", error="0.5 m/s"), "before": (9.0, 0.5), "rest": Interval(1, 2)}
-    sampled = reconstruct.posterior(dict[str, Any], {"speed": Uniform(5, "90 km/h")}, seen, samples=1024, seed=1)
+    seen: dict[str, Any] = {
+        "after": Censored(low="8 m/s", error="0.5 m/s"),
+        "before": (9.0, 0.5),
+        "rest": Interval(1, 2),
+    }
+    sampled = reconstruct.posterior(
+        dict[str, Any], {"speed": Uniform(5, "90 km/h")}, seen, samples=1024, seed=1
+    )
     assert_type(sampled, reconstruct.Posterior)
     chance, _ = sampled.probability(lambda at: at["speed"] > 13.9)
-    compared: reconstruct.Comparison = reconstruct.compare({"one": sampled, "other": sampled}, prior={"one": 0.5, "other": 0.5})
+    compared: reconstruct.Comparison = reconstruct.compare(
+        {"one": sampled, "other": sampled}, prior={"one": 0.5, "other": 0.5}
+    )
     recorded = reconstruct.recorded_pulse([0.0, 0.01], [0.0, -2.0], [0, 1.0], polarity="ISO 8855")
     ranges_of: dict[str, Uniform] = recorded.inputs("a")
     both = reconstruct.crush_delta_v("40 kJ", 1500, "1200 kg", gamma_a=0.9)
     e += both[0] + reconstruct.crush_share("60 kN/m", 7e4)
-    print(ranges_of, list(sampled.inputs()), recorded.summary(), fitted.summary(), compared.summary("us"), found.summary())
+    print(
+        ranges_of,
+        list(sampled.inputs()),
+        recorded.summary(),
+        fitted.summary(),
+        compared.summary("us"),
+        found.summary(),
+    )
     output = sampled["speed"]
-    print(output.record(), output.turned(1.0), output.may_wrap(), output.quantile_standard_error(0.5), output.histogram(20))
+    print(
+        output.record(),
+        output.turned(1.0),
+        output.may_wrap(),
+        output.quantile_standard_error(0.5),
+        output.histogram(20),
+    )
     e += chance + compared.probability["one"] + sampled.log_evidence
-    return line.closing_speed + found.speed_a + before.closing_speed + several[0].a.before.speed + closing + energy + e + mu
+    return (
+        line.closing_speed
+        + found.speed_a
+        + before.closing_speed
+        + several[0].a.before.speed
+        + closing
+        + energy
+        + e
+        + mu
+    )
 
 
 def on_the_ground() -> float:
     """What the ground takes."""
     one: float = travel.speed("12 m", drag=0.7, grade="-2 %", end_speed=speed)
-    run_out = travel.path([(0.0, 0.0), (5.0, 1.0)], ["0 deg", 0.3], friction=0.7, lock=1, point_error="0.1 m", heading_error=0)
+    run_out = travel.path(
+        [(0.0, 0.0), (5.0, 1.0)],
+        ["0 deg", 0.3],
+        friction=0.7,
+        lock=1,
+        point_error="0.1 m",
+        heading_error=0,
+    )
     lasts: float = travel.time(20, drag=0.7) + travel.distance(speed, drag="6.5 m/s**2")
     tyres = travel.Tyres(0.7, [1, 0.1, 0.1, "10 %"], "2.7 m", 1.5, steer="3 deg")
-    rest = travel.simulate(a, tyres, slope=("2 %", 0.0)).at("1 s").speed + tyres.replace(height=0.5).wheelbase
+    rest = (
+        travel.simulate(a, tyres, slope=("2 %", 0.0)).at("1 s").speed
+        + tyres.replace(height=0.5).wheelbase
+    )
     return one + lasts + run_out.speed + rest + travel.speed([10.0, 5.0], drag=[0.7, 0.3])
 
 
@@ -172,13 +295,21 @@ def ranges() -> tuple[float, float]:
     def model(**given: Any) -> dict[str, Any]:
         return {"speed": travel.speed(given["slide"], drag=given["drag"])}
 
-    found: uncertainty.Propagation = uncertainty.propagate(model, inputs, method="quasi_random", samples=256, seed=1)
+    found: uncertainty.Propagation = uncertainty.propagate(
+        model, inputs, method="quasi_random", samples=256, seed=1
+    )
     low, high = found["speed"].interval(0.95)
     mean: float = found["speed"].mean
     joint: dict[str, Samples] = Samples.joint(speed=[10.0, 12.0], mass=[1500.0, 1490.0])
     score = joint["speed"].scored(0.5) + Normal.between("20 m/s", 25, 0.9).quantile(0.5)
     output = found["speed"].to("mph")
-    print(output.record(), output.row(), output.histogram(bins=9), output.quantile(0.5), output.quantile_standard_error(0.5))
+    print(
+        output.record(),
+        output.row(),
+        output.histogram(bins=9),
+        output.quantile(0.5),
+        output.quantile_standard_error(0.5),
+    )
     return low + mean + score, high
 
 
@@ -194,7 +325,10 @@ def published() -> float:
 
 
 def pictures(
-    impact: col.Impact, known: uncertainty.Propagation, sampled: reconstruct.Posterior, path: travel.SimulatedPath
+    impact: col.Impact,
+    known: uncertainty.Propagation,
+    sampled: reconstruct.Posterior,
+    path: travel.SimulatedPath,
 ) -> None:
     """Every picture."""
     plot.pulse(impact)
@@ -229,4 +363,9 @@ def refused() -> float | None:
 
 def kinds_of_warning() -> tuple[type[col.CollisionsWarning], ...]:
     """To be filtered by."""
-    return col.EnergyGainWarning, col.IllConditionedWarning, col.OutOfRangeWarning, col.SuspectUnitsWarning
+    return (
+        col.EnergyGainWarning,
+        col.IllConditionedWarning,
+        col.OutOfRangeWarning,
+        col.SuspectUnitsWarning,
+    )

@@ -1,4 +1,6 @@
-"""What a type checker must refuse; every line that ends in "refused" has an error, and no other line has one."""
+"""What a type checker must refuse; every line that ends in "refused" has an error, and no other
+line has one.
+"""
 
 # pyright: reportUnnecessaryComparison=true
 # as in its strict mode
@@ -52,8 +54,24 @@ print(impact.a.after.delta_v)  # refused
 col.Impact.from_dict("a record")  # refused
 text: str = impact.energy_loss  # refused
 
-reconstruct.planar(a, b, normal=0.0, point=(0.0, 0.0), restitution=0.1, friction=0.5, law="brah")  # refused
-reconstruct.planar(a, b, normal=0.0, point=(0.0, 0.0), restitution=0.1, friction=0.5, regime="stiking")  # refused
+reconstruct.planar(
+    a,
+    b,
+    normal=0.0,
+    point=(0.0, 0.0),
+    restitution=0.1,
+    friction=0.5,
+    law="brah",  # refused
+)
+reconstruct.planar(
+    a,
+    b,
+    normal=0.0,
+    point=(0.0, 0.0),
+    restitution=0.1,
+    friction=0.5,
+    regime="stiking",  # refused
+)
 col.explain(impact, form="html")  # refused
 col.report(impact, form="pdf")  # refused
 col.diagnose(a)  # refused

@@ -1,4 +1,6 @@
-"""What a propagation answers with: cases that fail, interrupts, directions, units, tables, pickles; and every refusal."""
+"""What a propagation answers with: cases that fail, interrupts, directions, units, tables, pickles;
+and every refusal.
+"""
 
 import functools
 import itertools
@@ -16,7 +18,16 @@ import pytest
 
 import collisions as col
 from collisions import travel
-from collisions.uncertainty import Interval, Normal, Samples, Uniform, propagate, propagation, sampling, turns
+from collisions.uncertainty import (
+    Interval,
+    Normal,
+    Samples,
+    Uniform,
+    propagate,
+    propagation,
+    sampling,
+    turns,
+)
 from fuzzing import Case
 from strategies import other_registry
 from uncertain_scenes import SCENES
@@ -39,10 +50,12 @@ def catching_up(speed):
 
 @every_method
 def test_failed_cases_are_counted(method):
-    """Their share is the normal probability below -1, of 8192 cases with a binomial deviation of at most 0.004; the figures are
-    those of a normal cut off there, mean closing speed 1 + phi(1)/Phi(1); and one warning says so at the caller."""
+    """Their share is the normal probability below -1, of 8192 cases with a binomial deviation of at
+    most 0.004; the figures are those of a normal cut off there, mean closing speed 1 +
+    phi(1)/Phi(1); and one warning says so at the caller."""
     with pytest.warns(
-        col.OutOfRangeWarning, match="had no answer .* left out: the figures hold only where there is one"
+        col.OutOfRangeWarning,
+        match="had no answer .* left out: the figures hold only where there is one",
     ) as caught:
         found = propagate(catching_up, SPEED, method=method, seed=2)
     assert [record.message.code for record in caught] == ["failed_cases"]
@@ -66,7 +79,12 @@ def test_failed_cases_are_counted(method):
 
 def test_truncation_leaves_no_case_without_an_answer():
     """What the warning advises."""
-    found = propagate(catching_up, {"speed": Normal(11.0, 1.0, truncate=(10.0 + 1e-9, None))}, method="quasi_random", seed=1)
+    found = propagate(
+        catching_up,
+        {"speed": Normal(11.0, 1.0, truncate=(10.0 + 1e-9, None))},
+        method="quasi_random",
+        seed=1,
+    )
     assert found.failed == 0
 
 
@@ -86,10 +104,17 @@ def test_a_single_case_with_an_answer():
     run = {"method": "monte_carlo", "samples": 64, "seed": 1}
     largest = propagate(lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, **run)["y"].quantile(1.0)
     with pytest.warns(col.OutOfRangeWarning, match="63 of 64"):
-        found = propagate(lambda x: {"y": np.where(x == largest, x, np.nan)}, {"x": Normal(0.0, 1.0)}, **run)
+        found = propagate(
+            lambda x: {"y": np.where(x == largest, x, np.nan)}, {"x": Normal(0.0, 1.0)}, **run
+        )
     y = found["y"]
     assert y.mean == y.quantile(0.5) == np.nanmax(y.values)
-    for figure in (y.std, y.mean_standard_error, y.std_standard_error, y.quantile_standard_error(0.5)):
+    for figure in (
+        y.std,
+        y.mean_standard_error,
+        y.std_standard_error,
+        y.quantile_standard_error(0.5),
+    ):
         assert math.isnan(figure)
     assert json.loads(json.dumps(found.to_dict(), allow_nan=False))["outputs"]["y"]["std"] == "nan"
 
@@ -168,12 +193,16 @@ def test_an_interrupt_returns_what_is_done(monkeypatch, method, threads, where):
     inputs = SCENES["rear_end"][1]
     whole = propagate(recorded, inputs, method=method, samples=5000, seed=3)
     with pytest.warns(col.CollisionsWarning, match="interrupted after") as caught:
-        found = propagate(model, inputs, method=method, samples=5000, seed=3, threads=threads, progress=stop)
+        found = propagate(
+            model, inputs, method=method, samples=5000, seed=3, threads=threads, progress=stop
+        )
     (warning,) = [record.message for record in caught]
     assert (warning.code, warning.fields["done"]) == ("interrupted", found.samples)
     assert found.interrupted
     # Two threads may begin their blocks in another order than they were given.
-    assert found.samples in ((1500,) if where == "progress" or threads == 1 else (500, 1000, 1500, 2000))
+    assert found.samples in (
+        (1500,) if where == "progress" or threads == 1 else (500, 1000, 1500, 2000)
+    )
     assert not whole.interrupted
     for name in found:
         assert found[name].values.tobytes() == whole[name].values[: found.samples].tobytes()
@@ -191,9 +220,16 @@ def test_an_interrupt_while_a_tolerance_is_sought(monkeypatch):
 
     with pytest.warns(col.CollisionsWarning, match="interrupted after 12288"):
         found = propagate(
-            lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="monte_carlo", seed=1, tolerance=1e-6, progress=stop
+            lambda x: {"y": x},
+            {"x": Normal(0.0, 1.0)},
+            method="monte_carlo",
+            seed=1,
+            tolerance=1e-6,
+            progress=stop,
         )
-    whole = propagate(lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="monte_carlo", seed=1, samples=16384)
+    whole = propagate(
+        lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="monte_carlo", seed=1, samples=16384
+    )
     assert found["y"].values.tobytes() == whole["y"].values[:12288].tobytes()
 
 
@@ -208,7 +244,10 @@ def test_an_interrupt_before_anything_is_done():
             propagate(model, {"x": Normal(0.0, 1.0)}, method="monte_carlo", threads=threads)
 
 
-@pytest.mark.skipif(threading.current_thread() is not threading.main_thread(), reason="signals reach the main thread only")
+@pytest.mark.skipif(
+    threading.current_thread() is not threading.main_thread(),
+    reason="signals reach the main thread only",
+)
 def test_an_interrupt_from_the_keyboard(monkeypatch):
     """The signal itself, in the middle of a block."""
     monkeypatch.setattr(sampling, "BLOCK", 500)
@@ -239,25 +278,44 @@ def test_a_model_that_fails_on_a_thread():
             raise ZeroDivisionError("mine")
         return {"y": x}
 
-    first = propagate(lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="monte_carlo", seed=1)["y"].values[0]
+    first = propagate(lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="monte_carlo", seed=1)[
+        "y"
+    ].values[0]
     for threads in (1, 3):
         with pytest.raises(ZeroDivisionError, match="mine"):
-            propagate(model, {"x": Normal(0.0, 1.0)}, method="monte_carlo", samples=50000, seed=1, threads=threads)
+            propagate(
+                model,
+                {"x": Normal(0.0, 1.0)},
+                method="monte_carlo",
+                samples=50000,
+                seed=1,
+                threads=threads,
+            )
 
 
 # Tolerances
 
 
-@pytest.mark.parametrize("given", ["0.02 mph", ureg.Quantity(3.0, "cm/s"), {"v": "0.1 km/h"}, {"v": 0.02}])
+@pytest.mark.parametrize(
+    "given", ["0.02 mph", ureg.Quantity(3.0, "cm/s"), {"v": "0.1 km/h"}, {"v": 0.02}]
+)
 def test_tolerances_with_units(given):
     """A text, a Quantity, one for each output: read in the unit of the output."""
     found = propagate(
-        lambda v: {"v": v * ureg("m/s")}, {"v": Normal("20 km/h", "2 km/h")}, method="monte_carlo", seed=1, tolerance=given
+        lambda v: {"v": v * ureg("m/s")},
+        {"v": Normal("20 km/h", "2 km/h")},
+        method="monte_carlo",
+        seed=1,
+        tolerance=given,
     )
     wanted = given["v"] if isinstance(given, dict) else given
     limit = wanted if isinstance(wanted, float) else ureg.Quantity(wanted).m_as("m/s")
     v = found["v"]
-    errors = [v.mean_standard_error, v.std_standard_error, *v.quantile_standard_error([0.025, 0.975])]
+    errors = [
+        v.mean_standard_error,
+        v.std_standard_error,
+        *v.quantile_standard_error([0.025, 0.975]),
+    ]
     assert max(errors) <= limit
     assert found.samples >= 8192
 
@@ -267,7 +325,11 @@ def test_tolerances_with_units(given):
     [
         (0.0, "bad_tolerance", "must be a number > 0, got 0.0 for delta_v"),
         (-1.0, "bad_tolerance", "> 0"),
-        ({"speeds": 0.1}, "bad_tolerance", "'speeds', which is no output; the model returned delta_v, energy_loss"),
+        (
+            {"speeds": 0.1},
+            "bad_tolerance",
+            "'speeds', which is no output; the model returned delta_v, energy_loss",
+        ),
         ({}, "bad_tolerance", "names no output"),
         ([0.1], "bad_tolerance", "must be a number > 0"),
         ("0.1 km/h", "bad_units", "tolerance"),
@@ -295,15 +357,19 @@ def struck(course):
 
 @every_method
 def test_directions_on_both_sides_of_pi(method):
-    """The force on a car struck from behind: with its unit, mean pi and the deviation of its heading, and every share with the
-    heading; without, a warning that names it."""
+    """The force on a car struck from behind: with its unit, mean pi and the deviation of its
+    heading, and every share with the heading; without, a warning that names it."""
     inputs = {"course": Normal("0 deg", "5 deg"), "idle": Normal(0.0, 1.0)}
-    found = propagate(lambda course, idle: {"pdof": struck(course).q.pdof}, inputs, method=method, seed=1)["pdof"]
+    found = propagate(
+        lambda course, idle: {"pdof": struck(course).q.pdof}, inputs, method=method, seed=1
+    )["pdof"]
     assert abs(abs(found.mean) - math.pi) < 6.5 * found.mean_standard_error + 1e-12
     assert abs(found.std - math.radians(5.0)) < 6.5 * found.std_standard_error
     assert found.contributions["course"] == pytest.approx(1.0, abs=0.06)
     assert found.contributions["idle"] == pytest.approx(0.0, abs=1e-12)
-    with pytest.warns(col.OutOfRangeWarning, match="pdof has values near pi and near -pi: if it is an angle") as caught:
+    with pytest.warns(
+        col.OutOfRangeWarning, match="pdof has values near pi and near -pi: if it is an angle"
+    ) as caught:
         propagate(lambda course, idle: {"pdof": struck(course).pdof}, inputs, method=method, seed=1)
     assert [record.message.code for record in caught] == ["may_wrap"]
     assert caught[0].message.fields["outputs"] == ("pdof",)
@@ -311,9 +377,14 @@ def test_directions_on_both_sides_of_pi(method):
 
 @pytest.mark.parametrize("middle", [-3.1, -2.0, 0.0, 1.0, 3.0, math.pi])
 def test_directions_are_counted_about_their_middle(middle):
-    """Values that lie within the turn stay as they are to the bit; those beyond pi are counted on."""
+    """Values that lie within the turn stay as they are to the bit; those beyond pi are
+    counted on.
+    """
     found = propagate(
-        lambda x: {"y": np.remainder(x + math.pi, 2.0 * math.pi) * ureg.radian - math.pi * ureg.radian, "x": x},
+        lambda x: {
+            "y": np.remainder(x + math.pi, 2.0 * math.pi) * ureg.radian - math.pi * ureg.radian,
+            "x": x,
+        },
         {"x": Normal(middle, 0.2)},
         method="quasi_random",
         seed=1,
@@ -330,9 +401,11 @@ def pointing(course):
 
 
 def wrapped_normal(sd):
-    """Standard deviation and quantiles about the middle, within half a turn, and the density opposite it over that of all sides.
+    """Standard deviation and quantiles about the middle, within half a turn, and the density
+    opposite it over that of all sides.
 
-    By the Fourier series of the density (Mardia and Jupp, Directional Statistics), summed until nothing is left.
+    By the Fourier series of the density (Mardia and Jupp, Directional Statistics), summed until
+    nothing is left.
     """
     k = np.arange(1.0, 200.0)
     size = np.exp(-0.5 * (k * sd) ** 2)
@@ -341,7 +414,11 @@ def wrapped_normal(sd):
         low, high = -math.pi, math.pi
         for _ in range(60):
             middle = 0.5 * (low + high)
-            below = 0.5 + middle / (2.0 * math.pi) + float(np.sum(size * np.sin(k * middle) / k)) / math.pi
+            below = (
+                0.5
+                + middle / (2.0 * math.pi)
+                + float(np.sum(size * np.sin(k * middle) / k)) / math.pi
+            )
             low, high = (middle, high) if below < p else (low, middle)
         return low
 
@@ -353,12 +430,17 @@ def wrapped_normal(sd):
 @pytest.mark.parametrize("sd", [5.0, 40.0, 70.0])
 @pytest.mark.parametrize("method", ["quasi_random", "latin_hypercube", "monte_carlo"])
 def test_a_normal_direction_of_any_spread(method, sd, middle):
-    """A wrapped normal, whose facts are known: no empty part of the circle is needed. 6.5 standard errors, as all tests here."""
+    """A wrapped normal, whose facts are known: no empty part of the circle is needed. 6.5 standard
+    errors, as all tests here.
+    """
     stated = Normal(f"{middle} deg", f"{sd} deg")
     found = propagate(pointing, {"course": stated}, method=method, seed=3, samples=16384)["course"]
     std, quantile, _ = wrapped_normal(math.radians(sd))
     mean = math.radians(middle)
-    assert abs(math.remainder(found.mean - mean, 2.0 * math.pi)) < 6.5 * found.mean_standard_error + 1e-12
+    assert (
+        abs(math.remainder(found.mean - mean, 2.0 * math.pi))
+        < 6.5 * found.mean_standard_error + 1e-12
+    )
     assert -math.pi < found.mean <= math.pi + 1e-9
     assert abs(found.std - std) < 6.5 * found.std_standard_error
     assert sd > 40.0 or found.std == pytest.approx(math.radians(sd), rel=0.02)
@@ -370,14 +452,22 @@ def test_a_normal_direction_of_any_spread(method, sd, middle):
 
 
 def test_the_standard_error_of_a_mean_direction_knows_where_the_circle_was_cut():
-    """It is that of a mean over 1 - the density opposite it, over that of all sides (Hotz and Huckemann 2015).
+    """It is that of a mean over 1 - the density opposite it, over that of all sides (Hotz and
+    Huckemann 2015).
 
-    Each error is from 16 sequences, and so within 18 percent as a standard deviation: the mean of 16 runs within a fifth.
+    Each error is from 16 sequences, and so within 18 percent as a standard deviation: the mean of
+    16 runs within a fifth.
     """
     std, _, opposite = wrapped_normal(math.radians(85.0))
     assert 0.3 < opposite < 0.5
     found = [
-        propagate(pointing, {"course": Normal("3 rad", "85 deg")}, method="monte_carlo", seed=seed, samples=4096)["course"]
+        propagate(
+            pointing,
+            {"course": Normal("3 rad", "85 deg")},
+            method="monte_carlo",
+            seed=seed,
+            samples=4096,
+        )["course"]
         for seed in range(16)
     ]
     wanted = std / 64.0 / (1.0 - opposite)
@@ -388,17 +478,25 @@ def test_the_standard_error_of_a_mean_direction_knows_where_the_circle_was_cut()
 
 @pytest.mark.parametrize("seed", range(6))
 def test_the_mean_direction_has_the_least_mean_square_of_the_way_to_it(seed):
-    """By trying 20,000 directions on a few dozen that lie anyhow: none is better than the mean by more than the step allows."""
+    """By trying 20,000 directions on a few dozen that lie anyhow: none is better than the mean by
+    more than the step allows.
+    """
     rng = np.random.default_rng(seed)
     given_ = np.concatenate([rng.uniform(-math.pi, math.pi, 40), rng.normal(seed, 0.8, 50)])
     values = pointing(rng.permutation(given_))["course"].magnitude
     found = turns.counted(values)
-    assert np.all(np.abs(np.rint((found - values) / (2.0 * math.pi)) * 2.0 * math.pi + values - found) < 1e-14)
+    assert np.all(
+        np.abs(np.rint((found - values) / (2.0 * math.pi)) * 2.0 * math.pi + values - found) < 1e-14
+    )
     tried = np.linspace(-math.pi, math.pi, 20_001)[:, np.newaxis]
-    squares = np.mean((np.remainder(values - tried + math.pi, 2.0 * math.pi) - math.pi) ** 2, axis=1)
+    squares = np.mean(
+        (np.remainder(values - tried + math.pi, 2.0 * math.pi) - math.pi) ** 2, axis=1
+    )
     assert np.var(found) <= squares.min() + 1e-12
     assert found.mean() == pytest.approx(float(tried[np.argmin(squares), 0]), abs=2e-4)
-    rows = turns.counted(np.stack([values, np.where(np.arange(90) < 45, values, np.nan), np.full(90, np.nan)]))
+    rows = turns.counted(
+        np.stack([values, np.where(np.arange(90) < 45, values, np.nan), np.full(90, np.nan)])
+    )
     assert rows[0].tobytes() == found.tobytes()
     np.testing.assert_array_equal(rows[1][:45], turns.counted(values[:45]))
 
@@ -412,11 +510,17 @@ def test_a_wide_direction_by_derivatives(method):
 
 
 def test_a_wide_direction_at_every_place_of_an_interval():
-    """Means from 150 to 210 degrees and 40 degrees about each: over the whole circle, and still one range."""
+    """Means from 150 to 210 degrees and 40 degrees about each: over the whole circle, and still one
+    range.
+    """
     inputs = {"course": Normal("0 deg", "40 deg"), "more": Interval("150 deg", "210 deg")}
-    found = propagate(lambda course, more: pointing(course + more), inputs, method="quasi_random", seed=1, samples=4096)[
-        "course"
-    ]
+    found = propagate(
+        lambda course, more: pointing(course + more),
+        inputs,
+        method="quasi_random",
+        seed=1,
+        samples=4096,
+    )["course"]
     low, high = np.degrees(found.mean)
     assert (low % 360.0, high % 360.0) == pytest.approx((150.0, 210.0), abs=0.5)
     assert high - low == pytest.approx(60.0, abs=0.5)
@@ -426,7 +530,9 @@ def test_a_wide_direction_at_every_place_of_an_interval():
 def test_directions_to_all_sides():
     """They have no mean, and that is said, and not that they should have a unit."""
     with pytest.warns(
-        col.OutOfRangeWarning, match="y has directions so far round the circle from one another that its mean tells little"
+        col.OutOfRangeWarning,
+        match="y has directions so far round the circle from one another that its mean tells "
+        "little",
     ):
         propagate(
             lambda x: {"y": np.remainder(x, 2.0 * math.pi) * ureg.radian - math.pi * ureg.radian},
@@ -439,24 +545,40 @@ def test_directions_to_all_sides():
 @pytest.mark.parametrize(("share", "warned"), [(0.5, True), (0.8, True), (0.95, False)])
 @pytest.mark.parametrize("spread", [0.0, 0.2])
 def test_directions_to_opposite_sides(share, warned, spread):
-    """A share p ahead, the others behind: (1 - p) 180 deg to the left is as good a mean as to the right, and none goes there."""
+    """A share p ahead, the others behind: (1 - p) 180 deg to the left is as good a mean as to the
+    right, and none goes there.
+    """
 
     def model(side, about):
         turned = np.where(side < share, 0.0, math.pi) + spread * about
-        return {"y": np.remainder(turned + math.pi, 2.0 * math.pi) * ureg.radian - math.pi * ureg.radian}
+        return {
+            "y": np.remainder(turned + math.pi, 2.0 * math.pi) * ureg.radian - math.pi * ureg.radian
+        }
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        propagate(model, {"side": Uniform(0.0, 1.0), "about": Normal(0.0, 1.0)}, method="quasi_random", seed=1)
+        propagate(
+            model,
+            {"side": Uniform(0.0, 1.0), "about": Normal(0.0, 1.0)},
+            method="quasi_random",
+            seed=1,
+        )
     assert [warning.message.code for warning in caught] == ["may_wrap"] * warned
     # Four in five ahead is a preferred side, and not all sides.
-    assert not any("preferred" in str(warning.message) or "all sides" in str(warning.message) for warning in caught)
+    assert not any(
+        "preferred" in str(warning.message) or "all sides" in str(warning.message)
+        for warning in caught
+    )
 
 
-@pytest.mark.parametrize("stated", [Normal(7.0, 3.0), Uniform(0.0, 6.0), Uniform(-1.0, 2.5), Uniform(-20.0, 20.0)])
+@pytest.mark.parametrize(
+    "stated", [Normal(7.0, 3.0), Uniform(0.0, 6.0), Uniform(-1.0, 2.5), Uniform(-20.0, 20.0)]
+)
 def test_rotations_keep_their_turns(stated):
     """What counts turns, or has its gap where the count begins, is left as it is."""
-    found = propagate(lambda x: {"turned": x * ureg.radian, "x": x}, {"x": stated}, method="quasi_random", seed=1)
+    found = propagate(
+        lambda x: {"turned": x * ureg.radian, "x": x}, {"x": stated}, method="quasi_random", seed=1
+    )
     assert found["turned"].values.tobytes() == found["x"].values.tobytes()
 
 
@@ -469,7 +591,10 @@ def chained():
 
     def model(**inputs):
         answer = SCENES["chain"][0](**inputs)
-        return {"speed_a": answer["speed_a"] * ureg("m/s"), "ratio": answer["speed_a"] / answer["speed_b"]}
+        return {
+            "speed_a": answer["speed_a"] * ureg("m/s"),
+            "ratio": answer["speed_a"] / answer["speed_b"],
+        }
 
     return propagate(model, SCENES["chain"][1], method="quasi_random", seed=1, samples=2048)
 
@@ -484,7 +609,9 @@ def test_quantities(chained):
     assert found.q.quantile([0.1, 0.9]).m_as("m/s").tolist() == found.quantile([0.1, 0.9]).tolist()
     assert tuple(end.m_as("m/s") for end in found.q.interval(0.9)) == found.interval(0.9)
     assert found.q.quantile_standard_error(0.5).units == ureg("m/s").units
-    with pytest.raises(col.InputError, match="'ratio' has no unit, because the model returned plain numbers") as caught:
+    with pytest.raises(
+        col.InputError, match="'ratio' has no unit, because the model returned plain numbers"
+    ) as caught:
         _ = chained["ratio"].q
     assert caught.value.code == "no_unit"
 
@@ -492,7 +619,9 @@ def test_quantities(chained):
 def test_other_units_are_turned_into_si():
     """Whatever unit and registry the model answers in."""
     other = other_registry()
-    found = propagate(lambda v: {"v": other.Quantity(v, "km/h")}, {"v": Normal(36.0, 3.6)}, method="first_order")["v"]
+    found = propagate(
+        lambda v: {"v": other.Quantity(v, "km/h")}, {"v": Normal(36.0, 3.6)}, method="first_order"
+    )["v"]
     assert (found.unit, found.mean) == ("m/s", pytest.approx(10.0))
 
 
@@ -500,7 +629,12 @@ def test_to_dict_is_strict_json(chained):
     """Plain values, and what was stated."""
     record = json.loads(json.dumps(chained.to_dict(), allow_nan=False))
     assert record["method"] == "quasi_random"
-    assert (record["samples"], record["failed"], record["seed"], record["interrupted"]) == (2048, 0, 1, False)
+    assert (record["samples"], record["failed"], record["seed"], record["interrupted"]) == (
+        2048,
+        0,
+        1,
+        False,
+    )
     assert record["inputs"]["drag"] == repr(SCENES["chain"][1]["drag"])
     speed = record["outputs"]["speed_a"]
     assert speed["unit"] == "m/s"
@@ -509,13 +643,20 @@ def test_to_dict_is_strict_json(chained):
     assert speed["contributions"] == chained["speed_a"].contributions
     assert record["outputs"]["ratio"]["unit"] is None
     local = propagate(lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="first_order")
-    assert json.loads(json.dumps(local.to_dict(), allow_nan=False))["outputs"]["y"]["mean_standard_error"] == "nan"
+    assert (
+        json.loads(json.dumps(local.to_dict(), allow_nan=False))["outputs"]["y"][
+            "mean_standard_error"
+        ]
+        == "nan"
+    )
 
 
 @pytest.mark.filterwarnings("ignore:method=:collisions.OutOfRangeWarning")
 @pytest.mark.parametrize("method", ["quasi_random", "second_order", "interval"])
 def test_a_pickle_without_its_model(method):
-    """A lambda cannot be pickled, what it was asked for can: figures, contributions, and values locked as before."""
+    """A lambda cannot be pickled, what it was asked for can: figures, contributions, and values
+    locked as before.
+    """
     inputs = {"x": Uniform(1.0, 2.0), "y": Uniform(0.0, 1.0)}
     options = {"seed": 1, "samples": 512} if method == "quasi_random" else {}
     found = propagate(lambda x, y: {"z": x * y + x}, inputs, method=method, **options)
@@ -537,29 +678,38 @@ def test_what_is_shown(chained):
     assert "95 percent from" in repr(chained["speed_a"])
     assert "m/s" in repr(chained["speed_a"])
     assert "<th style" in chained._repr_html_()
-    escaped = propagate(lambda x: {"<b>": x}, {"x": Normal(0.0, 1.0)}, method="first_order")._repr_html_()
+    escaped = propagate(
+        lambda x: {"<b>": x}, {"x": Normal(0.0, 1.0)}, method="first_order"
+    )._repr_html_()
     assert "&lt;b&gt;" in escaped
     assert "<b>" not in escaped
 
 
 def test_the_outputs_by_name(chained):
-    """In the order in which the model returned them; another name is refused with the ones there are."""
+    """In the order in which the model returned them; another name is refused with the ones there
+    are.
+    """
     assert list(chained) == ["speed_a", "ratio"]
     assert len(chained) == 2
     assert "ratio" in chained
-    with pytest.raises(col.InputError, match="no output 'speed_b'; the model returned speed_a, ratio") as caught:
+    with pytest.raises(
+        col.InputError, match="no output 'speed_b'; the model returned speed_a, ratio"
+    ) as caught:
         chained["speed_b"]
     assert caught.value.code == "no_output"
 
 
 def test_correlation_of_outputs():
-    """Of x + y and x - y with deviations 2 and 1: (4 - 1) / (4 + 1); over the cases that answer both."""
+    """Of x + y and x - y with deviations 2 and 1: (4 - 1) / (4 + 1); over the cases that answer
+    both.
+    """
     inputs = {"x": Normal(0.0, 2.0), "y": Normal(0.0, 1.0)}
     found = propagate(lambda x, y: {"p": x + y, "m": x - y}, inputs, method="quasi_random", seed=1)
     assert found.correlation["p", "m"] == pytest.approx(0.6, abs=0.01)
     with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
         half = propagate(
-            lambda x, y: {"p": np.where(x > 0.0, x, np.nan), "m": -x}, inputs, method="quasi_random", seed=1
+            lambda x, y: {"p": np.where(x > 0.0, x, np.nan), "m": -x}, inputs,
+            method="quasi_random", seed=1
         )  # fmt: skip
     assert half.correlation["p", "m"] == pytest.approx(-1.0, abs=1e-12)
     with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
@@ -586,17 +736,31 @@ def test_histograms(chained):
         with pytest.raises(col.InputError, match="bins must be a whole number") as caught:
             found.histogram(bins)
         assert caught.value.code == "bad_option"
-    flat = propagate(lambda x: {"y": 1e20 + 0.0 * x}, {"x": Normal(0.0, 1.0)}, method="monte_carlo", samples=64, seed=1)["y"]
+    flat = propagate(
+        lambda x: {"y": 1e20 + 0.0 * x},
+        {"x": Normal(0.0, 1.0)},
+        method="monte_carlo",
+        samples=64,
+        seed=1,
+    )["y"]
     with pytest.raises(col.InputError, match="do not differ by more than rounding"):
         flat.histogram()
     with pytest.raises(col.InputError, match="nothing was sampled; take method='quasi_random'"):
-        propagate(lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="first_order")["y"].histogram()
+        propagate(lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="first_order")[
+            "y"
+        ].histogram()
 
 
-@pytest.mark.parametrize("p", [-0.1, 1.1, math.nan, "0.5", True, None, [0.5, 2.0], 0.5j, ureg.Quantity(0.5), object()])
+@pytest.mark.parametrize(
+    "p", [-0.1, 1.1, math.nan, "0.5", True, None, [0.5, 2.0], 0.5j, ureg.Quantity(0.5), object()]
+)
 def test_what_is_no_probability(chained, p):
     """Refused wherever one is asked for."""
-    for call in (chained["speed_a"].quantile, chained["speed_a"].quantile_standard_error, chained["speed_a"].interval):
+    for call in (
+        chained["speed_a"].quantile,
+        chained["speed_a"].quantile_standard_error,
+        chained["speed_a"].interval,
+    ):
         with pytest.raises(col.InputError, match="from 0 to 1") as caught:
             call(p)
         assert caught.value.code == "bad_fraction"
@@ -643,7 +807,10 @@ def test_a_model_that_is_no_function(model):
         (
             lambda x: x,
             "bad_model",
-            r"must return a dict of named outputs, such as \{'delta_v': impact\.a\.q\.delta_v\}, got nd",
+            (
+                r"must return a dict of named outputs, such as \{'delta_v': "
+                r"impact\.a\.q\.delta_v\}, got nd"
+            ),
         ),
         (lambda x: None, "bad_model", "got NoneType"),
         (lambda x: {}, "bad_model", "must return a dict of named outputs, .*, got an empty one$"),
@@ -667,7 +834,9 @@ def test_a_model_that_is_no_function(model):
 @pytest.mark.parametrize("method", ["quasi_random", "first_order"])
 def test_answers_that_are_none(answer, code, words, method):
     """Refused with the name of the output and what an answer is."""
-    with pytest.raises(col.InputError, match=words.replace("8192", "8192" if method == "quasi_random" else "5")) as caught:
+    with pytest.raises(
+        col.InputError, match=words.replace("8192", "8192" if method == "quasi_random" else "5")
+    ) as caught:
         propagate(answer, X, method=method)
     assert caught.value.code == code
 
@@ -709,7 +878,9 @@ def test_models_that_cannot_take_arrays(model, error, method):
         "on_failure='nan'",
     ):
         assert words in str(found)
-    assert re.search(r"It is called with arrays of \d+ cases for x, and must work case by case", str(found))
+    assert re.search(
+        r"It is called with arrays of \d+ cases for x, and must work case by case", str(found)
+    )
     assert "numpy.where in place of if (numpy.where(x > 0, x, -x))" in str(found)
     assert "Uniform" not in str(found)
 
@@ -729,38 +900,54 @@ def test_a_model_between_bounds_that_cannot_take_arrays():
     ],
 )
 def test_a_pair_that_was_meant_as_a_range(model, code):
-    """A pair is a place, which is the same in every case; where the model fails with one, it is said what a range is written as."""
+    """A pair is a place, which is the same in every case; where the model fails with one, it is
+    said what a range is written as.
+    """
     found = refused(model, {**X, "drag": (0.6, 0.8)})
     assert isinstance(found, col.InputError)
     assert found.code == code
-    assert "drag is the pair (0.6, 0.8) in every case; if a range was meant, write Uniform(0.6, 0.8) or Interval(0.6, 0.8)" in (
-        str(found)
+    assert (
+        "drag is the pair (0.6, 0.8) in every case; if a range was meant, write Uniform(0.6, "
+        "0.8) or Interval(0.6, 0.8)" in (str(found))
     )
     for method in ("quasi_random", "interval"):
         alone = refused(lambda drag: {"y": drag}, {"drag": (0.6, 0.8)}, method=method)
         assert alone.code == "nothing_uncertain"
         assert "write Uniform(0.6, 0.8) or Interval(0.6, 0.8)" in str(alone)
-    assert "Uniform" not in str(refused(lambda x, point: {"y": math.sqrt(x)}, {**X, "point": (2.0, -1.0)}))
+    assert "Uniform" not in str(
+        refused(lambda x, point: {"y": math.sqrt(x)}, {**X, "point": (2.0, -1.0)})
+    )
 
 
 def test_a_refusal_of_a_solver_comes_with_the_note_too():
     """As it is raised where on_failure was not thought of."""
     with pytest.raises(col.InputError) as caught:
         propagate(
-            lambda x: {"y": col.linear_central(col.Vehicle(mass=1.0, vx=x), col.Vehicle(mass=1.0), "much").b.delta_v},
+            lambda x: {
+                "y": col.linear_central(
+                    col.Vehicle(mass=1.0, vx=x), col.Vehicle(mass=1.0), "much"
+                ).b.delta_v
+            },
             X,
             method="monte_carlo",
         )
     assert "called with arrays" in caught.value.__notes__[0]
     with pytest.raises(col.InputError, match="drag is a tuple") as caught:
-        propagate(lambda x, drag: {"y": travel.speed(x, drag=drag)}, {**X, "drag": (0.6, 0.8)}, method="quasi_random")
+        propagate(
+            lambda x, drag: {"y": travel.speed(x, drag=drag)},
+            {**X, "drag": (0.6, 0.8)},
+            method="quasi_random",
+        )
     assert "write Uniform(0.6, 0.8)" in caught.value.__notes__[0]
 
 
 @pytest.mark.parametrize(
     ("inputs", "words"),
     [
-        ({"z": Normal(0.0, 1.0)}, "inputs are z, but the model takes .x.: missing a required argument: 'x'"),
+        (
+            {"z": Normal(0.0, 1.0)},
+            "inputs are z, but the model takes .x.: missing a required argument: 'x'",
+        ),
         ({"x": Normal(0.0, 1.0), "z": 1.0}, "got an unexpected keyword argument 'z'"),
         ({}, "inputs are none"),
         ({1: Normal(0.0, 1.0)}, "inputs must be a dict"),
@@ -794,11 +981,19 @@ def wrapping(*args, **options):
 
 @pytest.mark.parametrize(
     "model",
-    [Scaled(), Scaled().method, functools.partial(lambda x, k: {"y": k * x}, k=1.0), wrapping, lambda x, k=1.0: {"y": k * x}],
+    [
+        Scaled(),
+        Scaled().method,
+        functools.partial(lambda x, k: {"y": k * x}, k=1.0),
+        wrapping,
+        lambda x, k=1.0: {"y": k * x},
+    ],
 )
 def test_models_that_are_no_plain_function(model):
     """They are called by the same names, and refused by them."""
-    assert propagate(model, X, method="monte_carlo", seed=1)["y"].std == pytest.approx(1.0, rel=0.05)
+    assert propagate(model, X, method="monte_carlo", seed=1)["y"].std == pytest.approx(
+        1.0, rel=0.05
+    )
     for inputs in ({}, {"self": X["x"]}, {"z": X["x"]}):
         with pytest.raises(col.InputError, match="but the model takes") as caught:
             propagate(model, inputs, method="monte_carlo")
@@ -836,7 +1031,9 @@ def test_fixed_inputs_that_are_none(value, code):
 
 @pytest.mark.parametrize("method", ["first_order", "monte_carlo", "interval"])
 def test_a_fixed_input_that_holds_itself_reaches_the_model(method):
-    """What is no number is the model's own affair; its answer can be read and written down all the same."""
+    """What is no number is the model's own affair; its answer can be read and written down all the
+    same.
+    """
     loop = [1.0]
     loop.append(loop)
     seen = []
@@ -850,7 +1047,9 @@ def test_a_fixed_input_that_holds_itself_reaches_the_model(method):
     assert seen
     assert all(seen)
     assert found.inputs["own"] is loop
-    assert json.loads(json.dumps(found.to_dict(), allow_nan=False))["inputs"]["own"] == "[1.0, [...]]"
+    assert (
+        json.loads(json.dumps(found.to_dict(), allow_nan=False))["inputs"]["own"] == "[1.0, [...]]"
+    )
     Case("looked at").look(found, None, thorough=True)
 
 
@@ -884,7 +1083,10 @@ def test_a_model_cannot_change_its_inputs():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"method": "fosm"}, "method must be one of first_order, second_order, .* interval, got 'fosm'"),
+        (
+            {"method": "fosm"},
+            "method must be one of first_order, second_order, .* interval, got 'fosm'",
+        ),
         ({"method": ["quasi_random"]}, "method must be one of"),
         ({"samples": 63}, "samples must be a whole number from 64 to 16777216, got 63"),
         ({"samples": 2**24 + 1}, "samples must be"),
@@ -901,7 +1103,10 @@ def test_a_model_cannot_change_its_inputs():
         ({"progress": 1}, "progress must be a function of .done, total., or True for a bar, got 1"),
         ({"progress": "yes"}, "progress must be"),
         ({"samples": 100, "tolerance": 0.1}, "give samples= or tolerance=, not both"),
-        ({"method": "first_order", "samples": 100}, "samples is for methods that draw; method='first_order' does not"),
+        (
+            {"method": "first_order", "samples": 100},
+            "samples is for methods that draw; method='first_order' does not",
+        ),
         ({"method": "second_order", "tolerance": 0.1}, "tolerance is for methods that draw"),
         ({"method": "interval", "samples": 100}, "samples is for methods that draw"),
     ],
@@ -933,7 +1138,12 @@ def test_options_that_are_none(options, words):
     ],
 )
 def test_correlations_that_are_none(correlation, words):
-    inputs = {"a": Normal(0.0, 1.0), "b": Normal(0.0, 1.0), "fixed": 1.0, "range": Interval(0.0, 1.0)}
+    inputs = {
+        "a": Normal(0.0, 1.0),
+        "b": Normal(0.0, 1.0),
+        "fixed": 1.0,
+        "range": Interval(0.0, 1.0),
+    }
     inputs |= Samples.joint(j=[1.0, 2.0], k=[2.0, 1.0])
     with pytest.raises(col.InputError, match=words) as caught:
         propagate(lambda **x: {"y": x["a"]}, inputs, method="quasi_random", correlation=correlation)
@@ -944,9 +1154,9 @@ def test_a_correlation_given_twice_alike():
     """Is one."""
     inputs = {"a": Normal(0.0, 1.0), "b": Normal(0.0, 1.0)}
     pairs = {("a", "b"): 0.5, ("b", "a"): np.float32(0.5)}
-    assert propagate(lambda a, b: {"y": a + b}, inputs, method="first_order", correlation=pairs)["y"].std == pytest.approx(
-        math.sqrt(3.0)
-    )
+    assert propagate(lambda a, b: {"y": a + b}, inputs, method="first_order", correlation=pairs)[
+        "y"
+    ].std == pytest.approx(math.sqrt(3.0))
 
 
 def test_an_interrupt_while_the_errors_are_judged(monkeypatch):
@@ -964,27 +1174,40 @@ def test_an_interrupt_while_the_errors_are_judged(monkeypatch):
 
 @pytest.mark.parametrize("spread", [0.1, 0.5, 0.8, 1.0])
 def test_a_bare_angle_around_pi_is_told_whatever_its_spread(spread):
-    """A few cases on the far side of the circle do not hide it; an interval around pi is warned of too, a quantity about 0 is not."""
+    """A few cases on the far side of the circle do not hide it; an interval around pi is warned of
+    too, a quantity about 0 is not.
+    """
 
     def course(angle):
         return {"course": np.arctan2(np.sin(angle), np.cos(angle))}
 
     with pytest.warns(col.OutOfRangeWarning, match="near pi and near -pi") as caught:
-        propagate(course, {"angle": Normal(math.pi, spread)}, method="monte_carlo", seed=1, samples=16384)
+        propagate(
+            course, {"angle": Normal(math.pi, spread)}, method="monte_carlo", seed=1, samples=16384
+        )
     assert caught[0].message.code == "may_wrap"
     with pytest.warns(col.OutOfRangeWarning, match="near pi and near -pi"):
         propagate(course, {"angle": Interval(3.0, 3.3)}, method="interval")
-    propagate(lambda x: {"y": x}, {"x": Normal(0.0, 1.0, truncate=(-3.1, 3.1))}, method="monte_carlo", seed=1)
+    propagate(
+        lambda x: {"y": x},
+        {"x": Normal(0.0, 1.0, truncate=(-3.1, 3.1))},
+        method="monte_carlo",
+        seed=1,
+    )
 
 
 @pytest.mark.parametrize("method", ["quasi_random", "monte_carlo"])
 def test_what_was_never_seen_is_not_known_to_be_impossible(method):
-    """Of a probability with no case in all of them the standard error is that of one case, so no tolerance below is reached."""
+    """Of a probability with no case in all of them the standard error is that of one case, so no
+    tolerance below is reached.
+    """
     found = propagate(lambda x: {"p": x > 6.0}, X, method=method, seed=1, samples=4096)["p"]
     assert found.mean == 0.0
     assert found.mean_standard_error == 1.0 / 4096
     seldom = propagate(lambda x: {"p": x > 2.0}, X, method=method, seed=1, tolerance=1e-3)["p"]
-    assert seldom.mean == pytest.approx(0.5 * math.erfc(math.sqrt(2.0)), abs=6.5 * seldom.mean_standard_error)
+    assert seldom.mean == pytest.approx(
+        0.5 * math.erfc(math.sqrt(2.0)), abs=6.5 * seldom.mean_standard_error
+    )
 
 
 def test_an_output_without_an_answer_at_a_place_of_an_interval():
@@ -992,7 +1215,10 @@ def test_an_output_without_an_answer_at_a_place_of_an_interval():
     inputs = {"x": Normal(10.0, 1.0), "k": Interval(-1.0, 1.0)}
     with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
         found = propagate(
-            lambda x, k: {"y": np.where(k < 0.0, np.nan, x + k), "z": x - k}, inputs, method="quasi_random", seed=1
+            lambda x, k: {"y": np.where(k < 0.0, np.nan, x + k), "z": x - k},
+            inputs,
+            method="quasi_random",
+            seed=1,
         )
     assert found["y"].mean == pytest.approx((10.0, 11.0), abs=1e-4)
     assert found["z"].mean == pytest.approx((9.0, 11.0), abs=1e-4)
@@ -1000,7 +1226,9 @@ def test_an_output_without_an_answer_at_a_place_of_an_interval():
         propagate(lambda x, k: {"y": np.nan * (x + k)}, inputs, method="quasi_random", seed=1)
 
 
-@pytest.mark.parametrize("point", [("5 m", "3 m"), (Normal(2.0, 1.0), 3.0), [pint.Quantity(2.0, "m"), 3.0]])
+@pytest.mark.parametrize(
+    "point", [("5 m", "3 m"), (Normal(2.0, 1.0), 3.0), [pint.Quantity(2.0, "m"), 3.0]]
+)
 def test_a_pair_with_more_than_numbers_in_it_is_refused(point):
     """It would reach the model unread."""
     with pytest.raises(col.InputError, match="give each part as an input of its own") as caught:
@@ -1012,24 +1240,32 @@ def test_a_pair_with_more_than_numbers_in_it_is_refused(point):
 def test_contributions_of_any_size(size):
     """Shares have no unit, so no size of the output leaves their range."""
     inputs = {"x": Normal(0.0, 1.0), "z": Normal(0.0, 2.0)}
-    found = propagate(lambda x, z: {"y": size * x + size * z}, inputs, method="quasi_random", seed=1)["y"]
+    found = propagate(
+        lambda x, z: {"y": size * x + size * z}, inputs, method="quasi_random", seed=1
+    )["y"]
     assert found.contributions == pytest.approx({"z": 0.8, "x": 0.2}, abs=0.01)
 
 
 def test_the_ends_of_an_interval_share_no_variance():
     """One place of an interval has nothing uncertain about it."""
-    ends = propagate(lambda x: {"y": 2.0 * x}, {"x": Interval(1.0, 2.0)}, method="interval")["y"].cases
+    ends = propagate(lambda x: {"y": 2.0 * x}, {"x": Interval(1.0, 2.0)}, method="interval")[
+        "y"
+    ].cases
     assert [end.contribution_standard_errors for end in ends] == [{}, {}]
 
 
 def test_a_correlation_of_intervals_that_is_an_array():
     with pytest.raises(col.InputError, match="knows no likelihood"):
-        propagate(lambda x: {"y": x}, {"x": Interval(1.0, 2.0)}, method="interval", correlation=np.eye(2))
+        propagate(
+            lambda x: {"y": x}, {"x": Interval(1.0, 2.0)}, method="interval", correlation=np.eye(2)
+        )
 
 
 @pytest.mark.parametrize("time", [np.timedelta64(70, "s"), np.timedelta64("NaT", "s")])
 def test_a_time_is_no_whole_number(time):
-    """Numpy counts it among its integers; as a seed, a count, a correlation or an index it is refused."""
+    """Numpy counts it among its integers; as a seed, a count, a correlation or an index it is
+    refused.
+    """
     inputs = {"x": Normal(1.0, 0.1), "z": Normal(1.0, 0.1)}
     options = {"method": "monte_carlo", "samples": 64, "seed": 1}
     for name in ("seed", "samples", "threads"):
@@ -1039,28 +1275,43 @@ def test_a_time_is_no_whole_number(time):
         propagate(lambda x, z: {"y": x + z}, inputs, **options, correlation={("x", "z"): time})
     with pytest.raises(col.InputError, match="bins must be"):
         propagate(lambda x, z: {"y": x + z}, inputs, **options)["y"].histogram(time)
-    batch = col.linear_central(col.Vehicle(mass=1500.0, vx=np.full(80, 20.0)), col.Vehicle(mass=1200.0), 0.1)
+    batch = col.linear_central(
+        col.Vehicle(mass=1500.0, vx=np.full(80, 20.0)), col.Vehicle(mass=1200.0), 0.1
+    )
     with pytest.raises(col.InputError, match="index must be"):
         batch.case(time)
 
 
 @pytest.mark.parametrize("size", [1e-200, 1.0, 1e200])
 def test_correlations_and_errors_do_not_depend_on_the_size_of_the_numbers(size):
-    """Of y = x and z = x + x' the correlation is the root of one half; 8192 points of a sequence give it to a hundredth."""
+    """Of y = x and z = x + x' the correlation is the root of one half; 8192 points of a sequence
+    give it to a hundredth.
+    """
     inputs = {"x": Normal(0.0, 1.0), "other": Normal(0.0, 1.0)}
     found = propagate(
-        lambda x, other: {"y": size * x, "z": size * (x + other)}, inputs, method="quasi_random", seed=1, samples=8192
+        lambda x, other: {"y": size * x, "z": size * (x + other)},
+        inputs,
+        method="quasi_random",
+        seed=1,
+        samples=8192,
     )
     assert found.correlation["y", "z"] == pytest.approx(math.sqrt(0.5), abs=0.01)
-    plain = propagate(lambda x, other: {"y": x + other}, inputs, method="quasi_random", seed=1, samples=8192)["y"]
-    # The same points: only roundings differ, and they are divided by the small error that they are a part of.
-    assert found["z"].mean_standard_error == pytest.approx(size * plain.mean_standard_error, rel=1e-6)
+    plain = propagate(
+        lambda x, other: {"y": x + other}, inputs, method="quasi_random", seed=1, samples=8192
+    )["y"]
+    # The same points: only roundings differ, and they are divided by the small error that they are
+    # a part of.
+    assert found["z"].mean_standard_error == pytest.approx(
+        size * plain.mean_standard_error, rel=1e-6
+    )
     assert found["z"].std_standard_error == pytest.approx(size * plain.std_standard_error, rel=1e-6)
 
 
 def test_histograms_are_equal_by_value():
     """Not as arrays are, which have no truth value."""
-    found = propagate(lambda x: {"y": x}, {"x": Uniform(0, 1)}, method="monte_carlo", samples=64, seed=1)["y"]
+    found = propagate(
+        lambda x: {"y": x}, {"x": Uniform(0, 1)}, method="monte_carlo", samples=64, seed=1
+    )["y"]
     assert found.histogram(3) == found.histogram(3)
     assert found.histogram(3).__ne__(found.histogram(3)) is False
     assert found.histogram(3) != found.histogram(4)
@@ -1070,7 +1321,12 @@ def test_the_bars_of_few_quasi_random_inputs_are_no_comb():
     """Neighbouring bars differ by chance at most: three standard deviations of counts."""
     for seed in range(5):
         inputs = {"speed": Normal("54 km/h", "2 km/h"), "e": Uniform(0.05, 0.2)}
-        found = propagate(lambda speed, e: {"speed": speed * (1.0 + e) / 2.0}, inputs, method="quasi_random", seed=seed)
+        found = propagate(
+            lambda speed, e: {"speed": speed * (1.0 + e) / 2.0},
+            inputs,
+            method="quasi_random",
+            seed=seed,
+        )
         counts = np.asarray(found["speed"].histogram().shares)[10:20] * found.samples
         bends = counts[1:-1] - 0.5 * (counts[2:] + counts[:-2])
         assert np.all(abs(bends) <= 3.0 * np.sqrt(1.5 * counts[1:-1]))

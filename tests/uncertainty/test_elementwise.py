@@ -1,4 +1,6 @@
-"""A model works every case out by itself: one that mixes cases, or draws random numbers, is refused; honest ones are not."""
+"""A model works every case out by itself: one that mixes cases, or draws random numbers, is
+refused; honest ones are not.
+"""
 
 import math
 import warnings
@@ -16,8 +18,13 @@ BETWEEN = {"v": Interval(14.0, 26.0)}
 RUNS = [(V, {"method": method}) for method in METHODS]
 RUNS += [(V, {"method": method, "threads": 2, "samples": 8192}) for method in METHODS[2:]]
 RUNS += [(BETWEEN, {"method": "interval"})]
-RUNS += [(V | {"k": Interval(1.0, 2.0)}, {"method": method}) for method in ("first_order", "quasi_random")]
-every_run = pytest.mark.parametrize(("inputs", "how"), RUNS, ids=lambda of: "-".join(map(str, of.values())))
+RUNS += [
+    (V | {"k": Interval(1.0, 2.0)}, {"method": method})
+    for method in ("first_order", "quasi_random")
+]
+every_run = pytest.mark.parametrize(
+    ("inputs", "how"), RUNS, ids=lambda of: "-".join(map(str, of.values()))
+)
 
 
 def refused(function, inputs, **how):
@@ -93,14 +100,23 @@ def test_mixed_far_out_only(method):
 
 
 def test_the_case_is_named():
-    """With the answer among others and the one alone, which for v - mean(v) is 0: of 41 places the last is 6 above the mean."""
+    """With the answer among others and the one alone, which for v - mean(v) is 0: of 41 places the
+    last is 6 above the mean.
+    """
     found = refused(lambda v: {"dv": v - v.mean()}, BETWEEN, method="interval")
-    assert "among 41 cases it answers 'dv' with 6 for v = 26, and with 0 for that case alone" in str(found)
+    assert (
+        "among 41 cases it answers 'dv' with 6 for v = 26, and with 0 for that case alone"
+        in str(found)
+    )
 
 
 def test_one_refused_case_that_takes_all_answers_away():
-    """A mean over cases one of which has no answer is none: mixed too, rather than a scene without an answer."""
-    found = refused(lambda v: {"dv": v - np.where(v > 22.0, np.nan, v).mean()}, {"v": Uniform(10.0, 22.5)})
+    """A mean over cases one of which has no answer is none: mixed too, rather than a scene without
+    an answer.
+    """
+    found = refused(
+        lambda v: {"dv": v - np.where(v > 22.0, np.nan, v).mean()}, {"v": Uniform(10.0, 22.5)}
+    )
     assert "with no answer for v = " in str(found)
 
 
@@ -112,19 +128,28 @@ def test_an_output_beside_others():
 
 @pytest.mark.parametrize("seed", range(20))
 def test_a_threshold_in_the_last_output(seed):
-    """Both its sides are 0 or 1 whatever the company, so that cases from anywhere else may agree by chance."""
+    """Both its sides are 0 or 1 whatever the company, so that cases from anywhere else may agree by
+    chance.
+    """
     both = {"v": Normal(20.0, 2.0), "w": Uniform(-1.0, 1.0)}
     found = refused(lambda v, w: {"a": v, "fast": w > w.mean()}, both, seed=seed, samples=256)
     assert found.fields["output"] == "fast"
 
 
 def test_turns_that_are_counted_on_from_one_case_to_the_next():
-    """numpy.unwrap adds whole turns by what the cases before had: two answers a turn apart are the same direction and no more."""
-    found = refused(lambda v: {"course": np.unwrap(v) * pint.Quantity(1.0, "rad")}, {"v": Uniform(-3.1, 3.1)})
+    """numpy.unwrap adds whole turns by what the cases before had: two answers a turn apart are the
+    same direction and no more.
+    """
+    found = refused(
+        lambda v: {"course": np.unwrap(v) * pint.Quantity(1.0, "rad")}, {"v": Uniform(-3.1, 3.1)}
+    )
     assert found.fields["output"] == "course"
 
 
-@pytest.mark.parametrize("bad", [np.gradient, lambda v: v + np.zeros(8192), lambda v: v * np.log(len(v) - 1) / (len(v) - 1)])
+@pytest.mark.parametrize(
+    "bad",
+    [np.gradient, lambda v: v + np.zeros(8192), lambda v: v * np.log(len(v) - 1) / (len(v) - 1)],
+)
 def test_a_model_that_fails_alone(bad):
     """Its own error is the cause, or what it answered is no single number."""
     found = refused(lambda v: {"dv": bad(v)}, V)
@@ -140,7 +165,10 @@ def test_what_a_single_case_raised_is_in_the_message():
 
     found = refused(fails, V)
     assert isinstance(found.__cause__, ZeroDivisionError)
-    assert "among others, but not alone, as arrays of one number: ZeroDivisionError: mine. Every case" in str(found)
+    assert (
+        "among others, but not alone, as arrays of one number: ZeroDivisionError: mine. Every case"
+        in str(found)
+    )
 
 
 def test_answers_whose_width_leaves_the_range_of_floats():
@@ -159,14 +187,23 @@ def test_answers_are_the_same_to_the_bit(inputs, how, monkeypatch):
     def scene(v, k=0.5):
         a, b = col.Vehicle(mass=1500.0, vx=v), col.Vehicle(mass=1200.0, vx=12.0)
         impact = col.linear_central(a, b, k / 3.0, on_failure="nan")
-        return {"delta_v": impact.b.q.delta_v, "course": np.arctan2(v - 20.0, 4.0 * k), "slow": v < 10.0}
+        return {
+            "delta_v": impact.b.q.delta_v,
+            "course": np.arctan2(v - 20.0, 4.0 * k),
+            "slow": v < 10.0,
+        }
 
     def figures():
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", col.OutOfRangeWarning)
             found = propagate(scene, inputs, seed=5, **how)
         values = [getattr(found[name], "values", np.zeros(0)).tobytes() for name in found]
-        return found.samples, found.failed, values, [(one.mean, one.std, one.interval()) for one in found.outputs.values()]
+        return (
+            found.samples,
+            found.failed,
+            values,
+            [(one.mean, one.std, one.interval()) for one in found.outputs.values()],
+        )
 
     compared = figures()
     monkeypatch.setattr(model, "check_elementwise", lambda *of: True)
@@ -176,9 +213,11 @@ def test_answers_are_the_same_to_the_bit(inputs, how, monkeypatch):
 @pytest.mark.slow
 @every_run
 def test_few_cases_are_asked_again_once(inputs, how, monkeypatch):
-    """In two calls, however many outputs that are least together, blocks, and places between bounds; the same on threads too.
+    """In two calls, however many outputs that are least together, blocks, and places between
+    bounds; the same on threads too.
 
-    Places in rising order, as those along one interval are to begin with, tell nothing of a sort: there two more."""
+    Places in rising order, as those along one interval are to begin with, tell nothing of a sort:
+    there two more."""
     monkeypatch.setattr(sampling, "BLOCK", 500)
     compared, calls, asked, few = model.check_elementwise, [], [], []
 
@@ -208,12 +247,16 @@ def test_few_cases_are_asked_again_once(inputs, how, monkeypatch):
 
 def test_an_answer_without_the_axis_of_cases():
     """Of one case it may be a bare number, as numpy.squeeze makes it."""
-    found = propagate(lambda v: {"y": np.stack([v, v]).T[:, :1].squeeze()}, V, method="monte_carlo", seed=1)["y"]
+    found = propagate(
+        lambda v: {"y": np.stack([v, v]).T[:, :1].squeeze()}, V, method="monte_carlo", seed=1
+    )["y"]
     assert found.mean == propagate(lambda v: {"y": v}, V, method="monte_carlo", seed=1)["y"].mean
 
 
 def test_an_iteration_until_all_have_converged():
-    """Alone it ends sooner: a little off from what it comes to among others, which no figure shows."""
+    """Alone it ends sooner: a little off from what it comes to among others, which no
+    figure shows.
+    """
 
     def root(v):
         x, step = v.copy(), np.ones(1)
@@ -242,7 +285,9 @@ def rounded(v):
         lambda v: 1e9 + 1e-4 * rounded(v),
         # Directions that come out at either end of the turn.
         lambda v: np.where(v < 20.0, 3.0, math.pi if len(v) > 1 else -math.pi),
-        lambda v: np.where(v < 20.0, 3.0, math.pi if len(v) > 1 else -math.pi) * pint.Quantity(1.0, "rad"),
+        lambda v: (
+            np.where(v < 20.0, 3.0, math.pi if len(v) > 1 else -math.pi) * pint.Quantity(1.0, "rad")
+        ),
     ],
 )
 def test_what_rounding_explains(honest):
@@ -261,7 +306,9 @@ def test_what_rounding_explains(honest):
     ],
 )
 def test_a_jump_that_the_last_bit_decides(honest):
-    """The place at 26 is just beyond it among others and just before it alone, and a few roundings on it is beyond."""
+    """The place at 26 is just beyond it among others and just before it alone, and a few roundings
+    on it is beyond.
+    """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.OutOfRangeWarning)
         assert propagate(lambda v: {"y": honest(v)}, BETWEEN, method="interval")["y"]
@@ -296,7 +343,11 @@ def test_a_model_without_an_answer_anywhere():
 
 @pytest.mark.parametrize(
     "answer",
-    [lambda v: 3.0, lambda v: v, lambda v: col.linear_central(col.Vehicle(mass=1.0, vx=v), col.Vehicle(mass=2.0), 0.5)],
+    [
+        lambda v: 3.0,
+        lambda v: v,
+        lambda v: col.linear_central(col.Vehicle(mass=1.0, vx=v), col.Vehicle(mass=2.0), 0.5),
+    ],
 )
 def test_no_dict(answer):
     """A float, an array and an impact are no named outputs, alone as among others."""
@@ -304,19 +355,31 @@ def test_no_dict(answer):
 
 
 def test_a_list_of_values():
-    """Refused for Samples as for an array, in place of an error from within the model; a pair stays a fixed value."""
+    """Refused for Samples as for an array, in place of an error from within the model; a pair stays
+    a fixed value.
+    """
     for values in ([1.0, 2.0], np.array([1.0, 2.0])):
-        with pytest.raises(col.ShapeError, match=r"v is an? (list|array) of .* given as Samples\(values\)") as caught:
-            propagate(lambda v, x: {"y": v + x}, {"v": values, "x": Normal(0.0, 1.0)}, method="quasi_random")
+        with pytest.raises(
+            col.ShapeError, match=r"v is an? (list|array) of .* given as Samples\(values\)"
+        ) as caught:
+            propagate(
+                lambda v, x: {"y": v + x},
+                {"v": values, "x": Normal(0.0, 1.0)},
+                method="quasi_random",
+            )
         assert caught.value.code == "bad_shape"
-    found = propagate(lambda v, x: {"y": v[0] + x}, {"v": (1.0, 2.0), "x": Normal(0.0, 1.0)}, method="first_order")
+    found = propagate(
+        lambda v, x: {"y": v[0] + x}, {"v": (1.0, 2.0), "x": Normal(0.0, 1.0)}, method="first_order"
+    )
     assert found["y"].mean == 1.0
 
 
 @pytest.mark.parametrize("method", METHODS[2:])
 @pytest.mark.parametrize("seed", range(4))
 def test_outliers_left_out_by_all_cases_together(method, seed):
-    """Their tails would be cut in silence: one of the refused cases is asked alone, and has an answer."""
+    """Their tails would be cut in silence: one of the refused cases is asked alone, and has an
+    answer.
+    """
 
     def cut(v):
         return {"dv": np.where(abs(v - v.mean()) > 2.0 * v.std(), np.nan, v)}

@@ -12,13 +12,28 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import collisions as col
-from collisions.uncertainty import Interval, LogNormal, Normal, Samples, Triangular, Uniform, propagate
+from collisions.uncertainty import (
+    Interval,
+    LogNormal,
+    Normal,
+    Samples,
+    Triangular,
+    Uniform,
+    propagate,
+)
 from project.test_fuzz import attempt, examples
 from strategies import extreme, garbage, registries, texts
 
 pytestmark = pytest.mark.slow
 
-METHODS = ("first_order", "second_order", "latin_hypercube", "quasi_random", "monte_carlo", "interval")
+METHODS = (
+    "first_order",
+    "second_order",
+    "latin_hypercube",
+    "quasi_random",
+    "monte_carlo",
+    "interval",
+)
 
 
 def rear_end(speed: Any, restitution: Any, mass: Any) -> dict[str, Any]:
@@ -34,7 +49,9 @@ def rear_end(speed: Any, restitution: Any, mass: Any) -> dict[str, Any]:
 
 def tame(speed: Any, restitution: Any, mass: Any) -> dict[str, Any]:
     """Takes whatever there is: floats, arrays and other objects."""
-    count = next((len(value) for value in (speed, restitution, mass) if isinstance(value, np.ndarray)), 1)
+    count = next(
+        (len(value) for value in (speed, restitution, mass) if isinstance(value, np.ndarray)), 1
+    )
     parts = [
         np.broadcast_to(value, count) if isinstance(value, (float, np.ndarray)) else np.zeros(count)
         for value in (speed, restitution, mass)
@@ -136,7 +153,13 @@ def test_arguments_in_order(call: dict[str, Any]) -> None:
     found = attempt("propagate", lambda: propagate(**call))
     read_in_full(found)
     if isinstance(found, col.CollisionsError):
-        assert found.code in {"nothing_uncertain", "unbounded", "bad_correlation", "all_failed", "no_derivative"}, found
+        assert found.code in {
+            "nothing_uncertain",
+            "unbounded",
+            "bad_correlation",
+            "all_failed",
+            "no_derivative",
+        }, found
 
 
 @examples(3)
@@ -144,15 +167,35 @@ def test_arguments_in_order(call: dict[str, Any]) -> None:
 def test_one_argument_of_any_kind(call: dict[str, Any], data: Any) -> None:
     """Anything at all in place of one argument."""
     name = data.draw(
-        st.sampled_from(("model", "inputs", "method", "samples", "tolerance", "seed", "threads", "progress", "correlation"))
+        st.sampled_from(
+            (
+                "model",
+                "inputs",
+                "method",
+                "samples",
+                "tolerance",
+                "seed",
+                "threads",
+                "progress",
+                "correlation",
+            )
+        )
     )
     given_value = data.draw(st.one_of(garbage(), texts(), extreme(), st.integers(-5, 10**5)))
-    if name == "threads" and isinstance(given_value, (int, np.integer)) and not isinstance(given_value, bool):
+    if (
+        name == "threads"
+        and isinstance(given_value, (int, np.integer))
+        and not isinstance(given_value, bool)
+    ):
         given_value = min(given_value, 4)
     if name == "tolerance":
         call.pop("samples", None)
         # What may be a tolerance is made so wide that the run ends.
-        given_value = data.draw(st.one_of(st.just(given_value).filter(lambda value: not _is_narrow(value)), st.just(1e30)))
+        given_value = data.draw(
+            st.one_of(
+                st.just(given_value).filter(lambda value: not _is_narrow(value)), st.just(1e30)
+            )
+        )
     call[name] = given_value
     if name == "inputs" and isinstance(given_value, dict):
         call["model"] = lambda **inputs: {
@@ -174,7 +217,9 @@ def _is_narrow(value: Any) -> bool:
 @examples(3)
 @given(calls(), st.sampled_from(("speed", "restitution", "mass")), st.data())
 def test_one_input_of_any_kind(call: dict[str, Any], name: str, data: Any) -> None:
-    """Anything at all in place of one input: refused when arguments are read, or handed to the model as it is."""
+    """Anything at all in place of one input: refused when arguments are read, or handed to the
+    model as it is.
+    """
     call["inputs"][name] = data.draw(st.one_of(garbage(), texts(), extreme()).filter(is_shown))
     call["model"] = tame
     read_in_full(attempt(name, lambda: propagate(**call)))
@@ -185,7 +230,10 @@ def test_one_input_of_any_kind(call: dict[str, Any], name: str, data: Any) -> No
 def test_answers_of_any_kind(call: dict[str, Any], data: Any) -> None:
     """Whatever a model returns."""
     value = data.draw(
-        st.one_of(garbage(), st.dictionaries(st.one_of(st.text(max_size=3), st.integers()), garbage(), max_size=2))
+        st.one_of(
+            garbage(),
+            st.dictionaries(st.one_of(st.text(max_size=3), st.integers()), garbage(), max_size=2),
+        )
     )
     call["model"] = answers(value)
     read_in_full(attempt("model", lambda: propagate(**call)))
@@ -193,9 +241,16 @@ def test_answers_of_any_kind(call: dict[str, Any], data: Any) -> None:
 
 @examples(2)
 @given(st.sampled_from(METHODS), extreme(), extreme(), extreme(), st.integers(0, 3))
-def test_numbers_of_any_size(method: str, middle: float, spread: float, factor: float, registry: int) -> None:
-    """From the least to the greatest float: answered or refused, and no figure that numpy had to warn of."""
-    inputs = attempt("Normal", lambda: Normal(middle, abs(spread), truncate=(-abs(middle) - 1e3, abs(middle) + 1e3)))
+def test_numbers_of_any_size(
+    method: str, middle: float, spread: float, factor: float, registry: int
+) -> None:
+    """From the least to the greatest float: answered or refused, and no figure that numpy had to
+    warn of.
+    """
+    inputs = attempt(
+        "Normal",
+        lambda: Normal(middle, abs(spread), truncate=(-abs(middle) - 1e3, abs(middle) + 1e3)),
+    )
     if isinstance(inputs, col.CollisionsError):
         return
     unit = registries()[registry].Unit("m/s")
@@ -205,13 +260,17 @@ def test_numbers_of_any_size(method: str, middle: float, spread: float, factor: 
         return {"y": factor * x, "z": np.square(x) * unit}
 
     if registry != 2:
-        read_in_full(attempt("propagate", lambda: propagate(model, {"x": inputs}, method=method, **options)))
+        read_in_full(
+            attempt("propagate", lambda: propagate(model, {"x": inputs}, method=method, **options))
+        )
 
 
 @pytest.mark.parametrize("scale", [1e-300, 1e-150, 1e150, 1e300])
 @pytest.mark.parametrize("method", METHODS[:5])
 def test_the_ends_of_the_range(method: str, scale: float) -> None:
-    """A straight model of enormous or tiny numbers, whose squares leave the range of floats, is answered right or refused."""
+    """A straight model of enormous or tiny numbers, whose squares leave the range of floats, is
+    answered right or refused.
+    """
     found = attempt(
         "ends",
         lambda: propagate(

@@ -1,4 +1,6 @@
-"""Intervals: never drawn from, extremes found between the bounds, and bounds on figures that hold wherever the truth lies."""
+"""Intervals: never drawn from, extremes found between the bounds, and bounds on figures that hold
+wherever the truth lies.
+"""
 
 import json
 import math
@@ -9,19 +11,32 @@ import pytest
 
 import collisions as col
 from collisions import travel
-from collisions.uncertainty import Interval, LogNormal, Normal, Samples, Triangular, Uniform, propagate
+from collisions.uncertainty import (
+    Interval,
+    LogNormal,
+    Normal,
+    Samples,
+    Triangular,
+    Uniform,
+    propagate,
+)
 from uncertain_scenes import SCENES, chain
 
 # Nothing but intervals
 
 
 def test_monotone_bounds_are_exact_to_the_bit():
-    """The speed before a skid rises with drag and length and falls with nothing: both ends are the model at two corners."""
+    """The speed before a skid rises with drag and length and falls with nothing: both ends are the
+    model at two corners.
+    """
     inputs = {"drag": Interval(0.61, 0.83), "length": Interval("61 ft", "72 ft")}
     found = propagate(
         lambda drag, length: {"speed": travel.speed(length, drag=drag)}, inputs, method="interval"
     )  # fmt: skip
-    ends = [travel.speed(at[:1], drag=np.array([drag])) for at, drag in zip(_ends(inputs["length"]), (0.61, 0.83), strict=True)]
+    ends = [
+        travel.speed(at[:1], drag=np.array([drag]))
+        for at, drag in zip(_ends(inputs["length"]), (0.61, 0.83), strict=True)
+    ]
     exact = (float(ends[0][0]), float(ends[1][0]))
     assert found["speed"].interval() == found["speed"].mean == found["speed"].quantile(0.5) == exact
     assert found["speed"].std == (0.0, 0.0)
@@ -36,8 +51,8 @@ def _ends(interval):
 
 @pytest.mark.slow
 def test_bounds_of_a_real_chain():
-    """From the marks to the speeds before an impact, against a grid of 11^5 cases, of which no case is outside the bounds; and both
-    bounds are reached, at a corner of the box."""
+    """From the marks to the speeds before an impact, against a grid of 11^5 cases, of which no case
+    is outside the bounds; and both bounds are reached, at a corner of the box."""
     bounds = {
         "drag": (0.6, 0.8),
         "length": (17.0, 19.0),
@@ -45,7 +60,9 @@ def test_bounds_of_a_real_chain():
         "mass_a": (1450.0, 1550.0),
         "mass_b": (1150.0, 1250.0),
     }
-    found = propagate(chain, {name: Interval(*ends) for name, ends in bounds.items()}, method="interval")
+    found = propagate(
+        chain, {name: Interval(*ends) for name, ends in bounds.items()}, method="interval"
+    )
     grid = np.meshgrid(*[np.linspace(*ends, 11) for ends in bounds.values()], indexing="ij")
     answers = chain(**{name: axis.reshape(-1) for name, axis in zip(bounds, grid, strict=True)})
     for name, values in answers.items():
@@ -55,31 +72,41 @@ def test_bounds_of_a_real_chain():
 @pytest.mark.parametrize("width", [1.0, 1e-6, 1e6])
 @pytest.mark.parametrize("peak", [0.5, 0.3, 0.123456789, 0.987, 0.01])
 def test_an_extreme_between_the_bounds(width, peak):
-    """A parabola whose top lies anywhere inside; x (1 - x) is the one at one half. Its value errs by the square of the place."""
+    """A parabola whose top lies anywhere inside; x (1 - x) is the one at one half. Its value errs
+    by the square of the place.
+    """
     found = propagate(
-        lambda x: {"y": 1.0 - ((x / width) - peak) ** 2}, {"x": Interval(0.0, width)}, method="interval"
+        lambda x: {"y": 1.0 - ((x / width) - peak) ** 2}, {"x": Interval(0.0, width)},
+        method="interval"
     )["y"]  # fmt: skip
     assert found.interval() == pytest.approx((1.0 - max(peak, 1.0 - peak) ** 2, 1.0), abs=1e-13)
 
 
 @pytest.mark.slow
 def test_extremes_on_a_ridge_and_in_a_valley():
-    """A saddle with both extremes inside, in two inputs that are not aligned with it: sin(x + y) cos(x - 2 y)."""
+    """A saddle with both extremes inside, in two inputs that are not aligned with it: sin(x + y)
+    cos(x - 2 y).
+    """
 
     def model(x, y):
         return {"y": np.sin(x + y) * np.cos(x - 2.0 * y)}
 
-    found = propagate(model, {"x": Interval(0.0, 3.0), "y": Interval(0.0, 3.0)}, method="interval")["y"]
+    found = propagate(model, {"x": Interval(0.0, 3.0), "y": Interval(0.0, 3.0)}, method="interval")[
+        "y"
+    ]
     x, y = np.meshgrid(np.linspace(0.0, 3.0, 2001), np.linspace(0.0, 3.0, 2001))
     values = model(x, y)["y"]
     low, high = found.interval()
-    # The grid misses an extreme by half a step of 0.0015 at most, so its value by the curvature, below 10, times that squared.
+    # The grid misses an extreme by half a step of 0.0015 at most, so its value by the curvature,
+    # below 10, times that squared.
     assert values.min() - 1e-5 < low <= values.min() + 1e-12
     assert values.max() - 1e-12 <= high < values.max() + 1e-5
 
 
 def test_a_friction_limit_between_the_bounds():
-    """The yaw rate of a side impact, which bends where sticking begins: bounds against 20,001 frictions, the least speed."""
+    """The yaw rate of a side impact, which bends where sticking begins: bounds against 20,001
+    frictions, the least speed.
+    """
 
     def model(friction):
         a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.2, y=0.0, vx=15.0)
@@ -103,7 +130,9 @@ def test_many_intervals():
     found = propagate(lambda **x: {"y": sum(x.values())}, inputs, method="interval")["y"]
     assert found.interval() == (-14.0, 28.0)
     inputs["x14"] = Interval(0.0, 1.0)
-    with pytest.raises(col.InputError, match="15 intervals are 32768 corners; give at most 14") as caught:
+    with pytest.raises(
+        col.InputError, match="15 intervals are 32768 corners; give at most 14"
+    ) as caught:
         propagate(lambda **x: {"y": sum(x.values())}, inputs, method="interval")
     assert caught.value.code == "too_many_intervals"
 
@@ -122,11 +151,14 @@ def test_bounded_distributions_lend_their_support():
     assert found.interval() == (104.0, 119.0)
 
 
-@pytest.mark.parametrize("unbounded", [Normal(1.0, 0.1), LogNormal(1.0, 0.1), Normal(1.0, 0.1, truncate=(0.0, None))])
+@pytest.mark.parametrize(
+    "unbounded", [Normal(1.0, 0.1), LogNormal(1.0, 0.1), Normal(1.0, 0.1, truncate=(0.0, None))]
+)
 def test_a_distribution_without_bounds(unbounded):
     """Refused with its name and what to write."""
     with pytest.raises(
-        col.InputError, match=r"^mass = .* has no bounds for method='interval'; write Interval\(low, high\)"
+        col.InputError,
+        match=r"^mass = .* has no bounds for method='interval'; write Interval\(low, high\)",
     ) as caught:
         propagate(lambda mass: {"y": mass}, {"mass": unbounded}, method="interval")
     assert caught.value.code == "unbounded"
@@ -137,7 +169,9 @@ def test_nothing_uncertain():
     """Refused by every method, with what to take."""
     for method in ("first_order", "quasi_random"):
         for inputs in ({"x": 1.0}, {"x": Interval(0.0, 1.0)}):
-            with pytest.raises(col.InputError, match=r"needs an input with a distribution.*method='interval'") as caught:
+            with pytest.raises(
+                col.InputError, match=r"needs an input with a distribution.*method='interval'"
+            ) as caught:
                 propagate(lambda x: {"y": x}, inputs, method=method)
             assert caught.value.code == "nothing_uncertain"
     with pytest.raises(col.InputError, match="needs an input with bounds") as caught:
@@ -172,18 +206,26 @@ def test_cases_between_the_bounds_without_an_answer():
     assert high == pytest.approx(2.0 * 1.2 * 1500.0 / 2700.0, rel=1e-14)
     # Nearer to no impact at all than a cell of the grid.
     assert 0.0 < low < 1e-9
-    with pytest.raises(col.NoSolutionError, match="'delta_v' anywhere between the bounds") as refused:
+    with pytest.raises(
+        col.NoSolutionError, match="'delta_v' anywhere between the bounds"
+    ) as refused:
         propagate(model, {"speed": Interval(8.0, 9.0)}, method="interval")
     assert refused.value.code == "all_failed"
 
 
 def test_directions_across_pi():
-    """From 175 degrees on to 185, not from -180 to 180; an angle without its unit keeps the range it has."""
+    """From 175 degrees on to 185, not from -180 to 180; an angle without its unit keeps the range
+    it has.
+    """
 
     def model(course):
         a = col.Vehicle(mass=1500.0, vx=15.0, heading=0.0)
         b = col.Vehicle(mass=1200.0, heading=course)
-        return {"pdof": col.oblique_central(a, b, 0.1, normal=0.0, friction=0.0, on_failure="nan").b.q.pdof}
+        return {
+            "pdof": col.oblique_central(
+                a, b, 0.1, normal=0.0, friction=0.0, on_failure="nan"
+            ).b.q.pdof
+        }
 
     found = propagate(model, {"course": Interval("-5 deg", "5 deg")}, method="interval")["pdof"]
     assert np.degrees(found.interval()) == pytest.approx([175.0, 185.0], abs=1e-9)
@@ -196,7 +238,9 @@ def test_directions_across_pi():
 
 
 def test_an_interval_is_never_drawn_from():
-    """The model is asked at places between the bounds, both bounds among them, and at each of them with the same draws."""
+    """The model is asked at places between the bounds, both bounds among them, and at each of them
+    with the same draws.
+    """
     searched, ran = [], []
 
     def model(x, k):
@@ -204,7 +248,13 @@ def test_an_interval_is_never_drawn_from():
             (searched if isinstance(k, np.ndarray) else ran).append((k, x))
         return {"y": x + k}
 
-    found = propagate(model, {"x": Normal(0.0, 1.0), "k": Interval(2.0, 3.0)}, method="quasi_random", seed=1, samples=64)
+    found = propagate(
+        model,
+        {"x": Normal(0.0, 1.0), "k": Interval(2.0, 3.0)},
+        method="quasi_random",
+        seed=1,
+        samples=64,
+    )
     common = searched[0][1][:256].tobytes()
     for k, x in searched:
         for places, draws in zip(k.reshape(-1, 256), x.reshape(-1, 256), strict=True):
@@ -217,18 +267,23 @@ def test_an_interval_is_never_drawn_from():
 
 
 def test_extremes_between_the_places_of_a_grid():
-    """Delta-V is greatest where the impulse passes through the centre of mass: away from any place that a grid would take."""
+    """Delta-V is greatest where the impulse passes through the centre of mass: away from any place
+    that a grid would take.
+    """
 
     def model(speed, aside):
         a = col.Vehicle(mass=1500.0, vx=speed, yaw_inertia=2500.0, x=-2.1, y=0.0)
         b = col.Vehicle(mass=1250.0, yaw_inertia=1900.0, x=0.9, y=0.0)
-        impact = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, aside), friction=0.4, on_failure="nan")
+        impact = col.eccentric(
+            a, b, 0.1, normal=0.0, point=(0.0, aside), friction=0.4, on_failure="nan"
+        )
         return {"delta_v": impact.b.delta_v}
 
     inputs = {"speed": Normal(15.0, 0.1), "aside": Interval(-0.55, 1.2)}
     found = propagate(model, inputs, method="quasi_random", seed=3)["delta_v"]
     truth = propagate(model, inputs | {"aside": 0.0}, method="quasi_random", seed=3)["delta_v"]
-    # Central, so (1 + e) m_a / (m_a + m_b) of the speed; the search ends within 2**-24 of the interval, where nothing is left.
+    # Central, so (1 + e) m_a / (m_a + m_b) of the speed; the search ends within 2**-24 of the
+    # interval, where nothing is left.
     assert found.mean[1] == pytest.approx(1.1 * 15.0 * 1500.0 / 2750.0, rel=1e-6)
     low, high = found.interval()
     assert low <= truth.interval()[0]
@@ -245,7 +300,13 @@ def test_an_extreme_inside_of_several_intervals(count):
 
     inputs = {"speed": Normal(15.0, 0.1)} | {f"k{i}": Interval(-0.5, 0.8) for i in range(count)}
     found = propagate(model, inputs, method="monte_carlo", seed=3, samples=1024)["y"]
-    truth = propagate(model, inputs | {f"k{i}": 0.3 for i in range(count)}, method="monte_carlo", seed=3, samples=1024)["y"]
+    truth = propagate(
+        model,
+        inputs | {f"k{i}": 0.3 for i in range(count)},
+        method="monte_carlo",
+        seed=3,
+        samples=1024,
+    )["y"]
     assert found.mean[1] == pytest.approx(truth.mean, rel=1e-9)
     assert found.interval()[1] == pytest.approx(truth.interval()[1], rel=1e-9)
 
@@ -257,7 +318,9 @@ def test_every_corner_is_a_place(count):
     asked = set()
 
     def model(x, **rest):
-        asked.update(zip(*(np.broadcast_to(value, x.shape).tolist() for value in rest.values()), strict=True))
+        asked.update(
+            zip(*(np.broadcast_to(value, x.shape).tolist() for value in rest.values()), strict=True)
+        )
         return {"y": x}
 
     inputs = {"x": Normal(0.0, 1.0)} | {f"k{i}": Interval(0.0, 1.0) for i in range(count)}
@@ -268,7 +331,9 @@ def test_every_corner_is_a_place(count):
 def test_too_many_intervals_beside_distributions():
     """Refused with what to do."""
     inputs = {"x": Normal(0.0, 1.0)} | {f"k{i}": Interval(0.0, 1.0) for i in range(11)}
-    with pytest.raises(col.InputError, match="11 intervals are 2048 corners; give at most 10 beside distributions") as caught:
+    with pytest.raises(
+        col.InputError, match="11 intervals are 2048 corners; give at most 10 beside distributions"
+    ) as caught:
         propagate(lambda **x: {"y": x["x"]}, inputs, method="monte_carlo", samples=64)
     assert caught.value.code == "too_many_intervals"
 
@@ -276,11 +341,18 @@ def test_too_many_intervals_beside_distributions():
 @pytest.mark.filterwarnings("ignore:method=:collisions.OutOfRangeWarning")
 @pytest.mark.parametrize(
     "method",
-    ["quasi_random", *(pytest.param(name, marks=pytest.mark.slow) for name in ("monte_carlo", "first_order", "second_order"))],
+    [
+        "quasi_random",
+        *(
+            pytest.param(name, marks=pytest.mark.slow)
+            for name in ("monte_carlo", "first_order", "second_order")
+        ),
+    ],
 )
 def test_bounds_contain_every_truth(method):
-    """A rear-end impact whose restitution is only known to lie between two values: the figures of 20 truths in there, each worked
-    out by itself with the same seed, lie within the bounds on them, and those of the two ends on the bounds."""
+    """A rear-end impact whose restitution is only known to lie between two values: the figures of
+    20 truths in there, each worked out by itself with the same seed, lie within the bounds on them,
+    and those of the two ends on the bounds."""
     model, inputs, _ = SCENES["rear_end"]
     inputs = inputs | {"restitution": Interval(0.05, 0.3)}
     options = {} if "order" in method else {"seed": 4, "samples": 1024}
@@ -299,11 +371,15 @@ def test_bounds_contain_every_truth(method):
             inner = known[name].interval(0.9)
             assert low <= inner[0] < inner[1] <= high
     first = propagate(model, inputs | {"restitution": 0.05}, method=method, **options)["delta_v"]
-    assert found["delta_v"].quantile([0.025, 0.5])[0].tolist() == first.quantile([0.025, 0.5]).tolist()
+    assert (
+        found["delta_v"].quantile([0.025, 0.5])[0].tolist() == first.quantile([0.025, 0.5]).tolist()
+    )
 
 
 def test_figures_of_bounds():
-    """Pairs with their units, errors that are the largest there are, and no share of a variance that nobody stated."""
+    """Pairs with their units, errors that are the largest there are, and no share of a variance
+    that nobody stated.
+    """
     found = propagate(
         lambda v, k: {"energy": 0.5 * k * v**2},
         {"v": Normal(10.0, 1.0), "k": Interval("1000 kg", "2000 kg")},
@@ -313,9 +389,13 @@ def test_figures_of_bounds():
     )
     energy = found["energy"]
     each = [
-        propagate(lambda v, k=k: {"e": 0.5 * k * v**2}, {"v": Normal(10.0, 1.0)}, method="quasi_random", seed=1, samples=1024)[
-            "e"
-        ]
+        propagate(
+            lambda v, k=k: {"e": 0.5 * k * v**2},
+            {"v": Normal(10.0, 1.0)},
+            method="quasi_random",
+            seed=1,
+            samples=1024,
+        )["e"]
         for k in (1000.0, 2000.0)
     ]
     assert energy.mean == tuple(one.mean for one in each)
@@ -325,7 +405,9 @@ def test_figures_of_bounds():
     assert energy.quantile_standard_error(0.9) == each[1].quantile_standard_error(0.9)
     assert found.samples > len(energy.cases) * 1024
     for name in ("contributions", "total_contributions", "contribution_standard_errors"):
-        with pytest.raises(col.InputError, match="Interval among the inputs says nothing of likelihood") as caught:
+        with pytest.raises(
+            col.InputError, match="Interval among the inputs says nothing of likelihood"
+        ) as caught:
             getattr(energy, name)
         assert caught.value.code == "no_variance"
     with pytest.raises(col.InputError, match="no histogram"):
@@ -343,7 +425,9 @@ def test_figures_of_bounds():
 
 @pytest.mark.slow
 def test_a_spread_that_is_not_known_is_strict_json():
-    """With this seed one of 64 cases has an answer at both ends, which has no spread: NaN is written by name."""
+    """With this seed one of 64 cases has an answer at both ends, which has no spread: NaN is
+    written by name.
+    """
     with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
         found = propagate(
             lambda x, e: {"y": np.where(x < 0.02, x + e, np.nan)},
@@ -356,7 +440,9 @@ def test_a_spread_that_is_not_known_is_strict_json():
 
 
 def test_failures_over_an_interval_are_told_once():
-    """In all, not once for each place: of the square root of x in one case of six none, of 256 draws to a binomial deviation."""
+    """In all, not once for each place: of the square root of x in one case of six none, of 256
+    draws to a binomial deviation.
+    """
     with pytest.warns(col.OutOfRangeWarning) as caught:
         found = propagate(
             lambda x, k: {"y": np.sqrt(x) + k},
@@ -387,14 +473,17 @@ def test_progress_over_an_interval():
 
 
 def test_an_interrupt_over_an_interval():
-    """What is done is returned, and it is said that the bounds are not those of the whole interval."""
+    """What is done is returned, and it is said that the bounds are not those of the
+    whole interval.
+    """
 
     def stop(done, total):
         if done == 300:
             raise KeyboardInterrupt
 
     with pytest.warns(
-        col.CollisionsWarning, match=r"at 2 of \d+ places between the bounds: they say nothing of the rest"
+        col.CollisionsWarning,
+        match=r"at 2 of \d+ places between the bounds: they say nothing of the rest",
     ) as caught:
         found = propagate(
             lambda x, k: {"y": x + k},
@@ -421,12 +510,18 @@ def test_an_interrupt_over_an_interval():
 
 
 def test_directions_across_pi_at_every_place():
-    """A heading known to lie within an interval across the jump, and a course with an error: bounds of one range without a gap."""
+    """A heading known to lie within an interval across the jump, and a course with an error: bounds
+    of one range without a gap.
+    """
 
     def model(course, heading):
         a = col.Vehicle(mass=1500.0, vx=15.0, heading=0.0)
         b = col.Vehicle(mass=1200.0, heading=course + heading)
-        return {"pdof": col.oblique_central(a, b, 0.1, normal=0.0, friction=0.0, on_failure="nan").b.q.pdof}
+        return {
+            "pdof": col.oblique_central(
+                a, b, 0.1, normal=0.0, friction=0.0, on_failure="nan"
+            ).b.q.pdof
+        }
 
     inputs = {"course": Normal("0 deg", "1 deg"), "heading": Interval("-20 deg", "20 deg")}
     found = propagate(model, inputs, method="quasi_random", seed=3, samples=1024)["pdof"]
@@ -437,10 +532,14 @@ def test_directions_across_pi_at_every_place():
 
 
 def test_a_local_method_is_not_random():
-    """The same places between the bounds are found every time, with a seed too: the result could not say which it was."""
+    """The same places between the bounds are found every time, with a seed too: the result could
+    not say which it was.
+    """
     inputs = {"x": Normal(1.0, 0.3), "k": Interval(-1.0, 1.0)}
     one, *others = (
-        propagate(lambda x, k: {"y": (k - 0.3 * x) ** 2 + x}, inputs, method="second_order", seed=seed)
+        propagate(
+            lambda x, k: {"y": (k - 0.3 * x) ** 2 + x}, inputs, method="second_order", seed=seed
+        )
         for seed in (None, None, 1)
     )
     assert one.seed is None

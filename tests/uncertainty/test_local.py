@@ -1,4 +1,6 @@
-"""First and second order against analytic derivatives and moments, at the ends of what is stated, and where they must warn."""
+"""First and second order against analytic derivatives and moments, at the ends of what is stated,
+and where they must warn.
+"""
 
 import math
 import warnings
@@ -9,15 +11,24 @@ import pytest
 
 import collisions as col
 from collisions import travel
-from collisions.uncertainty import Interval, LogNormal, Normal, Samples, Triangular, Uniform, propagate
+from collisions.uncertainty import (
+    Interval,
+    LogNormal,
+    Normal,
+    Samples,
+    Triangular,
+    Uniform,
+    propagate,
+)
 from uncertain_scenes import SCENES
 
 LOCAL = ("first_order", "second_order")
 both_orders = pytest.mark.parametrize("method", LOCAL)
 ureg = pint.get_application_registry()
 
-# Differences at steps of 0.01 deviations: the fourth power of the step leaves 1e-8 of the fifth derivative, below 1e-9 of the
-# gradient of the models here; rounding leaves 1.5 eps / 0.01 of the value, 1e-13, which is 1e-11 of a deviation of a hundredth.
+# Differences at steps of 0.01 deviations: the fourth power of the step leaves 1e-8 of the fifth
+# derivative, below 1e-9 of the gradient of the models here; rounding leaves 1.5 eps / 0.01 of the
+# value, 1e-13, which is 1e-11 of a deviation of a hundredth.
 FIRST = 1e-9
 
 
@@ -37,7 +48,9 @@ def local(model, inputs, method, **options):
 
 
 def test_first_order_by_hand():
-    """GUM eq 13 of the speed before a skid, v = sqrt(2 g f d): dv/df = v / 2f and dv/dd = v / 2d."""
+    """GUM eq 13 of the speed before a skid, v = sqrt(2 g f d): dv/df = v / 2f and dv/dd
+    = v / 2d.
+    """
     found = propagate(
         lambda drag, length: {"y": travel.speed(length, drag=drag)},
         {"drag": Normal(0.7, 0.02), "length": Normal(25.0, 0.5)},
@@ -48,25 +61,41 @@ def test_first_order_by_hand():
     sd = math.hypot(by_drag, by_length)
     assert found.mean == pytest.approx(speed, rel=4e-16)
     assert found.std == pytest.approx(sd, rel=FIRST)
-    assert found.contributions == pytest.approx({"drag": (by_drag / sd) ** 2, "length": (by_length / sd) ** 2}, rel=FIRST)
+    assert found.contributions == pytest.approx(
+        {"drag": (by_drag / sd) ** 2, "length": (by_length / sd) ** 2}, rel=FIRST
+    )
     assert found.total_contributions == found.contributions
-    assert found.interval(0.95) == pytest.approx((speed - 1.959963984540054 * sd, speed + 1.959963984540054 * sd), rel=FIRST)
+    assert found.interval(0.95) == pytest.approx(
+        (speed - 1.959963984540054 * sd, speed + 1.959963984540054 * sd), rel=FIRST
+    )
     assert math.isnan(found.mean_standard_error)
     assert math.isnan(found.std_standard_error)
-    assert all(math.isnan(error) for pair in found.contribution_standard_errors.values() for error in pair)
+    assert all(
+        math.isnan(error) for pair in found.contribution_standard_errors.values() for error in pair
+    )
 
 
 def test_first_order_with_correlations_by_hand():
-    """The covariance term of GUM eq 13, for delta-V = m_a v / (m_a + m_b) (1 + e) of a real impact."""
+    """The covariance term of GUM eq 13, for delta-V = m_a v / (m_a + m_b) (1 + e) of a
+    real impact.
+    """
 
     def model(a, b, v):
-        return {"y": col.linear_central(col.Vehicle(mass=a, vx=v), col.Vehicle(mass=b), 0.2, on_failure="nan").b.delta_v}
+        return {
+            "y": col.linear_central(
+                col.Vehicle(mass=a, vx=v), col.Vehicle(mass=b), 0.2, on_failure="nan"
+            ).b.delta_v
+        }
 
     a, b, v, rho = 1500.0, 1200.0, 10.0, 0.8
     inputs = {"a": Normal(a, 30.0), "b": Normal(b, 40.0), "v": Normal(v, 0.3)}
     found = local(model, inputs, "first_order", correlation={("a", "b"): rho})
     value = 1.2 * v * a / (a + b)
-    by_a, by_b, by_v = 1.2 * v * b / (a + b) ** 2 * 30.0, -1.2 * v * a / (a + b) ** 2 * 40.0, value / v * 0.3
+    by_a, by_b, by_v = (
+        1.2 * v * b / (a + b) ** 2 * 30.0,
+        -1.2 * v * a / (a + b) ** 2 * 40.0,
+        value / v * 0.3,
+    )
     masses = by_a**2 + by_b**2 + 2.0 * rho * by_a * by_b
     assert found.mean == pytest.approx(value, rel=1e-15)
     assert found.std == pytest.approx(math.sqrt(masses + by_v**2), rel=FIRST)
@@ -84,10 +113,16 @@ def test_first_order_knows_the_deviation_of_any_input():
         "d": Normal(0.2, 0.1, truncate=(0.0, 1.0)),
         "e": Samples([1.0, 2.0, 4.0, 5.0]),
     }
-    found = local(lambda a, b, c, d, e: {"y": a - b + 2.0 * c - 3.0 * d + 0.1 * e}, inputs, "first_order")
+    found = local(
+        lambda a, b, c, d, e: {"y": a - b + 2.0 * c - 3.0 * d + 0.1 * e}, inputs, "first_order"
+    )
     weights = {"a": 1.0, "b": -1.0, "c": 2.0, "d": -3.0, "e": 0.1}
-    assert found.mean == pytest.approx(sum(weights[name] * one.mean for name, one in inputs.items()), rel=1e-14)
-    assert found.std == pytest.approx(math.sqrt(sum((weights[name] * one.sd) ** 2 for name, one in inputs.items())), rel=1e-12)
+    assert found.mean == pytest.approx(
+        sum(weights[name] * one.mean for name, one in inputs.items()), rel=1e-14
+    )
+    assert found.std == pytest.approx(
+        math.sqrt(sum((weights[name] * one.sd) ** 2 for name, one in inputs.items())), rel=1e-12
+    )
 
 
 # Second order
@@ -101,8 +136,9 @@ def moments(values):
 
 @pytest.mark.filterwarnings("ignore:method=:collisions.OutOfRangeWarning")
 def test_second_order_is_exact_on_quadratics_of_normals():
-    """Mean and variance of q = g.u + u.H.u/2: tr(HC)/2 and g.C.g + tr(HCHC)/2; the third moment of an independent textbook form
-    (A. M. Mathai and S. B. Provost, "Quadratic Forms in Random Variables", 1992): 3 g.CHC.g + tr((HC)^3)."""
+    """Mean and variance of q = g.u + u.H.u/2: tr(HC)/2 and g.C.g + tr(HCHC)/2; the third moment of
+    an independent textbook form (A. M. Mathai and S. B. Provost, "Quadratic Forms in Random
+    Variables", 1992): 3 g.CHC.g + tr((HC)^3)."""
     sd = np.array([0.5, 2.0, 1.0])
     rho = {("a", "b"): 0.6, ("b", "c"): -0.4}
     correlated = np.array([[1.0, 0.6, 0.0], [0.6, 1.0, -0.4], [0.0, -0.4, 1.0]])
@@ -134,8 +170,9 @@ def test_second_order_is_exact_on_quadratics_of_normals():
     ],
 )
 def test_second_order_is_exact_on_quadratics_of_other_inputs(one, other):
-    """Mean and deviation, first and total contributions: of y = 2 u + u^2/2 - v + 0.3 v^2 + 0.7 u v, u and v independent and
-    counted from their means, every moment follows from theirs: var(2u + u^2/2) = 4 m2 + 2 m3 + (m4 - m2^2)/4, and so on."""
+    """Mean and deviation, first and total contributions: of y = 2 u + u^2/2 - v + 0.3 v^2 + 0.7 u
+    v, u and v independent and counted from their means, every moment follows from theirs: var(2u +
+    u^2/2) = 4 m2 + 2 m3 + (m4 - m2^2)/4, and so on."""
 
     def model(u, v):
         u, v = u - one.mean, v - other.mean
@@ -147,20 +184,31 @@ def test_second_order_is_exact_on_quadratics_of_other_inputs(one, other):
         m2, m3, m4 = stated.sd**2, stated.skewness * stated.sd**3, stated.kurtosis * stated.sd**4
         return slope**2 * m2 + 2.0 * slope * bend * m3 + bend**2 * (m4 - m2**2)
 
-    by_u, by_v, by_both = variance(2.0, 0.5, one), variance(-1.0, 0.3, other), (0.7 * one.sd * other.sd) ** 2
+    by_u, by_v, by_both = (
+        variance(2.0, 0.5, one),
+        variance(-1.0, 0.3, other),
+        (0.7 * one.sd * other.sd) ** 2,
+    )
     whole = by_u + by_v + by_both
     assert found.mean == pytest.approx(5.0 + 0.5 * one.sd**2 + 0.3 * other.sd**2, rel=1e-9)
     assert found.std == pytest.approx(math.sqrt(whole), rel=1e-8)
     assert found.contributions == pytest.approx({"u": by_u / whole, "v": by_v / whole}, rel=1e-7)
-    assert found.total_contributions == pytest.approx({"u": (by_u + by_both) / whole, "v": (by_v + by_both) / whole}, rel=1e-7)
+    assert found.total_contributions == pytest.approx(
+        {"u": (by_u + by_both) / whole, "v": (by_v + by_both) / whole}, rel=1e-7
+    )
 
 
 @pytest.mark.filterwarnings("ignore:method=:collisions.OutOfRangeWarning")
 def test_second_order_skewness_of_inputs_that_are_not_normal():
-    """Of a slightly bent model of a uniform input: to first power of the bend, 6 g^2 (h/2) (m4 - m2^2)/2 of its moments, which is
-    0.4 of what a normal input gives. The exact skewness from a million evenly spaced quantiles."""
+    """Of a slightly bent model of a uniform input: to first power of the bend, 6 g^2 (h/2) (m4 -
+    m2^2)/2 of its moments, which is 0.4 of what a normal input gives. The exact skewness from a
+    million evenly spaced quantiles."""
     bend = 0.02
-    found = local(lambda u: {"y": u + 0.5 * bend * u * u}, {"u": Uniform(-math.sqrt(3.0), math.sqrt(3.0))}, "second_order")
+    found = local(
+        lambda u: {"y": u + 0.5 * bend * u * u},
+        {"u": Uniform(-math.sqrt(3.0), math.sqrt(3.0))},
+        "second_order",
+    )
     u = math.sqrt(3.0) * (2.0 * (np.arange(10**6) + 0.5) / 10**6 - 1.0)
     _, _, skewness = moments(u + 0.5 * bend * u * u)
     # What is left out goes with the third power of the bend.
@@ -169,8 +217,9 @@ def test_second_order_skewness_of_inputs_that_are_not_normal():
 
 
 def test_second_order_quantiles_are_shifted_by_the_skewness():
-    """Kinetic energy of a normal speed, a scaled noncentral chi-squared: its 95 percent range is the squares of that of the speed,
-    since no speed is negative. What the next term would shift is the skewness squared over 36 times 2 z^3 - 5 z: 0.015."""
+    """Kinetic energy of a normal speed, a scaled noncentral chi-squared: its 95 percent range is
+    the squares of that of the speed, since no speed is negative. What the next term would shift is
+    the skewness squared over 36 times 2 z^3 - 5 z: 0.015."""
     inputs = {"v": Normal(20.0, 2.0)}
     low, high = 0.5 * (20.0 - 1.9599639845 * 2.0) ** 2, 0.5 * (20.0 + 1.9599639845 * 2.0) ** 2
     second = local(lambda v: {"y": 0.5 * v * v}, inputs, "second_order")
@@ -181,7 +230,9 @@ def test_second_order_quantiles_are_shifted_by_the_skewness():
 @pytest.mark.filterwarnings("ignore:method=:collisions.OutOfRangeWarning")
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_quantiles_of_a_local_method_never_fall(sign):
-    """Of a square, whose skewness the first term of Cornish and Fisher cannot bear, neither tail turns back."""
+    """Of a square, whose skewness the first term of Cornish and Fisher cannot bear, neither tail
+    turns back.
+    """
     found = local(lambda x: {"y": sign * x**2}, {"x": Normal(0.0, 1.0)}, "second_order")
     at = found.quantile(np.linspace(0.0, 1.0, 2001))
     assert np.all(np.diff(at) >= 0.0)
@@ -192,9 +243,16 @@ def test_quantiles_of_a_local_method_never_fall(sign):
 
 @both_orders
 def test_nothing_that_spreads(method):
-    """An output that does not depend on the inputs has no deviation, no skewness and no shares to give."""
+    """An output that does not depend on the inputs has no deviation, no skewness and no shares to
+    give.
+    """
     found = local(lambda x: {"y": 3.0 + 0.0 * x}, {"x": Normal(0.0, 1.0)}, method)
-    assert (found.mean, found.std, found.quantile(0.0), found.interval(0.95)) == (3.0, 0.0, 3.0, (3.0, 3.0))
+    assert (found.mean, found.std, found.quantile(0.0), found.interval(0.95)) == (
+        3.0,
+        0.0,
+        3.0,
+        (3.0, 3.0),
+    )
     assert found.quantile([0.0, 0.5]).tolist() == [3.0, 3.0]
     assert math.isnan(found.contributions["x"])
 
@@ -203,10 +261,13 @@ def test_nothing_that_spreads(method):
 
 
 @both_orders
-@pytest.mark.parametrize(("mean", "sd"), [(1e-9, 1e-11), (1e12, 1e10), (1e12, 1e3), (-1e12, 1e3), (1e12, 1.0), (0.0, 1e-9)])
+@pytest.mark.parametrize(
+    ("mean", "sd"),
+    [(1e-9, 1e-11), (1e12, 1e10), (1e12, 1e3), (-1e12, 1e3), (1e12, 1.0), (0.0, 1e-9)],
+)
 def test_inputs_of_any_size(method, mean, sd):
-    """y = 3 x + 2: exact but for rounding of the value, over the step, in deviations: at worst a step of 1e6 roundings of the
-    mean is known to a millionth."""
+    """y = 3 x + 2: exact but for rounding of the value, over the step, in deviations: at worst a
+    step of 1e6 roundings of the mean is known to a millionth."""
     found = local(lambda x: {"y": 3.0 * x + 2.0}, {"x": Normal(mean, sd)}, method)
     assert found.mean == pytest.approx(3.0 * mean + 2.0, rel=1e-12, abs=1e-12)
     assert found.std == pytest.approx(3.0 * sd, rel=1e-5, abs=1e-13 * abs(2.0 + 3.0 * mean))
@@ -215,7 +276,9 @@ def test_inputs_of_any_size(method, mean, sd):
 @both_orders
 @pytest.mark.parametrize("sd", [1e-2, 1e-1, 1.0])
 def test_a_deviation_near_the_rounding_of_the_mean(method, sd):
-    """At 1e12 numbers lie 1.2e-4 apart, so a hundredth of such a deviation is no step at all; the answer is not 0 for that."""
+    """At 1e12 numbers lie 1.2e-4 apart, so a hundredth of such a deviation is no step at all; the
+    answer is not 0 for that.
+    """
     found = local(lambda x: {"y": 2.0 * x}, {"x": Normal(1e12, sd)}, method)
     assert found.std == pytest.approx(2.0 * sd, rel=1e-5)
     assert found.mean == 2e12
@@ -223,7 +286,9 @@ def test_a_deviation_near_the_rounding_of_the_mean(method, sd):
 
 @both_orders
 def test_rounding_is_no_curvature(method):
-    """An output of 1e12 that moves by 1: second differences are nothing but rounding, which is not taken for a bend."""
+    """An output of 1e12 that moves by 1: second differences are nothing but rounding, which is not
+    taken for a bend.
+    """
     inputs = {name: Normal(0.0, 1.0) for name in "abc"}
     found = local(lambda a, b, c: {"y": 1e12 + 100.0 * (a + b - c)}, inputs, method)
     assert found.mean == 1e12
@@ -244,7 +309,9 @@ def test_rounding_is_no_curvature(method):
     ],
 )
 def test_no_step_leaves_what_an_input_can_be(method, stated):
-    """A model that does not exist outside the support is never asked there, nor at its ends by the derivatives."""
+    """A model that does not exist outside the support is never asked there, nor at its ends by the
+    derivatives.
+    """
     low, high = stated.support
     asked = []
 
@@ -260,9 +327,11 @@ def test_no_step_leaves_what_an_input_can_be(method, stated):
 
 
 def test_how_often_the_model_is_asked():
-    """One call for all derivatives: 1 + 4 n cases, and 2 n (n - 1) more for the second ones; and the probes.
+    """One call for all derivatives: 1 + 4 n cases, and 2 n (n - 1) more for the second ones; and
+    the probes.
 
-    Between them one case is asked again alone, that of the greatest answer, and the four of the least together."""
+    Between them one case is asked again alone, that of the greatest answer, and the four of the
+    least together."""
     sizes = []
 
     def model(**inputs):
@@ -288,8 +357,8 @@ def test_local_results_are_not_random():
 
 @both_orders
 def test_a_nearly_straight_scene(method):
-    """The chain from marks through travel and momentum: no warning, and within a tenth of the deviation of the reference, which is
-    what a local method promises; in fact within a fiftieth."""
+    """The chain from marks through travel and momentum: no warning, and within a tenth of the
+    deviation of the reference, which is what a local method promises; in fact within a fiftieth."""
     model, inputs, _ = SCENES["chain"]
     found, codes = codes_of(lambda: propagate(model, inputs, method=method))
     assert codes == []
@@ -298,9 +367,14 @@ def test_a_nearly_straight_scene(method):
         away = 0.1 if method == "first_order" else 0.02
         assert found[name].mean == pytest.approx(sampled[name].mean, abs=away * sampled[name].std)
         assert found[name].std == pytest.approx(sampled[name].std, rel=away)
-        assert found[name].interval() == pytest.approx(sampled[name].interval(), abs=2.0 * away * sampled[name].std)
+        assert found[name].interval() == pytest.approx(
+            sampled[name].interval(), abs=2.0 * away * sampled[name].std
+        )
         for key, (error, _) in sampled[name].contribution_standard_errors.items():
-            assert abs(found[name].contributions[key] - sampled[name].contributions[key]) < 6.5 * error + 0.01
+            assert (
+                abs(found[name].contributions[key] - sampled[name].contributions[key])
+                < 6.5 * error + 0.01
+            )
 
 
 def side_impact(friction_sd, **options):
@@ -317,7 +391,9 @@ def side_impact(friction_sd, **options):
 
 @both_orders
 def test_a_friction_limit_within_the_spread(method):
-    """Both regimes lie within one deviation: at the mean the contact sticks and friction counts for nothing there."""
+    """Both regimes lie within one deviation: at the mean the contact sticks and friction counts for
+    nothing there.
+    """
     kink = 0.5 * abs(_critical_ratio())
     assert 0.1 < kink < 0.6
     found, codes = codes_of(lambda: side_impact(0.25, method=method))
@@ -331,7 +407,9 @@ def test_a_friction_limit_within_the_spread(method):
 def _critical_ratio():
     a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.2, y=0.0, vx=15.0)
     b = col.Vehicle(mass=1300.0, yaw_inertia=2100.0, x=0.9, y=-0.4, vy=10.0)
-    return col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=10.0).critical_impulse_ratio
+    return col.eccentric(
+        a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=10.0
+    ).critical_impulse_ratio
 
 
 @both_orders
@@ -344,7 +422,10 @@ def test_a_truncation_in_the_model(method):
         return {"delta_v": impact.b.delta_v}
 
     inputs = {"speed": Normal(10.0, 0.1), "restitution": Normal(0.1, 0.2)}
-    with pytest.warns(col.OutOfRangeWarning, match=f"method='{method}' differs from cases drawn .* delta_v by [01]") as caught:
+    with pytest.warns(
+        col.OutOfRangeWarning,
+        match=f"method='{method}' differs from cases drawn .* delta_v by [01]",
+    ) as caught:
         propagate(model, inputs, method=method)
     (warning,) = [record.message for record in caught]
     assert warning.code == "not_local"
@@ -365,7 +446,8 @@ def test_refusals_beside_the_mean(method):
         found = propagate(model, {"speed": Normal(11.0, 1.0)}, method=method)
     assert [record.message.code for record in caught] == ["not_local"]
     assert caught[0].message.fields["failed"] == found.failed
-    # The normal probability below -1, of 4096 even points: 649.9 with a binomial deviation of 23.4 at most.
+    # The normal probability below -1, of 4096 even points: 649.9 with a binomial deviation of 23.4
+    # at most.
     assert abs(found.failed - 649.9) < 23.4
 
 
@@ -378,7 +460,9 @@ def test_no_derivative_at_the_mean(method):
         return {"delta_v": col.linear_central(a, b, 0.2, on_failure="nan").b.delta_v}
 
     for mean in (9.0, 10.0, 10.01):
-        with pytest.raises(col.NoSolutionError, match=r"'delta_v' at or beside the mean .*quasi_random") as caught:
+        with pytest.raises(
+            col.NoSolutionError, match=r"'delta_v' at or beside the mean .*quasi_random"
+        ) as caught:
             propagate(model, {"speed": Normal(mean, 1.0)}, method=method)
         assert caught.value.code == "no_derivative"
 
@@ -386,9 +470,13 @@ def test_no_derivative_at_the_mean(method):
 @both_orders
 def test_a_model_with_no_answer_but_at_the_mean(method):
     """Said to differ everywhere, not divided by nothing."""
-    with pytest.warns(col.OutOfRangeWarning, match="y everywhere and knows nothing of the 4096 of them"):
+    with pytest.warns(
+        col.OutOfRangeWarning, match="y everywhere and knows nothing of the 4096 of them"
+    ):
         found = propagate(
-            lambda x: {"y": x if len(x) < 4096 else np.full(len(x), np.nan)}, {"x": Normal(0.0, 1.0)}, method=method
+            lambda x: {"y": x if len(x) < 4096 else np.full(len(x), np.nan)},
+            {"x": Normal(0.0, 1.0)},
+            method=method,
         )
     assert found["y"].std == pytest.approx(1.0)
 
@@ -403,7 +491,9 @@ def test_a_heavy_tail_is_no_local_matter():
 
 
 def struck(course):
-    """The direction of the force on a car that is struck from behind: pi, whichever way it stands."""
+    """The direction of the force on a car that is struck from behind: pi, whichever way
+    it stands.
+    """
     a = col.Vehicle(mass=1500.0, vx=15.0, heading=0.0)
     b = col.Vehicle(mass=1200.0, heading=course)
     return col.oblique_central(a, b, 0.1, normal=0.0, friction=0.0, on_failure="nan").b
@@ -411,33 +501,50 @@ def struck(course):
 
 @both_orders
 def test_a_direction_across_pi(method):
-    """With its unit it is one: mean pi, the deviation of the heading, and no warning. Without, the jump is refused."""
+    """With its unit it is one: mean pi, the deviation of the heading, and no warning. Without, the
+    jump is refused.
+    """
     inputs = {"course": Normal("0 deg", "5 deg")}
     found = propagate(lambda course: {"pdof": struck(course).q.pdof}, inputs, method=method)["pdof"]
     assert abs(found.mean) == pytest.approx(math.pi, rel=1e-15)
     assert found.std == pytest.approx(math.radians(5.0), rel=1e-9)
-    with pytest.raises(col.NoSolutionError, match="a bend or a jump in 'pdof' at the mean of the inputs, along 'course'"):
+    with pytest.raises(
+        col.NoSolutionError,
+        match="a bend or a jump in 'pdof' at the mean of the inputs, along 'course'",
+    ):
         propagate(lambda course: {"pdof": struck(course).pdof}, inputs, method=method)
 
 
 @both_orders
 def test_a_bend_at_the_mean_is_refused(method):
-    """Where the contact just sticks the slopes on both sides differ, and a difference across says nothing of either."""
+    """Where the contact just sticks the slopes on both sides differ, and a difference across says
+    nothing of either.
+    """
     a = col.Vehicle(mass=1500.0, vx=15.0, yaw_inertia=2500.0, x=-2.0, y=0.0)
     b = col.Vehicle(mass=1200.0, vy=8.0, yaw_inertia=1900.0, x=1.0, y=0.5)
 
     def ask(friction):
-        return col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.2), friction=friction, on_failure="nan")
+        return col.eccentric(
+            a, b, 0.1, normal=0.0, point=(0.0, 0.2), friction=friction, on_failure="nan"
+        )
 
     limit = abs(ask(0.1).critical_impulse_ratio)
     for mean in (limit, limit + 0.001, limit - 0.0015):
-        with pytest.raises(col.NoSolutionError, match=r"a bend or a jump in 'yaw rate'.* along 'friction'") as caught:
+        with pytest.raises(
+            col.NoSolutionError, match=r"a bend or a jump in 'yaw rate'.* along 'friction'"
+        ) as caught:
             propagate(
-                lambda friction: {"yaw rate": ask(friction).b.delta_yaw_rate}, {"friction": Normal(mean, 0.1)}, method=method
+                lambda friction: {"yaw rate": ask(friction).b.delta_yaw_rate},
+                {"friction": Normal(mean, 0.1)},
+                method=method,
             )
         assert caught.value.code == "no_derivative"
     with pytest.raises(col.NoSolutionError, match="along 'x'"):
-        propagate(lambda x, y: {"z": np.abs(x) + y}, {"x": Normal(0.0, 1.0), "y": Normal(3.0, 1.0)}, method=method)
+        propagate(
+            lambda x, y: {"z": np.abs(x) + y},
+            {"x": Normal(0.0, 1.0), "y": Normal(3.0, 1.0)},
+            method=method,
+        )
 
 
 @both_orders
@@ -447,18 +554,26 @@ def test_a_bend_at_the_mean_is_refused(method):
     ids=["exponential", "sine", "fourth power", "inverse", "logarithm", "tangent"],
 )
 def test_a_smooth_model_is_no_bend(curve, method):
-    """However curved it is: here the deviation of the input is half of the scale on which the model bends."""
+    """However curved it is: here the deviation of the input is half of the scale on which the model
+    bends.
+    """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.OutOfRangeWarning)
-        found = propagate(lambda x: {"y": curve(x)}, {"x": Normal(1.0, 0.5, truncate=(0.2, 1.8))}, method=method)
+        found = propagate(
+            lambda x: {"y": curve(x)}, {"x": Normal(1.0, 0.5, truncate=(0.2, 1.8))}, method=method
+        )
     assert math.isfinite(found["y"].std)
 
 
 @both_orders
 def test_a_direction_across_pi_over_an_interval(method):
-    """The bounds stand on one side of the cut: 8 degrees either way, and the deviation in each place that of the heading."""
+    """The bounds stand on one side of the cut: 8 degrees either way, and the deviation in each
+    place that of the heading.
+    """
     inputs = {"course": Normal("0 deg", "2 deg"), "more": Interval("-8 deg", "8 deg")}
-    found = propagate(lambda course, more: {"pdof": struck(course + more).q.pdof}, inputs, method=method)["pdof"]
+    found = propagate(
+        lambda course, more: {"pdof": struck(course + more).q.pdof}, inputs, method=method
+    )["pdof"]
     low, high = found.mean
     assert high - low == pytest.approx(math.radians(16.0), rel=1e-9)
     assert abs(0.5 * (low + high)) == pytest.approx(math.pi, rel=1e-12)
@@ -468,7 +583,9 @@ def test_a_direction_across_pi_over_an_interval(method):
 @both_orders
 def test_a_rotation_is_no_direction(method):
     """One and a half turns stay so."""
-    found = propagate(lambda x: {"turn": x * ureg.radian}, {"x": Normal(9.0, 0.5)}, method=method)["turn"]
+    found = propagate(lambda x: {"turn": x * ureg.radian}, {"x": Normal(9.0, 0.5)}, method=method)[
+        "turn"
+    ]
     assert (found.mean, found.unit) == (9.0, "rad")
     assert found.std == pytest.approx(0.5, rel=1e-9)
     assert found.q.std.units == ureg.radian
@@ -480,11 +597,15 @@ def test_a_rotation_is_no_direction(method):
 @both_orders
 def test_an_interval_gives_bounds_on_what_is_local(method):
     """The mean at both ends, the deviation where it is least and most: y = k x."""
-    found = propagate(lambda x, k: {"y": k * x}, {"x": Normal(10.0, 1.0), "k": Interval(1.0, 3.0)}, method=method)["y"]
+    found = propagate(
+        lambda x, k: {"y": k * x}, {"x": Normal(10.0, 1.0), "k": Interval(1.0, 3.0)}, method=method
+    )["y"]
     assert found.mean == pytest.approx((10.0, 30.0), rel=1e-12)
     assert found.std == pytest.approx((1.0, 3.0), rel=1e-9)
     low, high = found.interval(0.95)
-    assert (low, high) == pytest.approx((10.0 - 1.959963984540054, 30.0 + 3.0 * 1.959963984540054), rel=1e-9)
+    assert (low, high) == pytest.approx(
+        (10.0 - 1.959963984540054, 30.0 + 3.0 * 1.959963984540054), rel=1e-9
+    )
     assert math.isnan(found.mean_standard_error)
 
 
@@ -492,7 +613,11 @@ def test_an_interval_gives_bounds_on_what_is_local(method):
 def test_a_local_warning_is_given_once_over_an_interval(method):
     """Not at each of the places, and with the worst of them."""
     with pytest.warns(col.OutOfRangeWarning) as caught:
-        propagate(lambda x, k: {"y": k + np.abs(x)}, {"x": Normal(0.5, 1.0), "k": Interval(0.0, 1.0)}, method=method)
+        propagate(
+            lambda x, k: {"y": k + np.abs(x)},
+            {"x": Normal(0.5, 1.0), "k": Interval(0.0, 1.0)},
+            method=method,
+        )
     assert [record.message.code for record in caught] == ["not_local"]
 
 
@@ -501,17 +626,20 @@ def test_more_inputs_than_points_are_spread_over():
     inputs = {f"x{i}": Normal(0.0, 1.0) for i in range(33)}
     for method in (*LOCAL, "quasi_random"):
         with pytest.raises(
-            col.InputError, match=r"33 independent inputs are more than the 32 .* method='monte_carlo'"
+            col.InputError,
+            match=r"33 independent inputs are more than the 32 .* method='monte_carlo'",
         ) as caught:
             propagate(lambda **x: {"y": sum(x.values())}, inputs, method=method)
         assert caught.value.code == "too_many_inputs"
     for method in ("monte_carlo", "latin_hypercube"):
-        found = propagate(lambda **x: {"y": sum(x.values())}, inputs, method=method, samples=1024, seed=1)["y"]
+        found = propagate(
+            lambda **x: {"y": sum(x.values())}, inputs, method=method, samples=1024, seed=1
+        )["y"]
         assert abs(found.std - math.sqrt(33.0)) < 6.5 * found.std_standard_error
     del inputs["x0"]
-    assert propagate(lambda **x: {"y": sum(x.values())}, inputs, method="first_order")["y"].std == pytest.approx(
-        math.sqrt(32.0)
-    )
+    assert propagate(lambda **x: {"y": sum(x.values())}, inputs, method="first_order")[
+        "y"
+    ].std == pytest.approx(math.sqrt(32.0))
 
 
 def test_a_local_answer_of_next_to_nothing():
@@ -520,10 +648,16 @@ def test_a_local_answer_of_next_to_nothing():
     found = propagate(lambda x: {"y": np.arctan2(-1e-320, x)}, inputs, method="first_order")
     assert abs(found["y"].mean) < 1e-300
     with pytest.warns(col.OutOfRangeWarning):
-        propagate(lambda x: {"y": np.where(abs(x - 1212.0) < 20.0, 1.0, 0.0 * x)}, inputs, method="first_order")
+        propagate(
+            lambda x: {"y": np.where(abs(x - 1212.0) < 20.0, 1.0, 0.0 * x)},
+            inputs,
+            method="first_order",
+        )
 
 
 def test_a_correlation_that_is_an_array():
     with pytest.raises(col.InputError, match="correlation must be a dict") as refused:
-        propagate(lambda x: {"y": x}, {"x": Normal(1.0, 0.1)}, method="first_order", correlation=np.eye(2))
+        propagate(
+            lambda x: {"y": x}, {"x": Normal(1.0, 0.1)}, method="first_order", correlation=np.eye(2)
+        )
     assert refused.value.code == "bad_correlation"

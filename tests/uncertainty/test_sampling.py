@@ -1,4 +1,6 @@
-"""Sampling against analytic results and 10^7 cases drawn by numpy, and its stated standard errors against actual scatter."""
+"""Sampling against analytic results and 10^7 cases drawn by numpy, and its stated standard errors
+against actual scatter.
+"""
 
 import json
 import math
@@ -9,24 +11,39 @@ import numpy as np
 import pytest
 
 import collisions as col
-from collisions.uncertainty import LogNormal, Normal, Samples, Triangular, Uniform, propagate, propagation, sampling
+from collisions.uncertainty import (
+    LogNormal,
+    Normal,
+    Samples,
+    Triangular,
+    Uniform,
+    propagate,
+    propagation,
+    sampling,
+)
 from uncertain_scenes import SCENES
 
-REFERENCE = json.loads((Path(__file__).parent.parent / "data" / "uncertainty_reference.json").read_text())
+REFERENCE = json.loads(
+    (Path(__file__).parent.parent / "data" / "uncertainty_reference.json").read_text()
+)
 METHODS = ("quasi_random", "latin_hypercube", "monte_carlo")
 P = np.array([0.025, 0.5, 0.975])
 every_method = pytest.mark.parametrize("method", METHODS)
 
-# A standard error comes from 16 sequences, so a figure less its truth over it follows Student's t with 15 degrees of freedom:
-# beyond 6.5 in 1 of 100,000 cases. Below are about 200 comparisons, so one of them fails by chance in 1 of 500 sets of seeds; the
-# seeds are fixed, and were not chosen.
+# A standard error comes from 16 sequences, so a figure less its truth over it follows Student's t
+# with 15 degrees of freedom: beyond 6.5 in 1 of 100,000 cases. Below are about 200 comparisons, so
+# one of them fails by chance in 1 of 500 sets of seeds; the seeds are fixed, and were not chosen.
 MOST = 6.5
 
 
 def figures(output):
     """Mean, standard deviation and the three quantiles, and the standard errors of all of them."""
     found = np.array([output.mean, output.std, *output.quantile(P)])
-    errors = [output.mean_standard_error, output.std_standard_error, *output.quantile_standard_error(P)]
+    errors = [
+        output.mean_standard_error,
+        output.std_standard_error,
+        *output.quantile_standard_error(P),
+    ]
     return found, np.array(errors)
 
 
@@ -53,7 +70,13 @@ def product():
     return (
         lambda mass, square: {"y": mass * square},
         inputs,
-        [mean, mean * math.sqrt(math.expm1(scale**2)), median * math.exp(-z), median, median * math.exp(z)],
+        [
+            mean,
+            mean * math.sqrt(math.expm1(scale**2)),
+            median * math.exp(-z),
+            median,
+            median * math.exp(z),
+        ],
     )
 
 
@@ -77,12 +100,20 @@ def square():
 @every_method
 @pytest.mark.parametrize("case", [linear, product, uniform_sum, square])
 def test_analytic_results(method, case):
-    """Every figure within 6.5 of its standard errors, and these are no wider than independent points would have them."""
+    """Every figure within 6.5 of its standard errors, and these are no wider than independent
+    points would have them.
+    """
     model, inputs, exact = case()
     found, errors = figures(propagate(model, inputs, method=method, seed=20)["y"])
-    # Of a symmetric output the halves of an even design cancel, so that nothing but rounding is left of some errors.
-    assert np.all(np.abs(found - exact) <= MOST * errors + 1e-13 * np.abs(exact)), (found - exact, errors)
-    assert errors[0] < 1.7 * exact[1] / math.sqrt(8192)  # a chi-squared of 15 is 1.7**2 times its mean in 1 of 3,000 draws
+    # Of a symmetric output the halves of an even design cancel, so that nothing but rounding is
+    # left of some errors.
+    assert np.all(np.abs(found - exact) <= MOST * errors + 1e-13 * np.abs(exact)), (
+        found - exact,
+        errors,
+    )
+    assert errors[0] < 1.7 * exact[1] / math.sqrt(
+        8192
+    )  # a chi-squared of 15 is 1.7**2 times its mean in 1 of 3,000 draws
     if method == "quasi_random":
         assert errors[0] < 0.1 * exact[1] / math.sqrt(8192)
 
@@ -90,14 +121,19 @@ def test_analytic_results(method, case):
 @every_method
 @pytest.mark.parametrize("scene", SCENES)
 def test_ten_million_cases_drawn_by_numpy(method, scene):
-    """Real scenes, drawn and worked out without points, quantile functions or standard errors of the package."""
+    """Real scenes, drawn and worked out without points, quantile functions or standard errors of
+    the package.
+    """
     model, inputs, _ = SCENES[scene]
     result = propagate(model, inputs, method=method, seed=5)
     assert result.failed == 0
     for name, expected in REFERENCE[scene].items():
         found, errors = figures(result[name])
         both = np.hypot(errors, expected["standard_errors"])
-        assert np.all(np.abs(found - expected["figures"]) < MOST * both), (name, (found - expected["figures"]) / both)
+        assert np.all(np.abs(found - expected["figures"]) < MOST * both), (
+            name,
+            (found - expected["figures"]) / both,
+        )
 
 
 def bend(x, y):
@@ -111,15 +147,20 @@ SEEDS = 120
 @pytest.mark.slow
 @every_method
 def test_stated_standard_errors_are_the_actual_scatter(method):
-    """Over 120 seeds, the variance of every figure against the mean of its stated variance, and how often t holds the truth.
+    """Over 120 seeds, the variance of every figure against the mean of its stated variance, and how
+    often t holds the truth.
 
-    The ratio follows chi-squared of 119 over 119, a relative standard deviation of 0.13, for mean and deviation: between 0.5 and
-    1.6 in all but 1 of 20,000. That of a quantile leans to the safe side, because the slope that it rests on is that of a
-    whole stretch of quantiles: it may go down to 0.4. The truth is the mean over all runs, which is known 11 times better than
-    one run. 2.131 errors hold it in 95 percent: 114 of 120, with a binomial deviation of 2.4, so hardly ever less than 102.
+    The ratio follows chi-squared of 119 over 119, a relative standard deviation of 0.13, for mean
+    and deviation: between 0.5 and 1.6 in all but 1 of 20,000. That of a quantile leans to the safe
+    side, because the slope that it rests on is that of a whole stretch of quantiles: it may go down
+    to 0.4. The truth is the mean over all runs, which is known 11 times better than one run. 2.131
+    errors hold it in 95 percent: 114 of 120, with a binomial deviation of 2.4, so hardly ever less
+    than 102.
     """
     inputs = {"x": Normal(0.0, 1.0), "y": Uniform(-1.0, 1.0)}
-    runs = [propagate(bend, inputs, method=method, samples=2048, seed=seed) for seed in range(SEEDS)]
+    runs = [
+        propagate(bend, inputs, method=method, samples=2048, seed=seed) for seed in range(SEEDS)
+    ]
     for name in ("smooth", "kink"):
         found, errors = map(np.array, zip(*(figures(run[name]) for run in runs), strict=True))
         ratio = np.var(found, axis=0, ddof=1) / np.mean(errors**2, axis=0)
@@ -131,7 +172,9 @@ def test_stated_standard_errors_are_the_actual_scatter(method):
 
 
 def test_quasi_random_reaches_what_plain_sampling_needs_many_times_more_for():
-    """On a real scene: the standard error of the mean against that of independent points, which is the deviation over the root."""
+    """On a real scene: the standard error of the mean against that of independent points, which is
+    the deviation over the root.
+    """
     model, inputs, _ = SCENES["rear_end"]
     found = propagate(model, inputs, method="quasi_random", seed=1)["delta_v"]
     independent = found.std / math.sqrt(8192)
@@ -140,8 +183,12 @@ def test_quasi_random_reaches_what_plain_sampling_needs_many_times_more_for():
 
 @every_method
 def test_the_quantiles_of_even_points_have_an_error_too(method):
-    """An output that is one input: every sequence of a stratified design has the same share below the median, to the last case."""
-    found = propagate(lambda x: {"y": x}, {"x": Uniform(0.0, 1.0)}, method=method, samples=8192, seed=3)["y"]
+    """An output that is one input: every sequence of a stratified design has the same share below
+    the median, to the last case.
+    """
+    found = propagate(
+        lambda x: {"y": x}, {"x": Uniform(0.0, 1.0)}, method=method, samples=8192, seed=3
+    )["y"]
     assert 0.0 < found.quantile_standard_error(0.5) < 0.02
     assert abs(found.quantile(0.5) - 0.5) < MOST * found.quantile_standard_error(0.5)
     assert np.isnan(found.quantile_standard_error([0.0, 1.0])).all()
@@ -170,7 +217,9 @@ def test_threads_and_blocks_change_no_bit(method, monkeypatch):
 
 def test_correlated_and_joint_inputs_change_no_bit_either(monkeypatch):
     """What is added up over several inputs is added in the same order."""
-    inputs = {name: Normal(1.0, 0.1) for name in "abc"} | Samples.joint(d=[1.0, 2.0, 3.0], e=[2.0, 1.0, 5.0])
+    inputs = {name: Normal(1.0, 0.1) for name in "abc"} | Samples.joint(
+        d=[1.0, 2.0, 3.0], e=[2.0, 1.0, 5.0]
+    )
     pairs = {("a", "b"): 0.5, ("b", "c"): -0.3, ("a", "c"): 0.2}
 
     def run(threads):
@@ -208,7 +257,9 @@ def test_a_tolerance_ends_where_so_many_samples_do(method):
 
 @every_method
 def test_seeds(method):
-    """Another seed draws other cases; without one, the one that was used is stated and draws the same again."""
+    """Another seed draws other cases; without one, the one that was used is stated and draws the
+    same again.
+    """
     assert values_of(method=method, seed=9) != values_of(method=method)
     model, inputs, _ = SCENES["rear_end"]
     found = propagate(model, inputs, method=method, samples=64)
@@ -223,7 +274,9 @@ def test_seeds(method):
 def test_whole_numbers_of_numpy(method):
     """As they come out of a loop over an array."""
     model, inputs, _ = SCENES["rear_end"]
-    found = propagate(model, inputs, method=method, samples=np.int32(100), seed=np.uint8(3), threads=np.int64(2))
+    found = propagate(
+        model, inputs, method=method, samples=np.int32(100), seed=np.uint8(3), threads=np.int64(2)
+    )
     same = propagate(model, inputs, method=method, samples=100, seed=3)
     assert found["delta_v"].values.tobytes() == same["delta_v"].values.tobytes()
     assert type(found.seed) is int
@@ -231,8 +284,20 @@ def test_whole_numbers_of_numpy(method):
 
 def test_samples_beyond_a_multiple_of_the_sequences():
     """Any number of cases is a beginning of the same run."""
-    whole = propagate(bend, {"x": Normal(0.0, 1.0), "y": Uniform(0.0, 1.0)}, method="monte_carlo", seed=1, samples=500)
-    part = propagate(bend, {"x": Normal(0.0, 1.0), "y": Uniform(0.0, 1.0)}, method="monte_carlo", seed=1, samples=101)
+    whole = propagate(
+        bend,
+        {"x": Normal(0.0, 1.0), "y": Uniform(0.0, 1.0)},
+        method="monte_carlo",
+        seed=1,
+        samples=500,
+    )
+    part = propagate(
+        bend,
+        {"x": Normal(0.0, 1.0), "y": Uniform(0.0, 1.0)},
+        method="monte_carlo",
+        seed=1,
+        samples=101,
+    )
     assert part.samples == 101
     assert part["kink"].values.tobytes() == whole["kink"].values[:101].tobytes()
 
@@ -243,7 +308,8 @@ def test_samples_beyond_a_multiple_of_the_sequences():
 def drawn(inputs, correlation, **options):
     """The inputs themselves, as a model is given them."""
     found = propagate(
-        lambda **values: values, inputs, method="quasi_random", seed=2, correlation=correlation, **options
+        lambda **values: values, inputs, method="quasi_random", seed=2, correlation=correlation,
+        **options
     )  # fmt: skip
     return found, {name: found[name].values for name in found}
 
@@ -259,13 +325,23 @@ def test_the_stated_correlation_of_normals(rho):
 
 @pytest.mark.parametrize("rho", [1.0, -1.0, 1])
 def test_a_shared_scale(rho):
-    """Correlation of plus or minus 1: one goes with the other in every case, to rounding, and both keep their distribution."""
+    """Correlation of plus or minus 1: one goes with the other in every case, to rounding, and both
+    keep their distribution.
+    """
     _, values = drawn({"a": Normal(1500.0, 50.0), "b": Normal(1200.0, 40.0)}, {("a", "b"): rho})
-    assert (values["a"] - 1500.0) / 50.0 == pytest.approx(rho * (values["b"] - 1200.0) / 40.0, abs=1e-12)
+    assert (values["a"] - 1500.0) / 50.0 == pytest.approx(
+        rho * (values["b"] - 1200.0) / 40.0, abs=1e-12
+    )
     # Two scales of the same make: the error of the sum is the sum of the errors.
     inputs = {"a": Normal(1500.0, 50.0), "b": Normal(1200.0, 40.0)}
     for method, seed in (("quasi_random", 3), ("first_order", None)):
-        found = propagate(lambda a, b: {"y": a + b}, inputs, method=method, seed=seed, correlation={("a", "b"): rho})["y"]
+        found = propagate(
+            lambda a, b: {"y": a + b},
+            inputs,
+            method=method,
+            seed=seed,
+            correlation={("a", "b"): rho},
+        )["y"]
         error = MOST * found.std_standard_error if seed else 1e-11
         assert abs(found.std - (50.0 + rho * 40.0)) < error
 
@@ -273,16 +349,21 @@ def test_a_shared_scale(rho):
 def test_an_exact_copy_carries_its_correlations_along():
     """b is a to the bit, and both go with c."""
     _, values = drawn(
-        {name: Normal(0.0, 1.0) for name in "abc"}, {("a", "b"): 1.0, ("a", "c"): 0.6, ("b", "c"): 0.6}
+        {name: Normal(0.0, 1.0) for name in "abc"},
+            {("a", "b"): 1.0, ("a", "c"): 0.6, ("b", "c"): 0.6}
     )  # fmt: skip
     assert values["a"].tobytes() == values["b"].tobytes()
     assert np.corrcoef(values["a"], values["c"])[0, 1] == pytest.approx(0.6, abs=0.02)
 
 
 def test_the_normal_scores_of_other_inputs():
-    """Half of asin(rho) times 12 over pi: Pearson's correlation of two uniforms whose scores have rho (Kruskal 1958)."""
+    """Half of asin(rho) times 12 over pi: Pearson's correlation of two uniforms whose scores have
+    rho (Kruskal 1958).
+    """
     _, values = drawn({"a": Uniform(0.0, 1.0), "b": Uniform(5.0, 7.0)}, {("a", "b"): 0.7})
-    assert np.corrcoef(values["a"], values["b"])[0, 1] == pytest.approx(6.0 / math.pi * math.asin(0.35), abs=0.01)
+    assert np.corrcoef(values["a"], values["b"])[0, 1] == pytest.approx(
+        6.0 / math.pi * math.asin(0.35), abs=0.01
+    )
     assert np.all((values["b"] >= 5.0) & (values["b"] <= 7.0))
 
 
@@ -299,7 +380,9 @@ def test_correlations_that_cannot_hold_together(pairs):
     """Refused, with the names; numpy's eigenvalues say the same."""
     matrix = np.eye(3)
     for (one, other), rho in pairs.items():
-        matrix["abc".index(one), "abc".index(other)] = matrix["abc".index(other), "abc".index(one)] = rho
+        matrix["abc".index(one), "abc".index(other)] = matrix[
+            "abc".index(other), "abc".index(one)
+        ] = rho
     assert np.linalg.eigvalsh(matrix).min() < -1e-7
     with pytest.raises(col.InputError, match="a, b, c cannot hold together") as caught:
         drawn({name: Normal(0.0, 1.0) for name in "abc"}, pairs)
@@ -315,10 +398,14 @@ def test_correlations_that_only_just_hold_together():
 
 
 def test_joint_samples_stay_row_by_row():
-    """In every case the values of one row, and every row as often as the others to a share of the stratification."""
+    """In every case the values of one row, and every row as often as the others to a share of the
+    stratification.
+    """
     rows = {"drag": [0.68, 0.71, 0.74, 0.69], "speed": [14.9, 15.2, 15.1, 14.0]}
     _, values = drawn(Samples.joint(**rows), None)
-    pairs, counts = np.unique(np.stack([values["drag"], values["speed"]]), axis=1, return_counts=True)
+    pairs, counts = np.unique(
+        np.stack([values["drag"], values["speed"]]), axis=1, return_counts=True
+    )
     assert {tuple(pair) for pair in pairs.T} == set(zip(*rows.values(), strict=True))
     assert counts.tolist() == pytest.approx([2048] * 4, abs=32)
     _, apart = drawn({name: Samples(column) for name, column in rows.items()}, None)
@@ -337,13 +424,17 @@ def test_joint_samples_stay_row_by_row():
 @pytest.mark.parametrize("rho", [-1.0, 0.6])
 @pytest.mark.filterwarnings("ignore:method=:collisions.OutOfRangeWarning")
 def test_the_covariance_that_first_order_takes(one, other, rho):
-    """Of inputs that are not normal, against 2^18 drawn cases: 1e-3 of the deviations, of which half is the standard error of
-    these cases and half the steps of Samples in 1024 parts."""
+    """Of inputs that are not normal, against 2^18 drawn cases: 1e-3 of the deviations, of which
+    half is the standard error of these cases and half the steps of Samples in 1024 parts."""
     pairs = {("a", "b"): rho}
-    local = propagate(lambda a, b: {"y": a + b}, {"a": one, "b": other}, method="first_order", correlation=pairs)["y"]
+    local = propagate(
+        lambda a, b: {"y": a + b}, {"a": one, "b": other}, method="first_order", correlation=pairs
+    )["y"]
     by_first_order = 0.5 * (local.std**2 - one.sd**2 - other.sd**2)
     _, values = drawn({"a": one, "b": other}, pairs, samples=2**18)
-    assert by_first_order == pytest.approx(np.cov(values["a"], values["b"])[0, 1], abs=1.5e-3 * one.sd * other.sd)
+    assert by_first_order == pytest.approx(
+        np.cov(values["a"], values["b"])[0, 1], abs=1.5e-3 * one.sd * other.sd
+    )
 
 
 # Contributions
@@ -354,12 +445,16 @@ def ishigami(x, y, z):
 
 
 def test_the_ishigami_function():
-    """First and total indices in closed form; T. Ishigami and T. Homma (1990), with a = 7 and b = 0.1."""
+    """First and total indices in closed form; T. Ishigami and T. Homma (1990), with a = 7 and b =
+    0.1.
+    """
     a, b, pi = 7.0, 0.1, math.pi
     one, two = 0.5 * (1.0 + b * pi**4 / 5.0) ** 2, a**2 / 8.0
     both = b**2 * pi**8 * 8.0 / 225.0
     variance = one + two + both
-    found = propagate(ishigami, {name: Uniform(-pi, pi) for name in "xyz"}, method="quasi_random", seed=3)["y"]
+    found = propagate(
+        ishigami, {name: Uniform(-pi, pi) for name in "xyz"}, method="quasi_random", seed=3
+    )["y"]
     assert found.std == pytest.approx(math.sqrt(variance), rel=0.01)
     first = {"x": one / variance, "y": two / variance, "z": 0.0}
     total = {"x": (one + both) / variance, "y": two / variance, "z": both / variance}
@@ -374,7 +469,11 @@ def test_the_ishigami_function():
 @every_method
 def test_contributions_of_a_sum(method):
     """The variances of its terms, which make up the whole, first and total alike."""
-    inputs = {"a": Normal(0.0, 1.0), "b": Uniform(0.0, math.sqrt(12.0) * 2.0), "c": LogNormal(5.0, 0.5)}
+    inputs = {
+        "a": Normal(0.0, 1.0),
+        "b": Uniform(0.0, math.sqrt(12.0) * 2.0),
+        "c": LogNormal(5.0, 0.5),
+    }
     found = propagate(lambda a, b, c: {"y": a + b + c}, inputs, method=method, seed=7)["y"]
     variance = 1.0 + 4.0 + 0.25
     for name, exact in {"b": 4.0 / variance, "a": 1.0 / variance, "c": 0.25 / variance}.items():
@@ -392,7 +491,8 @@ def test_inputs_that_go_together_share_a_contribution(method):
     inputs = {"a": Normal(3.0, 1.0), "b": Normal(5.0, 1.0), "c": Normal(0.0, 2.0)}
     inputs |= Samples.joint(d=[-1.0, 1.0, 0.0, 0.5, -0.5], e=[-1.0, 1.0, 0.0, 0.5, -0.5])
     found = propagate(
-        lambda a, b, c, d, e: {"y": a + b + c + d + e}, inputs, method=method, seed=4, correlation={("a", "b"): 0.5}
+        lambda a, b, c, d, e: {"y": a + b + c + d + e}, inputs, method=method, seed=4,
+        correlation={("a", "b"): 0.5}
     )["y"]  # fmt: skip
     variance = 3.0 + 4.0 + 4.0 * 0.5
     expected = {"c": 4.0 / variance, "a & b": 3.0 / variance, "d & e": 2.0 / variance}
@@ -402,10 +502,12 @@ def test_inputs_that_go_together_share_a_contribution(method):
 
 
 def test_contributions_of_a_real_scene():
-    """Against the variance of the means of 50 slices of each input, of 400,000 cases drawn by numpy.
+    """Against the variance of the means of 50 slices of each input, of 400,000 cases drawn by
+    numpy.
 
-    A slice is as wide as a fiftieth of the cases: what its width hides is below 0.002 of the variance, which lies in the outermost
-    slices; its mean errs by the root of 50/400,000 of the deviation, which adds 1/8000 of the variance.
+    A slice is as wide as a fiftieth of the cases: what its width hides is below 0.002 of the
+    variance, which lies in the outermost slices; its mean errs by the root of 50/400,000 of the
+    deviation, which adds 1/8000 of the variance.
     """
     model, inputs, draws = SCENES["rear_end"]
     found = propagate(model, inputs, method="quasi_random", seed=1)
@@ -416,7 +518,10 @@ def test_contributions_of_a_real_scene():
             means = answers[np.argsort(column)].reshape(50, -1).mean(axis=1)
             share = np.var(means) / np.var(answers)
             error = found[output].contribution_standard_errors[name][0]
-            assert abs(found[output].contributions[name] - share) < MOST * error + 0.004, (output, name)
+            assert abs(found[output].contributions[name] - share) < MOST * error + 0.004, (
+                output,
+                name,
+            )
     assert list(found["delta_v"].contributions) == ["restitution", "speed", "mass_a"]
 
 
@@ -424,7 +529,13 @@ def test_the_largest_runs_say_when_they_do_not_suffice(monkeypatch):
     """Warned, with what they give."""
     monkeypatch.setattr(propagation, "MOST_SAMPLES", 20000)
     with pytest.warns(col.CollisionsWarning, match="20000 cases do not bring") as caught:
-        found = propagate(bend, {"x": Normal(0.0, 1.0), "y": Uniform(0.0, 1.0)}, method="monte_carlo", tolerance=1e-9, seed=1)
+        found = propagate(
+            bend,
+            {"x": Normal(0.0, 1.0), "y": Uniform(0.0, 1.0)},
+            method="monte_carlo",
+            tolerance=1e-9,
+            seed=1,
+        )
     assert [warning.message.code for warning in caught] == ["tolerance_not_reached"]
     assert found.samples == 20000
 
@@ -432,7 +543,12 @@ def test_the_largest_runs_say_when_they_do_not_suffice(monkeypatch):
 def test_shares_of_values_whose_sums_leave_the_range_of_floats():
     """Of y = a + 2 b with two alike inputs: a fifth and four fifths of the variance."""
     inputs = {"a": Uniform(1.0, 2.0), "b": Uniform(1.0, 2.0)}
-    found = propagate(lambda a, b: {"y": 2.9e307 * (a + 2.0 * b)}, inputs, method="quasi_random", seed=1)["y"]
+    found = propagate(
+        lambda a, b: {"y": 2.9e307 * (a + 2.0 * b)}, inputs, method="quasi_random", seed=1
+    )["y"]
     for name, share in (("a", 0.2), ("b", 0.8)):
         # Six standard errors, and their own rounding.
-        assert abs(found.contributions[name] - share) < 6.0 * found.contribution_standard_errors[name][0] + 1e-12
+        assert (
+            abs(found.contributions[name] - share)
+            < 6.0 * found.contribution_standard_errors[name][0] + 1e-12
+        )

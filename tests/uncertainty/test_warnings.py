@@ -1,4 +1,6 @@
-"""No warning of a model is lost in a study: each is counted, stated with the result, and raised once where it matters."""
+"""No warning of a model is lost in a study: each is counted, stated with the result, and raised
+once where it matters.
+"""
 
 import json
 import warnings
@@ -33,7 +35,11 @@ def quiet(study):
 @pytest.mark.parametrize("method", ["quasi_random", "monte_carlo", "first_order"])
 def test_an_energy_gain_of_some_samples_is_counted_stated_and_raised_once(method, threads):
     options = {} if method == "first_order" else {"samples": 4096, "seed": 1}
-    found, caught = quiet(lambda: propagate(gaining, {"ratio": Uniform(-0.6, 0.6)}, method=method, threads=threads, **options))
+    found, caught = quiet(
+        lambda: propagate(
+            gaining, {"ratio": Uniform(-0.6, 0.6)}, method=method, threads=threads, **options
+        )
+    )
     raised = [one.message for one in caught if getattr(one.message, "code", "") == "energy_gain"]
     assert len(raised) == 1
     assert isinstance(raised[0], col.EnergyGainWarning)
@@ -54,14 +60,18 @@ def test_a_warning_of_few_samples_is_stated_and_not_raised():
         seldom = x > 3.2905  # one in two thousand
         if np.any(seldom):
             text = "a warning of the model"
-            warn_of_cases(col.CollisionsWarning(text, code="seldom"), {text: int(np.count_nonzero(seldom))})
+            warn_of_cases(
+                col.CollisionsWarning(text, code="seldom"), {text: int(np.count_nonzero(seldom))}
+            )
         return {"x": x}
 
     found, caught = quiet(lambda: propagate(model, {"x": Normal(0.0, 1.0)}, samples=8192, seed=2))
     assert not caught
     count = int(np.count_nonzero(found["x"].values > 3.2905))
     assert 0 < count < 0.005 * 8192
-    assert found.statements == (f"{count} of 8192 cases ({100 * count / 8192:.3g} %): a warning of the model",)
+    assert found.statements == (
+        f"{count} of 8192 cases ({100 * count / 8192:.3g} %): a warning of the model",
+    )
 
 
 def test_a_warning_that_is_not_of_cases_counts_for_all_and_is_raised_once():
@@ -70,7 +80,9 @@ def test_a_warning_that_is_not_of_cases_counts_for_all_and_is_raised_once():
         return {"x": x}
 
     found, caught = quiet(lambda: propagate(model, {"x": Normal(0.0, 1.0)}, samples=32768, seed=2))
-    assert [str(one.message) for one in caught] == ["32768 of 32768 cases (100 %): this is in degrees"]
+    assert [str(one.message) for one in caught] == [
+        "32768 of 32768 cases (100 %): this is in degrees"
+    ]
     assert found.notes[0].fields == {"cases": 32768, "share": 1.0}
 
 
@@ -78,7 +90,9 @@ def test_what_a_reference_value_warns_of_reaches_the_study():
     def model(speed):
         return {"e": reference.restitution(speed, outside="warn")}
 
-    found, caught = quiet(lambda: propagate(model, {"speed": Uniform(0.05, 20.0)}, samples=1024, seed=1))
+    found, caught = quiet(
+        lambda: propagate(model, {"speed": Uniform(0.05, 20.0)}, samples=1024, seed=1)
+    )
     codes = [one.code for one in found.notes]
     assert "outside_reference" in codes
     assert [one.message.code for one in caught].count("outside_reference") == 1
@@ -92,7 +106,9 @@ def test_bounds_alone_state_the_warnings_too():
 
 def test_a_fit_states_what_the_model_warns_of_at_the_answer():
     def model(speed):
-        impact = col.linear_central(col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1200.0), 0.2)
+        impact = col.linear_central(
+            col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1200.0), 0.2
+        )
         e = reference.restitution(impact.closing_speed, outside="warn")
         return {"delta_v": impact.b.delta_v, "e": e}
 
@@ -108,7 +124,9 @@ def test_a_comparison_states_the_warnings_of_its_posteriors():
         def model(speed):
             return {"marks": speed}
 
-        return reconstruct.posterior(model, {"speed": Normal(low, 0.5)}, {"marks": (20.0, 0.5)}, samples=512, seed=1)
+        return reconstruct.posterior(
+            model, {"speed": Normal(low, 0.5)}, {"marks": (20.0, 0.5)}, samples=512, seed=1
+        )
 
     (one, other), _ = quiet(lambda: (account(10.0), account(12.0)))
     found, caught = quiet(lambda: reconstruct.compare({"one": one, "other": other}))
@@ -119,7 +137,9 @@ def test_a_comparison_states_the_warnings_of_its_posteriors():
 
 def test_a_report_prints_what_the_study_was_warned_of():
     impact = col.eccentric(A, B, 0.2, normal=0.0, point=(0.0, 0.0), impulse_ratio=0.1)
-    found, _ = quiet(lambda: propagate(gaining, {"ratio": Uniform(-0.6, 0.6)}, samples=1024, seed=1))
+    found, _ = quiet(
+        lambda: propagate(gaining, {"ratio": Uniform(-0.6, 0.6)}, samples=1024, seed=1)
+    )
     page = col.report(impact, uncertainty=found, form="markdown", figures=False)
     (note,) = [one for one in found.notes if one.code == "energy_gain"]
     assert note.sentence[:20] in page

@@ -49,14 +49,18 @@ def test_equality_is_by_value_and_there_is_no_hash():
 
 def test_copies_and_pickles_are_equal_and_locked():
     """Through pickle and deepcopy, texts kept, arrays still locked."""
-    vehicle = col.Vehicle(mass="1000 kg", vx=np.array([1.0, 2.0]), x=0, y=0, yaw_rate=0.5, yaw_inertia=1e3, pivot=None)
+    vehicle = col.Vehicle(
+        mass="1000 kg", vx=np.array([1.0, 2.0]), x=0, y=0, yaw_rate=0.5, yaw_inertia=1e3, pivot=None
+    )
     for twin in (pickle.loads(pickle.dumps(vehicle)), copy.deepcopy(vehicle), copy.copy(vehicle)):
         assert twin == vehicle
         assert twin.given == vehicle.given
         assert not twin.vx.flags.writeable
 
 
-@pytest.mark.parametrize("place", [{}, {"x": 1.0}, {"y": -0.0}, {"x": 1.0, "y": 2.0}, {"x": 1e308, "y": 1e308}])
+@pytest.mark.parametrize(
+    "place", [{}, {"x": 1.0}, {"y": -0.0}, {"x": 1.0, "y": 2.0}, {"x": 1e308, "y": 1e308}]
+)
 def test_plain_floats_were_not_given_as_texts(place):
     """With one coordinate as with both or none."""
     assert col.Vehicle(mass=1.0, **place).given is None
@@ -109,13 +113,18 @@ def test_from_speed_is_exact_at_quarter_turns():
     assert (vehicle.vx, vehicle.vy) == (0.0, 10.0)
     assert vehicle.given == {"speed": "36 km/h", "course": "90 deg"}
     assert col.Vehicle.from_speed(mass=1.0, speed=5.0, course=(3, 4)).vx == 3.0
-    assert code_of(lambda: col.Vehicle.from_speed(mass=1.0, speed=5.0, course=0.0, vx=3.0)) == "speed_twice"
+    assert (
+        code_of(lambda: col.Vehicle.from_speed(mass=1.0, speed=5.0, course=0.0, vx=3.0))
+        == "speed_twice"
+    )
     many = col.Vehicle.from_speed(mass=1.0, speed=np.array([1.0, 2.0]), course="180 deg")
     assert many.vx.tolist() == [-1.0, -2.0]
 
 
 def test_the_dataclass_tools_work():
-    """fields, asdict and replace of the dataclasses module see the public fields and nothing else."""
+    """fields, asdict and replace of the dataclasses module see the public fields and
+    nothing else.
+    """
     vehicle = col.Vehicle(mass="1000 kg", vx=1.0)
     assert [f.name for f in dataclasses.fields(vehicle)][:2] == ["mass", "vx"]
     assert "given" not in dataclasses.asdict(vehicle)
@@ -134,7 +143,10 @@ def test_a_replaced_vehicle_is_suspected_only_of_what_changed():
 
 def test_a_speed_is_not_negative():
     """Backwards is another course, not another sign."""
-    assert code_of(lambda: col.Vehicle.from_speed(mass=1.0, speed=-5.0, course=0.0)) == "negative_speed"
+    assert (
+        code_of(lambda: col.Vehicle.from_speed(mass=1.0, speed=-5.0, course=0.0))
+        == "negative_speed"
+    )
 
 
 def test_speed_and_course():
@@ -184,8 +196,12 @@ def test_velocity_at_needs_a_position_only_to_turn():
 
 
 def test_a_pinned_velocity_is_worked_out():
-    """Yaw rate times arm, counter-clockwise; worked out again by replace; refused when it disagrees."""
-    pinned = col.Vehicle(mass=1000.0, yaw_inertia=1333.0, x=2.0, y=0.0, yaw_rate=3.0, pivot=(0.0, 0.0))
+    """Yaw rate times arm, counter-clockwise; worked out again by replace; refused when it
+    disagrees.
+    """
+    pinned = col.Vehicle(
+        mass=1000.0, yaw_inertia=1333.0, x=2.0, y=0.0, yaw_rate=3.0, pivot=(0.0, 0.0)
+    )
     assert (pinned.vx, pinned.vy) == (0.0, 6.0)
     assert pinned.replace(yaw_rate=1.0).vy == 2.0
     assert pinned.replace(vy=6.0 * (1 + 1e-10)).vy == 6.0
@@ -218,10 +234,18 @@ def test_repr_and_table_carry_units():
 def test_a_number_that_no_case_has_is_said_to_be_none(cases):
     """As a single NaN is: the shape alone would pass for an answer."""
     apart = np.full(cases, 10.0)
-    refused = col.linear_central(col.Vehicle(mass=1000.0), col.Vehicle(mass=1.0, vx=apart), 0.1, normal=0.0, on_failure="nan")
+    refused = col.linear_central(
+        col.Vehicle(mass=1000.0), col.Vehicle(mass=1.0, vx=apart), 0.1, normal=0.0, on_failure="nan"
+    )
     shown = refused._repr_html_()
-    assert f"energy_loss</th><td style='text-align:left;padding-left:1em'>array{(cases,)} not defined</td>" in shown
-    assert "energy lost</th><td style='text-align:right;white-space:nowrap;padding-left:1em'>not defined</td>" in shown
+    assert (
+        f"energy_loss</th><td style='text-align:left;padding-left:1em'>array{(cases,)} not "
+        "defined</td>" in shown
+    )
+    assert (
+        "energy lost</th><td style='text-align:right;white-space:nowrap;padding-left:1em'>not "
+        "defined</td>" in shown
+    )
     assert f"energy_loss=array{(cases,)} not defined" in repr(refused)
 
 
@@ -229,7 +253,9 @@ def test_a_number_that_no_case_has_is_said_to_be_none(cases):
 def test_a_plain_number_beyond_float32_is_not_made_infinite_by_an_array_beside_it(still):
     """As in the solvers, what float32 cannot hold is worked out in float64."""
     fast = float(np.finfo(np.float32).max) * (1.0 + 1e-6)
-    numbers = {"vy": fast, "yaw_rate": 1.0, "x": 0.0, "y": 0.0} | {still: np.zeros(3, dtype=np.float32)}
+    numbers = {"vy": fast, "yaw_rate": 1.0, "x": 0.0, "y": 0.0} | {
+        still: np.zeros(3, dtype=np.float32)
+    }
     _, vy = col.Vehicle(mass=300.0, **numbers).velocity_at((0.0, 0.0))
     assert (vy == fast).all()
     impact = col.eccentric(
@@ -240,21 +266,30 @@ def test_a_plain_number_beyond_float32_is_not_made_infinite_by_an_array_beside_i
         point=(0.0, 0.0),
         friction=0.0,
     )
-    # Frictionless and plastic, through the centre: the wall takes m vx^2 / 2, whatever is beside it.
+    # Frictionless and plastic, through the centre: the wall takes m vx^2 / 2, whatever is beside
+    # it.
     assert impact.a.kinetic_energy_change == pytest.approx(-150.0, rel=1e-15)
 
 
 def test_a_velocity_along_one_axis_stays_a_plain_number_where_the_other_is_an_array():
-    """A point of which one coordinate is an array: the velocity square to it is the same in every case."""
-    vx, vy = col.Vehicle(mass=300.0, yaw_rate=0.5, x=0.0, y=0.0).velocity_at((2.0, np.array([1.0, 3.0])))
+    """A point of which one coordinate is an array: the velocity square to it is the same in every
+    case.
+    """
+    vx, vy = col.Vehicle(mass=300.0, yaw_rate=0.5, x=0.0, y=0.0).velocity_at(
+        (2.0, np.array([1.0, 3.0]))
+    )
     assert vx.tolist() == [-0.5, -1.5]
     assert type(vy) is float
     assert vy == 1.0
 
 
 def test_replace_takes_fields_only():
-    """A speed and a course are those of a new vehicle; the record of an impact may hold no other field either."""
-    with pytest.raises(TypeError, match=r"replace\(\) takes the fields .*got 'speed'.*Vehicle\.from_speed"):
+    """A speed and a course are those of a new vehicle; the record of an impact may hold no other
+    field either.
+    """
+    with pytest.raises(
+        TypeError, match=r"replace\(\) takes the fields .*got 'speed'.*Vehicle\.from_speed"
+    ):
         col.Vehicle(mass=900).replace(speed=10, course=0)
     record = col.linear_central(col.Vehicle(mass=900, vx=10), col.Vehicle(mass=900), 0.1).to_dict()
     record["inputs"]["a"]["colour"] = 1.0
@@ -271,14 +306,25 @@ def test_a_distance_and_an_angle_that_do_not_go_together():
 
 @pytest.mark.parametrize("cases", [None, 3])
 def test_the_velocity_of_a_pinned_body_agrees_to_1e_9(cases):
-    """Alone and in a batch: half of that beside the velocity about the pivot is as good, twice is another motion."""
-    gate = {"mass": 400.0, "yaw_inertia": 300.0, "x": 0.0, "y": 2.0, "pivot": (0.0, 0.0), "yaw_rate": -5.0}
+    """Alone and in a batch: half of that beside the velocity about the pivot is as good, twice is
+    another motion.
+    """
+    gate = {
+        "mass": 400.0,
+        "yaw_inertia": 300.0,
+        "x": 0.0,
+        "y": 2.0,
+        "pivot": (0.0, 0.0),
+        "yaw_rate": -5.0,
+    }
     car = col.Vehicle(mass=1000.0, vx=20.0, x=-2.0, y=2.0, yaw_inertia=1500.0)
 
     def struck(error):
         vx = 10.0 * (1.0 + error) if cases is None else np.full(cases, 10.0 * (1.0 + error))
         body = col.Vehicle(**gate, vx=vx)
-        return col.eccentric(car, body, 0.1, normal=0.0, point=(0.0, 2.0), friction=0.1, on_failure="raise")
+        return col.eccentric(
+            car, body, 0.1, normal=0.0, point=(0.0, 2.0), friction=0.1, on_failure="raise"
+        )
 
     assert np.all(struck(0.5e-9).ok)
     with pytest.raises(col.InputError) as caught:

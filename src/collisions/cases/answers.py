@@ -1,4 +1,6 @@
-"""Answers of a case file: results, what follows from its uncertain numbers, warnings; as text, as JSON and as a report."""
+"""Answers of a case file: results, what follows from its uncertain numbers, warnings; as text, as
+JSON and as a report.
+"""
 
 from __future__ import annotations
 
@@ -47,7 +49,9 @@ from .words import as_in_file, in_file_words
 
 @dataclass(frozen=True)
 class Answers:
-    """The results of a case, what follows from its uncertain numbers, and the texts of the warnings so far."""
+    """The results of a case, what follows from its uncertain numbers, and the texts of the warnings
+    so far.
+    """
 
     case: Case
     results: tuple[Any, ...]
@@ -56,7 +60,12 @@ class Answers:
 
     def report(self, form: str, units: str | None = None) -> str:
         """The report of the one result; ``units`` in place of those of the file."""
-        options = {**self.case.report, "units": self._units(units), "form": form, "uncertainty": self.propagation}
+        options = {
+            **self.case.report,
+            "units": self._units(units),
+            "form": form,
+            "uncertainty": self.propagation,
+        }
         notes, one = options.get("notes", ()), self._one()
         if isinstance(notes, (str, tuple, dict)):
             own = notes if isinstance(notes, tuple) else (notes,)
@@ -64,32 +73,60 @@ class Answers:
                 options["notes"] = (*own, *_stated(self.case.call, inputs_of(one), own))
             else:
                 # The result of a study holds neither the solver nor what is known exactly.
-                options["notes"] = (*own, f"The case is {self.case.solver}, with {', '.join(_known(self.case.call))}.")
+                options["notes"] = (
+                    *own,
+                    f"The case is {self.case.solver}, with {', '.join(_known(self.case.call))}.",
+                )
         whole: str = self._made(report, {**options, "impact": one})
         return whole
 
     def what_if(self, units: str | None = None) -> str:
-        """The page with sliders: over the ranges of the file, or over what it says of its uncertain numbers."""
+        """The page with sliders: over the ranges of the file, or over what it says of its uncertain
+        numbers.
+        """
         one, found = self._one(), self.case.ranges
         if not isinstance(one, Impact):
-            text = "moves the inputs of an impact, and this file gives none; ask for it in a file with [eccentric] or the like"
-            text += f", and without [{self.case.study}]" if self.case.study not in ("", "propagate") else ""
+            text = (
+                "moves the inputs of an impact, and this file gives none; ask for it in a file "
+                "with [eccentric] or the like"
+            )
+            text += (
+                f", and without [{self.case.study}]"
+                if self.case.study not in ("", "propagate")
+                else ""
+            )
             raise CaseError(("what_if", text))
         if not found:
             known = starts(one)
-            named = ((_slider(key), uncertain.stated) for key, uncertain in self.case.uncertain.items())
+            named = (
+                (_slider(key), uncertain.stated) for key, uncertain in self.case.uncertain.items()
+            )
             found = {name: _ends(name, stated) for name, stated in named if name in known}
             if not found:
-                text = 'is not there, and nothing else says what to move; write it, such as speed_a = ["30 km/h", "80 km/h"]'
+                text = (
+                    "is not there, and nothing else says what to move; write it, such as speed_a "
+                    '= ["30 km/h", "80 km/h"]'
+                )
                 raise CaseError(("what_if.ranges", text))
-        drawn = {name: outline for name, outline in self.case.report.items() if name.startswith("outline_")}
-        whole: str = self._made(what_if, {"impact": one, "ranges": found, "units": self._units(units), **drawn}, "what_if")
+        drawn = {
+            name: outline
+            for name, outline in self.case.report.items()
+            if name.startswith("outline_")
+        }
+        whole: str = self._made(
+            what_if,
+            {"impact": one, "ranges": found, "units": self._units(units), **drawn},
+            "what_if",
+        )
         return whole
 
     def _one(self) -> Any:
         """The one result that a page is of."""
         if len(self.results) > 1:
-            text = f"{len(self.results)} answers fit, and a page is of one; write answer = 1 or another at the top of the file"
+            text = (
+                f"{len(self.results)} answers fit, and a page is of one; write answer = 1 or "
+                "another at the top of the file"
+            )
             raise CaseError(("answer", text), refused=True, code="ambiguous")
         return self.results[0]
 
@@ -97,7 +134,9 @@ class Answers:
         """The results with their findings, and the ranges with what they come from."""
         found: list[Any] = []
         system = self._units(units)
-        looked_at = {name: value for name, value in self.case.report.items() if name in parameters(diagnose)}
+        looked_at = {
+            name: value for name, value in self.case.report.items() if name in parameters(diagnose)
+        }
         for number, result in enumerate(self.results, 1):
             found += [f"Answer {number} of {len(self.results)}"] if len(self.results) > 1 else []
             parts = [result]
@@ -105,31 +144,50 @@ class Answers:
                 parts.append(self._made(diagnose, {**looked_at, "impact": result, "units": system}))
             found += [self._made(part.summary, {"units": system}) for part in parts]
         if self.propagation is not None:
-            found.insert(0, "Of what is not known exactly the mean, or the middle of an interval; below, what its spread does:")
-            shares = [self._made(_shares, {"output": output}, "propagate") for output in self.propagation.outputs.values()]
+            found.insert(
+                0,
+                "Of what is not known exactly the mean, or the middle of an interval; below, "
+                "what its spread does:",
+            )
+            shares = [
+                self._made(_shares, {"output": output}, "propagate")
+                for output in self.propagation.outputs.values()
+            ]
             found += [self.propagation.summary(system), "\n".join(filter(None, shares))]
         return "\n\n".join(str(part).strip() for part in found if str(part).strip()) + "\n"
 
     def to_dict(self) -> dict[str, Any]:
-        """Everything in plain values for other tools: each result as the record at the end of a report."""
+        """Everything in plain values for other tools: each result as the record at the end of a
+        report.
+        """
         results = [
-            result.to_dict() if isinstance(result, Posterior) else json.loads(record(result, {}, self.propagation))
+            result.to_dict()
+            if isinstance(result, Posterior)
+            else json.loads(record(result, {}, self.propagation))
             for result in self.results
         ]
-        ranges = None if self.propagation is None else self._made(self.propagation.to_dict, {}, "propagate")
+        ranges = (
+            None
+            if self.propagation is None
+            else self._made(self.propagation.to_dict, {}, "propagate")
+        )
         return {"results": results, "uncertainty": ranges, "warnings": self.warnings}
 
     def _units(self, units: str | None) -> Any:
         return units or self.case.report.get("units") or spoken_system(self.results[0]._texts())
 
     def _made(self, function: Any, arguments: dict[str, Any], key: str = "report") -> Any:
-        """What a function makes of the results; its warnings are kept, and a refusal names the table of its options."""
+        """What a function makes of the results; its warnings are kept, and a refusal names the
+        table of its options.
+        """
         with _noting(self.warnings, [] if key == "propagate" else None):
             return Call(key, function, arguments)({})
 
 
 def _stated(call: Call, inputs: list[str], own: tuple[Any, ...]) -> Iterator[str | dict[str, str]]:
-    """What a file states of inputs other than a number: beside the inputs of a page, or in a paragraph each."""
+    """What a file states of inputs other than a number: beside the inputs of a page, or in a
+    paragraph each.
+    """
     beside = {name: text for one in own if isinstance(one, dict) for name, text in one.items()}
     for key, value in call.arguments.items():
         if isinstance(value, Call) and key in vehicles(call.function):
@@ -139,13 +197,19 @@ def _stated(call: Call, inputs: list[str], own: tuple[Any, ...]) -> Iterator[str
         name = key if call.key in SOLVERS else f"{call.key}.{key}"
         on_page = next((one for one in (name, name.replace("_after.", ".")) if one in inputs), None)
         if text and on_page:
-            yield {on_page: f"{text}. {beside[on_page]}" if isinstance(beside.get(on_page), str) else text}
+            yield {
+                on_page: f"{text}. {beside[on_page]}"
+                if isinstance(beside.get(on_page), str)
+                else text
+            }
         elif text:
             yield f"{name}: {text}."
 
 
 def _in_words(value: Any, given: bool = False) -> str:
-    """What a value is stated as, or worked out from; "" of a number, unless it is ``given`` to a function."""
+    """What a value is stated as, or worked out from; "" of a number, unless it is ``given`` to a
+    function.
+    """
     if isinstance(value, Uncertain):
         return str(value.stated) if given else f"Stated as {value.stated}"
     if isinstance(value, Call):
@@ -158,12 +222,18 @@ def _in_words(value: Any, given: bool = False) -> str:
         return f"{'' if given else 'Worked out by '}{name} from {'; '.join(parts)}"
     if isinstance(value, tuple):
         parts = [_in_words(part, given) for part in value]
-        return ", ".join(part or str(one) for part, one in zip(parts, value, strict=True)) if any(parts) else ""
+        return (
+            ", ".join(part or str(one) for part, one in zip(parts, value, strict=True))
+            if any(parts)
+            else ""
+        )
     return str(value) if given else ""
 
 
 def _unit_of(call: Call, name: str, value: Any) -> str:
-    """The unit in which an argument takes a plain number, to stand behind it; "" of anything else."""
+    """The unit in which an argument takes a plain number, to stand behind it; "" of
+    anything else.
+    """
     unit = re.search(r"\[(\S+)\]$", descriptions(call.function).get(name, ""))
     return f" {unit[1]}" if unit and isinstance(value, (int, float)) else ""
 
@@ -179,7 +249,9 @@ def _known(call: Call) -> Iterator[str]:
 
 
 def _shares(output: Any) -> str:
-    """The inputs that the spread of an output comes from, as shares of its variance; "" where there are none."""
+    """The inputs that the spread of an output comes from, as shares of its variance; "" where there
+    are none.
+    """
     with suppress(InputError):
         shares = sorted(output.contributions.items(), key=lambda one: -one[1])
         listed = ", ".join(f"{name} {percent(share)}" for name, share in shares if share >= 0.005)
@@ -188,10 +260,15 @@ def _shares(output: Any) -> str:
 
 
 def _ends(name: str, stated: Any) -> tuple[str, str]:
-    """The range of a slider over an uncertain number: its bounds, or three standard deviations to either side within them."""
+    """The range of a slider over an uncertain number: its bounds, or three standard deviations to
+    either side within them.
+    """
     low, high = (stated.low, stated.high) if isinstance(stated, Interval) else stated.support
     if math.isinf(high - low):
-        low, high = max(low, stated.mean - 3.0 * stated.sd), min(high, stated.mean + 3.0 * stated.sd)
+        low, high = (
+            max(low, stated.mean - 3.0 * stated.sd),
+            min(high, stated.mean + 3.0 * stated.sd),
+        )
     # Beyond these a slider would be refused, though a normal distribution reaches there.
     if name in ("restitution", "friction", "critical_fraction", "speed_a", "speed_b"):
         low = max(low, 0.0)
@@ -220,27 +297,40 @@ def answers(case: Case) -> Answers:
             roots = _roots(case.call({}))
         results = roots if case.answer is None else roots[case.answer - 1 : case.answer]
         if not results:
-            text = f"is {as_in_file(case.answer)}, and {len(roots)} fit; write a number from 1 to {len(roots)}"
+            text = (
+                f"is {as_in_file(case.answer)}, and {len(roots)} fit; write a number from 1 to "
+                f"{len(roots)}"
+            )
             raise CaseError(("answer", text))
         with _noting(noted, of_the_case):
             propagation = _propagated(case, results, len(roots)) if case.uncertain else None
         if case.study and not case.uncertain:
-            noted.append('[propagate] has nothing to propagate; write a number with its error, such as "50 km/h +/- 3 km/h"')
+            noted.append(
+                "[propagate] has nothing to propagate; write a number with its error, such as "
+                '"50 km/h +/- 3 km/h"'
+            )
     else:
         with _noting(noted):
             model = _model(case, case.options["observed"], 0, 1)
             unknowns = {name: one.stated for name, one in case.uncertain.items()}
-            study = Call(case.study, STUDIES[case.study], {"model": model, "unknowns": unknowns, **case.options})
+            study = Call(
+                case.study,
+                STUDIES[case.study],
+                {"model": model, "unknowns": unknowns, **case.options},
+            )
             results, propagation = (study({}),), None
     return Answers(case, results, propagation, noted)
 
 
 @contextmanager
-def _noting(texts: list[str], before: list[CollisionsWarning] | None = None) -> Iterator[list[CollisionsWarning]]:
+def _noting(
+    texts: list[str], before: list[CollisionsWarning] | None = None
+) -> Iterator[list[CollisionsWarning]]:
     """Within this context warnings are not issued but added to the texts, each once.
 
-    In a study of a case that gave the warnings ``before``, warnings that count the study's cases replace those of the case with
-    the same code; of others one per code is added where the case has none. That a number needs a unit the case has said before.
+    In a study of a case that gave the warnings ``before``, warnings that count the study's cases
+    replace those of the case with the same code; of others one per code is added where the case has
+    none. That a number needs a unit the case has said before.
     """
     found: list[CollisionsWarning] = []
     with warnings.catch_warnings(record=True) as caught:
@@ -248,9 +338,15 @@ def _noting(texts: list[str], before: list[CollisionsWarning] | None = None) -> 
         warnings.simplefilter("always", CollisionsWarning)
         yield found
     found += [one.message for one in caught if isinstance(one.message, CollisionsWarning)]
-    codes = {one.code for one in before or ()} | ({"suspect_units"} if before is not None else set())
+    codes = {one.code for one in before or ()} | (
+        {"suspect_units"} if before is not None else set()
+    )
     counted = {one.code for one in found if "cases" in one.fields} if before is not None else set()
-    texts[:] = [text for text in texts if text not in {_line(one) for one in before or () if one.code in counted}]
+    texts[:] = [
+        text
+        for text in texts
+        if text not in {_line(one) for one in before or () if one.code in counted}
+    ]
     for one in found:
         if (one.code not in codes or "cases" in one.fields) and _line(one) not in texts:
             texts.append(_line(one))
@@ -268,17 +364,33 @@ def _roots(found: Any) -> tuple[Any, ...]:
 
 
 def _propagated(case: Case, results: tuple[Any, ...], count: int) -> Any:
-    """What follows for the outputs that were asked for, or for the first that a reader looks for."""
+    """What follows for the outputs that were asked for, or for the first that a reader
+    looks for.
+    """
     if len(results) > 1:
-        text = f"is not given, and {count} answers fit; write answer = 1 or another at the top of the file"
+        text = (
+            f"is not given, and {count} answers fit; write answer = 1 or another at the top of "
+            "the file"
+        )
         raise CaseError(("answer", text), refused=True, code="ambiguous")
     options = dict(case.options)
     outputs = options.pop("outputs", _usual(case, results[0]))
-    if not isinstance(outputs, tuple) or not outputs or not all(isinstance(name, str) for name in outputs):
-        raise CaseError(("propagate.outputs", 'must be a list of names of answers, such as ["a.delta_v", "energy_loss"]'))
+    if (
+        not isinstance(outputs, tuple)
+        or not outputs
+        or not all(isinstance(name, str) for name in outputs)
+    ):
+        raise CaseError(
+            (
+                "propagate.outputs",
+                'must be a list of names of answers, such as ["a.delta_v", "energy_loss"]',
+            )
+        )
     model = _model(case, outputs, (case.answer or 1) - 1, count)
     inputs = {name: one.stated for name, one in case.uncertain.items()}
-    return Call("propagate", STUDIES["propagate"], {"model": model, "inputs": inputs, **options})({})
+    return Call("propagate", STUDIES["propagate"], {"model": model, "inputs": inputs, **options})(
+        {}
+    )
 
 
 def _model(case: Case, outputs: Any, which: int, count: int) -> Any:
@@ -290,31 +402,47 @@ def _model(case: Case, outputs: Any, which: int, count: int) -> Any:
     def model(**values: Any) -> dict[str, Any]:
         roots = _roots(case.call(values, **options))
         if any(not np.all(root.refused) for root in roots[count:]):
-            text = "has more answers in some cases than in the stated one; narrow what is uncertain, or give what decides"
+            text = (
+                "has more answers in some cases than in the stated one; narrow what is "
+                "uncertain, or give what decides"
+            )
             raise CaseError((case.solver, text), refused=True, code="ambiguous")
         # Where two roots have met and vanished, those left cannot be told apart.
-        all_there = True if count == 1 else np.False_ if len(roots) < count else ~roots[count - 1].refused
+        all_there = (
+            True if count == 1 else np.False_ if len(roots) < count else ~roots[count - 1].refused
+        )
         shape = np.broadcast_shapes(*map(np.shape, values.values()))
         found = roots[min(which, len(roots) - 1)]
-        return {name: _output(found, name, f"{case.study}.{place}", all_there, shape) for name in outputs}
+        return {
+            name: _output(found, name, f"{case.study}.{place}", all_there, shape)
+            for name in outputs
+        }
 
     return model
 
 
 def _found(result: Any, name: str) -> tuple[Any, str, Any, str | None]:
-    """The object that holds the number of a path, the number's own name, the number and its unit; None for any other value."""
+    """The object that holds the number of a path, the number's own name, the number and its unit;
+    None for any other value.
+    """
     path, _, last = name.rpartition(".")
-    owner = reduce(lambda whole, part: getattr(whole, part, None), filter(None, path.split(".")), result)
+    owner = reduce(
+        lambda whole, part: getattr(whole, part, None), filter(None, path.split(".")), result
+    )
     return owner, last, getattr(owner, last, None), unit_of(type(owner), last)
 
 
 def _output(result: Any, name: str, place: str, there: Any, shape: tuple[int, ...]) -> Any:
-    """A number of a result by its path, as a Quantity for each case; NaN where the result is not there."""
+    """A number of a result by its path, as a Quantity for each case; NaN where the result is not
+    there.
+    """
     owner, last, value, unit = _found(result, name)
     if unit is None or isinstance(value, tuple):
         names = result.to_columns() if isinstance(result, Impact) else result.__dataclass_fields__
         names = [one for one in names if _found(result, one)[3] is not None]
-        raise CaseError((place, f"{shown(name)} is no number of the answer; {nearest(name, names)}"))
+        raise CaseError(
+            (place, f"{shown(name)} is no number of the answer; {nearest(name, names)}")
+        )
     if value is None:
         why = owner._missing(last) if hasattr(owner, "_missing") else "this case has none"
         raise CaseError((place, f"{shown(name)} is not known: {why}"))
@@ -322,7 +450,9 @@ def _output(result: Any, name: str, place: str, there: Any, shape: tuple[int, ..
 
 
 def _usual(case: Case, result: Any) -> tuple[str, ...]:
-    """The outputs where the file names none: what was sought of a reverse solver, and what people ask of an impact."""
+    """The outputs where the file names none: what was sought of a reverse solver, and what people
+    ask of an impact.
+    """
     if isinstance(result, MomentumSolution):
         return (*result.unknowns, "delta_v_a", "delta_v_b")
     found = ("a.delta_v", "b.delta_v", "energy_loss")

@@ -1,4 +1,6 @@
-"""Case files: one case as TOML, whose keys are the arguments of the public functions. Nothing in a file is evaluated."""
+"""Case files: one case as TOML, whose keys are the arguments of the public functions. Nothing in a
+file is evaluated.
+"""
 
 from __future__ import annotations
 
@@ -26,17 +28,20 @@ from .words import DISTRIBUTIONS, as_in_file, in_file_words
 
 # The functions of which a file calls one, by the name of its table.
 FORWARD = {
-    name: getattr(solvers, name) for name in ("linear_central", "oblique_central", "eccentric", "solve", "time_resolved")
+    name: getattr(solvers, name)
+    for name in ("linear_central", "oblique_central", "eccentric", "solve", "time_resolved")
 }
 SOLVERS: dict[str, Callable[..., Any]] = FORWARD | {
     f"reconstruct.{f.__name__}": f
     for f in (reconstruct.central, reconstruct.momentum, reconstruct.planar, reconstruct.speeds)
 }  # fmt: skip
-# What is asked of the uncertain numbers of a file; without a table of these it is ``propagate`` as in ``_PROPAGATE``.
+# What is asked of the uncertain numbers of a file; without a table of these it is ``propagate`` as
+# in ``_PROPAGATE``.
 STUDIES: dict[str, Callable[..., Any]] = {
     "propagate": uncertainty.propagate, "fit": reconstruct.fit, "posterior": reconstruct.posterior,
 }  # fmt: skip
-# Functions that may stand in place of a number: speed_a_after = { travel.speed = { distance = "12 m", drag = 0.7 } }
+# Functions that may stand in place of a number: speed_a_after = { travel.speed = { distance = "12
+# m", drag = 0.7 } }
 FUNCTIONS: dict[str, Callable[..., Any]] = DISTRIBUTIONS | {
     "travel.speed": travel.speed,
     "reference.yaw_inertia": reference.yaw_inertia,
@@ -44,14 +49,27 @@ FUNCTIONS: dict[str, Callable[..., Any]] = DISTRIBUTIONS | {
     "reconstruct.inline_closing_speed": reconstruct.inline_closing_speed,
 }
 # Arguments that a file has no use for, or that come from the rest of it.
-_NOT_IN_FILES = {"on_failure", "threads", "progress", "model", "inputs", "unknowns", "impact", "uncertainty", "form", "rest"}
+_NOT_IN_FILES = {
+    "on_failure",
+    "threads",
+    "progress",
+    "model",
+    "inputs",
+    "unknowns",
+    "impact",
+    "uncertainty",
+    "form",
+    "rest",
+}
 # Annotations of arguments that may be several numbers.
 SEVERAL = ("Pair", "Impulse", "Segments", "Sequence[Input]", "tuple")
 _PROPAGATE, _POSTERIOR = {"method": "quasi_random", "seed": 0}, {"seed": 0}
 _UNCERTAIN = re.compile(r"(.*?)(\+/?-|±|\.\.)(.*?)(?:\(([^()]*%)\s*\))?", re.DOTALL)
 # What people write for a range: "40-50 mph", "0.4 to 0.7".
 _END = r"[0-9]+(?:\.[0-9]*)?"
-_RANGE = re.compile(rf"(-?{_END})\s*(?:(?![eE]-)[^\d\s*^]+?\s*)?(?:-|–|to)\s*({_END})\s*([a-zA-Z°%].*)?", re.DOTALL)
+_RANGE = re.compile(
+    rf"(-?{_END})\s*(?:(?![eE]-)[^\d\s*^]+?\s*)?(?:-|–|to)\s*({_END})\s*([a-zA-Z°%].*)?", re.DOTALL
+)
 _TOO_MANY = re.compile(r"(?<![\d_])\d[\d_]{4300}")  # digits in a row, which Python does not read
 _PAIR = '["1.2 m", "-0.4 m"]'
 _LARGEST_FILE = 1_000_000  # bytes
@@ -61,12 +79,18 @@ _LONGEST_MESSAGE = 4000  # of one problem; what it quotes is shorter, but it may
 
 
 class CaseError(Exception):
-    """What is wrong with a case, as pairs of key and text; ``refused`` if it was read, but has no answer."""
+    """What is wrong with a case, as pairs of key and text; ``refused`` if it was read, but has no
+    answer.
+    """
 
-    def __init__(self, *problems: tuple[str, str], refused: bool = False, code: str = "bad_case") -> None:
+    def __init__(
+        self, *problems: tuple[str, str], refused: bool = False, code: str = "bad_case"
+    ) -> None:
         self.problems = [
             (re.sub(r"\['(.*?)'\]", r'."\1"', key), " ".join(in_file_words(text).split()))
-            for key, text in ([_cut(part, _LONGEST_MESSAGE) for part in problem] for problem in problems)
+            for key, text in (
+                [_cut(part, _LONGEST_MESSAGE) for part in problem] for problem in problems
+            )
         ]
         self.refused = refused
         self.code = code
@@ -80,7 +104,9 @@ def _cut(text: str, longest: int) -> str:
 
 @dataclass(frozen=True)
 class Uncertain:
-    """A number that is not known exactly: its key, what is stated of it, and what stands for it in a single case."""
+    """A number that is not known exactly: its key, what is stated of it, and what stands for it in
+    a single case.
+    """
 
     key: str
     stated: Any
@@ -96,21 +122,30 @@ class Call:
     arguments: Mapping[str, Any]
 
     def __call__(self, values: Mapping[str, Any], **options: Any) -> Any:
-        """The result for these values of the uncertain numbers, by key; a refusal names the key in the file."""
+        """The result for these values of the uncertain numbers, by key; a refusal names the key in
+        the file.
+        """
         arguments = {name: _filled(argument, values) for name, argument in self.arguments.items()}
         try:
             return self.function(**arguments, **options)
         except CollisionsError as error:
             parts = error.fields.get("problems", (error,))
             problems = [(self._place(part), self._said(part)) for part in parts]
-            raise CaseError(*problems, refused=not isinstance(error, InputError), code=error.code) from error
+            raise CaseError(
+                *problems, refused=not isinstance(error, InputError), code=error.code
+            ) from error
 
     def _said(self, error: CollisionsError) -> str:
-        """What an error says, without the name of its argument; of a range it names both ends, not what stands for them."""
+        """What an error says, without the name of its argument; of a range it names both ends, not
+        what stands for them.
+        """
         text = str(error).removeprefix(f"{error.fields.get('argument')}: ")
         for one in self.arguments.values():
             if isinstance(one, Uncertain):
-                text = text.replace(f"cannot read {one.nominal!r}", f"{str(one.stated).partition(',')[0]} has no unit")
+                text = text.replace(
+                    f"cannot read {one.nominal!r}",
+                    f"{str(one.stated).partition(',')[0]} has no unit",
+                )
         return text
 
     def _place(self, error: CollisionsError) -> str:
@@ -122,12 +157,17 @@ class Call:
                 return name if own in ("inputs", "unknowns") else f"{self.key}.{own}.{name}"
         if isinstance(self.arguments.get(body), Call) or "vehicle" in error.fields:
             return f"{body}.{name.rpartition('.')[2]}".rstrip(".")
-        return f"{self.key}.{name}" if name.partition("[")[0] in parameters(self.function) else self.key
+        return (
+            f"{self.key}.{name}"
+            if name.partition("[")[0] in parameters(self.function)
+            else self.key
+        )
 
 
 @dataclass(frozen=True)
 class Case:
-    """A case as it was read: the solver and the call of it, what is asked of its uncertain numbers, options of the report.
+    """A case as it was read: the solver and the call of it, what is asked of its uncertain numbers,
+    options of the report.
 
     ``answer`` says which of several answers to take, from 1.
     """
@@ -150,22 +190,34 @@ def read(path: str | Path) -> Case:
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
         raise CaseError(
-            ("", f"cannot be read ({why}); give the path of a case file, or start from what 'new' prints")
+            (
+                "",
+                (
+                    f"cannot be read ({why}); give the path of a case file, or start from what "
+                    "'new' prints"
+                ),
+            )
         ) from None
 
 
 def read_text(data: bytes) -> Case:
     """The case of a file's content."""
     if len(data) > _LARGEST_FILE:
-        raise CaseError(("", "is larger than 1 MB; a case file is a page of text, such as 'new' prints"))
+        raise CaseError(
+            ("", "is larger than 1 MB; a case file is a page of text, such as 'new' prints")
+        )
     try:
         # Some shells write UTF-16 where the output of a command is sent to a file.
-        text = data.decode("utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig")
+        text = data.decode(
+            "utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig"
+        )
         document = tomllib.loads(text, parse_float=_float)
     except UnicodeDecodeError:
         raise CaseError(("", "is no text in UTF-8; save it with this encoding")) from None
     except RecursionError:
-        raise CaseError(("", "is nested too deeply; a value is a number, a text, a pair or a table of these")) from None
+        raise CaseError(
+            ("", "is nested too deeply; a value is a number, a text, a pair or a table of these")
+        ) from None
     except ValueError as error:
         raise CaseError(_not_toml(text, str(error))) from None
     return _Reader(document).case()
@@ -176,24 +228,42 @@ def _float(text: str) -> float:
     found = float(text)
     if math.isinf(found) and "inf" not in text:
         raise CaseError(
-            ("", f"has the number {text[:40]}, which is larger than 1.7e308; look for a slipped digit, or write inf")
+            (
+                "",
+                (
+                    f"has the number {text[:40]}, which is larger than 1.7e308; look for a "
+                    "slipped digit, or write inf"
+                ),
+            )
         )
     return found
 
 
 def _not_toml(text: str, error: str) -> tuple[str, str]:
-    """The key of a text that is not TOML, and what is wrong with it, with the line and what to write."""
+    """The key of a text that is not TOML, and what is wrong with it, with the line and what to
+    write.
+    """
     error = _cut(error, _LONGEST_MESSAGE // 4)  # it may name a key of any length
     at, lines = re.search(r"at line (\d+)", error), re.split(r"\r\n|\n|\r(?!\n)", text)
-    number = int(at[1]) - 1 if at else next((i for i, line in enumerate(lines) if _TOO_MANY.search(line)), 0)
+    number = (
+        int(at[1]) - 1
+        if at
+        else next((i for i, line in enumerate(lines) if _TOO_MANY.search(line)), 0)
+    )
     line = lines[number].strip() if number < len(lines) else ""
     key, equals, value = (part.strip() for part in line.partition("#")[0].partition("="))
-    table = next((found[1] for one in lines[number::-1] if (found := re.match(r"\s*\[([\w. -]+)\]", one))), "")
+    table = next(
+        (found[1] for one in lines[number::-1] if (found := re.match(r"\s*\[([\w. -]+)\]", one))),
+        "",
+    )
     if not re.fullmatch(r"[\w.-]+", key):
         key = ""
     cure = 'write key = value, with every text in quotes, such as mass = "1500 kg"'
     if "digits" in error:
-        error, cure = f"Too many digits (at line {number + 1})", "write a large number with a point, such as 1.0e30"
+        error, cure = (
+            f"Too many digits (at line {number + 1})",
+            "write a large number with a point, such as 1.0e30",
+        )
     elif "twice" in error or "overwrite" in error:
         cure = "a file is of one case, with each table and each key once"
     elif set(line) & set("“”„‘’"):
@@ -204,7 +274,11 @@ def _not_toml(text: str, error: str) -> tuple[str, str]:
         cure = f"a decimal has a point: write {key} = {value.replace(',', '.')}"
     elif key and equals and re.fullmatch(r"[^\"'\[{]+", value):
         cure = f'write {key} = "{value}", with every text in quotes'
-    error = re.sub(r"\(('[^()]*),?\)", lambda name: "[" + ".".join(re.findall(r"'(.*?)'", name[1])) + "]", error)
+    error = re.sub(
+        r"\(('[^()]*),?\)",
+        lambda name: "[" + ".".join(re.findall(r"'(.*?)'", name[1])) + "]",
+        error,
+    )
     where = _cut(f"{table}.{key}".strip("."), _LONGEST_TEXT) if equals and key else ""
     return where, f"is not TOML: {error}, {as_in_file(line)}; {_cut(cure, _LONGEST_TEXT)}"
 
@@ -230,14 +304,23 @@ def descriptions(function: Callable[..., Any]) -> dict[str, str]:
     section = (getdoc(function) or "").partition("Parameters\n----------\n")[2].partition("\n\n")[0]
     found: dict[str, str] = {}
     if function == Vehicle.from_speed:
-        moving = {name: (getdoc(getattr(Vehicle, name)) or "").partition(",")[0].rstrip(".") for name in ("speed", "course")}
+        moving = {
+            name: (getdoc(getattr(Vehicle, name)) or "").partition(",")[0].rstrip(".")
+            for name in ("speed", "course")
+        }
         found = descriptions(Vehicle) | moving
-    for names, kind, text in re.findall(r"^(\w[\w, ]*?)(?: : (.*))?\n((?: {4}.*\n?)+)", section, re.MULTILINE):
+    for names, kind, text in re.findall(
+        r"^(\w[\w, ]*?)(?: : (.*))?\n((?: {4}.*\n?)+)", section, re.MULTILINE
+    ):
         if (as_for := re.match(r"\s*As for ``(\w+)``", text)) and as_for[1] in FORWARD:
-            found = found | {name: descriptions(FORWARD[as_for[1]])[name] for name in names.split(", ")}
+            found = found | {
+                name: descriptions(FORWARD[as_for[1]])[name] for name in names.split(", ")
+            }
             continue
         unit = (re.search(r" ?\[\S+?\]", kind) or [""])[0].replace(" [1]", "").replace(" [-]", "")
-        found = found | dict.fromkeys(names.split(", "), f"{' '.join(text.split()).rstrip('.')}{unit}")
+        found = found | dict.fromkeys(
+            names.split(", "), f"{' '.join(text.split()).rstrip('.')}{unit}"
+        )
     return found
 
 
@@ -249,10 +332,12 @@ def nearest(given: str, names: Iterable[str]) -> str:
 
 
 def stated(text: str, bounds: Callable[[str, str], Any] = uncertainty.Uniform) -> Any:
-    """What a text says of an uncertain number: "50 km/h +/- 3 km/h", "0.4 .. 0.7", either with " (95 %)"; None for others.
+    """What a text says of an uncertain number: "50 km/h +/- 3 km/h", "0.4 .. 0.7", either with "
+    (95 %)"; None for others.
 
-    A number after +/- is one standard deviation of a normal distribution; two dots stand between the ``bounds`` of a uniform
-    one. With a percentage the range holds that share of a normal distribution.
+    A number after +/- is one standard deviation of a normal distribution; two dots stand between
+    the ``bounds`` of a uniform one. With a percentage the range holds that share of a normal
+    distribution.
     """
     found = _UNCERTAIN.fullmatch(text)
     if found is None:
@@ -260,10 +345,18 @@ def stated(text: str, bounds: Callable[[str, str], Any] = uncertainty.Uniform) -
     one, sign, other, coverage = (part and part.strip() for part in found.groups())
     units = [unit_as_written(part) for part in (one, other)]
     shares = [unit in ("%", "percent") for unit in units]
-    if re.match(r"[^\W\d]|[%°]", max(units)) and (shares[0] != shares[1] or (units[0] != units[1] and "" in units)):
-        both = [part if unit else f"{part} {max(units)}" for part, unit in zip((one, other), units, strict=True)]
+    if re.match(r"[^\W\d]|[%°]", max(units)) and (
+        shares[0] != shares[1] or (units[0] != units[1] and "" in units)
+    ):
+        both = [
+            part if unit else f"{part} {max(units)}"
+            for part, unit in zip((one, other), units, strict=True)
+        ]
         cure = "'50 km/h +/- 3 km/h'" if any(shares) else repr(f" {sign} ".join(both))
-        text = f"cannot read {as_in_file(text)}: both numbers need the same unit; write for example {cure}"
+        text = (
+            f"cannot read {as_in_file(text)}: both numbers need the same unit; write for example "
+            f"{cure}"
+        )
         raise InputError(text, code="bad_units", argument="")
     if sign == "..":
         return uncertainty.Normal.between(one, other, coverage) if coverage else bounds(one, other)
@@ -271,14 +364,25 @@ def stated(text: str, bounds: Callable[[str, str], Any] = uncertainty.Uniform) -
     if not coverage:
         return whole
     factor, unit = getattr(whole.unit, "factor", 1.0), getattr(whole.unit, "written", whole.unit)
-    low, high = (f"{(whole.given_mean + side * whole.given_sd) / factor!r} {unit}".strip() for side in (-1.0, 1.0))
+    low, high = (
+        f"{(whole.given_mean + side * whole.given_sd) / factor!r} {unit}".strip()
+        for side in (-1.0, 1.0)
+    )
     return uncertainty.Normal.between(low, high, coverage)
 
 
 def _open(name: str, value: Any) -> Any:
-    """A value of a distribution; an infinite end of a truncation, which a file can write, becomes an open one."""
+    """A value of a distribution; an infinite end of a truncation, which a file can write, becomes
+    an open one.
+    """
     ends = value if name == "truncate" and isinstance(value, tuple) and len(value) == 2 else None
-    return tuple(None if end == side * math.inf else end for end, side in zip(ends, (-1, 1), strict=True)) if ends else value
+    return (
+        tuple(
+            None if end == side * math.inf else end for end, side in zip(ends, (-1, 1), strict=True)
+        )
+        if ends
+        else value
+    )
 
 
 def _filled(node: Any, values: Mapping[str, Any]) -> Any:
@@ -287,7 +391,9 @@ def _filled(node: Any, values: Mapping[str, Any]) -> Any:
             return node.nominal
         # Where it was stated with a unit, a bare angle of more than a turn would give a warning.
         given = values[node.key]
-        return to_quantity(given, node.stated.unit) if hasattr(node.stated.unit, "written") else given
+        return (
+            to_quantity(given, node.stated.unit) if hasattr(node.stated.unit, "written") else given
+        )
     if isinstance(node, Call):
         return node(values)
     return tuple(_filled(part, values) for part in node) if isinstance(node, tuple) else node
@@ -307,11 +413,15 @@ class _Reader:
             self.document |= {f"reconstruct.{name}": table for name, table in inside.items()}
 
     def plain(self, node: Any, key: str = "") -> Any:
-        """A part of the document with its lists as tuples; whole numbers beyond those of TOML are refused."""
+        """A part of the document with its lists as tuples; whole numbers beyond those of TOML are
+        refused.
+        """
         if isinstance(node, dict):
             if key and "answer" in node:
                 self.refuse(
-                    f"{key}.answer", f"stands inside the table [{key}]; move this line above the first table of the file"
+                    f"{key}.answer",
+                    f"stands inside the table [{key}]; move this line above the first table of "
+                    "the file",
                 )
             parts = {name: part for name, part in node.items() if name != "answer" or not key}
             for name in [name for name in parts if len(name) > _LONGEST_TEXT]:
@@ -319,14 +429,22 @@ class _Reader:
                 short = f"{key}.{_cut(name, 40)}".lstrip(".")
                 most = f"a key has {_LONGEST_TEXT} at most, write its name"
                 self.refuse(short, f"is a key of {len(name)} characters; {most}")
-            return {name: self.plain(part, f"{key}.{name}".lstrip(".")) for name, part in parts.items()}
+            return {
+                name: self.plain(part, f"{key}.{name}".lstrip(".")) for name, part in parts.items()
+            }
         if isinstance(node, list):
             return tuple(self.plain(part, f"{key}[{at}]") for at, part in enumerate(node))
         if type(node) is int and not -(2**63) <= node < 2**63:
-            self.refuse(key, "is a whole number of more than 64 bits, which TOML has not; write it with a point: 1.0e30")
+            self.refuse(
+                key,
+                "is a whole number of more than 64 bits, which TOML has not; write it with a "
+                "point: 1.0e30",
+            )
         if isinstance(node, (date, time)):
             self.refuse(
-                key, f'is a date or a time, {as_in_file(node)}; write a number, or a text in quotes: "{as_in_file(node)}"'
+                key,
+                f"is a date or a time, {as_in_file(node)}; write a number, or a text in quotes: "
+                f'"{as_in_file(node)}"',
             )
         return node
 
@@ -335,25 +453,42 @@ class _Reader:
 
     def case(self) -> Case:
         """The whole case."""
-        solvers_of, studies = ([name for name in names if name in self.document] for names in (SOLVERS, STUDIES))
+        solvers_of, studies = (
+            [name for name in names if name in self.document] for names in (SOLVERS, STUDIES)
+        )
         asked = solvers_of if len(solvers_of) == 1 else list(SOLVERS)
         bodies = list(dict.fromkeys(label for name in asked for label in vehicles(SOLVERS[name])))
         self.known(self.document, "", [*asked, *bodies, *STUDIES, "report", "what_if", "answer"])
         if len(solvers_of) != 1:
             tables = ", ".join(f"[{name}]" for name in solvers_of or SOLVERS)
-            what = "has the tables {}; leave one of them" if solvers_of else "has no table of a solver; write one of {}"
+            what = (
+                "has the tables {}; leave one of them"
+                if solvers_of
+                else "has no table of a solver; write one of {}"
+            )
             self.refuse("", what.format(tables))
             raise CaseError(*self.problems)
         self.solver = name = solvers_of[0]
-        call = self.call(name, SOLVERS[name], self.document[name], {label: self.vehicle(label) for label in bodies})
+        call = self.call(
+            name,
+            SOLVERS[name],
+            self.document[name],
+            {label: self.vehicle(label) for label in bodies},
+        )
         if studies and studies[0] != "propagate" and not self.uncertain:
             self.refuse(
-                studies[0], 'has nothing to find; write what is sought as a range, such as speed = "20 km/h .. 90 km/h"'
+                studies[0],
+                'has nothing to find; write what is sought as a range, such as speed = "20 km/h '
+                '.. 90 km/h"',
             )
         for label in bodies if name == "reconstruct.speeds" else ():
             for key in {"vx", "vy", "speed", "course"} & self.table(label).keys():
                 own = f"course_{label}" if key in ("vx", "vy") else f"{key}_{label}"
-                self.refuse(f"{label}.{key}", f"is what {name} finds; leave it out, and write {own} in [{name}] if it is known")
+                self.refuse(
+                    f"{label}.{key}",
+                    f"is what {name} finds; leave it out, and write {own} in [{name}] if it is "
+                    "known",
+                )
         if len(studies) > 1:
             self.refuse(studies[1], f"stands beside [{studies[0]}]; leave out one of these tables")
         study = studies[0] if studies else "propagate" if self.uncertain else ""
@@ -361,7 +496,9 @@ class _Reader:
         answer = self.document.get("answer")
         if answer is not None and not (type(answer) is int and answer > 0):
             self.refuse(
-                "answer", f"must be a whole number from 1, which of several answers to take, got {as_in_file(answer)}; write 1"
+                "answer",
+                "must be a whole number from 1, which of several answers to take, got "
+                f"{as_in_file(answer)}; write 1",
             )
         page, ranges = self.table("report"), self.table("what_if.ranges")
         self.known(page, "report", parameters(report))
@@ -375,7 +512,9 @@ class _Reader:
         """Refuse the keys of a table that are not among these names."""
         for key in table:
             if key not in names:
-                self.refuse(f"{place}.{key}".lstrip("."), f"is not known here; {nearest(key, names)}")
+                self.refuse(
+                    f"{place}.{key}".lstrip("."), f"is not known here; {nearest(key, names)}"
+                )
 
     def table(self, name: str) -> dict[str, Any]:
         """The table at a path with dots; empty where there is none."""
@@ -384,7 +523,11 @@ class _Reader:
             found = found.get(part, {}) if isinstance(found, dict) else found
         if isinstance(found, dict):
             return found
-        self.refuse(name, f"must be a table, got {as_in_file(found)}; write [{name}] on a line of its own, and its keys below")
+        self.refuse(
+            name,
+            f"must be a table, got {as_in_file(found)}; write [{name}] on a line of its own, and "
+            "its keys below",
+        )
         return {}
 
     def vehicle(self, label: str) -> Call:
@@ -395,29 +538,53 @@ class _Reader:
         if function != Vehicle and {"vx", "vy"} & given.keys():
             self.refuse(label, "has its velocity in two ways; leave vx and vy, or speed and course")
         takes = parameters(function)
-        return self.call(label, function, {name: value for name, value in given.items() if name in takes})
+        return self.call(
+            label, function, {name: value for name, value in given.items() if name in takes}
+        )
 
     def call(
-        self, key: str, function: Callable[..., Any], given: Any, beside: Mapping[str, Any] | None = None, plain: bool = False
+        self,
+        key: str,
+        function: Callable[..., Any],
+        given: Any,
+        beside: Mapping[str, Any] | None = None,
+        plain: bool = False,
     ) -> Call:
-        """The call of a function with the arguments of a table, and those that stand ``beside`` it in the file.
+        """The call of a function with the arguments of a table, and those that stand ``beside`` it
+        in the file.
 
         With ``plain`` every value is taken as it is.
         """
-        takes = {name: one for name, one in parameters(function).items() if name not in (beside or {})}
+        takes = {
+            name: one for name, one in parameters(function).items() if name not in (beside or {})
+        }
         if not isinstance(given, dict):
-            self.refuse(key, f"must be a table of arguments, got {as_in_file(given)}; write {{ {next(iter(takes))} = ... }}")
+            self.refuse(
+                key,
+                f"must be a table of arguments, got {as_in_file(given)}; write {{ "
+                f"{next(iter(takes))} = ... }}",
+            )
             given = {}
         self.known(given, key, takes)
         for name, one in takes.items():
             # What may be None is not known, which a file says by leaving it out.
-            if one.default is Parameter.empty and name not in given and "None" not in str(one.annotation):
+            if (
+                one.default is Parameter.empty
+                and name not in given
+                and "None" not in str(one.annotation)
+            ):
                 what = descriptions(function).get(name, name).replace("``", "")
                 unit = re.search(r"\[(\S+)\]$", what)
-                such = f", such as {_PAIR if one.annotation == 'Pair' else example(unit[1])}" if unit else ""
+                such = (
+                    f", such as {_PAIR if one.annotation == 'Pair' else example(unit[1])}"
+                    if unit
+                    else ""
+                )
                 self.refuse(f"{key}.{name}", f"is missing; give it: {what}{such}")
         read = {
-            name: _open(name, value) if plain else self.value(f"{key}.{name}", value, str(takes[name].annotation))
+            name: _open(name, value)
+            if plain
+            else self.value(f"{key}.{name}", value, str(takes[name].annotation))
             for name, value in given.items()
             if name in takes
         }
@@ -428,21 +595,34 @@ class _Reader:
         """An argument: a number or a text as it is, or what stands there in place of a number."""
         if not any(name in kind for name in ("Input", *SEVERAL)):
             return value
-        if kind.removesuffix(" | None") == "Pair" and not (isinstance(value, tuple) and len(value) == 2):
-            self.refuse(key, f"takes two numbers in brackets, got {as_in_file(value)}; write for example {_PAIR}")
+        if kind.removesuffix(" | None") == "Pair" and not (
+            isinstance(value, tuple) and len(value) == 2
+        ):
+            self.refuse(
+                key,
+                f"takes two numbers in brackets, got {as_in_file(value)}; write for example "
+                f"{_PAIR}",
+            )
         elif isinstance(value, dict):
             return self.function(key, value)
         elif isinstance(value, tuple):
             if any(name in kind for name in SEVERAL):
-                return tuple(self.value(f"{key}[{at}]", part, "Input") for at, part in enumerate(value))
-            self.refuse(key, f"takes one value, got {as_in_file(value)}; write a file for each case")
+                return tuple(
+                    self.value(f"{key}[{at}]", part, "Input") for at, part in enumerate(value)
+                )
+            self.refuse(
+                key, f"takes one value, got {as_in_file(value)}; write a file for each case"
+            )
         elif isinstance(value, str) and not self.fits(key, value):
             return None
         elif isinstance(value, str) and _UNCERTAIN.fullmatch(value):
             return self.stated(key, Call(key, stated, {"text": value}))
         elif isinstance(value, str) and (found := _RANGE.fullmatch(value.strip())):
             low, high = (f"{found[at]} {found[3] or ''}".strip() for at in (1, 2))
-            self.refuse(key, f'cannot read {as_in_file(value)}; a range has two dots: write "{low} .. {high}"')
+            self.refuse(
+                key,
+                f'cannot read {as_in_file(value)}; a range has two dots: write "{low} .. {high}"',
+            )
         return value
 
     def fits(self, key: str, text: str) -> bool:
@@ -463,22 +643,38 @@ class _Reader:
             if inside is not None:
                 count = len(self.problems)
                 call = self.call(f"{key}.{name}", function, inside, plain=name in DISTRIBUTIONS)
-                return self.stated(key, call) if name in DISTRIBUTIONS and len(self.problems) == count else call
+                return (
+                    self.stated(key, call)
+                    if name in DISTRIBUTIONS and len(self.problems) == count
+                    else call
+                )
         cure = nearest(".".join(table), FUNCTIONS)
-        self.refuse(key, f"is a table that names no function which may stand for a number, got {as_in_file(table)}; {cure}")
+        self.refuse(
+            key,
+            "is a table that names no function which may stand for a number, got "
+            f"{as_in_file(table)}; {cure}",
+        )
         return None
 
     def stated(self, key: str, call: Call) -> Any:
-        """An uncertain number; its mean, or the middle of an interval, stands in a single case, in the unit as written."""
+        """An uncertain number; its mean, or the middle of an interval, stands in a single case, in
+        the unit as written.
+        """
         try:
             found = call({})
         except CaseError as error:
             self.problems.extend(error.problems)
             return None
-        middle = 0.5 * found.low + 0.5 * found.high if isinstance(found, uncertainty.Interval) else getattr(found, "mean", None)
+        middle = (
+            0.5 * found.low + 0.5 * found.high
+            if isinstance(found, uncertainty.Interval)
+            else getattr(found, "mean", None)
+        )
         if middle is None and ".observed[" not in key:
             self.refuse(
-                key, 'is a reading with one bound, which only an observation may be; write a range, such as "0.4 .. 0.7"'
+                key,
+                "is a reading with one bound, which only an observation may be; write a range, "
+                'such as "0.4 .. 0.7"',
             )
         elif middle is not None and hasattr(found.unit, "written"):
             middle = f"{middle / found.unit.factor:.15g} {found.unit.written}"
@@ -495,35 +691,57 @@ class _Reader:
         self.known(given, name, [*takes, *(() if "observed" in takes else ("outputs",))])
         found = dict(given)
         if name == "propagate":
-            bounds_only = all(isinstance(one.stated, uncertainty.Interval) for one in self.uncertain.values())
+            bounds_only = all(
+                isinstance(one.stated, uncertainty.Interval) for one in self.uncertain.values()
+            )
             found = ({"method": "interval"} if bounds_only else _PROPAGATE) | found
         elif name == "posterior":
             found = _POSTERIOR | found
         rows = found.get("correlation", ())
-        if isinstance(rows, tuple) and all(isinstance(row, tuple) and len(row) == 3 for row in rows):
+        if isinstance(rows, tuple) and all(
+            isinstance(row, tuple) and len(row) == 3 for row in rows
+        ):
             found |= {"correlation": {row[:2]: row[2] for row in rows}} if rows else {}
         else:
             self.refuse(
-                f"{name}.correlation", f'takes rows such as [["a.mass", "b.mass", 0.5]], got {as_in_file(rows)}; write them so'
+                f"{name}.correlation",
+                f'takes rows such as [["a.mass", "b.mass", 0.5]], got {as_in_file(rows)}; write '
+                "them so",
             )
         if "observed" in takes:
             rows = given.get("observed")
             if not isinstance(rows, dict) or not rows:
-                self.refuse(f"{name}.observed", 'must be a table of what was found; write "a.delta_v" = "20 km/h +/- 1 km/h"')
+                self.refuse(
+                    f"{name}.observed",
+                    'must be a table of what was found; write "a.delta_v" = "20 km/h +/- 1 km/h"',
+                )
                 rows = {}
-            found["observed"] = {key: self._observed(f"{name}.observed['{key}']", value) for key, value in rows.items()}
+            found["observed"] = {
+                key: self._observed(f"{name}.observed['{key}']", value)
+                for key, value in rows.items()
+            }
         return found
 
     def _observed(self, key: str, value: Any) -> Any:
-        """A measured value with its error, or bounds of it: a text, a table that names what it is, or a pair."""
+        """A measured value with its error, or bounds of it: a text, a table that names what it is,
+        or a pair.
+        """
         found = value
         if isinstance(value, str) and not self.fits(key, value):
             found = None
         elif isinstance(value, str) and _UNCERTAIN.fullmatch(value):
             # For an observation, two dots say that it lies between, not how probable each place is.
-            found = self.stated(key, Call(key, stated, {"text": value, "bounds": uncertainty.Interval}))
-        elif isinstance(value, dict) and not value.keys() & {name.partition(".")[0] for name in FUNCTIONS}:
-            self.refuse(key, 'has its name without quotes; write "a.delta_v" = "20 km/h +/- 1 km/h", the name in quotes too')
+            found = self.stated(
+                key, Call(key, stated, {"text": value, "bounds": uncertainty.Interval})
+            )
+        elif isinstance(value, dict) and not value.keys() & {
+            name.partition(".")[0] for name in FUNCTIONS
+        }:
+            self.refuse(
+                key,
+                'has its name without quotes; write "a.delta_v" = "20 km/h +/- 1 km/h", the name '
+                "in quotes too",
+            )
         elif isinstance(value, (str, dict)):
             found = self.value(key, value, "Input")
         self.uncertain.pop(key, None)

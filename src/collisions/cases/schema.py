@@ -1,4 +1,6 @@
-"""``case_schema``: the JSON schema of case files for editors, from the signatures and docstrings of the public functions."""
+"""``case_schema``: the JSON schema of case files for editors, from the signatures and docstrings of
+the public functions.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ _PLAIN = {"str": "string", "bool": "boolean", "int": "integer"}
 
 def case_schema() -> dict[str, Any]:
     """The JSON schema (draft 7, which editors of TOML know) of a case file."""
-    tables: dict[str, Any] = {label: {"$ref": "#/$defs/vehicle"} for f in SOLVERS.values() for label in vehicles(f)}
+    tables: dict[str, Any] = {
+        label: {"$ref": "#/$defs/vehicle"} for f in SOLVERS.values() for label in vehicles(f)
+    }
     reverse: dict[str, Any] = {}
     for name, function in (SOLVERS | STUDIES).items():
         module, _, own = name.rpartition(".")
@@ -30,7 +34,10 @@ def case_schema() -> dict[str, Any]:
         "reconstruct": _object(reverse),
         "report": _arguments(report),
         "what_if": _object(
-            {"ranges": _object(dict.fromkeys(SLIDERS, pair)) | {"description": descriptions(what_if)["ranges"]}}
+            {
+                "ranges": _object(dict.fromkeys(SLIDERS, pair))
+                | {"description": descriptions(what_if)["ranges"]}
+            }
         ),
         "answer": {
             "type": "integer",
@@ -45,19 +52,33 @@ def case_schema() -> dict[str, Any]:
         **_object(tables),
         "$defs": {
             "number": {
-                "description": 'A number in SI, or a text: "50 km/h", "50 km/h +/- 3 km/h", "0.4 .. 0.7"; or a function.',
+                "description": (
+                    'A number in SI, or a text: "50 km/h", "50 km/h +/- 3 km/h", "0.4 .. 0.7"; '
+                    "or a function."
+                ),
                 "anyOf": [{"type": ["number", "string"]}, {"$ref": "#/$defs/function"}],
             },
             "pair": {"type": "array", "items": _NUMBER},
-            "vehicle": _object(_arguments(Vehicle)["properties"] | _arguments(Vehicle.from_speed)["properties"]),
-            "function": _nested({name: _arguments(one, plain=name in DISTRIBUTIONS) for name, one in FUNCTIONS.items()}),
+            "vehicle": _object(
+                _arguments(Vehicle)["properties"] | _arguments(Vehicle.from_speed)["properties"]
+            ),
+            "function": _nested(
+                {
+                    name: _arguments(one, plain=name in DISTRIBUTIONS)
+                    for name, one in FUNCTIONS.items()
+                }
+            ),
         },
     }
 
 
 def _arguments(function: Callable[..., Any], plain: bool = False) -> dict[str, Any]:
-    """The table of the arguments of a function; the vehicles of a solver stand in tables of their own."""
-    takes = {name: one for name, one in parameters(function).items() if name not in vehicles(function)}
+    """The table of the arguments of a function; the vehicles of a solver stand in tables of their
+    own.
+    """
+    takes = {
+        name: one for name, one in parameters(function).items() if name not in vehicles(function)
+    }
     return _object({name: {} if plain else _argument(one, function) for name, one in takes.items()})
 
 
@@ -68,7 +89,11 @@ def _argument(parameter: Parameter, function: Callable[..., Any]) -> dict[str, A
     found: dict[str, Any] = {"description": text} if text else {}
     if kind in _PLAIN:
         return found | {"type": _PLAIN[kind]}
-    choices = get_args(getattr(sys.modules[function.__module__], kind, None)) if kind.isidentifier() else ()
+    choices = (
+        get_args(getattr(sys.modules[function.__module__], kind, None))
+        if kind.isidentifier()
+        else ()
+    )
     if choices and all(isinstance(choice, str) for choice in choices):
         return found | {"enum": list(choices)}
     if any(name in kind for name in SEVERAL):

@@ -1,4 +1,6 @@
-"""Messages of the library in the words of a case file, with keys, tables and lists for arguments, calls and tuples."""
+"""Messages of the library in the words of a case file, with keys, tables and lists for arguments,
+calls and tuples.
+"""
 
 from __future__ import annotations
 
@@ -19,14 +21,18 @@ _LONGEST = 80  # characters of a value in a message
 _CALL = re.compile(rf"\b({'|'.join(DISTRIBUTIONS)})(\.between)?\(((?:[^()]|\([^()]*\))*)\)")
 # An argument and what it is given, up to the comma behind it.
 _ARGUMENT = re.compile(r"(?:(\w+)=)?('[^']*'|\([^()]*\)|\[[^\]]*\]|[^,]+)(?:, |$)")
-# What holds texts in quotes, which the rest leaves alone: items of a dict, tuples of texts, names of texts.
+# What holds texts in quotes, which the rest leaves alone: items of a dict, tuples of texts, names
+# of texts.
 _WITH_TEXTS = (
     (r"(?:(?<=\{)|(?<=, ))'([\w.]+)': ", r"\1 = "),
     (r"=\(((?:'[^']*'(?:, )?)+)\)", r" = [\1]"),
     (r"\bgot \(('[^']*'(?:, '[^']*')*),?\)", r"got [\1]"),
     (r"\b(?:unknowns|inputs)\['([^']*)'\]", r"\1"),
     (r"\b(observed|limits|tolerance)\['([^']*)'\]", r'\1."\2"'),
-    (r"; put the unit on the whole: .*?, or give numbers in SI", "; write numbers in SI, or texts with their units"),
+    (
+        r"; put the unit on the whole: .*?, or give numbers in SI",
+        "; write numbers in SI, or texts with their units",
+    ),
 )
 _QUOTED = re.compile(r"('[^']*'|\"[^\"]*\")")
 _PART = r"(?:-?[\d.]+(?:e[-+]\d+)?|-?inf|n?[xy]|low|high|value|error|length|width|forward|left)"
@@ -45,10 +51,17 @@ _PYTHON = (
     (r"\bor use Vehicle\.barrier\(\)", "or leave out the pivot"),
     (r"\bis written into the model\b", "is written as a number"),
     (r"\ban array or a list\b", "a list"),
-    (r"; (?:all|both) are in \.solutions\b|\bAll are in \.solutions; |\.solutions holds .*?\. (?=[A-Z])", ""),
+    (
+        r"; (?:all|both) are in \.solutions\b|\bAll are in \.solutions; |\.solutions holds "
+        r".*?\. (?=[A-Z])",
+        "",
+    ),
     (r"; many cases go in a numpy array\b", ""),
     (r"\bNone leaves a side open\b", "-inf or inf leaves a side open"),
-    (r"\bwrite None for an end that is open\b", "write -inf for a lower end that is open, inf for an upper one"),
+    (
+        r"\bwrite None for an end that is open\b",
+        "write -inf for a lower end that is open, inf for an upper one",
+    ),
     (r", or None\b", ""),
     (r", an array or a Quantity\b", " or a text"),
     (r"\bgot (?:int|float)$", "got a number; put it in quotes"),
@@ -73,12 +86,16 @@ def as_in_file(value: Any) -> str:
     elif isinstance(value, (datetime, date, time)):
         text = value.isoformat()
     else:
-        text = json.dumps(value, ensure_ascii=False).replace("Infinity", "inf").replace("NaN", "nan")
+        text = (
+            json.dumps(value, ensure_ascii=False).replace("Infinity", "inf").replace("NaN", "nan")
+        )
     return text if len(text) <= _LONGEST else text[: _LONGEST - 3] + "..."
 
 
 def in_file_words(text: str) -> str:
-    """A message with tables for calls, lists for tuples, and ``key = value`` for arguments; texts in quotes stay."""
+    """A message with tables for calls, lists for tuples, and ``key = value`` for arguments; texts
+    in quotes stay.
+    """
     text = _CALL.sub(_distribution, text)
     for pattern, file in _WITH_TEXTS:
         text = re.sub(pattern, file, text)
@@ -101,5 +118,8 @@ def _distribution(call: re.Match[str]) -> str:
     if name in ("Normal", "Uniform") and len(bare) == len(given) == 2:
         return f'"{bare[0]} {"+/-" if name == "Normal" else ".."} {bare[1]}"'
     names = list(signature(DISTRIBUTIONS[name]).parameters)
-    named = [f"{key or names[at]} = {'...' if value in (key, *names) else value}" for at, (key, value) in enumerate(given)]
+    named = [
+        f"{key or names[at]} = {'...' if value in (key, *names) else value}"
+        for at, (key, value) in enumerate(given)
+    ]
     return f"{{ {name} = {{ {', '.join(named)} }} }}"

@@ -1,4 +1,6 @@
-"""The steps that the models of an impact share: velocities, the tangential impulse, energy, and what the motions give."""
+"""The steps that the models of an impact share: velocities, the tangential impulse, energy, and
+what the motions give.
+"""
 
 from __future__ import annotations
 
@@ -9,13 +11,25 @@ from typing import NamedTuple
 from ..impact.impact import answer_of
 from ..impact.inputs import PLACED
 from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, RULES
-from .expressions import HALF, ZERO, Direction, Expression, Function, Sum, magnitude, root, signed_total, total
+from .expressions import (
+    HALF,
+    ZERO,
+    Direction,
+    Expression,
+    Function,
+    Sum,
+    magnitude,
+    root,
+    signed_total,
+    total,
+)
 from .page import Page
 from .symbols import AFTER, BEFORE, Body, Symbol, Symbols, delta_v
 
 
 class Mobility(NamedTuple):
-    """What an impulse does to the velocity of B relative to A at the contact; the coupling is None for point masses.
+    """What an impulse does to the velocity of B relative to A at the contact; the coupling is None
+    for point masses.
 
     ``push`` is what the impulses from outside add to the closing speed and to the slip.
     """
@@ -34,7 +48,9 @@ def normal(page: Page, s: Symbols) -> None:
         page.say(f"Components of the normal: {page.shown(s.nx)} and {page.shown(s.ny)}.")
         return
     phi = Symbol(r"\varphi", s.impact.normal_angle, "angle")
-    page.equation(f"Normal along x, from its direction {page.symbol(phi)}", s.nx, Function("cos", phi))
+    page.equation(
+        f"Normal along x, from its direction {page.symbol(phi)}", s.nx, Function("cos", phi)
+    )
     page.equation("Normal along y", s.ny, Function("sin", phi))
 
 
@@ -49,24 +65,39 @@ def velocity_before(page: Page, body: Body, s: Symbols) -> None:
     page.equation(f"Velocity of {body.label} before, along the tangent", t, s.cross(x, y))
 
 
-def velocity_after(page: Page, body: Body, s: Symbols, periods: Sequence[tuple[str, str, str, Symbol]]) -> None:
-    """The velocity of the centre of mass after: along n by periods (caption, start, end, impulse), along t, x and y."""
+def velocity_after(
+    page: Page, body: Body, s: Symbols, periods: Sequence[tuple[str, str, str, Symbol]]
+) -> None:
+    """The velocity of the centre of mass after: along n by periods (caption, start, end, impulse),
+    along t, x and y.
+    """
     n, t, x, y = (body.along(direction, AFTER) for direction in "ntxy")
     if body.fixed:
-        text = f"{body.label} has an infinite mass and keeps its velocity: {page.shown(n)} and {page.shown(t)}."
+        text = (
+            f"{body.label} has an infinite mass and keeps its velocity: {page.shown(n)} and "
+            f"{page.shown(t)}."
+        )
         page.fact(text, (n, body.along("n")), (t, body.along("t")))
         return
     for caption, start, end, impulse in periods:
         found = body.along("n", start).plus(body.sign, impulse / body.mass)
-        page.equation(caption, body.along("n", end), found if body.outside is None else found + body.pushed("n") / body.mass)
+        page.equation(
+            caption,
+            body.along("n", end),
+            found if body.outside is None else found + body.pushed("n") / body.mass,
+        )
     along_t = f"Velocity of {body.label} after, along the tangent"
     found = body.along("t").plus(body.sign, s.tangential.unless_zero() / body.mass)
     if body.outside is not None:
         found = found + body.pushed("t") / body.mass
     page.equation(along_t if isinstance(found, Sum) else f"{along_t}, as before", t, found)
     if s.impact.normal == (1.0, 0.0):
-        same = " and ".join(f"{page.symbol(one)} = {page.shown(other)}" for one, other in ((x, n), (y, t)))
-        page.fact(f"The normal is the x axis and the tangent the y axis, so {same}.", (x, n), (y, t))
+        same = " and ".join(
+            f"{page.symbol(one)} = {page.shown(other)}" for one, other in ((x, n), (y, t))
+        )
+        page.fact(
+            f"The normal is the x axis and the tangent the y axis, so {same}.", (x, n), (y, t)
+        )
     else:
         page.equation(f"Velocity of {body.label} after, along x", x, s.scene("x", n, t))
         page.equation(f"Velocity of {body.label} after, along y", y, s.scene("y", n, t))
@@ -81,39 +112,65 @@ def impulses(page: Page, s: Symbols, k: Mobility) -> None:
         compressed = (s.closing + k.push[0]) / k.normal if s.law.energetic else None
     if not s.impact.complete:
         page.at_most(s.separation, ZERO)
-        page.say("The impact is incomplete: it ends in the period of deformation, while the contact points still approach.")
+        page.say(
+            "The impact is incomplete: it ends in the period of deformation, while the contact "
+            "points still approach."
+        )
         return
-    page.equation("Impulse of the period of deformation, area A1", s.compression, compressed or s.normal / (1.0 + s.e))
+    page.equation(
+        "Impulse of the period of deformation, area A1",
+        s.compression,
+        compressed or s.normal / (1.0 + s.e),
+    )
     restored = s.e * s.compression if compressed is None else s.normal - s.compression
     page.equation("Impulse of the period of restitution (10), area A2", s.restitution, restored)
 
 
 def _by_energy(page: Page, s: Symbols, k: Mobility) -> Expression | None:
-    """The impulse under the law "stronge"; gives its normal component until the end of compression."""
+    """The impulse under the law "stronge"; gives its normal component until the end of
+    compression.
+    """
     page.say(
-        "Friction acts against the slip as it is at each moment, and the slip may stop before the contact ends. Restitution "
-        f"gives back {page.symbol(s.e)} squared of the work that compression takes along the normal."
+        "Friction acts against the slip as it is at each moment, and the slip may stop before "
+        f"the contact ends. Restitution gives back {page.symbol(s.e)} squared of the work that "
+        "compression takes along the normal."
     )
     mu, coupling = Symbol(r"\mu", s.impact.inputs.rule_value, "number"), k.coupling or ZERO
     g, slip, e = s.closing + k.push[0], s.slip + k.push[1], s.e
     if k.push[0] is not ZERO:
-        e = page.let("Restitution for the closing speed that impulses from outside leave", "e_o", "number", s.e * s.closing / g)
+        e = page.let(
+            "Restitution for the closing speed that impulses from outside leave",
+            "e_o",
+            "number",
+            s.e * s.closing / g,
+        )
     endless, rests, way = math.isinf(mu.value), slip.value == 0.0, -1.0 if slip.value > 0.0 else 1.0
     first: Expression = ZERO
     first_t: Expression = ZERO
     soft: Expression = ZERO
     w, stops = g, True
     if endless and not rests:
-        first_t = page.let("Impulse along the tangent that stops the slip, at once as friction has no bound", "T_1", "impulse",
+        first_t = page.let(
+        "Impulse along the tangent that stops the slip, at once as friction has no bound", "T_1",
+        "impulse",
                            -(slip / k.tangential))  # fmt: skip
         w = page.let("Closing speed then", "w", "speed", g - coupling * first_t)
     elif not rests:
-        soft = page.let("While it slides, the closing speed falls, for each unit of normal impulse, by", "k_1", "per mass",
+        soft = page.let(
+        "While it slides, the closing speed falls, for each unit of normal impulse, by", "k_1",
+        "per mass",
                         k.normal + ZERO.plus(way, mu * coupling))  # fmt: skip
-        rate = page.let("and the slip changes by", "l_1", "per mass", coupling + ZERO.plus(way, mu * k.tangential))
+        rate = page.let(
+            "and the slip changes by",
+            "l_1",
+            "per mass",
+            coupling + ZERO.plus(way, mu * k.tangential),
+        )
         stops = rate.value * slip.value < 0.0
         if stops:
-            first = page.let("Normal impulse at which the slip would stop", "P_1", "impulse", -(slip / rate))
+            first = page.let(
+                "Normal impulse at which the slip would stop", "P_1", "impulse", -(slip / rate)
+            )
             w = page.let("Closing speed then (below 0: they part)", "w", "speed", g - soft * first)
             first_t = ZERO.plus(way, mu * first)
             stops = w.value > -max(e.value, 0.0) * g.value or soft.value < 0.0
@@ -126,11 +183,20 @@ def _by_energy(page: Page, s: Symbols, k: Mobility) -> Expression | None:
     holds = s.impact.regime == "sticking" or abs(coupling.value) <= mu.value * k.tangential.value
     if holds and not endless:
         page.at_most(Function("abs", coupling), mu * k.tangential)
-    ratio = -(coupling / k.tangential) if holds else ZERO.plus(-1.0 if coupling.value > 0.0 else 1.0, mu)
+    ratio = (
+        -(coupling / k.tangential)
+        if holds
+        else ZERO.plus(-1.0 if coupling.value > 0.0 else 1.0, mu)
+    )
     then = "it sticks" if holds else "it slides on, the way that the normal impulse pushes it"
-    ratio = page.let(f"Once the slip has stopped {then}: impulse ratio from there", "\\mu_2", "number", ratio)
+    ratio = page.let(
+        f"Once the slip has stopped {then}: impulse ratio from there", "\\mu_2", "number", ratio
+    )
     soft_2 = page.let(
-        "The closing speed then falls, for each unit of normal impulse, by", "k_2", "per mass", k.normal + ratio * coupling
+        "The closing speed then falls, for each unit of normal impulse, by",
+        "k_2",
+        "per mass",
+        k.normal + ratio * coupling,
     )
     if w.value > 0.0:
         worked = first * (g + w) / 2.0 + w.squared() / (2.0 * soft_2)
@@ -139,15 +205,24 @@ def _by_energy(page: Page, s: Symbols, k: Mobility) -> Expression | None:
         worked, before = g.squared() / (2.0 * soft), g / soft
     work = page.let("Work of compression along the normal", "E_c", "energy", worked)
     if w.value > 0.0 and e.value * math.sqrt(2.0 * soft_2.value * work.value) <= -w.value:
-        page.say("Of that work so much is still to be done when the contact ends that the slip has not stopped then.")
+        page.say(
+            "Of that work so much is still to be done when the contact ends that the slip has "
+            "not stopped then."
+        )
         done = (1.0 - e.squared()) * work
-        still = page.let("Closing speed at the end", "w'", "speed", root(g.squared() - 2.0 * soft * done))
+        still = page.let(
+            "Closing speed at the end", "w'", "speed", root(g.squared() - 2.0 * soft * done)
+        )
         page.equation("Normal impulse", s.normal, 2.0 * done / (g + still))
         page.equation("Tangential impulse", s.tangential, ZERO.plus(way, mu * s.normal))
         return None
-    inside = e.squared() * 2.0 * work if w.value > 0.0 else e.squared() * 2.0 * work - w.squared() / soft
+    inside = (
+        e.squared() * 2.0 * work if w.value > 0.0 else e.squared() * 2.0 * work - w.squared() / soft
+    )
     parts = root(soft_2 * inside) if w.value > 0.0 else root(w.squared() + soft_2 * inside)
-    page.equation("Speed at which the contact points part", s.separation, -parts if e.value < 0.0 else parts)
+    page.equation(
+        "Speed at which the contact points part", s.separation, -parts if e.value < 0.0 else parts
+    )
     page.equation("Normal impulse", s.normal, first + (w + s.separation) / soft_2)
     page.equation("Tangential impulse", s.tangential, first_t + ratio * (s.normal - first))
     return before
@@ -159,16 +234,24 @@ def _by_rule(page: Page, s: Symbols, k: Mobility) -> None:
     change = (1.0 + s.e) * s.closing + k.push[0]
     if math.isnan(s.critical.value):
         page.say(
-            "The contact has one degree of freedom, so the impulse that just stops the slip and the critical impulse ratio are "
-            "not defined."
+            "The contact has one degree of freedom, so the impulse that just stops the slip and "
+            "the critical impulse ratio are not defined."
         )
     if rule == IMPULSE_RATIO:
         stated = Symbol(r"\mu_P", value, "number")
-        text = f"The impulse ratio was given: {page.shown(s.ratio)}, tangential over normal, signed."
+        text = (
+            f"The impulse ratio was given: {page.shown(s.ratio)}, tangential over normal, signed."
+        )
         page.fact(text, (s.ratio, stated))
     elif rule not in (FRICTION, CRITICAL_FRACTION):
-        given = f"The {RULES[rule].meaning} was given: {page.name(rule)} = {page.number(value, 'number')}"
-        page.say(f"{given}. With the impulse that just stops the slip it makes the impulse ratio {page.shown(s.ratio)}.")
+        given = (
+            f"The {RULES[rule].meaning} was given: {page.name(rule)} = "
+            f"{page.number(value, 'number')}"
+        )
+        page.say(
+            f"{given}. With the impulse that just stops the slip it makes the impulse ratio "
+            f"{page.shown(s.ratio)}."
+        )
     elif value == 0.0:
         why = {
             FRICTION: "Without friction the impulse is along the normal alone, as in the paper",
@@ -183,7 +266,10 @@ def _by_rule(page: Page, s: Symbols, k: Mobility) -> None:
         _without_slip(page, s, k, no_slip, no_slip_t)
         if rule == CRITICAL_FRACTION:
             fraction = Symbol("f", value, "number")
-            page.say(f"The critical fraction was given: {page.shown(fraction)} of the ratio that just stops the slip.")
+            page.say(
+                f"The critical fraction was given: {page.shown(fraction)} of the ratio that just "
+                "stops the slip."
+            )
             page.equation("Impulse ratio", s.ratio, fraction * s.critical)
         elif _sticks(page, s, no_slip, no_slip_t):
             page.equation("Normal impulse", s.normal, no_slip)
@@ -197,8 +283,8 @@ def _by_rule(page: Page, s: Symbols, k: Mobility) -> None:
 def _without_slip(page: Page, s: Symbols, k: Mobility, normal: Symbol, tangential: Symbol) -> None:
     """The impulse that stops the slip."""
     page.say(
-        f"The impulse that just stops the slip has the components {page.symbol(normal)} and {page.symbol(tangential)}: with "
-        f"it, {s.law.derivation}."
+        f"The impulse that just stops the slip has the components {page.symbol(normal)} and "
+        f"{page.symbol(tangential)}: with it, {s.law.derivation}."
     )
     change = (1.0 + s.e) * s.closing + k.push[0]
     stopped = (1.0 - s.law.sticking_slip(s.e)) * s.slip + k.push[1]
@@ -207,8 +293,12 @@ def _without_slip(page: Page, s: Symbols, k: Mobility, normal: Symbol, tangentia
         page.equation("Its tangential component", tangential, -(stopped / k.tangential))
     else:
         page.say("Both are found from two equations at once:")
-        page.balance("Along the normal", k.normal * normal + k.coupling * tangential, change, "speed")
-        page.balance("Along the tangent", k.coupling * normal + k.tangential * tangential, -stopped, "speed")
+        page.balance(
+            "Along the normal", k.normal * normal + k.coupling * tangential, change, "speed"
+        )
+        page.balance(
+            "Along the tangent", k.coupling * normal + k.tangential * tangential, -stopped, "speed"
+        )
         determinant = k.normal * k.tangential - k.coupling.squared()
         cramer_n = (k.tangential * change + k.coupling * stopped) / determinant
         cramer_t = -((k.normal * stopped + k.coupling * change) / determinant)
@@ -219,18 +309,24 @@ def _without_slip(page: Page, s: Symbols, k: Mobility, normal: Symbol, tangentia
 
 
 def _sticks(page: Page, s: Symbols, normal: Symbol, tangential: Symbol) -> bool:
-    """Whether the contact sticks under a friction bound, and why; if not, with its impulse ratio."""
+    """Whether the contact sticks under a friction bound, and why; if not, with its
+    impulse ratio.
+    """
     mu = Symbol(r"\mu", s.impact.inputs.rule_value, "number")
     sticks: bool = s.impact.regime == "sticking"
     allowed = f"The friction allows |{page.symbol(s.ratio)}| up to {page.shown(mu)}"
     if sticks and math.isinf(mu.value):
         page.at_most(ZERO, normal)
-        page.say("The friction has no bound and this impulse pushes, so the contact sticks: it is the impulse.")
+        page.say(
+            "The friction has no bound and this impulse pushes, so the contact sticks: it is the "
+            "impulse."
+        )
     elif sticks:
         page.at_most(ZERO, normal)
         page.at_most(Function("abs", tangential), mu * normal)
         page.say(
-            f"{allowed}. The critical ratio is within that and the impulse pushes, so the contact sticks: it is the impulse."
+            f"{allowed}. The critical ratio is within that and the impulse pushes, so the "
+            "contact sticks: it is the impulse."
         )
     else:
         pulls = f"the impulse without slip would have to pull ({page.shown(normal)})"
@@ -239,8 +335,8 @@ def _sticks(page: Page, s: Symbols, normal: Symbol, tangential: Symbol) -> bool:
             page.at_most(mu * normal, Function("abs", tangential))
         page.at_most(ZERO, tangential if s.ratio.value >= 0.0 else -tangential)
         page.say(
-            f"{allowed}, and {why}, so the contact slides. The impulse ratio is the bound with the sign of "
-            f"{page.symbol(tangential)} ({page.number(tangential.value, 'impulse')})."
+            f"{allowed}, and {why}, so the contact slides. The impulse ratio is the bound with "
+            f"the sign of {page.symbol(tangential)} ({page.number(tangential.value, 'impulse')})."
         )
         page.equation("Impulse ratio", s.ratio, mu if s.ratio.value >= 0.0 else -mu)
     return sticks
@@ -251,15 +347,28 @@ def energy(page: Page, s: Symbols) -> None:
     page.heading("Energy")
     if s.law.energetic and s.tangential.value != 0.0:
         # The sum needs no path, its parts do.
-        whole = HALF * (s.closing - s.separation) * s.normal - HALF * s.tangential * (s.slip + s.slip_after)
-        page.equation("Energy lost, by the impulse at the mean of the contact velocities", s.loss, whole)
-        text = f"Of that the work of friction takes {page.shown(s.loss_t)}, the normal {page.shown(s.loss_n)}."
+        whole = HALF * (s.closing - s.separation) * s.normal - HALF * s.tangential * (
+            s.slip + s.slip_after
+        )
+        page.equation(
+            "Energy lost, by the impulse at the mean of the contact velocities", s.loss, whole
+        )
+        text = (
+            f"Of that the work of friction takes {page.shown(s.loss_t)}, the normal "
+            f"{page.shown(s.loss_n)}."
+        )
         page.fact(text, (s.loss, s.loss_n + s.loss_t))
     else:
-        page.equation("Energy lost along the normal, (8) at the contact", s.loss_n, HALF * (1.0 - s.e) * s.closing * s.normal)
+        page.equation(
+            "Energy lost along the normal, (8) at the contact",
+            s.loss_n,
+            HALF * (1.0 - s.e) * s.closing * s.normal,
+        )
         if s.tangential.value != 0.0:
             work = -(HALF * s.tangential * (s.slip + s.slip_after))
-            page.equation("Energy lost along the tangent, to the mean of both slips", s.loss_t, work)
+            page.equation(
+                "Energy lost along the tangent, to the mean of both slips", s.loss_t, work
+            )
             page.equation("Energy lost", s.loss, s.loss_n + s.loss_t)
         else:
             page.equation("Energy lost, as nothing is lost along the tangent", s.loss, s.loss_n)
@@ -268,17 +377,27 @@ def energy(page: Page, s: Symbols) -> None:
 
 def kinetic_energies(page: Page, s: Symbols, lost: Symbol | None = None) -> None:
     """The loss as the difference of the kinetic energies, where those are finite."""
-    states = [(body, when, *_kinetic_energy(body, when)) for body in s.bodies for when in (BEFORE, AFTER)]
+    states = [
+        (body, when, *_kinetic_energy(body, when)) for body in s.bodies for when in (BEFORE, AFTER)
+    ]
     if any(math.isnan(value) for _, _, value, _ in states):
-        page.say("A body turns whose yaw inertia is not known, and so its kinetic energy is not: (7) is no check here.")
+        page.say(
+            "A body turns whose yaw inertia is not known, and so its kinetic energy is not: (7) "
+            "is no check here."
+        )
         return
     if any(math.isinf(value) for _, _, value, _ in states):
-        page.say("A body of infinite mass or inertia that moves has no finite kinetic energy: (7) is no check here.")
+        page.say(
+            "A body of infinite mass or inertia that moves has no finite kinetic energy: (7) is "
+            "no check here."
+        )
         return
     terms: list[tuple[float, Symbol]] = []
     for body, when, value, formula in states:
         if body.fixed and not value:
-            page.say(f"{body.label} has an infinite mass and rests {when}, so it has no kinetic energy.")
+            page.say(
+                f"{body.label} has an infinite mass and rests {when}, so it has no kinetic energy."
+            )
             continue
         sign, prime = (1.0, "") if when == BEFORE else (-1.0, "'")
         symbol = Symbol(f"T_{body.label}{prime}", value, "energy")
@@ -295,15 +414,23 @@ def kinetic_energies(page: Page, s: Symbols, lost: Symbol | None = None) -> None
             if body.outside[2]:
                 moment = Symbol(rf"\mathrm{{M}}_{body.label}", body.outside[2], "angular momentum")
                 work = work + moment * (HALF * (body.spin() + body.spin(AFTER)))
-            caption = f"Work of the impulse from outside on {body.label}, at the mean of its velocities"
+            caption = (
+                f"Work of the impulse from outside on {body.label}, at the mean of its velocities"
+            )
             terms.append((1.0, page.let(caption, f"W_{body.label}", "energy", work)))
     before_first = sorted(terms, key=lambda term: -term[0])
     with_work = ", with the work from outside" if any(body.outside for body in s.bodies) else ""
-    page.equation(f"Check: kinetic energies before less those after (7){with_work}", lost or s.loss, signed_total(before_first))
+    page.equation(
+        f"Check: kinetic energies before less those after (7){with_work}",
+        lost or s.loss,
+        signed_total(before_first),
+    )
 
 
 def _kinetic_energy(body: Body, when: str) -> tuple[float, Expression]:
-    """Its value, NaN for a body that turns and whose yaw inertia is not known; and its formula, ZERO for a body at rest."""
+    """Its value, NaN for a body that turns and whose yaw inertia is not known; and its formula,
+    ZERO for a body at rest.
+    """
     state = body.state(when)
     squares = total(*(body.axis(axis, when).unless_zero().squared() for axis in "xy"))
     # A central model leaves the yaw rate as it was.
@@ -317,15 +444,20 @@ def motions(page: Page, s: Symbols) -> None:
     """What follows from the motions of both vehicles, each from its definition."""
     page.heading("Delta-V, direction of the force, and motion after")
     page.say(
-        "Delta-V is the change of velocity of the centre of mass. The PDOF is where the impulse on a vehicle comes from, seen "
-        "from that vehicle: 0 from ahead, positive clockwise. Directions are counted counter-clockwise from the x axis."
+        "Delta-V is the change of velocity of the centre of mass. The PDOF is where the impulse "
+        "on a vehicle comes from, seen from that vehicle: 0 from ahead, positive clockwise. "
+        "Directions are counted counter-clockwise from the x axis."
     )
     for axis in "xy":
-        page.check(f"Impulse on B, along {axis}", s.impulse(axis), s.scene(axis, s.normal, s.tangential))
+        page.check(
+            f"Impulse on B, along {axis}", s.impulse(axis), s.scene(axis, s.normal, s.tangential)
+        )
     # The impulse on a body of infinite mass is known from the other body.
     for body in sorted(s.bodies, key=lambda body: body.fixed):
         if body.fixed:
-            page.fact(f"{body.label} has an infinite mass, so its delta-V is 0.", (body.delta_v(), ZERO))
+            page.fact(
+                f"{body.label} has an infinite mass, so its delta-V is 0.", (body.delta_v(), ZERO)
+            )
         else:
             _delta_v(page, s, body)
         _pdof(page, s, body)
@@ -337,14 +469,21 @@ def _delta_v(page: Page, s: Symbols, body: Body) -> None:
     for axis, part in zip("xy", parts, strict=True):
         before, after = body.axis(axis), body.axis(axis, AFTER)
         if before.value == 0.0 and after.value == 0.0:
-            text = f"{label} does not move along {axis}, before or after: {page.shown(after)} and {page.shown(part)}."
+            text = (
+                f"{label} does not move along {axis}, before or after: {page.shown(after)} and "
+                f"{page.shown(part)}."
+            )
             page.fact(text, (part, ZERO))
         else:
             page.equation(f"Delta-V of {label} along {axis} (definition)", part, after - before)
         if not body.pinned and s.impact.pulse is None:
             # From the velocities it has their rounding; from the impulse it has none but its own.
-            pushed = ZERO.plus(body.sign, s.impulse(axis)) + (body.pushed(axis) if body.outside else ZERO)
-            page.check(f"Delta-V of {label} along {axis}, from the impulse", part, pushed / body.mass)
+            pushed = ZERO.plus(body.sign, s.impulse(axis)) + (
+                body.pushed(axis) if body.outside else ZERO
+            )
+            page.check(
+                f"Delta-V of {label} along {axis}, from the impulse", part, pushed / body.mass
+            )
     page.equation(f"Delta-V of {label} (definition)", body.delta_v(), magnitude(*parts))
     if body.start.heading is not None:
         psi = Symbol(rf"\psi_{label}", body.start.heading, "angle")
@@ -353,7 +492,11 @@ def _delta_v(page: Page, s: Symbols, body: Body) -> None:
         left = delta_v(label, "l", body.side.delta_v_left)
         caption = f"Delta-V of {label} forward, from its heading {page.symbol(psi)} (definition)"
         page.equation(caption, forward, parts[0] * along + parts[1] * across)
-        page.equation(f"Delta-V of {label} to its left (definition)", left, parts[1] * along - parts[0] * across)
+        page.equation(
+            f"Delta-V of {label} to its left (definition)",
+            left,
+            parts[1] * along - parts[0] * across,
+        )
 
 
 def _pdof(page: Page, s: Symbols, body: Body) -> None:
@@ -373,14 +516,32 @@ def _pdof(page: Page, s: Symbols, body: Body) -> None:
     pdof(page, label, caption, side.impulse_direction, pushed, body.start.heading, side.pdof)
 
 
-def pdof(page: Page, label: str, caption: str, direction: float, pushed: Expression, heading: float, found: float) -> None:
-    """The PDOF, from the heading and the direction of the impulse, which a caption and a formula give."""
-    alpha, psi = Symbol(rf"\alpha_{label}", direction, "angle"), Symbol(rf"\psi_{label}", heading, "angle")
+def pdof(
+    page: Page,
+    label: str,
+    caption: str,
+    direction: float,
+    pushed: Expression,
+    heading: float,
+    found: float,
+) -> None:
+    """The PDOF, from the heading and the direction of the impulse, which a caption and a formula
+    give.
+    """
+    alpha, psi = (
+        Symbol(rf"\alpha_{label}", direction, "angle"),
+        Symbol(rf"\psi_{label}", heading, "angle"),
+    )
     page.equation(caption, alpha, pushed)
     turns = round((found - (psi.value - alpha.value)) / math.pi)
-    caption = f"PDOF of {label}: against the impulse, clockwise from its heading {page.symbol(psi)} (definition)"
+    caption = (
+        f"PDOF of {label}: against the impulse, clockwise from its heading {page.symbol(psi)} "
+        "(definition)"
+    )
     symbol = Symbol(rf"\mathrm{{PDOF}}_{label}", found, "angle")
-    page.equation(caption, symbol, (psi - alpha).plus(turns, abs(turns) * Symbol(r"\pi", math.pi, "angle")))
+    page.equation(
+        caption, symbol, (psi - alpha).plus(turns, abs(turns) * Symbol(r"\pi", math.pi, "angle"))
+    )
 
 
 def _speed_and_course(page: Page, body: Body) -> None:

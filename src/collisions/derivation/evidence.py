@@ -1,4 +1,6 @@
-"""``momentum`` and ``fit``: derivations of a planar-momentum result and of a fit to evidence, which need no impact model."""
+"""``momentum`` and ``fit``: derivations of a planar-momentum result and of a fit to evidence, which
+need no impact model.
+"""
 
 from __future__ import annotations
 
@@ -27,15 +29,22 @@ MOMENTUM_ANSWERS = {
     "translational_energy_loss": ("both", "energy of translation lost", "energy"),
 }
 _SPEEDS = tuple(MOMENTUM_ANSWERS)[:4]
-_ANGLE_TOL = 1e-9 * math.tau  # rounding of a difference of angles; the short way round differs by a whole turn
+_ANGLE_TOL = (
+    1e-9 * math.tau
+)  # rounding of a difference of angles; the short way round differs by a whole turn
 
 
 class _Momenta:
-    """Symbols and momentum terms of planar momentum: masses, speeds and courses; a vehicle at rest has no course."""
+    """Symbols and momentum terms of planar momentum: masses, speeds and courses; a vehicle at rest
+    has no course.
+    """
 
     def __init__(self, solution: MomentumSolution) -> None:
         self.solution = solution
-        self.mass = {"a": Symbol("m_A", solution.mass_a, "mass"), "b": Symbol("m_B", solution.mass_b, "mass")}
+        self.mass = {
+            "a": Symbol("m_A", solution.mass_a, "mass"),
+            "b": Symbol("m_B", solution.mass_b, "mass"),
+        }
         self.speed: dict[str, Symbol] = {}
         self.course: dict[str, Symbol] = {}
         for name in _SPEEDS:
@@ -45,7 +54,9 @@ class _Momenta:
             if course is not None:
                 self.course[name] = Symbol(rf"\theta_{index}", course, "angle")
         outside = {axis: getattr(solution, f"outside_impulse_{axis}") for axis in "xy"}
-        self.outside = {axis: Symbol(f"J_{axis}", j, "impulse") for axis, j in outside.items() if j is not None}
+        self.outside = {
+            axis: Symbol(f"J_{axis}", j, "impulse") for axis, j in outside.items() if j is not None
+        }
 
     def along(self, name: str, function: str, axis: Expression = ZERO) -> Expression:
         """The component of a velocity along x, or along an axis at another angle."""
@@ -75,33 +86,47 @@ def momentum_inputs(solution: MomentumSolution) -> Iterator[tuple[str, str, str,
     for at, axis in enumerate("xy"):
         outside = getattr(solution, f"outside_impulse_{axis}")
         if outside is not None:
-            yield "both", f"impulse from outside, along {axis}", f"outside_impulse[{at}]", outside, "impulse"
+            yield (
+                "both",
+                f"impulse from outside, along {axis}",
+                f"outside_impulse[{at}]",
+                outside,
+                "impulse",
+            )
 
 
 def momentum(page: Page, solution: MomentumSolution) -> None:
     """Two unknown speeds from courses that cross."""
     m = _Momenta(solution)
-    rows = [(of, what, page.number(value, kind)) for of, what, _, value, kind in momentum_inputs(solution)]
+    rows = [
+        (of, what, page.number(value, kind))
+        for of, what, _, value, kind in momentum_inputs(solution)
+    ]
     page.heading("Given")
     page.table(rows)
     page.heading("Planar momentum")
     page.say(
-        "The momentum of both vehicles together is the same before and after, along x and along y (1), (2). Nothing is assumed "
-        "of restitution, friction or rotation. Unknown are the two speeds along their courses."
+        "The momentum of both vehicles together is the same before and after, along x and along "
+        "y (1), (2). Nothing is assumed of restitution, friction or rotation. Unknown are the "
+        "two speeds along their courses."
     )
     for axis, function in (("x", "cos"), ("y", "sin")):
         _balance(page, m, axis, function)
     first, second = solution.unknowns
     page.say(
-        f"Counted across the course of one unknown speed, the balance holds the other one alone. This gives "
-        f"{page.symbol(m.speed[first])} and {page.symbol(m.speed[second])}."
+        "Counted across the course of one unknown speed, the balance holds the other one alone. "
+        f"This gives {page.symbol(m.speed[first])} and {page.symbol(m.speed[second])}."
     )
     for name, across in ((first, second), (second, first)):
         _solved(page, m, name, m.course[across])
     angle = m.course[first] - m.course[second]
     cosine, sine = (Function("abs", Function(function, angle)) for function in ("cos", "sin"))
     condition = Symbol(r"\kappa", solution.condition, "number")
-    page.equation("Condition, from the angle between both courses (1 at right angles)", condition, (1.0 + cosine) / sine)
+    page.equation(
+        "Condition, from the angle between both courses (1 at right angles)",
+        condition,
+        (1.0 + cosine) / sine,
+    )
     page.heading("Changes of velocity and energy")
     for label in "ab":
         _delta_v(page, m, label)
@@ -109,7 +134,11 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
         _along_normal(page, m, solution.normal_angle)
     energies = [m.mass[name[6]] * speed.squared() / 2.0 for name, speed in m.speed.items()]
     loss = Symbol(r"\Delta E", solution.translational_energy_loss, "energy")
-    page.equation("Energy of translation lost (7)", loss, signed_total(zip((1.0, 1.0, -1.0, -1.0), energies, strict=True)))
+    page.equation(
+        "Energy of translation lost (7)",
+        loss,
+        signed_total(zip((1.0, 1.0, -1.0, -1.0), energies, strict=True)),
+    )
     page.heading("Answers")
     page.table(momentum_answers(page, solution))
 
@@ -118,12 +147,18 @@ def _balance(page: Page, m: _Momenta, axis: str, function: str) -> None:
     """The balance of momentum along an axis."""
     left, right = (
         total(
-            *(m.mass[name[6]] * m.speed[name] * Function(function, m.course[name]) for name in m.course if _when(name) == when)
+            *(
+                m.mass[name[6]] * m.speed[name] * Function(function, m.course[name])
+                for name in m.course
+                if _when(name) == when
+            )
         )
         for when in ("before", "after")
     )
     if axis in m.outside:
-        page.say(f"An impulse from outside was stated; along {axis} it is {page.shown(m.outside[axis])}.")
+        page.say(
+            f"An impulse from outside was stated; along {axis} it is {page.shown(m.outside[axis])}."
+        )
         left = left + m.outside[axis]
     page.balance(f"Momentum along {axis} (2)", left, right, "impulse")
 
@@ -134,9 +169,13 @@ def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
     own, when = [name], _when(name)
     if when == "after" and _together(m.solution):
         own, mass = ["speed_a_after", "speed_b_after"], m.mass["a"] + m.mass["b"]
-    # Terms on the other side of the balance count as positive, those on the side of the unknown as negative.
+    # Terms on the other side of the balance count as positive, those on the side of the unknown as
+    # negative.
     terms: list[tuple[float, Expression]] = [
-        (-1.0 if _when(other) == when else 1.0, m.mass[other[6]] * m.speed[other] * Function("sin", course - across))
+        (
+            -1.0 if _when(other) == when else 1.0,
+            m.mass[other[6]] * m.speed[other] * Function("sin", course - across),
+        )
         for other, course in m.course.items()
         if other not in own and course.value != across.value and m.speed[other].value
     ]
@@ -145,7 +184,10 @@ def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
         moment = m.outside["y"] * Function("cos", across) - m.outside["x"] * Function("sin", across)
         found = found.plus(1.0 if when == "after" else -1.0, moment)
     if found is ZERO:
-        page.fact(f"Nothing else has momentum across it: {page.shown(m.speed[name])}.", (m.speed[name], ZERO))
+        page.fact(
+            f"Nothing else has momentum across it: {page.shown(m.speed[name])}.",
+            (m.speed[name], ZERO),
+        )
         return
     caption = f"Speed of {name[6].upper()} {when}, by the momentum across {page.symbol(across)}"
     page.equation(caption, m.speed[name], found / (mass * Function("sin", m.course[name] - across)))
@@ -157,7 +199,10 @@ def _when(name: str) -> str:
 
 def _together(solution: MomentumSolution) -> bool:
     """Whether the vehicles left as one."""
-    return bool(solution.speed_a_after == solution.speed_b_after and solution.course_a_after == solution.course_b_after)
+    return bool(
+        solution.speed_a_after == solution.speed_b_after
+        and solution.course_a_after == solution.course_b_after
+    )
 
 
 def _delta_v(page: Page, m: _Momenta, label: str) -> None:
@@ -173,7 +218,10 @@ def _delta_v(page: Page, m: _Momenta, label: str) -> None:
     page.equation(f"Delta-V of {name} (definition)", delta_v(name, "", size), magnitude(x, y))
     heading, found = getattr(m.solution, f"heading_{label}"), getattr(m.solution, f"pdof_{label}")
     if heading is not None and not math.isnan(found):
-        caption, direction = f"Direction of the delta-V of {name} (definition)", math.atan2(y.value + 0.0, x.value)
+        caption, direction = (
+            f"Direction of the delta-V of {name} (definition)",
+            math.atan2(y.value + 0.0, x.value),
+        )
         pdof(page, name, caption, direction, Direction(x, y), heading, found)
 
 
@@ -186,7 +234,9 @@ def _along_normal(page: Page, m: _Momenta, normal_angle: float) -> None:
     page.equation(caption, closing, before_a - before_b)
     parting = page.let("Separation speed (definition)", "r", "speed", after_b - after_a)
     if _is_known(m.solution.restitution):
-        page.equation("Restitution (9)", Symbol("e", m.solution.restitution, "number"), parting / closing)
+        page.equation(
+            "Restitution (9)", Symbol("e", m.solution.restitution, "number"), parting / closing
+        )
 
 
 def _is_known(value: float | None) -> bool:
@@ -206,20 +256,26 @@ def fit(page: Page, found: Fit) -> None:
     page.heading("Given")
     page.table(_given(page, found))
     page.say(
-        "Each ± is one standard error, as it was stated. The model, a function of whoever asked, is not on this page; its "
-        "computed values are those at the answer."
+        "Each ± is one standard error, as it was stated. The model, a function of whoever asked, "
+        "is not on this page; its computed values are those at the answer."
     )
     page.heading("Misfit")
     page.table(_misfit(page, found))
-    ratios = [_residual(page, found, number, name) for number, name in enumerate(found.residuals, 1)]
+    ratios = [
+        _residual(page, found, number, name) for number, name in enumerate(found.residuals, 1)
+    ]
     chi_squared = Symbol(r"\chi^2", found.chi_squared, "number")
-    page.equation("Chi-squared, which the answer makes least", chi_squared, total(*(ratio.squared() for ratio in ratios)))
+    page.equation(
+        "Chi-squared, which the answer makes least",
+        chi_squared,
+        total(*(ratio.squared() for ratio in ratios)),
+    )
     page.listed([page.name(sentence) + "." for sentence in found.statements])
     page.heading("Answers")
     page.table([row for name in found.names for row in _unknown(page, found, name)])
     page.say(
-        "Each ± is one standard error and each range holds 95 percent, given the stated errors and as far as the model is "
-        "straight there. They are not widened by the misfit."
+        "Each ± is one standard error and each range holds 95 percent, given the stated errors "
+        "and as far as the model is straight there. They are not widened by the misfit."
     )
 
 
@@ -229,19 +285,31 @@ def _given(page: Page, found: Fit) -> Iterator[tuple[str, str, str]]:
         yield page.name(one.name), "known before" if one.is_prior else "observed", value
     for name, ends in found.bounds.items():
         if any(map(math.isfinite, ends)):
-            yield page.name(name), "bounds", " to ".join(_number(page, end, found.units[name]) for end in ends)
+            yield (
+                page.name(name),
+                "bounds",
+                " to ".join(_number(page, end, found.units[name]) for end in ends),
+            )
 
 
 def _misfit(page: Page, found: Fit) -> Iterator[tuple[str, str, str]]:
     for name, one in found.residuals.items():
         yield page.name(name), "computed at the answer", _number(page, one.computed, one.unit)
-        yield page.name(name), "stated less computed, over the standard error", f"{one.over_sigma:+.2f}"
+        yield (
+            page.name(name),
+            "stated less computed, over the standard error",
+            f"{one.over_sigma:+.2f}",
+        )
     yield "all", "chi-squared", f"{found.chi_squared:.4g}"
     freedom = "degrees of freedom (observations and priors less the unknowns they determine)"
     yield "all", freedom, str(found.degrees_of_freedom)
     chance = in_words(found.p_value) if math.isnan(found.p_value) else f"{found.p_value:.2g}"
     yield "all", "chance of such a chi-squared or a larger one", chance
-    yield "all", "by how much the 95 percent intervals are off, as the model bends", percent(found.nonlinearity)
+    yield (
+        "all",
+        "by how much the 95 percent intervals are off, as the model bends",
+        percent(found.nonlinearity),
+    )
 
 
 def _residual(page: Page, found: Fit, number: int, name: str) -> Symbol:
@@ -250,14 +318,26 @@ def _residual(page: Page, found: Fit, number: int, name: str) -> Symbol:
     kind = KIND_OF.get(one.unit, "number")
     y, f, sigma, d = (
         Symbol(f"{latex}_{{{number}}}", value, kind)
-        for latex, value in (("y", one.observed), ("f", one.computed), (r"\sigma", one.sigma), ("d", one.residual))
+        for latex, value in (
+            ("y", one.observed),
+            ("f", one.computed),
+            (r"\sigma", one.sigma),
+            ("d", one.residual),
+        )
     )
     difference = y - f
     if abs(difference.value - d.value) > _ANGLE_TOL and one.unit == "rad":
-        page.say(f"From the computed {page.shown(f)} to the stated {page.shown(y)} the short way round is {page.shown(d)}.")
+        page.say(
+            f"From the computed {page.shown(f)} to the stated {page.shown(y)} the short way "
+            f"round is {page.shown(d)}."
+        )
         difference = d
     ratio = Symbol(f"r_{{{number}}}", one.over_sigma, "number")
-    page.equation(f"{number}, {page.name(name)}: stated less computed, over the standard error", ratio, difference / sigma)
+    page.equation(
+        f"{number}, {page.name(name)}: stated less computed, over the standard error",
+        ratio,
+        difference / sigma,
+    )
     return ratio
 
 
@@ -270,7 +350,10 @@ def _unknown(page: Page, found: Fit, name: str) -> Iterator[tuple[str, str, str]
         return
     bound = f", at its {one.at_bound} bound" if one.at_bound else ""
     unit = f" {page.system.label(KIND_OF[one.unit]) if one.unit in KIND_OF else one.unit}".rstrip()
-    ends = (_number(page, end, one.unit, one.standard_error).partition(" ± ")[0] for end in one.interval(0.95))
+    ends = (
+        _number(page, end, one.unit, one.standard_error).partition(" ± ")[0]
+        for end in one.interval(0.95)
+    )
     low, high = (end.removesuffix(unit) for end in ends)
     yield of, "estimate", _number(page, one.value, one.unit, one.standard_error) + bound
     yield of, "95 percent interval", f"{low} to {high}{unit}"
@@ -283,7 +366,13 @@ def _unknown(page: Page, found: Fit, name: str) -> Iterator[tuple[str, str, str]
 
 
 def _number(page: Page, value: float, unit: str, deviation: float | None = None) -> str:
-    """A number of the working or, with its standard error, of a result; a unit of unknown kind is kept."""
+    """A number of the working or, with its standard error, of a result; a unit of unknown kind is
+    kept.
+    """
     kind = KIND_OF.get(unit, "number")
-    text = page.number(value, kind) if deviation is None else page.system.answer(value, kind, deviation)
+    text = (
+        page.number(value, kind)
+        if deviation is None
+        else page.system.answer(value, kind, deviation)
+    )
     return text if unit in KIND_OF else f"{text} {unit}".rstrip()

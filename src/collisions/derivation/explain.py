@@ -1,4 +1,6 @@
-"""``explain``: the derivation of a result, step by step, with its numbers and the equations of the paper."""
+"""``explain``: the derivation of a result, step by step, with its numbers and the equations of the
+paper.
+"""
 
 from __future__ import annotations
 
@@ -34,10 +36,16 @@ _Ranges: TypeAlias = dict[str, tuple[float, float]]
 _OFF_CENTRE = 0.1
 # The hint for a result that is a bare number.
 NOT_EXPLAINED = (
-    ". A number of crush_energy or travel, or a RunOut, does not hold what it was worked out from: its formula is in "
-    "help(collisions.reconstruct.crush_energy), help(collisions.travel.speed), help(collisions.travel.path)"
+    ". A number of crush_energy or travel, or a RunOut, does not hold what it was worked out "
+    "from: its formula is in help(collisions.reconstruct.crush_energy), "
+    "help(collisions.travel.speed), help(collisions.travel.path)"
 )
-_MODELS = {"linear_central": linear, "oblique_central": oblique, "eccentric": eccentric, "time_resolved": time_resolved}
+_MODELS = {
+    "linear_central": linear,
+    "oblique_central": oblique,
+    "eccentric": eccentric,
+    "time_resolved": time_resolved,
+}
 
 _CRUSH = "crush stiffness A of {0}; crush stiffness B of {0}; width of the crush of {0}"
 _IN_TIME = {
@@ -107,7 +115,9 @@ _CONTACT = {
 }
 _OF_FRICTION = ("slip_before", "slip_after", "tangential_impulse", "impulse_ratio")
 # The results of an impact: vehicle or contact, description and kind.
-_IMPACT_ANSWERS = {f"{label}.{name}": (label.upper(), *row) for label in "ab" for name, row in _SIDE.items()}
+_IMPACT_ANSWERS = {
+    f"{label}.{name}": (label.upper(), *row) for label in "ab" for name, row in _SIDE.items()
+}
 _IMPACT_ANSWERS |= {name: ("contact", *row) for name, row in _CONTACT.items()}
 
 
@@ -121,42 +131,48 @@ def explain(
 ) -> Document:
     """The derivation of an answer, step by step, with its numbers.
 
-    Every line has a formula, the same formula with numbers, and the number of the result. Nothing is solved again; every
-    formula is worked out with all digits and compared with the result. From a difference of 1e-6 of the largest term on, which
-    ordinary impacts do not reach by far, both numbers are printed; beyond 1e-3 there is no page, but an error. Equation
-    numbers, such as (5), are those of "Application of Impulse Momentum Theory to Vehicle Collisions". An energy gain comes
-    first.
+    Every line has a formula, the same formula with numbers, and the number of the result. Nothing
+    is solved again; every formula is worked out with all digits and compared with the result. From
+    a difference of 1e-6 of the largest term on, which ordinary impacts do not reach by far, both
+    numbers are printed; beyond 1e-3 there is no page, but an error. Equation numbers, such as (5),
+    are those of "Application of Impulse Momentum Theory to Vehicle Collisions". An energy gain
+    comes first.
 
-    The working prints a number in full if six figures hold it, else to four figures (with all that stand before the decimal
-    point; small speeds, angles, lengths and ratios have two decimals more than an answer). Where a line needs more figures than
-    that to give the result printed below it, its numbers have more: keyed into a pocket calculator as printed, and rounded,
-    every line gives its result; where one cannot, the page says so. The answers at the end are rounded: speeds to 0.1 km/h,
-    0.1 mph or 0.01 m/s, angles to 1 degree or 0.01 rad, yaw rates to 1 deg/s or 0.01 rad/s, restitution to 0.01, impulse
-    ratios to 0.001, impulses and energies to three figures; or to two figures of their standard deviation where that is known.
+    The working prints a number in full if six figures hold it, else to four figures (with all that
+    stand before the decimal point; small speeds, angles, lengths and ratios have two decimals more
+    than an answer). Where a line needs more figures than that to give the result printed below it,
+    its numbers have more: keyed into a pocket calculator as printed, and rounded, every line gives
+    its result; where one cannot, the page says so. The answers at the end are rounded: speeds to
+    0.1 km/h, 0.1 mph or 0.01 m/s, angles to 1 degree or 0.01 rad, yaw rates to 1 deg/s or 0.01
+    rad/s, restitution to 0.01, impulse ratios to 0.001, impulses and energies to three figures; or
+    to two figures of their standard deviation where that is known.
 
     Parameters
     ----------
     impact : Impact, MomentumSolution or Fit
-        One case, of any forward or reverse solver. For a ``Fit`` the page has the misfit of every observation, the estimates
-        and the sources of their errors, but not the model, which is code. The numbers that ``crush_energy`` and ``travel``
-        return do not hold what they were worked out from; for their formulas see ``help(collisions.travel.speed)`` and so on.
+        One case, of any forward or reverse solver. For a ``Fit`` the page has the misfit of every
+        observation, the estimates and the sources of their errors, but not the model, which is
+        code. The numbers that ``crush_energy`` and ``travel`` return do not hold what they were
+        worked out from; for their formulas see ``help(collisions.travel.speed)`` and so on.
     units : {"si", "metric", "us"}, optional
-        By default those that the inputs were given in, as for ``summary``; otherwise SI, with the angles in degrees that were
-        given so. "si": m/s, rad, rad/s, J. "metric": km/h, deg, deg/s, kJ. "us": mph, lb, ft, deg, deg/s, ft*lbf. Conversion
-        factors within a line are listed at the end.
+        By default those that the inputs were given in, as for ``summary``; otherwise SI, with the
+        angles in degrees that were given so. "si": m/s, rad, rad/s, J. "metric": km/h, deg, deg/s,
+        kJ. "us": mph, lb, ft, deg, deg/s, ft*lbf. Conversion factors within a line are listed at
+        the end.
     form : {"markdown", "text"}, optional
         Markdown with LaTeX between dollar signs, or plain text.
     uncertainty : Propagation, or dict of float, str or Quantity, optional
-        Standard deviations by the name of the answer, such as "b.after.vx" or "energy_loss"; "b_after_vx" means the same. From
-        a propagation, the outputs with such a name are taken, as SI if the model returned plain numbers. With an ``Interval``
-        among its inputs an answer gets its range, because a standard deviation would leave the interval out. A ``Fit`` has
-        standard errors of its own.
+        Standard deviations by the name of the answer, such as "b.after.vx" or "energy_loss";
+        "b_after_vx" means the same. From a propagation, the outputs with such a name are taken, as
+        SI if the model returned plain numbers. With an ``Interval`` among its inputs an answer gets
+        its range, because a standard deviation would leave the interval out. A ``Fit`` has standard
+        errors of its own.
 
     Returns
     -------
     Document
-        The derivation, a ``str`` that a notebook shows as a page and that ``.save(path)`` writes to a file. The same arguments
-        give the same page.
+        The derivation, a ``str`` that a notebook shows as a page and that ``.save(path)`` writes to
+        a file. The same arguments give the same page.
 
     Raises
     ------
@@ -165,8 +181,8 @@ def explain(
     InputError, NoImpactError, NoSolutionError
         An argument that cannot be used, or an impact that was refused (the status says why).
     InternalError
-        The result and a formula for it contradict each other, by more than 1e-3 of the largest term: a defect of the library,
-        of which neither the result nor its derivation may be used.
+        The result and a formula for it contradict each other, by more than 1e-3 of the largest
+        term: a defect of the library, of which neither the result nor its derivation may be used.
 
     Examples
     --------
@@ -174,9 +190,11 @@ def explain(
 
     >>> import collisions as col
     >>> from collisions.derivation import explain
-    >>> impact = col.reconstruct.central("1100 kg", "950 kg", va="80 km/h", vb=0.0, vb_after="60 km/h")
+    >>> impact = col.reconstruct.central(
+    ...     "1100 kg", "950 kg", va="80 km/h", vb=0.0, vb_after="60 km/h"
+    ... )
     >>> page = explain(impact, form="text")
-    >>> print(page[page.index("Restitution"):page.index("What follows")].rstrip())
+    >>> print(page[page.index("Restitution") : page.index("What follows")].rstrip())
     Restitution, as in (9):
       e = (v'_B - v'_A) / (v_A - v_B)
         = (60 - 28.18) / (80 - 0)
@@ -186,9 +204,13 @@ def explain(
         check_system(units)
     if not isinstance(form, str) or form not in get_args(Form):
         raise InputError(
-            f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}", code="bad_option", argument="form"
+            f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}",
+            code="bad_option",
+            argument="form",
         )
-    need_one_case(impact, (Impact, MomentumSolution, Fit), "explain", instead=NOT_EXPLAINED, refused=error_of)
+    need_one_case(
+        impact, (Impact, MomentumSolution, Fit), "explain", instead=NOT_EXPLAINED, refused=error_of
+    )
     if isinstance(impact, Fit) and uncertainty is not None:
         raise no_uncertainty()
     with callers_options():
@@ -220,8 +242,9 @@ def _system(units: UnitSystem | None, texts: Iterable[Any]) -> System:
 def no_uncertainty(kind: str = "Fit") -> InputError:
     """The error for an ``uncertainty`` given with a result that has errors of its own."""
     return InputError(
-        f"uncertainty is none of a {kind}, which has the standard errors of its unknowns; leave it out, or explain the impact "
-        f"at the values found, with a propagation of {kind.lower()}.inputs",
+        f"uncertainty is none of a {kind}, which has the standard errors of its unknowns; leave "
+        "it out, or explain the impact at the values found, with a propagation of "
+        f"{kind.lower()}.inputs",
         code="bad_option",
         argument="uncertainty",
     )
@@ -234,7 +257,10 @@ def kinds_of_answers(result: Impact | MomentumSolution | Fit | Posterior) -> Map
 
 def words_of_answers(result: Impact | MomentumSolution | Fit | Posterior) -> Mapping[str, str]:
     """The same results in words, such as "A: delta-V"."""
-    return {name: f"{of}: {what}" if of in "AB" else what for name, (of, what, _) in _answers(result).items()}
+    return {
+        name: f"{of}: {what}" if of in "AB" else what
+        for name, (of, what, _) in _answers(result).items()
+    }
 
 
 def _answers(result: Any) -> Mapping[str, tuple[str, str, str]]:
@@ -254,7 +280,9 @@ def _impact(page: Page, impact: Impact) -> None:
     page.table(impact_answers(page, impact))
 
 
-def impact_inputs(impact: Impact) -> Iterator[tuple[str, str, tuple[str, ...], tuple[float, ...], str]]:
+def impact_inputs(
+    impact: Impact,
+) -> Iterator[tuple[str, str, tuple[str, ...], tuple[float, ...], str]]:
     """The rows of given inputs: A, B or the contact, description, argument, number and kind."""
     for label, vehicle in (("A", impact.a.before), ("B", impact.b.before)):
         for name, (what, kind) in _VEHICLE.items():
@@ -266,29 +294,61 @@ def impact_inputs(impact: Impact) -> Iterator[tuple[str, str, tuple[str, ...], t
     yield "contact", "normal, direction from A into B", ("normal",), (impact.normal_angle,), "angle"
     # With ``solve`` the model taken may leave out some of what decided which was taken.
     if impact.inputs.point is not None and impact.inputs.model in (*PLACED, "solve"):
-        yield "contact", "contact point (x, y)", ("point[0]", "point[1]"), impact.inputs.point, "length"
+        yield (
+            "contact",
+            "contact point (x, y)",
+            ("point[0]", "point[1]"),
+            impact.inputs.point,
+            "length",
+        )
     yield "contact", "restitution e", ("restitution",), (impact.restitution,), "number"
     for label, pushed in (("a", impact.inputs.outside_a), ("b", impact.inputs.outside_b)):
         if pushed is not None and any(pushed):
             what, name = f"impulse on {label.upper()} from outside", f"outside_{label}"
-            yield "contact", f"{what} (x, y)", (f"{name}[0]", f"{name}[1]"), (pushed[0], pushed[1]), "impulse"
-            yield "contact", f"{what}, about its centre of mass", (f"{name}[2]",), (pushed[2],), "angular momentum"
+            yield (
+                "contact",
+                f"{what} (x, y)",
+                (f"{name}[0]", f"{name}[1]"),
+                (pushed[0], pushed[1]),
+                "impulse",
+            )
+            yield (
+                "contact",
+                f"{what}, about its centre of mass",
+                (f"{name}[2]",),
+                (pushed[2],),
+                "angular momentum",
+            )
     if impact.inputs.model != "linear_central":
         rule = impact.inputs.rule
         yield "contact", RULES[rule].meaning, (rule,), (impact.inputs.rule_value,), "number"
     if impact.inputs.model != "eccentric":
         for name, (what, kinds) in _IN_TIME.items():
             given = getattr(impact.inputs, name)
-            for at, part in enumerate(given if isinstance(given, tuple) else () if given is None else (given,)):
+            for at, part in enumerate(
+                given if isinstance(given, tuple) else () if given is None else (given,)
+            ):
                 names = (f"{name}[{at}]" if isinstance(given, tuple) else name,)
                 yield "contact", what.split("; ")[at], names, (part,), kinds[at]
     elif impact.inputs.tyres:
-        yield "contact", "duration, for the tyres", ("duration",), (impact.inputs.duration or 0.0,), "duration"
+        yield (
+            "contact",
+            "duration, for the tyres",
+            ("duration",),
+            (impact.inputs.duration or 0.0,),
+            "duration",
+        )
     if impact.inputs.model in (*PLACED, "solve"):
         for label, tyres in impact.inputs.tyres.items():
             for name, value in tyres.named.items():
                 what, kind = _TYRES[name]
-                yield "contact", f"tyres of {label.upper()}: {what}", (f"tyres_{label}.{name}",), (value,), kind
+                yield (
+                    "contact",
+                    f"tyres of {label.upper()}: {what}",
+                    (f"tyres_{label}.{name}",),
+                    (value,),
+                    kind,
+                )
 
 
 def _inputs(page: Page, impact: Impact) -> None:
@@ -328,8 +388,9 @@ def _energy_gain(page: Page, status: Any, loss: float) -> None:
     """Write the warning of an energy gain, before anything else."""
     if status == Status.ENERGY_GAIN:
         page.stress(
-            f"Energy gain: the vehicles leave with {page.system.answer(-loss, 'energy')} more than they came with, which no "
-            "impact gives. The inputs do not go together; the numbers are shown as they are."
+            f"Energy gain: the vehicles leave with {page.system.answer(-loss, 'energy')} more "
+            "than they came with, which no impact gives. The inputs do not go together; the "
+            "numbers are shown as they are."
         )
 
 
@@ -337,22 +398,34 @@ def _notes(page: Page, uncertainty: Any, of_impact: bool) -> None:
     """Write the notes on rounding, units and signs."""
     page.heading("Notes")
     lines = [
-        "Every step was worked out with all digits. A number that needs at most six figures is printed in full, any other "
-        "with four, but never with fewer than stand before its decimal point; a speed, angle, length or ratio has at most two "
-        "decimals more than the answers. Where the numbers of a line need more figures than that to give the result printed "
-        "below them, they have more. So every line, worked out from its printed numbers and rounded like its result, gives "
-        "that result; where a line cannot, the page says so below it. The answers are rounded.",
+        (
+            "Every step was worked out with all digits. A number that needs at most six figures "
+            "is printed in full, any other with four, but never with fewer than stand before its "
+            "decimal point; a speed, angle, length or ratio has at most two decimals more than "
+            "the answers. Where the numbers of a line need more figures than that to give the "
+            "result printed below them, they have more. So every line, worked out from its "
+            "printed numbers and rounded like its result, gives that result; where a line "
+            "cannot, the page says so below it. The answers are rounded."
+        ),
     ]
     if of_impact:
         lines[:0] = [
-            'Equation numbers are those of "Application of Impulse Momentum Theory to Vehicle Collisions"; its vehicles 1 and '
-            "2 are A and B here."
+            (
+                'Equation numbers are those of "Application of Impulse Momentum Theory to '
+                'Vehicle Collisions"; its vehicles 1 and '
+                "2 are A and B here."
+            )
         ]
-        lines.append("x and y are axes of the road plane; angles and yaw are positive counter-clockwise, seen from above.")
+        lines.append(
+            "x and y are axes of the road plane; angles and yaw are positive counter-clockwise, "
+            "seen from above."
+        )
     if page.ranges:
         lines.append(about_ranges(uncertainty))
     if page.conversions:
-        conversions = "; ".join(f"1 {one} = {number} {other}" for (one, other), number in page.conversions.items())
+        conversions = "; ".join(
+            f"1 {one} = {number} {other}" for (one, other), number in page.conversions.items()
+        )
         lines.append(f"Numbers that convert units: {conversions.replace('**', '^')}.")
     page.listed(lines if not page.latex else [line.replace("*", r"\*") for line in lines])
 
@@ -361,25 +434,36 @@ def about_ranges(uncertainty: Propagation) -> str:
     """What a range in brackets behind an answer means."""
     if not any(isinstance(stated, Interval) for stated in uncertainty.inputs.values()):
         return (
-            "A range in brackets holds 95 percent of the propagation. The number before it is the answer for the inputs used "
-            "here, and not the mean of the propagation, which is too far from it for a ±."
+            "A range in brackets holds 95 percent of the propagation. The number before it is "
+            "the answer for the inputs used here, and not the mean of the propagation, which is "
+            "too far from it for a ±."
         )
-    held = "every value" if uncertainty.method == "interval" else "95 percent, wherever in the interval the truth lies"
+    held = (
+        "every value"
+        if uncertainty.method == "interval"
+        else "95 percent, wherever in the interval the truth lies"
+    )
     return (
-        "A range in brackets is no ±: an interval is among the inputs, and of its values none is said to be likelier than "
-        f"another. The range holds {held}."
+        "A range in brackets is no ±: an interval is among the inputs, and of its values none "
+        f"is said to be likelier than another. The range holds {held}."
     )
 
 
-def spread_of(result: Any, uncertainty: Propagation) -> tuple[dict[str, Output], dict[str, float], _Ranges]:
-    """The outputs of a propagation that are results, by the name of the result, and their standard deviations in SI or ranges.
+def spread_of(
+    result: Any, uncertainty: Propagation
+) -> tuple[dict[str, Output], dict[str, float], _Ranges]:
+    """The outputs of a propagation that are results, by the name of the result, and their standard
+    deviations in SI or ranges.
 
-    What has the name of a result and another unit is none. A result that is not the middle of a distribution has a range.
+    What has the name of a result and another unit is none. A result that is not the middle of a
+    distribution has a range.
     """
     kinds = kinds_of_answers(result)
     known = _by_spelling(kinds)
     named = [(known[name], output) for name, output in uncertainty.outputs.items() if name in known]
-    outputs = {name: output for name, output in named if output.unit in (None, SI_UNITS[kinds[name]])}
+    outputs = {
+        name: output for name, output in named if output.unit in (None, SI_UNITS[kinds[name]])
+    }
     deviations: dict[str, float] = {}
     ranges: _Ranges = {}
     for name, output in outputs.items():
@@ -391,15 +475,20 @@ def spread_of(result: Any, uncertainty: Propagation) -> tuple[dict[str, Output],
 
 
 def _by_spelling(names: Iterable[str]) -> dict[str, str]:
-    """The names of results by what may be written for each, such as "b_after_vx" for "b.after.vx"."""
+    """The names of results by what may be written for each, such as "b_after_vx" for
+    "b.after.vx".
+    """
     return {spelled: name for name in names for spelled in (name, name.replace(".", "_"))}
 
 
 def _is_mean(result: Any, name: str, kind: str, output: Output) -> bool:
-    """Whether an answer is the mean of its propagation, but for a tenth of the deviation: only then is it the middle of a ±."""
+    """Whether an answer is the mean of its propagation, but for a tenth of the deviation: only then
+    is it the middle of a ±.
+    """
     mean, std = ends_of(output.mean), ends_of(output.std)
     value = attrgetter(name)(result)
-    # With an interval among the inputs there are two deviations, and neither includes the width of the interval.
+    # With an interval among the inputs there are two deviations, and neither includes the width of
+    # the interval.
     if len(std) > 1 or value is None:
         return False
     off = abs(value - mean[0])
@@ -413,12 +502,16 @@ def _spread(uncertainty: Any, result: Any) -> tuple[dict[str, float], _Ranges]:
     if isinstance(uncertainty, Propagation):
         outputs, deviations, ranges = spread_of(result, uncertainty)
         if not outputs:
-            given = (name if output.unit is None else f"{name} [{output.unit}]" for name, output in uncertainty.outputs.items())
+            given = (
+                name if output.unit is None else f"{name} [{output.unit}]"
+                for name, output in uncertainty.outputs.items()
+            )
             raise _unknown(", ".join(given), kinds)
         return deviations, ranges
     if not isinstance(uncertainty, Mapping):
         raise InputError(
-            f"uncertainty must be a Propagation, or a dict of standard deviations by name, got {type(uncertainty).__name__}",
+            "uncertainty must be a Propagation, or a dict of standard deviations by name, got "
+            f"{type(uncertainty).__name__}",
             code="bad_option",
             argument="uncertainty",
         )
@@ -430,15 +523,20 @@ def _spread(uncertainty: Any, result: Any) -> tuple[dict[str, float], _Ranges]:
     found = {}
     for name, value in uncertainty.items():
         read = reader.number(value, SI_UNITS[kinds[known[name]]], name)
-        read = single_number(reader, read, f"the standard deviation of {name}", "must be one number", name)
-        found[known[name]] = at_least_zero(reader, read, value, name, "negative_deviation", "give the standard deviation")
+        read = single_number(
+            reader, read, f"the standard deviation of {name}", "must be one number", name
+        )
+        found[known[name]] = at_least_zero(
+            reader, read, value, name, "negative_deviation", "give the standard deviation"
+        )
     reader.close()
     return found, {}
 
 
 def _unknown(given: str, kinds: Mapping[str, str]) -> InputError:
     return InputError(
-        f"uncertainty names no answer of this derivation: {given}; the answers are {', '.join(kinds)}",
+        f"uncertainty names no answer of this derivation: {given}; the answers are "
+        f"{', '.join(kinds)}",
         code="no_output",
         argument="uncertainty",
     )

@@ -1,4 +1,6 @@
-"""``Expression``: formulas that can be written in symbols or in numbers and evaluated; and the formatting of the numbers."""
+"""``Expression``: formulas that can be written in symbols or in numbers and evaluated; and the
+formatting of the numbers.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,12 @@ _ZERO_OF_OTHERS = 1e-10
 _FIGURES = 4
 _EXACT = 1e-9  # relative: a number this near to one of six figures is that number
 
-_FUNCTIONS: dict[str, Callable[[float], float]] = {"sqrt": math.sqrt, "abs": abs, "cos": math.cos, "sin": math.sin}
+_FUNCTIONS: dict[str, Callable[[float], float]] = {
+    "sqrt": math.sqrt,
+    "abs": abs,
+    "cos": math.cos,
+    "sin": math.sin,
+}
 # Operator precedence of a written part: one below that of its place is put in brackets.
 SUM, _PRODUCT, _POWER, ATOM = range(4)
 
@@ -73,14 +80,18 @@ class System(Numbers):
         return _unit(self.label(kind), self.scale(kind))
 
     def working(self, value: float, kind: str, more: int = 0) -> str:
-        """A number in the working: exact if six figures hold it, else four or the decimals of a result; ``more`` adds some."""
+        """A number in the working: exact if six figures hold it, else four or the decimals of a
+        result; ``more`` adds some.
+        """
         if not math.isfinite(value):
             return "not known" if math.isnan(value) else "infinite"
         number = self.converted(value, kind)
         return "0" if is_zero(value, kind) else self.figures(number, self._decimals_of(kind), more)
 
     def figures(self, number: float, least: int | None = None, more: int = 0) -> str:
-        """A number, exact if six figures hold it, else to four figures, with ``least`` decimals and at most two more."""
+        """A number, exact if six figures hold it, else to four figures, with ``least`` decimals and
+        at most two more.
+        """
         exact = f"{number:.6g}"
         near = abs(float(exact) - number) <= _EXACT * 10.0 ** -max(more - 4, 0) * abs(number)
         if near and len(exact) <= 9 and "e" not in exact:
@@ -88,7 +99,8 @@ class System(Numbers):
         return with_decimals(number, _decimals(number, least) + more)
 
     def half_unit(self, value: float, kind: str, size: float) -> float:
-        """Half a unit, as printed, of the last of the figures that the working promises of this number.
+        """Half a unit, as printed, of the last of the figures that the working promises of this
+        number.
 
         For a number that is 0, it is that of ``size``, the size of the terms that cancelled.
         """
@@ -123,10 +135,12 @@ NO_UNIT = Unit()
 
 @dataclass(frozen=True, slots=True)
 class Pen:
-    """How to write: LaTeX or plain text; in the numbers of a system of units or, without one, in symbols.
+    """How to write: LaTeX or plain text; in the numbers of a system of units or, without one, in
+    symbols.
 
-    Numbers are written with ``more`` figures than the working promises; ``marked`` angles carry their own degree sign.
-    ``conversions`` takes down each number that converts units, with the units that it stands between.
+    Numbers are written with ``more`` figures than the working promises; ``marked`` angles carry
+    their own degree sign. ``conversions`` takes down each number that converts units, with the
+    units that it stands between.
     """
 
     latex: bool
@@ -174,7 +188,8 @@ class Written(NamedTuple):
 class Expression:
     """A formula: ``value`` in SI, ``size`` of its largest terms, and ``write``, its form for a pen.
 
-    A term of 0 and a factor of 1 are not written, and one over the reciprocal of a quantity is the product with that quantity.
+    A term of 0 and a factor of 1 are not written, and one over the reciprocal of a quantity is the
+    product with that quantity.
     """
 
     def __init__(self, value: float, size: float) -> None:
@@ -335,7 +350,13 @@ class Function(Expression):
         self.name, self.inner = name, inner
         # An angle of many turns has the rounding of that many.
         of_angle = max(1.0, inner.size / math.tau)
-        size = math.sqrt(inner.size) if name == "sqrt" else of_angle if name in ("cos", "sin") else inner.size
+        size = (
+            math.sqrt(inner.size)
+            if name == "sqrt"
+            else of_angle
+            if name in ("cos", "sin")
+            else inner.size
+        )
         super().__init__(_FUNCTIONS[name](inner.value), size)
 
     def write(self, pen: Pen) -> Written:
@@ -371,7 +392,9 @@ class Direction(Expression):
     def write(self, pen: Pen) -> Written:
         # As calculators and computers have it, with the second component first.
         y, x = self.y.write(pen), self.x.write(pen)
-        name, left, right = (r"\operatorname{atan2}", r"\left(", r"\right)") if pen.latex else ("atan2", "(", ")")
+        name, left, right = (
+            (r"\operatorname{atan2}", r"\left(", r"\right)") if pen.latex else ("atan2", "(", ")")
+        )
         text = f"{name}{left}{y.text}, {x.text}{right}"
         unit = NO_UNIT if pen.system is None else pen.system.unit_of("angle")
         return Written(text, _POWER, math.atan2(y.worth + 0.0, x.worth) * unit.scale, unit)
@@ -402,4 +425,8 @@ def root(inner: Expression) -> Expression:
 def magnitude(x: Expression, y: Expression) -> Expression:
     """The length of a vector, without a component that is 0."""
     parts = [part for part in (x, y) if part.value] or [x]
-    return Function("abs", parts[0]) if len(parts) == 1 else root(total(*(part.squared() for part in parts)))
+    return (
+        Function("abs", parts[0])
+        if len(parts) == 1
+        else root(total(*(part.squared() for part in parts)))
+    )

@@ -1,4 +1,6 @@
-"""``Page``: headings, sentences, equations and tables, printed as Markdown with LaTeX or as plain text."""
+"""``Page``: headings, sentences, equations and tables, printed as Markdown with LaTeX or as plain
+text.
+"""
 
 from __future__ import annotations
 
@@ -14,8 +16,9 @@ from .symbols import Symbol
 
 # The most figures a line may add to those of the working; with them it has every digit of a float.
 _MOST = 12
-# By which share of its largest term a formula may differ from the result. Rounding stays far below the first (1e-9 in
-# ordinary scenes); from there both numbers are printed. Beyond the second one of the two is wrong.
+# By which share of its largest term a formula may differ from the result. Rounding stays far below
+# the first (1e-9 in ordinary scenes); from there both numbers are printed. Beyond the second one of
+# the two is wrong.
 _DIFFERS, _WRONG = 1e-6, 1e-3
 # The columns of every table.
 HEAD = ("of", "quantity", "value")
@@ -26,7 +29,11 @@ class Page:
     """The parts written so far, and the printed conversion factors by the units they convert."""
 
     def __init__(
-        self, system: System, latex: bool, deviations: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]
+        self,
+        system: System,
+        latex: bool,
+        deviations: Mapping[str, float],
+        ranges: Mapping[str, tuple[float, float]],
     ) -> None:
         self.system, self.latex, self.deviations, self.ranges = system, latex, deviations, ranges
         self.parts: list[str] = []
@@ -57,7 +64,10 @@ class Page:
         else:
             widths = [max(map(len, column)) for column in zip(HEAD, *body, strict=True)]
             rule = tuple("-" * width for width in widths)
-            padded = ((part.ljust(width) for part, width in zip(line, widths, strict=True)) for line in (HEAD, rule, *body))
+            padded = (
+                (part.ljust(width) for part, width in zip(line, widths, strict=True))
+                for line in (HEAD, rule, *body)
+            )
             lines = ["  ".join(line).rstrip() for line in padded]
         self.parts.append("\n".join(lines))
 
@@ -66,7 +76,9 @@ class Page:
         self.parts.append("\n".join(f"- {line}" for line in lines))
 
     def name(self, text: str) -> str:
-        """A user's name: unchanged in plain text, escaped in Markdown so that none of its characters is markup."""
+        """A user's name: unchanged in plain text, escaped in Markdown so that none of its
+        characters is markup.
+        """
         plain = " ".join(text.split())
         return _MARKS.sub(r"\\\1", plain) if self.latex else plain
 
@@ -83,14 +95,18 @@ class Page:
 
     def number(self, value: float, kind: str) -> str:
         """A number of the working within a sentence, with its unit."""
-        return self.system.working(value, kind) + (self.system.unit(kind) if math.isfinite(value) else "")
+        return self.system.working(value, kind) + (
+            self.system.unit(kind) if math.isfinite(value) else ""
+        )
 
     def shown(self, symbol: Symbol) -> str:
         """A symbol and its number within a sentence."""
         return f"{self.symbol(symbol)} = {self.number(symbol.value, symbol.kind)}"
 
     def answer(self, name: str, value: float, kind: str) -> str:
-        """An answer, rounded to its standard deviation where one is known for the attribute of this name, or with its range."""
+        """An answer, rounded to its standard deviation where one is known for the attribute of this
+        name, or with its range.
+        """
         printed = self.system.answer(value, kind, self.deviations.get(name))
         if name not in self.ranges:
             return printed + clock(name, value)
@@ -98,7 +114,8 @@ class Page:
         return f"{printed} ({low.removesuffix(self.system.unit(kind))} to {high})"
 
     def equation(self, caption: str, left: Symbol, right: Expression) -> None:
-        """Write symbol = formula = numbers = value: the result's own number, which the formula must give.
+        """Write symbol = formula = numbers = value: the result's own number, which the formula must
+        give.
 
         A formula that is the symbol itself, as the magnitude of one component is, is not repeated.
         """
@@ -106,8 +123,12 @@ class Page:
         printed = self.system.working(left.value, left.kind)
         (numbers,), fits = self._in_numbers([(right, left.value)], left.kind, right.size)
         symbol, formula = self._in_symbols(left), self._in_symbols(right)
-        lines = [formula] * (formula not in (symbol, printed)) + [numbers] * (numbers not in (formula, printed))
-        self._lines(caption, symbol, [*lines, printed + self._unit(left.kind)], fits=fits or bool(differs))
+        lines = [formula] * (formula not in (symbol, printed)) + [numbers] * (
+            numbers not in (formula, printed)
+        )
+        self._lines(
+            caption, symbol, [*lines, printed + self._unit(left.kind)], fits=fits or bool(differs)
+        )
         self._say_difference(differs)
 
     def let(self, caption: str, latex: str, kind: str, formula: Expression) -> Symbol:
@@ -117,13 +138,21 @@ class Page:
         return symbol
 
     def balance(self, caption: str, left: Expression, right: Expression, kind: str) -> None:
-        """Write a balance, formula = formula: in symbols, in numbers, and the value of both sides."""
+        """Write a balance, formula = formula: in symbols, in numbers, and the value of
+        both sides.
+        """
         differs = self._compared(caption, left, right, kind)
         sides = (left, right)
-        numbers, fits = self._in_numbers([(side, side.value) for side in sides], kind, left.size + right.size)
-        values = " = ".join(self.system.working(side.value, kind) for side in sides) + self._unit(kind)
+        numbers, fits = self._in_numbers(
+            [(side, side.value) for side in sides], kind, left.size + right.size
+        )
+        values = " = ".join(self.system.working(side.value, kind) for side in sides) + self._unit(
+            kind
+        )
         below = [" = ".join(numbers), values]
-        self._lines(caption, self._in_symbols(left), [self._in_symbols(right)], below, fits or bool(differs))
+        self._lines(
+            caption, self._in_symbols(left), [self._in_symbols(right)], below, fits or bool(differs)
+        )
         self._say_difference(differs)
 
     def fact(self, text: str, *equal: tuple[Symbol, Expression]) -> None:
@@ -146,14 +175,24 @@ class Page:
             raise _defect(what, f"{what}, which it is not", (low.value - high.value) / size)
 
     def collected(
-        self, caption: str, row: tuple[float, float, float], symbols: tuple[Symbol, Symbol], kind: str, more: int = 0
+        self,
+        caption: str,
+        row: tuple[float, float, float],
+        symbols: tuple[Symbol, Symbol],
+        kind: str,
+        more: int = 0,
     ) -> None:
         """Write number = numbers times unknown symbols; the numbers are in the units printed."""
-        parts = [factor * self.system.converted(by.value, by.kind) for factor, by in zip(row[1:], symbols, strict=True)]
+        parts = [
+            factor * self.system.converted(by.value, by.kind)
+            for factor, by in zip(row[1:], symbols, strict=True)
+        ]
         largest = max(map(abs, (row[0], *parts)))
         share = abs(row[0] - sum(parts)) / largest if largest else 0.0
         if share > _WRONG:
-            raise _defect(caption, f"{caption}: the sides are {row[0]:.9g} and {sum(parts):.9g}", share)
+            raise _defect(
+                caption, f"{caption}: the sides are {row[0]:.9g} and {sum(parts):.9g}", share
+            )
         times, right = r"\," if self.latex else " * ", ""
         for factor, symbol in zip(row[1:], symbols, strict=True):
             name, size = self._in_symbols(symbol), self.system.figures(abs(factor), more=more)
@@ -162,14 +201,27 @@ class Page:
             right += f" {mark} {part}" if right else f"{mark}{part}"
         unknown = " and ".join(self.system.label(symbol.kind) for symbol in symbols)
         left = self.system.figures(row[0], more=more)
-        self._lines(f"{caption}, in {self.system.label(kind)}, with the unknowns in {unknown}", left, [right])
+        self._lines(
+            f"{caption}, in {self.system.label(kind)}, with the unknowns in {unknown}",
+            left,
+            [right],
+        )
 
-    def figures_to_solve(self, rows: Sequence[tuple[float, float, float]], unknowns: tuple[Symbol, Symbol]) -> int:
-        """The additional figures that two linear equations need for their printed numbers to have the printed solution."""
+    def figures_to_solve(
+        self, rows: Sequence[tuple[float, float, float]], unknowns: tuple[Symbol, Symbol]
+    ) -> int:
+        """The additional figures that two linear equations need for their printed numbers to have
+        the printed solution.
+        """
         for more in range(_MOST + 1):
-            (p, a, b), (q, c, d) = ([float(self.system.figures(number, more=more)) for number in row] for row in rows)
+            (p, a, b), (q, c, d) = (
+                [float(self.system.figures(number, more=more)) for number in row] for row in rows
+            )
             solved = ((p * d - q * b) / (a * d - b * c), (a * q - c * p) / (a * d - b * c))
-            if all(self._comes_to(one, by.value, by.kind, by.size) for one, by in zip(solved, unknowns, strict=True)):
+            if all(
+                self._comes_to(one, by.value, by.kind, by.size)
+                for one, by in zip(solved, unknowns, strict=True)
+            ):
                 return more
         return 0
 
@@ -178,9 +230,11 @@ class Page:
         return Document("\n\n".join(self.parts) + "\n", "markdown" if self.latex else "text")
 
     def _compared(self, caption: str, left: Expression, right: Expression, kind: str) -> str:
-        """Compare both sides of an equation: a sentence where they differ by more than rounding does, else "".
+        """Compare both sides of an equation: a sentence where they differ by more than rounding
+        does, else "".
 
-        Where they differ by more than digits that cancelled can explain, the result or its derivation is wrong.
+        Where they differ by more than digits that cancelled can explain, the result or its
+        derivation is wrong.
         """
         share = _share_apart(left, right, kind)
         if not share > _DIFFERS:
@@ -190,12 +244,18 @@ class Page:
             if result != own:
                 break
         more = min(more + 2, _MOST)
-        result, own = (self.system.working(side.value, kind, more) + self.system.unit(kind) for side in (left, right))
+        result, own = (
+            self.system.working(side.value, kind, more) + self.system.unit(kind)
+            for side in (left, right)
+        )
         if share > _WRONG:
-            raise _defect(caption, f"{caption}: the result has {result}, its formula gives {own}", share)
+            raise _defect(
+                caption, f"{caption}: the result has {result}, its formula gives {own}", share
+            )
         return (
-            f"The two sides differ: the number of the result is {result}, and the formula, worked out with all digits, gives "
-            f"{own}. That is {share:.1e} of the largest term, more than the rounding of an ordinary impact."
+            f"The two sides differ: the number of the result is {result}, and the formula, "
+            f"worked out with all digits, gives {own}. That is {share:.1e} of the largest term, "
+            "more than the rounding of an ordinary impact."
         )
 
     def _say_difference(self, difference: str) -> None:
@@ -205,16 +265,25 @@ class Page:
     def _in_symbols(self, formula: Expression) -> str:
         return formula.write(Pen(self.latex)).text
 
-    def _in_numbers(self, sides: Sequence[tuple[Expression, float]], kind: str, size: float) -> tuple[list[str], bool]:
-        """Formulas in numbers with enough figures that they give the printed value; and whether any do."""
+    def _in_numbers(
+        self, sides: Sequence[tuple[Expression, float]], kind: str, size: float
+    ) -> tuple[list[str], bool]:
+        """Formulas in numbers with enough figures that they give the printed value; and whether any
+        do.
+        """
         for more in (*range(_MOST + 1), 0):
             pen = Pen(self.latex, self.system, more)
             found = [side.write(pen).converted(self.system.unit_of(kind), pen) for side, _ in sides]
-            fits = all(self._comes_to(one.worth, value, kind, size) for one, (_, value) in zip(found, sides, strict=True))
+            fits = all(
+                self._comes_to(one.worth, value, kind, size)
+                for one, (_, value) in zip(found, sides, strict=True)
+            )
             if fits:
                 break
         for one, number, other in pen.conversions:
-            self.conversions[one, other] = max(self.conversions.get((one, other), ""), number, key=len)
+            self.conversions[one, other] = max(
+                self.conversions.get((one, other), ""), number, key=len
+            )
         return [one.text for one in found], fits
 
     def _comes_to(self, worth: float, value: float, kind: str, size: float) -> bool:
@@ -222,14 +291,28 @@ class Page:
         if not math.isfinite(value):
             return True  # "infinite" and "not known" promise no figures
         printed = float(self.system.working(value, kind))
-        # A little more than half a unit, for the rounding of a value midway between two printed numbers.
+        # A little more than half a unit, for the rounding of a value midway between two printed
+        # numbers.
         return abs(worth - printed) <= self.system.half_unit(value, kind, size) * (1.0 + 1e-9)
 
-    def _lines(self, caption: str, left: str, chain: Sequence[str], below: Sequence[str] = (), fits: bool = True) -> None:
-        """Lines with the left side once, its equals below each other, and other equations ``below``."""
+    def _lines(
+        self,
+        caption: str,
+        left: str,
+        chain: Sequence[str],
+        below: Sequence[str] = (),
+        fits: bool = True,
+    ) -> None:
+        """Lines with the left side once, its equals below each other, and other equations
+        ``below``.
+        """
         if not self.latex:
             pad = " " * (len(left) + 2)
-            lines = [f"  {left} = {chain[0]}", *(f"{pad} = {line}" for line in chain[1:]), *(f"  {line}" for line in below)]
+            lines = [
+                f"  {left} = {chain[0]}",
+                *(f"{pad} = {line}" for line in chain[1:]),
+                *(f"  {line}" for line in below),
+            ]
             self.parts.append("\n".join([f"{caption}:", *lines]))
         else:
             lines = [f"{left} &= {chain[0]}", *(f"&= {line}" for line in chain[1:])]
@@ -240,15 +323,21 @@ class Page:
         if not fits:
             # Otherwise the line would seem to be wrong.
             self.say(
-                "In this form the numbers cancel, or are too far apart for it: what is printed last is the result's own, "
-                "worked out in a form that keeps its digits."
+                "In this form the numbers cancel, or are too far apart for it: what is printed "
+                "last is the result's own, worked out in a form that keeps its digits."
             )
 
 
 def _share_apart(left: Expression, right: Expression, kind: str) -> float:
-    """The difference of two sides over their largest term; NaN if a formula has no value, as its divisor cancelled."""
+    """The difference of two sides over their largest term; NaN if a formula has no value, as its
+    divisor cancelled.
+    """
     off = left.value - right.value
-    if left.value == right.value or is_zero(off, kind) or (math.isnan(left.value) and math.isnan(right.value)):
+    if (
+        left.value == right.value
+        or is_zero(off, kind)
+        or (math.isnan(left.value) and math.isnan(right.value))
+    ):
         return 0.0
     if math.isfinite(right.value) and not math.isfinite(left.value):
         return math.inf
@@ -260,9 +349,10 @@ def _share_apart(left: Expression, right: Expression, kind: str) -> float:
 
 def _defect(equation: str, what: str, share: float) -> InternalError:
     return InternalError(
-        f"this result and its derivation contradict each other: {what}. They differ by {share:.2g} of the largest term, and "
-        f"rounding does not do that: it is a defect of this library, in the result or in its derivation. Use neither of them, "
-        f"and report it with the record of the result, result.to_dict()",
+        f"this result and its derivation contradict each other: {what}. They differ by "
+        f"{share:.2g} of the largest term, and rounding does not do that: it is a defect of this "
+        "library, in the result or in its derivation. Use neither of them, and report it with "
+        "the record of the result, result.to_dict()",
         code="contradicts_derivation",
         equation=equation,
         share=share,

@@ -1,4 +1,6 @@
-"""``why_this_model`` and ``state_before``: the choice of the model, and how a reverse solver found the state before."""
+"""``why_this_model`` and ``state_before``: the choice of the model, and how a reverse solver found
+the state before.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,10 @@ from .symbols import AFTER, Symbol, Symbols
 
 _VELOCITIES = ("va", "vb", "va_after", "vb_after")
 # These are known for both vehicles at once, under the name of the one of A.
-_OF_BOTH = {"ees_a": "EES of both (ISO 12353)", "max_crush_speed_a": "speeds of maximum crush of both"}
+_OF_BOTH = {
+    "ees_a": "EES of both (ISO 12353)",
+    "max_crush_speed_a": "speeds of maximum crush of both",
+}
 
 
 def why_this_model(page: Page, impact: Impact) -> None:
@@ -25,12 +30,14 @@ def why_this_model(page: Page, impact: Impact) -> None:
     page.heading("Why this model")
     limit = page.number(choice.tolerance, "speed")
     full = (
-        "the contact followed in time" if len(choice.errors) > 2 and "no answer" not in choice.reason else "the eccentric model"
+        "the contact followed in time"
+        if len(choice.errors) > 2 and "no answer" not in choice.reason
+        else "the eccentric model"
     )
     page.say(
-        f"The least model was taken whose predicted error, times 1.15, is within the accepted {limit}, against {full}. "
-        f"The error is that of the delta-V vector together with radius of gyration times yaw rate, for the worse of "
-        f"both vehicles. Taken: {choice.model}."
+        "The least model was taken whose predicted error, times 1.15, is within the accepted "
+        f"{limit}, against {full}. The error is that of the delta-V vector together with radius "
+        f"of gyration times yaw rate, for the worse of both vehicles. Taken: {choice.model}."
     )
     if choice.tolerance == 0.0 or " m/s" not in choice.reason:
         page.say(f"Reason: {choice.reason.partition(': ')[2] or choice.reason}.")
@@ -40,7 +47,9 @@ def why_this_model(page: Page, impact: Impact) -> None:
 
 
 def state_before(page: Page, s: Symbols) -> None:
-    """Write how the state before was found; for a reverse solver unknown here, only what was known."""
+    """Write how the state before was found; for a reverse solver unknown here, only
+    what was known.
+    """
     origin = s.impact.reconstruction
     if origin is None:
         return
@@ -55,30 +64,45 @@ def state_before(page: Page, s: Symbols) -> None:
 
 
 def what_was_known(page: Page, origin: Reconstruction) -> None:
-    """Write which reverse solver found the state before, from what, its condition, and whether it is the only solution."""
+    """Write which reverse solver found the state before, from what, its condition, and whether it
+    is the only solution.
+    """
     page.heading("How the rest was found")
     words = {name: known.what for name, known in KNOWN.items()} | _OF_BOTH
     known = ", ".join(words.get(name, name.replace("_", " ")) for name in origin.known)
-    page.say(f"Solved backwards by reconstruct.{origin.method}. Known besides masses and geometry: {known}.")
     page.say(
-        f"Condition {page.system.answer(origin.condition, 'number')}: a relative error in what was given may become this many "
-        "times as large in the speeds before, relative to the closing speed."
+        f"Solved backwards by reconstruct.{origin.method}. Known besides masses and geometry: "
+        f"{known}."
+    )
+    page.say(
+        f"Condition {page.system.answer(origin.condition, 'number')}: a relative error in what "
+        "was given may become this many times as large in the speeds before, relative to the "
+        "closing speed."
     )
     if origin.answers > 1:
         page.stress(
-            f"Not the only answer: {how_many(origin.answers)} fit what was known, and this is one of them. Nothing here tells "
-            "which of them happened; look at the others too, and rule them out by other evidence."
+            f"Not the only answer: {how_many(origin.answers)} fit what was known, and this is "
+            "one of them. Nothing here tells which of them happened; look at the others too, "
+            "and rule them out by other evidence."
         )
 
 
 def _central(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
     """Write an in-line impact from three of six known values."""
     (a, b), e, g, r = s.bodies, s.e, s.closing, s.separation
-    v = dict(zip(_VELOCITIES, (a.straight(), b.straight(), a.straight(AFTER), b.straight(AFTER)), strict=True))
+    v = dict(
+        zip(
+            _VELOCITIES,
+            (a.straight(), b.straight(), a.straight(AFTER), b.straight(AFTER)),
+            strict=True,
+        )
+    )
     given = [name for name in _VELOCITIES if name in known]
     if len(given) == 3:
         _last_velocity(page, s, v, *set(_VELOCITIES).difference(given))
-        page.equation("Restitution, as in (9)", e, (v["vb_after"] - v["va_after"]) / (v["va"] - v["vb"]))
+        page.equation(
+            "Restitution, as in (9)", e, (v["vb_after"] - v["va_after"]) / (v["va"] - v["vb"])
+        )
         return
     share_a, share_b, *_ = shares(a.start.mass, b.start.mass)
     share = {"a": Symbol("f_A", share_a, "number"), "b": Symbol("f_B", share_b, "number")}
@@ -86,21 +110,32 @@ def _central(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
         caption = f"Share of {own.label} in the change of relative velocity"
         if a.fixed or b.fixed:
             share_of_all = ZERO if own.fixed else ONE
-            page.fact(f"{caption}, as one mass is infinite: {page.shown(symbol)}.", (symbol, share_of_all))
+            page.fact(
+                f"{caption}, as one mass is infinite: {page.shown(symbol)}.", (symbol, share_of_all)
+            )
         else:
             page.equation(caption, symbol, other.mass / (a.mass + b.mass))
     if len(given) == 1:
-        page.equation("Closing speed, from (8)", g, root(2.0 * s.loss / (s.mass * (1.0 - e.squared()))))
+        page.equation(
+            "Closing speed, from (8)", g, root(2.0 * s.loss / (s.mass * (1.0 - e.squared())))
+        )
     elif "restitution" in known:
         difference, per_closing = _relation(v, share, given, ONE, e)
         page.equation("Closing speed, from (5), (6) and (9)", g, difference / per_closing)
     else:
         page.say(
-            f"With the closing speed {page.symbol(g)} and the separation speed {page.symbol(r)} = e g there are two "
-            f"equations; {page.shown(g)} and {page.shown(r)} solve them:"
+            f"With the closing speed {page.symbol(g)} and the separation speed {page.symbol(r)} "
+            f"= e g there are two equations; {page.shown(g)} and {page.shown(r)} solve them:"
         )
-        page.balance("From both known velocities, (5) and (6)", *_relation(v, share, given, g, r), "speed")
-        page.balance("From the known energy (8)", s.loss, HALF * s.mass * (g.squared() - r.squared()), "energy")
+        page.balance(
+            "From both known velocities, (5) and (6)", *_relation(v, share, given, g, r), "speed"
+        )
+        page.balance(
+            "From the known energy (8)",
+            s.loss,
+            HALF * s.mass * (g.squared() - r.squared()),
+            "energy",
+        )
         page.equation("Restitution", e, r / g)
     for name, other_name, sign in (("va", "vb", 1.0), ("vb", "va", -1.0)):
         if name in given:
@@ -116,7 +151,10 @@ def _last_velocity(page: Page, s: Symbols, v: Mapping[str, Symbol], missing: str
     """Write the fourth velocity, from momentum or from a body at rest that nothing moves."""
     a, b = s.bodies
     if a.fixed or b.fixed:
-        text = f"A mass is infinite, so the velocity of that body is the same before and after. {page.shown(v[missing])}."
+        text = (
+            "A mass is infinite, so the velocity of that body is the same before and after. "
+            f"{page.shown(v[missing])}."
+        )
         kept = "a" if a.fixed else "b"
         page.fact(text, (v[f"v{kept}_after"], v[f"v{kept}"]))
         return
@@ -125,14 +163,24 @@ def _last_velocity(page: Page, s: Symbols, v: Mapping[str, Symbol], missing: str
     own, other = (a, b) if missing[1] == "a" else (b, a)
     here, there = ("_after", "") if missing.endswith("after") else ("", "_after")
     of_other = f"v{other.label.lower()}"
-    found = v[missing[:2] + there] + other.mass / own.mass * (v[of_other + there] - v[of_other + here])
-    page.equation(f"Velocity of {own.label} {'after' if here else 'before'}, from it", v[missing], found)
+    found = v[missing[:2] + there] + other.mass / own.mass * (
+        v[of_other + there] - v[of_other + here]
+    )
+    page.equation(
+        f"Velocity of {own.label} {'after' if here else 'before'}, from it", v[missing], found
+    )
 
 
 def _relation(
-    v: Mapping[str, Symbol], share: Mapping[str, Symbol], given: list[str], g: Expression, r: Expression
+    v: Mapping[str, Symbol],
+    share: Mapping[str, Symbol],
+    given: list[str],
+    g: Expression,
+    r: Expression,
 ) -> tuple[Expression, Expression]:
-    """Write the difference of two known velocities in terms of the closing speed g and the separation speed r."""
+    """Write the difference of two known velocities in terms of the closing speed g and the
+    separation speed r.
+    """
     first, second = given
     difference = v[first] - v[second] if first == "va" else v[second] - v[first]
     if second == "vb":
@@ -148,8 +196,9 @@ def _planar(page: Page, s: Symbols, kind: str) -> None:
     e, g, r = s.e, s.closing, s.separation
     levers = Lever(s.impact, "A"), Lever(s.impact, "B")
     page.say(
-        "Reversed in time, an impact is an impact: from the motions after come the separation speed and the slip after at the "
-        "contact, from these the impulse, and taken off the motions after it leaves those before."
+        "Reversed in time, an impact is an impact: from the motions after come the separation "
+        "speed and the slip after at the contact, from these the impulse, and taken off the "
+        "motions after it leaves those before."
     )
     for body in levers:
         if body.pinned or body.turns or not body.fixed:
@@ -159,21 +208,29 @@ def _planar(page: Page, s: Symbols, kind: str) -> None:
         page.equation("Closing speed (11)", g, r / e)
     else:
         by_energy = "The energy lost was known; the closing speed that goes with it is"
-        page.say(f"{'The closing speed was known:' if kind == 'closing_speed' else by_energy} {page.shown(g)}.")
+        page.say(
+            f"{'The closing speed was known:' if kind == 'closing_speed' else by_energy} "
+            f"{page.shown(g)}."
+        )
         page.equation("Restitution (11)", e, r / g)
     if kind == "energy_loss":
         by_tangential = HALF * (s.tangential.unless_zero() * (s.slip + s.slip_after))
-        page.equation("The energy that these lose", s.loss, HALF * (g - r) * s.normal - by_tangential)
+        page.equation(
+            "The energy that these lose", s.loss, HALF * (g - r) * s.normal - by_tangential
+        )
     page.say(
-        f"The regime is {s.impact.regime}, with the impulse {page.shown(s.normal)} and {page.shown(s.tangential)} on "
-        "B: of all that the law allows it is the one that leads to these motions after."
+        f"The regime is {s.impact.regime}, with the impulse {page.shown(s.normal)} and "
+        f"{page.shown(s.tangential)} on B: of all that the law allows it is the one that leads "
+        "to these motions after."
     )
     impulse_in_scene_axes(page, s)
     for body in levers:
         if not body.pinned and not body.fixed:
             for axis in "xy":
                 found = body.along(axis, AFTER).plus(-body.sign, s.impulse(axis) / body.mass)
-                page.equation(f"Velocity of {body.label} before, along {axis}", body.along(axis), found)
+                page.equation(
+                    f"Velocity of {body.label} before, along {axis}", body.along(axis), found
+                )
         if body.turns:
             found = body.spin(AFTER) - body.torque(s) / body.resistance
             page.equation(f"Yaw rate of {body.label} before", body.spin(), found)
@@ -182,9 +239,10 @@ def _planar(page: Page, s: Symbols, kind: str) -> None:
 def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
     """Write speeds from two of: speeds, delta-V, energy."""
     page.say(
-        f"Within one regime of the contact (here {s.impact.regime}) the impulse is linear in both speeds, and energies are "
-        "quadratic. Each regime was solved for the two that were known, and a pair of speeds was kept if the impact, solved "
-        "forwards, is in that regime. For this one:"
+        f"Within one regime of the contact (here {s.impact.regime}) the impulse is linear in "
+        "both speeds, and energies are quadratic. Each regime was solved for the two that were "
+        "known, and a pair of speeds was kept if the impact, solved forwards, is in that "
+        "regime. For this one:"
     )
     for body in s.bodies:
         label = body.label
@@ -192,16 +250,22 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
             speed = Symbol(rf"\lvert v_{label} \rvert", body.start.speed, "speed")
             by_components = root(body.along("x").squared() + body.along("y").squared())
             page.equation(f"Speed of {label} before, known", speed, by_components)
-        components = [name for name in ("forward", "left") if f"delta_v_{name}_{label.lower()}" in known]
+        components = [
+            name for name in ("forward", "left") if f"delta_v_{name}_{label.lower()}" in known
+        ]
         if components:
             page.say(
-                f"Delta-V of {label} was known by its components in the axes of the vehicle ({', '.join(components)}): in each "
-                f"regime the speeds follow from them by least squares, all weighing alike as parts of the impulse."
+                f"Delta-V of {label} was known by its components in the axes of the vehicle "
+                f"({', '.join(components)}): in each regime the speeds follow from them by least "
+                "squares, all weighing alike as parts of the impulse."
             )
         if f"delta_v_{label.lower()}" in known and not body.fixed:
             by_impulse = root(s.normal.squared() + s.tangential.squared()) / body.mass
             page.equation(f"Delta-V of {label}, known", body.delta_v(), by_impulse)
-    for name, what in (("energy_loss", "energy lost"), ("ees_a", "energy of both EES, the one lost")):
+    for name, what in (
+        ("energy_loss", "energy lost"),
+        ("ees_a", "energy of both EES, the one lost"),
+    ):
         if name in known:
             page.say(f"The {what}, known: {page.shown(s.loss)}.")
     if "max_crush_speed_a" in known:

@@ -31,12 +31,16 @@ _PLAIN = {
 
 
 class Symbol(Expression):
-    """A quantity with its symbol, its value in SI and its kind; the plain text of the symbol follows from its LaTeX.
+    """A quantity with its symbol, its value in SI and its kind; the plain text of the symbol
+    follows from its LaTeX.
 
-    ``size`` is that of the largest terms the value was found from, where they are larger than itself.
+    ``size`` is that of the largest terms the value was found from, where they are larger than
+    itself.
     """
 
-    def __init__(self, latex: str, value: Any, kind: str, text: str = "", size: float = 0.0) -> None:
+    def __init__(
+        self, latex: str, value: Any, kind: str, text: str = "", size: float = 0.0
+    ) -> None:
         self.latex, self.text, self.kind = latex, text or _plain_symbol(latex), kind
         super().__init__(float(value), max(abs(float(value)), size))
 
@@ -57,7 +61,9 @@ class Symbol(Expression):
 
 @cache
 def _plain_symbol(latex: str) -> str:
-    r"""A symbol in plain text: ``\bar{I}_A`` is I_A, ``v_{An}'`` is v'_An, ``\Delta v_A`` is dv_A, ``\omega_A^0`` is w0_A."""
+    r"""A symbol in plain text: ``\bar{I}_A`` is I_A, ``v_{An}'`` is v'_An, ``\Delta v_A`` is dv_A,
+    ``\omega_A^0`` is w0_A.
+    """
     text = re.sub(r"\\(?:bar|mathrm)(?=\{)|[{}]", "", latex)
     for command, plain in _PLAIN.items():
         text = text.replace(command, plain)
@@ -85,10 +91,13 @@ class Body:
 
     @property
     def outside(self) -> tuple[Any, Any, Any] | None:
-        """The impulse on it from outside and of tyres, along x and y and about its centre of mass; None if there is none."""
+        """The impulse on it from outside and of tyres, along x and y and about its centre of mass;
+        None if there is none.
+        """
         side = self.side
         parts = side.outside_x, side.outside_y, side.outside_yaw
-        # A contact followed in time has the work of its tyres apart from that of impulses from outside.
+        # A contact followed in time has the work of its tyres apart from that of impulses from
+        # outside.
         if self.impact.pulse is None and self.impact.inputs.tyres:
             x, y, yaw = parts
             parts = x + side.tyre_impulse_x, y + side.tyre_impulse_y, yaw + side.tyre_moment
@@ -115,10 +124,14 @@ class Body:
         """The arm from the pivot of a pinned body to its centre of mass, along a scene axis."""
         pivot_x, pivot_y = self.start.pivot or (0.0, 0.0)
         center, pivot = (self.start.x, pivot_x) if axis == "x" else (self.start.y, pivot_y)
-        return Symbol(rf"d_{{{self.label}{axis}}}", math.nan if center is None else center - pivot, "length")
+        return Symbol(
+            rf"d_{{{self.label}{axis}}}", math.nan if center is None else center - pivot, "length"
+        )
 
     def along(self, direction: str, when: str = BEFORE, contact: bool = False) -> Symbol:
-        """Component "x", "y", "n" or "t" of the velocity of its centre of mass, or of the place at the contact."""
+        """Component "x", "y", "n" or "t" of the velocity of its centre of mass, or of the place at
+        the contact.
+        """
         state, point, index = self.state(when), self.impact.point, f"{self.label}{direction}"
         vx, vy = state.velocity_at(point) if contact and point is not None else (state.vx, state.vy)
         nx, ny = self.impact.normal
@@ -126,7 +139,8 @@ class Body:
         size, turning = self._largest
         size += turning * self._reach((self.start.x, self.start.y)) if contact else 0.0
         if contact and when == COMPRESSED:
-            # The paper has u with and without a bar; without bars the place at the contact needs another symbol.
+            # The paper has u with and without a bar; without bars the place at the contact needs
+            # another symbol.
             return Symbol(f"u_{{{index}}}", value, "speed", f"c0_{index}", size)
         if contact:
             return Symbol(f"c_{{{index}}}{_PRIME[when]}", value, "speed", size=size)
@@ -136,7 +150,8 @@ class Body:
 
     @cached_property
     def _largest(self) -> tuple[float, float]:
-        """Speed and yaw rate of the largest terms that the motions were found from: the rounding left in them is of these.
+        """Speed and yaw rate of the largest terms that the motions were found from: the rounding
+        left in them is of these.
 
         The two parts of an impulse may nearly cancel in the moment, so each counts.
         """
@@ -146,13 +161,22 @@ class Body:
         turning = max(abs(state.yaw_rate) for state in states)
         inertia = self.start.yaw_inertia
         if impact.model in PLACED and inertia:
-            turning += impulse * self._reach(self.start.pivot or (self.start.x, self.start.y)) / inertia
-        return tuple(size if math.isfinite(size) else 0.0 for size in (speed, turning))  # type: ignore[return-value]
+            turning += (
+                impulse * self._reach(self.start.pivot or (self.start.x, self.start.y)) / inertia
+            )
+        return (
+            speed if math.isfinite(speed) else 0.0,
+            turning if math.isfinite(turning) else 0.0,
+        )
 
     def _reach(self, center: tuple[Any, Any]) -> float:
         """Distance of the contact from a place of the body; 0 where one of them is not known."""
         point = self.impact.point
-        return 0.0 if point is None or center[0] is None else math.hypot(point[0] - center[0], point[1] - center[1])
+        return (
+            0.0
+            if point is None or center[0] is None
+            else math.hypot(point[0] - center[0], point[1] - center[1])
+        )
 
     def straight(self, when: str = BEFORE) -> Symbol:
         """Velocity along the line of a linear impact, which needs no component in its symbol."""
@@ -160,15 +184,23 @@ class Body:
         return Symbol(f"v_{self.label}{_PRIME[when]}", along.value, "speed", size=along.size)
 
     def axis(self, name: str, when: str = BEFORE) -> Symbol:
-        """Velocity of its centre of mass along a scene axis, by the symbol that the derivation has for it."""
-        lined = self.impact.model == "linear_central" and self.impact.normal == (1.0, 0.0) and name == "x"
+        """Velocity of its centre of mass along a scene axis, by the symbol that the derivation has
+        for it.
+        """
+        lined = (
+            self.impact.model == "linear_central"
+            and self.impact.normal == (1.0, 0.0)
+            and name == "x"
+        )
         return self.straight(when) if lined else self.along(name, when)
 
     def spin(self, when: str = BEFORE) -> Symbol:
         """Yaw rate."""
         mark = "^0" if when == COMPRESSED else _PRIME[when]
         _, size = self._largest
-        return Symbol(rf"\omega_{self.label}{mark}", self.state(when).yaw_rate, "yaw rate", size=size)
+        return Symbol(
+            rf"\omega_{self.label}{mark}", self.state(when).yaw_rate, "yaw rate", size=size
+        )
 
     def delta_v(self, axis: str = "") -> Symbol:
         """A component of its delta-V in scene axes, or its magnitude if no axis is named."""
@@ -196,7 +228,10 @@ class Symbols:
         self.loss = Symbol(r"\Delta E", impact.energy_loss, "energy")
         self.loss_n = Symbol(r"\Delta E_n", impact.energy_loss_normal, "energy")
         self.loss_t = Symbol(r"\Delta E_t", impact.energy_loss_tangential, "energy")
-        self.nx, self.ny = (Symbol(f"n_{axis}", part, "number") for axis, part in zip("xy", impact.normal, strict=True))
+        self.nx, self.ny = (
+            Symbol(f"n_{axis}", part, "number")
+            for axis, part in zip("xy", impact.normal, strict=True)
+        )
 
     def relative(self, direction: str, when: str = BEFORE, contact: bool = False) -> Expression:
         """Velocity of B relative to A, of the centres of mass or at the contact."""
@@ -211,14 +246,20 @@ class Symbols:
         return _weighed((1.0, self.nx, y), (-1.0, self.ny, x))
 
     def scene(self, axis: str, n: Expression, t: Expression) -> Expression:
-        """The component along a scene axis of a vector that is known along the normal and the tangent."""
+        """The component along a scene axis of a vector that is known along the normal and the
+        tangent.
+        """
         if axis == "x":
             return _weighed((1.0, self.nx, n), (-1.0, self.ny, t))
         return _weighed((1.0, self.ny, n), (1.0, self.nx, t))
 
     def impulse(self, axis: str) -> Symbol:
         """Component of the impulse on B in scene axes."""
-        return Symbol(f"P_{axis}", self.impact.b.impulse_x if axis == "x" else self.impact.b.impulse_y, "impulse")
+        return Symbol(
+            f"P_{axis}",
+            self.impact.b.impulse_x if axis == "x" else self.impact.b.impulse_y,
+            "impulse",
+        )
 
 
 def _weighed(*terms: tuple[float, Symbol, Expression]) -> Expression:

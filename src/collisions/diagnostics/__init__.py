@@ -1,4 +1,6 @@
-"""Checks of an impact for oddities: findings, each with the measured value, its limit, and the source of the limit."""
+"""Checks of an impact for oddities: findings, each with the measured value, its limit, and the
+source of the limit.
+"""
 
 from .diagnosis import LIMITS, diagnose
 from .finding import Finding, Limit

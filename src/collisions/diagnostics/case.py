@@ -1,4 +1,6 @@
-"""A case to diagnose: the result, the evidence given with it, other results to compare it with, and number formatting."""
+"""A case to diagnose: the result, the evidence given with it, other results to compare it with, and
+number formatting.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,9 @@ _ENERGY_FIGURES = 4
 
 
 class Damage(NamedTuple):
-    """The PDOF and delta-V shown by a vehicle's damage, independent of the result, with a direction if given as a pair."""
+    """The PDOF and delta-V shown by a vehicle's damage, independent of the result, with a direction
+    if given as a pair.
+    """
 
     pdof: float | None
     delta_v: float | None
@@ -40,7 +44,9 @@ class Damage(NamedTuple):
 
 
 class VehicleResult(NamedTuple):
-    """The quantities that every result has for a vehicle, and its name in a sentence; mass and speed are those before."""
+    """The quantities that every result has for a vehicle, and its name in a sentence; mass and
+    speed are those before.
+    """
 
     who: str
     mass: float
@@ -69,12 +75,18 @@ class _Case:
 
     def text(self, value: float, kind: str) -> str:
         """The number with its unit."""
-        return f"{self.number(value, kind)} {_format(kind, self.units)[2]}" if math.isfinite(value) else in_words(value)
+        return (
+            f"{self.number(value, kind)} {_format(kind, self.units)[2]}"
+            if math.isfinite(value)
+            else in_words(value)
+        )
 
 
 @cache
 def _format(kind: str, units: str) -> tuple[float, int | None, str]:
-    """Scale, decimals and unit of a kind; angles get one decimal more than in a result, because they stand next to a limit."""
+    """Scale, decimals and unit of a kind; angles get one decimal more than in a result, because
+    they stand next to a limit.
+    """
     decimals = decimals_of(kind, units)
     more = int(kind == "angle")
     unit = unit_of(kind, units).replace("deg", "degrees").replace("*", " ")
@@ -92,14 +104,19 @@ class MomentumCase(_Case):
         """Both vehicles by label."""
         names = ("mass", "speed", "delta_v", "pdof")
         return {
-            label: VehicleResult(f"vehicle {label.upper()}", *(getattr(self.answer, f"{name}_{label}") for name in names))
+            label: VehicleResult(
+                f"vehicle {label.upper()}",
+                *(getattr(self.answer, f"{name}_{label}") for name in names),
+            )
             for label in "ab"
         }
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ImpactCase(_Case):
-    """An impact with outlines by vehicle label, what an impulse leaves out, and the results it is compared with."""
+    """An impact with outlines by vehicle label, what an impulse leaves out, and the results it is
+    compared with.
+    """
 
     answer: Impact
     outlines: dict[str, Any]
@@ -121,19 +138,38 @@ class ImpactCase(_Case):
 
     @cached_property
     def overlaps(self) -> tuple[float, float, float] | None:
-        """Overlap of the outlines at the impact and after the duration (below 0: a gap), and the rounding error of both."""
+        """Overlap of the outlines at the impact and after the duration (below 0: a gap), and the
+        rounding error of both.
+        """
         if len(self.outlines) < 2:
             return None
         now, later = (
-            overlap(*(placed(self.outlines[label], side.after, label, time) for label, _, side in self.sides))
+            overlap(
+                *(
+                    placed(self.outlines[label], side.after, label, time)
+                    for label, _, side in self.sides
+                )
+            )
             for time in (0.0, self.duration)
         )
-        return now, later, sum(outline_off_by(self.outlines[label], side.after, self.duration) for label, _, side in self.sides)
+        return (
+            now,
+            later,
+            sum(
+                outline_off_by(self.outlines[label], side.after, self.duration)
+                for label, _, side in self.sides
+            ),
+        )
 
     @cached_property
     def model_choice(self) -> tuple[ModelChoice, str]:
         """The errors of the central models, and the contact point assumed if none was given."""
-        impact, inputs, a, b = self.answer, self.answer.inputs, self.answer.a.before, self.answer.b.before
+        impact, inputs, a, b = (
+            self.answer,
+            self.answer.inputs,
+            self.answer.a.before,
+            self.answer.b.before,
+        )
         point: Any = impact.point
         how = ""
         places: Any = (a.x, a.y, b.x, b.y)
@@ -142,7 +178,9 @@ class ImpactCase(_Case):
             how = ", with the contact point taken half-way between the centres"
         options: dict[str, Any] = {inputs.rule: inputs.rule_value, "law": inputs.law or BRACH}
         options |= {name: getattr(inputs, name) for name in ("incomplete", *OUTSIDE)}
-        return required_model(a, b, impact.restitution, normal=impact.normal, point=point, **options), how
+        return required_model(
+            a, b, impact.restitution, normal=impact.normal, point=point, **options
+        ), how
 
     @cached_property
     def other_laws(self) -> list[tuple[str, Impact]]:
@@ -151,8 +189,15 @@ class ImpactCase(_Case):
         if impact.law is None or impact.model == "linear_central":
             return []
         by_friction = impact.inputs.rule == FRICTION
-        others = [name for name, law in LAWS.items() if name != impact.law and (by_friction or not law.energetic)]
-        return [(f"under the law {name!r} instead of {impact.law!r}", solve_changed(impact, law=name)) for name in others]
+        others = [
+            name
+            for name, law in LAWS.items()
+            if name != impact.law and (by_friction or not law.energetic)
+        ]
+        return [
+            (f"under the law {name!r} instead of {impact.law!r}", solve_changed(impact, law=name))
+            for name in others
+        ]
 
     @cached_property
     def turned_normals(self) -> list[tuple[str, Impact]]:
@@ -163,8 +208,13 @@ class ImpactCase(_Case):
         answers = []
         for angle in (-_TURN, _TURN):
             c, s = from_degrees(angle)
-            how = f"with the normal turned by {'+' if angle > 0.0 else ''}{self.text(math.radians(angle), 'angle')}"
-            answers.append((how, solve_changed(self.answer, normal=(c * nx - s * ny, s * nx + c * ny))))
+            how = (
+                "with the normal turned by "
+                f"{'+' if angle > 0.0 else ''}{self.text(math.radians(angle), 'angle')}"
+            )
+            answers.append(
+                (how, solve_changed(self.answer, normal=(c * nx - s * ny, s * nx + c * ny)))
+            )
         return answers
 
 
@@ -173,7 +223,11 @@ Case: TypeAlias = ImpactCase | MomentumCase
 
 def percent(share: float, decimals: int = 0) -> str:
     """A share in percent; infinite for a share of zero."""
-    return in_percent(share, decimals) if math.isfinite(share) else f"a share that is {in_words(share)}"
+    return (
+        in_percent(share, decimals)
+        if math.isfinite(share)
+        else f"a share that is {in_words(share)}"
+    )
 
 
 def plain(value: float) -> str:
@@ -189,7 +243,9 @@ def share(part: float, whole: float) -> float:
 
 
 def off_by(*sizes: float) -> float:
-    """Rounding bound of a few sums and differences of numbers of these sizes: 16 eps of all of them together."""
+    """Rounding bound of a few sums and differences of numbers of these sizes: 16 eps of all of them
+    together.
+    """
     return 16.0 * EPS * sum(map(abs, sizes))
 
 

@@ -1,4 +1,6 @@
-"""Findings on contradictions: within the answer, and between answer, outlines, positions, directions and damage."""
+"""Findings on contradictions: within the answer, and between answer, outlines, positions,
+directions and damage.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,16 @@ from ..impact.side import Side
 from ..quantities.directions import from_radians
 from ..reference import restitution_range
 from ..vehicle.outlines import distance_outside, placed
-from .case import RATIO_ROUNDING, Case, ImpactCase, MomentumCase, off_by, outline_off_by, percent, share
+from .case import (
+    RATIO_ROUNDING,
+    Case,
+    ImpactCase,
+    MomentumCase,
+    off_by,
+    outline_off_by,
+    percent,
+    share,
+)
 from .finding import MESSAGES, METHOD, Measured, above, finding
 
 # In metres, of positions and outlines together.
@@ -28,16 +39,23 @@ _BACKWARDS = math.radians(135.0)
 )
 def energy_gain(case: Case) -> Iterator[Measured]:
     gain = 0.0 if case.answer.ok else -_energy_loss(case)
-    yield Measured(gain, f"the impact ends with {case.text(gain, 'energy')} more than it began with; none can")
+    yield Measured(
+        gain, f"the impact ends with {case.text(gain, 'energy')} more than it began with; none can"
+    )
 
 
 def _energy_loss(case: Case) -> float:
-    loss: float = case.answer.translational_energy_loss if isinstance(case, MomentumCase) else case.answer.energy_loss
+    loss: float = (
+        case.answer.translational_energy_loss
+        if isinstance(case, MomentumCase)
+        else case.answer.energy_loss
+    )
     return loss
 
 
 @finding(
-    "difference of the crush energy that was given from the energy that the impact takes, as a share of it",
+    "difference of the crush energy that was given from the energy that the impact takes, as a "
+    "share of it",
     above(0.5),
     f"Conservation of Energy Warning, {MESSAGES}: typically 50 percent",
 )
@@ -45,30 +63,38 @@ def momentum_energy(case: Case) -> Iterator[Measured]:
     crush, lost = case.crush_energy, _energy_loss(case)
     if crush is not None:
         sentence = (
-            f"the damage takes {case.text(crush, 'energy')} by the crush energy given, and momentum leaves "
-            f"{case.text(lost, 'energy')} to be lost: speeds or damage are wrong"
+            f"the damage takes {case.text(crush, 'energy')} by the crush energy given, and "
+            f"momentum leaves {case.text(lost, 'energy')} to be lost: speeds or damage are wrong"
         )
         yield Measured(share(abs(crush - lost), lost), sentence, rounding=off_by(1.0))
 
 
 @finding(
-    "share by which momentum or energy, by the speeds before and after, differs from the impulse or its work",
+    "share by which momentum or energy, by the speeds before and after, differs from the impulse "
+    "or its work",
     above(0.01),
-    "set here: both are one number but for rounding, and one percent would be seen by whoever checks by hand",
+    "set here: both are one number but for rounding, and one percent would be seen by whoever "
+    "checks by hand",
 )
 def rounding(case: ImpactCase) -> Iterator[Measured]:
     impact = case.answer
-    off = share(impact.momentum_residual, math.hypot(impact.normal_impulse, impact.tangential_impulse))
+    off = share(
+        impact.momentum_residual, math.hypot(impact.normal_impulse, impact.tangential_impulse)
+    )
     what = f"momentum changes by {off:.2g} of the impulse"
     sides = (impact.a, impact.b)
     if not any(_has_infinite_energy(side) for side in sides):
         before, after = (sum(_energy(side, after) for side in sides) for after in (False, True))
         lost = impact.energy_loss + sum(side.tyre_loss - side.outside_work for side in sides)
-        by_speeds = share(abs((before - after) - lost), max(abs(impact.energy_loss), abs(lost), impact.energy_absorbed))
+        by_speeds = share(
+            abs((before - after) - lost),
+            max(abs(impact.energy_loss), abs(lost), impact.energy_absorbed),
+        )
         if by_speeds > off:
             off = by_speeds
             what = (
-                f"kinetic energies before and after differ by {case.text(before - after, 'energy')}, and the impulses take "
+                "kinetic energies before and after differ by "
+                f"{case.text(before - after, 'energy')}, and the impulses take "
                 f"{case.text(lost, 'energy')}"
             )
     yield Measured(off, f"{what}: rounding of speeds that are large against the closing speed")
@@ -76,20 +102,30 @@ def rounding(case: ImpactCase) -> Iterator[Measured]:
 
 def _has_infinite_energy(side: Side) -> bool:
     before = side.before
-    turning = before.yaw_inertia is not None and math.isinf(before.yaw_inertia) and before.yaw_rate != 0.0
+    turning = (
+        before.yaw_inertia is not None and math.isinf(before.yaw_inertia) and before.yaw_rate != 0.0
+    )
     return turning or (math.isinf(before.mass) and before.speed > 0.0)
 
 
 def _energy(side: Side, after: bool) -> float:
     """Kinetic energy before or after, without that of a yaw rate that does not change."""
     vehicle = side.after if after else side.before
-    energy = 0.0 if math.isinf(vehicle.mass) else 0.5 * vehicle.mass * (vehicle.vx * vehicle.vx + vehicle.vy * vehicle.vy)
+    energy = (
+        0.0
+        if math.isinf(vehicle.mass)
+        else 0.5 * vehicle.mass * (vehicle.vx * vehicle.vx + vehicle.vy * vehicle.vy)
+    )
     if side.delta_yaw_rate == 0.0 or vehicle.yaw_inertia is None or math.isinf(vehicle.yaw_inertia):
         return energy
     return energy + 0.5 * vehicle.yaw_inertia * vehicle.yaw_rate * vehicle.yaw_rate
 
 
-@finding("restitution", above("the highest that is plausible for the closing speed"), "reference.restitution_range")
+@finding(
+    "restitution",
+    above("the highest that is plausible for the closing speed"),
+    "reference.restitution_range",
+)
 def restitution(case: Case) -> Iterator[Measured]:
     closing, e = case.answer.closing_speed, case.answer.restitution
     # Planar momentum has neither without a normal, and its centres may move apart along it.
@@ -97,8 +133,8 @@ def restitution(case: Case) -> Iterator[Measured]:
         highest = restitution_range(closing)[1]
         of = " of the centres" if isinstance(case, MomentumCase) else ""
         sentence = (
-            f"restitution{of} {e:.3g} at a closing speed of {case.text(closing, 'speed')}, where {highest:.2g} is the highest "
-            f"that published values make plausible"
+            f"restitution{of} {e:.3g} at a closing speed of {case.text(closing, 'speed')}, where "
+            f"{highest:.2g} is the highest that published values make plausible"
         )
         yield Measured(e, sentence, limit=highest, rounding=RATIO_ROUNDING)
 
@@ -106,7 +142,8 @@ def restitution(case: Case) -> Iterator[Measured]:
 @finding(
     "how far the restitution of momentum is below 0, infinite where the centres do not approach",
     above(0.01),
-    f"set here: what rounded inputs leave of 0; Coefficient of Restitution Warnings, {MESSAGES}, warn of any",
+    f"set here: what rounded inputs leave of 0; Coefficient of Restitution Warnings, {MESSAGES}, "
+    "warn of any",
 )
 def restitution_negative(case: MomentumCase) -> Iterator[Measured]:
     closing, e = case.answer.closing_speed, case.answer.restitution
@@ -114,17 +151,24 @@ def restitution_negative(case: MomentumCase) -> Iterator[Measured]:
         return
     speed = case.text(closing, "speed")
     if closing > 0.0:
-        sentence = f"restitution of the centres {e:.3g} at a closing speed of {speed}: they would pass through each other"
+        sentence = (
+            f"restitution of the centres {e:.3g} at a closing speed of {speed}: they would pass "
+            "through each other"
+        )
         yield Measured(-e, sentence)
     else:
-        sentence = f"the centres do not approach along the normal: closing speed {speed}; it must point from A into B"
+        sentence = (
+            f"the centres do not approach along the normal: closing speed {speed}; it must point "
+            "from A into B"
+        )
         yield Measured(math.inf, sentence)
 
 
 @finding(
     "impulse ratio as a share of the critical one, infinite where it drives the slip",
     above(1.0),
-    "Coulomb friction ends with the slip and cannot reverse it; reference.SHARE_OF_CRITICAL_SMALL_OVERLAP ends at 1",
+    "Coulomb friction ends with the slip and cannot reverse it; "
+    "reference.SHARE_OF_CRITICAL_SMALL_OVERLAP ends at 1",
 )
 def impulse_ratio(case: ImpactCase) -> Iterator[Measured]:
     ratio, critical = case.answer.impulse_ratio, case.answer.critical_impulse_ratio
@@ -134,7 +178,10 @@ def impulse_ratio(case: ImpactCase) -> Iterator[Measured]:
     part = math.inf if critical == 0.0 else ratio / critical
     if part < 0.0:
         part = math.inf
-        what = f"drives the slip instead of ending it: the critical one is {critical:.3g}; check its sign"
+        what = (
+            f"drives the slip instead of ending it: the critical one is {critical:.3g}; check "
+            "its sign"
+        )
     else:
         part = 1.0 if abs(part - 1.0) <= RATIO_ROUNDING else part
         what = f"is {part:.2f} of the critical one, {critical:.3g}, which already ends the slip"
@@ -150,8 +197,9 @@ def friction_gain(case: ImpactCase) -> Iterator[Measured]:
     gain = -case.answer.energy_loss_tangential
     part = share(gain, case.answer.energy_absorbed) if gain > 0.0 else 0.0
     sentence = (
-        f"the tangential impulse adds {case.text(gain, 'energy')}, {percent(part, 1)} of the energy absorbed, where friction "
-        f"can only take it: the slip turns round during the contact, which one impulse ratio does not tell"
+        f"the tangential impulse adds {case.text(gain, 'energy')}, {percent(part, 1)} of the "
+        "energy absorbed, where friction can only take it: the slip turns round during the "
+        "contact, which one impulse ratio does not tell"
     )
     yield Measured(part, sentence)
 
@@ -165,7 +213,12 @@ def jamming(case: ImpactCase) -> Iterator[Measured]:
     impact = case.answer
     frictionless = impact.effective_mass * impact.closing_speed
     apart = impact.pulse is not None or impact.inputs.outside_a is not None
-    if impact.regime in ("given", "sliding") and frictionless > 0.0 and impact.normal_impulse != 0.0 and not apart:
+    if (
+        impact.regime in ("given", "sliding")
+        and frictionless > 0.0
+        and impact.normal_impulse != 0.0
+        and not apart
+    ):
         times = impact.normal_impulse / (1.0 + impact.restitution) / frictionless
         part = 1.0 - 1.0 / times
         sentence = (
@@ -194,7 +247,10 @@ def contact_points_approach(case: ImpactCase) -> Iterator[Measured]:
     # An incomplete impact ends while they approach.
     approach = nx * (ax - bx) + ny * (ay - by) + min(impact.separation_speed, 0.0)
     speed = case.text(approach, "speed")
-    sentence = f"after the impact the contact points still approach at {speed}: {impact.model} leaves the turning out"
+    sentence = (
+        f"after the impact the contact points still approach at {speed}: {impact.model} leaves "
+        "the turning out"
+    )
     yield Measured(approach, sentence)
 
 
@@ -206,24 +262,28 @@ def contact_points_approach(case: ImpactCase) -> Iterator[Measured]:
 def incomplete(case: ImpactCase) -> Iterator[Measured]:
     speed = -case.answer.separation_speed
     sentence = (
-        f"the impact ends while the contact points still approach at {case.text(speed, 'speed')} (restitution "
-        f"{case.answer.restitution:.3g}): the bodies must be able to pass, or what held them to tear"
+        f"the impact ends while the contact points still approach at {case.text(speed, 'speed')} "
+        f"(restitution {case.answer.restitution:.3g}): the bodies must be able to pass, or what "
+        "held them to tear"
     )
     yield Measured(speed, sentence)
 
 
 @finding(
-    "how much further the outlines pass into each other by the end of the duration after separation",
+    "how much further the outlines pass into each other by the end of the duration after "
+    "separation",
     above(0.2, "m"),
-    "set here: two positions, each read to 10 cm; stiff outlines of vehicles that turn apart pass by less",
+    "set here: two positions, each read to 10 cm; stiff outlines of vehicles that turn apart "
+    "pass by less",
 )
 def outlines_interpenetrate(case: ImpactCase) -> Iterator[Measured]:
     if case.overlaps is not None and case.answer.complete:
         now, later, rounding = case.overlaps
         depth = max(now, 0.0)
         sentence = (
-            f"{case.duration:.3g} s after separation the outlines overlap by {case.text(later, 'length')}, "
-            f"{case.text(later - depth, 'length')} more than at the impact ({case.text(depth, 'length')})"
+            f"{case.duration:.3g} s after separation the outlines overlap by "
+            f"{case.text(later, 'length')}, {case.text(later - depth, 'length')} more than at "
+            f"the impact ({case.text(depth, 'length')})"
         )
         yield Measured(later - depth, sentence, rounding=rounding)
 
@@ -231,16 +291,25 @@ def outlines_interpenetrate(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "how deep the outlines overlap at the impact",
     above("the mutual crush of the impact in the duration and 0.3 m more", "m"),
-    "set here: the crush by left_out, positions to 10 cm each, and 10 cm for outlines that are rounder than drawn",
+    "set here: the crush by left_out, positions to 10 cm each, and 10 cm for outlines that are "
+    "rounder than drawn",
 )
 def outlines_overlap(case: ImpactCase) -> Iterator[Measured]:
     if case.overlaps is not None and case.answer.complete:
         now, _, rounding = case.overlaps
         pulse, left = case.answer.pulse, case.left_out
-        depth, crush = max(now, 0.0), pulse.max_crush if pulse is not None else left.mutual_crush if left is not None else 0.0
+        depth, crush = (
+            max(now, 0.0),
+            pulse.max_crush
+            if pulse is not None
+            else left.mutual_crush
+            if left is not None
+            else 0.0,
+        )
         sentence = (
-            f"at the impact the outlines overlap by {case.text(depth, 'length')}, and the impact crushes both together by "
-            f"{case.text(crush, 'length')} in {case.duration:.3g} s; check positions and headings"
+            f"at the impact the outlines overlap by {case.text(depth, 'length')}, and the impact "
+            f"crushes both together by {case.text(crush, 'length')} in {case.duration:.3g} s; "
+            "check positions and headings"
         )
         yield Measured(depth, sentence, limit=crush + _POSITION_ERROR, rounding=rounding)
 
@@ -254,19 +323,26 @@ def outlines_gap(case: ImpactCase) -> Iterator[Measured]:
     if case.overlaps is not None:
         now, _, rounding = case.overlaps
         gap = case.text(-now, "length")
-        sentence = f"at the impact there is a gap of {gap} between the outlines; check positions and headings"
+        sentence = (
+            f"at the impact there is a gap of {gap} between the outlines; check positions and "
+            "headings"
+        )
         yield Measured(-now, sentence, rounding=rounding)
 
 
 @finding(
-    "along the normal, how far A's centre is past the contact point or B's before it; without a point, A's past B's",
+    "along the normal, how far A's centre is past the contact point or B's before it; without a "
+    "point, A's past B's",
     above(0.1, "m"),
-    "set here: the normal points from A into B, so that a convex body has its centre behind the contact; 10 cm of reading",
+    "set here: the normal points from A into B, so that a convex body has its centre behind the "
+    "contact; 10 cm of reading",
 )
 def normal_against_positions(case: ImpactCase) -> Iterator[Measured]:
     (nx, ny), point = case.answer.normal, case.answer.point
     a, b = (
-        None if vehicle.x is None or vehicle.y is None or math.isinf(vehicle.mass) else (vehicle.x, vehicle.y)
+        None
+        if vehicle.x is None or vehicle.y is None or math.isinf(vehicle.mass)
+        else (vehicle.x, vehicle.y)
         for vehicle in (case.answer.a.before, case.answer.b.before)
     )
     # Along the normal the first of each pair should come first.
@@ -277,19 +353,21 @@ def normal_against_positions(case: ImpactCase) -> Iterator[Measured]:
         far = case.text(behind, "length")
         if label:
             sentence = (
-                f"the normal, which points from A into B, points {'back into A' if label == 'a' else 'away from B'}: the "
-                f"centre of {case.vehicles[label].who} is {far} on the wrong side of the contact point"
+                "the normal, which points from A into B, points "
+                f"{'back into A' if label == 'a' else 'away from B'}: the centre of "
+                f"{case.vehicles[label].who} is {far} on the wrong side of the contact point"
             )
         else:
             sentence = (
-                f"along the normal, which points from A into B, the centre of B is {far} behind that of A; check the normal "
-                f"and the positions"
+                f"along the normal, which points from A into B, the centre of B is {far} behind "
+                "that of A; check the normal and the positions"
             )
         yield Measured(behind, sentence, label, rounding=off_by(*one, *other))
 
 
 @finding(
-    "change of yaw rate against the lever of a force from the damage_pdof given, which 10 degrees would not turn round",
+    "change of yaw rate against the lever of a force from the damage_pdof given, which 10 "
+    "degrees would not turn round",
     above(0.1, "rad/s"),
     f"set here: 6 deg/s; Rotation Direction Warning, {MESSAGES}, warns of any",
 )
@@ -306,8 +384,9 @@ def yaw_against_lever(case: ImpactCase) -> Iterator[Measured]:
         lever = arm_y * c - arm_x * s
         if abs(lever) > _LEVER_TOL * math.hypot(arm_x, arm_y):
             sentence = (
-                f"{who} is turned by {case.text(side.delta_yaw_rate, 'yaw rate')}, against the lever "
-                f"({case.text(abs(lever), 'length')}) of a force from the {case.text(pdof, 'angle')} that its damage shows"
+                f"{who} is turned by {case.text(side.delta_yaw_rate, 'yaw rate')}, against the "
+                f"lever ({case.text(abs(lever), 'length')}) of a force from the "
+                f"{case.text(pdof, 'angle')} that its damage shows"
             )
             yield Measured(-math.copysign(1.0, lever) * side.delta_yaw_rate, sentence, label)
 
@@ -323,28 +402,37 @@ def pdof_off_damage(case: Case) -> Iterator[Measured]:
         if pdof is not None and seen is not None:
             off = abs(math.remainder(seen - pdof, math.tau))
             sentence = (
-                f"{vehicle.who} has a PDOF of {case.text(pdof, 'angle')}, {case.text(off, 'angle')} off the "
-                f"{case.text(seen, 'angle')} that its damage shows (0 ahead, positive clockwise)"
+                f"{vehicle.who} has a PDOF of {case.text(pdof, 'angle')}, "
+                f"{case.text(off, 'angle')} off the {case.text(seen, 'angle')} that its damage "
+                "shows (0 ahead, positive clockwise)"
             )
             yield Measured(off, sentence, label, rounding=off_by(seen, pdof, math.tau))
 
 
 @finding(
-    "difference of the damage_delta_v that was given from delta-V, of a pair as vectors, as a share of delta-V",
+    "difference of the damage_delta_v that was given from delta-V, of a pair as vectors, as a "
+    "share of delta-V",
     above(0.1),
     f"Delta-V Compatibility Note, {MESSAGES}: about 10 percent",
 )
 def delta_v_off_damage(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
-        delta_v, seen, direction = vehicle.delta_v, case.damage[label].delta_v, case.damage[label].direction
+        delta_v, seen, direction = (
+            vehicle.delta_v,
+            case.damage[label].delta_v,
+            case.damage[label].direction,
+        )
         if seen is None:
             continue
         has, shows, off = case.text(delta_v, "speed"), case.text(seen, "speed"), abs(seen - delta_v)
         if direction is not None and vehicle.pdof is not None and not math.isnan(vehicle.pdof):
             has, shows = (
-                f"{size} from {case.text(angle, 'angle')}" for size, angle in ((has, vehicle.pdof), (shows, direction))
+                f"{size} from {case.text(angle, 'angle')}"
+                for size, angle in ((has, vehicle.pdof), (shows, direction))
             )
-            off = math.hypot(off, 2.0 * math.sqrt(seen * delta_v) * math.sin(0.5 * (direction - vehicle.pdof)))
+            off = math.hypot(
+                off, 2.0 * math.sqrt(seen * delta_v) * math.sin(0.5 * (direction - vehicle.pdof))
+            )
         sentence = f"{vehicle.who} has a delta-V of {has}, and its damage shows {shows}"
         yield Measured(share(off, delta_v), sentence, label, rounding=off_by(1.0))
 
@@ -352,30 +440,47 @@ def delta_v_off_damage(case: Case) -> Iterator[Measured]:
 @finding(
     "angle between the impulse and the normal",
     above(math.radians(45.0), "rad"),
-    f"the angle up to which crush energy is corrected for a force that is not perpendicular, {METHOD}",
+    "the angle up to which crush energy is corrected for a force that is not perpendicular, "
+    f"{METHOD}",
 )
 def impulse_off_normal(case: ImpactCase) -> Iterator[Measured]:
     angle = math.atan2(abs(case.answer.tangential_impulse), case.answer.normal_impulse)
-    pdofs = [f"{who} has a PDOF of {case.text(side.pdof, 'angle')}" for _, who, side in case.sides if side.pdof is not None]
+    pdofs = [
+        f"{who} has a PDOF of {case.text(side.pdof, 'angle')}"
+        for _, who, side in case.sides
+        if side.pdof is not None
+    ]
     which = f"; {', '.join(pdofs)} (0 ahead, positive clockwise)" if pdofs else ""
-    yield Measured(angle, f"the impulse is {case.text(angle, 'angle')} off the normal, the direction of damage{which}")
+    yield Measured(
+        angle,
+        f"the impulse is {case.text(angle, 'angle')} off the normal, the direction of "
+        f"damage{which}",
+    )
 
 
 @finding(
-    "angle between heading and course before, of a vehicle that goes 1 m/s or more and turns by less than 0.5 rad/s",
+    "angle between heading and course before, of a vehicle that goes 1 m/s or more and turns by "
+    "less than 0.5 rad/s",
     above(math.radians(45.0), "rad"),
-    "set here: beyond, it goes more sideways or backwards than ahead; a vehicle that slides with its rear out stays below",
+    "set here: beyond, it goes more sideways or backwards than ahead; a vehicle that slides with "
+    "its rear out stays below",
 )
 def heading_off_course(case: ImpactCase) -> Iterator[Measured]:
     for label, who, side in case.sides:
         before = side.before
-        if before.heading is None or math.isinf(before.mass) or before.speed < _SLOW or abs(before.yaw_rate) >= _SPINNING:
+        if (
+            before.heading is None
+            or math.isinf(before.mass)
+            or before.speed < _SLOW
+            or abs(before.yaw_rate) >= _SPINNING
+        ):
             continue
         off = abs(math.remainder(before.course - before.heading, math.tau))
         how = "backwards" if off > _BACKWARDS else "sideways"
         sentence = (
-            f"{who} goes {how} before, at {case.text(before.speed, 'speed')}, {case.text(off, 'angle')} off its heading, as "
-            f"only a vehicle that slides far aside or is in reverse does; check heading, vx and vy"
+            f"{who} goes {how} before, at {case.text(before.speed, 'speed')}, "
+            f"{case.text(off, 'angle')} off its heading, as only a vehicle that slides far aside "
+            "or is in reverse does; check heading, vx and vy"
         )
         yield Measured(off, sentence, label, rounding=off_by(before.heading, math.tau))
 
@@ -391,5 +496,12 @@ def point_outside(case: ImpactCase) -> Iterator[Measured]:
         if point is not None and label in case.outlines:
             outline = case.outlines[label]
             distance = distance_outside(placed(outline, side.before, label), point)
-            sentence = f"the contact point is {case.text(distance, 'length')} outside the outline of {who}"
-            yield Measured(distance, sentence, label, rounding=outline_off_by(outline, side.before) + off_by(*point))
+            sentence = (
+                f"the contact point is {case.text(distance, 'length')} outside the outline of {who}"
+            )
+            yield Measured(
+                distance,
+                sentence,
+                label,
+                rounding=outline_off_by(outline, side.before) + off_by(*point),
+            )

@@ -1,4 +1,6 @@
-"""Findings on inputs: sizes that suggest another unit, and inputs missing for a check of the model."""
+"""Findings on inputs: sizes that suggest another unit, and inputs missing for a check
+of the model.
+"""
 
 from __future__ import annotations
 
@@ -13,12 +15,17 @@ from ..vehicle.vehicle import Vehicle
 from .case import Case, ImpactCase, MomentumCase, off_by
 from .finding import NOTE, Measured, above, below, finding
 
-# How far a contact may be from the centre of mass: in radii of gyration, and in metres where there is none.
+# How far a contact may be from the centre of mass: in radii of gyration, and in metres where there
+# is none.
 _RADII, _FURTHEST = 3.0, 10.0
 _WHOLE = 1e-12  # rad: the rounding of an angle from its unit vector
 
 
-@finding("mass", below(150.0, "kg"), "set here: no car is lighter, and a car of 1500 kg has 103 slug; tonnes or slugs as kg")
+@finding(
+    "mass",
+    below(150.0, "kg"),
+    "set here: no car is lighter, and a car of 1500 kg has 103 slug; tonnes or slugs as kg",
+)
 def suspect_mass(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
         sentence = f"{vehicle.who} has a mass of {vehicle.mass:.6g} kg; were tonnes or slugs meant?"
@@ -34,7 +41,9 @@ def suspect_heavy(case: Case) -> Iterator[Measured]:
     immovable = ", or an immovable body (inf)" if isinstance(case, ImpactCase) else ""
     for label, vehicle in case.vehicles.items():
         if not math.isinf(vehicle.mass):
-            sentence = f"{vehicle.who} has a mass of {vehicle.mass:.6g} kg; were grams meant{immovable}?"
+            sentence = (
+                f"{vehicle.who} has a mass of {vehicle.mass:.6g} kg; were grams meant{immovable}?"
+            )
             yield Measured(vehicle.mass, sentence, label)
 
 
@@ -73,7 +82,10 @@ def _radii_of_gyration(case: ImpactCase) -> Iterator[Measured]:
         mass, inertia = side.before.mass, side.before.yaw_inertia
         if inertia is not None and not math.isinf(inertia) and not math.isinf(mass):
             radius = math.sqrt(inertia / mass)
-            sentence = f"{who} has a yaw inertia of {inertia:.4g} kg·m², a radius of gyration of {radius:.3g} m; check its unit"
+            sentence = (
+                f"{who} has a yaw inertia of {inertia:.4g} kg·m², a radius of gyration of "
+                f"{radius:.3g} m; check its unit"
+            )
             yield Measured(radius, sentence, label)
 
 
@@ -82,7 +94,11 @@ def suspect_inertia_low(case: ImpactCase) -> Iterator[Measured]:
     return _radii_of_gyration(case)
 
 
-@finding("radius of gyration", above(5.0, "m"), "set here: that of a rectangle 17 m long; lb·ft² as kg·m²")
+@finding(
+    "radius of gyration",
+    above(5.0, "m"),
+    "set here: that of a rectangle 17 m long; lb·ft² as kg·m²",
+)
 def suspect_inertia_high(case: ImpactCase) -> Iterator[Measured]:
     return _radii_of_gyration(case)
 
@@ -90,20 +106,25 @@ def suspect_inertia_high(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "distance of the contact point from the centre of mass",
     above(
-        "three radii of gyration of the vehicle, or 10 m where its yaw inertia is not known or infinite, or where the "
-        "places were given with their unit",
+        "three radii of gyration of the vehicle, or 10 m where its yaw inertia is not known or "
+        "infinite, or where the places were given with their unit",
         "m",
     ),
     (
-        "set here: the corner of a rectangle is 1.7 of its radii away, and a centre of mass may be off the middle; 10 m is "
-        "half a road train; feet or cm as m, or two origins mixed"
+        "set here: the corner of a rectangle is 1.7 of its radii away, and a centre of mass may "
+        "be off the middle; 10 m is half a road train; feet or cm as m, or two origins mixed"
     ),
 )
 def suspect_lever(case: ImpactCase) -> Iterator[Measured]:
     point = case.answer.point
     for label, who, side in case.sides:
         vehicle = side.before
-        if point is not None and vehicle.x is not None and vehicle.y is not None and not math.isinf(vehicle.mass):
+        if (
+            point is not None
+            and vehicle.x is not None
+            and vehicle.y is not None
+            and not math.isinf(vehicle.mass)
+        ):
             lever = math.hypot(point[0] - vehicle.x, point[1] - vehicle.y)
             far = case.text(lever, "length")
             stated = _has_units(vehicle, "x", "y") and _has_units(case.answer.inputs, "point")
@@ -115,18 +136,30 @@ def suspect_lever(case: ImpactCase) -> Iterator[Measured]:
 
 
 def _has_units(whole: Vehicle | Inputs, *names: str) -> bool:
-    """Whether these places were given with a unit, so that they are not feet read as metres; 0 needs none."""
+    """Whether these places were given with a unit, so that they are not feet read as metres; 0
+    needs none.
+    """
     given = whole.given or {}
     parts: dict[str, Any] = {}
     for name in names:
         value = getattr(whole, name)
-        parts |= {f"{name}[{i}]": part for i, part in enumerate(value)} if isinstance(value, tuple) else {name: value}
-    return any(name in given for name in parts) and all(value == 0.0 or name in given for name, value in parts.items())
+        parts |= (
+            {f"{name}[{i}]": part for i, part in enumerate(value)}
+            if isinstance(value, tuple)
+            else {name: value}
+        )
+    return any(name in given for name in parts) and all(
+        value == 0.0 or name in given for name, value in parts.items()
+    )
 
 
 def _longest_lever(vehicle: Vehicle) -> float:
     inertia = vehicle.yaw_inertia
-    return _FURTHEST if inertia is None or math.isinf(inertia) else _RADII * math.sqrt(inertia / vehicle.mass)
+    return (
+        _FURTHEST
+        if inertia is None or math.isinf(inertia)
+        else _RADII * math.sqrt(inertia / vehicle.mass)
+    )
 
 
 @finding(
@@ -136,14 +169,24 @@ def _longest_lever(vehicle: Vehicle) -> float:
 )
 def suspect_distance(case: ImpactCase) -> Iterator[Measured]:
     vehicles = [side.before for _, _, side in case.sides]
-    places = [(float(vehicle.x), float(vehicle.y)) for vehicle in vehicles if vehicle.x is not None and vehicle.y is not None]
-    if case.answer.point is None and len(places) == 2 and not any(math.isinf(vehicle.mass) for vehicle in vehicles):
+    places = [
+        (float(vehicle.x), float(vehicle.y))
+        for vehicle in vehicles
+        if vehicle.x is not None and vehicle.y is not None
+    ]
+    if (
+        case.answer.point is None
+        and len(places) == 2
+        and not any(math.isinf(vehicle.mass) for vehicle in vehicles)
+    ):
         distance = math.dist(*places)
         far = case.text(distance, "length")
         stated = all(_has_units(vehicle, "x", "y") for vehicle in vehicles)
         doubt = "positions and origin" if stated else "units (feet?) and origin"
         sentence = f"the centres of mass are {far} apart at the impact; check {doubt}"
-        longest = 2.0 * _FURTHEST if stated else sum(_longest_lever(vehicle) for vehicle in vehicles)
+        longest = (
+            2.0 * _FURTHEST if stated else sum(_longest_lever(vehicle) for vehicle in vehicles)
+        )
         yield Measured(distance, sentence, limit=longest, rounding=off_by(*places[0], *places[1]))
 
 
@@ -156,15 +199,23 @@ def suspect_angle(case: Case) -> Iterator[Measured]:
     angles: list[tuple[str, str, float | None]] = []
     if isinstance(case, ImpactCase):
         angles.append(("", "the normal was given as", case.answer.inputs.bare_normal))
-        angles += [(label, f"{who} has a heading of", side.before.heading) for label, who, side in case.sides]
+        angles += [
+            (label, f"{who} has a heading of", side.before.heading)
+            for label, who, side in case.sides
+        ]
     else:
         for label in "ab":
-            courses = {name: getattr(case.answer, name) for name in (f"course_{label}", f"course_{label}_after")}
+            courses = {
+                name: getattr(case.answer, name)
+                for name in (f"course_{label}", f"course_{label}_after")
+            }
             name = max(courses, key=lambda name: abs(courses[name] or 0.0))
             angles.append((label, f"{name} is", courses[name]))
     for label, what, angle in angles:
         if angle is not None:
-            sentence = f"{what} {angle:.6g} rad, {abs(angle) / math.tau:.3g} turns; were degrees meant?"
+            sentence = (
+                f"{what} {angle:.6g} rad, {abs(angle) / math.tau:.3g} turns; were degrees meant?"
+            )
             yield Measured(abs(angle), sentence, label, rounding=off_by(math.tau))
 
 
@@ -177,7 +228,10 @@ def suspect_bare_angle(case: Case) -> Iterator[Measured]:
     angles: list[tuple[str, str, float | None]] = []
     if isinstance(case, ImpactCase):
         if not isinstance((case.answer.inputs.given or {}).get("normal"), str):
-            angles += [("", "the normal", case.answer.normal_angle + turn) for turn in (-math.tau, 0.0, math.tau)]
+            angles += [
+                ("", "the normal", case.answer.normal_angle + turn)
+                for turn in (-math.tau, 0.0, math.tau)
+            ]
         for label, who, side in case.sides:
             if "heading" not in (side.before.given or {}):
                 angles.append((label, f"the heading of {who}", side.before.heading))
@@ -189,50 +243,68 @@ def suspect_bare_angle(case: Case) -> Iterator[Measured]:
         # Those of more than a turn are found by suspect_angle.
         if angle is not None and abs(angle) <= math.tau:
             bare, degrees = round(angle), math.degrees(angle)
-            sentence = f"{what} is {bare} without a unit, which is {degrees:.0f} degrees; were {bare} degrees meant?"
+            sentence = (
+                f"{what} is {bare} without a unit, which is {degrees:.0f} degrees; were {bare} "
+                "degrees meant?"
+            )
             yield Measured(float(abs(bare)) if abs(angle - bare) < _WHOLE else 0.0, sentence, label)
 
 
 @finding(
     "finite friction between the vehicles",
     above(5.0),
-    "set here: over twice the highest impulse ratio of the small-overlap tests (2.05); percent as a plain number",
+    "set here: over twice the highest impulse ratio of the small-overlap tests (2.05); percent "
+    "as a plain number",
 )
 def suspect_friction(case: ImpactCase) -> Iterator[Measured]:
     friction = case.answer.friction
     if friction is not None and not math.isinf(friction):
-        sentence = f"the friction between the vehicles is {friction:.6g}; was percent meant, or a contact that sticks (inf)?"
+        sentence = (
+            f"the friction between the vehicles is {friction:.6g}; was percent meant, or a "
+            "contact that sticks (inf)?"
+        )
         yield Measured(friction, sentence)
 
 
 @finding(
     "drag of the tyres",
     above(HIGHEST_DRAG),
-    "set here: no road tyre holds more, the limit of a number without a unit as well; percent or m/s² as a fraction of gravity",
+    "set here: no road tyre holds more, the limit of a number without a unit as well; percent or "
+    "m/s² as a fraction of gravity",
 )
 def suspect_drag(case: Case) -> Iterator[Measured]:
-    sentence = f"the tyres are taken to have a drag of {case.drag:.6g} of gravity; were percent or m/s² meant?"
+    sentence = (
+        f"the tyres are taken to have a drag of {case.drag:.6g} of gravity; were percent or m/s² "
+        "meant?"
+    )
     yield Measured(case.drag, sentence)
 
 
 @finding(
-    "duration of the contact as a multiple of the longest that was published of rear-end impacts, 0.147 s",
+    "duration of the contact as a multiple of the longest that was published of rear-end "
+    "impacts, 0.147 s",
     above(10.0),
     "set here: no contact of vehicles lasts ten times reference.CONTACT_DURATION; ms as s",
 )
 def suspect_duration(case: Case) -> Iterator[Measured]:
     times = case.duration / CONTACT_DURATION.high
     sentence = (
-        f"the contact is taken to last {case.duration:.6g} s, {times:.3g} times what was published; were milliseconds meant?"
+        f"the contact is taken to last {case.duration:.6g} s, {times:.3g} times what was "
+        "published; were milliseconds meant?"
     )
     yield Measured(times, sentence)
 
 
-@finding("number of inputs that are missing to estimate the error of a central model", above(0.0), NOTE)
+@finding(
+    "number of inputs that are missing to estimate the error of a central model", above(0.0), NOTE
+)
 def model_unknown(case: ImpactCase) -> Iterator[Measured]:
     name = case.answer.model
     if name not in PLACED:
         choice, _ = case.model_choice
         missing = choice.missing["eccentric"]
         if missing and math.isnan(choice.errors[name]):
-            yield Measured(len(missing), f"the error of {name} cannot be estimated; supply {', '.join(missing)}")
+            yield Measured(
+                len(missing),
+                f"the error of {name} cannot be estimated; supply {', '.join(missing)}",
+            )

@@ -1,4 +1,6 @@
-"""Findings on how firmly an answer stands: its conditioning, its model and law, the direction of the normal, and friction."""
+"""Findings on how firmly an answer stands: its conditioning, its model and law, the direction of
+the normal, and friction.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,8 @@ _YAW_RATE_SEEN = 0.1
 
 
 @finding(
-    "in a reconstruction by momentum, angle between the courses of both unknowns, or to the opposite",
+    "in a reconstruction by momentum, angle between the courses of both unknowns, or to the "
+    "opposite",
     at_or_below(math.radians(10.0), "rad"),
     f"collinear impacts, {METHOD}",
 )
@@ -30,30 +33,47 @@ def near_collinear(case: MomentumCase) -> Iterator[Measured]:
     # Exactly ten degrees still count, even where rounding makes them more.
     angle = max(abs(math.remainder(one - other, math.pi)) - off_by(one, other, math.pi), 0.0)
     sentence = (
-        f"the courses of {' and '.join(names)} are {case.text(angle, 'angle')} from one line: across it, momentum tells little "
-        f"of these speeds"
+        f"the courses of {' and '.join(names)} are {case.text(angle, 'angle')} from one line: "
+        "across it, momentum tells little of these speeds"
     )
     yield Measured(angle, sentence)
 
 
-@finding("condition of a reconstruction", above(10.0), "set here: one percent of error may become ten in the speeds")
+@finding(
+    "condition of a reconstruction",
+    above(10.0),
+    "set here: one percent of error may become ten in the speeds",
+)
 def ill_conditioned(case: Case) -> Iterator[Measured]:
     if isinstance(case, MomentumCase):
         moves = []
         for speed, row in case.answer.sensitivity.items():
-            course = max((name for name in row if name.startswith("course")), key=lambda name: abs(row[name]))
-            moves.append(f"{speed} changes by {case.text(abs(row[course]) * math.pi / 180.0, 'speed')} per degree of {course}")
+            course = max(
+                (name for name in row if name.startswith("course")), key=lambda name: abs(row[name])
+            )
+            moves.append(
+                f"{speed} changes by {case.text(abs(row[course]) * math.pi / 180.0, 'speed')} "
+                f"per degree of {course}"
+            )
         condition = case.answer.condition
-        yield Measured(condition, f"reconstruct.momentum has a condition of {plain(condition)}: {'; '.join(moves)}")
+        yield Measured(
+            condition,
+            f"reconstruct.momentum has a condition of {plain(condition)}: {'; '.join(moves)}",
+        )
     elif (origin := case.answer.reconstruction) is not None:
         sentence = (
-            f"reconstruct.{origin.method}: one percent in what was given ({', '.join(origin.known)}) may become "
-            f"{plain(origin.condition)} percent of the closing speed in the speeds before"
+            f"reconstruct.{origin.method}: one percent in what was given "
+            f"({', '.join(origin.known)}) may become {plain(origin.condition)} percent of the "
+            "closing speed in the speeds before"
         )
         yield Measured(origin.condition, sentence)
 
 
-@finding("number of impacts that fit what the reconstruction was given", above(1.0), "set here: one answer needs no choice")
+@finding(
+    "number of impacts that fit what the reconstruction was given",
+    above(1.0),
+    "set here: one answer needs no choice",
+)
 def not_unique(case: ImpactCase) -> Iterator[Measured]:
     origin = case.answer.reconstruction
     if origin is not None:
@@ -65,12 +85,16 @@ def not_unique(case: ImpactCase) -> Iterator[Measured]:
 
 
 @finding(
-    "speed that momentum found, backwards along its course", above(0.1, "m/s"), "set here: 0.4 km/h, below what evidence shows"
+    "speed that momentum found, backwards along its course",
+    above(0.1, "m/s"),
+    "set here: 0.4 km/h, below what evidence shows",
 )
 def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
     for name in case.answer.unknowns:
         speed = getattr(case.answer, name)
-        sentence = f"{name} is {case.text(speed, 'speed')}, backwards along its course: check the courses"
+        sentence = (
+            f"{name} is {case.text(speed, 'speed')}, backwards along its course: check the courses"
+        )
         yield Measured(-speed, sentence, vehicle=name.split("_")[1])
 
 
@@ -78,13 +102,16 @@ def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
     "the most that the tyres can give in the duration, as a share of delta-V",
     above(0.25),
     (
-        "set here: with 0.7 g in 0.1 s a delta-V below 2.7 m/s (10 km/h), where it is a minor impact; tyre forces are "
-        f"insignificant but in minor impacts, sideswipes and impacts of large trucks, {METHOD}"
+        "set here: with 0.7 g in 0.1 s a delta-V below 2.7 m/s (10 km/h), where it is a minor "
+        "impact; tyre forces are insignificant but in minor impacts, sideswipes and impacts of "
+        f"large trucks, {METHOD}"
     ),
 )
 def tyre_impulse(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
-        if isinstance(case, ImpactCase) and (case.answer.inputs.tyres or (case.answer.inputs.drag and case.left_out is None)):
+        if isinstance(case, ImpactCase) and (
+            case.answer.inputs.tyres or (case.answer.inputs.drag and case.left_out is None)
+        ):
             continue
         if isinstance(case, ImpactCase) and case.left_out is not None:
             left = getattr(case.left_out, label)
@@ -95,14 +122,16 @@ def tyre_impulse(case: Case) -> Iterator[Measured]:
             most = case.drag * GRAVITY * case.duration
             part, how = share(most, vehicle.delta_v), "up to"
         sentence = (
-            f"tyres of {vehicle.who} that slide for {case.duration:.3g} s with a drag of {case.drag:.2g} give {how} "
-            f"{case.text(most, 'speed')}, {percent(part)} of its delta-V of {case.text(vehicle.delta_v, 'speed')}"
+            f"tyres of {vehicle.who} that slide for {case.duration:.3g} s with a drag of "
+            f"{case.drag:.2g} give {how} {case.text(most, 'speed')}, {percent(part)} of its "
+            f"delta-V of {case.text(vehicle.delta_v, 'speed')}"
         )
         yield Measured(part, sentence, label)
 
 
 @finding(
-    "predicted error of a central model as a share of the smaller delta-V (inf if eccentric refuses)",
+    "predicted error of a central model as a share of the smaller delta-V (inf if eccentric "
+    "refuses)",
     above(0.1),
     f"the 10 percent by which delta-V may differ between methods, {MESSAGES}",
 )
@@ -113,18 +142,27 @@ def model(case: ImpactCase) -> Iterator[Measured]:
     choice, how = case.model_choice
     error = choice.errors[name]
     if not math.isnan(error):
-        delta_v = min((side.delta_v for _, _, side in case.sides if side.delta_v > 0.0), default=math.inf)
+        delta_v = min(
+            (side.delta_v for _, _, side in case.sides if side.delta_v > 0.0), default=math.inf
+        )
         sentence = (
             f"{name} is predicted to err by {case.text(error, 'speed')}{how}, against a delta-V of "
             f"{case.text(delta_v, 'speed')}: take eccentric"
         )
         yield Measured(error / delta_v, sentence)
     elif not choice.missing["eccentric"]:
-        yield Measured(math.inf, f"the error of {name} cannot be estimated: the eccentric model has no answer here")
+        yield Measured(
+            math.inf,
+            f"the error of {name} cannot be estimated: the eccentric model has no answer here",
+        )
 
 
-def _worst(case: ImpactCase, answers: list[tuple[str, Impact]], size: Callable[[Side, Side], float]) -> Any:
-    """The description of another result, label and name of the vehicle for which it differs most, and both its sides."""
+def _worst(
+    case: ImpactCase, answers: list[tuple[str, Impact]], size: Callable[[Side, Side], float]
+) -> Any:
+    """The description of another result, label and name of the vehicle for which it differs most,
+    and both its sides.
+    """
     changes = [
         (how, label, who, old, new)
         for how, answer in answers
@@ -135,13 +173,17 @@ def _worst(case: ImpactCase, answers: list[tuple[str, Impact]], size: Callable[[
 
 
 def _delta_v_change(old: Side, new: Side) -> float:
-    """Length of the change of the delta-V vector, as a share of delta-V; 0 for a body that nothing moves."""
+    """Length of the change of the delta-V vector, as a share of delta-V; 0 for a body that nothing
+    moves.
+    """
     length = math.hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy)
     return share(length, old.delta_v) if old.delta_v > 0.0 else 0.0
 
 
 def _yaw_change(old: Side, new: Side) -> float:
-    """Difference of both changes of yaw rate, as a share of the larger; above 1 with the other sign."""
+    """Difference of both changes of yaw rate, as a share of the larger; above 1 with the other
+    sign.
+    """
     was, now = old.delta_yaw_rate, new.delta_yaw_rate
     step = abs(now - was)
     return share(step, max(abs(was), abs(now))) if step > _YAW_RATE_SEEN else 0.0
@@ -154,10 +196,16 @@ def _compare_delta_v(case: ImpactCase, answers: list[tuple[str, Impact]]) -> Ite
     elif answers:
         how, label, who, old, new = _worst(case, answers, _delta_v_change)
         change = _delta_v_change(old, new)
-        turn = abs(math.remainder(math.atan2(new.delta_vy, new.delta_vx) - math.atan2(old.delta_vy, old.delta_vx), math.tau))
+        turn = abs(
+            math.remainder(
+                math.atan2(new.delta_vy, new.delta_vx) - math.atan2(old.delta_vy, old.delta_vx),
+                math.tau,
+            )
+        )
         sentence = (
-            f"{how}, delta-V of {who} changes by {percent(change)} as a vector: from {case.text(old.delta_v, 'speed')} to "
-            f"{case.text(new.delta_v, 'speed')}, and in direction by {case.text(turn, 'angle')}"
+            f"{how}, delta-V of {who} changes by {percent(change)} as a vector: from "
+            f"{case.text(old.delta_v, 'speed')} to {case.text(new.delta_v, 'speed')}, and in "
+            f"direction by {case.text(turn, 'angle')}"
         )
         yield Measured(change, sentence, label)
 
@@ -167,8 +215,14 @@ def _compare_yaw(case: ImpactCase, answers: list[tuple[str, Impact]]) -> Iterato
     if worst is not None:
         how, label, who, old, new = worst
         was, now = old.delta_yaw_rate, new.delta_yaw_rate
-        other_way = ", the other way" if min(abs(was), abs(now)) > _YAW_RATE_SEEN and was * now < 0.0 else ""
-        turned = f"{case.text(now, 'yaw rate')} instead of {case.number(was, 'yaw rate')}{other_way}"
+        other_way = (
+            ", the other way"
+            if min(abs(was), abs(now)) > _YAW_RATE_SEEN and was * now < 0.0
+            else ""
+        )
+        turned = (
+            f"{case.text(now, 'yaw rate')} instead of {case.number(was, 'yaw rate')}{other_way}"
+        )
         sentence = f"{how}, the impact turns {who} by {turned}"
         yield Measured(_yaw_change(old, new), sentence, label)
 
@@ -183,7 +237,8 @@ def law(case: ImpactCase) -> Iterator[Measured]:
 
 
 @finding(
-    "difference in change of yaw rate under the other law, if over 6 deg/s, as a share of the larger (above 1: other way)",
+    "difference in change of yaw rate under the other law, if over 6 deg/s, as a share of the "
+    "larger (above 1: other way)",
     above(0.25),
     "set here: a quarter, which a rest position would show",
 )
@@ -192,11 +247,12 @@ def law_yaw(case: ImpactCase) -> Iterator[Measured]:
 
 
 @finding(
-    "length by which the vector of delta-V moves with the normal turned by 10 degrees either way, as a share of delta-V",
+    "length by which the vector of delta-V moves with the normal turned by 10 degrees either "
+    "way, as a share of delta-V",
     above(0.2),
     (
-        f"a delta-V that turns with the normal by 10 degrees moves by 17 percent; with the 10 percent by which its size may "
-        f"differ, {MESSAGES}, that is 20 percent"
+        "a delta-V that turns with the normal by 10 degrees moves by 17 percent; with the 10 "
+        f"percent by which its size may differ, {MESSAGES}, that is 20 percent"
     ),
 )
 def normal(case: ImpactCase) -> Iterator[Measured]:
@@ -206,19 +262,29 @@ def normal(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "the same as law_yaw, with the normal turned by 10 degrees either way",
     above(0.5),
-    "set here: half or double; levers are short, so that a quarter is passed by four in ten ordinary side impacts",
+    "set here: half or double; levers are short, so that a quarter is passed by four in ten "
+    "ordinary side impacts",
 )
 def normal_yaw(case: ImpactCase) -> Iterator[Measured]:
     return _compare_yaw(case, case.turned_normals)
 
 
-@finding("friction, where the contact slides", below(INTER_VEHICLE_FRICTION.low), "reference.INTER_VEHICLE_FRICTION")
+@finding(
+    "friction, where the contact slides",
+    below(INTER_VEHICLE_FRICTION.low),
+    "reference.INTER_VEHICLE_FRICTION",
+)
 def friction_low(case: ImpactCase) -> Iterator[Measured]:
     impact, friction = case.answer, case.answer.friction
-    slides = impact.regime in ("sliding", "frictionless") and impact.slip_before != 0.0 and impact.model != "linear_central"
+    slides = (
+        impact.regime in ("sliding", "frictionless")
+        and impact.slip_before != 0.0
+        and impact.model != "linear_central"
+    )
     if friction is not None and slides:
         sentence = (
-            f"the contact slides with a friction of {friction:.3g}; 0.3 to 1.0 is recommended between vehicles, 0.55 usual"
+            f"the contact slides with a friction of {friction:.3g}; 0.3 to 1.0 is recommended "
+            "between vehicles, 0.55 usual"
         )
         yield Measured(friction, sentence)
 
@@ -231,7 +297,7 @@ def friction_low(case: ImpactCase) -> Iterator[Measured]:
 def ratio_high(case: ImpactCase) -> Iterator[Measured]:
     ratio = abs(case.answer.impulse_ratio)
     sentence = (
-        f"the tangential impulse is {ratio:.2f} times the normal one, beyond friction between vehicles: parts must have "
-        f"snagged, as in small-overlap tests (1.57 to 2.05)"
+        f"the tangential impulse is {ratio:.2f} times the normal one, beyond friction between "
+        "vehicles: parts must have snagged, as in small-overlap tests (1.57 to 2.05)"
     )
     yield Measured(ratio, sentence)

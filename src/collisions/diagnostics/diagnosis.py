@@ -1,4 +1,6 @@
-"""``diagnose``: runs every check on one impact and returns the findings; ``LIMITS`` lists the checks."""
+"""``diagnose``: runs every check on one impact and returns the findings; ``LIMITS`` lists the
+checks.
+"""
 
 from __future__ import annotations
 
@@ -25,10 +27,17 @@ from .case import Case, Damage, ImpactCase, MomentumCase
 from .finding import Check, Findings, Limit
 
 _MODULES = (checks_consistency, checks_reliability, checks_inputs)
-_CHECKS = [check for module in _MODULES for check in vars(module).values() if isinstance(check, Check)]
-_CHECKS_OF = {kind: [check for check in _CHECKS if issubclass(kind, check.kind)] for kind in (ImpactCase, MomentumCase)}
+_CHECKS = [
+    check for module in _MODULES for check in vars(module).values() if isinstance(check, Check)
+]
+_CHECKS_OF = {
+    kind: [check for check in _CHECKS if issubclass(kind, check.kind)]
+    for kind in (ImpactCase, MomentumCase)
+}
 LIMITS: Mapping[str, Limit] = {check.code: check.limit for check in _CHECKS}
-"""By code, in the order in which findings are listed: what is measured, its default limit and where that is from."""
+"""By code, in the order in which findings are listed: what is measured, its default limit and where
+that is from.
+"""
 
 _single = partial(single_number, text="takes one value: diagnose takes one case")
 
@@ -49,65 +58,78 @@ def diagnose(
     damage_delta_v_b: Input | Pair | None = None,
     units: UnitSystem | None = None,
 ) -> Findings:
-    """Check an impact, forward or reconstructed, for anything odd: returns the findings, an energy gain first.
+    """Check an impact, forward or reconstructed, for anything odd: returns the findings, an energy
+    gain first.
 
-    A finding is a reason to look again, not an error; the absence of findings proves nothing. Each compares a measured value
-    with a limit; ``diagnostics.LIMITS`` lists the limits by code, with their units and sources.
+    A finding is a reason to look again, not an error; the absence of findings proves nothing. Each
+    compares a measured value with a limit; ``diagnostics.LIMITS`` lists the limits by code, with
+    their units and sources.
 
     Parameters
     ----------
     impact : Impact or MomentumSolution
-        One case, of any solver, including one that ``reconstruct`` found; or the answer of ``reconstruct.momentum``, whose
-        courses, speeds, energy and evidence are judged.
+        One case, of any solver, including one that ``reconstruct`` found; or the answer of
+        ``reconstruct.momentum``, whose courses, speeds, energy and evidence are judged.
     outline_a, outline_b : tuple or list, optional
-        For an Impact only: the outline of a vehicle, measured from its centre of mass, for ``point_outside`` and, if both are
-        given, ``outlines_overlap``, ``outlines_gap`` and ``outlines_interpenetrate``:
-        (length, width); (length, width, offset) [m] with the centre of mass that far ahead of the middle; or the corners
-        (forward, left) [m] of a convex outline, in order. The vehicle then needs x, y and heading.
+        For an Impact only: the outline of a vehicle, measured from its centre of mass, for
+        ``point_outside`` and, if both are given, ``outlines_overlap``, ``outlines_gap`` and
+        ``outlines_interpenetrate``: (length, width); (length, width, offset) [m] with the centre of
+        mass that far ahead of the middle; or the corners (forward, left) [m] of a convex outline,
+        in order. The vehicle then needs x, y and heading.
     duration : float, str or Quantity [s]
-        Duration of the contact, as for ``left_out``; the outlines are followed for this time after the impact.
+        Duration of the contact, as for ``left_out``; the outlines are followed for this time after
+        the impact.
     drag : float, str or Quantity [-]
         Drag factor of the tyres, as for ``left_out``.
     limits : dict of str to float, str or Quantity, optional
-        Limits that replace the defaults, by code, units allowed, such as ``{"near_collinear": "15 deg"}``; inf switches off a
-        finding that appears above its limit, 0 one that appears below it.
+        Limits that replace the defaults, by code, units allowed, such as ``{"near_collinear": "15
+        deg"}``; inf switches off a finding that appears above its limit, 0 one that appears below
+        it.
     crush_energy : float, str or Quantity [J], optional
-        Energy absorbed by the damage of both vehicles together, as from ``reconstruct.crush_energy``, for ``momentum_energy``.
+        Energy absorbed by the damage of both vehicles together, as from
+        ``reconstruct.crush_energy``, for ``momentum_energy``.
     damage_pdof_a, damage_pdof_b : angle [rad], optional
-        Direction of force shown by the damage of a vehicle, 0 from straight ahead, positive clockwise, for
-        ``pdof_off_damage`` and ``yaw_against_lever``. The vehicle then needs a heading.
+        Direction of force shown by the damage of a vehicle, 0 from straight ahead, positive
+        clockwise, for ``pdof_off_damage`` and ``yaw_against_lever``. The vehicle then needs a
+        heading.
     damage_delta_v_a, damage_delta_v_b : float, str or Quantity [m/s], or pair of them, optional
-        Delta-V shown by the damage of a vehicle, or by its event data recorder, for ``delta_v_off_damage``: the magnitude, or
-        the pair (forward, left), which is compared as a vector. For a pair the vehicle needs a heading.
+        Delta-V shown by the damage of a vehicle, or by its event data recorder, for
+        ``delta_v_off_damage``: the magnitude, or the pair (forward, left), which is compared as a
+        vector. For a pair the vehicle needs a heading.
     units : "si", "metric" or "us", optional
-        Units of the sentences: m/s, rad and J; km/h, degrees and kJ; mph, ft and ft lbf. By default "us" if the inputs were
-        given so, else "metric". Measured value and limit stay in SI, as do the numbers in a sentence that asks which unit was
-        meant.
+        Units of the sentences: m/s, rad and J; km/h, degrees and kJ; mph, ft and ft lbf. By default
+        "us" if the inputs were given so, else "metric". Measured value and limit stay in SI, as do
+        the numbers in a sentence that asks which unit was meant.
 
     Returns
     -------
     tuple of Finding
-        In the order of ``LIMITS``, vehicle A before B, shown as a table; empty if nothing was found. Its ``measured`` holds the
-        codes of all checks that were made, whether or not they found anything.
+        In the order of ``LIMITS``, vehicle A before B, shown as a table; empty if nothing was
+        found. Its ``measured`` holds the codes of all checks that were made, whether or not they
+        found anything.
 
     Raises
     ------
     InputError
-        An argument that cannot be used, an unknown code, a batch (``ShapeError``), an answer that was refused, outlines for an
-        answer of planar momentum, which has no positions, or a ``reconstruct.Fit`` (diagnose the impact at its values instead).
+        An argument that cannot be used, an unknown code, a batch (``ShapeError``), an answer that
+        was refused, outlines for an answer of planar momentum, which has no positions, or a
+        ``reconstruct.Fit`` (diagnose the impact at its values instead).
     MissingInputError
-        An outline of a vehicle without position or heading, or a PDOF from the damage of a vehicle without heading.
+        An outline of a vehicle without position or heading, or a PDOF from the damage of a vehicle
+        without heading.
 
     Notes
     -----
-    What cannot be measured is left out, such as lever arms without a contact point or the course of a vehicle at rest. In an
-    answer of the eccentric model, contact points and restitution cannot disagree, so ``contact_points_approach`` appears only
-    where ``solve`` took a smaller model. Nor can an answer turn a vehicle against its own impulse, so ``yaw_against_lever``
-    needs the direction of force shown by the damage. A linear impact has no tangential direction to judge.
+    What cannot be measured is left out, such as lever arms without a contact point or the course of
+    a vehicle at rest. In an answer of the eccentric model, contact points and restitution cannot
+    disagree, so ``contact_points_approach`` appears only where ``solve`` took a smaller model. Nor
+    can an answer turn a vehicle against its own impulse, so ``yaw_against_lever`` needs the
+    direction of force shown by the damage. A linear impact has no tangential direction to judge.
 
     Examples
     --------
-    Example 3 of the paper has a restitution of 0.80, which serves the arithmetic and is no guidance:
+    Example 3 of the paper has a restitution of 0.80, which serves the arithmetic and is no
+    guidance:
 
     >>> import collisions as col
     >>> from collisions.diagnostics import diagnose
@@ -122,7 +144,8 @@ def diagnose(
     25 checks were made.
     A finding is a reason to look again, not an error; no finding is no proof.
     """
-    # An implausible limit is intended, so it is not warned of; where units are required, it has one.
+    # An implausible limit is intended, so it is not warned of; where units are required, it has
+    # one.
     implausible = "limits['suspect_yaw_rate']", "limits['suspect_angle']"
     need_one_case(impact, (Impact, MomentumSolution), "diagnose")
     with callers_options():
@@ -140,7 +163,9 @@ def diagnose(
             reader.refuse(problem)
         allowed = read_limits(limits, reader)
         if crush_energy is not None:
-            crush_energy = _single(reader, amount(reader, crush_energy, "J", "crush_energy"), "crush_energy")
+            crush_energy = _single(
+                reader, amount(reader, crush_energy, "J", "crush_energy"), "crush_energy"
+            )
         damage = {
             "a": _read_damage(reader, impact, damage_pdof_a, damage_delta_v_a, "a"),
             "b": _read_damage(reader, impact, damage_pdof_b, damage_delta_v_b, "b"),
@@ -150,10 +175,20 @@ def diagnose(
             reader.close()
             left = left_out(impact, duration=duration, drag=drag) if impact.pulse is None else None
         # What an impulse leaves out comes with the duration and drag that it was asked for.
-        time = _single(reader, read_duration(reader, duration) if left is None else left.duration, "duration")
-        pull = _single(reader, read_drag(reader, drag, "drag") if left is None else left.drag, "drag")
+        time = _single(
+            reader, read_duration(reader, duration) if left is None else left.duration, "duration"
+        )
+        pull = _single(
+            reader, read_drag(reader, drag, "drag") if left is None else left.drag, "drag"
+        )
         reader.close()
-    known: Any = {"damage": damage, "crush_energy": crush_energy, "duration": time, "drag": pull, "units": units}
+    known: Any = {
+        "damage": damage,
+        "crush_energy": crush_energy,
+        "duration": time,
+        "drag": pull,
+        "units": units,
+    }
     case: Case
     if isinstance(impact, Impact):
         case = ImpactCase(answer=impact, outlines=outlines, left_out=left, **known)
@@ -173,7 +208,9 @@ def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:
     limits = {code: limit.default for code, limit in LIMITS.items()}
     if given is not None and not isinstance(given, Mapping):
         kind = type(given).__name__
-        text = f"limits must be a dict from code to limit, such as {{'tyre_impulse': 0.2}}; got {kind}"
+        text = (
+            f"limits must be a dict from code to limit, such as {{'tyre_impulse': 0.2}}; got {kind}"
+        )
         reader.refuse(InputError(text, code="bad_limit", argument="limits"))
         return limits
     for code, value in (given or {}).items():
@@ -183,7 +220,12 @@ def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:
             reader.refuse(InputError(text, code="unknown_finding", argument="limits"))
             continue
         count = len(reader.problems)
-        read = _single(reader, reader.number(value, LIMITS[code].unit, name, UNCHECKED), name, argument="limits")
+        read = _single(
+            reader,
+            reader.number(value, LIMITS[code].unit, name, UNCHECKED),
+            name,
+            argument="limits",
+        )
         if len(reader.problems) == count and not read >= 0.0:
             text = f"{name} must be >= 0 (inf switches it off), got {shown(value)}"
             reader.refuse(InputError(text, code="bad_limit", argument="limits"))
@@ -191,21 +233,27 @@ def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:
     return limits
 
 
-def _read_outline(reader: ArgumentReader, answer: Impact | MomentumSolution, given: Any, label: str) -> Any:
+def _read_outline(
+    reader: ArgumentReader, answer: Impact | MomentumSolution, given: Any, label: str
+) -> Any:
     """The corners of an outline; refused if its vehicle has no position."""
     name = f"outline_{label}"
     if isinstance(answer, Impact):
         _need(reader, answer, ("x", "y", "heading"), name, label)
         return read_outline(reader, given, name)
     text = (
-        f"{name} needs positions, which a MomentumSolution has not; leave it out, or diagnose the impact of "
-        f"collisions.eccentric at its speeds"
+        f"{name} needs positions, which a MomentumSolution has not; leave it out, or diagnose "
+        "the impact of collisions.eccentric at its speeds"
     )
     return reader.refuse(InputError(text, code="not_an_impact", argument=name))
 
 
-def _read_damage(reader: ArgumentReader, answer: Impact | MomentumSolution, pdof: Any, delta_v: Any, label: str) -> Damage:
-    """The PDOF seen from the vehicle, the delta-V that its damage or recorder shows, and of a pair its direction as a PDOF."""
+def _read_damage(
+    reader: ArgumentReader, answer: Impact | MomentumSolution, pdof: Any, delta_v: Any, label: str
+) -> Damage:
+    """The PDOF seen from the vehicle, the delta-V that its damage or recorder shows, and of a pair
+    its direction as a PDOF.
+    """
     direction, name = None, f"damage_pdof_{label}"
     if pdof is not None:
         pdof = _single(reader, reader.number(pdof, "rad", name), name)
@@ -221,18 +269,22 @@ def _read_damage(reader: ArgumentReader, answer: Impact | MomentumSolution, pdof
     return Damage(pdof, delta_v, direction)
 
 
-def _need_heading(reader: ArgumentReader, answer: Impact | MomentumSolution, name: str, label: str) -> None:
+def _need_heading(
+    reader: ArgumentReader, answer: Impact | MomentumSolution, name: str, label: str
+) -> None:
     if isinstance(answer, Impact):
         _need(reader, answer, ("heading",), name, label)
     elif getattr(answer, f"pdof_{label}") is None:
         text = (
-            f"the solution has no pdof_{label}, which {name} needs; give heading_{label}='30 deg' (where the vehicle "
-            f"points) to reconstruct.momentum"
+            f"the solution has no pdof_{label}, which {name} needs; give heading_{label}='30 "
+            "deg' (where the vehicle points) to reconstruct.momentum"
         )
         reader.refuse(MissingInputError(text, code="missing_heading", argument=f"heading_{label}"))
 
 
-def _need(reader: ArgumentReader, impact: Impact, fields: tuple[str, ...], purpose: str, label: str) -> None:
+def _need(
+    reader: ArgumentReader, impact: Impact, fields: tuple[str, ...], purpose: str, label: str
+) -> None:
     vehicle: Vehicle = getattr(impact, label).before
     lacking = [field for field in fields if getattr(vehicle, field) is None]
     if lacking:

@@ -1,4 +1,6 @@
-"""``Finding``, and ``@finding``, which declares one: a function with its limit, unit, source of the limit and sentence."""
+"""``Finding``, and ``@finding``, which declares one: a function with its limit, unit, source of the
+limit and sentence.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,8 @@ from ..quantities.attributes import OWN, Quantities
 from ..quantities.tables import Cells, Part, Summarized, Summary
 
 _NO_PROOF = "A finding is a reason to look again, not an error; no finding is no proof."
-# The source of a limit of what is a note: its count has no size to judge, and pages and tables show neither.
+# The source of a limit of what is a note: its count has no size to judge, and pages and tables show
+# neither.
 NOTE = "set here: a note"
 # Sources of several limits.
 _HVE = "https://github.com/edccorp/hveManuals, docs/manuals/programs/EDCRASH"
@@ -85,18 +88,24 @@ def is_note(finding: Finding) -> bool:
 
 
 class Findings(tuple[Finding, ...], Summarized):
-    """A tuple of findings; ``measured`` has the codes of all checks that were made, whether they found anything or not."""
+    """A tuple of findings; ``measured`` has the codes of all checks that were made, whether they
+    found anything or not.
+    """
 
     measured: frozenset[str]
     _system: str
 
-    def __new__(cls, found: Iterable[Finding] = (), measured: Iterable[str] = (), units: str = "metric") -> Findings:
+    def __new__(
+        cls, found: Iterable[Finding] = (), measured: Iterable[str] = (), units: str = "metric"
+    ) -> Findings:
         made = super().__new__(cls, found)
         made.measured, made._system = frozenset(measured), units
         return made
 
     def summary(self, units: str | None = None) -> Summary:
-        """The findings as a table; measured values and limits in ``units``, by default those of the sentences."""
+        """The findings as a table; measured values and limits in ``units``, by default those of the
+        sentences.
+        """
         return super().summary(self._system if units is None else units)
 
     def _summary(self, numbers: Cells) -> Summary:
@@ -108,7 +117,9 @@ class Findings(tuple[Finding, ...], Summarized):
             rows.append((f"{finding.code}{of}", finding.sentence, measured, limit))
         checks = f"{len(self.measured)} checks were made."
         title = f"{len(self) or 'No'} finding{'s' * (len(self) != 1)}"
-        return Summary(title, [Part(rows, "", ("what was found", "measured", "limit"))], (checks, _NO_PROOF))
+        return Summary(
+            title, [Part(rows, "", ("what was found", "measured", "limit"))], (checks, _NO_PROOF)
+        )
 
     def __repr__(self) -> str:
         return str(self.summary())
@@ -117,7 +128,8 @@ class Findings(tuple[Finding, ...], Summarized):
 class Measured(NamedTuple):
     """The value that a check measured, and the sentence for it if the limit is passed.
 
-    ``limit`` is the default of a limit that depends on the case; the value has to be above its limit by ``rounding``.
+    ``limit`` is the default of a limit that depends on the case; the value has to be above its
+    limit by ``rounding``.
     """
 
     value: float
@@ -174,13 +186,23 @@ class Check:
         return sorted(found, key=lambda finding: finding.vehicle)
 
 
-def finding(measured: str, bound: Bound, source: str) -> Callable[[Callable[[Any], Iterator[Measured]]], Check]:
-    """Declare a finding by the function that measures it: its name is the code, its annotation the kind of case it looks at.
+def finding(
+    measured: str, bound: Bound, source: str
+) -> Callable[[Callable[[Any], Iterator[Measured]]], Check]:
+    """Declare a finding by the function that measures it: its name is the code, its annotation the
+    kind of case it looks at.
 
     Where the limit depends on the case, every ``Measured`` has the number.
     """
-    default, words = (None, f" {bound.limit}") if isinstance(bound.limit, str) else (bound.limit, "")
-    limit = Limit(default=default, unit=bound.unit, measured=f"{measured}: {bound.passed}{words}", source=source)
+    default, words = (
+        (None, f" {bound.limit}") if isinstance(bound.limit, str) else (bound.limit, "")
+    )
+    limit = Limit(
+        default=default,
+        unit=bound.unit,
+        measured=f"{measured}: {bound.passed}{words}",
+        source=source,
+    )
 
     def declare(measure: Callable[[Any], Iterator[Measured]]) -> Check:
         kind, _ = get_type_hints(measure).values()

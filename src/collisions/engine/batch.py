@@ -1,7 +1,8 @@
 """Many cases at once: kernels run in blocks that stay in the cache, on one thread or several.
 
-Every case is worked out by itself. A refused one is NaN in every output and carries its status; it cannot touch its neighbours.
-Where the cases have models of their own, those of a part of the batch are gathered by model, worked out, and put back.
+Every case is worked out by itself. A refused one is NaN in every output and carries its status; it
+cannot touch its neighbours. Where the cases have models of their own, those of a part of the batch
+are gathered by model, worked out, and put back.
 """
 
 from __future__ import annotations
@@ -22,11 +23,14 @@ from .buffers import Program, large_arrays
 from .floats import compile_for_floats
 from .replay import input_kind, record, replay
 
-# Of cases with models of their own, so many are looked at together: about a block of each of three models.
+# Of cases with models of their own, so many are looked at together: about a block of each of three
+# models.
 _PART = 3 * BLOCK
-# Up to so many cases in float64 are answered one by one, as single cases are: numpy's calls take longer than their arithmetic.
+# Up to so many cases in float64 are answered one by one, as single cases are: numpy's calls take
+# longer than their arithmetic.
 FEW = 24
-# Outputs that most callers read of a large batch; and the rest, with the status, which marks the cases to set to NaN.
+# Outputs that most callers read of a large batch; and the rest, with the status, which marks the
+# cases to set to NaN.
 FIRST = (
     "status",
     "closing_speed",
@@ -41,15 +45,17 @@ FIRST = (
     "delta_yaw_rate_b",
 )
 LATER = ("status", *(name for name in Answer._fields if name not in FIRST))
-# With plain numbers in this range no output overflows float32: slip, coupling and impulse without slip are at most 1e30.
+# With plain numbers in this range no output overflows float32: slip, coupling and impulse without
+# slip are at most 1e30.
 _SMALL, _LARGE = 1e-18, 1e6
 
 
 class Check(NamedTuple):
     """Conditions for a fault, each with its status, and the values they look at.
 
-    ``passes`` is a cheaper test of whole arrays; it may be False although there is no fault. ``implied`` says that a case that
-    a kernel finds fine has no such fault if the kernel reads the values: a number that is not finite leaves no sum finite.
+    ``passes`` is a cheaper test of whole arrays; it may be False although there is no fault.
+    ``implied`` says that a case that a kernel finds fine has no such fault if the kernel reads the
+    values: a number that is not finite leaves no sum finite.
     """
 
     faults: Sequence[tuple[Callable[..., Any], Status]]
@@ -84,31 +90,56 @@ class Cases(NamedTuple):
         return math.prod(self.shape)
 
 
-def solve_cases(works: Sequence[Work], which: Any, cases: Cases, progress: Progress | None = None) -> Any:
-    """The outputs of many cases as locked arrays; the first check that applies decides the status of a case.
+def solve_cases(
+    works: Sequence[Work], which: Any, cases: Cases, progress: Progress | None = None
+) -> Any:
+    """The outputs of many cases as locked arrays; the first check that applies decides the status
+    of a case.
 
-    ``which`` has the number of each case's work, None where there is but one. ``progress(done, total)`` is called after every
-    block, from the calling thread.
+    ``which`` has the number of each case's work, None where there is but one. ``progress(done,
+    total)`` is called after every block, from the calling thread.
     """
-    solve = partial(_solved, works[0], cases) if which is None else partial(_by_model, works, which, cases)
+    solve = (
+        partial(_solved, works[0], cases)
+        if which is None
+        else partial(_by_model, works, which, cases)
+    )
     if cases.size > FEW:
-        return BatchAnswer(solve, solve(_first_names(chain(*(work.inputs for work in works)), cases.dtype), progress))
+        return BatchAnswer(
+            solve,
+            solve(_first_names(chain(*(work.inputs for work in works)), cases.dtype), progress),
+        )
     return Answer(**solve(Answer._fields, progress))
 
 
 def _first_names(inputs: Iterable[Any], dtype: Any) -> Sequence[str]:
-    """The outputs to compute at once; all of them where one that is rarely read may decide the status.
+    """The outputs to compute at once; all of them where one that is rarely read may decide the
+    status.
 
-    Results of plain numbers are computed in float64, and an overflow of float32 shows only when they are written.
+    Results of plain numbers are computed in float64, and an overflow of float32 shows only when
+    they are written.
     """
-    plain = (abs(value) for value in inputs if isinstance(value, float) and math.isfinite(value) and value)
-    return FIRST if dtype == np.float64 or all(_SMALL <= value <= _LARGE for value in plain) else Answer._fields
+    plain = (
+        abs(value)
+        for value in inputs
+        if isinstance(value, float) and math.isfinite(value) and value
+    )
+    return (
+        FIRST
+        if dtype == np.float64 or all(_SMALL <= value <= _LARGE for value in plain)
+        else Answer._fields
+    )
 
 
 def least_models(
-    settings: tuple[Any, ...], inputs: tuple[Any, ...], cases: Cases, progress: Progress | None = None
+    settings: tuple[Any, ...],
+    inputs: tuple[Any, ...],
+    cases: Cases,
+    progress: Progress | None = None,
 ) -> tuple[Any, Any, Any]:
-    """``least_model`` for many cases; where a check applies, the result is the eccentric model with unknown (NaN) errors."""
+    """``least_model`` for many cases; where a check applies, the result is the eccentric model with
+    unknown (NaN) errors.
+    """
 
     def refuse(faults: Sequence[Any], answers: Sequence[Any]) -> None:
         which, *errors = answers
@@ -129,12 +160,16 @@ def least_models(
 
 
 class BatchAnswer:
-    """The ``Answer`` of many cases: a few outputs at once, the others together when the first of them is read.
+    """The ``Answer`` of many cases: a few outputs at once, the others together when the first of
+    them is read.
 
-    Writing an output costs as much as several steps of the formula, and most of them are never read.
+    Writing an output costs as much as several steps of the formula, and most of them are never
+    read.
     """
 
-    def __init__(self, solve: Callable[[Sequence[str]], dict[str, Any]], found: dict[str, Any]) -> None:
+    def __init__(
+        self, solve: Callable[[Sequence[str]], dict[str, Any]], found: dict[str, Any]
+    ) -> None:
         vars(self).update(found, _solve=solve)
 
     def __getattr__(self, name: str) -> Any:
@@ -144,7 +179,9 @@ class BatchAnswer:
         if np.any(refused & (later["status"] <= Status.ENERGY_GAIN)):
             # Refused because of an output that is not among these.
             later = {
-                key: np.where(refused, np.asarray(False if key == "sticks" else np.nan, value.dtype), value)
+                key: np.where(
+                    refused, np.asarray(False if key == "sticks" else np.nan, value.dtype), value
+                )
                 for key, value in later.items()
                 if key != "status"
             }
@@ -165,14 +202,30 @@ class BatchAnswer:
 
 
 def _by_model(
-    works: Sequence[Work], which: Any, cases: Cases, names: Sequence[str], progress: Progress | None = None
+    works: Sequence[Work],
+    which: Any,
+    cases: Cases,
+    names: Sequence[str],
+    progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """These outputs where cases have models of their own: in each part of the batch, those of one model are solved together."""
+    """These outputs where cases have models of their own: in each part of the batch, those of one
+    model are solved together.
+    """
     checks, shape, dtype, threads = cases
-    values = {id(value): value for value in chain(*(work.inputs for work in works), *(check.values for check in checks))}
-    columns = {key: value if isinstance(value, float) else flat(value, shape) for key, value in values.items()}
+    values = {
+        id(value): value
+        for value in chain(*(work.inputs for work in works), *(check.values for check in checks))
+    }
+    columns = {
+        key: value if isinstance(value, float) else flat(value, shape)
+        for key, value in values.items()
+    }
     numbers = flat(which, shape)
-    kinds = {name: kind for name, kind in zip(Answer._fields, _kinds(tuple(names), np.dtype(dtype)), strict=True) if kind}
+    kinds = {
+        name: kind
+        for name, kind in zip(Answer._fields, _kinds(tuple(names), np.dtype(dtype)), strict=True)
+        if kind
+    }
     found = dict(zip(kinds, large_arrays(cases.size, list(kinds.values())), strict=True))
 
     def solve(start: int) -> int:
@@ -180,8 +233,14 @@ def _by_model(
         for number, (kernel, settings, inputs) in enumerate(works):
             chosen = np.flatnonzero(part == number) + start
             if chosen.size:
-                taken = {key: column if isinstance(column, float) else column[chosen] for key, column in columns.items()}
-                own = [check._replace(values=tuple(taken[id(value)] for value in check.values)) for check in checks]
+                taken = {
+                    key: column if isinstance(column, float) else column[chosen]
+                    for key, column in columns.items()
+                }
+                own = [
+                    check._replace(values=tuple(taken[id(value)] for value in check.values))
+                    for check in checks
+                ]
                 work = Work(kernel, settings, tuple(taken[id(value)] for value in inputs))
                 for name, output in _solved(work, Cases(own, chosen.shape, dtype), names).items():
                     found[name][chosen] = output
@@ -191,7 +250,9 @@ def _by_model(
     return _shaped(found, shape)
 
 
-def _solved(work: Work, cases: Cases, names: Sequence[str], progress: Progress | None = None) -> dict[str, Any]:
+def _solved(
+    work: Work, cases: Cases, names: Sequence[str], progress: Progress | None = None
+) -> dict[str, Any]:
     """The outputs of these names, the status always included; locked."""
     dtype, size = np.dtype(cases.dtype), cases.size
     kinds = _kinds(tuple(names), dtype)
@@ -209,7 +270,10 @@ def _solved(work: Work, cases: Cases, names: Sequence[str], progress: Progress |
         refused = outputs[0] > Status.ENERGY_GAIN
         some = refused.any()
         for at, value in same.items():
-            number, none = (np.array(one, kinds[at]) for one in (value, math.nan if kinds[at] == dtype else False))
+            number, none = (
+                np.array(one, kinds[at])
+                for one in (value, math.nan if kinds[at] == dtype else False)
+            )
             outputs[at] = np.where(refused, none, number) if some else np.broadcast_to(number, size)
     return _shaped(dict(zip(Answer._fields, outputs, strict=True)), cases.shape)
 
@@ -235,9 +299,12 @@ def _refuse_beyond(outputs: Sequence[Any]) -> None:
     for output in outputs:
         if output is not None and output.dtype == np.float32:
             beyond |= np.isinf(output)
-    closing, normal = (outputs[Answer._fields.index(name)] for name in ("closing_speed", "normal_impulse"))
+    closing, normal = (
+        outputs[Answer._fields.index(name)] for name in ("closing_speed", "normal_impulse")
+    )
     if closing is not None and normal is not None:
-        # The work of the normal impulse; an elastic contact loses none of it, so the loss does not show its overflow.
+        # The work of the normal impulse; an elastic contact loses none of it, so the loss does not
+        # show its overflow.
         with np.errstate(over="ignore"):
             beyond |= np.isinf(closing * normal)
     beyond &= outputs[0] <= Status.ENERGY_GAIN
@@ -265,25 +332,38 @@ def _in_blocks(
     refuse: Callable[[Sequence[Any], Sequence[Any]], None],
     progress: Progress | None,
 ) -> None:
-    """Run the kernel over all cases into these arrays; ``refuse`` gets the faults and outputs of each block."""
+    """Run the kernel over all cases into these arrays; ``refuse`` gets the faults and outputs of
+    each block.
+    """
     checks, shape, dtype, threads = cases
     size = cases.size
-    # By the id of a value, the flat view its blocks are cut from: an array that is read more than once is cut once.
+    # By the id of a value, the flat view its blocks are cut from: an array that is read more than
+    # once is cut once.
     values = {id(value): value for value in chain(work.inputs, *(check.values for check in checks))}
     plain = {key: value for key, value in values.items() if isinstance(value, float)}
     columns = {key: flat(value, shape) for key, value in values.items() if key not in plain}
     length = min(block_length(size, threads, 0 if program is None else program.scratch), size or 1)
     # What the kernel reads to find out whether a case is fine.
     judged = set() if program is None else {id(work.inputs[at]) for at in program.judged}
-    open_checks = [check for check in checks if not (check.implied and judged.issuperset(map(id, check.values)))]
+    open_checks = [
+        check
+        for check in checks
+        if not (check.implied and judged.issuperset(map(id, check.values)))
+    ]
 
     def solve(start: int) -> int:
         block = slice(start, min(start + length, size))
-        cut = plain | {key: column[block].astype(dtype, copy=False) for key, column in columns.items()}
+        cut = plain | {
+            key: column[block].astype(dtype, copy=False) for key, column in columns.items()
+        }
         inputs = [cut[id(value)] for value in work.inputs]
         answers = [None if output is None else output[block] for output in outputs]
         with np.errstate(all="ignore"):
-            fine = run_one_by_one(work, inputs, answers) if program is None else replay(program, inputs, answers)
+            fine = (
+                run_one_by_one(work, inputs, answers)
+                if program is None
+                else replay(program, inputs, answers)
+            )
             faults = _faults(open_checks if fine else checks, cut)
         if faults or not fine:
             refuse(faults, answers)
@@ -306,11 +386,17 @@ def _program(work: Work, kinds: tuple[Any, ...], cases: Cases) -> Program | None
     """The kernel recorded for inputs and outputs of these kinds; None for a few cases."""
     dtype = np.dtype(cases.dtype)
     few = cases.size <= FEW and dtype == np.float64
-    return None if few else record(work.kernel, work.settings, tuple(map(input_kind, work.inputs)), dtype, kinds)
+    return (
+        None
+        if few
+        else record(work.kernel, work.settings, tuple(map(input_kind, work.inputs)), dtype, kinds)
+    )
 
 
 def run_one_by_one(work: Work, inputs: Sequence[Any], outputs: Sequence[Any]) -> bool:
-    """Answer each case by the kernel compiled for floats; all by the kernel itself if one of them is not plainly fine."""
+    """Answer each case by the kernel compiled for floats; all by the kernel itself if one of them
+    is not plainly fine.
+    """
     count, function = len(outputs[0]), _for_floats(work.kernel, work.settings, len(inputs))
     columns = [[value] * count if isinstance(value, float) else value.tolist() for value in inputs]
     answers = [*map(function, zip(*columns, strict=True))]
@@ -322,5 +408,7 @@ def run_one_by_one(work: Work, inputs: Sequence[Any], outputs: Sequence[Any]) ->
 
 
 @lru_cache(maxsize=64)
-def _for_floats(kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...], count: int) -> Callable[[Any], Any]:
+def _for_floats(
+    kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...], count: int
+) -> Callable[[Any], Any]:
     return compile_for_floats(kernel, tuple(f"[{at}]" for at in range(count)), settings)

@@ -21,8 +21,9 @@ R = TypeVar("R")
 def block_length(size: int, threads: int, scratch: int) -> int:
     """Cases per block for this scratch per case: a block has to stay in a core's own cache.
 
-    Several threads use longer blocks: each numpy call passes the interpreter lock on, and waiting for it takes as long as a
-    call on a short block. All blocks then have about the same length, so that no thread ends late.
+    Several threads use longer blocks: each numpy call passes the interpreter lock on, and waiting
+    for it takes as long as a call on a short block. All blocks then have about the same length, so
+    that no thread ends late.
     """
     if threads == 1 or size <= BLOCK:
         return BLOCK * max(1, min(2, _CACHE // (BLOCK * max(1, scratch))))
@@ -31,8 +32,16 @@ def block_length(size: int, threads: int, scratch: int) -> int:
     return max(BLOCK, math.ceil(even / 64) * 64)
 
 
-def each_block(solve: Callable[[int], int], starts: Sequence[int], size: int, threads: int, progress: Progress | None) -> None:
-    """Call ``solve`` with the start of every block, on so many threads; it returns the number of cases it has done."""
+def each_block(
+    solve: Callable[[int], int],
+    starts: Sequence[int],
+    size: int,
+    threads: int,
+    progress: Progress | None,
+) -> None:
+    """Call ``solve`` with the start of every block, on so many threads; it returns the number of
+    cases it has done.
+    """
     done = 0
     for count in in_order(solve, starts, threads):
         done += count
@@ -57,7 +66,9 @@ def in_order(work: Callable[[T], R], items: Sequence[T], threads: int) -> Iterat
 
 
 def flat(value: Any, shape: tuple[int, ...]) -> Any:
-    """A flat view of a broadcast array, or an iterator over it where a view would need a copy of the whole."""
+    """A flat view of a broadcast array, or an iterator over it where a view would need a copy of
+    the whole.
+    """
     if value.shape == shape and value.flags.c_contiguous:
         return value.reshape(-1)
     return np.broadcast_to(value, shape).flat

@@ -1,4 +1,6 @@
-"""Puts the steps of a tape into memory: which are needed, in which order, and which result is written where."""
+"""Puts the steps of a tape into memory: which are needed, in which order, and which result is
+written where.
+"""
 
 from __future__ import annotations
 
@@ -19,11 +21,13 @@ Call: TypeAlias = tuple[Callable[..., Any], Callable[[Any], Any]]
 
 
 class Program(NamedTuple):
-    """Calls in order, each a function and an itemgetter of the arrays that it reads and, last, the one that it writes.
+    """Calls in order, each a function and an itemgetter of the arrays that it reads and, last, the
+    one that it writes.
 
-    The arrays are inputs, outputs, constants, results that are one number for all cases, and buffers. The late calls only serve
-    to compute the status, and are skipped for a block in which all cases are fine; ``judged`` has the inputs that are read to
-    find out whether they are. ``outputs`` has those that are the same number in all cases, whatever the inputs.
+    The arrays are inputs, outputs, constants, results that are one number for all cases, and
+    buffers. The late calls only serve to compute the status, and are skipped for a block in which
+    all cases are fine; ``judged`` has the inputs that are read to find out whether they are.
+    ``outputs`` has those that are the same number in all cases, whatever the inputs.
     """
 
     calls: tuple[Call, ...]
@@ -50,7 +54,9 @@ def _needs(steps: Sequence[Step], wanted: set[int]) -> set[int]:
     return {index for index in needed if steps[index].function is not None}
 
 
-def placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int, same: dict[int, Any]) -> Program:
+def placed(
+    tape: Tape, written: dict[int, int], inputs: int, outputs: int, same: dict[int, Any]
+) -> Program:
     """Drop unused steps and assign buffers by last use."""
     steps = tape.steps
     (status,) = (index for index, which in written.items() if which == 0)
@@ -63,12 +69,21 @@ def placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int, same:
     order = [*sorted(early), *sorted(needed - early)]
     last = {operand: -1 for index in numbers for operand in steps[index].operands}
     last |= {operand: at for at, index in enumerate(order) for operand in steps[index].operands}
-    constants = [index for index in sorted(last) if steps[index].function is None and not steps[index].operands]
+    constants = [
+        index
+        for index in sorted(last)
+        if steps[index].function is None and not steps[index].operands
+    ]
     # Where each result is found among inputs, outputs, constants and buffers.
-    places = {index: steps[index].operands[0] for index in last if steps[index].function is None and steps[index].operands}
+    places = {
+        index: steps[index].operands[0]
+        for index in last
+        if steps[index].function is None and steps[index].operands
+    }
     places |= {index: inputs + which for index, which in written.items()}
     places |= {index: inputs + outputs + at for at, index in enumerate((*constants, *numbers))}
-    # Where a result can be put, and until which step: an output array holds others until its own result is written.
+    # Where a result can be put, and until which step: an output array holds others until its own
+    # result is written.
     free: dict[Any, list[tuple[float, int]]] = defaultdict(list)
     for at, index in enumerate(order):
         if index in written:
@@ -79,21 +94,27 @@ def placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int, same:
     for at, index in enumerate(order):
         function, operands, sample = steps[index]
         ended = [one for one in set(operands) & rooms.keys() if last[one] == at]
-        # A ufunc may write its result over an operand; the other functions of a tape, which make several calls, may not.
-        ended, waiting = (waiting + ended, []) if isinstance(function, np.ufunc) else (waiting, ended)
+        # A ufunc may write its result over an operand; the other functions of a tape, which make
+        # several calls, may not.
+        ended, waiting = (
+            (waiting + ended, []) if isinstance(function, np.ufunc) else (waiting, ended)
+        )
         for one in ended:
             free[steps[one].sample.dtype].append(rooms[one])
         if index not in written:
             found = [room for room in free[sample.dtype] if room[0] > last[index]]
             if not found:
-                found = [(math.inf, inputs + outputs + len(constants) + len(numbers) + len(buffers))]
+                found = [
+                    (math.inf, inputs + outputs + len(constants) + len(numbers) + len(buffers))
+                ]
                 free[sample.dtype] += found
                 buffers.append(sample.dtype)
             rooms[index] = min(found)
             free[sample.dtype].remove(rooms[index])
             places[index] = rooms[index][1]
     calls: list[Any] = [
-        (steps[i].function, itemgetter(*(places[one] for one in (*steps[i].operands, i)))) for i in (*numbers, *order)
+        (steps[i].function, itemgetter(*(places[one] for one in (*steps[i].operands, i))))
+        for i in (*numbers, *order)
     ]
     at_once = len(numbers) + len(early)
     read = (steps[one] for index in judging for one in steps[index].operands)
@@ -110,18 +131,25 @@ def placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int, same:
 
 
 def carved(length: int, dtypes: Sequence[Any], memory: Any = None) -> tuple[Any, list[Any]]:
-    """A piece of memory, and empty arrays of these types in it: ``memory`` where it is large enough, else a new one."""
-    # Numpy's own alignment can make a step over a block take up to twice as long as one that begins a memory page.
+    """A piece of memory, and empty arrays of these types in it: ``memory`` where it is large
+    enough, else a new one.
+    """
+    # Numpy's own alignment can make a step over a block take up to twice as long as one that begins
+    # a memory page.
     unit = PAGE if 8 * length >= PAGE else 64
     sizes = [-(-length * dtype.itemsize // unit) * unit for dtype in dtypes]
     if memory is None or memory.size < sum(sizes):
         memory = _aligned(sum(sizes), PAGE)
     starts = accumulate(sizes, initial=0)
-    return memory, [np.ndarray(length, dtype, memory, start) for start, dtype in zip(starts, dtypes, strict=False)]
+    return memory, [
+        np.ndarray(length, dtype, memory, start)
+        for start, dtype in zip(starts, dtypes, strict=False)
+    ]
 
 
 def large_arrays(length: int, dtypes: Sequence[Any]) -> list[Any]:
-    """Empty arrays in memory that the system can hand out in large pages, at a fraction of the faults of small ones.
+    """Empty arrays in memory that the system can hand out in large pages, at a fraction of the
+    faults of small ones.
 
     Those shorter than a large page share one piece of memory, which stays as long as any of them.
     """
@@ -131,7 +159,9 @@ def large_arrays(length: int, dtypes: Sequence[Any]) -> list[Any]:
 
 
 def _aligned(size: int, unit: int) -> Any:
-    """So many empty bytes that begin a page of this size; the memory behind them reaches to the end of their last page."""
+    """So many empty bytes that begin a page of this size; the memory behind them reaches to the end
+    of their last page.
+    """
     whole = np.empty(-(-size // unit) * unit + unit, CODE)
     start = -whole.ctypes.data % unit
     return whole[start : start + size]

@@ -30,7 +30,8 @@ _WRITTEN = WRITTEN | {
     np.fmod: "({} % {})",
     np.remainder: "remainder({}, {})",
 }
-# What JavaScript has no operator for: the larger of two that passes over NaN, and a remainder of the divisor's sign.
+# What JavaScript has no operator for: the larger of two that passes over NaN, and a remainder of
+# the divisor's sign.
 _HELPERS = """\
 const fmax = (a, b) => (a >= b || b !== b ? a : b);
 const remainder = (a, b) => { const r = a % b; return r !== 0 && r < 0 !== b < 0 ? r + b : r; };
@@ -38,13 +39,17 @@ const remainder = (a, b) => { const r = a % b; return r !== 0 && r < 0 !== b < 0
 
 
 def javascript(function: Callable[..., Mapping[str, Any]], inputs: int) -> str:
-    """A function of so many numbers as JavaScript: ``answer(x)`` gives an object of its outputs for the array ``x``."""
+    """A function of so many numbers as JavaScript: ``answer(x)`` gives an object of its outputs for
+    the array ``x``.
+    """
     tape = TextTape()
     with np.errstate(all="ignore"):
         outputs = function(*(tape.input(which, np.float64) for which in range(inputs)))
         wanted = [tape.operand(value).index for value in outputs.values()]
     names = [f"x[{which}]" for which in range(inputs)]
-    lines, found = statements(tape, wanted, names, _WRITTEN, _constant, getattr(function, "__name__", "the function"))
+    lines, found = statements(
+        tape, wanted, names, _WRITTEN, _constant, getattr(function, "__name__", "the function")
+    )
     body = "".join(f"  const {line};\n" for line in lines)
     pairs = ", ".join(f'"{name}": {text}' for name, text in zip(outputs, found, strict=True))
     return f"{_HELPERS}function answer(x) {{\n{body}  return {{ {pairs} }};\n}}\n"

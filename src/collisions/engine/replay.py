@@ -1,4 +1,6 @@
-"""Prints a tape as numpy calls that write into buffers, so that a block of cases is worked out without temporaries."""
+"""Prints a tape as numpy calls that write into buffers, so that a block of cases is worked out
+without temporaries.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +13,16 @@ import numpy as np
 from .buffers import Program, carved, placed
 from .tracing import Step, Tape, Traced, cast
 
-# Buffers of blocks that are done, for the next ones: new pages would cost as much as some of the calls.
+# Buffers of blocks that are done, for the next ones: new pages would cost as much as some of the
+# calls.
 _SPARE: list[tuple[Any, int, Any, list[Any]]] = []
 _MOST_SPARE, _LARGEST_SPARE = 4, 4 * 2**20
 
 
 def input_kind(value: Any) -> str | None:
-    """What ``record`` has to know of an input: None for an array, the text of a 0 or a 1, which shorten a kernel, or ""."""
+    """What ``record`` has to know of an input: None for an array, the text of a 0 or a 1, which
+    shorten a kernel, or "".
+    """
     return None if isinstance(value, np.ndarray) else value.hex() if value in (0.0, 1.0) else ""
 
 
@@ -29,25 +34,38 @@ def record(
     dtype: Any,
     outputs: tuple[Any, ...],
 ) -> Program:
-    """Trace a kernel whose inputs are arrays of ``dtype`` or plain numbers, each of its ``input_kind``.
+    """Trace a kernel whose inputs are arrays of ``dtype`` or plain numbers, each of its
+    ``input_kind``.
 
-    ``outputs`` has the dtype of each output, None for one that is not wanted; the first, the status, always is.
+    ``outputs`` has the dtype of each output, None for one that is not wanted; the first, the
+    status, always is.
     """
     tape = Tape()
     operands = [
-        float.fromhex(kind) if kind else tape.input(at, dtype) if kind is None else tape.input(at, np.float64, ())
+        float.fromhex(kind)
+        if kind
+        else tape.input(at, dtype)
+        if kind is None
+        else tape.input(at, np.float64, ())
         for at, kind in enumerate(inputs)
     ]
     written: dict[int, int] = {}
     constants: dict[int, Any] = {}
     with np.errstate(all="ignore"):
-        for which, (answer, wanted) in enumerate(zip(kernel(*operands, *settings), outputs, strict=True)):
+        for which, (answer, wanted) in enumerate(
+            zip(kernel(*operands, *settings), outputs, strict=True)
+        ):
             if wanted is not None and which and not isinstance(answer, Traced):
                 constants[which] = answer
             elif wanted is not None:
                 value = tape.operand(answer, None if isinstance(answer, Traced) else wanted)
                 step, index = tape.steps[value.index], value.index
-                if step.function is None or index in written or step.sample.dtype != wanted or not step.sample.ndim:
+                if (
+                    step.function is None
+                    or index in written
+                    or step.sample.dtype != wanted
+                    or not step.sample.ndim
+                ):
                     index = len(tape.steps)
                     tape.steps.append(Step(cast, (value.index,), np.zeros(1, wanted)))
                 written[index] = which
@@ -55,11 +73,13 @@ def record(
 
 
 def replay(program: Program, inputs: Sequence[Any], outputs: Sequence[Any]) -> bool:
-    """Run one block: the inputs, with arrays cut to the block, and slices of the wanted outputs to write to, None for others.
+    """Run one block: the inputs, with arrays cut to the block, and slices of the wanted outputs to
+    write to, None for others.
 
     Gives whether all its cases are fine.
     """
-    # Taking from a list and putting back is safe between threads, and in a call within a call; to look first would not be.
+    # Taking from a list and putting back is safe between threads, and in a call within a call; to
+    # look first would not be.
     try:
         owner, length, memory, buffers = _SPARE.pop()
     except IndexError:

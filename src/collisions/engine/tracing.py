@@ -1,7 +1,9 @@
-"""Traces a kernel once into a list of steps, the ``Tape``, by calling it with operands that note each operation.
+"""Traces a kernel once into a list of steps, the ``Tape``, by calling it with operands that note
+each operation.
 
-Common subexpressions are one step. The tape is replayed on blocks of arrays (``replay``), and printed as plain Python
-(``floats``) and as JavaScript (``javascript``): the operations are those of the kernel, so all agree with it to the bit.
+Common subexpressions are one step. The tape is replayed on blocks of arrays (``replay``), and
+printed as plain Python (``floats``) and as JavaScript (``javascript``): the operations are those of
+the kernel, so all agree with it to the bit.
 """
 
 from __future__ import annotations
@@ -20,10 +22,12 @@ _BITS = {4: np.dtype(np.int32), 8: np.dtype(np.int64)}
 
 
 class Step(NamedTuple):
-    """One step: the function, the numbers of the steps it reads, and a sample of its result (which has its dtype).
+    """One step: the function, the numbers of the steps it reads, and a sample of its result (which
+    has its dtype).
 
-    A step without a function is an input, whose one operand is its position among the inputs, or a constant, without operands.
-    The sample has one element, or no dimensions if the result is one number for all cases.
+    A step without a function is an input, whose one operand is its position among the inputs, or a
+    constant, without operands. The sample has one element, or no dimensions if the result is one
+    number for all cases.
     """
 
     function: Callable[..., Any] | None
@@ -32,7 +36,9 @@ class Step(NamedTuple):
 
 
 class Traced(NDArrayOperatorsMixin):
-    """An operand during tracing: stands for the result of one step, and records what is done to it."""
+    """An operand during tracing: stands for the result of one step, and records what is
+    done to it.
+    """
 
     def __init__(self, tape: Tape, index: int, sample: Any) -> None:
         self.tape = tape
@@ -40,10 +46,14 @@ class Traced(NDArrayOperatorsMixin):
         self.sample = sample
 
     def __array_ufunc__(self, ufunc: Any, method: str, *operands: Any, **options: Any) -> Any:
-        return NotImplemented if method != "__call__" or options else self.tape.call(ufunc, *operands)
+        return (
+            NotImplemented if method != "__call__" or options else self.tape.call(ufunc, *operands)
+        )
 
     def __array_function__(self, function: Any, types: Any, operands: Any, options: Any) -> Any:
-        return NotImplemented if function is not np.where or options else self.tape.choose(*operands)
+        return (
+            NotImplemented if function is not np.where or options else self.tape.choose(*operands)
+        )
 
     def __bool__(self) -> bool:
         raise TypeError("a kernel chooses between arrays through select")
@@ -78,12 +88,18 @@ class Tape:
         return self.add(None, (), number, ("number", type(number), array.dtype, array.tobytes()))
 
     def call(self, function: Callable[..., Any], *values: Any) -> Traced:
-        """The step for an operator or a ufunc; none where a truth that is known leaves the other as it is."""
+        """The step for an operator or a ufunc; none where a truth that is known leaves the other as
+        it is.
+        """
         if function in (np.bitwise_and, np.bitwise_or):
             known = function is np.bitwise_and
             if known in (one if type(one) is bool else None for one in values):
                 return self.operand(values[0] if values[1] is known else values[1])
-        kinds = {value.sample.dtype for value in values if isinstance(value, Traced) and value.sample.ndim}
+        kinds = {
+            value.sample.dtype
+            for value in values
+            if isinstance(value, Traced) and value.sample.ndim
+        }
         beside = kinds.pop() if len(kinds) == 1 else None
         if beside is None or beside.kind != "f":
             beside = None
@@ -91,25 +107,44 @@ class Tape:
             return self.operand(values[1])
         elif function is np.power and type(values[1]) is float and values[1] == 0.5:
             return self.call(np.sqrt, values[0])
-        # A plain number is cast to the dtype of the array operand, as numpy does with a Python float.
+        # A plain number is cast to the dtype of the array operand, as numpy does with a Python
+        # float.
         operands = [self.operand(value, beside if _is_number(value) else None) for value in values]
-        return self.add(function, tuple(one.index for one in operands), function(*(one.sample for one in operands)))
+        return self.add(
+            function,
+            tuple(one.index for one in operands),
+            function(*(one.sample for one in operands)),
+        )
 
     def choose(self, condition: Any, yes: Any, no: Any) -> Traced:
-        """``np.where`` on the bits of both values: without branches, a quarter of its time where the cases are mixed."""
-        samples = [value.sample if isinstance(value, Traced) else value for value in (condition, yes, no)]
-        found = np.where(samples[0], *(float(sample) if _is_number(sample) else sample for sample in samples[1:]))
+        """``np.where`` on the bits of both values: without branches, a quarter of its time where
+        the cases are mixed.
+        """
+        samples = [
+            value.sample if isinstance(value, Traced) else value for value in (condition, yes, no)
+        ]
+        found = np.where(
+            samples[0], *(float(sample) if _is_number(sample) else sample for sample in samples[1:])
+        )
         dtype, which = found.dtype, self.operand(condition)
         codes = dtype.kind in "iu"
         if codes:
             dtype = CODE
         else:
-            which = self.add(_mask, (which.index,), np.zeros(which.sample.shape, _BITS[dtype.itemsize]))
+            which = self.add(
+                _mask, (which.index,), np.zeros(which.sample.shape, _BITS[dtype.itemsize])
+            )
         operands = which, self.operand(yes, dtype), self.operand(no, dtype)
-        return self.add(_label if codes else _pick, tuple(one.index for one in operands), np.zeros(found.shape, dtype))
+        return self.add(
+            _label if codes else _pick,
+            tuple(one.index for one in operands),
+            np.zeros(found.shape, dtype),
+        )
 
     def fine(self, status: int) -> int | None:
-        """The operand `fine` of the final select(fine, OK, ...); None if the kernel does not end with that select."""
+        """The operand `fine` of the final select(fine, OK, ...); None if the kernel does not end
+        with that select.
+        """
         function, operands, _ = self.steps[status]
         if function not in (_label, np.where) or self.steps[operands[1]].sample != Status.OK:
             return None
@@ -117,11 +152,17 @@ class Tape:
 
 
 class TextTape(Tape):
-    """A tape to be printed, which keeps ``np.where`` as it is: it becomes a conditional expression."""
+    """A tape to be printed, which keeps ``np.where`` as it is: it becomes a conditional
+    expression.
+    """
 
     def choose(self, condition: Any, yes: Any, no: Any) -> Traced:
         operands = [self.operand(value) for value in (condition, yes, no)]
-        return self.add(np.where, tuple(one.index for one in operands), np.where(*(one.sample for one in operands)))
+        return self.add(
+            np.where,
+            tuple(one.index for one in operands),
+            np.where(*(one.sample for one in operands)),
+        )
 
 
 def _is_number(value: Any) -> bool:
@@ -161,9 +202,11 @@ def statements(
     constant: Callable[[Any], str],
     kernel: str,
 ) -> tuple[list[str], list[str]]:
-    """The tape as a text: assignments of what is used more than once, and an expression for each of the wanted steps.
+    """The tape as a text: assignments of what is used more than once, and an expression for each of
+    the wanted steps.
 
-    ``inputs`` are the expressions of the inputs, ``written`` has the pattern of each operation, ``constant`` writes a number.
+    ``inputs`` are the expressions of the inputs, ``written`` has the pattern of each operation,
+    ``constant`` writes a number.
     """
     uses = Counter(wanted)
     for index in range(len(tape.steps) - 1, -1, -1):
@@ -178,7 +221,10 @@ def statements(
         elif function is not None:
             if function not in written:
                 name = getattr(function, "__name__", repr(function))
-                raise TypeError(f"{kernel} uses {name}, which cannot be written as a text; see collisions.kernels")
+                raise TypeError(
+                    f"{kernel} uses {name}, which cannot be written as a text; see "
+                    "collisions.kernels"
+                )
             text = written[function].format(*(names[operand] for operand in operands))
         else:
             value = sample.item() if isinstance(sample, (np.ndarray, np.generic)) else sample

@@ -1,4 +1,6 @@
-"""``compare``: which account of a crash the evidence speaks for, and how much, from the posterior of each."""
+"""``compare``: which account of a crash the evidence speaks for, and how much, from the posterior
+of each.
+"""
 
 from __future__ import annotations
 
@@ -23,17 +25,20 @@ _MOST = math.log(1e6)  # beyond it a factor is a matter of the tails of errors t
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Comparison(Summarized):
-    """The result of ``compare``: how probable each account is given the evidence, and the Bayes factors between them.
+    """The result of ``compare``: how probable each account is given the evidence, and the Bayes
+    factors between them.
 
     Attributes
     ----------
     probability, probability_error : dict
-        By account, its probability given the evidence and its prior probability, and the standard error from sampling.
+        By account, its probability given the evidence and its prior probability, and the standard
+        error from sampling.
     prior : dict
         By account, its prior probability.
     log_bayes_factors, log_bayes_factor_errors : dict
-        By pair of accounts, the logarithm of how many times more probable the evidence is under the first than under the
-        second, whatever their prior probabilities; and its standard error from sampling.
+        By pair of accounts, the logarithm of how many times more probable the evidence is under the
+        first than under the second, whatever their prior probabilities; and its standard error from
+        sampling.
     priors : dict
         By account, the priors of its unknowns: the factors depend on how wide these are.
     sentence : str
@@ -59,9 +64,14 @@ class Comparison(Summarized):
         dict
             Plain values that ``json.dumps`` writes; infinity and NaN as texts.
         """
-        factors = [[*pair, value, self.log_bayes_factor_errors[pair]] for pair, value in self.log_bayes_factors.items()]
+        factors = [
+            [*pair, value, self.log_bayes_factor_errors[pair]]
+            for pair, value in self.log_bayes_factors.items()
+        ]
         plain = ("probability", "probability_error", "prior", "priors", "sentence", "statements")
-        written: dict[str, Any] = strict({name: getattr(self, name) for name in plain} | {"log_bayes_factors": factors})
+        written: dict[str, Any] = strict(
+            {name: getattr(self, name) for name in plain} | {"log_bayes_factors": factors}
+        )
         return written
 
     def _summary(self, numbers: Cells) -> Summary:
@@ -69,56 +79,74 @@ class Comparison(Summarized):
             (name, f"{value:.3g} ± {self.probability_error[name]:.1g}", f"{self.prior[name]:.3g}")
             for name, value in self.probability.items()
         ]
-        stated = [(name, "; ".join(f"{key} {prior}" for key, prior in priors.items())) for name, priors in self.priors.items()]
-        parts = [Part(rows, "Account", ("probability", "before the evidence")), Part(stated, "Priors")]
+        stated = [
+            (name, "; ".join(f"{key} {prior}" for key, prior in priors.items()))
+            for name, priors in self.priors.items()
+        ]
+        parts = [
+            Part(rows, "Account", ("probability", "before the evidence")),
+            Part(stated, "Priors"),
+        ]
         return Summary(
-            "Accounts compared, given the evidence and the priors", parts, (self.sentence, *map(as_sentence, self.statements))
+            "Accounts compared, given the evidence and the priors",
+            parts,
+            (self.sentence, *map(as_sentence, self.statements)),
         )
 
 
 @hinted
-def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | None = None) -> Comparison:
+def compare(
+    posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | None = None
+) -> Comparison:
     """Which of several accounts of a crash the evidence favours: Bayes factors and probabilities.
 
-    The evidence of each account is how probable its model and its priors made what was observed. The ratio of two is the Bayes
-    factor, or likelihood ratio: what the evidence is worth, whatever was thought before. An account with wide priors spreads
-    its predictions thinly and loses by it; so the priors belong to the result and are printed with it. A question within one
-    model, such as on which side of a line the contact was, is for ``Posterior.probability``. See R. E. Kass and A. E. Raftery,
-    "Bayes factors", Journal of the American Statistical Association 90 (1995) 773-795. How often such probabilities come true
-    was measured by simulation, as for the intervals of ``posterior``: ``python benchmarks/posterior.py``.
+    The evidence of each account is how probable its model and its priors made what was observed.
+    The ratio of two is the Bayes factor, or likelihood ratio: what the evidence is worth, whatever
+    was thought before. An account with wide priors spreads its predictions thinly and loses by it;
+    so the priors belong to the result and are printed with it. A question within one model, such as
+    on which side of a line the contact was, is for ``Posterior.probability``. See R. E. Kass and A.
+    E. Raftery, "Bayes factors", Journal of the American Statistical Association 90 (1995) 773-795.
+    How often such probabilities come true was measured by simulation, as for the intervals of
+    ``posterior``: ``python benchmarks/posterior.py``.
 
     Parameters
     ----------
     posteriors : dict of Posterior
         By account, at least two posteriors from the same observations.
     prior : dict, optional
-        By account, its probability before the evidence; these add up to 1. Without it all are equal. The Bayes factors do not
-        depend on it.
+        By account, its probability before the evidence; these add up to 1. Without it all are
+        equal. The Bayes factors do not depend on it.
 
     Returns
     -------
     Comparison
-        Probabilities with errors, logarithms of the Bayes factors, the priors of each account, and a sentence.
+        Probabilities with errors, logarithms of the Bayes factors, the priors of each account, and
+        a sentence.
 
     Raises
     ------
     InputError
-        Posteriors of different observations (code "different_evidence"), or probabilities that do not add up to 1.
+        Posteriors of different observations (code "different_evidence"), or probabilities that do
+        not add up to 1.
 
     Warns
     -----
     CollisionsWarning
-        The evidence contradicts every account (code "contradictory"): the best of them need not be good.
+        The evidence contradicts every account (code "contradictory"): the best of them need not be
+        good.
 
     Examples
     --------
-    A skid of 20 m at a drag factor of 0.7 gives 16.6 m/s +/- 1 m/s. One driver says 50 km/h, the other 60, each +/- 3 km/h.
+    A skid of 20 m at a drag factor of 0.7 gives 16.6 m/s +/- 1 m/s. One driver says 50 km/h, the
+    other 60, each +/- 3 km/h.
 
     >>> from collisions.reconstruct import compare, posterior
     >>> from collisions.uncertainty import Normal
     >>> def account(speed):
     ...     said = {"speed": Normal(speed, "3 km/h")}
-    ...     return posterior(lambda speed: {"marks": speed}, said, {"marks": ("16.6 m/s", "1 m/s")}, seed=1)
+    ...     return posterior(
+    ...         lambda speed: {"marks": speed}, said, {"marks": ("16.6 m/s", "1 m/s")}, seed=1
+    ...     )
     >>> found = compare({"50 km/h": account("50 km/h"), "60 km/h": account("60 km/h")})
     >>> round(found.probability["60 km/h"], 2)
     0.9
@@ -128,11 +156,13 @@ def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | No
     if (
         not isinstance(posteriors, Mapping)
         or len(posteriors) < 2
-        or not all(isinstance(name, str) and isinstance(one, Posterior) for name, one in posteriors.items())
+        or not all(
+            isinstance(name, str) and isinstance(one, Posterior) for name, one in posteriors.items()
+        )
     ):
         raise InputError(
-            f"posteriors must be a dict of two or more posteriors by name, such as {{'square': one, '20 deg': other}}, got "
-            f"{shown(posteriors)}",
+            f"posteriors must be a dict of two or more posteriors by name, such as {{'square': "
+            f"one, '20 deg': other}}, got {shown(posteriors)}",
             code="bad_type",
             argument="posteriors",
         )
@@ -144,23 +174,36 @@ def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | No
     weights = {name: math.exp(one - max(joint.values())) for name, one in joint.items()}
     after = {name: weight / sum(weights.values()) for name, weight in weights.items()}
     # To first order in the errors of the logarithms.
-    moves = {name: [after[name] * ((other == name) - after[other]) * errors[other] for other in after] for name in after}
+    moves = {
+        name: [after[name] * ((other == name) - after[other]) * errors[other] for other in after]
+        for name in after
+    }
     pairs = list(permutations(logs, 2))
     notes = []
     if all(one.consistent is False for one in posteriors.values()):
         sentence = (
-            "the evidence contradicts every account, the stated errors, or itself: the best of these accounts need not be "
-            "good; look at the residuals of each"
+            "the evidence contradicts every account, the stated errors, or itself: the best of "
+            "these accounts need not be good; look at the residuals of each"
         )
         notes.append(Note(CollisionsWarning, sentence, code="contradictory"))
-    given = [f"{name}: {note.sentence}" for name, one in posteriors.items() for note in notes_of(one) if note.warning]
+    given = [
+        f"{name}: {note.sentence}"
+        for name, one in posteriors.items()
+        for note in notes_of(one)
+        if note.warning
+    ]
     found = Comparison(
         probability=after,
         probability_error={name: math.hypot(*of_each) for name, of_each in moves.items()},
         prior=before,
         log_bayes_factors={(one, other): logs[one] - logs[other] for one, other in pairs},
-        log_bayes_factor_errors={(one, other): math.hypot(errors[one], errors[other]) for one, other in pairs},
-        priors={name: {unknown: str(one) for unknown, one in each.priors.items()} for name, each in posteriors.items()},
+        log_bayes_factor_errors={
+            (one, other): math.hypot(errors[one], errors[other]) for one, other in pairs
+        },
+        priors={
+            name: {unknown: str(one) for unknown, one in each.priors.items()}
+            for name, each in posteriors.items()
+        },
         sentence=_sentence(before, after, logs, errors),
         statements=(*given, *(note.sentence for note in notes)),
     )
@@ -175,8 +218,9 @@ def _check_same_evidence(posteriors: Mapping[str, Posterior]) -> None:
         differing = sorted({key for key, _ in reference.observed.items() ^ one.observed.items()})
         if differing:
             raise InputError(
-                f"{name!r} and {first!r} were given different observations, of {', '.join(differing)}; only accounts of the "
-                f"same evidence can be compared: give both all that was observed, in the same units",
+                f"{name!r} and {first!r} were given different observations, of "
+                f"{', '.join(differing)}; only accounts of the same evidence can be compared: "
+                "give both all that was observed, in the same units",
                 code="different_evidence",
                 argument="posteriors",
             )
@@ -187,12 +231,20 @@ def _read_prior(posteriors: Mapping[str, Posterior], prior: Any) -> dict[str, fl
     if prior is None:
         return dict.fromkeys(posteriors, 1.0 / len(posteriors))
     if not isinstance(prior, Mapping) or set(prior) != set(posteriors):
-        raise _bad_prior(f"prior must be a dict with a probability for each of {', '.join(posteriors)}, got {shown(prior)}")
+        raise _bad_prior(
+            f"prior must be a dict with a probability for each of {', '.join(posteriors)}, got "
+            f"{shown(prior)}"
+        )
     reader = ArgumentReader()
     found = {name: reader.number(prior[name], "", f"prior[{name!r}]") for name in posteriors}
     reader.close()
-    if not all(isinstance(one, float) and one > 0.0 for one in found.values()) or abs(sum(found.values()) - 1.0) > _SUM_TOL:
-        raise _bad_prior(f"prior must be probabilities above 0 that add up to 1, got {shown(prior)}")
+    if (
+        not all(isinstance(one, float) and one > 0.0 for one in found.values())
+        or abs(sum(found.values()) - 1.0) > _SUM_TOL
+    ):
+        raise _bad_prior(
+            f"prior must be probabilities above 0 that add up to 1, got {shown(prior)}"
+        )
     return found
 
 
@@ -200,7 +252,9 @@ def _bad_prior(text: str) -> InputError:
     return InputError(text, code="bad_prior", argument="prior")
 
 
-def _sentence(before: Mapping[str, float], after: Mapping[str, float], logs: Mapping[str, float], errors: Any) -> str:
+def _sentence(
+    before: Mapping[str, float], after: Mapping[str, float], logs: Mapping[str, float], errors: Any
+) -> str:
     """The result in words: the account that the evidence speaks for, against each other one."""
     best, *others = sorted(logs, key=lambda name: -logs[name])
     parts = []
@@ -209,13 +263,17 @@ def _sentence(before: Mapping[str, float], after: Mapping[str, float], logs: Map
         times = "more than a million times"
         if factor < _MOST:
             low, high = (math.exp(factor + 2.0 * side * error) for side in (-1.0, 1.0))
-            times = f"{math.exp(factor):.3g} times ({low:.2g} to {high:.2g}, allowing for sampling error)"
+            times = (
+                f"{math.exp(factor):.3g} times ({low:.2g} to {high:.2g}, allowing for sampling "
+                "error)"
+            )
         parts.append(f'{times} more probable if "{best}" is true than if "{other}" is')
     stated = _listed(f'{before[name]:.3g} for "{name}"' for name in before)
     found = _listed(f"{after[name]:.3g}" for name in before)
     return (
-        f"The evidence is {' and '.join(parts)}. Prior probabilities of {stated} become {found}. This holds for the priors of "
-        f"each account as they are stated; wider or narrower ones would change these figures."
+        f"The evidence is {' and '.join(parts)}. Prior probabilities of {stated} become {found}. "
+        "This holds for the priors of each account as they are stated; wider or narrower ones "
+        "would change these figures."
     )
 
 

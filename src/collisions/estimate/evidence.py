@@ -1,4 +1,6 @@
-"""What was observed, read and weighed: values with errors, intervals and one-sided readings of a model's outputs."""
+"""What was observed, read and weighed: values with errors, intervals and one-sided readings of a
+model's outputs.
+"""
 
 from __future__ import annotations
 
@@ -34,18 +36,27 @@ class Observation(NamedTuple):
         return self.value.given_sd if isinstance(self.value, Normal) else self.value.error or 0.0
 
     def apart(self, computed: Any, angle: bool) -> Any:
-        """Observed minus computed values, by the short way round for angles; 0 within the bounds of a censored reading."""
+        """Observed minus computed values, by the short way round for angles; 0 within the bounds of
+        a censored reading.
+        """
         if isinstance(self.value, Normal):
             return folded(self.value.given_mean - computed, math.pi if angle else None)
         below, above = self._beyond(computed, angle)
         return np.maximum(below, 0.0) - np.maximum(above, 0.0)
 
     def log_likelihood(self, computed: Any, angle: bool) -> Any:
-        """Logarithm of the density of the observed value, or of the probability of a censored reading, given these values."""
+        """Logarithm of the density of the observed value, or of the probability of a censored
+        reading, given these values.
+        """
         if isinstance(self.value, Normal):
             # Round the circle the density is cut off at half a turn on both sides.
             lost = math.log(math.erf(math.pi / (self.sigma * math.sqrt(2.0)))) if angle else 0.0
-            return -0.5 * (self.apart(computed, angle) / self.sigma) ** 2 - math.log(self.sigma) - _LOG_ROOT_TURN - lost
+            return (
+                -0.5 * (self.apart(computed, angle) / self.sigma) ** 2
+                - math.log(self.sigma)
+                - _LOG_ROOT_TURN
+                - lost
+            )
         if not self.sigma:
             return np.zeros(len(computed))
         below, above = (part / self.sigma for part in self._beyond(computed, angle))
@@ -55,7 +66,9 @@ class Observation(NamedTuple):
             return log_survival(above)
         # The probability between two scores, of which the nearer tail keeps its digits.
         near, far = np.maximum(below, above), np.minimum(below, above)
-        outside = log_survival(np.maximum(near, 0.0)) + np.log(-np.expm1(log_survival(-far) - log_survival(near)))
+        outside = log_survival(np.maximum(near, 0.0)) + np.log(
+            -np.expm1(log_survival(-far) - log_survival(near))
+        )
         inside = np.log1p(-np.exp(log_survival(-far)) - np.exp(log_survival(-near)))
         return np.where(near > 0.0, outside, inside)
 
@@ -64,32 +77,39 @@ class Observation(NamedTuple):
         return np.zeros(len(computed)) if self.sigma else abs(self.apart(computed, angle))
 
     def is_angle(self, returned: str | None) -> bool:
-        """Whether it is an angle, judged by its unit or that of what the model returns; other units must agree."""
+        """Whether it is an angle, judged by its unit or that of what the model returns; other units
+        must agree.
+        """
         observed = self.value.unit
         if returned and observed and returned != observed:
             raise UnitsError(
-                f"observed {self.name} is in {observed}, but the model returns it in {returned}; one of them is another "
-                f"quantity",
+                f"observed {self.name} is in {observed}, but the model returns it in {returned}; "
+                "one of them is another quantity",
                 code="bad_units",
                 argument="observed",
             )
         return "rad" in (observed, returned)
 
     def _beyond(self, computed: Any, angle: bool) -> tuple[Any, Any]:
-        """By how much values are below the low bound, and above the high one; -inf for a bound that is not there."""
+        """By how much values are below the low bound, and above the high one; -inf for a bound that
+        is not there.
+        """
         assert isinstance(self.value, Censored)
         low, high = self.value.low, self.value.high
         if angle:
             if low is None or high is None:
                 raise InputError(
-                    f"observed {self.name} is an angle, which goes round, with one bound; give both, Censored(low, high), or "
-                    f"let the model return a plain number",
+                    f"observed {self.name} is an angle, which goes round, with one bound; give "
+                    "both, Censored(low, high), or let the model return a plain number",
                     code="bad_observation",
                     argument="observed",
                 )
             middle = 0.5 * (low + high)
             computed = middle - folded(middle - computed, math.pi)
-        return computed * 0.0 - np.inf if low is None else low - computed, -np.inf if high is None else computed - high
+        return (
+            computed * 0.0 - np.inf if low is None else low - computed,
+            -np.inf if high is None else computed - high,
+        )
 
 
 def observed_columns(names: Sequence[str], answered: Mapping[str, Any]) -> list[Any]:
@@ -97,7 +117,8 @@ def observed_columns(names: Sequence[str], answered: Mapping[str, Any]) -> list[
     absent = [name for name in names if name not in answered]
     if absent:
         raise InputError(
-            f"observed names {', '.join(absent)}, which the model does not return; it returns {', '.join(answered)}",
+            f"observed names {', '.join(absent)}, which the model does not return; it returns "
+            f"{', '.join(answered)}",
             code="unknown_output",
             argument="observed",
         )
@@ -112,19 +133,29 @@ def read_evidence(
     read_unknown: Callable[[str, Any], T],
     read_observed: Callable[[str, Any], Normal | Censored],
 ) -> tuple[Model, dict[str, T], list[Observation]]:
-    """The model, what is known before of each unknown, and the observations; one error names all that cannot be used."""
+    """The model, what is known before of each unknown, and the observations; one error names all
+    that cannot be used.
+    """
     reader = ArgumentReader()
     known = _read_each(reader, unknowns, "unknowns", example, read_unknown)
-    readings = _read_each(reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_observed)
+    readings = _read_each(
+        reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_observed
+    )
     reader.close()
     called = Model(model, {})
     check_names(model, known, "unknowns", "bad_model")
     return called, known, [Observation(name, value) for name, value in readings.items()]
 
 
-def _read_each(reader: ArgumentReader, given: Any, argument: str, example: str, read: Callable[[str, Any], T]) -> dict[str, T]:
+def _read_each(
+    reader: ArgumentReader, given: Any, argument: str, example: str, read: Callable[[str, Any], T]
+) -> dict[str, T]:
     """Read each entry of a dict, by name; an error names its entry."""
-    if not isinstance(given, Mapping) or not given or not all(isinstance(key, str) for key in given):
+    if (
+        not isinstance(given, Mapping)
+        or not given
+        or not all(isinstance(key, str) for key in given)
+    ):
         got = "an empty one" if isinstance(given, Mapping) and not given else type(given).__name__
         raise InputError(
             f"{argument} must be a dict by names, such as {{'speed_a': {example}}}, got {got}",
@@ -138,47 +169,62 @@ def _read_each(reader: ArgumentReader, given: Any, argument: str, example: str, 
             found[name] = read(label, value)
         except InputError as problem:
             text = str(problem) if str(problem).startswith(label) else f"{label}: {problem}"
-            reader.refuse(type(problem)(text, code=problem.code, **{**problem.fields, "argument": label}))
+            reader.refuse(
+                type(problem)(text, code=problem.code, **{**problem.fields, "argument": label})
+            )
     return found
 
 
 def read_reading(label: str, given: Any) -> Normal | Censored:
     """An observation of a posterior: a value with its error, an interval, or a censored reading."""
     if isinstance(given, Interval):
-        return from_numbers(Censored, given.unit, {"low": given.low, "high": given.high, "error": None})
+        return from_numbers(
+            Censored, given.unit, {"low": given.low, "high": given.high, "error": None}
+        )
     return given if isinstance(given, Censored) else read_value(label, given)
 
 
 def read_value(label: str, given: Any) -> Normal:
     """An observed value with its error."""
     if isinstance(given, (tuple, list)) and len(given) == 2:
-        (_, sigma), unit = read_alike(dict(zip((f"{label} value", f"{label} error"), given, strict=True)))
+        (_, sigma), unit = read_alike(
+            dict(zip((f"{label} value", f"{label} error"), given, strict=True))
+        )
         if not sigma > 0.0:
             raise InputError(
-                f"{label} error must be > 0, got {show(sigma, unit)}; give the pair (value, error), the error as a standard "
-                f"deviation. What is known exactly is written into the model",
+                f"{label} error must be > 0, got {show(sigma, unit)}; give the pair (value, "
+                "error), the error as a standard deviation. What is known exactly is written "
+                "into the model",
                 code="not_positive",
             )
         given = Normal(*given)
     if not isinstance(given, Normal):
-        kind = "a number without its error" if isinstance(given, (int, float, str)) else f"of type {type(given).__name__}"
+        kind = (
+            "a number without its error"
+            if isinstance(given, (int, float, str))
+            else f"of type {type(given).__name__}"
+        )
         raise InputError(
-            f"{label} is {kind}; give Normal(value, error) or the pair (value, error), the error as a standard deviation. Of a "
-            f"range write Normal.between(low, high, coverage); an Interval, or a Censored reading of one bound, is weighed by "
-            f"reconstruct.posterior",
+            f"{label} is {kind}; give Normal(value, error) or the pair (value, error), the error "
+            "as a standard deviation. Of a range write Normal.between(low, high, coverage); an "
+            "Interval, or a Censored reading of one bound, is weighed by reconstruct.posterior",
             code="bad_observation",
         )
     if given.truncate is not None:
         raise InputError(
-            f"{label} is truncated at {given.truncate}, which the error of a measurement is not; leave truncate= out, bounds "
-            f"belong to unknowns",
+            f"{label} is truncated at {given.truncate}, which the error of a measurement is not; "
+            "leave truncate= out, bounds belong to unknowns",
             code="bad_observation",
         )
     return given
 
 
-def refused_everywhere(model: Model, points: int, at: Mapping[str, float], advice: str) -> NoSolutionError:
-    """The error if the model has no answer anywhere, with its own reason if a single case gives one."""
+def refused_everywhere(
+    model: Model, points: int, at: Mapping[str, float], advice: str
+) -> NoSolutionError:
+    """The error if the model has no answer anywhere, with its own reason if a single case gives
+    one.
+    """
     reason = "; call the model there with on_failure='raise' to see why"
     try:
         model.function(**at)
@@ -188,7 +234,8 @@ def refused_everywhere(model: Model, points: int, at: Mapping[str, float], advic
         # A model of arrays need not take floats; an error about that says nothing about the scene.
         pass
     return NoSolutionError(
-        f"the model refuses all {points} points tried for the unknowns, among them {listed(at)}{reason}. Give {advice}",
+        f"the model refuses all {points} points tried for the unknowns, among them "
+        f"{listed(at)}{reason}. Give {advice}",
         code="refused",
         points=points,
         at=dict(at),
@@ -197,4 +244,7 @@ def refused_everywhere(model: Model, points: int, at: Mapping[str, float], advic
 
 def listed(values: Mapping[str, float]) -> str:
     """Values by name, for a sentence."""
-    return ", ".join(f"{name} {'undetermined' if math.isnan(value) else f'= {value:.6g}'}" for name, value in values.items())
+    return ", ".join(
+        f"{name} {'undetermined' if math.isnan(value) else f'= {value:.6g}'}"
+        for name, value in values.items()
+    )

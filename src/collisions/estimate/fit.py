@@ -1,4 +1,6 @@
-"""``fit``: estimates the unknowns of a scene from measurements, each with its error, by weighted least squares."""
+"""``fit``: estimates the unknowns of a scene from measurements, each with its error, by weighted
+least squares.
+"""
 
 from __future__ import annotations
 
@@ -19,16 +21,34 @@ from ..uncertainty.distribution import read_alike
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform
 from ..uncertainty.model import Model, range_hint
 from ..uncertainty.turns import folded
-from .evidence import Observation, listed, observed_columns, read_evidence, read_value, refused_everywhere
+from .evidence import (
+    Observation,
+    listed,
+    observed_columns,
+    read_evidence,
+    read_value,
+    refused_everywhere,
+)
 from .fit_result import Direction, Fit, Values, notes_of, residual_of
-from .least_squares import Determination, Ends, Problem, chi_squared_tail, determination, minimise, spread
+from .least_squares import (
+    Determination,
+    Ends,
+    Problem,
+    chi_squared_tail,
+    determination,
+    minimise,
+    spread,
+)
 
 _STARTS = 64
 _PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
 _FEW = 2  # searches that ended at the best, among more: there may be a better one
 _SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
 _TOO_CLOSE = 4.0  # of chi-squared, that the errors of the best do not exclude
-_AROUND, _NUDGE = 8, 1e-2  # searches, and part of the scale of each unknown by which they start off at most
+_AROUND, _NUDGE = (
+    8,
+    1e-2,
+)  # searches, and part of the scale of each unknown by which they start off at most
 _AGREEMENT = 1e-2  # of the scale of an unknown: values within this agree
 _TWO_ERRORS = 2.0
 _OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope vanishes nearby
@@ -39,66 +59,79 @@ _MOST_STEPS = 100.0  # standard errors over which slopes may be taken at most
 
 
 @hinted
-def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], observed: Mapping[str, Any]) -> Fit:
+def fit(
+    model: Callable[..., Mapping[str, Any]],
+    unknowns: Mapping[str, Any],
+    observed: Mapping[str, Any],
+) -> Fit:
     """Estimate the unknowns of a scene from measurements, each given with its error.
 
-    Weighted least squares: the sum of the squares of (observed - computed)/sigma, over the observations and the priors, is
-    minimised within the bounds (Levenberg-Marquardt from 64 starts spread over what was known before). The covariance follows
-    from the slopes of the model at the answer and the errors as stated; it is not scaled by the misfit. It holds where the
-    errors of the observations are normal and independent, the model is nearly linear within two standard errors and no bound is
-    near. Where one value with such an error does not describe what the evidence says, ``fit`` refuses or warns; ``posterior``
-    then has the answer, whatever the priors and however nonlinear the model.
+    Weighted least squares: the sum of the squares of (observed - computed)/sigma, over the
+    observations and the priors, is minimised within the bounds (Levenberg-Marquardt from 64 starts
+    spread over what was known before). The covariance follows from the slopes of the model at the
+    answer and the errors as stated; it is not scaled by the misfit. It holds where the errors of
+    the observations are normal and independent, the model is nearly linear within two standard
+    errors and no bound is near. Where one value with such an error does not describe what the
+    evidence says, ``fit`` refuses or warns; ``posterior`` then has the answer, whatever the priors
+    and however nonlinear the model.
 
     Parameters
     ----------
     model : function
-        ``model(**unknowns)`` returns a dict of named outputs. It is called with an array of cases for every unknown [SI] and
-        returns arrays as long, NaN where it refuses (``on_failure="nan"``), as for ``uncertainty.propagate``. Each case is to
-        be answered independently of the others; as a check, a few are called again by themselves. What is known exactly is
-        written into the model.
+        ``model(**unknowns)`` returns a dict of named outputs. It is called with an array of cases
+        for every unknown [SI] and returns arrays as long, NaN where it refuses
+        (``on_failure="nan"``), as for ``uncertainty.propagate``. Each case is to be answered
+        independently of the others; as a check, a few are called again by themselves. What is known
+        exactly is written into the model.
     unknowns : dict
-        By name, what is known before: a ``Normal`` (a prior, which has weight; ``truncate=`` gives bounds), a ``Uniform`` or an
-        ``Interval`` (bounds without weight), or a number, text or Quantity to start from (nothing known; searches start between
-        0 and twice this value, or between -1 and 1 in SI if it is 0).
+        By name, what is known before: a ``Normal`` (a prior, which has weight; ``truncate=`` gives
+        bounds), a ``Uniform`` or an ``Interval`` (bounds without weight), or a number, text or
+        Quantity to start from (nothing known; searches start between 0 and twice this value, or
+        between -1 and 1 in SI if it is 0).
     observed : dict
-        By output of the model, ``Normal(value, error)`` or the pair (value, error), both in SI or both with a unit; the error
-        is a standard deviation. What is observed, or returned by the model, with a unit of angle is taken round the circle: its
-        residual is within half a turn. A bare number in radians cannot be told from any other number and is not.
+        By output of the model, ``Normal(value, error)`` or the pair (value, error), both in SI or
+        both with a unit; the error is a standard deviation. What is observed, or returned by the
+        model, with a unit of angle is taken round the circle: its residual is within half a turn. A
+        bare number in radians cannot be told from any other number and is not.
 
     Returns
     -------
     Fit
-        ``fit["speed_a"]`` has value, standard error and interval; see its attributes for residuals, chi-squared, what the
-        evidence does not determine, and what ended on a bound.
+        ``fit["speed_a"]`` has value, standard error and interval; see its attributes for residuals,
+        chi-squared, what the evidence does not determine, and what ended on a bound.
 
     Raises
     ------
     InputError
-        An argument that cannot be used, or a model (code "bad_model") that returns something other than named arrays, mixes the
-        cases it is called with, or answers the same case differently when asked again.
+        An argument that cannot be used, or a model (code "bad_model") that returns something other
+        than named arrays, mixes the cases it is called with, or answers the same case differently
+        when asked again.
     AmbiguousSolutionError
-        Another answer, more than a standard error away, has a chi-squared less than 4 above the best; all that the searches
-        found are in ``solutions``. With an unknown friction this happens where the evidence fits a contact that slid and,
-        about as well, one that stuck, whose friction may be any that is high enough.
+        Another answer, more than a standard error away, has a chi-squared less than 4 above the
+        best; all that the searches found are in ``solutions``. With an unknown friction this
+        happens where the evidence fits a contact that slid and, about as well, one that stuck,
+        whose friction may be any that is high enough.
     NoSolutionError
-        The model refuses at every start (code "refused"); or the misfit is least at a jump, a kink, an edge or a turning point
-        of the model, where no error can be given, or at a point that at most two of the searches reached (code
-        "no_convergence").
+        The model refuses at every start (code "refused"); or the misfit is least at a jump, a kink,
+        an edge or a turning point of the model, where no error can be given, or at a point that at
+        most two of the searches reached (code "no_convergence").
 
     Warns
     -----
     IllConditionedWarning
-        Nothing determines an unknown, it ended on a bound, or its bounds say more than the evidence; or the model is too
-        nonlinear, or refuses, within two standard errors of the answer.
+        Nothing determines an unknown, it ended on a bound, or its bounds say more than the
+        evidence; or the model is too nonlinear, or refuses, within two standard errors of the
+        answer.
     SuspectUnitsWarning
-        A bare observation differs from its computed value by more than pi, with neither beyond pi: perhaps an angle.
+        A bare observation differs from its computed value by more than pi, with neither beyond pi:
+        perhaps an angle.
     CollisionsWarning
         The evidence contradicts itself: a misfit this large has a probability below 0.01.
 
     Examples
     --------
-    A Golf (1200 kg) going south and a Pinto (1800 kg) going east, with the momenta after the impact (published answers 63.2
-    and 55.6 km/h), here each with an error of 1300 N s.
+    A Golf (1200 kg) going south and a Pinto (1800 kg) going east, with the momenta after the impact
+    (published answers 63.2 and 55.6 km/h), here each with an error of 1300 N s.
 
     >>> import numpy as np
     >>> import collisions as col
@@ -108,8 +141,13 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     ...     return {"east": east, "south": south}
     >>> east = 1200 * 30 / 3.6 * np.cos(np.pi / 6) + 1800 * 50 / 3.6 * np.cos(np.pi / 4.5)
     >>> south = 1200 * 30 / 3.6 * np.sin(np.pi / 6) + 1800 * 50 / 3.6 * np.sin(np.pi / 4.5)
-    >>> speeds = {"speed_golf": Interval("0 km/h", "150 km/h"), "speed_pinto": Interval("0 km/h", "150 km/h")}
-    >>> found = col.reconstruct.fit(momentum, speeds, {"east": (east, 1300.0), "south": (south, 1300.0)})
+    >>> speeds = {
+    ...     "speed_golf": Interval("0 km/h", "150 km/h"),
+    ...     "speed_pinto": Interval("0 km/h", "150 km/h"),
+    ... }
+    >>> found = col.reconstruct.fit(
+    ...     momentum, speeds, {"east": (east, 1300.0), "south": (south, 1300.0)}
+    ... )
     >>> round(3.6 * found["speed_golf"].value, 1), round(3.6 * found["speed_pinto"].value, 1)
     (63.2, 55.6)
     """
@@ -118,10 +156,18 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         inputs, problem = _read_inputs(model, unknowns, observed)
         ends = minimise(problem, _starts(inputs, problem))
         if np.all(np.isinf(ends.chi_squared)):
-            advice = "bounds or starts within which the impact happens; reconstruct.posterior finds rare ones too"
+            advice = (
+                "bounds or starts within which the impact happens; reconstruct.posterior finds "
+                "rare ones too"
+            )
             raise refused_everywhere(inputs.model, _STARTS, inputs.named(inputs.start), advice)
         # The least misfit, or one that is as good where a search converged.
-        best = _examined(inputs, problem, ends, int(np.argmin(ends.chi_squared + _SAME_CHI_SQUARED * ~ends.converged)))
+        best = _examined(
+            inputs,
+            problem,
+            ends,
+            int(np.argmin(ends.chi_squared + _SAME_CHI_SQUARED * ~ends.converged)),
+        )
         _check_minimum(best, ends)
         fits = [_answer(one) for one in _rivals(best, ends)]
         if len(fits) > 1:
@@ -130,14 +176,18 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         if not any(map(math.isnan, found.values.values())):
             # For the warnings that the model itself gives there.
             inputs.model.noted.clear()
-            inputs.model({name: np.array([value]) for name, value in found.values.items()}, 1, check=False)
+            inputs.model(
+                {name: np.array([value]) for name, value in found.values.items()}, 1, check=False
+            )
             found = replace(found, model_notes=notes_of_samples(inputs.model.noted, 1))
     warn_of(notes_of(found))
     return found
 
 
 class _Inputs(NamedTuple):
-    """The inputs of a fit; ``rows`` are the observations, then the priors, and the rest goes by unknown."""
+    """The inputs of a fit; ``rows`` are the observations, then the priors, and the rest goes by
+    unknown.
+    """
 
     model: Model
     rows: list[Observation]
@@ -150,9 +200,15 @@ class _Inputs(NamedTuple):
         return dict(zip(self.units, point.tolist(), strict=True))
 
     def computed(self, points: Any) -> Any:
-        """The model's value for each row at these points (k, n), in SI; a refused point is NaN in all observations."""
-        answered = self.model({name: np.array(points[:, j]) for j, name in enumerate(self.units)}, len(points))
-        found = np.stack(observed_columns([row.name for row in self.rows if not row.is_prior], answered), axis=1)
+        """The model's value for each row at these points (k, n), in SI; a refused point is NaN in
+        all observations.
+        """
+        answered = self.model(
+            {name: np.array(points[:, j]) for j, name in enumerate(self.units)}, len(points)
+        )
+        found = np.stack(
+            observed_columns([row.name for row in self.rows if not row.is_prior], answered), axis=1
+        )
         found = np.where(np.all(np.isfinite(found), axis=1, keepdims=True), found, np.nan)
         return np.concatenate([found, points[:, self.has_prior]], axis=1)
 
@@ -162,7 +218,11 @@ def _read_inputs(function: Any, unknowns: Any, observed: Any) -> tuple[_Inputs, 
     model, known, rows = read_evidence(function, unknowns, observed, "20.0", _unknown, read_value)
     units, priors, *numbers = zip(*known.values(), strict=True)
     start, scale, low, high = map(np.array, numbers)
-    rows += [Observation(name, prior, is_prior=True) for name, prior in zip(known, priors, strict=True) if prior]
+    rows += [
+        Observation(name, prior, is_prior=True)
+        for name, prior in zip(known, priors, strict=True)
+        if prior
+    ]
     has_prior = np.array([prior is not None for prior in priors])
     inputs = _Inputs(model, rows, dict(zip(known, units, strict=True)), start, has_prior)
     # Two cases, because a model that takes numbers would answer an array of one.
@@ -180,25 +240,36 @@ def _read_inputs(function: Any, unknowns: Any, observed: Any) -> tuple[_Inputs, 
 
 
 def _starts(inputs: _Inputs, problem: Problem) -> Any:
-    """Where to start: all over the bounds, or around the start as far as its scale, or three deviations of the prior."""
+    """Where to start: all over the bounds, or around the start as far as its scale, or three
+    deviations of the prior.
+    """
     span = np.where(inputs.has_prior, _PRIOR_SPAN, 1.0) * problem.scale
-    points = spread(_STARTS, np.maximum(problem.low, inputs.start - span), np.minimum(problem.high, inputs.start + span))
+    points = spread(
+        _STARTS,
+        np.maximum(problem.low, inputs.start - span),
+        np.minimum(problem.high, inputs.start + span),
+    )
     points[0] = inputs.start
     return points
 
 
 def _unknown(label: str, given: Any) -> tuple[str, Normal | None, float, float, float, float]:
-    """What is known before of one unknown: its unit, a prior if any, where to start, a scale, and bounds."""
+    """What is known before of one unknown: its unit, a prior if any, where to start, a scale, and
+    bounds.
+    """
     if isinstance(given, Normal):
         low, high = given.support
         return given.unit, given, min(max(given.given_mean, low), high), given.given_sd, low, high
     if isinstance(given, (Uniform, Interval)):
         low, high = given.support if isinstance(given, Uniform) else (given.low, given.high)
         return given.unit, None, 0.5 * (low + high), high - low, low, high
-    if isinstance(given, Distribution) or not (isinstance(given, (int, float, str, np.number)) or is_quantity(given)):
+    if isinstance(given, Distribution) or not (
+        isinstance(given, (int, float, str, np.number)) or is_quantity(given)
+    ):
         raise InputError(
-            f"{label} is of type {type(given).__name__}; give a Normal (what is known before, with its weight), a Uniform or "
-            f"an Interval (bounds that weigh nothing), or a number to start from; reconstruct.posterior takes every "
+            f"{label} is of type {type(given).__name__}; give a Normal (what is known before, "
+            "with its weight), a Uniform or an Interval (bounds that weigh nothing), or a "
+            "number to start from; reconstruct.posterior takes every "
             f"distribution{range_hint(given)}",
             code="bad_prior",
         )
@@ -225,8 +296,13 @@ class _Candidate:
 
     def determination_of(self, chosen: Any) -> Determination:
         """The determination of the chosen unknowns by the slopes, with the others fixed."""
-        scale = np.where(self.only_a_start, np.maximum(self.problem.scale, abs(self.point)), self.problem.scale)[chosen]
-        is_prior, steps = np.array([row.is_prior for row in self.inputs.rows]), self.problem.steps(self.point)[chosen]
+        scale = np.where(
+            self.only_a_start, np.maximum(self.problem.scale, abs(self.point)), self.problem.scale
+        )[chosen]
+        is_prior, steps = (
+            np.array([row.is_prior for row in self.inputs.rows]),
+            self.problem.steps(self.point)[chosen],
+        )
         return determination(self.slopes[:, chosen], is_prior, scale, self.outputs, steps)
 
     @property
@@ -241,13 +317,16 @@ class _Candidate:
 
     @property
     def free(self) -> Any:
-        """For each unknown, whether it is off its bounds; one that is not identified counts as off."""
+        """For each unknown, whether it is off its bounds; one that is not identified
+        counts as off.
+        """
         at_bound = (self.point <= self.problem.low) | (self.point >= self.problem.high)
         return ~(np.isfinite(self.errors) & at_bound)
 
     @cached_property
     def moves(self) -> tuple[Any, Any]:
-        """Two errors of each unknown up and down (2, n), within the bounds, and how far the misfit rises there, in sigma.
+        """Two errors of each unknown up and down (2, n), within the bounds, and how far the misfit
+        rises there, in sigma.
 
         The others follow within their bounds, first by the slopes here, then by those there.
         """
@@ -259,12 +338,23 @@ class _Candidate:
         errors = np.sqrt(np.diagonal(covariance))
         ways = np.zeros((len(which), len(self.point)))
         ways[:, which] = covariance / errors[:, np.newaxis]
-        room = np.stack([self.problem.high[which] - self.point[which], self.point[which] - self.problem.low[which]])
+        room = np.stack(
+            [
+                self.problem.high[which] - self.point[which],
+                self.point[which] - self.problem.low[which],
+            ]
+        )
         far = np.minimum(room / errors, _TWO_ERRORS)
-        points = (self.point + (far * np.array([[1.0], [-1.0]]))[..., np.newaxis] * ways).reshape(-1, len(self.point))
+        points = (self.point + (far * np.array([[1.0], [-1.0]]))[..., np.newaxis] * ways).reshape(
+            -1, len(self.point)
+        )
         within = np.clip(points, self.problem.low, self.problem.high)
         outputs, slopes = self.problem.with_slopes(within)
-        fixed = ~self.free | (within != points) | np.tile(np.arange(len(self.point)) == which[:, np.newaxis], (2, 1))
+        fixed = (
+            ~self.free
+            | (within != points)
+            | np.tile(np.arange(len(self.point)) == which[:, np.newaxis], (2, 1))
+        )
         slopes = slopes * self.problem.scale
         slopes = np.where(fixed[:, np.newaxis] | ~np.isfinite(slopes), 0.0, slopes)
         misfit = self.problem.misfit(outputs)[..., np.newaxis]
@@ -274,48 +364,67 @@ class _Candidate:
 
     @property
     def nonlinearity(self) -> float:
-        """Relative error of the half-width of the 95 percent intervals; NaN if the model refuses within two errors.
+        """Relative error of the half-width of the 95 percent intervals; NaN if the model refuses
+        within two errors.
 
-        In a linear model the misfit rises by as many sigma as an unknown is moved in standard errors.
+        In a linear model the misfit rises by as many sigma as an unknown is moved in standard
+        errors.
         """
         far, risen = self.moves
         compared = ~(np.maximum(far, risen) <= _LEAST_MOVE)
         return float(np.max(abs(far / risen - 1.0)[compared], initial=0.0))
 
     def turns_round(self, ends: Ends) -> bool:
-        """Whether the searches agree in an unknown about which the slopes tell nothing: its misfit turns there."""
+        """Whether the searches agree in an unknown about which the slopes tell nothing: its misfit
+        turns there.
+        """
         here = ends.points[_ended_at(ends, self.chi_squared)]
-        return len(here) > 0 and bool(np.any(np.isinf(self.errors) & (np.ptp(here, axis=0) < _AGREEMENT * self.problem.scale)))
+        return len(here) > 0 and bool(
+            np.any(np.isinf(self.errors) & (np.ptp(here, axis=0) < _AGREEMENT * self.problem.scale))
+        )
 
     @property
     def on_a_ridge(self) -> bool:
-        """Whether searches from around the point leave it for less: one that met a ridge exactly has no slope to follow."""
+        """Whether searches from around the point leave it for less: one that met a ridge exactly
+        has no slope to follow.
+        """
         away = np.minimum(_NUDGE * self.problem.scale, self.errors)
         again = minimise(self.problem, self.point + spread(_AROUND, -away, away))
         return bool(np.min(again.chi_squared) < self.chi_squared - _SAME_CHI_SQUARED)
 
     def overstates_errors(self) -> bool:
-        """Whether an error is far too large wherever its unknown has room: its slope vanishes nearby."""
+        """Whether an error is far too large wherever its unknown has room: its slope vanishes
+        nearby.
+        """
         far, risen = self.moves
         over = (risen > _TWO_ERRORS) & (risen > _OVERSTATED * far)
         return bool(np.any(np.all(over | (far < _LEAST_MOVE), axis=0) & np.any(over, axis=0)))
 
     def is_apart(self, point: Any) -> bool:
-        """Whether a point is more than a standard error away in what the evidence determines here."""
+        """Whether a point is more than a standard error away in what the evidence
+        determines here.
+        """
         way = point - self.point
         turning = np.array([unit == "rad" for unit in self.inputs.units.values()])
         known, way = np.isfinite(self.errors), np.where(turning, folded(way, math.pi), way)
         size = self.errors[known]
-        precision = np.linalg.pinv(self.determination.covariance[np.ix_(known, known)] / np.outer(size, size), hermitian=True)
+        precision = np.linalg.pinv(
+            self.determination.covariance[np.ix_(known, known)] / np.outer(size, size),
+            hermitian=True,
+        )
         return bool((way[known] / size) @ precision @ (way[known] / size) > 1.0)
 
 
 def _examined(inputs: _Inputs, problem: Problem, ends: Ends, k: int) -> _Candidate:
-    """The candidate where search k ended, refined with difference steps that suit it rather than the bounds or the start."""
+    """The candidate where search k ended, refined with difference steps that suit it rather than
+    the bounds or the start.
+    """
     found = _Candidate(inputs, problem, *(part[k] for part in ends))
     most = np.where(found.only_a_start, math.inf, 10.0 * problem.scale)
     for _ in range(_STEP_ROUNDS):
-        size = np.clip(abs(found.point), np.minimum(0.1 * problem.scale, _MOST_STEPS * found.errors), most)
+        size = np.clip(
+            abs(found.point), np.minimum(0.1 * problem.scale, _MOST_STEPS * found.errors), most
+        )
         if np.all(abs(np.log2(size / found.problem.sizes(found.point))) < 1.0):
             break
         finer = problem._replace(size=size)
@@ -333,16 +442,31 @@ def _ended_at(ends: Ends, chi_squared: float) -> Any:
 
 def _check_minimum(best: _Candidate, ends: Ends) -> None:
     """Raise if one value and its error do not describe the least misfit that was found."""
-    if not best.converged or best.problem.has_kink(best.point) or best.turns_round(ends) or best.overstates_errors():
-        why = "where the model jumps, bends, turns round or refuses, so that its slopes give no error"
-    elif np.count_nonzero(_ended_at(ends, best.chi_squared)) <= _FEW < np.count_nonzero(np.isfinite(ends.chi_squared)):
-        why = f"where few of the {_STARTS} searches ended, so that a better answer may lie between them"
+    if (
+        not best.converged
+        or best.problem.has_kink(best.point)
+        or best.turns_round(ends)
+        or best.overstates_errors()
+    ):
+        why = (
+            "where the model jumps, bends, turns round or refuses, so that its slopes give no error"
+        )
+    elif (
+        np.count_nonzero(_ended_at(ends, best.chi_squared))
+        <= _FEW
+        < np.count_nonzero(np.isfinite(ends.chi_squared))
+    ):
+        why = (
+            f"where few of the {_STARTS} searches ended, so that a better answer may lie between "
+            "them"
+        )
     else:
         return
     at = best.inputs.named(best.point)
     raise NoSolutionError(
-        f"the least misfit found is chi-squared {best.chi_squared:.6g} at {listed(at)}, {why}. reconstruct.posterior answers "
-        f"there too, with a range; or narrow the bounds to one side of it, or give a prior (a Normal)",
+        f"the least misfit found is chi-squared {best.chi_squared:.6g} at {listed(at)}, {why}. "
+        "reconstruct.posterior answers there too, with a range; or narrow the bounds to one "
+        "side of it, or give a prior (a Normal)",
         code="no_convergence",
         chi_squared=float(best.chi_squared),
         at=at,
@@ -350,7 +474,9 @@ def _check_minimum(best: _Candidate, ends: Ends) -> None:
 
 
 def _rivals(best: _Candidate, ends: Ends) -> list[_Candidate]:
-    """The best candidate, and others apart from it that the evidence does not exclude although the errors of the best do."""
+    """The best candidate, and others apart from it that the evidence does not exclude although the
+    errors of the best do.
+    """
     found = [best]
     near = np.flatnonzero(ends.converged & (ends.chi_squared <= best.chi_squared + _TOO_CLOSE))
     for k in near[np.argsort(ends.chi_squared[near], kind="stable")].tolist():
@@ -361,10 +487,13 @@ def _rivals(best: _Candidate, ends: Ends) -> list[_Candidate]:
 
 
 def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
-    answers = "; ".join(f"chi-squared {one.chi_squared:.4g} at {listed(one.values)}" for one in fits)
+    answers = "; ".join(
+        f"chi-squared {one.chi_squared:.4g} at {listed(one.values)}" for one in fits
+    )
     return AmbiguousSolutionError(
-        f"{len(fits)} answers fit the evidence about as well: {answers}. All are in .solutions; reconstruct.posterior says how "
-        f"probable each is; or narrow the bounds of an unknown to one, or add an observation that tells them apart",
+        f"{len(fits)} answers fit the evidence about as well: {answers}. All are in .solutions; "
+        "reconstruct.posterior says how probable each is; or narrow the bounds of an unknown to "
+        "one, or add an observation that tells them apart",
         code="ambiguous",
         solutions=tuple(fits),
     )
@@ -372,7 +501,12 @@ def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
 
 def _answer(found: _Candidate) -> Fit:
     """The ``Fit`` of a candidate."""
-    inputs, problem, point, determined = found.inputs, found.problem, found.point, found.determination
+    inputs, problem, point, determined = (
+        found.inputs,
+        found.problem,
+        found.point,
+        found.determination,
+    )
     names, identified = tuple(inputs.units), np.isfinite(found.errors)
     over_sigma = -problem.misfit(found.outputs)
     computed = inputs.computed(point[np.newaxis])[0]
@@ -380,9 +514,13 @@ def _answer(found: _Candidate) -> Fit:
         f"prior of {row.name}" if row.is_prior else row.name: residual_of(
             row, inputs.model.units.get(row.name), value, sigmas * row.sigma
         )
-        for row, value, sigmas in zip(inputs.rows, computed.tolist(), over_sigma.tolist(), strict=True)
+        for row, value, sigmas in zip(
+            inputs.rows, computed.tolist(), over_sigma.tolist(), strict=True
+        )
     }
-    sides = np.where(point <= problem.low, "low", np.where(point >= problem.high, "high", "")).tolist()
+    sides = np.where(
+        point <= problem.low, "low", np.where(point >= problem.high, "high", "")
+    ).tolist()
     degrees_of_freedom = len(inputs.rows) - found.determination_of(found.free).rank
     chi_squared = float(over_sigma @ over_sigma)
     shares = [dict(zip(residuals, row, strict=True)) for row in determined.shares.tolist()]
@@ -390,18 +528,29 @@ def _answer(found: _Candidate) -> Fit:
         values=Values(inputs.named(np.where(identified, point, math.nan)), inputs.units),
         names=names,
         units=inputs.units,
-        bounds=dict(zip(names, zip(problem.low.tolist(), problem.high.tolist(), strict=True), strict=True)),
+        bounds=dict(
+            zip(names, zip(problem.low.tolist(), problem.high.tolist(), strict=True), strict=True)
+        ),
         covariance=lock(np.array(determined.covariance)),
         residuals=residuals,
-        contributions={name: row if known else {} for name, row, known in zip(names, shares, identified, strict=True)},
+        contributions={
+            name: row if known else {}
+            for name, row, known in zip(names, shares, identified, strict=True)
+        },
         chi_squared=chi_squared,
         degrees_of_freedom=degrees_of_freedom,
         p_value=chi_squared_tail(chi_squared, degrees_of_freedom),
         undetermined=tuple(
-            Direction(changes={names[j]: float(row[j]) for j in np.flatnonzero(row)}, held_by_prior=held)
+            Direction(
+                changes={names[j]: float(row[j]) for j in np.flatnonzero(row)}, held_by_prior=held
+            )
             for held, rows in ((False, determined.unidentified), (True, determined.prior_only))
             for row in rows
         ),
-        at_bounds={name: side for name, side, known in zip(names, sides, identified, strict=True) if side and known},
+        at_bounds={
+            name: side
+            for name, side, known in zip(names, sides, identified, strict=True)
+            if side and known
+        },
         nonlinearity=found.nonlinearity,
     )

@@ -1,4 +1,6 @@
-"""``Fit``: the estimates of a fit, their errors, the residual of each observation, and the unknowns left unidentified."""
+"""``Fit``: the estimates of a fit, their errors, the residual of each observation, and the unknowns
+left unidentified.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from ..messages.errors import CollisionsWarning, IllConditionedWarning, InputError, NoSolutionError, SuspectUnitsWarning
+from ..messages.errors import (
+    CollisionsWarning,
+    IllConditionedWarning,
+    InputError,
+    NoSolutionError,
+    SuspectUnitsWarning,
+)
 from ..messages.warning import Note
 from ..quantities.attributes import OWN, Shown, derived
 from ..quantities.strict_json import strict
@@ -22,10 +30,13 @@ from ..uncertainty.normal import score_of_coverage
 from .evidence import Observation
 
 _GIVEN_ERRORS = "A standard error holds given the stated errors of the observations and priors."
-_TAKE_POSTERIOR = "; reconstruct.posterior gives the range that the evidence leaves, whatever its shape"
+_TAKE_POSTERIOR = (
+    "; reconstruct.posterior gives the range that the evidence leaves, whatever its shape"
+)
 _NONE = "\u2013"
 _LARGE_NONLINEARITY = 0.2  # of the half-width of a 95 percent interval
-# Probabilities of the misfit below which the evidence is said to agree weakly, and to contradict itself.
+# Probabilities of the misfit below which the evidence is said to agree weakly, and to contradict
+# itself.
 _WEAK, CONTRADICTION = 0.05, 0.01
 
 
@@ -56,8 +67,12 @@ class WithUnit(Shown):
     @property
     def q(self) -> dict[str, Any]:
         """The same with the unit; numbers if it is unknown."""
-        shared = {f.name: getattr(self, f.name) for f in fields(self) if f.metadata.get("unit") == OWN}
-        return {name: with_unit(value, self.unit) for name, value in shared.items() if value is not None}
+        shared = {
+            f.name: getattr(self, f.name) for f in fields(self) if f.metadata.get("unit") == OWN
+        }
+        return {
+            name: with_unit(value, self.unit) for name, value in shared.items() if value is not None
+        }
 
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         for f in fields(self):
@@ -68,7 +83,9 @@ class WithUnit(Shown):
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Estimate(WithUnit):
-    """One unknown: its value and standard error, NaN and inf if it is not identified; ``at_bound`` is "low" or "high"."""
+    """One unknown: its value and standard error, NaN and inf if it is not identified; ``at_bound``
+    is "low" or "high".
+    """
 
     name: str
     unit: str
@@ -86,9 +103,11 @@ class Estimate(WithUnit):
         return math.isfinite(self.standard_error)
 
     def interval(self, coverage: float) -> tuple[float, float]:
-        """Central range that holds the truth with this probability given the stated errors, cut off at the bounds.
+        """Central range that holds the truth with this probability given the stated errors, cut off
+        at the bounds.
 
-        Normal theory around the estimate; the bounds themselves where nothing determines the unknown.
+        Normal theory around the estimate; the bounds themselves where nothing determines the
+        unknown.
 
         Parameters
         ----------
@@ -100,7 +119,11 @@ class Estimate(WithUnit):
         tuple of two floats
             Both ends, in the unit of the unknown.
         """
-        if isinstance(coverage, bool) or not isinstance(coverage, (int, float)) or not 0.0 < coverage < 1.0:
+        if (
+            isinstance(coverage, bool)
+            or not isinstance(coverage, (int, float))
+            or not 0.0 < coverage < 1.0
+        ):
             raise InputError(
                 f"coverage must be between 0 and 1, such as 0.95, got {shown(coverage)}",
                 code="bad_fraction",
@@ -132,7 +155,9 @@ class Residual(WithUnit):
 
 
 def residual_of(row: Observation, unit: str | None, computed: float, apart: float) -> Residual:
-    """An observation or prior beside its computed value; for a censored reading, the bound that is missed, if any."""
+    """An observation or prior beside its computed value; for a censored reading, the bound that is
+    missed, if any.
+    """
     return Residual(
         name=row.name,
         unit=row.value.unit or unit or "",
@@ -147,7 +172,8 @@ def residual_of(row: Observation, unit: str | None, computed: float, apart: floa
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Direction:
-    """A direction in which the evidence does not determine the unknowns: the change of each in SI, all moving together.
+    """A direction in which the evidence does not determine the unknowns: the change of each in SI,
+    all moving together.
 
     ``held_by_prior`` says whether the priors settle it; otherwise nothing does.
     """
@@ -165,24 +191,32 @@ class Direction:
         """The direction as a sentence."""
         what, *rest = self.changes
         if rest:
-            moves = ", ".join(f"{name} by {self.changes[name] / self.changes[what]:+.4g}" for name in rest)
+            moves = ", ".join(
+                f"{name} by {self.changes[name] / self.changes[what]:+.4g}" for name in rest
+            )
             what = f"a change of {what} by +1 together with {moves} (SI)"
-        and_so = "and rests on what was stated before" if self.held_by_prior else "nor by anything else"
+        and_so = (
+            "and rests on what was stated before" if self.held_by_prior else "nor by anything else"
+        )
         return f"{what} is not determined by the evidence, {and_so}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Fit(Shown):
-    """The result of a fit: estimates of the unknowns from the observations, given the stated errors.
+    """The result of a fit: estimates of the unknowns from the observations, given the stated
+    errors.
 
-    ``values`` are SI floats by name, NaN where nothing determines an unknown; ``fit["speed_a"]`` has value, standard error and
-    interval. ``covariance`` (read-only, in the order of ``names``) follows from the model's slopes at the answer, with inf and
-    NaN for what is not determined; where an unknown is in ``at_bounds`` it is the covariance without the bound, so that no
-    error is too small. ``residuals`` and ``contributions`` go by the names of the observations, and by "prior of x" for the
-    priors. ``contributions[unknown][observation]`` is the share of the unknown's variance that is due to the error of the
-    observation. ``nonlinearity`` is the relative amount by which a 95 percent interval is too narrow or too wide, judged by the
-    rise of chi-squared when an unknown is moved by two standard errors (or to its bound) and the others follow the slopes; NaN
-    if the model refuses there. ``model_notes`` are the warnings of the model at the answer, which ``statements`` have too.
+    ``values`` are SI floats by name, NaN where nothing determines an unknown; ``fit["speed_a"]``
+    has value, standard error and interval. ``covariance`` (read-only, in the order of ``names``)
+    follows from the model's slopes at the answer, with inf and NaN for what is not determined;
+    where an unknown is in ``at_bounds`` it is the covariance without the bound, so that no error is
+    too small. ``residuals`` and ``contributions`` go by the names of the observations, and by
+    "prior of x" for the priors. ``contributions[unknown][observation]`` is the share of the
+    unknown's variance that is due to the error of the observation. ``nonlinearity`` is the relative
+    amount by which a 95 percent interval is too narrow or too wide, judged by the rise of
+    chi-squared when an unknown is moved by two standard errors (or to its bound) and the others
+    follow the slopes; NaN if the model refuses there. ``model_notes`` are the warnings of the model
+    at the answer, which ``statements`` have too.
     """
 
     values: Values
@@ -236,27 +270,37 @@ class Fit(Shown):
 
     @property
     def correlation(self) -> dict[tuple[str, str], float]:
-        """Correlations by pair of unknowns, as ``uncertainty.propagate`` takes them together with ``inputs``."""
+        """Correlations by pair of unknowns, as ``uncertainty.propagate`` takes them together with
+        ``inputs``.
+        """
         self._check_determined("correlation")
         pairs = combinations(enumerate(self.names), 2)
-        return {(one, other): float(self.correlation_matrix[i, j]) for (i, one), (j, other) in pairs}
+        return {
+            (one, other): float(self.correlation_matrix[i, j]) for (i, one), (j, other) in pairs
+        }
 
     @property
     def inputs(self) -> dict[str, Normal]:
-        """By unknown, the estimate as a normal distribution within its bounds, as ``uncertainty.propagate`` takes it."""
+        """By unknown, the estimate as a normal distribution within its bounds, as
+        ``uncertainty.propagate`` takes it.
+        """
         self._check_determined("inputs")
         return {name: self._as_normal(name) for name in self.names}
 
     @property
     def consistent(self) -> bool | None:
-        """Whether a misfit this large has a probability of 0.01 or more; None with no more observations than unknowns."""
+        """Whether a misfit this large has a probability of 0.01 or more; None with no more
+        observations than unknowns.
+        """
         return None if math.isnan(self.p_value) else self.p_value >= CONTRADICTION
 
     @property
     def told_by_bounds(self) -> tuple[str, ...]:
         """The unknowns whose standard error exceeds the width of their bounds."""
         widths = {name: high - low for name, (low, high) in self.bounds.items()}
-        return tuple(name for name in self.names if widths[name] < self.standard_errors[name] < math.inf)
+        return tuple(
+            name for name in self.names if widths[name] < self.standard_errors[name] < math.inf
+        )
 
     @property
     def statements(self) -> tuple[str, ...]:
@@ -278,7 +322,15 @@ class Fit(Shown):
             "residuals": {name: asdict(one) for name, one in self.residuals.items()},
             "undetermined": [asdict(one) | {"sentence": one.sentence} for one in self.undetermined],
         }
-        plain = ("names", "contributions", "at_bounds", "chi_squared", "degrees_of_freedom", "p_value", "nonlinearity")
+        plain = (
+            "names",
+            "contributions",
+            "at_bounds",
+            "chi_squared",
+            "degrees_of_freedom",
+            "p_value",
+            "nonlinearity",
+        )
         written: dict[str, Any] = strict(record | {name: getattr(self, name) for name in plain})
         return written
 
@@ -287,15 +339,31 @@ class Fit(Shown):
             if not one.determined:
                 return one.name, "not determined", _NONE, _NONE
             bound = f" ({one.at_bound} bound)" if one.at_bound else ""
-            value, error = (numbers.text(part, one.unit) for part in (one.value, one.standard_error))
-            return one.name, value + bound, error, numbers.text(np.array(one.interval(0.95)), one.unit)
+            value, error = (
+                numbers.text(part, one.unit) for part in (one.value, one.standard_error)
+            )
+            return (
+                one.name,
+                value + bound,
+                error,
+                numbers.text(np.array(one.interval(0.95)), one.unit),
+            )
 
         misfit = [
-            (name, numbers.text(one.observed, one.unit), numbers.text(one.computed, one.unit), f"{one.over_sigma:+.2f}")
+            (
+                name,
+                numbers.text(one.observed, one.unit),
+                numbers.text(one.computed, one.unit),
+                f"{one.over_sigma:+.2f}",
+            )
             for name, one in self.residuals.items()
         ]
         parts = [
-            Part([row(self[name]) for name in self.names], "Unknown", ("estimate", "standard error", "95 percent interval")),
+            Part(
+                [row(self[name]) for name in self.names],
+                "Unknown",
+                ("estimate", "standard error", "95 percent interval"),
+            ),
             Part(misfit, "Evidence", ("observed", "computed", "residual over sigma")),
             Part([("chi-squared", _chi_squared(self))] if self.degrees_of_freedom else []),
         ]
@@ -311,15 +379,18 @@ class Fit(Shown):
     def _as_normal(self, name: str) -> Normal:
         one = self[name]
         value, error = (with_unit(number, one.unit) for number in (one.value, one.standard_error))
-        low, high = (with_unit(end, one.unit) if math.isfinite(end) else None for end in (one.low, one.high))
+        low, high = (
+            with_unit(end, one.unit) if math.isfinite(end) else None for end in (one.low, one.high)
+        )
         return Normal(value, error, truncate=(low, high))
 
     def _check_determined(self, what: str) -> None:
         left = [name for name in self.names if not self[name].determined]
         if left:
             raise NoSolutionError(
-                f"{what} need every unknown determined, and nothing determines {', '.join(left)}; give a prior of it (a "
-                f"Normal), leave it out, or read the others from .values and .covariance",
+                f"{what} need every unknown determined, and nothing determines "
+                f"{', '.join(left)}; give a prior of it (a Normal), leave it out, or read the "
+                "others from .values and .covariance",
                 code="undetermined",
                 unknowns=tuple(left),
             )
@@ -338,29 +409,58 @@ def notes_of(found: Fit) -> Iterator[Note]:
     else:
         yield agreement(found.p_value, found.residuals, f" (chi-squared {_chi_squared(found)})")
     for direction in found.undetermined:
-        advice = "; give a prior of it (a Normal), or an observation that determines it, or take reconstruct.posterior"
+        advice = (
+            "; give a prior of it (a Normal), or an observation that determines it, or take "
+            "reconstruct.posterior"
+        )
         open_ = Note(IllConditionedWarning, direction.sentence, advice, "undetermined")
         yield Note(None, direction.sentence) if direction.held_by_prior else open_
     for name, side in found.at_bounds.items():
         inward = "above" if side == "low" else "below"
-        why = f"beyond which the evidence pulls it: its error is not symmetric and reaches {inward} only"
-        yield Note(IllConditionedWarning, f"{name} ended on its {side} bound, {why}", _TAKE_POSTERIOR, "told_by_bounds")
+        why = (
+            "beyond which the evidence pulls it: its error is not symmetric and reaches "
+            f"{inward} only"
+        )
+        yield Note(
+            IllConditionedWarning,
+            f"{name} ended on its {side} bound, {why}",
+            _TAKE_POSTERIOR,
+            "told_by_bounds",
+        )
     for name in found.told_by_bounds:
-        error = f"the standard error of {name}, {found.standard_errors[name]:.3g}, exceeds the width of its bounds"
-        yield Note(IllConditionedWarning, f"{error}: they limit it, not the evidence", _TAKE_POSTERIOR, "told_by_bounds")
+        error = (
+            f"the standard error of {name}, {found.standard_errors[name]:.3g}, exceeds the width "
+            "of its bounds"
+        )
+        yield Note(
+            IllConditionedWarning,
+            f"{error}: they limit it, not the evidence",
+            _TAKE_POSTERIOR,
+            "told_by_bounds",
+        )
     if not found.nonlinearity <= _LARGE_NONLINEARITY:
         does = "refuses" if math.isnan(found.nonlinearity) else "bends"
         part = f"{found.nonlinearity:.0%} of" if found.nonlinearity <= 1.0 else "more than"
-        by = "not symmetric" if math.isnan(found.nonlinearity) else f"off by {part} their half-width"
-        sentence = f"the model {does} within two standard errors of the answer: the 95 percent intervals are {by}"
+        by = (
+            "not symmetric" if math.isnan(found.nonlinearity) else f"off by {part} their half-width"
+        )
+        sentence = (
+            f"the model {does} within two standard errors of the answer: the 95 percent "
+            f"intervals are {by}"
+        )
         yield Note(IllConditionedWarning, sentence, _TAKE_POSTERIOR, "not_linear")
     for name, one in found.residuals.items():
-        if not one.unit and not one.is_prior and max(abs(one.observed), abs(one.computed)) <= math.pi < abs(one.residual):
+        if (
+            not one.unit
+            and not one.is_prior
+            and max(abs(one.observed), abs(one.computed)) <= math.pi < abs(one.residual)
+        ):
             degrees = f"'{math.degrees(one.observed):.4g} deg', '{math.degrees(one.sigma):.3g} deg'"
             yield Note(
                 SuspectUnitsWarning,
-                f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; if it is an angle, the short "
-                f"way between them is round the circle: give it with its unit, such as Normal({degrees})",
+                f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; "
+                "if it is an angle, the short way between them is round the circle: give it "
+                f"with its unit, such as Normal({degrees})",
                 "",
                 "bare_angle",
             )
@@ -368,18 +468,32 @@ def notes_of(found: Fit) -> Iterator[Note]:
 
 
 def agreement(p_value: float, residuals: Mapping[str, Residual], by: str = "") -> Note:
-    """Whether the evidence agrees with itself, by the chance of its misfit in two digits, never rounded across a limit."""
+    """Whether the evidence agrees with itself, by the chance of its misfit in two digits, never
+    rounded across a limit.
+    """
     text = f"{p_value:.2g}"
-    text = next((f"just below {limit:g}" for limit in (_WEAK, CONTRADICTION) if p_value < limit <= float(text)), text)
+    text = next(
+        (
+            f"just below {limit:g}"
+            for limit in (_WEAK, CONTRADICTION)
+            if p_value < limit <= float(text)
+        ),
+        text,
+    )
     chance = f"a misfit this large or larger has a chance of {text}"
     if p_value >= _WEAK:
         return Note(None, f"the evidence agrees with itself: {chance}")
     if p_value >= CONTRADICTION:
-        return Note(None, f"the evidence agrees only weakly with itself, the model and the stated errors: {chance}")
+        return Note(
+            None,
+            "the evidence agrees only weakly with itself, the model and the stated errors: "
+            f"{chance}",
+        )
     name, worst = max(residuals.items(), key=lambda item: abs(item[1].over_sigma))
     return Note(
         CollisionsWarning,
         f"the evidence contradicts itself, the model or the stated errors: {chance}",
-        f", and {CONTRADICTION} would pass{by}; the furthest off is {name}, by {abs(worst.over_sigma):.3g} sigma",
+        f", and {CONTRADICTION} would pass{by}; the furthest off is {name}, by "
+        f"{abs(worst.over_sigma):.3g} sigma",
         "contradictory",
     )

@@ -1,4 +1,6 @@
-"""Tempered sequential Monte Carlo on plain arrays: points of a posterior in normal scores, and its evidence."""
+"""Tempered sequential Monte Carlo on plain arrays: points of a posterior in normal scores, and its
+evidence.
+"""
 
 from __future__ import annotations
 
@@ -8,24 +10,35 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-# Log-likelihoods of points (cases, dimensions), and by how much they miss sharp bounds: infinite where there is no answer.
+# Log-likelihoods of points (cases, dimensions), and by how much they miss sharp bounds: infinite
+# where there is no answer.
 Evaluate: TypeAlias = Callable[[Any], tuple[Any, Any]]
 
 _FEWEST = 0.25  # of a population: with fewer answers more of the prior is drawn
 _MOST_DRAWS = 64  # populations of the prior
-_MOVES, _MOVES_LAST, _MOST_SWEEPS = 3.0, 10.0, 80  # accepted moves a point after each resampling, and tries at most
+_MOVES, _MOVES_LAST, _MOST_SWEEPS = (
+    3.0,
+    10.0,
+    80,
+)  # accepted moves a point after each resampling, and tries at most
 _ACCEPTED = 0.25  # share of moves to aim at, which suits many dimensions
 _NOISE = 0.1  # of the spread, beside the differences of points
-_NO_NEARER, _MOST_OF_THESE = 0.98, 5  # sharp bounds that so many stages miss by as much cannot be met
-# Ordinary evidence takes 5 to 50 stages. A stage goes on by a quarter of a deviation of the prior or more, so that these end
-# at 100 deviations from its mean at least: no prior means that.
+_NO_NEARER, _MOST_OF_THESE = (
+    0.98,
+    5,
+)  # sharp bounds that so many stages miss by as much cannot be met
+# Ordinary evidence takes 5 to 50 stages. A stage goes on by a quarter of a deviation of the prior
+# or more, so that these end at 100 deviations from its mean at least: no prior means that.
 _MOST_STAGES = 500
-_MOST_MISFIT = 1e13  # where the rounding of a logarithm is no longer small against 1, and all points are as likely
+# where the rounding of a logarithm is no longer small against 1, and all points are as likely
+_MOST_MISFIT = 1e13
 _BISECTIONS = 40
 
 
 class UnreachableError(Exception):
-    """No point has an answer (``missed`` is infinite), none meets the sharp bounds, or all are too far away (it is 0)."""
+    """No point has an answer (``missed`` is infinite), none meets the sharp bounds, or all are too
+    far away (it is 0).
+    """
 
     def __init__(self, draws: int, missed: float) -> None:
         super().__init__(draws, missed)
@@ -34,7 +47,9 @@ class UnreachableError(Exception):
 
 
 class Island(NamedTuple):
-    """Equally likely points, the logarithm of their evidence, the share of the prior that was refused, and of moved points."""
+    """Equally likely points, the logarithm of their evidence, the share of the prior that was
+    refused, and of moved points.
+    """
 
     points: Any
     log_evidence: float
@@ -43,23 +58,30 @@ class Island(NamedTuple):
 
 
 class Islands:
-    """Points (islands, points, dimensions) of the prior (standard normal) times likelihood**power, within ``limit`` of bounds.
+    """Points (islands, points, dimensions) of the prior (standard normal) times likelihood**power,
+    within ``limit`` of bounds.
 
-    The powers rise to 1: P. Del Moral, A. Doucet, A. Jasra, "Sequential Monte Carlo samplers", J. R. Statist. Soc. B 68 (2006);
-    each leaves half of the effective sample size. The points are then moved by Metropolis steps along differences of two
-    points, which suit separate modes too: C. J. F. ter Braak, Statistics and Computing 16 (2006). These two are taken from the
-    next island: steps that depended on the errors of their own island would leave the evidence too high. Sharp bounds are met
-    first, by thresholds that half of the points pass: S.-K. Au and J. L. Beck, Probabilistic Engineering Mechanics 16 (2001).
+    The powers rise to 1: P. Del Moral, A. Doucet, A. Jasra, "Sequential Monte Carlo samplers", J.
+    R. Statist. Soc. B 68 (2006); each leaves half of the effective sample size. The points are then
+    moved by Metropolis steps along differences of two points, which suit separate modes too: C. J.
+    F. ter Braak, Statistics and Computing 16 (2006). These two are taken from the next island:
+    steps that depended on the errors of their own island would leave the evidence too high. Sharp
+    bounds are met first, by thresholds that half of the points pass: S.-K. Au and J. L. Beck,
+    Probabilistic Engineering Mechanics 16 (2001).
     """
 
     points: Any
     likelihood: Any
     missed: Any
 
-    def __init__(self, evaluate: Evaluate, shape: tuple[int, int, int], random: np.random.Generator) -> None:
+    def __init__(
+        self, evaluate: Evaluate, shape: tuple[int, int, int], random: np.random.Generator
+    ) -> None:
         self.evaluate, self.shape, self.random = evaluate, shape, random
         self.power, self.limit, self.scale = 0.0, math.inf, 2.38 / math.sqrt(2.0 * shape[2])
-        self.log_evidence, self.refused, self.moved = (np.full(shape[0], start) for start in (0.0, 0.0, 1.0))
+        self.log_evidence, self.refused, self.moved = (
+            np.full(shape[0], start) for start in (0.0, 0.0, 1.0)
+        )
 
     def found(self, report: Callable[[float], None]) -> list[Island]:
         """The islands, taken from the prior to the posterior."""
@@ -72,7 +94,15 @@ class Islands:
             report(self.power)
         if self.power < 1.0 or np.max(self.likelihood) < -_MOST_MISFIT:
             raise UnreachableError(0, 0.0)
-        return list(map(Island, self.points, self.log_evidence.tolist(), self.refused.tolist(), self.moved.tolist()))
+        return list(
+            map(
+                Island,
+                self.points,
+                self.log_evidence.tolist(),
+                self.refused.tolist(),
+                self.moved.tolist(),
+            )
+        )
 
     def _evaluated(self, points: Any) -> tuple[Any, Any, Any]:
         """Points with their log-likelihoods and by how much they miss."""
@@ -82,12 +112,16 @@ class Islands:
     def _draw(self) -> None:
         """Points of the prior that have an answer."""
         count, drawn, known = self.shape[1], [], np.zeros((self.shape[0], 0), dtype=bool)
-        while np.any(np.sum(known, axis=1) < _FEWEST * count) and known.shape[1] < _MOST_DRAWS * count:
+        while (
+            np.any(np.sum(known, axis=1) < _FEWEST * count) and known.shape[1] < _MOST_DRAWS * count
+        ):
             drawn.append(self._evaluated(self.random.standard_normal(self.shape)))
             known = np.concatenate([known, drawn[-1][2] < math.inf], axis=1)
         if not np.all(np.any(known, axis=1)):
             raise UnreachableError(known.shape[1], math.inf)
-        self.points, self.likelihood, self.missed = (np.concatenate(part, axis=1) for part in zip(*drawn, strict=True))
+        self.points, self.likelihood, self.missed = (
+            np.concatenate(part, axis=1) for part in zip(*drawn, strict=True)
+        )
         self.refused = np.mean(~known, axis=1)
         if not np.all(known):
             self._select(known.astype(np.float64))
@@ -125,7 +159,9 @@ class Islands:
         self._select(np.exp(more * behind))
 
     def _select(self, weights: Any) -> None:
-        """Systematic resampling by weight, whose mean goes into the evidence; then moves that keep the distribution."""
+        """Systematic resampling by weight, whose mean goes into the evidence; then moves that keep
+        the distribution.
+        """
         self.log_evidence += np.log(np.mean(weights, axis=1))
         sums = np.cumsum(weights, axis=1)
         weights = (weights / sums[:, -1:])[..., np.newaxis]
@@ -133,24 +169,36 @@ class Islands:
         spread = np.sqrt(np.sum(weights * away**2, axis=1, keepdims=True))
         count = self.shape[1]
         places = (self.random.random((len(sums), 1)) + np.arange(count)) / count * sums[:, -1:]
-        chosen = np.stack([np.searchsorted(row, place) for row, place in zip(sums, places, strict=True)])
+        chosen = np.stack(
+            [np.searchsorted(row, place) for row, place in zip(sums, places, strict=True)]
+        )
         chosen = np.minimum(chosen, weights.shape[1] - 1)
         self.points = np.take_along_axis(self.points, chosen[..., np.newaxis], axis=1)
-        self.likelihood, self.missed = (np.take_along_axis(part, chosen, axis=1) for part in (self.likelihood, self.missed))
+        self.likelihood, self.missed = (
+            np.take_along_axis(part, chosen, axis=1) for part in (self.likelihood, self.missed)
+        )
         self._move(np.roll(self.points, 1, axis=0), _NOISE * np.roll(spread, 1, axis=0))
 
     def _move(self, others: Any, noise: Any) -> None:
-        """Metropolis steps along differences between the points of the other islands, with some noise in all directions."""
+        """Metropolis steps along differences between the points of the other islands, with some
+        noise in all directions.
+        """
         count, accepted = self.shape[1], np.zeros(self.shape[:2], dtype=np.intp)
         which = np.arange(self.shape[0])[:, np.newaxis]
         for _ in range(_MOST_SWEEPS):
             one = self.random.integers(count, size=accepted.shape)
             other = (one + self.random.integers(1, count, size=accepted.shape)) % count
-            step = others[which, one] - others[which, other] + noise * self.random.standard_normal(self.shape)
+            step = (
+                others[which, one]
+                - others[which, other]
+                + noise * self.random.standard_normal(self.shape)
+            )
             points, likelihood, missed = self._evaluated(self.points + self.scale * step)
             prior = 0.5 * np.sum((self.points - points) * (self.points + points), axis=2)
             gain = prior + self.power * (likelihood - self.likelihood)
-            better = (missed <= self.limit) & (-self.random.standard_exponential(accepted.shape) < gain)
+            better = (missed <= self.limit) & (
+                -self.random.standard_exponential(accepted.shape) < gain
+            )
             self.points[better], self.likelihood[better] = points[better], likelihood[better]
             self.missed[better] = missed[better]
             accepted += better

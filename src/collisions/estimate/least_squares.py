@@ -1,4 +1,6 @@
-"""Weighted least squares within bounds on plain arrays: the searches, the covariance, and the probability of a misfit."""
+"""Weighted least squares within bounds on plain arrays: the searches, the covariance, and the
+probability of a misfit.
+"""
 
 from __future__ import annotations
 
@@ -10,15 +12,21 @@ import numpy as np
 
 _EPS = 2.0**-52
 _ROUNDS = 200
-# Convergence limit: the remaining step in standard errors, or relative to the misfit where that is larger.
+# Convergence limit: the remaining step in standard errors, or relative to the misfit where that is
+# larger.
 _CLOSE = 1e-8
 # The same where rounding of the model lets the search come no closer.
 _CLOSE_ENOUGH = 1e-3
 _FIRST_DAMPING, _MOST_DAMPING = 1e-2, 1e16
-_LEAST_WEIGHT = 1e-3  # of the largest slope: an unknown that changes less is damped like one that changes so much
-_KINK = 0.05  # of a slope; over so short a step a smooth model changes its own by less than a thousandth
-FLAT = 1e-3  # sigma: evidence that changes less while an unknown moves by its whole scale does not identify it
-_NEGLIGIBLE_SHARE = 1e-4  # of its scale: an unknown that moves less along a direction is not part of it
+# of the largest slope: an unknown that changes less is damped like one that changes so much
+_LEAST_WEIGHT = 1e-3
+# of a slope; over so short a step a smooth model changes its own by less than a thousandth
+_KINK = 0.05
+# sigma: evidence that changes less while an unknown moves by its whole scale does not identify it
+FLAT = 1e-3
+_NEGLIGIBLE_SHARE = (
+    1e-4  # of its scale: an unknown that moves less along a direction is not part of it
+)
 _DIFFERENCE_ERROR = 10.0  # eps of the model's outputs, in a difference
 _LARGEST = 1e100
 
@@ -26,9 +34,10 @@ _LARGEST = 1e100
 class Problem(NamedTuple):
     """A least-squares problem in units of standard deviations.
 
-    ``evaluate`` takes points (k, n) and returns the outputs of the model there (k, m), NaN where it refuses; ``period`` is NaN
-    for what does not go round a circle; ``scale`` is how far each unknown may be expected to move, and ``size`` the length over
-    which the model changes, which sets the steps of the slopes; without it, a guess from the scale.
+    ``evaluate`` takes points (k, n) and returns the outputs of the model there (k, m), NaN where it
+    refuses; ``period`` is NaN for what does not go round a circle; ``scale`` is how far each
+    unknown may be expected to move, and ``size`` the length over which the model changes, which
+    sets the steps of the slopes; without it, a guess from the scale.
     """
 
     evaluate: Callable[[Any], Any]
@@ -41,7 +50,9 @@ class Problem(NamedTuple):
 
     def wrapped(self, difference: Any) -> Any:
         """Differences of angles by the short way round, within half a turn."""
-        return difference - np.where(np.isnan(self.period), 0.0, self.period * np.ceil(difference / self.period - 0.5))
+        return difference - np.where(
+            np.isnan(self.period), 0.0, self.period * np.ceil(difference / self.period - 0.5)
+        )
 
     def misfit(self, outputs: Any) -> Any:
         """Computed minus observed values."""
@@ -49,28 +60,41 @@ class Problem(NamedTuple):
 
     def sizes(self, points: Any) -> Any:
         """The length, by unknown, over which the model is assumed to vary."""
-        return np.clip(abs(points), 1e-3 * self.scale, 10.0 * self.scale) if self.size is None else self.size
+        return (
+            np.clip(abs(points), 1e-3 * self.scale, 10.0 * self.scale)
+            if self.size is None
+            else self.size
+        )
 
     def steps(self, points: Any) -> Any:
-        """Finite-difference steps by unknown, small enough to stay within the bounds on one side."""
+        """Finite-difference steps by unknown, small enough to stay within the bounds on
+        one side.
+        """
         size = self.sizes(points)
         step = np.maximum(_EPS ** (1 / 3) * size, np.sqrt(_EPS * abs(points) * size))
         return np.minimum(step, 0.25 * (self.high - self.low))
 
     def with_slopes(self, points: Any) -> tuple[Any, Any]:
-        """Outputs (k, m) and their derivatives (k, m, n) by differences, NaN where the model refuses on both sides."""
+        """Outputs (k, m) and their derivatives (k, m, n) by differences, NaN where the model
+        refuses on both sides.
+        """
         outputs, (above, below), (up, down) = self._differences(points)
         return outputs, np.swapaxes((above - below) / (up - down), 1, 2)
 
     def has_kink(self, point: Any) -> bool:
-        """Whether the one-sided slopes differ by more than a smooth model's do: a kink or a jump in between."""
+        """Whether the one-sided slopes differ by more than a smooth model's do: a kink or a jump in
+        between.
+        """
         _, changes, moves = self._differences(point[np.newaxis])
         above, below = changes / moves
-        sizes = [np.linalg.norm(part[0], axis=1) * self.scale for part in (above, below, above - below)]
+        sizes = [
+            np.linalg.norm(part[0], axis=1) * self.scale for part in (above, below, above - below)
+        ]
         return bool(np.any(sizes[2] > _KINK * np.maximum(1.0, np.fmax(sizes[0], sizes[1]))))
 
     def _differences(self, points: Any) -> tuple[Any, Any, Any]:
-        """Outputs, by how much they change towards a neighbour above and below (2, k, n, m), and the moves (2, k, n, 1).
+        """Outputs, by how much they change towards a neighbour above and below (2, k, n, m), and
+        the moves (2, k, n, 1).
 
         Where a bound or a refusal is in the way both are 0.
         """
@@ -83,11 +107,17 @@ class Problem(NamedTuple):
         outputs, found = found[:count], found[count:].reshape(2, count, n, -1)
         changes = self.wrapped(found - outputs[:, np.newaxis])
         refused = np.any(np.isnan(changes), axis=3, keepdims=True)
-        return outputs, np.where(refused, 0.0, changes), np.where(refused, 0.0, (moved - points)[..., np.newaxis])
+        return (
+            outputs,
+            np.where(refused, 0.0, changes),
+            np.where(refused, 0.0, (moved - points)[..., np.newaxis]),
+        )
 
 
 class Ends(NamedTuple):
-    """The ends of the searches, one per row; chi-squared is infinite where the model refuses from the start."""
+    """The ends of the searches, one per row; chi-squared is infinite where the model refuses from
+    the start.
+    """
 
     points: Any
     outputs: Any
@@ -97,9 +127,11 @@ class Ends(NamedTuple):
 
 
 def spread(count: int, low: Any, high: Any) -> Any:
-    """Points evenly over a box, the middle first: the additive recurrence on powers of the generalised golden ratio.
+    """Points evenly over a box, the middle first: the additive recurrence on powers of the
+    generalised golden ratio.
 
-    M. Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018): the root of x^(n+1) = x + 1.
+    M. Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018): the root of
+    x^(n+1) = x + 1.
     """
     n = len(low)
     root = 2.0
@@ -110,10 +142,12 @@ def spread(count: int, low: Any, high: Any) -> Any:
 
 
 def minimise(problem: Problem, starts: Any) -> Ends:
-    """Levenberg-Marquardt from every start at once, projected on the bounds; a step into a refusal is never taken.
+    """Levenberg-Marquardt from every start at once, projected on the bounds; a step into a refusal
+    is never taken.
 
-    Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is left, in the metric of the
-    standard errors, is rounding; one that no step, however short, takes lower, as at a jump or a refusal, has not.
+    Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is
+    left, in the metric of the standard errors, is rounding; one that no step, however short, takes
+    lower, as at a jump or a refusal, has not.
     """
     points = np.clip(starts, problem.low, problem.high)
     outputs, slopes = problem.with_slopes(points)
@@ -123,7 +157,9 @@ def minimise(problem: Problem, starts: Any) -> Ends:
 
     for _ in range(_ROUNDS):
         rows = np.flatnonzero(live)
-        trial, foreseen, left[rows] = _step(problem, points[rows], outputs[rows], slopes[rows], damping[rows])
+        trial, foreseen, left[rows] = _step(
+            problem, points[rows], outputs[rows], slopes[rows], damping[rows]
+        )
         live = live & (left > _CLOSE) & (damping <= _MOST_DAMPING)
         going = live[rows]
         rows, trial, foreseen = rows[going], trial[going], foreseen[going]
@@ -134,7 +170,12 @@ def minimise(problem: Problem, starts: Any) -> Ends:
         better = (new < cost[rows]) & (foreseen > 0.0)
         taken, other = rows[better], rows[~better]
         gain = np.clip((cost[taken] - new[better]) / foreseen[better], 0.0, 1.0)
-        points[taken], outputs[taken], slopes[taken], cost[taken] = trial[better], found[better], steep[better], new[better]
+        points[taken], outputs[taken], slopes[taken], cost[taken] = (
+            trial[better],
+            found[better],
+            steep[better],
+            new[better],
+        )
         damping[taken] *= np.maximum(1.0 / 3.0, 1.0 - (2.0 * gain - 1.0) ** 3)
         growth[taken] = 2.0
         damping[other] *= growth[other]
@@ -145,46 +186,70 @@ def minimise(problem: Problem, starts: Any) -> Ends:
 def _cost(problem: Problem, outputs: Any, slopes: Any) -> Any:
     """Chi-squared, infinite where the model refuses or its numbers cannot be squared."""
     misfit = problem.misfit(outputs)
-    usable = np.all(abs(misfit) < _LARGEST, axis=1) & np.all(abs(slopes * problem.scale) < _LARGEST, axis=(1, 2))
-    return np.where(usable, np.sum(np.where(usable[:, np.newaxis], misfit, 0.0) ** 2, axis=1), np.inf)
+    usable = np.all(abs(misfit) < _LARGEST, axis=1) & np.all(
+        abs(slopes * problem.scale) < _LARGEST, axis=(1, 2)
+    )
+    return np.where(
+        usable, np.sum(np.where(usable[:, np.newaxis], misfit, 0.0) ** 2, axis=1), np.inf
+    )
 
 
 def _slope_error(outputs: Any, scale: Any, steps: Any) -> Any:
     """Bound of the rounding error in finite-difference slopes, per scale of each unknown."""
-    return _DIFFERENCE_ERROR * _EPS * np.max(abs(outputs), axis=-1, initial=1.0)[..., np.newaxis] * scale / steps
+    return (
+        _DIFFERENCE_ERROR
+        * _EPS
+        * np.max(abs(outputs), axis=-1, initial=1.0)[..., np.newaxis]
+        * scale
+        / steps
+    )
 
 
-def _step(problem: Problem, points: Any, outputs: Any, slopes: Any, damping: Any) -> tuple[Any, Any, Any]:
-    """Where the damped step within the bounds leads, the predicted fall of chi-squared, and how much there is left to go.
+def _step(
+    problem: Problem, points: Any, outputs: Any, slopes: Any, damping: Any
+) -> tuple[Any, Any, Any]:
+    """Where the damped step within the bounds leads, the predicted fall of chi-squared, and how
+    much there is left to go.
 
-    The last is the length of the undamped step in standard errors, over the misfit where that is above 1, along directions in
-    which the slopes are more than rounding.
+    The last is the length of the undamped step in standard errors, over the misfit where that is
+    above 1, along directions in which the slopes are more than rounding.
     """
     misfit, scaled = problem.misfit(outputs), slopes * problem.scale
     gradient = np.einsum("kmn,km->kn", scaled, misfit)
-    held = ((points <= problem.low) & (gradient > 0.0)) | ((points >= problem.high) & (gradient < 0.0))
+    held = ((points <= problem.low) & (gradient > 0.0)) | (
+        (points >= problem.high) & (gradient < 0.0)
+    )
     scaled = np.where(held[:, np.newaxis], 0.0, scaled)
     weight = np.linalg.norm(scaled, axis=1)
-    weight = np.maximum(weight, _LEAST_WEIGHT * np.maximum(1.0, np.max(weight, axis=1, keepdims=True)))
+    weight = np.maximum(
+        weight, _LEAST_WEIGHT * np.maximum(1.0, np.max(weight, axis=1, keepdims=True))
+    )
     across, size, direction = np.linalg.svd(scaled / weight[:, np.newaxis], full_matrices=False)
     along = np.einsum("kmi,km->ki", across, misfit)
     error = _slope_error(outputs, problem.scale, problem.steps(points))
-    # Within bounds a slope that identifies nothing counts no more: at a turning point it never is down to its rounding.
+    # Within bounds a slope that identifies nothing counts no more: at a turning point it never is
+    # down to its rounding.
     error = np.where(np.isinf(problem.high - problem.low), error, np.maximum(error, FLAT))
     error = np.einsum("kij,kj->ki", abs(direction), error / weight)
-    left = np.linalg.norm(np.where(size > error, along, 0.0), axis=1) / np.maximum(1.0, np.linalg.norm(misfit, axis=1))
-    move = -np.einsum("kij,ki->kj", direction, along * size / (size**2 + damping[:, np.newaxis])) / weight
+    left = np.linalg.norm(np.where(size > error, along, 0.0), axis=1) / np.maximum(
+        1.0, np.linalg.norm(misfit, axis=1)
+    )
+    move = (
+        -np.einsum("kij,ki->kj", direction, along * size / (size**2 + damping[:, np.newaxis]))
+        / weight
+    )
     trial = np.clip(points + move * problem.scale, problem.low, problem.high)
     change = np.einsum("kmn,kn->km", scaled, (trial - points) / problem.scale)
     return trial, -np.sum(change * (2.0 * misfit + change), axis=1), left
 
 
 class Determination(NamedTuple):
-    """The covariance from the evidence (inf and NaN where nothing determines it), and the contribution of each row.
+    """The covariance from the evidence (inf and NaN where nothing determines it), and the
+    contribution of each row.
 
-    ``unidentified`` are directions that nothing determines, ``prior_only`` those that the priors determine and the evidence
-    does not, each a row of changes in the units of the unknowns, the largest share of a scale being one whole scale. ``rank``
-    is how many directions are determined.
+    ``unidentified`` are directions that nothing determines, ``prior_only`` those that the priors
+    determine and the evidence does not, each a row of changes in the units of the unknowns, the
+    largest share of a scale being one whole scale. ``rank`` is how many directions are determined.
     """
 
     covariance: Any
@@ -194,17 +259,24 @@ class Determination(NamedTuple):
     rank: int
 
 
-def determination(slopes: Any, is_prior: Any, scale: Any, outputs: Any, steps: Any) -> Determination:
-    """The determination from slopes (m, n) in standard deviations per unknown; some rows are priors.
+def determination(
+    slopes: Any, is_prior: Any, scale: Any, outputs: Any, steps: Any
+) -> Determination:
+    """The determination from slopes (m, n) in standard deviations per unknown; some rows are
+    priors.
 
-    A direction is unidentified if moving along it by one scale changes everything by less than a thousandth of a standard
-    deviation, or by less than the rounding of the differences that the slopes came from.
+    A direction is unidentified if moving along it by one scale changes everything by less than a
+    thousandth of a standard deviation, or by less than the rounding of the differences that the
+    slopes came from.
     """
     scaled = slopes * scale
     error = _slope_error(outputs, scale, steps)
     size, direction = _directions(scaled)
     identified = size > np.maximum(FLAT, abs(direction) @ error)
-    unidentified, axes = direction[~identified], direction[identified] / size[identified, np.newaxis]
+    unidentified, axes = (
+        direction[~identified],
+        direction[identified] / size[identified, np.newaxis],
+    )
 
     size, direction = _directions(scaled[~is_prior])
     without_priors = direction[size <= np.maximum(FLAT, abs(direction) @ error)]
@@ -214,10 +286,14 @@ def determination(slopes: Any, is_prior: Any, scale: Any, outputs: Any, steps: A
 
     lost = np.linalg.norm(unidentified, axis=0) > _NEGLIGIBLE_SHARE
     gain = np.where(lost[:, np.newaxis], np.nan, axes.T @ (axes @ scaled.T))
-    covariance = np.where(lost[:, np.newaxis] | lost, np.nan, axes.T @ axes) * np.outer(scale, scale)
+    covariance = np.where(lost[:, np.newaxis] | lost, np.nan, axes.T @ axes) * np.outer(
+        scale, scale
+    )
     covariance[lost, lost] = np.inf
     shares = gain**2 / np.sum(gain**2, axis=1, keepdims=True)
-    return Determination(covariance, _reduced(unidentified) * scale, _reduced(prior_only) * scale, shares, len(axes))
+    return Determination(
+        covariance, _reduced(unidentified) * scale, _reduced(prior_only) * scale, shares, len(axes)
+    )
 
 
 def _directions(matrix: Any) -> tuple[Any, Any]:
@@ -228,7 +304,9 @@ def _directions(matrix: Any) -> tuple[Any, Any]:
 
 
 def _reduced(directions: Any) -> Any:
-    """The same space by rows that each involve few unknowns: reduced row echelon form with small entries dropped."""
+    """The same space by rows that each involve few unknowns: reduced row echelon form with small
+    entries dropped.
+    """
     rows = np.array(directions)
     for i in range(len(rows)):
         rest = abs(rows[i:])
@@ -244,7 +322,8 @@ def _reduced(directions: Any) -> Any:
 def chi_squared_tail(chi_squared: float, degrees_of_freedom: int) -> float:
     """Probability that a chi-squared variable exceeds the value; NaN without degrees of freedom.
 
-    The finite sums for whole degrees of freedom, whose terms all have one sign (Abramowitz and Stegun 26.4.4, 26.4.5).
+    The finite sums for whole degrees of freedom, whose terms all have one sign (Abramowitz and
+    Stegun 26.4.4, 26.4.5).
     """
     if degrees_of_freedom < 1 or math.isnan(chi_squared):
         return math.nan
@@ -252,4 +331,6 @@ def chi_squared_tail(chi_squared: float, degrees_of_freedom: int) -> float:
     if half == 0.0 or math.isinf(half):
         return float(half == 0.0)
     powers = (j + 0.5 * odd for j in range(degrees_of_freedom // 2))
-    return math.erfc(math.sqrt(half)) * odd + sum(math.exp(j * math.log(half) - half - math.lgamma(j + 1.0)) for j in powers)
+    return math.erfc(math.sqrt(half)) * odd + sum(
+        math.exp(j * math.log(half) - half - math.lgamma(j + 1.0)) for j in powers
+    )

@@ -1,4 +1,6 @@
-"""``posterior``: samples of the unknowns of a scene given all the evidence, and how probable the evidence is."""
+"""``posterior``: samples of the unknowns of a scene given all the evidence, and how probable the
+evidence is.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ from .least_squares import chi_squared_tail
 from .posterior_result import Posterior, PosteriorOutput, notes_of
 
 ISLANDS = 8
-_SIDE_BY_SIDE = 4  # in each call of the model, for any number of threads: so that no bit depends on it
+_SIDE_BY_SIDE = (
+    4  # in each call of the model, for any number of threads: so that no bit depends on it
+)
 _LEAST_SAMPLES = 512
 
 
@@ -42,62 +46,73 @@ def posterior(
     threads: int = 1,
     progress: Callable[[int, int], None] | bool | None = None,
 ) -> Posterior:
-    """How probable each value of the unknowns of a scene is, given what was known before and everything observed.
+    """How probable each value of the unknowns of a scene is, given what was known before and
+    everything observed.
 
-    Bayes' theorem by sampling, for any priors, however nonlinear the model and however many answers there are. Tempered
-    sequential Monte Carlo takes the samples from the priors to the posterior in eight islands, each resampled by itself; the
-    differences between them give the sampling errors. All figures are conditional on the model, the priors and the stated
-    errors of the observations, which are taken as normal and independent. For the method in this field see G. A. Davis,
+    Bayes' theorem by sampling, for any priors, however nonlinear the model and however many answers
+    there are. Tempered sequential Monte Carlo takes the samples from the priors to the posterior in
+    eight islands, each resampled by itself; the differences between them give the sampling errors.
+    All figures are conditional on the model, the priors and the stated errors of the observations,
+    which are taken as normal and independent. For the method in this field see G. A. Davis,
     "Bayesian reconstruction of traffic accidents", Law, Probability and Risk 2 (2003) 69-89.
 
     Parameters
     ----------
     model : function
-        ``model(**unknowns)`` returns a dict of named outputs, as for ``fit`` and ``uncertainty.propagate``: it is called with
-        arrays of cases [SI] and answers case by case, NaN where it refuses (``on_failure="nan"``); the evidence counts as
-        impossible there. What is known exactly is written into the model.
+        ``model(**unknowns)`` returns a dict of named outputs, as for ``fit`` and
+        ``uncertainty.propagate``: it is called with arrays of cases [SI] and answers case by case,
+        NaN where it refuses (``on_failure="nan"``); the evidence counts as impossible there. What
+        is known exactly is written into the model.
     unknowns : dict
-        By name, the prior (what was known before): any distribution of ``uncertainty``, truncated or not. An ``Interval`` says
-        nothing about likelihood and is refused: give ``Uniform``.
+        By name, the prior (what was known before): any distribution of ``uncertainty``, truncated
+        or not. An ``Interval`` says nothing about likelihood and is refused: give ``Uniform``.
     observed : dict
-        By output of the model, ``Normal(value, error)`` or the pair (value, error) as for ``fit``; an ``Interval`` within which
-        it lies; or ``Censored(low, high, error)``, a reading of which only one bound, or both, are known. Angles with a unit
-        are taken round the circle.
+        By output of the model, ``Normal(value, error)`` or the pair (value, error) as for ``fit``;
+        an ``Interval`` within which it lies; or ``Censored(low, high, error)``, a reading of which
+        only one bound, or both, are known. Angles with a unit are taken round the circle.
     samples : int, optional
         Total number of samples, at least 512. Four times as many halve the sampling errors.
     seed : int, optional
-        Makes the result reproducible to the bit, for any number of threads; without it, ``.seed`` tells which was used.
+        Makes the result reproducible to the bit, for any number of threads; without it, ``.seed``
+        tells which was used.
     correlation : dict, optional
-        Correlations of the priors, {("mass_a", "mass_b"): 0.8}, as for ``uncertainty.propagate``, between their normal scores.
+        Correlations of the priors, {("mass_a", "mass_b"): 0.8}, as for ``uncertainty.propagate``,
+        between their normal scores.
     threads : int, optional
-        At most two are of use, each for four islands. The model must then be safe to call from several threads.
+        At most two are of use, each for four islands. The model must then be safe to call from
+        several threads.
     progress : function or bool, optional
-        Called with the samples done and their total; True shows a bar. An interrupt returns the islands finished by then.
+        Called with the samples done and their total; True shows a bar. An interrupt returns the
+        islands finished by then.
 
     Returns
     -------
     Posterior
-        Mean, spread, intervals and joint samples of the unknowns; predicted outputs; ``probability`` of any condition; the
-        logarithm of the evidence with its error.
+        Mean, spread, intervals and joint samples of the unknowns; predicted outputs;
+        ``probability`` of any condition; the logarithm of the evidence with its error.
 
     Raises
     ------
     InputError
-        An argument that cannot be used, or a model (code "bad_model") that does not answer case by case.
+        An argument that cannot be used, or a model (code "bad_model") that does not answer case by
+        case.
     NoSolutionError
-        The model refuses everywhere (code "refused"); or no sample meets the sharp bounds that were observed, or the errors are
-        too small for any to fit (code "contradictory").
+        The model refuses everywhere (code "refused"); or no sample meets the sharp bounds that were
+        observed, or the errors are too small for any to fit (code "contradictory").
 
     Warns
     -----
     CollisionsWarning
-        The evidence contradicts itself or the priors: a misfit this large has a probability below 0.01.
+        The evidence contradicts itself or the priors: a misfit this large has a probability below
+        0.01.
     IllConditionedWarning
-        The evidence says nothing about an unknown with a uniform prior; or the islands disagree, or the sample collapsed.
+        The evidence says nothing about an unknown with a uniform prior; or the islands disagree, or
+        the sample collapsed.
 
     Examples
     --------
-    A speed known to lie around 20 m/s, read twice. All are normal, so the answer is the weighted mean: weights 1/4, 1 and 1.
+    A speed known to lie around 20 m/s, read twice. All are normal, so the answer is the weighted
+    mean: weights 1/4, 1 and 1.
 
     >>> from collisions.reconstruct import posterior
     >>> from collisions.uncertainty import Normal
@@ -107,7 +122,8 @@ def posterior(
     >>> round(found["speed"].mean, 1), round((0.25 * 20 + 22 + 21) / 2.25, 1)
     (21.3, 21.3)
 
-    The standard deviation is 2/3, so 20 m/s is two of them below the mean, and the share above it is 0.97725.
+    The standard deviation is 2/3, so 20 m/s is two of them below the mean, and the share above it
+    is 0.97725.
 
     >>> probability, error = found.probability(lambda at: at["speed"] > 20.0)
     >>> abs(probability - 0.97725) < 3.0 * error < 0.01
@@ -116,12 +132,16 @@ def posterior(
     # None is a choice of ``propagate`` alone.
     given = math.nan if samples is None else samples
     check_options("monte_carlo", given, None, seed, threads, progress, _LEAST_SAMPLES)
-    called, priors, rows = read_evidence(model, unknowns, observed, "Normal('50 km/h', '10 km/h')", _prior, read_reading)
+    called, priors, rows = read_evidence(
+        model, unknowns, observed, "Normal('50 km/h', '10 km/h')", _prior, read_reading
+    )
     problem = _Problem(called, Joint(priors, correlation), rows)
     seed = int(seed) if seed is not None else secrets.randbits(64)
     # A point at which numbers overflow counts as refused.
     with np.errstate(all="ignore"):
-        islands = list(problem.islands(-(-int(samples) // ISLANDS), seed, int(threads), reporter(progress)))
+        islands = list(
+            problem.islands(-(-int(samples) // ISLANDS), seed, int(threads), reporter(progress))
+        )
         found = problem.result(islands, int(samples), seed)
     warn_of(notes_of(found))
     return found
@@ -131,9 +151,10 @@ def _prior(label: str, given: Any) -> Distribution:
     if isinstance(given, Distribution):
         return given
     raise InputError(
-        f"{label} is of type {type(given).__name__}; give a distribution of what was known before: Normal, or "
-        f"Uniform(low, high) where any value between two is as likely, which an Interval does not say. What is known exactly "
-        f"is written into the model{range_hint(given)}",
+        f"{label} is of type {type(given).__name__}; give a distribution of what was known "
+        "before: Normal, or Uniform(low, high) where any value between two is as likely, which "
+        "an Interval does not say. What is known exactly is written into the "
+        f"model{range_hint(given)}",
         code="bad_prior",
     )
 
@@ -157,7 +178,9 @@ class _Problem:
             yield row, column, row.is_angle(self.model.units[row.name])
 
     def evaluate(self, scores: Any, check: bool) -> tuple[Any, Any]:
-        """Log-likelihoods, and by how much sharp bounds are missed; infinite where the evidence is impossible."""
+        """Log-likelihoods, and by how much sharp bounds are missed; infinite where the evidence is
+        impossible.
+        """
         likelihood, missed = np.zeros(len(scores)), np.zeros(len(scores))
         answered = np.ones(len(scores), dtype=bool)
         for row, column, angle in self.columns(self.computed(scores, check)[1]):
@@ -169,7 +192,9 @@ class _Problem:
         self.possible |= bool(np.any(possible))
         return np.where(possible, likelihood, -np.inf), np.where(possible, missed, np.inf)
 
-    def islands(self, count: int, seed: int, threads: int, report: Callable[[int, int], None] | None) -> list[Island]:
+    def islands(
+        self, count: int, seed: int, threads: int, report: Callable[[int, int], None] | None
+    ) -> list[Island]:
         """Islands of so many points; after an interrupt the finished ones, if there are any."""
         found: list[Island] = []
 
@@ -178,12 +203,16 @@ class _Problem:
                 report(int((len(found) + part * _SIDE_BY_SIDE) * count), ISLANDS * count)
 
         def work(first: int) -> list[Island]:
-            random = np.random.Generator(np.random.PCG64DXSM(np.random.SeedSequence(seed, spawn_key=(3, first))))
+            random = np.random.Generator(
+                np.random.PCG64DXSM(np.random.SeedSequence(seed, spawn_key=(3, first)))
+            )
             shape = (_SIDE_BY_SIDE, count, self.joint.dimensions)
             within = tell if threads == 1 else lambda part: None
             with np.errstate(all="ignore"):
                 # Always the first islands check that the model answers case by case.
-                return Islands(lambda scores: self.evaluate(scores, not first), shape, random).found(within)
+                return Islands(
+                    lambda scores: self.evaluate(scores, not first), shape, random
+                ).found(within)
 
         try:
             for each in in_order(work, range(0, ISLANDS, _SIDE_BY_SIDE), threads):
@@ -201,20 +230,33 @@ class _Problem:
         at = {name: float(prior.quantile(0.5)) for name, prior in self.joint.inputs.items()}
         if math.isinf(problem.missed) and self.possible:
             return NoSolutionError(
-                f"the model answers so seldom that none of {problem.draws} points drawn from the priors was usable; give "
-                f"priors within which the impact happens",
+                f"the model answers so seldom that none of {problem.draws} points drawn from the "
+                "priors was usable; give priors within which the impact happens",
                 code="refused",
                 points=problem.draws,
             )
         if not self.answered:
-            return refused_everywhere(self.model, problem.draws, at, "priors within which the impact happens")
-        sharp = [row.name for row in self.rows if not row.sigma] if math.isfinite(problem.missed) else []
-        what = "comes near what was observed" if problem.missed == 0.0 else "fits within numbers that a float holds"
+            return refused_everywhere(
+                self.model, problem.draws, at, "priors within which the impact happens"
+            )
+        sharp = (
+            [row.name for row in self.rows if not row.sigma]
+            if math.isfinite(problem.missed)
+            else []
+        )
+        what = (
+            "comes near what was observed"
+            if problem.missed == 0.0
+            else "fits within numbers that a float holds"
+        )
         if problem.missed and sharp:
-            what = f"meets the bounds observed of {', '.join(sharp)}: the nearest misses them by {problem.missed:.3g} (SI)"
+            what = (
+                f"meets the bounds observed of {', '.join(sharp)}: the nearest misses them by "
+                f"{problem.missed:.3g} (SI)"
+            )
         return NoSolutionError(
-            f"the evidence contradicts the priors: no point of them {what}. Look for a slipped digit or a wrong unit, or give "
-            f"wider priors or errors",
+            f"the evidence contradicts the priors: no point of them {what}. Look for a slipped "
+            "digit or a wrong unit, or give wider priors or errors",
             code="contradictory",
         )
 
@@ -222,7 +264,9 @@ class _Problem:
         """The islands as one sample, each with its share of the evidence."""
         logs = np.array([one.log_evidence for one in islands])
         places = len(islands) * samples // ISLANDS
-        ends = np.rint(places * np.cumsum(np.exp(logs - _log_mean(logs))) / len(islands)).astype(np.intp)
+        ends = np.rint(places * np.cumsum(np.exp(logs - _log_mean(logs))) / len(islands)).astype(
+            np.intp
+        )
         counts = np.diff(ends, prepend=0)
         labels = np.repeat(np.arange(len(islands)), counts)
         points = [
@@ -238,19 +282,31 @@ class _Problem:
             apart = row.apart(column, angle)
             squares += (apart / row.sigma) ** 2 if row.sigma else 0.0
             middle = float(np.mean(apart))
-            computed = row.value.given_mean - middle if isinstance(row.value, Normal) else float(np.mean(column))
+            computed = (
+                row.value.given_mean - middle
+                if isinstance(row.value, Normal)
+                else float(np.mean(column))
+            )
             residuals[row.name] = residual_of(row, self.model.units[row.name], computed, middle)
         units = {name: prior.unit for name, prior in self.joint.inputs.items()}
         return Posterior(
             priors=dict(self.joint.inputs),
             observed={row.name: row.value for row in self.rows},
             draws=lock(answers | values),
-            unknowns={name: PosteriorOutput(name, units[name] or None, column, labels) for name, column in values.items()},
-            predicted={name: PosteriorOutput(name, self.model.units[name], column, labels) for name, column in answers.items()},
+            unknowns={
+                name: PosteriorOutput(name, units[name] or None, column, labels)
+                for name, column in values.items()
+            },
+            predicted={
+                name: PosteriorOutput(name, self.model.units[name], column, labels)
+                for name, column in answers.items()
+            },
             residuals=residuals,
             log_evidence=_log_mean(logs),
             log_evidence_error=math.sqrt(float(np.var(left_out)) * (len(logs) - 1)),
-            p_value=chi_squared_tail(float(np.min(squares)), sum(row.sigma > 0.0 for row in self.rows)),
+            p_value=chi_squared_tail(
+                float(np.min(squares)), sum(row.sigma > 0.0 for row in self.rows)
+            ),
             refused=float(np.mean([one.refused for one in islands])),
             moved=min(one.moved for one in islands),
             samples=len(scores),

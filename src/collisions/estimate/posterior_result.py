@@ -1,4 +1,6 @@
-"""``Posterior``: how probable each value of the unknowns is given the evidence, as joint samples; and the evidence itself."""
+"""``Posterior``: how probable each value of the unknowns is given the evidence, as joint samples;
+and the evidence itself.
+"""
 
 from __future__ import annotations
 
@@ -28,10 +30,11 @@ _MOSTLY_REFUSED = 0.05  # of the prior
 
 
 class PosteriorOutput(Sampled):
-    """One unknown, or one output of the model, given the evidence and the priors; otherwise like an output of ``propagate``.
+    """One unknown, or one output of the model, given the evidence and the priors; otherwise like an
+    output of ``propagate``.
 
-    ``values`` are the samples, equally likely. Standard errors are those of sampling, by the jackknife over the islands; NaN
-    where one island has all the samples.
+    ``values`` are the samples, equally likely. Standard errors are those of sampling, by the
+    jackknife over the islands; NaN where one island has all the samples.
     """
 
     given = "the evidence and the priors"
@@ -53,7 +56,8 @@ class PosteriorOutput(Sampled):
 
     def _shares(self) -> Shares:
         raise InputError(
-            f"{self.name!r} has no contributions: given the evidence the unknowns depend on one another, see the correlation",
+            f"{self.name!r} has no contributions: given the evidence the unknowns depend on one "
+            "another, see the correlation",
             code="no_shares",
             argument="name",
         )
@@ -72,7 +76,8 @@ class PosteriorOutput(Sampled):
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Posterior(Summarized):
-    """The result of ``posterior``: ``posterior["speed_a"]`` has mean, std, interval, quantile and histogram of an unknown.
+    """The result of ``posterior``: ``posterior["speed_a"]`` has mean, std, interval, quantile and
+    histogram of an unknown.
 
     Attributes
     ----------
@@ -81,22 +86,27 @@ class Posterior(Summarized):
     observed : dict
         What was observed, as read: ``Normal`` or ``Censored``.
     draws : dict
-        Joint samples, equally likely [SI]: of each unknown, and of each output of the model whose name is not that of an
-        unknown.
+        Joint samples, equally likely [SI]: of each unknown, and of each output of the model whose
+        name is not that of an unknown.
     unknowns, predicted : dict of PosteriorOutput
-        The unknowns, and the outputs the model computes from them; compare ``predicted`` with what was observed.
+        The unknowns, and the outputs the model computes from them; compare ``predicted`` with what
+        was observed.
     residuals : dict of Residual
-        By observation, observed less computed as the mean over the samples, also in units of the stated error.
+        By observation, observed less computed as the mean over the samples, also in units of the
+        stated error.
     log_evidence, log_evidence_error : float
-        Logarithm of the probability (for values, the density in SI) of all observations given model and priors, and its
-        standard error from sampling. It has a meaning only beside that of another account of the same observations.
+        Logarithm of the probability (for values, the density in SI) of all observations given model
+        and priors, and its standard error from sampling. It has a meaning only beside that of
+        another account of the same observations.
     p_value : float
-        Chance of a misfit as large as that of the best sample or larger, counting also how far each unknown is from the middle
-        of its prior; NaN if every observation has sharp bounds.
+        Chance of a misfit as large as that of the best sample or larger, counting also how far each
+        unknown is from the middle of its prior; NaN if every observation has sharp bounds.
     refused : float
-        Share of the prior for which the model has no answer; the evidence counts as impossible there.
+        Share of the prior for which the model has no answer; the evidence counts as impossible
+        there.
     moved : float
-        Share of the samples that the last steps of the sampling moved, in the island where it is smallest.
+        Share of the samples that the last steps of the sampling moved, in the island where it is
+        smallest.
     samples : int
         How many samples there are.
     seed : int
@@ -104,7 +114,8 @@ class Posterior(Summarized):
     interrupted : bool
         Whether it was stopped early; the figures are those of the finished islands.
     model_notes : tuple
-        The warnings of the model at the samples, each with the number and share of those it is of; ``statements`` has them.
+        The warnings of the model at the samples, each with the number and share of those it is of;
+        ``statements`` has them.
     """
 
     priors: dict[str, Distribution]
@@ -127,8 +138,8 @@ class Posterior(Summarized):
         outputs = self.predicted | self.unknowns
         if not isinstance(name, str) or name not in outputs:
             raise InputError(
-                f"{shown(name)} is none of the unknowns, which are {', '.join(self.unknowns)}, nor of the outputs of the "
-                f"model, which are {', '.join(self.predicted)}",
+                f"{shown(name)} is none of the unknowns, which are {', '.join(self.unknowns)}, "
+                f"nor of the outputs of the model, which are {', '.join(self.predicted)}",
                 code="unknown_name",
                 argument="name",
             )
@@ -141,19 +152,22 @@ class Posterior(Summarized):
         return len(self.unknowns)
 
     def probability(self, condition: Callable[[Mapping[str, Any]], Any]) -> tuple[float, float]:
-        """The probability that a condition holds, given the evidence and the priors, and its standard error from sampling.
+        """The probability that a condition holds, given the evidence and the priors, and its
+        standard error from sampling.
 
         Parameters
         ----------
         condition : function
-            Called with a dict of arrays [SI], one number per sample: the unknowns and the outputs of the model by name. Returns
-            one boolean per sample. Where an output is NaN, comparisons are False.
+            Called with a dict of arrays [SI], one number per sample: the unknowns and the outputs
+            of the model by name. Returns one boolean per sample. Where an output is NaN,
+            comparisons are False.
 
         Returns
         -------
         probability, standard_error : float
-            Between 0 and 1. If the condition holds in no sample or in every one, the error is 1 over the number of samples. It
-            is NaN where one island has all the samples, of which ``posterior`` warns.
+            Between 0 and 1. If the condition holds in no sample or in every one, the error is 1
+            over the number of samples. It is NaN where one island has all the samples, of which
+            ``posterior`` warns.
 
         Raises
         ------
@@ -166,26 +180,36 @@ class Posterior(Summarized):
         except (TypeError, ValueError, AttributeError, LookupError) as error:
             # What 'and' between arrays, and a name that is not there, come to.
             found, raised = None, error
-        if not isinstance(found, np.ndarray) or found.shape != (self.samples,) or found.dtype != np.bool_:
+        if (
+            not isinstance(found, np.ndarray)
+            or found.shape != (self.samples,)
+            or found.dtype != np.bool_
+        ):
             raise InputError(
-                f"condition must be a function that takes a dict of arrays ({', '.join(self.draws)}) and returns "
-                f"{self.samples} booleans, such as lambda at: at['{next(iter(self.unknowns))}'] > 13.9; join two of them by & "
-                f"or |, not by 'and'{f'. It raised {described(raised)}' if raised else ''}",
+                "condition must be a function that takes a dict of arrays "
+                f"({', '.join(self.draws)}) and returns {self.samples} booleans, such as lambda "
+                f"at: at['{next(iter(self.unknowns))}'] > 13.9; join two of them by & or |, not "
+                f"by 'and'{f'. It raised {described(raised)}' if raised else ''}",
                 code="bad_condition",
                 argument="condition",
             ) from raised
-        holds = PosteriorOutput("condition", None, found.astype(np.float64), next(iter(self.unknowns.values()))._islands)
+        holds = PosteriorOutput(
+            "condition", None, found.astype(np.float64), next(iter(self.unknowns.values()))._islands
+        )
         return float(holds.mean), float(holds.mean_standard_error)
 
     def inputs(self) -> dict[str, Samples]:
-        """The joint samples of the unknowns, as ``uncertainty.propagate`` takes them, or ``posterior`` as new priors.
+        """The joint samples of the unknowns, as ``uncertainty.propagate`` takes them, or
+        ``posterior`` as new priors.
 
         Returns
         -------
         dict of Samples
             By unknown.
         """
-        return Samples.joint(**{name: with_unit(self.draws[name], one.unit) for name, one in self.unknowns.items()})
+        return Samples.joint(
+            **{name: with_unit(self.draws[name], one.unit) for name, one in self.unknowns.items()}
+        )
 
     @property
     def correlation(self) -> dict[tuple[str, str], float]:
@@ -194,22 +218,32 @@ class Posterior(Summarized):
 
     @property
     def shrinkage(self) -> dict[str, float]:
-        """By unknown, the share of the prior's variance that the evidence removed: 1 if it tells all, 0 if nothing."""
-        return {name: 1.0 - (float(one.std) / self.priors[name].sd) ** 2 for name, one in self.unknowns.items()}
+        """By unknown, the share of the prior's variance that the evidence removed: 1 if it tells
+        all, 0 if nothing.
+        """
+        return {
+            name: 1.0 - (float(one.std) / self.priors[name].sd) ** 2
+            for name, one in self.unknowns.items()
+        }
 
     @property
     def prior_only(self) -> tuple[str, ...]:
-        """The unknowns about which the evidence says next to nothing: their figures are those of the prior."""
+        """The unknowns about which the evidence says next to nothing: their figures are those of
+        the prior.
+        """
         return tuple(
             name
             for name, share in self.shrinkage.items()
             if abs(share) < _NO_NARROWER
-            and abs(self.unknowns[name].mean - self.priors[name].mean) < _NOT_MOVED * self.priors[name].sd
+            and abs(self.unknowns[name].mean - self.priors[name].mean)
+            < _NOT_MOVED * self.priors[name].sd
         )
 
     @property
     def consistent(self) -> bool | None:
-        """Whether a misfit this large has a probability of 0.01 or more; None where no observation has an error."""
+        """Whether a misfit this large has a probability of 0.01 or more; None where no observation
+        has an error.
+        """
         return None if math.isnan(self.p_value) else self.p_value >= CONTRADICTION
 
     @property
@@ -234,12 +268,23 @@ class Posterior(Summarized):
             "correlation": [[*pair, value] for pair, value in self.correlation.items()],
             "statements": list(self.statements),
         }
-        plain = ("log_evidence", "log_evidence_error", "p_value", "refused", "samples", "seed", "interrupted")
+        plain = (
+            "log_evidence",
+            "log_evidence_error",
+            "p_value",
+            "refused",
+            "samples",
+            "seed",
+            "interrupted",
+        )
         written: dict[str, Any] = strict(record | {name: getattr(self, name) for name in plain})
         return written
 
     def _summary(self, numbers: Cells) -> Summary:
-        observed = [(name, str(one), f"{self.residuals[name].over_sigma:+.2f}") for name, one in self.observed.items()]
+        observed = [
+            (name, str(one), f"{self.residuals[name].over_sigma:+.2f}")
+            for name, one in self.observed.items()
+        ]
         parts = [
             outputs_part(self.unknowns, numbers, "Unknown"),
             outputs_part(self.predicted, numbers, "Predicted"),
@@ -259,30 +304,48 @@ def notes_of(found: Posterior) -> Iterator[Note]:
     if found.consistent is not None:
         yield agreement(found.p_value, found.residuals)
     for name in found.prior_only:
-        sentence = f"the evidence says next to nothing of {name}: what is given of it rests on its prior, {found.priors[name]}"
+        sentence = (
+            f"the evidence says next to nothing of {name}: what is given of it rests on its "
+            f"prior, {found.priors[name]}"
+        )
         if isinstance(found.priors[name], Uniform):
-            yield Note(IllConditionedWarning, sentence, "; give an observation that says more, or a prior", "undetermined")
+            yield Note(
+                IllConditionedWarning,
+                sentence,
+                "; give an observation that says more, or a prior",
+                "undetermined",
+            )
         else:
             yield Note(None, sentence)
-    rough = [name for name, one in found.unknowns.items() if not one.mean_standard_error <= _ROUGH * one.std]
+    rough = [
+        name
+        for name, one in found.unknowns.items()
+        if not one.mean_standard_error <= _ROUGH * one.std
+    ]
     if rough or not found.log_evidence_error <= _ROUGH_EVIDENCE:
         what = ", ".join([f"the mean of {name}" for name in rough] or ["the evidence"])
         yield Note(
             IllConditionedWarning,
-            f"the islands disagree on {what} by more than a tenth of its standard deviation, or on the evidence by "
-            f"{found.log_evidence_error:.2g} in its logarithm",
+            f"the islands disagree on {what} by more than a tenth of its standard deviation, or "
+            f"on the evidence by {found.log_evidence_error:.2g} in its logarithm",
             "; give more samples, or closer priors",
             "islands_disagree",
         )
     if found.moved < _FEW_MOVED:
         yield Note(
             IllConditionedWarning,
-            f"the sample collapsed: {1.0 - found.moved:.0%} of the samples could not be moved, so that many are the same",
-            "; give more samples. A prior of few Samples, or a model that is nearly a jump, does this",
+            f"the sample collapsed: {1.0 - found.moved:.0%} of the samples could not be moved, "
+            "so that many are the same",
+            "; give more samples. A prior of few Samples, or a model that is nearly a jump, does "
+            "this",
             "collapsed",
         )
     if found.refused > _MOSTLY_REFUSED:
-        yield Note(None, f"the model has no answer for {found.refused:.0%} of the prior, where the evidence is impossible")
+        yield Note(
+            None,
+            f"the model has no answer for {found.refused:.0%} of the prior, where the evidence "
+            "is impossible",
+        )
     if found.interrupted:
         sentence = f"interrupted; the figures are those of {found.samples} samples"
         yield Note(CollisionsWarning, sentence, code="interrupted")

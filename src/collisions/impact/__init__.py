@@ -1,1 +1,3 @@
-"""The impact: its inputs, the solvers, and the answer with everything that is worked out from it."""
+"""The impact: its inputs, the solvers, and the answer with everything that is worked
+out from it.
+"""

@@ -1,4 +1,6 @@
-"""``solve_least`` and ``ModelChoice``: the simplest model that a scene allows within a tolerance, and the reason."""
+"""``solve_least`` and ``ModelChoice``: the simplest model that a scene allows within a tolerance,
+and the reason.
+"""
 
 from __future__ import annotations
 
@@ -22,19 +24,34 @@ from ..quantities.formatting import Numbers
 from ..quantities.reading import ArgumentReader, broadcast
 from ..quantities.tables import Cells, Summary, all_numbers, sided
 from ..quantities.units import Value, to_quantity
-from .inputs import NO_IMPULSE, Inputs, ModelName, first_case, lacking, missing_numbers, named_numbers, part_of, part_of_inputs
+from .inputs import (
+    NO_IMPULSE,
+    Inputs,
+    ModelName,
+    first_case,
+    lacking,
+    missing_numbers,
+    named_numbers,
+    part_of,
+    part_of_inputs,
+)
 from .models import MODELS, TIME_RESOLVED, in_form, model_of, read_again
 from .run import cases_of, check_options, say_of_cases, solve_cases, solve_inputs
 from .time_resolved_inputs import timed
 
 _NAMES = (*(model.name for model in MODELS), TIME_RESOLVED.name)
 _LINEAR, _OBLIQUE, _ECCENTRIC, _IN_TIME = _NAMES
-# The number of the model that takes time, and the steps in which it is followed to tell what the others leave out.
+# The number of the model that takes time, and the steps in which it is followed to tell what the
+# others leave out.
 _LAST, _ROUGH = len(MODELS), 25
 # Safety factor on an error against that.
 _MARGIN = 1.15
 _SI = Numbers("si")
-_PIVOT, _OUTSIDE, _TYRES = "a body that turns about a pivot", "an impulse from outside", "what tyres do during the contact"
+_PIVOT, _OUTSIDE, _TYRES = (
+    "a body that turns about a pivot",
+    "an impulse from outside",
+    "what tyres do during the contact",
+)
 
 
 class ByModel(Mapping[str, Any]):
@@ -49,7 +66,11 @@ class ByModel(Mapping[str, Any]):
     @property
     def q(self) -> Any:
         """The same with units."""
-        return self if self._unit is None else {name: to_quantity(value, self._unit) for name, value in self.items()}
+        return (
+            self
+            if self._unit is None
+            else {name: to_quantity(value, self._unit) for name, value in self.items()}
+        )
 
     def __getitem__(self, name: str) -> Any:
         return self._values[name]
@@ -79,7 +100,8 @@ class ModelChoice(Shown):
     Attributes
     ----------
     model : str or array of str
-        "linear_central", "oblique_central", "eccentric" or, with a duration, "time_resolved"; for a refused case "eccentric".
+        "linear_central", "oblique_central", "eccentric" or, with a duration, "time_resolved"; for a
+        refused case "eccentric".
     tolerance : float or array [m/s]
         Largest error that was accepted.
     """
@@ -87,11 +109,13 @@ class ModelChoice(Shown):
     _title = "Model required"
 
     tolerance: Value = field(metadata={"unit": "m/s"})
-    # The number of the model chosen, the errors of the central ones, and what the eccentric one lacks.
+    # The number of the model chosen, the errors of the central ones, and what the eccentric one
+    # lacks.
     _which: Any
     _predicted: tuple[Any, ...]
     _missing: tuple[str, ...]
-    # Whether that lack left the errors unknown, what no central model can hold, and which cases were refused.
+    # Whether that lack left the errors unknown, what no central model can hold, and which cases
+    # were refused.
     _lacks: bool
     _beyond: str
     _refused: Any = False
@@ -105,9 +129,13 @@ class ModelChoice(Shown):
 
     @property
     def model(self) -> ModelName:
-        """The name, or the names of a batch, made from the numbers that are kept, as names take fifty times the room."""
+        """The name, or the names of a batch, made from the numbers that are kept, as names take
+        fifty times the room.
+        """
         which = self._which
-        found = lock(np.array(_NAMES).take(which)) if isinstance(which, np.ndarray) else _NAMES[which]
+        found = (
+            lock(np.array(_NAMES).take(which)) if isinstance(which, np.ndarray) else _NAMES[which]
+        )
         return cast(ModelName, found)
 
     @derived()
@@ -119,11 +147,14 @@ class ModelChoice(Shown):
     def errors(self) -> Mapping[str, Value]:
         """Predicted error [m/s] of each cheaper model, by its name.
 
-        It is the hypotenuse of the error of the delta-V vector and of the radius of gyration times that of the change of yaw
-        rate, for the vehicle for which it is larger. NaN where it cannot be estimated or the case is refused; infinite where
-        only that model has no answer.
+        It is the hypotenuse of the error of the delta-V vector and of the radius of gyration times
+        that of the change of yaw rate, for the vehicle for which it is larger. NaN where it cannot
+        be estimated or the case is refused; infinite where only that model has no answer.
         """
-        answered = (error if self._refused is False else select(self._refused, math.nan, error) for error in self._predicted)
+        answered = (
+            error if self._refused is False else select(self._refused, math.nan, error)
+            for error in self._predicted
+        )
         return ByModel(dict(zip(_NAMES, answered, strict=False)), "m/s")
 
     @derived()
@@ -133,14 +164,21 @@ class ModelChoice(Shown):
         return ByModel({_LINEAR: (), _OBLIQUE: (), _ECCENTRIC: self._missing, **last})
 
     def _summary(self, numbers: Cells) -> Summary:
-        values = ((name, _reason(self, numbers) if name == "reason" else value, unit) for name, value, unit in self._values())
+        values = (
+            (name, _reason(self, numbers) if name == "reason" else value, unit)
+            for name, value, unit in self._values()
+        )
         return Summary(self._title, [*sided(values, numbers), all_numbers(self._rows())])
 
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         yield prefix + "model", self.model, None
         yield prefix + "reason", self.reason, None
         yield from ((f"{prefix}errors.{name}", error, "m/s") for name, error in self.errors.items())
-        yield from ((f"{prefix}missing.{name}", ", ".join(needed), None) for name, needed in self.missing.items() if needed)
+        yield from (
+            (f"{prefix}missing.{name}", ", ".join(needed), None)
+            for name, needed in self.missing.items()
+            if needed
+        )
         yield prefix + "tolerance", self.tolerance, "m/s"
 
 
@@ -148,7 +186,11 @@ def choose(inputs: Inputs, threads: int = 1, progress: Any = None) -> tuple[Mode
     """Choose a model; also gives where the eccentric one is required and lacks an input."""
     a, b = inputs.a, inputs.b
     tolerance: Any = inputs.tolerance
-    shape = inputs.shape if isinstance(tolerance, float) else broadcast({"tolerance": tolerance, **named_numbers(inputs)})
+    shape = (
+        inputs.shape
+        if isinstance(tolerance, float)
+        else broadcast({"tolerance": tolerance, **named_numbers(inputs)})
+    )
     missing = tuple(f"{label}.{name}" for label, name in lacking(a, b))
     missing += () if inputs.point is not None else ("point",)
     which, *predicted = _predicted(inputs, missing, shape, threads, progress)
@@ -172,12 +214,17 @@ def _beyond_impulses(inputs: Inputs) -> str:
 
 
 def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelChoice, Any]:
-    """The choice with a contact that takes time as the last candidate, and the errors of the others against it."""
+    """The choice with a contact that takes time as the last candidate, and the errors of the others
+    against it.
+    """
     why = ""
     if inputs.rule != FRICTION:
         why = f"{_IN_TIME} takes friction, and {inputs.rule} was given"
     elif choice._beyond in (_PIVOT, _OUTSIDE):
-        why = f"{_IN_TIME} takes no {'body with a pivot' if choice._beyond == _PIVOT else 'impulse from outside'}"
+        why = (
+            f"{_IN_TIME} takes no "
+            f"{'body with a pivot' if choice._beyond == _PIVOT else 'impulse from outside'}"
+        )
     elif np.any(np.less(inputs.restitution, 0.0)):
         why = f"{_IN_TIME} takes no incomplete impact"
     elif np.all(lacks):
@@ -189,7 +236,8 @@ def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelCh
         answers = [solve_inputs(model, inputs, on_failure="nan", carrying=True) for model in MODELS]
     with np.errstate(all="ignore"):
         errors = tuple(_apart(inputs, answer, rough) for answer in answers)
-        # Followed roughly it may have no answer where in more steps it has one; then nothing is known of the others.
+        # Followed roughly it may have no answer where in more steps it has one; then nothing is
+        # known of the others.
         unsure = (rough.status == Status.NO_START) | (rough.status == Status.ENDLESS_CONTACT)
         answered = ((rough.status <= Status.ENERGY_GAIN) | unsure) & (lacks ^ True)
         tolerance: Any = inputs.tolerance
@@ -198,7 +246,8 @@ def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelCh
             which = select((tolerance > 0.0) & (_MARGIN * error <= tolerance), number, which)
         which = select(answered, select(unsure, _LAST, which), choice._which)
         errors = tuple(select(unsure, math.nan, error) for error in errors)
-        # Where it has no answer the errors are those of the central models, against the eccentric one.
+        # Where it has no answer the errors are those of the central models, against the eccentric
+        # one.
         known = (*choice._predicted, math.nan)
         errors = tuple(select(answered, new, old) for new, old in zip(errors, known, strict=True))
     if isinstance(choice._which, np.ndarray):
@@ -206,13 +255,21 @@ def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelCh
         which, *errors_of = (np.broadcast_to(one, shape).copy() for one in (which, *errors))
         which, errors = which.astype(np.uint8), tuple(errors_of)
     unknown = (which == _LAST) if choice._missing else False
-    untimed = "" if answered is not False else f"{_IN_TIME} has no answer: {Status(rough.status).sentence}"
+    untimed = (
+        ""
+        if answered is not False
+        else f"{_IN_TIME} has no answer: {Status(rough.status).sentence}"
+    )
     beyond = "" if answered is not False else choice._beyond
-    return replace(choice, _beyond=beyond, _which=which, _predicted=errors, _timed=answered, _untimed=untimed), lacks | unknown
+    return replace(
+        choice, _beyond=beyond, _which=which, _predicted=errors, _timed=answered, _untimed=untimed
+    ), lacks | unknown
 
 
 def _apart(inputs: Inputs, answer: Any, other: Any) -> Any:
-    """How far two answers are apart, in m/s, for the worse of both bodies; infinite where the first is none."""
+    """How far two answers are apart, in m/s, for the worse of both bodies; infinite where the first
+    is none.
+    """
     worst: Any = 0.0
     for label, body in (("a", inputs.a), ("b", inputs.b)):
         dx, dy, dw = (
@@ -254,7 +311,9 @@ def solve_least(
     progress: Any,
     choice: ModelChoice | None = None,
 ) -> tuple[Any, ModelChoice]:
-    """Solve by the simplest model, chosen case by case in a batch, and give the choice; ``choice`` if it was made before."""
+    """Solve by the simplest model, chosen case by case in a batch, and give the choice; ``choice``
+    if it was made before.
+    """
     check_options(on_failure, threads, progress)
     report = reporter(progress)
     if choice is None:
@@ -266,7 +325,9 @@ def solve_least(
     if not isinstance(which, np.ndarray):
         if which == _LAST:
             return solve_inputs(TIME_RESOLVED, timed(inputs), on_failure, threads, report), choice
-        return solve_inputs(in_form(MODELS[which], inputs), inputs, on_failure, threads, report, carrying=True), choice
+        return solve_inputs(
+            in_form(MODELS[which], inputs), inputs, on_failure, threads, report, carrying=True
+        ), choice
     shape = broadcast({"which": which, **named_numbers(inputs)}) or ()
     late, which = which == _LAST, np.minimum(which, ECCENTRIC)
     used = [model for at, model in enumerate(MODELS) if np.any(which == at)] or [MODELS[ECCENTRIC]]
@@ -275,7 +336,9 @@ def solve_least(
     if inputs.tyres:
         raw = _held(inputs, raw, np.broadcast_to(which == ECCENTRIC, shape), threads)
     if np.any(late):
-        raw = _in_time(inputs, raw, replace(choice, _which=which), np.broadcast_to(late, shape), threads)
+        raw = _in_time(
+            inputs, raw, replace(choice, _which=which), np.broadcast_to(late, shape), threads
+        )
 
     def one(take: Any) -> Any:
         case = read_again(part_of_inputs(inputs, take))
@@ -287,7 +350,9 @@ def solve_least(
 
 
 def _held(inputs: Inputs, raw: Any, some: Any, threads: int) -> WithTyres:
-    """The answers of a batch with those of some cases, of the eccentric model, with what their tyres do."""
+    """The answers of a batch with those of some cases, of the eccentric model, with what their
+    tyres do.
+    """
     found: dict[str, Any] = {}
     for name in WithTyres._fields:
         value = getattr(raw, name, 0.0 * raw.normal_impulse)
@@ -295,14 +360,17 @@ def _held(inputs: Inputs, raw: Any, some: Any, threads: int) -> WithTyres:
     if np.any(some):
         part = part_of_inputs(inputs, lambda value: np.broadcast_to(value, some.shape)[some])
         with quietly():
-            held = solve_inputs(MODELS[ECCENTRIC], replace(part, model=_ECCENTRIC, tolerance=None), "nan", threads)
+            held = solve_inputs(
+                MODELS[ECCENTRIC], replace(part, model=_ECCENTRIC, tolerance=None), "nan", threads
+            )
         for name, value in found.items():
             value[some] = getattr(held, name)
     return WithTyres(**lock(found))
 
 
 def _in_time(inputs: Inputs, raw: Any, choice: ModelChoice, late: Any, threads: int) -> Passed:
-    """The answers of a batch with those of its late cases followed in time; the others have no duration, force or crush.
+    """The answers of a batch with those of its late cases followed in time; the others have no
+    duration, force or crush.
 
     ``choice`` is that of an impulse for all cases, which gave the answers.
     """
@@ -314,25 +382,42 @@ def _in_time(inputs: Inputs, raw: Any, choice: ModelChoice, late: Any, threads: 
     }
     names = [f"{name}_{label}" for label in "ab" for name in ("vx", "vy", "yaw_rate")]
     changes = [f"delta_{name}" for name in names]
-    *at_compression, impulse, loss = until_compressed(inputs, raw, choice, [*changes, "normal_impulse", "energy_loss_normal"])
-    found |= {f"compression_{name}": value for name, value in zip(names, at_compression, strict=True)}
+    *at_compression, impulse, loss = until_compressed(
+        inputs, raw, choice, [*changes, "normal_impulse", "energy_loss_normal"]
+    )
+    found |= {
+        f"compression_{name}": value for name, value in zip(names, at_compression, strict=True)
+    }
     if LAWS[inputs.law or BRACH].energetic:
-        found["separation_speed"] = select(choice._which == 0, found["separation_speed"], raw.separation_speed)
+        found["separation_speed"] = select(
+            choice._which == 0, found["separation_speed"], raw.separation_speed
+        )
         found |= {"compression_impulse": impulse, "energy_absorbed": loss}
     nothing = 0.0 * raw.normal_impulse
-    found |= {name: getattr(raw, name, nothing) for name in Passed._fields if name.startswith("tyre")}
+    found |= {
+        name: getattr(raw, name, nothing) for name in Passed._fields if name.startswith("tyre")
+    }
     for name in Passed._fields[:-1]:
         value = found.get(name, getattr(raw, name, math.nan))
-        kind = raw.status.dtype if name == "status" else np.bool_ if name == "sticks" else raw.closing_speed.dtype
+        kind = (
+            raw.status.dtype
+            if name == "status"
+            else np.bool_
+            if name == "sticks"
+            else raw.closing_speed.dtype
+        )
         found[name] = np.array(np.broadcast_to(value, late.shape), dtype=kind)
         found[name][late] = getattr(passed, name)
     return Passed(**lock(found))
 
 
-def until_compressed(inputs: Inputs, answer: Any, choice: ModelChoice | None, names: Sequence[str]) -> list[Any]:
+def until_compressed(
+    inputs: Inputs, answer: Any, choice: ModelChoice | None, names: Sequence[str]
+) -> list[Any]:
     """These outputs at the end of compression, which an incomplete impact does not outlast.
 
-    Until then any impact passes as the plastic one, which under an energetic law is not in proportion to the whole.
+    Until then any impact passes as the plastic one, which under an energetic law is not in
+    proportion to the whole.
     """
     e, found = inputs.restitution, [getattr(answer, name) for name in names]
     refused = answer.status > Status.ENERGY_GAIN
@@ -348,18 +433,32 @@ def until_compressed(inputs: Inputs, answer: Any, choice: ModelChoice | None, na
     else:
         compressed = [value / (1.0 + e) for value in found]
     pairs = zip(found, compressed, strict=True)
-    return [select(e < 0.0, whole, part) for whole, part in pairs] if inputs.incomplete else compressed
+    return (
+        [select(e < 0.0, whole, part) for whole, part in pairs] if inputs.incomplete else compressed
+    )
 
 
 @lru_cache(maxsize=64)
-def _float_function(rule: str, law: str | None, pinned: tuple[bool, bool]) -> Callable[[dict[str, Any]], Any]:
+def _float_function(
+    rule: str, law: str | None, pinned: tuple[bool, bool]
+) -> Callable[[dict[str, Any]], Any]:
     """``least_model`` compiled for plain floats of which none is missing."""
     known = Known(places=(True, True), inertias=(True, True), all=True, pinned=pinned)
-    return compile_for_floats(least_model, (*MODELS[ECCENTRIC].takes, "tolerance"), (rule, law, known, EPS))
+    return compile_for_floats(
+        least_model, (*MODELS[ECCENTRIC].takes, "tolerance"), (rule, law, known, EPS)
+    )
 
 
-def _predicted(inputs: Inputs, missing: tuple[str, ...], shape: tuple[int, ...] | None, threads: int, progress: Any) -> Any:
-    """The model's number, and the errors of the central models; infinite with a pivot or an impulse from outside."""
+def _predicted(
+    inputs: Inputs,
+    missing: tuple[str, ...],
+    shape: tuple[int, ...] | None,
+    threads: int,
+    progress: Any,
+) -> Any:
+    """The model's number, and the errors of the central models; infinite with a pivot or an impulse
+    from outside.
+    """
     a, b, placed, tolerance = inputs.a, inputs.b, inputs.point is not None, inputs.tolerance
     pinned = a.pivot is not None, b.pivot is not None
     if shape is None and not missing and not inputs.pushed:
@@ -367,7 +466,10 @@ def _predicted(inputs: Inputs, missing: tuple[str, ...], shape: tuple[int, ...] 
         if found is not None:
             return found
     known = Known(
-        places=(placed and a.x is not None and a.y is not None, placed and b.x is not None and b.y is not None),
+        places=(
+            placed and a.x is not None and a.y is not None,
+            placed and b.x is not None and b.y is not None,
+        ),
         inertias=(a.yaw_inertia is not None, b.yaw_inertia is not None),
         all=not missing,
         pinned=pinned,
@@ -392,7 +494,12 @@ def _predicted(inputs: Inputs, missing: tuple[str, ...], shape: tuple[int, ...] 
 
 def _reason(choice: ModelChoice, system: Numbers = _SI) -> str:
     """The reason for the choice, in a sentence."""
-    which, errors, tolerance, timed = choice._which, choice._predicted, choice.tolerance, choice._timed
+    which, errors, tolerance, timed = (
+        choice._which,
+        choice._predicted,
+        choice.tolerance,
+        choice._timed,
+    )
     if isinstance(which, np.ndarray):
         counts = ((name, int(np.count_nonzero(which == at))) for at, name in enumerate(_NAMES))
         listed = ", ".join(f"{count} {name}" for name, count in counts if count)
@@ -405,7 +512,10 @@ def _reason(choice: ModelChoice, system: Numbers = _SI) -> str:
         return f"{system.converted(value, 'speed'):.3g}{system.unit('speed')}"
 
     def would(at: int) -> str:
-        return f"{_NAMES[at]} {'has no answer' if errors[at] == math.inf else f'would err by {speed(errors[at])}'}"
+        return (
+            f"{_NAMES[at]} "
+            f"{'has no answer' if errors[at] == math.inf else f'would err by {speed(errors[at])}'}"
+        )
 
     model, accepted = _NAMES[which], f", and {speed(tolerance)} is accepted"
     fullest = _LAST if timed else ECCENTRIC
@@ -419,11 +529,15 @@ def _reason(choice: ModelChoice, system: Numbers = _SI) -> str:
     elif choice._beyond:
         why = f"{choice._beyond} is beyond the central models"
     elif not math.isnan(nearest):
-        why = would(fullest - 1) + ("" if nearest == math.inf else f"{' over this duration' if timed else ''}{accepted}")
+        why = would(fullest - 1) + (
+            "" if nearest == math.inf else f"{' over this duration' if timed else ''}{accepted}"
+        )
     elif timed:
         why = f"in {_ROUGH} steps it has no answer, so what the others err by is not known"
     elif choice._lacks:
-        why = f"the error of a central model cannot be estimated without {', '.join(choice._missing)}"
+        why = (
+            f"the error of a central model cannot be estimated without {', '.join(choice._missing)}"
+        )
     else:
         why = "there is no answer that a cheaper one could come near to"
     return f"{model}: {why}"

@@ -36,13 +36,24 @@ from ..quantities.settings import in_si
 from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, label_of
 from ..quantities.units import Input, Value
 from ..vehicle.vehicle import Vehicle
-from .inputs import ARGUMENTS, STIFFNESSES, Inputs, Law, ModelName, OnFailure, index_of, part_of, part_of_inputs
+from .inputs import (
+    ARGUMENTS,
+    STIFFNESSES,
+    Inputs,
+    Law,
+    ModelName,
+    OnFailure,
+    index_of,
+    part_of,
+    part_of_inputs,
+)
 from .models import model_of, read_again
 from .run import solve_inputs
 from .side import SIGNS, Side, beside, title_of
 from .time_resolved_inputs import residual_crushes
 
-# Labels as type checkers see them, so that they refuse a comparison with one that is misspelt; a refused case has none.
+# Labels as type checkers see them, so that they refuse a comparison with one that is misspelt; a
+# refused case has none.
 Kind: TypeAlias = Literal["elastic", "elastoplastic", "plastic", "incomplete", ""]
 Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "reversing", "given", ""]
 
@@ -55,29 +66,38 @@ _new = object.__new__
 
 
 class Impact(Frozen, Summarized):
-    """The answer of a forward solver: two vehicles before and after, the impulse between them, and where the energy went.
+    """The answer of a forward solver: two vehicles before and after, the impulse between them, and
+    where the energy went.
 
-    It is made by the solvers, never by hand, and is frozen. Its attributes are floats, or arrays in a batch, all in SI; the
-    same attributes of ``.q`` are Quantities. The impulse P acts on B and -P on A; n points from A into B, and t is n turned by
-    +90 degrees.
+    It is made by the solvers, never by hand, and is frozen. Its attributes are floats, or arrays in
+    a batch, all in SI; the same attributes of ``.q`` are Quantities. The impulse P acts on B and -P
+    on A; n points from A into B, and t is n turned by +90 degrees.
 
-    In a refused case every answer is NaN, every label is empty, and ``status`` says why. Only the inputs stay as they were
-    given: ``restitution``, ``friction``, ``normal``, ``normal_angle`` and ``point``; for the vehicles mass, yaw inertia,
-    position, heading and pivot, and for a forward solver all of ``before``. With ``solve`` the tolerance stays too, and the
-    model is the one that would have answered. Whatever a reverse solver was to find, such as the velocities before the impact
-    or a restitution that was not given, counts as an answer.
+    In a refused case every answer is NaN, every label is empty, and ``status`` says why. Only the
+    inputs stay as they were given: ``restitution``, ``friction``, ``normal``, ``normal_angle`` and
+    ``point``; for the vehicles mass, yaw inertia, position, heading and pivot, and for a forward
+    solver all of ``before``. With ``solve`` the tolerance stays too, and the model is the one that
+    would have answered. Whatever a reverse solver was to find, such as the velocities before the
+    impact or a restitution that was not given, counts as an answer.
     """
 
     inputs: Inputs
-    """The inputs: the vehicles, restitution, normal, point, tangential rule and its value, and how each was given."""
+    """The inputs: the vehicles, restitution, normal, point, tangential rule and its value, and how
+    each was given.
+    """
 
     _answer: Any
     _elsewhere = MappingProxyType(
-        {Side: "impact.a.{0} or impact.b.{0}", Vehicle: "impact.a.after.{0} (or .before, or impact.b)"}
+        {
+            Side: "impact.a.{0} or impact.b.{0}",
+            Vehicle: "impact.a.after.{0} (or .before, or impact.b)",
+        }
     )
 
     def __init__(self) -> None:
-        raise TypeError("an Impact is made by linear_central, oblique_central, eccentric, or Impact.from_dict")
+        raise TypeError(
+            "an Impact is made by linear_central, oblique_central, eccentric, or Impact.from_dict"
+        )
 
     @property
     def q(self) -> ImpactQuantities:
@@ -96,12 +116,16 @@ class Impact(Frozen, Summarized):
 
     @derived()
     def model(self) -> ModelName:
-        """Name of the solver used: with ``solve`` the one it chose, in a batch an array of names."""
+        """Name of the solver used: with ``solve`` the one it chose, in a batch an array
+        of names.
+        """
         return cast(ModelName, self.inputs.model if self.choice is None else self.choice.model)
 
     @derived()
     def law(self) -> Law | None:
-        """Name of the law of restitution and slip; None for a model without one, with ``solve`` as given."""
+        """Name of the law of restitution and slip; None for a model without one, with ``solve`` as
+        given.
+        """
         return cast("Law | None", self.inputs.law)
 
     @derived("")
@@ -111,7 +135,9 @@ class Impact(Frozen, Summarized):
 
     @derived("")
     def friction(self) -> Value | None:
-        """Coulomb friction bound as used, with ``solve`` as given; None if a ratio or a critical fraction was given."""
+        """Coulomb friction bound as used, with ``solve`` as given; None if a ratio or a critical
+        fraction was given.
+        """
         return self.inputs.rule_value if self.inputs.rule == FRICTION else None
 
     @derived("m")
@@ -126,7 +152,9 @@ class Impact(Frozen, Summarized):
 
     @derived()
     def reconstruction(self) -> Reconstruction | None:
-        """Which reverse solver found this impact, from what, and how well-posed the problem was; None for a forward solver."""
+        """Which reverse solver found this impact, from what, and how well-posed the problem was;
+        None for a forward solver.
+        """
         return None
 
     @derived("")
@@ -146,23 +174,29 @@ class Impact(Frozen, Summarized):
 
     @derived("m/s")
     def relative_speed(self) -> Value:
-        """Magnitude of the relative velocity of the centres of mass before contact [m/s], not the closing speed."""
+        """Magnitude of the relative velocity of the centres of mass before contact [m/s], not the
+        closing speed.
+        """
         a, b = self.a.before, self.b.before
         vx_a, vy_a, vx_b, vy_b = widened((a.vx, a.vy, b.vx, b.vy), (self.closing_speed,))
         return self._answered(hypot(vx_a - vx_b, vy_a - vy_b))
 
     @derived("m/s")
     def separation_speed(self) -> Value:
-        """Speed at which the contact points part along the normal [m/s]: e times the closing speed (eq 11).
+        """Speed at which the contact points part along the normal [m/s]: e times the closing speed
+        (eq 11).
 
-        Under the law "stronge" it follows from the energy that is given back, and is e times the closing speed where the slip
-        continues to the end. It is below 0 after an incomplete impact, whose contact points still approach. For a time-resolved
-        impact it is the speed that came about.
+        Under the law "stronge" it follows from the energy that is given back, and is e times the
+        closing speed where the slip continues to the end. It is below 0 after an incomplete impact,
+        whose contact points still approach. For a time-resolved impact it is the speed that came
+        about.
         """
         by_ratio = self.restitution * self.closing_speed
         if not self._energetic:
             return by_ratio
-        found: Value = select(self.model == "linear_central", by_ratio, self._output("separation_speed"))
+        found: Value = select(
+            self.model == "linear_central", by_ratio, self._output("separation_speed")
+        )
         return found
 
     @derived("m/s")
@@ -187,7 +221,9 @@ class Impact(Frozen, Summarized):
 
     @derived("N*s")
     def compression_impulse(self) -> Value:
-        """Normal impulse of the compression period [N*s], the integral of P in eq 10; all of it in an incomplete impact."""
+        """Normal impulse of the compression period [N*s], the integral of P in eq 10; all of it in
+        an incomplete impact.
+        """
         if self._passed is None and (self._energetic or self.inputs.incomplete):
             found = self._until_compressed("normal_impulse")
             value: Value = found
@@ -196,7 +232,9 @@ class Impact(Frozen, Summarized):
 
     @derived("N*s")
     def restitution_impulse(self) -> Value:
-        """Normal impulse of the restitution period [N*s], the integral of R in eq 10; 0 in an incomplete impact."""
+        """Normal impulse of the restitution period [N*s], the integral of R in eq 10; 0 in an
+        incomplete impact.
+        """
         if self._passed is not None or self._energetic or self.inputs.incomplete:
             return self.normal_impulse - self.compression_impulse
         return self.restitution * self.compression_impulse
@@ -208,9 +246,11 @@ class Impact(Frozen, Summarized):
 
     @derived("")
     def critical_impulse_ratio(self) -> Value:
-        """Signed impulse ratio that just stops the slip under the law used; infinite where stopping it would need a pull.
+        """Signed impulse ratio that just stops the slip under the law used; infinite where stopping
+        it would need a pull.
 
-        It is not defined (NaN) for a contact with one degree of freedom, such as two parallel arms, or a gate against a wall.
+        It is not defined (NaN) for a contact with one degree of freedom, such as two parallel arms,
+        or a gate against a wall.
         """
         normal, tangential = self._answer.no_slip_normal, self._answer.no_slip_tangential
         # 0 times the normal impulse keeps the NaN of a refused case.
@@ -221,9 +261,11 @@ class Impact(Frozen, Summarized):
 
     @derived("m/s")
     def common_velocity(self) -> Value:
-        """Velocity along the normal that both contact points share at the end of compression [m/s] (v_c of eq 3).
+        """Velocity along the normal that both contact points share at the end of compression [m/s]
+        (v_c of eq 3).
 
-        For a central model it is that of the centres of mass, as for ``closing_speed``. NaN for an incomplete impact.
+        For a central model it is that of the centres of mass, as for ``closing_speed``. NaN for an
+        incomplete impact.
         """
         if self.inputs.model == "time_resolved":
             return self._output("common_velocity")
@@ -237,16 +279,22 @@ class Impact(Frozen, Summarized):
         common: Value = select(abs(change_a) < abs(change_b), base_a + change_a, base_b + change_b)
         if self._passed is not None:
             common = select(self._followed, self._passed.common_velocity, common)
-        return select(self.restitution < 0.0, math.nan, common) if self.inputs.incomplete else common
+        return (
+            select(self.restitution < 0.0, math.nan, common) if self.inputs.incomplete else common
+        )
 
     @derived("kg")
     def effective_mass(self) -> Value:
-        """Mass that the contact feels along the normal [kg], 1/K_nn; the reduced mass of a central impact."""
+        """Mass that the contact feels along the normal [kg], 1/K_nn; the reduced mass of a central
+        impact.
+        """
         return self._output("effective_mass")
 
     @derived("J")
     def energy_loss(self) -> Value:
-        """Energy dissipated [J] (eq 7, evaluated at the contact). It is negative for a gain, which is warned of."""
+        """Energy dissipated [J] (eq 7, evaluated at the contact). It is negative for a gain, which
+        is warned of.
+        """
         return self._output("energy_loss")
 
     @derived("J")
@@ -261,9 +309,11 @@ class Impact(Frozen, Summarized):
 
     @derived("J")
     def energy_absorbed(self) -> Value:
-        """Energy absorbed along the normal by the end of compression [J], part of which restitution gives back.
+        """Energy absorbed along the normal by the end of compression [J], part of which restitution
+        gives back.
 
-        In an incomplete impact it is the energy absorbed until the contact ends, which is the energy lost along the normal.
+        In an incomplete impact it is the energy absorbed until the contact ends, which is the
+        energy lost along the normal.
         """
         if self._passed is not None:
             found = self._output("energy_absorbed")
@@ -272,16 +322,23 @@ class Impact(Frozen, Summarized):
         else:
             found = 0.5 * (self.closing_speed * self.compression_impulse)
         absorbed: Value = found
-        return select(self.restitution < 0.0, self.energy_loss_normal, absorbed) if self.inputs.incomplete else absorbed
+        return (
+            select(self.restitution < 0.0, self.energy_loss_normal, absorbed)
+            if self.inputs.incomplete
+            else absorbed
+        )
 
     @returns("m/s")
     def ees(self, share_a: Input) -> tuple[Value, Value]:
-        """Energy equivalent speeds (A, B) [m/s] by ISO 12353, if A dissipated this share of ``energy_loss`` and B the rest.
+        """Energy equivalent speeds (A, B) [m/s] by ISO 12353, if A dissipated this share of
+        ``energy_loss`` and B the rest.
 
-        The EES is the speed at which the vehicle alone would dissipate as much energy against a fixed rigid object. It counts
-        the energy that remains dissipated after restitution, so that the sum of m EES^2 / 2 is ``energy_loss``. There is no
-        default share, because momentum does not tell how the energy was divided. For an infinite mass the EES is 0; where
-        energy was gained, it is NaN. Its counterpart ``max_crush_speeds`` is for the energy at maximum crush, which is more.
+        The EES is the speed at which the vehicle alone would dissipate as much energy against a
+        fixed rigid object. It counts the energy that remains dissipated after restitution, so that
+        the sum of m EES^2 / 2 is ``energy_loss``. There is no default share, because momentum does
+        not tell how the energy was divided. For an infinite mass the EES is 0; where energy was
+        gained, it is NaN. Its counterpart ``max_crush_speeds`` is for the energy at maximum crush,
+        which is more.
 
         Parameters
         ----------
@@ -296,20 +353,27 @@ class Impact(Frozen, Summarized):
         Examples
         --------
         >>> import collisions as col
-        >>> impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=1000.0), 0.6)
+        >>> impact = col.linear_central(
+        ...     col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=1000.0), 0.6
+        ... )
         >>> impact.ees(0.5), impact.max_crush_speeds(0.5)
         ((8.0, 8.0), (10.0, 10.0))
         """
         # A loss of 0 may be off by rounding.
-        return self._shared(share_a, select(self.ok, select(self.energy_loss > 0.0, self.energy_loss, 0.0), math.nan))
+        return self._shared(
+            share_a,
+            select(self.ok, select(self.energy_loss > 0.0, self.energy_loss, 0.0), math.nan),
+        )
 
     @returns("m/s")
     def max_crush_speeds(self, share_a: Input) -> tuple[Value, Value]:
-        """Speeds (A, B) [m/s] of maximum crush, if A absorbed this share of ``energy_absorbed`` and B the rest.
+        """Speeds (A, B) [m/s] of maximum crush, if A absorbed this share of ``energy_absorbed`` and
+        B the rest.
 
-        Each is the speed at which the vehicle alone would absorb as much energy at maximum crush against a rigid wall, before
-        restitution gives part of it back. Some authors call this speed EES; by ISO 12353 the EES is ``ees``. It is NaN where
-        ``energy_absorbed`` is below 0, which impulses from outside far above that of the contact can bring about.
+        Each is the speed at which the vehicle alone would absorb as much energy at maximum crush
+        against a rigid wall, before restitution gives part of it back. Some authors call this speed
+        EES; by ISO 12353 the EES is ``ees``. It is NaN where ``energy_absorbed`` is below 0, which
+        impulses from outside far above that of the contact can bring about.
 
         Parameters
         ----------
@@ -321,14 +385,22 @@ class Impact(Frozen, Summarized):
         tuple of two floats or arrays [m/s]
             Of A and of B.
         """
-        return self._shared(share_a, select(self.energy_absorbed >= 0.0, self.energy_absorbed, math.nan))
+        return self._shared(
+            share_a, select(self.energy_absorbed >= 0.0, self.energy_absorbed, math.nan)
+        )
 
     def _shared(self, share_a: Input, energy: Value) -> tuple[Value, Value]:
         """The speeds of both vehicles at which each has its share of an energy."""
         reader = ArgumentReader()
         share = reader.number(share_a, "", "share_a", UNIT_INTERVAL)
         if isinstance(share, np.ndarray) and UNIT_INTERVAL.faults[0][0](share).any():
-            reader.refuse(InputError("share_a must be from 0 to 1 in every case", code="bad_fraction", argument="share_a"))
+            reader.refuse(
+                InputError(
+                    "share_a must be from 0 to 1 in every case",
+                    code="bad_fraction",
+                    argument="share_a",
+                )
+            )
         reader.close()
         broadcast({"share_a": share, "energy": energy})
         xp = numeric(energy, share)
@@ -340,10 +412,11 @@ class Impact(Frozen, Summarized):
 
     @derived("N*s")
     def momentum_residual(self) -> Value:
-        """Residual of the momentum balance of the free bodies of finite mass [N*s], which is rounding.
+        """Residual of the momentum balance of the free bodies of finite mass [N*s], which is
+        rounding.
 
-        The balance is between their delta-Vs and the impulses on them from the contact, from outside and, in a time-resolved
-        impact, from the tyres.
+        The balance is between their delta-Vs and the impulses on them from the contact, from
+        outside and, in a time-resolved impact, from the tyres.
         """
         left_x: Any = 0.0
         left_y: Any = 0.0
@@ -352,30 +425,47 @@ class Impact(Frozen, Summarized):
             if side.before.pivot is None:
                 free = numeric(mass).isfinite(mass)
                 weight = select(free, mass, 0.0)
-                others_x, others_y = side.tyre_impulse_x + side.outside_x, side.tyre_impulse_y + side.outside_y
-                left_x = left_x + weight * side.delta_vx - select(free, side.impulse_x + others_x, 0.0)
-                left_y = left_y + weight * side.delta_vy - select(free, side.impulse_y + others_y, 0.0)
+                others_x, others_y = (
+                    side.tyre_impulse_x + side.outside_x,
+                    side.tyre_impulse_y + side.outside_y,
+                )
+                left_x = (
+                    left_x + weight * side.delta_vx - select(free, side.impulse_x + others_x, 0.0)
+                )
+                left_y = (
+                    left_y + weight * side.delta_vy - select(free, side.impulse_y + others_y, 0.0)
+                )
         return self._answered(hypot(left_x, left_y))
 
     @derived()
     def kind(self) -> Kind:
-        """One of "elastic" (e = 1), "elastoplastic", "plastic" (e = 0), "incomplete" (e < 0); an array of them in a batch."""
+        """One of "elastic" (e = 1), "elastoplastic", "plastic" (e = 0), "incomplete" (e < 0); an
+        array of them in a batch.
+        """
         e = np.asarray(self._answered(self.restitution))
-        kinds = {"elastic": e == 1.0, "plastic": e == 0.0, "incomplete": e < 0.0, "elastoplastic": e > 0.0}
+        kinds = {
+            "elastic": e == 1.0,
+            "plastic": e == 0.0,
+            "incomplete": e < 0.0,
+            "elastoplastic": e > 0.0,
+        }
         return cast(Kind, _labels(np.select(list(kinds.values()), list(kinds), "")))
 
     @derived()
     def complete(self) -> Any:
-        """Whether the contact points reached a common velocity, as they do in every answered impact with e >= 0."""
+        """Whether the contact points reached a common velocity, as they do in every answered impact
+        with e >= 0.
+        """
         return self._answered(self.restitution) >= 0.0
 
     @derived()
     def regime(self) -> Regime:
-        """How the tangential impulse came about: "frictionless", "sliding", "sticking", "reversing", or "given" by a ratio.
+        """How the tangential impulse came about: "frictionless", "sliding", "sticking",
+        "reversing", or "given" by a ratio.
 
-        "reversing" arises under the law "stronge" and in a time-resolved contact: the slip stopped, and ended the other way;
-        "sticking" then means that it stayed stopped. The linear model has no regime of its own: even where ``solve`` chose it,
-        the answer is "frictionless".
+        "reversing" arises under the law "stronge" and in a time-resolved contact: the slip stopped,
+        and ended the other way; "sticking" then means that it stayed stopped. The linear model has
+        no regime of its own: even where ``solve`` chose it, the answer is "frictionless".
         """
         found = np.asarray("given", "U12")
         if self.inputs.rule == FRICTION:
@@ -388,18 +478,25 @@ class Impact(Frozen, Summarized):
 
     @derived()
     def pulse(self) -> Pulse | None:
-        """The contact over time as ``time_resolved`` followed it; None for an impulse, which takes no time."""
+        """The contact over time as ``time_resolved`` followed it; None for an impulse, which takes
+        no time.
+        """
         passed = self._passed
         if passed is None:
             return None
         from .pulse import CURVES, Pulse
 
         found = {f.name: getattr(passed, f.name) for f in fields(Pulse) if f.name in Passed._fields}
-        left = {f"residual_crush_{label}": part for label, part in residual_crushes(self.inputs, passed.peak_force).items()}
+        left = {
+            f"residual_crush_{label}": part
+            for label, part in residual_crushes(self.inputs, passed.peak_force).items()
+        }
         if left:
             found |= left | {"residual_crush": sum(left.values())}
         curves = () if passed.history is None else passed.history
-        return in_units_of(Pulse(**lock(found), **dict(zip(CURVES, curves, strict=False))), self._texts())
+        return in_units_of(
+            Pulse(**lock(found), **dict(zip(CURVES, curves, strict=False))), self._texts()
+        )
 
     @derived()
     def status(self) -> Status:
@@ -459,14 +556,16 @@ class Impact(Frozen, Summarized):
         Parameters
         ----------
         **changes
-            Arguments of the solver that answered, written as for that solver: ``a``, ``b``, ``restitution``, ``normal``,
-            ``incomplete`` and, where it has them, ``point``, ``law``, ``outside_a``, ``outside_b``, ``tolerance``, and one of
-            ``friction``, ``impulse_ratio`` and ``critical_fraction`` in place of the one used.
+            Arguments of the solver that answered, written as for that solver: ``a``, ``b``,
+            ``restitution``, ``normal``, ``incomplete`` and, where it has them, ``point``, ``law``,
+            ``outside_a``, ``outside_b``, ``tolerance``, and one of ``friction``, ``impulse_ratio``
+            and ``critical_fraction`` in place of the one used.
 
         Returns
         -------
         Impact
-            Solved forward; where a reverse solver found this impact, from the motions that it found.
+            Solved forward; where a reverse solver found this impact, from the motions that it
+            found.
 
         Raises
         ------
@@ -478,7 +577,9 @@ class Impact(Frozen, Summarized):
         Examples
         --------
         >>> import collisions as col
-        >>> impact = col.linear_central(col.Vehicle(mass=1100, vx="80 km/h"), col.Vehicle(mass=950), 0.4)
+        >>> impact = col.linear_central(
+        ...     col.Vehicle(mass=1100, vx="80 km/h"), col.Vehicle(mass=950), 0.4
+        ... )
         >>> for e in (0.2, 0.4):
         ...     print(round(impact.again(restitution=e).b.delta_v, 2))
         14.31
@@ -488,13 +589,24 @@ class Impact(Frozen, Summarized):
         takes = {"a", "b", "restitution", "normal", *ARGUMENTS[inputs.model]}
         unknown = changes.keys() - takes
         if unknown:
-            raise TypeError(f"again() takes the arguments of {inputs.model}: {', '.join(sorted(takes))}; got {min(unknown)!r}")
+            raise TypeError(
+                f"again() takes the arguments of {inputs.model}: {', '.join(sorted(takes))}; got "
+                f"{min(unknown)!r}"
+            )
         if len(rules) > 1:
-            raise InputError(f"give one of {' and '.join(rules)}, not both", code="one_tangential", argument=rules[0])
+            raise InputError(
+                f"give one of {' and '.join(rules)}, not both",
+                code="one_tangential",
+                argument=rules[0],
+            )
         changed = {name: value for name, value in changes.items() if name not in RULES}
         changed |= {"rule": rules[0], "rule_value": changes[rules[0]]} if rules else {}
         same_as_before = takes - changes.keys() - (RULES.keys() if rules else set())
-        given = {name: text for name, text in (inputs.given or {}).items() if name.partition("[")[0] in same_as_before}
+        given = {
+            name: text
+            for name, text in (inputs.given or {}).items()
+            if name.partition("[")[0] in same_as_before
+        }
         if inputs.model == "time_resolved" and changes.keys() & set(STIFFNESSES):
             changed = dict.fromkeys(STIFFNESSES) | changed
         return solved(read_again(replace(inputs, **changed, given=given, contact_velocity=None)))
@@ -502,8 +614,8 @@ class Impact(Frozen, Summarized):
     def case(self, index: int | tuple[int, ...]) -> Impact:
         """One case of a batch as a single impact, to look at, plot, explain or report.
 
-        The case is solved again by itself, so it agrees with the batch to within the accuracy promised, and a case that was
-        refused raises the error that says why.
+        The case is solved again by itself, so it agrees with the batch to within the accuracy
+        promised, and a case that was refused raises the error that says why.
 
         Parameters
         ----------
@@ -525,7 +637,9 @@ class Impact(Frozen, Summarized):
         >>> import collisions as col
         >>> import numpy as np
         >>> speeds = np.array([20.0, 15.0, -1.0])
-        >>> many = col.linear_central(col.Vehicle(mass=1500.0, vx=speeds), col.Vehicle(mass=1200.0), 0.1, on_failure="nan")
+        >>> many = col.linear_central(
+        ...     col.Vehicle(mass=1500.0, vx=speeds), col.Vehicle(mass=1200.0), 0.1, on_failure="nan"
+        ... )
         >>> many.case(1).b.after
         Vehicle(mass=1200 kg, vx=9.16667 m/s)
         """
@@ -534,14 +648,15 @@ class Impact(Frozen, Summarized):
         if self.reconstruction is not None and self.refused[place]:
             status = Status(codes[place])
             raise NoSolutionError(
-                f"case {index} has no answer: {status.sentence}; ask reconstruct.{self.reconstruction.method} for it alone to "
-                f"see what would decide",
+                f"case {index} has no answer: {status.sentence}; ask "
+                f"reconstruct.{self.reconstruction.method} for it alone to see what would decide",
                 code=status.label,
             )
         return part_of_impact(self, lambda value: np.broadcast_to(value, codes.shape)[place].item())
 
     def to_dict(self) -> dict[str, Any]:
-        """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves the impact again.
+        """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves
+        the impact again.
 
         Returns
         -------
@@ -573,13 +688,17 @@ class Impact(Frozen, Summarized):
         impact = solved(inputs, on_failure=on_failure)
         return impact if origin is None else found_by(origin, inputs, impact._answer, status)
 
-    def to_columns(self, *, units: str | None = None, columns: Collection[str] | None = None) -> dict[str, list[Any]]:
-        """Every input and result as a flat column with one value per case, ready for ``pandas.DataFrame(...)``.
+    def to_columns(
+        self, *, units: str | None = None, columns: Collection[str] | None = None
+    ) -> dict[str, list[Any]]:
+        """Every input and result as a flat column with one value per case, ready for
+        ``pandas.DataFrame(...)``.
 
         Parameters
         ----------
         units : {"si", "metric", "us"}, optional
-            Units of the numbers, which then appear in the names: "a.delta_v [mph]". By default SI, with plain names.
+            Units of the numbers, which then appear in the names: "a.delta_v [mph]". By default SI,
+            with plain names.
         columns : list of str, optional
             Only these columns, in this order, named without a unit, such as "a.delta_v".
 
@@ -596,7 +715,9 @@ class Impact(Frozen, Summarized):
         Examples
         --------
         >>> import collisions as col
-        >>> impact = col.linear_central(col.Vehicle(mass="3400 lb", vx="30 mph"), col.Vehicle(mass="3400 lb"), 0.0)
+        >>> impact = col.linear_central(
+        ...     col.Vehicle(mass="3400 lb", vx="30 mph"), col.Vehicle(mass="3400 lb"), 0.0
+        ... )
         >>> impact.to_columns(units="us", columns=["b.delta_v"])
         {'b.delta_v [mph]': [15.0]}
         """
@@ -610,32 +731,64 @@ class Impact(Frozen, Summarized):
         return self.inputs == other.inputs and all(map(same, self._answer, other._answer))
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: getattr(self, name) for name in ("inputs", "_answer", "reconstruction", "choice")}
+        return {
+            name: getattr(self, name) for name in ("inputs", "_answer", "reconstruction", "choice")
+        }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Arrays come out of a pickle unlocked; those of inputs and choice lock themselves."""
         vars(self).update(lock(state))
         if self.reconstruction is not None:
-            lock((self.reconstruction.condition, self.reconstruction.answers, self.reconstruction.contact_velocity))
+            lock(
+                (
+                    self.reconstruction.condition,
+                    self.reconstruction.answers,
+                    self.reconstruction.contact_velocity,
+                )
+            )
 
     def __repr__(self) -> str:
         shown = ", ".join(
             f"{name}={show(getattr(self, name), unit)}"
-            for name, unit in (("closing_speed", "m/s"), ("restitution", None), ("normal_impulse", "N*s"), ("energy_loss", "J"))
+            for name, unit in (
+                ("closing_speed", "m/s"),
+                ("restitution", None),
+                ("normal_impulse", "N*s"),
+                ("energy_loss", "J"),
+            )
         )
-        return f"<Impact {self.model}: {shown}, delta_v a={show(self.a.delta_v)} b={show(self.b.delta_v, 'm/s')}>"
+        return (
+            f"<Impact {self.model}: {shown}, delta_v a={show(self.a.delta_v)} "
+            f"b={show(self.b.delta_v, 'm/s')}>"
+        )
 
     def _summary(self, numbers: Cells) -> Summary:
         a, b = self.a, self.b
         numbers.answered = np.logical_not(self.refused)
-        names = [name for name in _CONTACT if self.inputs.model != "linear_central" or name not in _TANGENTIAL]
+        names = [
+            name
+            for name in _CONTACT
+            if self.inputs.model != "linear_central" or name not in _TANGENTIAL
+        ]
         label = {"energy_loss": "energy lost"}
-        rows = [(label.get(name, label_of(name)), numbers.text(getattr(self, name), unit_of(Impact, name))) for name in names]
+        rows = [
+            (
+                label.get(name, label_of(name)),
+                numbers.text(getattr(self, name), unit_of(Impact, name)),
+            )
+            for name in names
+        ]
         notes = SIGNS if a.before.heading is not None or b.before.heading is not None else SIGNS[:1]
         if np.any(self.refused):
-            many = f"{np.count_nonzero(self.refused)} of {np.size(self.refused)} cases were refused, for what their status "
+            many = (
+                f"{np.count_nonzero(self.refused)} of {np.size(self.refused)} cases were "
+                "refused, for what their status "
+            )
             many += "says; the ranges are those of the others."
-            notes = (f"Refused: {self.status.sentence}." if isinstance(self.status, Status) else many, *notes)
+            notes = (
+                f"Refused: {self.status.sentence}." if isinstance(self.status, Status) else many,
+                *notes,
+            )
         title = f"Impact of {title_of(a)} and {title_of(b)}"
         everything = all_numbers(self._rows())
         return Summary(title, [*beside((a, b), numbers), Part(rows, "Contact"), everything], notes)
@@ -692,12 +845,15 @@ def solved(
 
 
 def solve_changed(impact: Impact, **changes: Any) -> Impact:
-    """Solve again with some inputs changed, by the same model and without validation; NaN where refused.
+    """Solve again with some inputs changed, by the same model and without validation; NaN where
+    refused.
 
     No warnings: the impact itself has given those of refused cases and energy gains.
     """
     with quietly():
-        return solved(replace(impact.inputs, **changes, given=None), on_failure="nan", choice=impact.choice)
+        return solved(
+            replace(impact.inputs, **changes, given=None), on_failure="nan", choice=impact.choice
+        )
 
 
 def with_vehicles(impact: Impact, a: Vehicle, b: Vehicle) -> Impact:
@@ -707,7 +863,9 @@ def with_vehicles(impact: Impact, a: Vehicle, b: Vehicle) -> Impact:
     return other
 
 
-def part_of_impact(impact: Impact, take: Callable[[Any], Any], on_failure: OnFailure | None = None) -> Impact:
+def part_of_impact(
+    impact: Impact, take: Callable[[Any], Any], on_failure: OnFailure | None = None
+) -> Impact:
     """Some cases of a batch, solved again; ``take`` selects them from every array."""
     origin = impact.reconstruction
     inputs = read_again(part_of_inputs(impact.inputs, take), found=origin is not None)
@@ -717,7 +875,11 @@ def part_of_impact(impact: Impact, take: Callable[[Any], Any], on_failure: OnFai
 
         choice = part_of_choice(impact.choice, take)
     part = solved(inputs, on_failure=on_failure, choice=choice)
-    return part if origin is None else found_by(part_of(origin, take), inputs, part._answer, take(impact.status))
+    return (
+        part
+        if origin is None
+        else found_by(part_of(origin, take), inputs, part._answer, take(impact.status))
+    )
 
 
 def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> Impact:
@@ -726,7 +888,9 @@ def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> I
 
     code = raw.status
     if isinstance(code, np.ndarray):
-        code = np.where((code > Status.ENERGY_GAIN) & np.not_equal(status, Status.OK), status, code).astype(code.dtype)
+        code = np.where(
+            (code > Status.ENERGY_GAIN) & np.not_equal(status, Status.OK), status, code
+        ).astype(code.dtype)
     elif code > Status.ENERGY_GAIN and status != Status.OK:
         code = Status(status)
     impact = build(inputs, raw._replace(status=lock(code)))

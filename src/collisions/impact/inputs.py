@@ -1,4 +1,6 @@
-"""Inputs: all arguments of a solver call in SI, the texts they were given as, and their validation."""
+"""Inputs: all arguments of a solver call in SI, the texts they were given as, and their
+validation.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,16 @@ from ..quantities.settings import units_required
 from ..quantities.units import Value, has_unit, is_quantity, shown, texts_of
 from ..vehicle.tyres import NAMES as TYRE_NUMBERS
 from ..vehicle.tyres import Tyres, tyres_with
-from ..vehicle.vehicle import NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, with_name, without_turning
+from ..vehicle.vehicle import (
+    NAMES,
+    Vehicle,
+    missing,
+    not_a_vehicle,
+    numbers_of,
+    vehicle_of,
+    with_name,
+    without_turning,
+)
 
 ModelName: TypeAlias = Literal["linear_central", "oblique_central", "eccentric", "time_resolved"]
 Law: TypeAlias = Literal["brach", "kudlich-slibar", "stronge"]
@@ -31,7 +42,8 @@ Arguments: TypeAlias = tuple[Any, Any, Any, Any, Any, tuple[Any, ...], Any]
 
 _ALONG_X = (1.0, 0.0)
 _new = object.__new__
-# Of a crush stiffness: force at no crush and its growth with crush, each for a width, and the width.
+# Of a crush stiffness: force at no crush and its growth with crush, each for a width, and the
+# width.
 CRUSH_UNITS = ("N/m", "N/m**2", "m")
 NO_IMPULSE = (0.0, 0.0, 0.0)
 OUTSIDE = ("outside_a", "outside_b")
@@ -44,11 +56,23 @@ ARGUMENTS = {
     "oblique_central": _SLIP,
     "eccentric": (*_SLIP, "point", *OUTSIDE, "duration", *TYRES),
     "solve": (*_SLIP, "point", *OUTSIDE, "tolerance", "duration", "drag", *TYRES),
-    "time_resolved": (FRICTION, "point", *STIFFNESSES, "drag", "wheelbase", "track", *TYRES, "geometry", "steps"),
+    "time_resolved": (
+        FRICTION,
+        "point",
+        *STIFFNESSES,
+        "drag",
+        "wheelbase",
+        "track",
+        *TYRES,
+        "geometry",
+        "steps",
+    ),
 }
 # The models that need places, and the solvers that take pinned bodies.
 PLACED, _PINNED = ("eccentric", "time_resolved"), ("eccentric", "solve")
-_TAKES = {name: ("law" in takes, name in PLACED, name in _PINNED) for name, takes in ARGUMENTS.items()}
+_TAKES = {
+    name: ("law" in takes, name in PLACED, name in _PINNED) for name, takes in ARGUMENTS.items()
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,22 +89,26 @@ class Inputs:
     normal : tuple of float or array [1]
         Unit vector from A into B.
     rule : str
-        What determines the tangential impulse: "friction", "impulse_ratio" or "critical_fraction" ...
+        What determines the tangential impulse: "friction", "impulse_ratio" or "critical_fraction"
+        ...
     rule_value : float or array [1]
         ... and its value.
     law : str, optional
         None for the linear model.
     point : tuple of float or array [m], optional
     given : mapping, optional
-        By argument, the text of what was given with a unit, and an angle of more than a turn without one.
+        By argument, the text of what was given with a unit, and an angle of more than a turn
+        without one.
     tolerance : float or array [m/s], optional
         With ``solve``, the largest error that was accepted.
     incomplete : bool
         Whether a restitution below 0 is allowed: an impact that ends before a common velocity.
     outside_a, outside_b : tuple of float or array [N*s, N*s, N*m*s], optional
-        Impulse on A and on B from other things than the contact, along x and y, and about the centre of mass.
+        Impulse on A and on B from other things than the contact, along x and y, and about the
+        centre of mass.
     contact_velocity : tuple of float or array [m/s], optional
-        From a reverse solver: closing speed and slip before, to more digits than the rounded motions would give.
+        From a reverse solver: closing speed and slip before, to more digits than the rounded
+        motions would give.
     duration, stiffness, crush_a, crush_b, drag, wheelbase, track, tyres_a, tyres_b, geometry, steps
         As for ``time_resolved``.
     """
@@ -119,7 +147,9 @@ class Inputs:
 
     @property
     def bare_normal(self) -> Any:
-        """The normal's angle if it was a number without a unit beyond a full turn (degrees meant?); else None."""
+        """The normal's angle if it was a number without a unit beyond a full turn (degrees meant?);
+        else None.
+        """
         normal = None if self.given is None else self.given.get("normal")
         return None if isinstance(normal, str) else normal
 
@@ -131,19 +161,29 @@ class Inputs:
 
     @property
     def pushed(self) -> bool:
-        """Whether impulses other than that of the contact act in the same instant: given ones, or those of tyres."""
+        """Whether impulses other than that of the contact act in the same instant: given ones, or
+        those of tyres.
+        """
         return self.outside_a is not None or (self.model != "time_resolved" and bool(self.tyres))
 
     @property
     def tyres(self) -> dict[str, Tyres]:
         """The tyres by vehicle, "a" and "b", of those that have some."""
-        return {label: one for label, one in (("a", self.tyres_a), ("b", self.tyres_b)) if one is not None}
+        return {
+            label: one
+            for label, one in (("a", self.tyres_a), ("b", self.tyres_b))
+            if one is not None
+        }
 
     def __eq__(self, other: object) -> bool:
         """Whether all values are equal; the texts they were given as do not count."""
         if not isinstance(other, Inputs):
             return NotImplemented
-        return all(same(getattr(self, f.name), getattr(other, f.name)) for f in fields(self) if f.name != "given")
+        return all(
+            same(getattr(self, f.name), getattr(other, f.name))
+            for f in fields(self)
+            if f.name != "given"
+        )
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Arrays come out of a pickle unlocked."""
@@ -156,7 +196,11 @@ UNITS: dict[str, Any] = {f.name: f.metadata["unit"] for f in fields(Inputs) if "
 
 def named_numbers(inputs: Inputs) -> dict[str, Any]:
     """Every number of the inputs by the name the caller knows it by."""
-    values = {"restitution": inputs.restitution, inputs.rule: inputs.rule_value, "normal": inputs.normal}
+    values = {
+        "restitution": inputs.restitution,
+        inputs.rule: inputs.rule_value,
+        "normal": inputs.normal,
+    }
     values |= {name: getattr(inputs, name) for name in (*UNITS, "contact_velocity")}
     found: dict[str, Any] = {}
     for name, value in values.items():
@@ -172,7 +216,9 @@ def named_numbers(inputs: Inputs) -> dict[str, Any]:
 
 
 def body_numbers(body: Vehicle, contact: tuple[Value, Value] | None) -> tuple[Any, ...]:
-    """The numbers of one body; what is not known of its inertia and position is filled in so that it makes no torque."""
+    """The numbers of one body; what is not known of its inertia and position is filled in so that
+    it makes no torque.
+    """
     placed = contact is not None and body.x is not None and body.y is not None
     place = (body.x, body.y) if placed else contact or (0.0, 0.0)
     inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
@@ -198,9 +244,13 @@ def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
     if isinstance(whole, np.ndarray):
         return take(whole)
     if isinstance(whole, Vehicle):
-        return vehicle_of({name: part_of(getattr(whole, name), take) for name in NAMES}, given=whole.given)
+        return vehicle_of(
+            {name: part_of(getattr(whole, name), take) for name in NAMES}, given=whole.given
+        )
     if isinstance(whole, Tyres):
-        return tyres_with({name: part_of(getattr(whole, name), take) for name in TYRE_NUMBERS}, whole)
+        return tyres_with(
+            {name: part_of(getattr(whole, name), take) for name in TYRE_NUMBERS}, whole
+        )
     if isinstance(whole, Mapping):
         return {name: part_of(value, take) for name, value in whole.items()}
     if isinstance(whole, tuple):
@@ -217,18 +267,31 @@ def first_case(holds: Any) -> tuple[tuple[int, ...], str]:
 
 
 def index_of(index: Any, shape: tuple[int, ...] | None) -> tuple[int, ...]:
-    """The index of one case of a batch, checked against its shape (None for a single impact, which has no cases)."""
+    """The index of one case of a batch, checked against its shape (None for a single impact, which
+    has no cases).
+    """
     if shape is None:
         raise ShapeError(
-            "impact is one case, and case() takes one of a batch; use it as it is", code="bad_shape", argument="index"
+            "impact is one case, and case() takes one of a batch; use it as it is",
+            code="bad_shape",
+            argument="index",
         )
     place = index if isinstance(index, tuple) else (index,)
     whole = all(map(is_whole, place))
-    if not whole or len(place) != len(shape) or not all(-size <= at < size for at, size in zip(place, shape, strict=True)):
-        wanted = f"a whole number below {shape[0]}" if len(shape) == 1 else f"{len(shape)} whole numbers in a tuple"
+    if (
+        not whole
+        or len(place) != len(shape)
+        or not all(-size <= at < size for at, size in zip(place, shape, strict=True))
+    ):
+        wanted = (
+            f"a whole number below {shape[0]}"
+            if len(shape) == 1
+            else f"{len(shape)} whole numbers in a tuple"
+        )
+        first = "0" if len(shape) == 1 else str((0,) * len(shape))
         raise InputError(
-            f"index must be that of one case in a batch of shape {shape}, {wanted}, got {shown(index)}; write impact.case("
-            f"{', '.join(['0'] * len(shape)) if len(shape) == 1 else tuple([0] * len(shape))})",
+            f"index must be that of one case in a batch of shape {shape}, {wanted}, got "
+            f"{shown(index)}; write impact.case({first})",
             code="bad_index",
             argument="index",
         )
@@ -236,14 +299,24 @@ def index_of(index: Any, shape: tuple[int, ...] | None) -> tuple[int, ...]:
 
 
 def plain_inputs(
-    model: str, a: Any, b: Any, restitution: Any, normal: Any, point: Any, tangential: tuple[Any, ...], law: Any
+    model: str,
+    a: Any,
+    b: Any,
+    restitution: Any,
+    normal: Any,
+    point: Any,
+    tangential: tuple[Any, ...],
+    law: Any,
 ) -> Inputs | None:
     """The inputs if all are plain floats in order, which need no reader; else None."""
     lawful, placed, pinned = _TAKES[model]
     friction = tangential[0]
     if (
         type(a) is type(b) is Vehicle
-        and (a.given is b.given is None or np.ndarray not in map(type, chain(numbers_of(a).values(), numbers_of(b).values())))
+        and (
+            a.given is b.given is None
+            or np.ndarray not in map(type, chain(numbers_of(a).values(), numbers_of(b).values()))
+        )
         and type(restitution) is type(friction) is type(normal) is float
         and 0.0 <= restitution <= 1.0
         and friction >= 0.0
@@ -263,7 +336,8 @@ def plain_inputs(
             )
         )
     ):
-        # What ``Inputs(...)`` does, in a third of its time: a frozen dataclass sets a field through object.
+        # What ``Inputs(...)`` does, in a third of its time: a frozen dataclass sets a field through
+        # object.
         inputs: Inputs = _new(Inputs)
         found = inputs.__dict__
         found["model"] = model
@@ -291,9 +365,10 @@ def read_inputs(
 ) -> Inputs:
     """Validate the arguments of a solver.
 
-    Missing inputs, and inputs that the model cannot represent, are refused; one error names all that cannot be used, with the
-    ``problems`` that were found before. Of the values of ``RULES`` one must be given. ``beside`` has the numbers that are not
-    among these arguments, with which the normal shares its precision.
+    Missing inputs, and inputs that the model cannot represent, are refused; one error names all
+    that cannot be used, with the ``problems`` that were found before. Of the values of ``RULES``
+    one must be given. ``beside`` has the numbers that are not among these arguments, with which the
+    normal shares its precision.
     """
     if not problems and incomplete is False and outside_a is outside_b is None:
         plain = plain_inputs(model, *arguments)
@@ -313,41 +388,77 @@ def read_inputs(
     e = reader.number(restitution, "", "restitution", restitution_domain(incomplete))
     contact = None if point is None else reader.pair(point, "m", "point")
     rule, value = _tangential(reader, tangential)
-    vehicles = (number for vehicle in (a, b) if isinstance(vehicle, Vehicle) for number in numbers_of(vehicle).values())
+    vehicles = (
+        number
+        for vehicle in (a, b)
+        if isinstance(vehicle, Vehicle)
+        for number in numbers_of(vehicle).values()
+    )
     pushes: dict[str, Any] = dict(zip(OUTSIDE, (outside_a, outside_b), strict=True))
     if outside_a is not None or outside_b is not None:
-        pushes = {name: NO_IMPULSE if given is None else reader.impulse(given, name) for name, given in pushes.items()}
-    of_contact = e, value, *(contact or ()), *(pushes["outside_a"] or ()), *(pushes["outside_b"] or ())
+        pushes = {
+            name: NO_IMPULSE if given is None else reader.impulse(given, name)
+            for name, given in pushes.items()
+        }
+    of_contact = (
+        e,
+        value,
+        *(contact or ()),
+        *(pushes["outside_a"] or ()),
+        *(pushes["outside_b"] or ()),
+    )
     unit: Any = direction(reader, normal, "normal", chain(of_contact, vehicles, beside))
     lawful, _, _ = _TAKES[model]
     if lawful and (not isinstance(law, str) or law not in LAWS):
         known = " or ".join(f"{name!r} ({known.no_slip})" for name, known in LAWS.items())
-        reader.refuse(InputError(f"law must be {known}, got {shown(law)}", code="bad_law", argument="law"))
+        reader.refuse(
+            InputError(f"law must be {known}, got {shown(law)}", code="bad_law", argument="law")
+        )
     elif lawful and LAWS[law].energetic and rule != FRICTION:
-        text = f"law {law!r} works with friction= alone, got {rule}=: it finds the impulse ratio from the slip as it changes"
+        text = (
+            f"law {law!r} works with friction= alone, got {rule}=: it finds the impulse ratio "
+            "from the slip as it changes"
+        )
         reader.refuse(InputError(text, code="bad_combination", argument=rule))
     reader.close()
     # Only the direction of a vector counts.
-    given = {name: text for name, text in reader.texts.items() if not name.startswith("normal[")} | _beyond_a_turn(normal)
+    given = {
+        name: text for name, text in reader.texts.items() if not name.startswith("normal[")
+    } | _beyond_a_turn(normal)
     more: dict[str, Any] = {"incomplete": incomplete, **pushes}
-    return Inputs(model, a, b, e, unit, rule, value, law if lawful else None, contact, given or None, **more)
+    return Inputs(
+        model, a, b, e, unit, rule, value, law if lawful else None, contact, given or None, **more
+    )
 
 
 def check_flag(reader: ArgumentReader, name: str, given: Any) -> None:
     """Refuse an option that is no bool."""
     if not isinstance(given, bool):
-        reader.refuse(InputError(f"{name} must be True or False, got {shown(given)}", code="bad_option", argument=name))
+        reader.refuse(
+            InputError(
+                f"{name} must be True or False, got {shown(given)}",
+                code="bad_option",
+                argument=name,
+            )
+        )
 
 
 def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
-    """Vehicle and field of each input that the eccentric model needs and that is None; a fixed body needs no position."""
+    """Vehicle and field of each input that the eccentric model needs and that is None; a fixed body
+    needs no position.
+    """
     found: list[tuple[str, str]] = []
     for label, body in (("a", a), ("b", b)):
         if type(body) is not Vehicle or _is_complete(body):
             continue
         inertia = 0.0 if body.yaw_inertia is None else body.yaw_inertia
-        # Element by element: with an empty array among them, a plain number still says that the body moves.
-        fixed = np.all(np.isinf(body.mass)) and np.all(np.isinf(inertia)) and without_turning(body.yaw_rate)
+        # Element by element: with an empty array among them, a plain number still says that the
+        # body moves.
+        fixed = (
+            np.all(np.isinf(body.mass))
+            and np.all(np.isinf(inertia))
+            and without_turning(body.yaw_rate)
+        )
         needed = ("yaw_inertia",) if fixed else ("yaw_inertia", "x", "y")
         found += [(label, name) for name in needed if getattr(body, name) is None]
     return found
@@ -359,7 +470,10 @@ def missing_numbers(a: Any, b: Any, point: Any, model: str = "eccentric") -> Seq
         return ()
     found = [missing(a if label == "a" else b, name, model, label) for label, name in lacking(a, b)]
     if point is None:
-        text = f"point is None, and {model} needs it; give the scene point (x, y) at which the impulse acts"
+        text = (
+            f"point is None, and {model} needs it; give the scene point (x, y) at which the "
+            "impulse acts"
+        )
         found.insert(0, MissingInputError(text, code="missing_point", argument="point"))
     return found
 
@@ -370,26 +484,43 @@ def _pinned(model: str, a: Any, b: Any) -> Sequence[InputError]:
     if model == "time_resolved":
         cure = "give an infinite mass at the pivot, with the yaw inertia about it, or use eccentric"
     return [
-        InputError(f"{label} has a pivot, which {model} cannot hold; {cure}", code="pinned", argument="pivot")
+        InputError(
+            f"{label} has a pivot, which {model} cannot hold; {cure}",
+            code="pinned",
+            argument="pivot",
+        )
         for label, vehicle in (("a", a), ("b", b))
         if getattr(vehicle, "pivot", None) is not None
     ]
 
 
 def _is_complete(body: Any) -> bool:
-    return type(body) is Vehicle and body.yaw_inertia is not None and body.x is not None and body.y is not None
+    return (
+        type(body) is Vehicle
+        and body.yaw_inertia is not None
+        and body.x is not None
+        and body.y is not None
+    )
 
 
 def _beyond_a_turn(normal: Any) -> dict[str, Any]:
-    """The ``given`` entry of a normal without a unit and beyond a full turn, where degrees may have been meant; else empty."""
+    """The ``given`` entry of a normal without a unit and beyond a full turn, where degrees may have
+    been meant; else empty.
+    """
     if isinstance(normal, tuple) or has_unit(normal):
         return {}
     radians: Any = np.array(normal.magnitude if is_quantity(normal) else normal, dtype=np.float64)
-    return {"normal": lock(radians) if radians.ndim else float(radians)} if largest(radians) > math.tau else {}
+    return (
+        {"normal": lock(radians) if radians.ndim else float(radians)}
+        if largest(radians) > math.tau
+        else {}
+    )
 
 
 def _tangential(reader: ArgumentReader, values: tuple[Any, ...]) -> tuple[str, Any]:
-    """The one tangential rule that was given (a friction bound, an impulse ratio or the like), and its value."""
+    """The one tangential rule that was given (a friction bound, an impulse ratio or the like), and
+    its value.
+    """
     taken = dict(zip(RULES.values(), values, strict=False))
     given = [(rule, value) for rule, value in taken.items() if value is not None]
     if len(given) == 1:
@@ -397,7 +528,8 @@ def _tangential(reader: ArgumentReader, values: tuple[Any, ...]) -> tuple[str, A
         return rule.name, reader.number(value, "", rule.name, rule.domain)
     found = "none" if not given else " and ".join(f"{rule.name}=" for rule, _ in given)
     text = (
-        f"give exactly one of {', '.join(f'{rule.name}=' for rule in taken)}; got {found}. There is no default, because it "
-        f"decides cases: friction=0 is a frictionless contact, friction=inf one that never slips"
+        f"give exactly one of {', '.join(f'{rule.name}=' for rule in taken)}; got {found}. There "
+        "is no default, because it decides cases: friction=0 is a frictionless contact, "
+        "friction=inf one that never slips"
     )
     return FRICTION, reader.refuse(InputError(text, code="one_tangential", argument="friction"))

@@ -1,4 +1,6 @@
-"""``left_out``: what the impulse idealisation neglects, tyre forces and the movement of the vehicles during the contact."""
+"""``left_out``: what the impulse idealisation neglects, tyre forces and the movement of the
+vehicles during the contact.
+"""
 
 from __future__ import annotations
 
@@ -35,12 +37,15 @@ from .time_resolved_inputs import held_impulse, read_tyres
 _MOMENTS = (0.125, 0.375, 0.625, 0.875)
 
 
-# Part of the tyre impulse that is tried, small enough that the regime does not change; a power of 2 to avoid rounding.
+# Part of the tyre impulse that is tried, small enough that the regime does not change; a power of 2
+# to avoid rounding.
 _LITTLE = 2.0**-6
 
 
 class Pull(NamedTuple):
-    """What its own tyres would do to the velocity of a free vehicle over the contact, and the most they can do to this one."""
+    """What its own tyres would do to the velocity of a free vehicle over the contact, and the most
+    they can do to this one.
+    """
 
     x: Any
     y: Any
@@ -49,7 +54,9 @@ class Pull(NamedTuple):
 
     @classmethod
     def of(cls, side: Side, restitution: Any, most: Any) -> Pull:
-        """``most`` is the change of velocity of a free body by tyres that pull one way throughout."""
+        """``most`` is the change of velocity of a free body by tyres that pull one way
+        throughout.
+        """
         before, change_x, change_y = side.before, side.delta_vx, side.delta_vy
         most = select(numeric(before.mass).isfinite(before.mass), most, 0.0)
         x: Any = 0.0
@@ -62,18 +69,28 @@ class Pull(NamedTuple):
             x, y = x - vx / speed / len(_MOMENTS), y - vy / speed / len(_MOMENTS)
         if before.pivot is None:
             return cls(most * x, most * y, most)
-        arm_x, arm_y = needed(before, "x", "left_out") - before.pivot[0], needed(before, "y", "left_out") - before.pivot[1]
+        arm_x, arm_y = (
+            needed(before, "x", "left_out") - before.pivot[0],
+            needed(before, "y", "left_out") - before.pivot[1],
+        )
         square = arm_x * arm_x + arm_y * arm_y
         # A pinned body without an inertia has no result anyway.
         inertia = math.inf if before.yaw_inertia is None else before.yaw_inertia
         turning = before.mass / (inertia + before.mass * square)
-        # For wheels at the radius of gyration k from the centre, the mean distance from the pivot is at most hypot(arm, k).
+        # For wheels at the radius of gyration k from the centre, the mean distance from the pivot
+        # is at most hypot(arm, k).
         return cls(most * x, most * y, most * (turning * square) ** 0.5)
 
 
-def by_wheels(impact: Impact, time: Any, tyres: Mapping[str, Tyres], pulls: tuple[Pull, Pull]) -> tuple[Pull, Pull]:
-    """What wheels that roll, brake and steer do over the contact, as ``eccentric`` takes them; none where there are none."""
-    inputs = replace(impact.inputs, tyres_a=tyres.get("tyres_a"), tyres_b=tyres.get("tyres_b"), duration=time)
+def by_wheels(
+    impact: Impact, time: Any, tyres: Mapping[str, Tyres], pulls: tuple[Pull, Pull]
+) -> tuple[Pull, Pull]:
+    """What wheels that roll, brake and steer do over the contact, as ``eccentric`` takes them; none
+    where there are none.
+    """
+    inputs = replace(
+        impact.inputs, tyres_a=tyres.get("tyres_a"), tyres_b=tyres.get("tyres_b"), duration=time
+    )
     found = []
     for label, body, pull in zip("ab", (inputs.a, inputs.b), pulls, strict=True):
         own = inputs.tyres.get(label)
@@ -81,14 +98,21 @@ def by_wheels(impact: Impact, time: Any, tyres: Mapping[str, Tyres], pulls: tupl
             found.append(Pull(0.0 * pull.x, 0.0 * pull.y, 0.0 * pull.most))
             continue
         mass = finite_mass(body)
-        x, y, yaw = (part / select(mass > 0.0, mass, 1.0) for part in held_impulse(inputs, answer_of(impact), label))
+        x, y, yaw = (
+            part / select(mass > 0.0, mass, 1.0)
+            for part in held_impulse(inputs, answer_of(impact), label)
+        )
         drag = select(mass > 0.0, 1.0, 0.0) * own.friction * GRAVITY * time
-        found.append(Pull(x, y, Pull.of(getattr(impact, label), inputs.restitution, drag).most, yaw))
+        found.append(
+            Pull(x, y, Pull.of(getattr(impact, label), inputs.restitution, drag).most, yaw)
+        )
     return found[0], found[1]
 
 
 def with_tyres(impact: Impact, pulls: tuple[Pull, Pull]) -> list[Any]:
-    """Change of each vehicle's delta-V by the tyres of both, as impulses from outside, which the eccentric model takes."""
+    """Change of each vehicle's delta-V by the tyres of both, as impulses from outside, which the
+    eccentric model takes.
+    """
     inputs, point = impact.inputs, impact.point
     central = impact.model != ECCENTRIC.name
     changes: dict[str, Any] = {"model": ECCENTRIC.name, "law": inputs.law or BRACH}
@@ -96,10 +120,16 @@ def with_tyres(impact: Impact, pulls: tuple[Pull, Pull]) -> list[Any]:
     for label, pull in zip("ab", pulls, strict=True):
         body, given = getattr(inputs, label), getattr(inputs, f"outside_{label}") or (0.0, 0.0, 0.0)
         mass = _LITTLE * finite_mass(body)
-        changes[f"outside_{label}"] = (given[0] + mass * pull.x, given[1] + mass * pull.y, given[2] + mass * pull.yaw)
+        changes[f"outside_{label}"] = (
+            given[0] + mass * pull.x,
+            given[1] + mass * pull.y,
+            given[2] + mass * pull.yaw,
+        )
         if point is not None and body.x is not None and body.y is not None and np.any(central):
             # A central model knows no levers.
-            x, y = (select(central, *places) for places in zip(point, (body.x, body.y), strict=True))
+            x, y = (
+                select(central, *places) for places in zip(point, (body.x, body.y), strict=True)
+            )
             changes[label] = body.replace(x=x, y=y)
     again = solve_changed(impact, **changes)
     return [
@@ -114,9 +144,11 @@ def finite_mass(body: Vehicle) -> Any:
 
 
 def with_motion(impact: Impact, time: Any, geometry: str) -> list[Any]:
-    """Change of delta-V of each vehicle because the geometry moves during the contact; None without a geometry.
+    """Change of delta-V of each vehicle because the geometry moves during the contact; None without
+    a geometry.
 
-    ``geometry`` says what moment the positions of the impact are those of: "maximum_engagement" or "first_contact".
+    ``geometry`` says what moment the positions of the impact are those of: "maximum_engagement" or
+    "first_contact".
     """
     point, placed = impact.point, impact.model == ECCENTRIC.name
     if point is None or placed is False:
@@ -125,20 +157,31 @@ def with_motion(impact: Impact, time: Any, geometry: str) -> list[Any]:
         return [math.nan] * 2
     e = impact.restitution
     passed = pulse.mean_passed(e)
-    # By how much of the duration times the velocity before, and times its change, a body has gone on from first contact: at
-    # maximum engagement, on the mean while the force acts, and at the end.
-    most, acting, last = pulse.engaged(e), (1.0 - passed, passed - pulse.mean_square_passed(e)), (1.0, passed)
+    # By how much of the duration times the velocity before, and times its change, a body has gone
+    # on from first contact: at maximum engagement, on the mean while the force acts, and at the
+    # end.
+    most, acting, last = (
+        pulse.engaged(e),
+        (1.0 - passed, passed - pulse.mean_square_passed(e)),
+        (1.0, passed),
+    )
     given = most if geometry == "maximum_engagement" else (0.0, 0.0)
-    # A drift of the closing speed counts most at first for what the spring takes up, and at last for what it gives back.
+    # A drift of the closing speed counts most at first for what the spring takes up, and at last
+    # for what it gives back.
     taking, giving = pulse.drifting(e)
     moments = (0.0, 0.0), most, acting, last, taking, (most[0] + giving[0], most[1] + giving[1])
     start, engaged, mean, end, taken, given_back = (
-        _moved(impact, point, time, *(here - there for here, there in zip(moment, given, strict=True))) for moment in moments
+        _moved(
+            impact, point, time, *(here - there for here, there in zip(moment, given, strict=True))
+        )
+        for moment in moments
     )
-    # The impulse acts at the mean, but what is left of the velocities at the contact is what the end sees of them.
+    # The impulse acts at the mean, but what is left of the velocities at the contact is what the
+    # end sees of them.
     early, late = _closing(impact, 1.0, *mean), _closing(impact, 1.0, *end)
     by_n, by_t = late[0] - early[0], late[1] - early[1]
-    # What closes while the spring is pressed, of which restitution gives back a share, and what of that a drift then takes.
+    # What closes while the spring is pressed, of which restitution gives back a share, and what of
+    # that a drift then takes.
     gained, lost = (
         _closing(impact, share, *then)[0] - _closing(impact, share, *before)[0]
         for share, before, then in (
@@ -161,7 +204,9 @@ def with_motion(impact: Impact, time: Any, geometry: str) -> list[Any]:
     ]
 
 
-def _moved(impact: Impact, point: Any, time: Any, by_was: Any, by_change: Any) -> tuple[list[Vehicle], Any, Any]:
+def _moved(
+    impact: Impact, point: Any, time: Any, by_was: Any, by_change: Any
+) -> tuple[list[Vehicle], Any, Any]:
     """Both bodies, point and normal, further on by these shares of velocities and their changes."""
     bodies, turns, places, fixed = [], [], [], []
     for side in (impact.a, impact.b):
@@ -187,12 +232,19 @@ def _moved(impact: Impact, point: Any, time: Any, by_was: Any, by_change: Any) -
         places.append((dx + (now[0] - arm[0]), dy + (now[1] - arm[1])))
         bodies.append(before.replace(x=before.x + dx, y=before.y + dy))
     on_a = select(fixed[1], 1.0, select(fixed[0], 0.0, 0.5))
-    point = tuple(was + on_a * by_a + (1.0 - on_a) * by_b for was, by_a, by_b in zip(point, *places, strict=True))
+    point = tuple(
+        was + on_a * by_a + (1.0 - on_a) * by_b
+        for was, by_a, by_b in zip(point, *places, strict=True)
+    )
     return bodies, point, _turned(*impact.normal, (1.0 - on_a) * turns[0] + on_a * turns[1])
 
 
-def _closing(impact: Impact, share: Any, bodies: list[Vehicle], point: Any, normal: Any) -> tuple[Any, Any]:
-    """Velocity of A relative to B at a contact point, along the normal and the tangent, after a share of the impulse."""
+def _closing(
+    impact: Impact, share: Any, bodies: list[Vehicle], point: Any, normal: Any
+) -> tuple[Any, Any]:
+    """Velocity of A relative to B at a contact point, along the normal and the tangent, after a
+    share of the impulse.
+    """
     ux: Any = 0.0
     uy: Any = 0.0
     for sign, side, body in zip((1.0, -1.0), (impact.a, impact.b), bodies, strict=True):
@@ -225,17 +277,20 @@ class LeftOutSide(Shown):
     Attributes
     ----------
     tyre_impulse_bound : float or array [N*s]
-        The largest impulse that tyres sliding throughout can give: drag x weight x duration; 0 for an infinite mass.
+        The largest impulse that tyres sliding throughout can give: drag x weight x duration; 0 for
+        an infinite mass.
     tyre_delta_v_bound, tyre_share_bound : float or array [m/s], [-]
-        The change of velocity of the centre of mass due to that impulse, and its share. For a pinned vehicle it is no bound but
-        an estimate, since it is not known how far from the pivot its wheels are: they are taken to be at the radius of gyration
-        from the centre of mass, with all forces at right angles to their arms. Wheels that lie farther out can give more.
+        The change of velocity of the centre of mass due to that impulse, and its share. For a
+        pinned vehicle it is no bound but an estimate, since it is not known how far from the pivot
+        its wheels are: they are taken to be at the radius of gyration from the centre of mass, with
+        all forces at right angles to their arms. Wheels that lie farther out can give more.
     tyre_impulse, tyre_impulse_x, tyre_impulse_y : float or array [N*s]
-        Estimate of the impulse, its magnitude and its components along scene x and y: the tyres act against the motion of the
-        centre of mass, as that changes during the contact.
+        Estimate of the impulse, its magnitude and its components along scene x and y: the tyres act
+        against the motion of the centre of mass, as that changes during the contact.
     tyre_delta_v, tyre_share : float or array [m/s], [-]
-        Estimate of how far the delta-V vector moves due to the tyres of both vehicles and the response of the contact to them;
-        it may therefore exceed the bound, which is for the vehicle's own tyres.
+        Estimate of how far the delta-V vector moves due to the tyres of both vehicles and the
+        response of the contact to them; it may therefore exceed the bound, which is for the
+        vehicle's own tyres.
     displacement_x, displacement_y : float or array [m]
         Displacement of the centre of mass during the contact.
     rotation : float or array [rad]
@@ -277,8 +332,9 @@ class LeftOut(Shown):
     drag : float or array [-]
         Drag factor of the tyres on the ground, as given.
     mutual_crush : float or array [m]
-        Largest distance by which the contact points pass into each other along the normal, both vehicles together. NaN for an
-        incomplete impact, in which the bodies pass each other or tear.
+        Largest distance by which the contact points pass into each other along the normal, both
+        vehicles together. NaN for an incomplete impact, in which the bodies pass each other or
+        tear.
     residual_crush : float or array [m]
         The same at separation.
     contact_slide : float or array [m]
@@ -299,7 +355,9 @@ class LeftOut(Shown):
 
     @property
     def outside_a(self) -> tuple[Value, Value]:
-        """The estimated impulse of A's tyres (x, y) [N*s], to be given to ``eccentric`` or ``solve`` as ``outside_a``."""
+        """The estimated impulse of A's tyres (x, y) [N*s], to be given to ``eccentric`` or
+        ``solve`` as ``outside_a``.
+        """
         return self.a.tyre_impulse_x, self.a.tyre_impulse_y
 
     @property
@@ -318,11 +376,13 @@ def left_out(
     tyres_b: Tyres | None = None,
     geometry: Literal["maximum_engagement", "first_contact"] = "maximum_engagement",
 ) -> LeftOut:
-    """Estimate what an impact that takes no time and has no tyres leaves out, to judge whether the idealisation fits the case.
+    """Estimate what an impact that takes no time and has no tyres leaves out, to judge whether the
+    idealisation fits the case.
 
-    An impulse acts at one instant and one place; a real contact takes about 0.1 s, in which the tyres act too, and the vehicles
-    move and turn. The bound on the tyres needs only drag and duration; the rest is estimated from the states before and after,
-    with the spring pulse as the contact force, which ``plot.force_time`` draws: a quarter of a sine up to the end of
+    An impulse acts at one instant and one place; a real contact takes about 0.1 s, in which the
+    tyres act too, and the vehicles move and turn. The bound on the tyres needs only drag and
+    duration; the rest is estimated from the states before and after, with the spring pulse as the
+    contact force, which ``plot.force_time`` draws: a quarter of a sine up to the end of
     compression, and one down that takes e times as long.
 
     Parameters
@@ -332,22 +392,26 @@ def left_out(
     duration : float, str, Quantity or array [s]
         Duration of the contact, >= 0: 0.05 to 0.15 s for cars, the softer the longer.
     drag : float, str, Quantity or array [-]
-        Drag factor of the tyres of both vehicles on the ground, >= 0: a plain number, or a deceleration such as
-        ``"6.9 m/s**2"``. 0.7 is locked wheels on a dry road. It stands for wheels that slide whatever way they go; those that
-        roll hardly resist along themselves, and sideways with their full friction: give ``tyres_a`` and ``tyres_b``.
+        Drag factor of the tyres of both vehicles on the ground, >= 0: a plain number, or a
+        deceleration such as ``"6.9 m/s**2"``. 0.7 is locked wheels on a dry road. It stands for
+        wheels that slide whatever way they go; those that roll hardly resist along themselves, and
+        sideways with their full friction: give ``tyres_a`` and ``tyres_b``.
     tyres_a, tyres_b : travel.Tyres, optional
-        The wheels of each vehicle in place of the drag, which then counts for neither: the impulse of the tyres is then that
-        which ``eccentric`` takes with them, and its bound that of their friction. Of an impact that has its tyres none are
-        left out; the duration is then that of the impact, unless another is given.
+        The wheels of each vehicle in place of the drag, which then counts for neither: the impulse
+        of the tyres is then that which ``eccentric`` takes with them, and its bound that of their
+        friction. Of an impact that has its tyres none are left out; the duration is then that of
+        the impact, unless another is given.
     geometry : {"maximum_engagement", "first_contact"}
-        When the positions, the point and the normal of the impact are those of the vehicles, as for ``time_resolved``: as
-        everywhere at maximum engagement, at which damage is matched, or at first contact.
+        When the positions, the point and the normal of the impact are those of the vehicles, as for
+        ``time_resolved``: as everywhere at maximum engagement, at which damage is matched, or at
+        first contact.
 
     Returns
     -------
     LeftOut
-        In a batch a case that was refused is NaN, and so is the effect of geometry in one that would be refused when shifted.
-        An impact of ``solve`` is solved again by the model that answered it.
+        In a batch a case that was refused is NaN, and so is the effect of geometry in one that
+        would be refused when shifted. An impact of ``solve`` is solved again by the model that
+        answered it.
 
     Raises
     ------
@@ -356,18 +420,21 @@ def left_out(
 
     Notes
     -----
-    Let s be the share of the impulse that has passed: with constant geometry every velocity of a body is its value before plus
-    s times its change. The spring pulse is the force of a linear spring that unloads along a stiffer one. Over a duration T it
-    has s = (1 - cos(pi (1 + e) t/(2 T)))/(1 + e) up to the end of compression at T/(1 + e), and a mean of s over time of
-    m = (1 - 2 (1 - e)/pi)/(1 + e): 0.36 if plastic, 1/2 if elastic. The rest follows, all derived here:
+    Let s be the share of the impulse that has passed: with constant geometry every velocity of a
+    body is its value before plus s times its change. The spring pulse is the force of a linear
+    spring that unloads along a stiffer one. Over a duration T it has s = (1 - cos(pi (1 + e) t/(2
+    T)))/(1 + e) up to the end of compression at T/(1 + e), and a mean of s over time of m = (1 - 2
+    (1 - e)/pi)/(1 + e): 0.36 if plastic, 1/2 if elastic. The rest follows, all derived here:
 
-    - displacement and rotation are T times the sum of the velocity before and m times its change; so is the slide, which is
-      exact if the slip does not end during the contact;
-    - mutual crush is 2 c T/(pi (1 + e)) for a closing speed c: 0.64 c T if plastic, 0.32 c T if elastic; with a constant force
-      it would be c T/(2 (1 + e)). At separation 2 (1 - e) c T/pi of it is left;
-    - the tyre impulse is drag x weight x T times the mean over time of the direction opposite to the motion of the centre of
-      mass. It moves delta-V together with the response of the contact to it, as ``outside_a`` and ``outside_b`` do: restitution
-      still ends the impact with e times the closing speed. In line against a wall, nothing of it is left;
+    - displacement and rotation are T times the sum of the velocity before and m times its change;
+      so is the slide, which is exact if the slip does not end during the contact;
+    - mutual crush is 2 c T/(pi (1 + e)) for a closing speed c: 0.64 c T if plastic, 0.32 c T if
+      elastic; with a constant force it would be c T/(2 (1 + e)). At separation 2 (1 - e) c T/pi of
+      it is left;
+    - the tyre impulse is drag x weight x T times the mean over time of the direction opposite to
+      the motion of the centre of mass. It moves delta-V together with the response of the contact
+      to it, as ``outside_a`` and ``outside_b`` do: restitution still ends the impact with e times
+      the closing speed. In line against a wall, nothing of it is left;
     - for the geometry, positions and angles follow from the displacement and the rotation up to any
       moment, before that of the impact or after it; the contact point moves with the mean of the
       two places that met, the normal turns with the mean of the rotations; with a fixed body the
@@ -391,19 +458,21 @@ def left_out(
     pivots have not been measured. No change of the yaw rates is given, as it depends on which
     vehicle carries the contact.
 
-    Also left out here: the turning moment of the tyres, load and suspension, and crush that moves the
-    centre of mass.
+    Also left out here: the turning moment of the tyres, load and suspension, and crush that moves
+    the centre of mass.
 
     Examples
     --------
-    The bound on tyres in rear-end impacts at 2 and at 20 m/s; the rotation in a T-bone, and what motion does to its delta-V:
+    The bound on tyres in rear-end impacts at 2 and at 20 m/s; the rotation in a T-bone, and what
+    motion does to its delta-V:
 
     >>> import collisions as col
     >>> for speed in (2.0, 20.0):
     ...     a, b = col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1500.0)
     ...     found = col.left_out(col.linear_central(a, b, restitution=0.4))
     ...     side = found.b
-    ...     print(f"{side.tyre_delta_v_bound:.2f} m/s, {side.tyre_share_bound:.0%} of it; crush {found.mutual_crush:.2f} m")
+    ...     bound, crush = side.tyre_delta_v_bound, found.mutual_crush
+    ...     print(f"{bound:.2f} m/s, {side.tyre_share_bound:.0%} of it; crush {crush:.2f} m")
     0.69 m/s, 49% of it; crush 0.09 m
     0.69 m/s, 5% of it; crush 0.91 m
     >>> a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=20.0, x=-2.2, y=0.0)
@@ -411,7 +480,9 @@ def left_out(
     >>> impact = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5)
     >>> found = col.left_out(impact, duration="100 ms")
     >>> first = col.left_out(impact, duration="100 ms", geometry="first_contact")
-    >>> print(f"{found.b.q.rotation.to('deg'):.0f~P}, delta-V moves by {found.b.geometry_share:.1%}")
+    >>> print(
+    ...     f"{found.b.q.rotation.to('deg'):.0f~P}, delta-V moves by {found.b.geometry_share:.1%}"
+    ... )
     -10 deg, delta-V moves by 1.3%
     >>> print(f"taken as those of first contact: {first.b.geometry_share:.1%}")
     taken as those of first contact: 9.8%
@@ -419,11 +490,15 @@ def left_out(
     reader = ArgumentReader()
     if isinstance(impact, Impact) and impact.pulse is not None:
         text = (
-            "impact was followed in time, so an impulse left nothing out of it; its pulse and a.tyre_loss have what came about"
+            "impact was followed in time, so an impulse left nothing out of it; its pulse and "
+            "a.tyre_loss have what came about"
         )
         reader.refuse(InputError(text, code="takes_time", argument="impact"))
     elif not isinstance(impact, Impact):
-        text = f"impact must be an Impact, got {type(impact).__name__}; write left_out(collisions.eccentric(...))"
+        text = (
+            f"impact must be an Impact, got {type(impact).__name__}; write "
+            "left_out(collisions.eccentric(...))"
+        )
         reader.refuse(InputError(text, code="not_an_impact", argument="impact"))
     tyres: dict[str, Any] = {}
     if isinstance(impact, Impact):
@@ -434,11 +509,17 @@ def left_out(
         pull = read_drag(reader, drag, "drag")
     if not isinstance(geometry, str) or geometry not in _GEOMETRIES:
         known = " or ".join(map(repr, _GEOMETRIES))
-        text = f"geometry must be {known}, which says when the positions of the impact are those, got {shown(geometry)}"
+        text = (
+            f"geometry must be {known}, which says when the positions of the impact are those, "
+            f"got {shown(geometry)}"
+        )
         reader.refuse(InputError(text, code="bad_option", argument="geometry"))
     if tyres.keys() and impact.inputs.tyres:
         if tyres_a is not None or tyres_b is not None:
-            text = "impact has its tyres, so they are not left out of it; leave tyres_a and tyres_b out, or write again()"
+            text = (
+                "impact has its tyres, so they are not left out of it; leave tyres_a and tyres_b "
+                "out, or write again()"
+            )
             reader.refuse(InputError(text, code="bad_combination", argument="tyres_a"))
         pull = 0.0
         if isinstance(duration, Default):
@@ -446,10 +527,15 @@ def left_out(
     reader.close()
     given = {"impact": impact.closing_speed, "duration": time, "drag": pull}
     own = {name: one for name, one in tyres.items() if one is not None}
-    given |= {f"{name}.{inner}": value for name, one in own.items() for inner, value in one.named.items()}
+    given |= {
+        f"{name}.{inner}": value for name, one in own.items() for inner, value in one.named.items()
+    }
     shape, dtype = broadcast(given), precision(given.values())
     time, pull = widened((time, pull), (impact.closing_speed, time, pull))
-    beyond, texts = np.isinf(_extent(impact, time, pull)) & np.logical_not(impact.refused), impact.inputs.texts
+    beyond, texts = (
+        np.isinf(_extent(impact, time, pull)) & np.logical_not(impact.refused),
+        impact.inputs.texts,
+    )
     if shape is None:
         if beyond:
             raise out_of_range()
@@ -468,17 +554,26 @@ def left_out(
         # The impact itself gave the warnings about its cases.
         with quietly():
             some = part_of_impact(impact, cut, on_failure="nan")
-        for name, value in _estimated(some, cut(time), cut(pull), part_of(own, cut), geometry).items():
+        for name, value in _estimated(
+            some, cut(time), cut(pull), part_of(own, cut), geometry
+        ).items():
             if name not in whole:
                 whole[name] = None if value is None else np.empty(shape, dtype=dtype)
             if value is not None:
                 whole[name].reshape(-1)[block] = value
     there = {name: value for name, value in whole.items() if value is not None}
-    return _assembled(whole | settle(there, {"duration": time, "drag": pull}, shape, [("out_of_range", beyond)]), texts)
+    return _assembled(
+        whole | settle(there, {"duration": time, "drag": pull}, shape, [("out_of_range", beyond)]),
+        texts,
+    )
 
 
-def _estimated(impact: Impact, time: Any, drag: Any, wheels: Mapping[str, Tyres], geometry: str) -> dict[str, Any]:
-    """The fields of ``LeftOut`` by name, those of its sides prefixed "a." or "b."; NaN where refused."""
+def _estimated(
+    impact: Impact, time: Any, drag: Any, wheels: Mapping[str, Tyres], geometry: str
+) -> dict[str, Any]:
+    """The fields of ``LeftOut`` by name, those of its sides prefixed "a." or "b."; NaN where
+    refused.
+    """
     with np.errstate(all="ignore"):
         e, most = impact.restitution, drag * GRAVITY * time
         pulls = Pull.of(impact.a, e, most), Pull.of(impact.b, e, most)
@@ -487,13 +582,19 @@ def _estimated(impact: Impact, time: Any, drag: Any, wheels: Mapping[str, Tyres]
         # A refused single case cannot be solved again.
         tyres = [math.nan] * 2 if impact.refused is True else with_tyres(impact, pulls)
         moved = with_motion(impact, time, geometry)
-        passed, crush = pulse.mean_passed(e), pulse.greatest_crush(e) * (impact.closing_speed * time)
+        passed, crush = (
+            pulse.mean_passed(e),
+            pulse.greatest_crush(e) * (impact.closing_speed * time),
+        )
         found = {
             "duration": time,
             "drag": drag,
             "mutual_crush": crush,
             "residual_crush": (1.0 - e) * (1.0 + e) * crush,
-            "contact_slide": (impact.slip_before + passed * (impact.slip_after - impact.slip_before)) * time,
+            "contact_slide": (
+                impact.slip_before + passed * (impact.slip_after - impact.slip_before)
+            )
+            * time,
         }
         for label, pull, by_tyres, by_motion in zip("ab", pulls, tyres, moved, strict=True):
             side = getattr(impact, label)
@@ -515,17 +616,29 @@ def _estimated(impact: Impact, time: Any, drag: Any, wheels: Mapping[str, Tyres]
                 "geometry_share": None if by_motion is None else _share(by_motion, delta_v),
             }
             found |= {f"{label}.{name}": value for name, value in of_side.items()}
-        return {name: None if value is None else select(impact.refused, math.nan, value) for name, value in found.items()}
+        return {
+            name: None if value is None else select(impact.refused, math.nan, value)
+            for name, value in found.items()
+        }
 
 
 def _extent(impact: Impact, time: Any, drag: Any) -> Any:
-    """An upper bound of tyre impulses, distances, rotations and 1 over a mass; infinite where one may overflow."""
+    """An upper bound of tyre impulses, distances, rotations and 1 over a mass; infinite where one
+    may overflow.
+    """
     states = (impact.a.before, impact.a.after, impact.b.before, impact.b.after)
     with np.errstate(all="ignore"):
         most = drag * GRAVITY * time
-        reach = sum(time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states)
-        contact = time * (abs(impact.closing_speed) + abs(impact.slip_before) + abs(impact.slip_after))
-        held = sum(most * finite_mass(side.before) + 1.0 / side.before.mass for side in (impact.a, impact.b))
+        reach = sum(
+            time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states
+        )
+        contact = time * (
+            abs(impact.closing_speed) + abs(impact.slip_before) + abs(impact.slip_after)
+        )
+        held = sum(
+            most * finite_mass(side.before) + 1.0 / side.before.mass
+            for side in (impact.a, impact.b)
+        )
         return most + reach + contact + held
 
 
@@ -533,10 +646,18 @@ def _assembled(found: dict[str, Any], texts: tuple[str, ...]) -> LeftOut:
     """A ``LeftOut`` from its fields by name, in the units of these texts."""
     lock(found)
     a, b = (
-        in_units_of(LeftOutSide(**{name[2:]: value for name, value in found.items() if name.startswith(f"{label}.")}), texts)
+        in_units_of(
+            LeftOutSide(
+                **{name[2:]: value for name, value in found.items() if name.startswith(f"{label}.")}
+            ),
+            texts,
+        )
         for label in "ab"
     )
-    return in_units_of(LeftOut(**{name: value for name, value in found.items() if "." not in name}, a=a, b=b), texts)
+    return in_units_of(
+        LeftOut(**{name: value for name, value in found.items() if "." not in name}, a=a, b=b),
+        texts,
+    )
 
 
 def _share(part: Any, whole: Any) -> Any:

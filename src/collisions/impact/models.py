@@ -1,4 +1,6 @@
-"""The table of the impact models (``MODELS``): the kernel of each, its inputs and settings, and its assumptions."""
+"""The table of the impact models (``MODELS``): the kernel of each, its inputs and settings, and its
+assumptions.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,13 @@ from ..messages.errors import InputError
 from ..quantities.reading import ArgumentReader, amount
 from ..quantities.settings import in_si
 from .inputs import OUTSIDE, TYRES, Arguments, Inputs, body_numbers, first_case, read_inputs
-from .time_resolved_inputs import DOMAINS, read_contact_time, read_lasting, read_least_time, solve_case_in_time
+from .time_resolved_inputs import (
+    DOMAINS,
+    read_contact_time,
+    read_lasting,
+    read_least_time,
+    solve_case_in_time,
+)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -32,7 +40,8 @@ class Model:
     kernel : callable
         Its formulas.
     takes : tuple of str
-        Paths into ``Inputs`` of the kernel's arguments, in their order, such as "restitution" or "a.mass".
+        Paths into ``Inputs`` of the kernel's arguments, in their order, such as "restitution" or
+        "a.mass".
     options : callable
         The kernel's settings (rule, law, flags) from what ``kind_of`` gives.
     assumptions : str
@@ -50,8 +59,15 @@ class Model:
         return self.options(*kind_of(inputs, carrying))
 
     def numbers(self, inputs: Inputs) -> tuple[Any, ...]:
-        """The kernel's arguments; an unknown position or inertia is filled in so that it makes no torque."""
-        found = [inputs.restitution, *inputs.normal, inputs.rule_value, *(inputs.point or (0.0, 0.0))]
+        """The kernel's arguments; an unknown position or inertia is filled in so that it makes no
+        torque.
+        """
+        found = [
+            inputs.restitution,
+            *inputs.normal,
+            inputs.rule_value,
+            *(inputs.point or (0.0, 0.0)),
+        ]
         for body in (inputs.a, inputs.b):
             found += body_numbers(body, inputs.point)
         if inputs.outside_a is not None and inputs.outside_b is not None:
@@ -71,7 +87,13 @@ _POINT_MASS = ("mass", "vx", "vy", "yaw_rate")
 
 
 def _takes(*contact: str, body: tuple[str, ...]) -> tuple[str, ...]:
-    return ("restitution", "normal[0]", "normal[1]", *contact, *(f"{label}.{name}" for label in "ab" for name in body))
+    return (
+        "restitution",
+        "normal[0]",
+        "normal[1]",
+        *contact,
+        *(f"{label}.{name}" for label in "ab" for name in body),
+    )
 
 
 LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
@@ -80,24 +102,26 @@ LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
         linear_central,
         _takes(body=_POINT_MASS),
         lambda rule, law, pinned_a, pinned_b, carrying: (carrying,),
-        "Linear central: momentum along the normal, equation (2), with restitution, which gives (5) and (6). The vehicles are "
-        "point masses that move along one line; rotation and forces along the tangent are left out.",
+        "Linear central: momentum along the normal, equation (2), with restitution, which gives "
+        "(5) and (6). The vehicles are point masses that move along one line; rotation and "
+        "forces along the tangent are left out.",
     ),
     Model(
         "oblique_central",
         oblique_central,
         _takes("rule_value", body=_POINT_MASS),
         lambda rule, law, pinned_a, pinned_b, carrying: (rule, law, carrying),
-        "Oblique central: restitution along the normal, equation (9), friction along the tangent. The vehicles are point "
-        "masses; rotation is left out.",
+        "Oblique central: restitution along the normal, equation (9), friction along the "
+        "tangent. The vehicles are point masses; rotation is left out.",
     ),
     Model(
         "eccentric",
         eccentric,
         _takes("rule_value", "point[0]", "point[1]", body=_BODY),
         lambda rule, law, pinned_a, pinned_b, carrying: (rule, law, pinned_a, pinned_b),
-        "Eccentric: momentum and angular momentum, equations (10) to (19), with restitution along the normal and friction "
-        "along the tangent at one contact point; free, pinned and fixed bodies.",
+        "Eccentric: momentum and angular momentum, equations (10) to (19), with restitution "
+        "along the normal and friction along the tangent at one contact point; free, pinned and "
+        "fixed bodies.",
     ),
 )
 TIME_RESOLVED = Model(
@@ -105,14 +129,18 @@ TIME_RESOLVED = Model(
     solve_case_in_time,
     (),
     lambda *kind: (),
-    "Time-resolved: the contact is followed in small steps. A spring along the normal takes up the approach and gives back the "
-    "share of its work that the restitution squared says; Coulomb friction acts along the tangent, tyres act on the ground, "
-    "and places and normal move with the vehicles.",
+    "Time-resolved: the contact is followed in small steps. A spring along the normal takes up "
+    "the approach and gives back the share of its work that the restitution squared says; "
+    "Coulomb friction acts along the tangent, tyres act on the ground, and places and normal "
+    "move with the vehicles.",
 )
 BY_NAME = {model.name: model for model in (*MODELS, TIME_RESOLVED)}
-# For reverse solvers, which find the closing speed and the slip to more digits than the rounded motions hold.
+# For reverse solvers, which find the closing speed and the slip to more digits than the rounded
+# motions hold.
 _FROM_CONTACT_VELOCITY = BY_NAME | {
-    LINEAR.name: replace(LINEAR, kernel=from_closing_speed, takes=("contact_velocity[0]", *LINEAR.takes)),
+    LINEAR.name: replace(
+        LINEAR, kernel=from_closing_speed, takes=("contact_velocity[0]", *LINEAR.takes)
+    ),
     ECCENTRIC.name: replace(
         ECCENTRIC,
         kernel=from_contact_velocity,
@@ -123,13 +151,17 @@ _WITH_OUTSIDE = replace(ECCENTRIC, kernel=with_outside, takes=(*_OUTSIDE, *ECCEN
 
 
 def kind_of(inputs: Inputs, carrying: bool) -> tuple[str, str | None, bool, bool, bool]:
-    """Rule, law, whether A and B are pinned, and whether motion outside the model is carried through, as ``solve`` does."""
+    """Rule, law, whether A and B are pinned, and whether motion outside the model is carried
+    through, as ``solve`` does.
+    """
     return inputs.rule, inputs.law, inputs.a.pivot is not None, inputs.b.pivot is not None, carrying
 
 
 @cache
 def float_function(model: Model, *kind: Any) -> Callable[[Mapping[str, Any]], Answer | None]:
-    """The kernel of a model compiled for plain floats, of ``vars(inputs)``; None where the kernel itself has to decide."""
+    """The kernel of a model compiled for plain floats, of ``vars(inputs)``; None where the kernel
+    itself has to decide.
+    """
     # Like all that not every caller needs, loaded at its first use.
     from ..engine.floats import compile_for_floats
 
@@ -137,17 +169,23 @@ def float_function(model: Model, *kind: Any) -> Callable[[Mapping[str, Any]], An
 
 
 def model_of(inputs: Inputs) -> Model:
-    """The model that the inputs name; in the form that starts from the contact velocity where a reverse solver found it."""
+    """The model that the inputs name; in the form that starts from the contact velocity where a
+    reverse solver found it.
+    """
     table = BY_NAME if inputs.contact_velocity is None else _FROM_CONTACT_VELOCITY
     return in_form(table[inputs.model], inputs)
 
 
 def in_form(model: Model, inputs: Inputs) -> Model:
-    """The model, in the form that takes impulses from outside where there are some; only the eccentric one can hold them."""
+    """The model, in the form that takes impulses from outside where there are some; only the
+    eccentric one can hold them.
+    """
     return model if inputs.outside_a is None else _WITH_OUTSIDE
 
 
-def read_lasting_impulse(arguments: Arguments, duration: Any, tyres: tuple[Any, Any], **more: Any) -> Inputs:
+def read_lasting_impulse(
+    arguments: Arguments, duration: Any, tyres: tuple[Any, Any], **more: Any
+) -> Inputs:
     """Read the arguments of ``eccentric`` with tyres."""
     reader = ArgumentReader()
     times = read_lasting(reader, ECCENTRIC.name, *arguments[:2], duration, tyres)
@@ -156,7 +194,12 @@ def read_lasting_impulse(arguments: Arguments, duration: Any, tyres: tuple[Any, 
 
 
 def read_for_solve(
-    arguments: Arguments, tolerance: Any, duration: Any, drag: Any, tyres: tuple[Any, Any], **more: Any
+    arguments: Arguments,
+    tolerance: Any,
+    duration: Any,
+    drag: Any,
+    tyres: tuple[Any, Any],
+    **more: Any,
 ) -> Inputs:
     """Read the arguments of ``solve``."""
     reader = ArgumentReader()
@@ -175,7 +218,8 @@ def read_for_solve(
 
 
 def read_again(inputs: Inputs, found: bool = False) -> Inputs:
-    """Inputs with changed values, which may be of any form a caller may give; read again like a caller's arguments.
+    """Inputs with changed values, which may be of any form a caller may give; read again like a
+    caller's arguments.
 
     Inputs that a reverse solver ``found`` have a restitution of NaN where it found none.
     """
@@ -184,15 +228,27 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     unknown = found and type(e) is float and e != e
     contact = 0.0 if unknown else e, inputs.normal, inputs.point
     more = {name: getattr(inputs, name) for name in ("incomplete", *OUTSIDE)}
-    arguments = inputs.a, inputs.b, *contact, tangential, BRACH if inputs.law is None else inputs.law
+    arguments = (
+        inputs.a,
+        inputs.b,
+        *contact,
+        tangential,
+        BRACH if inputs.law is None else inputs.law,
+    )
     tyres = inputs.tyres_a, inputs.tyres_b
     with in_si():
         if inputs.model == TIME_RESOLVED.name:
-            extra = {name: getattr(inputs, name) for name in (*DOMAINS, *TYRES, "geometry", "steps")}
+            extra = {
+                name: getattr(inputs, name) for name in (*DOMAINS, *TYRES, "geometry", "steps")
+            }
             again = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
         elif inputs.model == "solve":
-            again = read_for_solve(arguments, inputs.tolerance, inputs.duration, inputs.drag, tyres, **more)
-        elif inputs.model == ECCENTRIC.name and (tyres != (None, None) or inputs.duration is not None):
+            again = read_for_solve(
+                arguments, inputs.tolerance, inputs.duration, inputs.drag, tyres, **more
+            )
+        elif inputs.model == ECCENTRIC.name and (
+            tyres != (None, None) or inputs.duration is not None
+        ):
             again = read_lasting_impulse(arguments, inputs.duration, tyres, **more)
         else:
             again = read_inputs(inputs.model, arguments, **more)
@@ -205,12 +261,21 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
 
 
 def _read_tolerance(reader: ArgumentReader, tolerance: Any) -> Any:
-    """The tolerance of ``solve``; for an array, the error names the first element that a single call would refuse."""
+    """The tolerance of ``solve``; for an array, the error names the first element that a single
+    call would refuse.
+    """
     limit = amount(reader, tolerance, "m/s", "tolerance")
-    if isinstance(limit, np.ndarray) and limit.size and not (limit.min() >= 0.0 and limit.max() < math.inf):
+    if (
+        isinstance(limit, np.ndarray)
+        and limit.size
+        and not (limit.min() >= 0.0 and limit.max() < math.inf)
+    ):
         at, place = first_case(~np.isfinite(limit) | (limit < 0.0))
         value = float(limit[at])
         code = "negative_speed" if math.isfinite(value) else "not_finite"
-        text = f"tolerance must be finite and >= 0 in every case, got {value:g} in {place}; 0 asks for the full model"
+        text = (
+            f"tolerance must be finite and >= 0 in every case, got {value:g} in {place}; 0 asks "
+            "for the full model"
+        )
         reader.refuse(InputError(text, code=code, argument="tolerance"))
     return limit

@@ -1,4 +1,6 @@
-"""``Reconstruction``: which reverse solver found an impact, from what, and how well-conditioned that was."""
+"""``Reconstruction``: which reverse solver found an impact, from what, and how well-conditioned
+that was.
+"""
 
 from __future__ import annotations
 
@@ -25,16 +27,17 @@ class Reconstruction:
     known : tuple of str
         What it was given in addition to masses and geometry.
     condition : float or array [1]
-        How well-posed the problem was: the factor by which relative errors of the inputs may grow in the speeds before the
-        impact, taken relative to the closing speed. 10 means that one percent may become ten. It leaves out errors of friction,
-        restitution, normal and courses. For ``planar`` it is the factor that restitution brings in, (1 + e)/e where e was
-        given, or, where larger, the jump between the two directions of sliding divided by the slip.
+        How well-posed the problem was: the factor by which relative errors of the inputs may grow
+        in the speeds before the impact, taken relative to the closing speed. 10 means that one
+        percent may become ten. It leaves out errors of friction, restitution, normal and courses.
+        For ``planar`` it is the factor that restitution brings in, (1 + e)/e where e was given, or,
+        where larger, the jump between the two directions of sliding divided by the slip.
     answers : int or array of int
-        How many impacts fit what was given, this one included; infinite at the end of a range of them. For a refused case the
-        number that fit if there are several, otherwise 0.
+        How many impacts fit what was given, this one included; infinite at the end of a range of
+        them. For a refused case the number that fit if there are several, otherwise 0.
     contact_velocity : tuple of float or array [m/s], optional
-        Closing speed and slip before, as found. The motions before are rounded to their own size, so their small differences
-        would hold fewer digits.
+        Closing speed and slip before, as found. The motions before are rounded to their own size,
+        so their small differences would hold fewer digits.
     """
 
     method: str
@@ -48,9 +51,11 @@ class Reconstruction:
 
 
 class Known(NamedTuple):
-    """An input of a reverse solver besides the contact: description, kind, path in the result, and the solvers that take it.
+    """An input of a reverse solver besides the contact: description, kind, path in the result, and
+    the solvers that take it.
 
-    The path is empty for what is not a number of the result; the text of ``va`` and ``vb`` is that of a vehicle before.
+    The path is empty for what is not a number of the result; the text of ``va`` and ``vb`` is that
+    of a vehicle before.
     """
 
     what: str
@@ -72,29 +77,48 @@ for _label in "ab":
         ("course", "course", "angle"),
         ("yaw_rate", "yaw rate", "yaw rate"),
     ):
-        KNOWN[f"{_label}_after.{_name}"] = Known(f"{_what}{_of} after", _kind, f"{_label}.after.{_name}", _planar)
+        KNOWN[f"{_label}_after.{_name}"] = Known(
+            f"{_what}{_of} after", _kind, f"{_label}.after.{_name}", _planar
+        )
     KNOWN |= {
         f"v{_label}": Known(f"velocity{_of} before", "speed", f"{_label}.before.vx", ()),
-        f"v{_label}_after": Known(f"velocity{_of} after", "speed", f"{_label}.after.vx", ("central",)),
+        f"v{_label}_after": Known(
+            f"velocity{_of} after", "speed", f"{_label}.after.vx", ("central",)
+        ),
         f"speed_{_label}": Known(f"speed{_of} before", "speed", f"{_label}.before.speed", _speeds),
-        f"course_{_label}": Known(f"course{_of} before", "angle", f"{_label}.before.course", _speeds),
+        f"course_{_label}": Known(
+            f"course{_of} before", "angle", f"{_label}.before.course", _speeds
+        ),
         f"delta_v_{_label}": Known(f"delta-V{_of}", "speed", f"{_label}.delta_v", _speeds),
-        f"delta_v_forward_{_label}": Known(f"delta-V forward{_of}", "speed", f"{_label}.delta_v_forward", _speeds),
-        f"delta_v_left_{_label}": Known(f"delta-V to the left{_of}", "speed", f"{_label}.delta_v_left", _speeds),
+        f"delta_v_forward_{_label}": Known(
+            f"delta-V forward{_of}", "speed", f"{_label}.delta_v_forward", _speeds
+        ),
+        f"delta_v_left_{_label}": Known(
+            f"delta-V to the left{_of}", "speed", f"{_label}.delta_v_left", _speeds
+        ),
         f"ees_{_label}": Known(f"EES{_of} (ISO 12353)", "speed", "", _speeds),
         f"max_crush_speed_{_label}": Known(f"speed of maximum crush{_of}", "speed", "", _speeds),
     }
 
 
 def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction:
-    """The reconstruction with refused cases blanked: NaN condition, and no count of solutions unless there were several."""
+    """The reconstruction with refused cases blanked: NaN condition, and no count of solutions
+    unless there were several.
+    """
     refused = status > Status.ENERGY_GAIN
     if not np.any(refused):
         return origin
     several = np.isin(status, (Status.AMBIGUOUS, Status.AMBIGUOUS_INVERSE))
-    condition, answers = select(refused, math.nan, origin.condition), select(refused > several, 0, origin.answers)
-    velocity = origin.contact_velocity and lock(tuple(select(refused, math.nan, part) for part in origin.contact_velocity))
-    return replace(origin, condition=lock(condition), answers=lock(answers), contact_velocity=velocity)
+    condition, answers = (
+        select(refused, math.nan, origin.condition),
+        select(refused > several, 0, origin.answers),
+    )
+    velocity = origin.contact_velocity and lock(
+        tuple(select(refused, math.nan, part) for part in origin.contact_velocity)
+    )
+    return replace(
+        origin, condition=lock(condition), answers=lock(answers), contact_velocity=velocity
+    )
 
 
 def how_many(answers: float) -> str:

@@ -1,9 +1,11 @@
-"""The force of a contact over time: assumed, as a spring pulse, where one is needed; or as it passed, a ``Pulse``.
+"""The force of a contact over time: assumed, as a spring pulse, where one is needed; or as it
+passed, a ``Pulse``.
 
-The force is largest when compression ends, as in figure 3 of "Application of Impulse Momentum Theory to Vehicle Collisions". It
-rises like that of a linear spring, as a quarter of a sine, and falls like that of a stiffer one, as another quarter, which
-takes e times as long. Whatever the restitution, its peak is pi/2 times its mean. An incomplete impact (e < 0) ends on the way
-up, when the closing speed has fallen to -e times what it was. ``share`` is a share of the duration.
+The force is largest when compression ends, as in figure 3 of "Application of Impulse Momentum
+Theory to Vehicle Collisions". It rises like that of a linear spring, as a quarter of a sine, and
+falls like that of a stiffer one, as another quarter, which takes e times as long. Whatever the
+restitution, its peak is pi/2 times its mean. An incomplete impact (e < 0) ends on the way up, when
+the closing speed has fallen to -e times what it was. ``share`` is a share of the duration.
 """
 
 from __future__ import annotations
@@ -32,16 +34,19 @@ class Pulse(Shown):
     peak_force : float or array [N]
         The largest force along the normal.
     max_crush : float or array [m]
-        Largest distance by which the contact points passed into each other along the normal, both vehicles together.
+        Largest distance by which the contact points passed into each other along the normal, both
+        vehicles together.
     peak_acceleration_a, peak_acceleration_b : float or array [m/s**2]
         Largest acceleration of the centre of mass, from contact and tyres.
     residual_crush_a, residual_crush_b : float or array [m], optional
-        With ``crush_a`` or ``crush_b``, what is left of the crush of the vehicle, as it is measured on it: that at the largest
-        force less A/B. 0 where the contact was too light to leave any; None for a vehicle without a crush stiffness.
+        With ``crush_a`` or ``crush_b``, what is left of the crush of the vehicle, as it is measured
+        on it: that at the largest force less A/B. 0 where the contact was too light to leave any;
+        None for a vehicle without a crush stiffness.
     residual_crush : float or array [m], optional
         The sum of both.
     time, force, crush : array [s], [N], [m]
-        Values at the start and after every step; None for a batch, where ``impact.case(i).pulse`` has those of a case.
+        Values at the start and after every step; None for a batch, where ``impact.case(i).pulse``
+        has those of a case.
     delta_v_a, delta_v_b : array [m/s]
         Magnitude of the change of velocity up to each of these times.
     yaw_rate_a, yaw_rate_b : array [rad/s]
@@ -72,7 +77,9 @@ CURVES = tuple(f.name for f in fields(Pulse) if f.type == "Any")
 
 
 def rise(share: Any) -> Any:
-    """Force over its peak at a share of the compression time; restitution runs the curve backwards."""
+    """Force over its peak at a share of the compression time; restitution runs the
+    curve backwards.
+    """
     return numeric(share).sin(QUARTER * share)
 
 
@@ -92,7 +99,8 @@ def passed(e: Any, share: float) -> Any:
     xp = numeric(e)
     phase = share * _rate(e)
     compressing = 1.0 - xp.cos(QUARTER * phase)
-    # 0 before restitution begins: divided by a tiny restitution it would be infinite, which has no sine.
+    # 0 before restitution begins: divided by a tiny restitution it would be infinite, which has no
+    # sine.
     late = select(phase <= 1.0, 0.0, phase - 1.0)
     restoring = 1.0 + e * xp.sin(QUARTER * (late / safe_divisor(True, e)))
     return select(phase <= 1.0, compressing, restoring) / (1.0 + e)
@@ -101,11 +109,14 @@ def passed(e: Any, share: float) -> Any:
 def mean_passed(e: Any) -> Any:
     """Mean of ``passed`` over the duration."""
     angle = QUARTER * _rate(e)
-    return select(e < 0.0, 1.0 - numeric(e).sin(angle) / angle, 1.0 - (1.0 - e) / QUARTER) / (1.0 + e)
+    return select(e < 0.0, 1.0 - numeric(e).sin(angle) / angle, 1.0 - (1.0 - e) / QUARTER) / (
+        1.0 + e
+    )
 
 
 def engaged(e: Any) -> tuple[Any, Any]:
-    """Shares of the duration until maximum engagement: of the time, and of ``passed`` summed up to then.
+    """Shares of the duration until maximum engagement: of the time, and of ``passed`` summed up to
+    then.
 
     An incomplete impact is engaged the most as it ends.
     """
@@ -119,10 +130,12 @@ def restoring(e: Any) -> Any:
 
 
 def drifting(e: Any) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
-    """Shares of the duration, of the time and of ``passed``, weighted with the speed; in compression and in restitution.
+    """Shares of the duration, of the time and of ``passed``, weighted with the speed; in
+    compression and in restitution.
 
-    A small force beside that of a linear spring changes its energy by what it does on the way, so its effect on the speed that
-    the spring takes up or gives back has the cosine or the sine as weight. Of an incomplete impact without restitution.
+    A small force beside that of a linear spring changes its energy by what it does on the way, so
+    its effect on the speed that the spring takes up or gives back has the cosine or the sine as
+    weight. Of an incomplete impact without restitution.
     """
     per_e = 1.0 / (QUARTER * (1.0 + e))
     back = select(e < 0.0, 0.0, e) * per_e
@@ -138,5 +151,7 @@ def mean_square_passed(e: Any) -> Any:
 
 
 def greatest_crush(e: Any) -> Any:
-    """Greatest mutual crush, over closing speed times duration; NaN where the bodies pass or tear before."""
+    """Greatest mutual crush, over closing speed times duration; NaN where the bodies pass or tear
+    before.
+    """
     return select(e < 0.0, math.nan, compression_time(e) / QUARTER)

@@ -1,4 +1,6 @@
-"""``to_record``, ``from_record`` and ``to_columns``: results as JSON that can be solved again, and as flat columns."""
+"""``to_record``, ``from_record`` and ``to_columns``: results as JSON that can be solved again, and
+as flat columns.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +48,9 @@ _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 
 
 def to_record(impact: Any) -> dict[str, Any]:
-    """A record of an impact: its inputs, each as the text it was given as or else in SI, and every result in SI."""
+    """A record of an impact: its inputs, each as the text it was given as or else in SI, and every
+    result in SI.
+    """
     sides = {label: _side(side) for label, side in (("a", impact.a), ("b", impact.b))}
     results = {name: _result(value) for name, value in _results(impact)}
     return {"format": FORMAT, "inputs": _inputs(impact.inputs), "results": {**results, **sides}}
@@ -55,12 +59,17 @@ def to_record(impact: Any) -> dict[str, Any]:
 def _inputs(inputs: Inputs) -> dict[str, Any]:
     texts = dict(inputs.given or {})
     text = texts.pop("normal", None)
-    as_text = isinstance(text, str) and same(direction(ArgumentReader(), text, "normal"), inputs.normal)
+    as_text = isinstance(text, str) and same(
+        direction(ArgumentReader(), text, "normal"), inputs.normal
+    )
     return {
         **{name: getattr(inputs, name) for name in (*_LABELS, *_OPTIONS)},
         "a": _vehicle_inputs(inputs.a),
         "b": _vehicle_inputs(inputs.b),
-        **{name: _given_input(texts, name, getattr(inputs, name), unit) for name, unit in UNITS.items()},
+        **{
+            name: _given_input(texts, name, getattr(inputs, name), unit)
+            for name, unit in UNITS.items()
+        },
         **{name: tyres_record(getattr(inputs, name)) for name in TYRES_OF},
         "normal": text if as_text else strict(inputs.normal),
         "bare_normal": strict(inputs.bare_normal),
@@ -77,7 +86,9 @@ def _vehicle_inputs(vehicle: Vehicle) -> dict[str, Any]:
     found: dict[str, Any] = {"name": vehicle.name}
     for name in DOMAINS:
         found[name] = _given(texts.get(name), getattr(vehicle, name), unit_of(Vehicle, name) or "")
-    found["pivot"] = vehicle.pivot and [_given(texts.get(f"pivot[{i}]"), part, "m") for i, part in enumerate(vehicle.pivot)]
+    found["pivot"] = vehicle.pivot and [
+        _given(texts.get(f"pivot[{i}]"), part, "m") for i, part in enumerate(vehicle.pivot)
+    ]
     polar = {name: texts[name] for name in _POLAR if name in texts}
     if len(polar) == 2 and _velocity(polar) == (vehicle.vx, vehicle.vy):
         del found["vx"], found["vy"]
@@ -106,7 +117,9 @@ def _velocity(polar: Mapping[str, str]) -> tuple[Any, Any]:
 
 
 def _given_input(texts: dict[str, Any], name: str, value: Any, unit: Any) -> Any:
-    """A number or a pair, or None, each number as the text it was given as; the texts used are taken out."""
+    """A number or a pair, or None, each number as the text it was given as; the texts used are
+    taken out.
+    """
     if isinstance(value, tuple):
         units = unit if isinstance(unit, tuple) else (unit,) * len(value)
         parts = enumerate(zip(value, units, strict=True))
@@ -115,15 +128,23 @@ def _given_input(texts: dict[str, Any], name: str, value: Any, unit: Any) -> Any
 
 
 def _given(text: str | None, number: Any, unit: str) -> Any:
-    """The text a number was given as if it still reads as that number, else the number; a unit may be unknown here."""
+    """The text a number was given as if it still reads as that number, else the number; a unit may
+    be unknown here.
+    """
     reader = ArgumentReader()
-    if text is not None and isinstance(number, float) and reader.number(text, unit, "", UNCHECKED) == number:
+    if (
+        text is not None
+        and isinstance(number, float)
+        and reader.number(text, unit, "", UNCHECKED) == number
+    ):
         return text
     return strict(number)
 
 
 def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstruction | None, Any]:
-    """Read a record: inputs validated like a caller's, ``on_failure``, the reverse solver that found it, and its status."""
+    """Read a record: inputs validated like a caller's, ``on_failure``, the reverse solver that
+    found it, and its status.
+    """
     try:
         if not isinstance(record["format"], str) or record["format"] != FORMAT:
             raise bad_record(f"its format is {shown(record['format'])} and not {FORMAT!r}")
@@ -133,11 +154,19 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             raise bad_record(f"its model is {shown(model)} and its rule {shown(rule)}")
         if model not in ARGUMENTS:
             raise bad_record(f"its model is {shown(model)}; known are {', '.join(ARGUMENTS)}")
-        stray = [name for name in OF_SOME if name not in ARGUMENTS[model] and found[name] is not _LEFT_OUT.get(name)]
+        stray = [
+            name
+            for name in OF_SOME
+            if name not in ARGUMENTS[model] and found[name] is not _LEFT_OUT.get(name)
+        ]
         if stray:
             raise bad_record(f"{model} takes no {stray[0]}")
         status = record["results"]["status"]
-        status = np.array(status["values"]).reshape(status["shape"]) if isinstance(status, Mapping) else status
+        status = (
+            np.array(status["values"]).reshape(status["shape"])
+            if isinstance(status, Mapping)
+            else status
+        )
         refused = any(Status(code) > Status.ENERGY_GAIN for code in np.ravel(status).tolist())
         velocity = _contact_velocity(found["contact_velocity"], np.shape(status))
         origin = _origin(record["results"]["reconstruction"], velocity)
@@ -147,9 +176,21 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             reader = ArgumentReader()
             given["normal"] = reader.number(_read(found["bare_normal"]), "", "bare_normal")
             reader.close()
-        numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS)}
+        numbers = {
+            name: _read(found[name])
+            for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS)
+        }
         numbers |= {name: tyres_of(found[name]) for name in TYRES_OF}
-        inputs = Inputs(model=model, a=a, b=b, rule=rule, law=law, given=given, contact_velocity=velocity, **numbers)
+        inputs = Inputs(
+            model=model,
+            a=a,
+            b=b,
+            rule=rule,
+            law=law,
+            given=given,
+            contact_velocity=velocity,
+            **numbers,
+        )
         inputs = read_again(inputs, found=origin is not None)
         _check_texts(found, inputs, record["results"])
     except InputError:
@@ -160,8 +201,14 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
 
 
 def _check_texts(found: Mapping[str, Any], inputs: Inputs, results: Mapping[str, Any]) -> None:
-    """Refuse a text that reads as another number here than it did where the record was written: units can be redefined."""
-    written = [(name, found[name], getattr(inputs, name), results[name]) for name in ("normal", *UNITS) if name in results]
+    """Refuse a text that reads as another number here than it did where the record was written:
+    units can be redefined.
+    """
+    written = [
+        (name, found[name], getattr(inputs, name), results[name])
+        for name in ("normal", *UNITS)
+        if name in results
+    ]
     for label, name in zip("ab", OUTSIDE, strict=True):
         then = [results[label][f"outside_{part}"] for part in ("x", "y", "yaw")]
         written.append((name, found[name], getattr(inputs, name) or (), then))
@@ -170,16 +217,27 @@ def _check_texts(found: Mapping[str, Any], inputs: Inputs, results: Mapping[str,
         if _POLAR[0] in texts:
             texts["vx"] = texts["vy"] = " at ".join(map(texts.pop, _POLAR))
         before = results[label]["before"]
-        written += [(f"{label}.{name}", text, getattr(vehicle, name), before[name]) for name, text in texts.items()]
+        written += [
+            (f"{label}.{name}", text, getattr(vehicle, name), before[name])
+            for name, text in texts.items()
+        ]
     for name, texts, numbers, then in written:
         pair = isinstance(numbers, tuple)
         for i, number in enumerate(numbers if pair else (numbers,)):
-            text, was = (texts[i] if isinstance(texts, list) else texts), _read(then[i] if pair else then)
+            text, was = (
+                (texts[i] if isinstance(texts, list) else texts),
+                _read(then[i] if pair else then),
+            )
             # An angle in radians may come out by the last bit of another machine's sine.
-            if isinstance(text, str) and text not in _INFINITIES and not math.isclose(number, was, rel_tol=1e-12):
+            if (
+                isinstance(text, str)
+                and text not in _INFINITIES
+                and not math.isclose(number, was, rel_tol=1e-12)
+            ):
                 raise bad_record(
-                    f"{name} was given as {shown(text)}, which is {was!r} in its results but {number!r} here; the text was "
-                    "changed (to solve with another value write again()), or its unit means something else in this registry"
+                    f"{name} was given as {shown(text)}, which is {was!r} in its results but "
+                    f"{number!r} here; the text was changed (to solve with another value write "
+                    "again()), or its unit means something else in this registry"
                 )
 
 
@@ -189,22 +247,32 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
     known = tuple(str(name) for name in found["known"])
     condition, answers = lock(_read(found["condition"])), _count(found["answers"])
     return Reconstruction(
-        method=str(found["method"]), known=known, condition=condition, answers=answers, contact_velocity=velocity
+        method=str(found["method"]),
+        known=known,
+        condition=condition,
+        answers=answers,
+        contact_velocity=velocity,
     )
 
 
 def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
-    """Closing speed and slip before as a reverse solver found them: one of each, or one for every case."""
+    """Closing speed and slip before as a reverse solver found them: one of each, or one for every
+    case.
+    """
     if pair is None:
         return None
-    closing, slip = (_read(part) if isinstance(part, Mapping) else float(_read(part)) for part in pair)
+    closing, slip = (
+        _read(part) if isinstance(part, Mapping) else float(_read(part)) for part in pair
+    )
     if not np.shape(closing) == np.shape(slip) == shape:
         raise bad_record("its contact_velocity is not that of its cases")
     return lock((closing, slip))
 
 
 def _texts(known: Mapping[str, Any], origin: Reconstruction | None) -> dict[str, str]:
-    stray = known.keys() - {name for name, one in KNOWN.items() if origin is not None and origin.method in one.methods}
+    stray = known.keys() - {
+        name for name, one in KNOWN.items() if origin is not None and origin.method in one.methods
+    }
     if stray:
         raise bad_record(f"it has no {shown(min(stray))} that could have been given")
     if not all(isinstance(text, str) for text in known.values()):
@@ -213,8 +281,14 @@ def _texts(known: Mapping[str, Any], origin: Reconstruction | None) -> dict[str,
 
 
 def _vehicle(found: Mapping[str, Any], lost: bool) -> Vehicle:
-    """A vehicle from its record; NaN, the motion that a reverse solver did not find, bypasses the reader."""
-    state = {name: value if name == "name" else _read(value) for name, value in found.items() if value is not None}
+    """A vehicle from its record; NaN, the motion that a reverse solver did not find, bypasses the
+    reader.
+    """
+    state = {
+        name: value if name == "name" else _read(value)
+        for name, value in found.items()
+        if value is not None
+    }
     polar = {name: state.pop(name) for name in _POLAR if name in state}
     unknown = state.keys() - set(NAMES)
     if unknown:
@@ -241,10 +315,18 @@ def to_columns(impact: Any, units: Any = None, wanted: Any = None) -> dict[str, 
         for moment in _MOMENTS:
             vehicle = getattr(side, moment)
             for name in NAMES:
-                _add(found, f"{label}.{moment}.{name}", getattr(vehicle, name), unit_of(Vehicle, name))
+                _add(
+                    found,
+                    f"{label}.{moment}.{name}",
+                    getattr(vehicle, name),
+                    unit_of(Vehicle, name),
+                )
         for name, value in _results(side):
             _add(found, f"{label}.{name}", value, unit_of(Side, name))
-    return dict(_column(name, *found[name], system, np.shape(impact.status)) for name in _chosen(impact, found, wanted))
+    return dict(
+        _column(name, *found[name], system, np.shape(impact.status))
+        for name in _chosen(impact, found, wanted)
+    )
 
 
 def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
@@ -265,14 +347,17 @@ def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
         if not isinstance(name, str) or name not in found:
             near = get_close_matches(shown(name), found, 3) or list(found)[:3]
             raise InputError(
-                f"columns: there is no column {shown(name)}; write for example {', '.join(near)}, without a unit",
+                f"columns: there is no column {shown(name)}; write for example "
+                f"{', '.join(near)}, without a unit",
                 code="unknown_name",
                 argument="columns",
             )
     return names
 
 
-def _column(name: str, value: Any, unit: str | None, system: Cells | None, shape: tuple[int, ...]) -> tuple[str, list[Any]]:
+def _column(
+    name: str, value: Any, unit: str | None, system: Cells | None, shape: tuple[int, ...]
+) -> tuple[str, list[Any]]:
     """A column with its name, in a system of units if one is given."""
     numbers = np.asarray(value)
     if system is not None and unit:
@@ -284,7 +369,9 @@ def _column(name: str, value: Any, unit: str | None, system: Cells | None, shape
 
 
 def bad_record(why: str) -> InputError:
-    return InputError(f"record is not what Impact.to_dict() gives: {why}", code="bad_record", argument="record")
+    return InputError(
+        f"record is not what Impact.to_dict() gives: {why}", code="bad_record", argument="record"
+    )
 
 
 def _add(found: dict[str, tuple[Any, str | None]], name: str, value: Any, unit: str | None) -> None:
@@ -296,7 +383,11 @@ def _add(found: dict[str, tuple[Any, str | None]], name: str, value: Any, unit: 
         found[f"{name}.answers"] = value.answers, None
     elif isinstance(value, Pulse):
         numbers = {f.name: getattr(value, f.name) for f in fields(value) if f.name not in CURVES}
-        found |= {f"{name}.{inner}": (part, unit_of(Pulse, inner)) for inner, part in numbers.items() if part is not None}
+        found |= {
+            f"{name}.{inner}": (part, unit_of(Pulse, inner))
+            for inner, part in numbers.items()
+            if part is not None
+        }
     elif isinstance(value, ModelChoice):
         found[f"{name}.tolerance"] = value.tolerance, "m/s"
         found |= {f"{name}.errors.{model}": (error, "m/s") for model, error in value.errors.items()}
@@ -311,7 +402,10 @@ def _results(owner: Any) -> list[tuple[str, Any]]:
 
 def _side(side: Side) -> dict[str, Any]:
     moments = {moment: getattr(side, moment) for moment in _MOMENTS}
-    states = {moment: {name: strict(getattr(vehicle, name)) for name in NAMES} for moment, vehicle in moments.items()}
+    states = {
+        moment: {name: strict(getattr(vehicle, name)) for name in NAMES}
+        for moment, vehicle in moments.items()
+    }
     return {**states, **{name: _result(value) for name, value in _results(side)}}
 
 

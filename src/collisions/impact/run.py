@@ -1,4 +1,6 @@
-"""Solves validated inputs: single cases, or batches in blocks, with errors and warnings for refused cases and energy gains."""
+"""Solves validated inputs: single cases, or batches in blocks, with errors and warnings for refused
+cases and energy gains.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,14 @@ from ..kernels.elementwise import (
     without_length,
 )
 from ..kernels.status import Answer, Passed, Status
-from ..messages.errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, NoImpactError, NoSolutionError
+from ..messages.errors import (
+    CollisionsError,
+    CollisionsWarning,
+    EnergyGainWarning,
+    InputError,
+    NoImpactError,
+    NoSolutionError,
+)
 from ..messages.progress import reporter
 from ..messages.warning import quietly, warn_of_cases
 from ..quantities.attributes import lock
@@ -60,7 +69,14 @@ def solve_inputs(
             def solve(one: Inputs, quiet: bool) -> Any:
                 quiet = quiet or inputs.shape is not None
                 with quietly() if quiet else nullcontext():
-                    return solve_inputs(in_form(model, one), one, "nan" if quiet else on_failure, threads, progress, carrying)
+                    return solve_inputs(
+                        in_form(model, one),
+                        one,
+                        "nan" if quiet else on_failure,
+                        threads,
+                        progress,
+                        carrying,
+                    )
 
             raw: Any = with_tyres(inputs, solve)
             if inputs.shape is not None:
@@ -71,7 +87,9 @@ def solve_inputs(
             inputs = replace(inputs, tyres_a=None, tyres_b=None, duration=None)
     if inputs.shape is not None:
         if model is TIME_RESOLVED:
-            raw = solve_cases_in_time(inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress))
+            raw = solve_cases_in_time(
+                inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress)
+            )
         else:
             raw = solve_cases((model,), None, inputs, inputs.shape, threads, progress, carrying)
         say_of_cases(inputs, raw, on_failure)
@@ -86,7 +104,9 @@ def solve_inputs(
     if raw.status > Status.ENERGY_GAIN:
         if on_failure != "nan":
             raise refusal(inputs, raw)
-        return Passed(raw.status) if model is TIME_RESOLVED else _REFUSED._replace(status=raw.status)
+        return (
+            Passed(raw.status) if model is TIME_RESOLVED else _REFUSED._replace(status=raw.status)
+        )
     if raw.status == Status.ENERGY_GAIN:
         gained = said(-raw.energy_loss, "energy", inputs.texts)
         _warn_of_gain(f"the impact gains {gained} of energy", -raw.energy_loss, None, inputs)
@@ -107,7 +127,10 @@ def solve_cases(
     from ..engine.batch import Work, solve_cases
 
     cases, eps = cases_of(inputs, shape, threads)
-    works = [Work(model.kernel, (*model.settings(inputs, carrying), eps), model.numbers(inputs)) for model in models]
+    works = [
+        Work(model.kernel, (*model.settings(inputs, carrying), eps), model.numbers(inputs))
+        for model in models
+    ]
     return solve_cases(works, which, cases, reporter(progress))
 
 
@@ -123,14 +146,25 @@ def cases_of(inputs: Inputs, shape: tuple[int, ...], threads: int) -> tuple[Any,
 
 def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> None:
     """Raise for an option that no solver knows."""
-    if on_failure is not None and not (isinstance(on_failure, str) and on_failure in ("raise", "nan")):
+    if on_failure is not None and not (
+        isinstance(on_failure, str) and on_failure in ("raise", "nan")
+    ):
         raise InputError(
-            f"on_failure must be None, 'raise' or 'nan', got {shown(on_failure)}", code="bad_option", argument="on_failure"
+            f"on_failure must be None, 'raise' or 'nan', got {shown(on_failure)}",
+            code="bad_option",
+            argument="on_failure",
         )
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
-        raise InputError(f"threads must be a whole number from 1, got {shown(threads)}", code="bad_option", argument="threads")
+        raise InputError(
+            f"threads must be a whole number from 1, got {shown(threads)}",
+            code="bad_option",
+            argument="threads",
+        )
     if progress is not None and not isinstance(progress, bool) and not callable(progress):
-        text = f"progress must be a function of (done, total), or True for a bar, got {type(progress).__name__}"
+        text = (
+            "progress must be a function of (done, total), or True for a bar, got "
+            f"{type(progress).__name__}"
+        )
         raise InputError(text, code="bad_option", argument="progress")
 
 
@@ -141,12 +175,17 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
         for name in DOMAINS:
             if getattr(body, name) != getattr(body, name):
                 return InputError(
-                    f"{side}.{name} is NaN: the state of a case that was refused", code="not_finite", argument=name
+                    f"{side}.{name} is NaN: the state of a case that was refused",
+                    code="not_finite",
+                    argument=name,
                 )
     status: Status = raw.status
     nx, ny = inputs.normal
     say = Sentences(inputs.texts)
-    values: dict[str, Any] = {"closing_speed": say(raw.closing_speed, "speed"), "model": inputs.model}
+    values: dict[str, Any] = {
+        "closing_speed": say(raw.closing_speed, "speed"),
+        "model": inputs.model,
+    }
     values |= {"rule": inputs.rule, "value": inputs.rule_value}
     values |= {"nx": nx, "ny": ny, "opposite_x": 0.0 - nx, "opposite_y": 0.0 - ny}
     extra: dict[str, Any] = {}
@@ -154,26 +193,43 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
         case Status.SEPARATING | Status.GRAZING:
             extra["closing_speed"] = raw.closing_speed
             if raw.closing_speed > 0.0:
-                text = f"no impact: the impulses from outside part the bodies, which approach at {values['closing_speed']}"
+                text = (
+                    "no impact: the impulses from outside part the bodies, which approach at "
+                    f"{values['closing_speed']}"
+                )
                 check = "check the signs of outside_a and outside_b"
                 if LAWS[inputs.law or BRACH].energetic and inputs.restitution >= 0.0:
-                    why = f"so law={inputs.law!r} finds no compression that it could give back a part of"
-                    return error_of(status, f"{text}, {why}; {check}, or take law={BRACH!r}", **extra)
+                    why = (
+                        f"so law={inputs.law!r} finds no compression that it could give back a "
+                        "part of"
+                    )
+                    return error_of(
+                        status, f"{text}, {why}; {check}, or take law={BRACH!r}", **extra
+                    )
                 return error_of(status, f"{text}, by more than restitution does; {check}", **extra)
         case Status.RATIO_JAMS:
             coupling = raw.coupling
-            limit = -1.0 / (raw.effective_mass * coupling) if coupling else math.copysign(math.inf, inputs.rule_value)
+            limit = (
+                -1.0 / (raw.effective_mass * coupling)
+                if coupling
+                else math.copysign(math.inf, inputs.rule_value)
+            )
             values |= {"limit": limit, "side": "less" if limit > 0.0 else "greater"}
             extra["limit"] = limit
         case Status.SPINNING:
             turning = [(side, body) for side, body in bodies if body.yaw_rate != 0.0]
-            rates = [f"{with_name(side, body)} has yaw_rate = {say(body.yaw_rate, 'yaw rate')}" for side, body in turning]
+            rates = [
+                f"{with_name(side, body)} has yaw_rate = {say(body.yaw_rate, 'yaw rate')}"
+                for side, body in turning
+            ]
             values["motion"] = " and ".join(rates)
             extra["argument"] = "yaw_rate"
         case Status.TRANSVERSE:
             across = [(side, nx * body.vy - ny * body.vx) for side, body in bodies]
             moving = [(side, say(speed, "speed")) for side, speed in across if speed != 0.0]
-            values["motion"] = ", ".join(f"{side} moves at {speed} across it" for side, speed in moving)
+            values["motion"] = ", ".join(
+                f"{side} moves at {speed} across it" for side, speed in moving
+            )
             extra["argument"] = "normal"
     return error_of(status, status.message.format(**values), **extra)
 
@@ -181,12 +237,21 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
 def error_of(status: int, text: str, **fields: Any) -> CollisionsError:
     """The error for a status, of the class that its ``about`` names."""
     outcome = Status(status)
-    kind = {"impact": NoImpactError, "solution": NoSolutionError, "input": InputError}[outcome.about]
+    kind = {"impact": NoImpactError, "solution": NoSolutionError, "input": InputError}[
+        outcome.about
+    ]
     return kind(text, code=outcome.label, **fields)
 
 
-def say_of_cases(inputs: Inputs, raw: Any, on_failure: Any, one: Callable[[Callable[[Any], Any]], Any] | None = None) -> None:
-    """Raise for, or warn of, the refused cases of a batch; warn of energy gains. ``one`` solves a single case."""
+def say_of_cases(
+    inputs: Inputs,
+    raw: Any,
+    on_failure: Any,
+    one: Callable[[Callable[[Any], Any]], Any] | None = None,
+) -> None:
+    """Raise for, or warn of, the refused cases of a batch; warn of energy gains. ``one`` solves a
+    single case.
+    """
     status = raw.status
     worst = status.max(initial=Status.OK)
     if worst == Status.OK:
@@ -200,7 +265,9 @@ def say_of_cases(inputs: Inputs, raw: Any, on_failure: Any, one: Callable[[Calla
     if gaining.any():
         most, count = float(-raw.energy_loss[gaining].min()), int(gaining.sum())
         largest = said(most, "energy", inputs.texts)
-        _warn_of_gain(f"{count} of {status.size} cases gain energy, up to {largest}", most, count, inputs)
+        _warn_of_gain(
+            f"{count} of {status.size} cases gain energy, up to {largest}", most, count, inputs
+        )
 
 
 def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='raise'") -> None:
@@ -212,12 +279,16 @@ def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='rai
     }
     listed = ", ".join(f"{count} {label}" for label, count in kinds.items())
     text = f"{refused} of {status.size} cases were refused and are NaN ({listed}); {advice}"
-    parts: dict[str, int | None] = {f"refused by a solver, as {label}": count for label, count in kinds.items()}
+    parts: dict[str, int | None] = {
+        f"refused by a solver, as {label}": count for label, count in kinds.items()
+    }
     warn_of_cases(CollisionsWarning(text, code="refused_cases", counts=kinds), parts)
 
 
 def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
-    """The reader's checks of scalars, as checks of the input arrays; vehicles come first, as they are made first."""
+    """The reader's checks of scalars, as checks of the input arrays; vehicles come first, as they
+    are made first.
+    """
     from ..engine.batch import Check
 
     found: list[Check] = []
@@ -233,22 +304,42 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
         if vehicle.pivot is not None:
             add_arrays(FINITE, *vehicle.pivot)
             inertia = () if vehicle.yaw_inertia is None else (vehicle.yaw_inertia,)
-            found.append(Check(((either_infinite, Status.PINNED_INFINITE),), (vehicle.mass, *inertia)))
-            motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y, *vehicle.pivot)
+            found.append(
+                Check(((either_infinite, Status.PINNED_INFINITE),), (vehicle.mass, *inertia))
+            )
+            motion = (
+                vehicle.vx,
+                vehicle.vy,
+                vehicle.yaw_rate,
+                vehicle.x,
+                vehicle.y,
+                *vehicle.pivot,
+            )
             if vehicle.x is not None and vehicle.y is not None:
                 # A float32 velocity is no more accurate in float64.
                 own = rounding(eps, vehicle.vx, vehicle.vy)
-                found.append(Check(((partial(not_about_pivot, eps=own), Status.PINNED_VELOCITY),), motion))
+                found.append(
+                    Check(((partial(not_about_pivot, eps=own), Status.PINNED_VELOCITY),), motion)
+                )
     add_arrays(restitution_domain(inputs.incomplete), inputs.restitution)
     if any(isinstance(part, np.ndarray) for part in inputs.normal):
         add_arrays(FINITE, *inputs.normal)
-        found.append(Check(((without_length, Status.ZERO_NORMAL),), inputs.normal, all_with_length, implied=True))
+        found.append(
+            Check(
+                ((without_length, Status.ZERO_NORMAL),),
+                inputs.normal,
+                all_with_length,
+                implied=True,
+            )
+        )
     add_arrays(FINITE, *(inputs.point or ()), *(inputs.outside_a or ()), *(inputs.outside_b or ()))
     add_arrays(RULES[inputs.rule].domain, inputs.rule_value)
     found += _tyre_checks(inputs)
     for name, domains in TIME_DOMAINS.items():
         given = getattr(inputs, name)
-        for part, domain in zip(given if isinstance(given, tuple) else (given,), domains, strict=False):
+        for part, domain in zip(
+            given if isinstance(given, tuple) else (given,), domains, strict=False
+        ):
             add_arrays(domain, part)
     return found
 
@@ -263,14 +354,21 @@ def _tyre_checks(inputs: Inputs) -> list[Any]:
             domain = TYRE_DOMAINS[name.partition("[")[0]]
             if isinstance(value, np.ndarray):
                 found.append(Check(domain.faults, (value,), domain.holds))
-        lifted = tyres.friction, 0.0 if tyres.height is None else tyres.height, tyres.wheelbase, tyres.track
+        lifted = (
+            tyres.friction,
+            0.0 if tyres.height is None else tyres.height,
+            tyres.wheelbase,
+            tyres.track,
+        )
         if any(isinstance(value, np.ndarray) for value in lifted):
             found.append(Check(((could_lift, Status.WHEEL_LIFTS),), lifted))
     return found
 
 
 def _where_tyres_hold(inputs: Inputs, raw: Any) -> Any:
-    """The answers of a batch with NaN where a number of the tyres cannot be used, or what they give is beyond all numbers."""
+    """The answers of a batch with NaN where a number of the tyres cannot be used, or what they give
+    is beyond all numbers.
+    """
     with np.errstate(all="ignore"):
         status = raw.status.copy()
         for check in reversed(_tyre_checks(inputs)):
@@ -279,12 +377,17 @@ def _where_tyres_hold(inputs: Inputs, raw: Any) -> Any:
     refused = status > Status.ENERGY_GAIN
     if not refused.any():
         return raw
-    found = {name: np.where(refused, name != "sticks" and math.nan, getattr(raw, name)) for name in raw._fields[1:]}
+    found = {
+        name: np.where(refused, name != "sticks" and math.nan, getattr(raw, name))
+        for name in raw._fields[1:]
+    }
     kinds = {name: value.astype(getattr(raw, name).dtype) for name, value in found.items()}
     return raw._replace(status=lock(status), **lock(kinds))
 
 
-def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], Any]], Any] | None) -> CollisionsError:
+def _first_refusal(
+    inputs: Inputs, status: Any, one: Callable[[Callable[[Any], Any]], Any] | None
+) -> CollisionsError:
     """The error of the first refused case, found by solving it by itself."""
     index, place = first_case(status > Status.ENERGY_GAIN)
 
@@ -303,13 +406,14 @@ def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], A
 def _warn_of_gain(what: str, gain: float, count: int | None, inputs: Inputs) -> None:
     if inputs.model == TIME_RESOLVED.name:
         why = (
-            f"that is the error of the steps, where the contact gives back nearly all it took; take a "
-            f"restitution below 0.999, or give more steps than {inputs.steps}"
+            "that is the error of the steps, where the contact gives back nearly all it took; "
+            f"take a restitution below 0.999, or give more steps than {inputs.steps}"
         )
     else:
         why = (
-            "this restitution and tangential impulse cannot occur together without a source of energy; lower "
-            "the restitution or the ratio, or take law='kudlich-slibar' with friction="
+            "this restitution and tangential impulse cannot occur together without a source of "
+            "energy; lower the restitution or the ratio, or take law='kudlich-slibar' with "
+            "friction="
         )
     warning = EnergyGainWarning(f"{what}: {why}", code="energy_gain", gain=gain)
     warn_of_cases(warning, {f"the impact gains energy: {why}": count})

@@ -1,4 +1,6 @@
-"""``impact_schema``: the JSON schema of an impact's record, generated from the attributes so that the two cannot disagree."""
+"""``impact_schema``: the JSON schema of an impact's record, generated from the attributes so that
+the two cannot disagree.
+"""
 
 from __future__ import annotations
 
@@ -26,18 +28,25 @@ __all__ = ["impact_schema"]
 _MODELS = list(BY_NAME)
 _VALUE, _PAIR, _GIVEN = ({"$ref": f"#/$defs/{name}"} for name in ("value", "pair", "given"))
 _NUMBER, _TEXT, _NULL = {"$ref": "#/$defs/number"}, {"type": "string"}, {"type": "null"}
-_TYPES: dict[str, dict[str, Any]] = {"Value": _VALUE, "tuple[Value, Value]": _PAIR, "str": _TEXT, "Law": _TEXT} | {
+_TYPES: dict[str, dict[str, Any]] = {
+    "Value": _VALUE,
+    "tuple[Value, Value]": _PAIR,
+    "str": _TEXT,
+    "Law": _TEXT,
+} | {
     name: {"$ref": f"#/$defs/{name.lower().removeprefix('model')}"}
     for name in ("ModelChoice", "Reconstruction", "Pulse", "Vehicle", "Side")
 }
 
 
 def impact_schema() -> dict[str, Any]:
-    """The JSON schema (draft 2020-12) of the record from ``Impact.to_dict``, as a new dict that may be changed.
+    """The JSON schema (draft 2020-12) of the record from ``Impact.to_dict``, as a new dict that may
+    be changed.
 
-    It covers every solver, single cases, batches and refused cases. Infinity and NaN appear in a record as the texts "inf",
-    "-inf" and "nan", because JSON has no number for them. It does not say that the arrays of a batch go together, nor that the
-    results are those of the inputs; ``Impact.from_dict`` checks the former and works out the latter anew.
+    It covers every solver, single cases, batches and refused cases. Infinity and NaN appear in a
+    record as the texts "inf", "-inf" and "nan", because JSON has no number for them. It does not
+    say that the arrays of a batch go together, nor that the results are those of the inputs;
+    ``Impact.from_dict`` checks the former and works out the latter anew.
 
     Returns
     -------
@@ -56,8 +65,13 @@ def impact_schema() -> dict[str, Any]:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": f"urn:{FORMAT.replace(' ', ':')}",
         "title": "Record of an impact",
-        "description": "What Impact.to_dict() gives: inputs to solve again from, and every result; SI, angles in radians.",
-        **_closed({"format": {"const": FORMAT}, "inputs": _inputs(), "results": _attributes(Impact)}),
+        "description": (
+            "What Impact.to_dict() gives: inputs to solve again from, and every result; SI, "
+            "angles in radians."
+        ),
+        **_closed(
+            {"format": {"const": FORMAT}, "inputs": _inputs(), "results": _attributes(Impact)}
+        ),
         "$defs": {
             "number": {
                 "description": "A number; an infinity and NaN by name.",
@@ -68,7 +82,9 @@ def impact_schema() -> dict[str, Any]:
                 "anyOf": [_NUMBER, _batch(_NUMBER, {"enum": ["float32", "float64"]})],
             },
             "given": {
-                "description": "A number or a batch in SI, or the text with a unit that it was given as.",
+                "description": (
+                    "A number or a batch in SI, or the text with a unit that it was given as."
+                ),
                 "anyOf": [_VALUE, _TEXT],
             },
             "pair": _pair(_VALUE),
@@ -86,7 +102,9 @@ def impact_schema() -> dict[str, Any]:
             ),
             "tyres": _tyres(),
             "pulse": _closed({f.name: _field(f) for f in fields(Pulse)}),
-            "reconstruction": _closed({f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)}),
+            "reconstruction": _closed(
+                {f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)}
+            ),
         },
     }
     return deepcopy(schema)
@@ -103,15 +121,35 @@ def _inputs() -> dict[str, Any]:
             "a": vehicle,
             "b": vehicle,
             **{name: _input(name) for name in UNITS},
-            **{name: _or_null({"$ref": "#/$defs/tyres"}, "The wheels of a vehicle.") for name in TYRES},
-            "geometry": {"enum": [*get_args(Geometry), None], "description": "Of time_resolved: what the positions are."},
-            "steps": {"type": ["integer", "null"], "description": "Of time_resolved: steps a nominal duration."},
-            "normal": {"anyOf": [_PAIR, _TEXT], "description": "Unit vector from A into B, or its angle as given."},
-            "bare_normal": _or_null(_VALUE, "The normal as an angle of more than a turn that was given without a unit [rad]."),
+            **{
+                name: _or_null({"$ref": "#/$defs/tyres"}, "The wheels of a vehicle.")
+                for name in TYRES
+            },
+            "geometry": {
+                "enum": [*get_args(Geometry), None],
+                "description": "Of time_resolved: what the positions are.",
+            },
+            "steps": {
+                "type": ["integer", "null"],
+                "description": "Of time_resolved: steps a nominal duration.",
+            },
+            "normal": {
+                "anyOf": [_PAIR, _TEXT],
+                "description": "Unit vector from A into B, or its angle as given.",
+            },
+            "bare_normal": _or_null(
+                _VALUE,
+                "The normal as an angle of more than a turn that was given without a unit [rad].",
+            ),
             "rule_value": {**_GIVEN, "description": "... and its value."},
             "tolerance": _or_null(_VALUE, "Of solve [m/s]."),
-            "incomplete": {"type": "boolean", "description": "Whether a restitution below 0 was allowed."},
-            "contact_velocity": _or_null(_PAIR, "Closing speed and slip before as a reverse solver found them [m/s]."),
+            "incomplete": {
+                "type": "boolean",
+                "description": "Whether a restitution below 0 was allowed.",
+            },
+            "contact_velocity": _or_null(
+                _PAIR, "Closing speed and slip before as a reverse solver found them [m/s]."
+            ),
             "known": {
                 "type": "object",
                 "additionalProperties": _TEXT,
@@ -126,23 +164,32 @@ def _of_solver(name: str, takes: tuple[str, ...]) -> dict[str, Any]:
     """The inputs of one solver: none that it does not take, and those that it needs."""
     needed = {"law": _TEXT} if "law" in takes else {}
     needed |= {"point": {"type": "array"}} if name in PLACED else {}
-    properties = {argument: {"enum": [None, False]} for argument in sorted(OF_SOME.keys() - takes)} | needed
+    properties = {
+        argument: {"enum": [None, False]} for argument in sorted(OF_SOME.keys() - takes)
+    } | needed
     return {"if": {"properties": {"model": {"const": name}}}, "then": {"properties": properties}}
 
 
 def _attributes(kind: type[Any]) -> dict[str, Any]:
-    """Every attribute of an impact or a side: by its name in ``_LISTED`` or its declared type, described by its docstring."""
+    """Every attribute of an impact or a side: by its name in ``_LISTED`` or its declared type,
+    described by its docstring.
+    """
     found = {}
     for name in attributes(kind):
         attribute = vars(kind)[name]
         declared = attribute.work_out.__annotations__["return"]
         first = (getdoc(attribute) or "").partition("\n\n")[0].replace("\n", " ")
-        found[name] = {**(_LISTED[name] if name in _LISTED else _declared(declared)), "description": first}
+        found[name] = {
+            **(_LISTED[name] if name in _LISTED else _declared(declared)),
+            "description": first,
+        }
     return _closed(found)
 
 
 def _vehicle_inputs() -> dict[str, Any]:
-    """The fields of a vehicle as they were given; speed and course may stand in place of vx and vy."""
+    """The fields of a vehicle as they were given; speed and course may stand in place
+    of vx and vy.
+    """
     found: dict[str, Any] = {"name": _TEXT, "pivot": _or_null(_pair(_GIVEN), "[m]")}
     for name in DOMAINS:
         unit = f"[{unit_of(Vehicle, name)}]"
@@ -169,15 +216,23 @@ def _input(name: str) -> dict[str, Any]:
     plain, _, optional = str(Inputs.__dataclass_fields__[name].type).partition(" | ")
     units = UNITS[name]
     several = {"type": "array", "items": _GIVEN, "minItems": 3, "maxItems": 3}
-    found = {"Value": _GIVEN, "tuple[Value, Value]": _pair(_GIVEN), "tuple[Value, ...]": several}[plain]
+    found = {"Value": _GIVEN, "tuple[Value, Value]": _pair(_GIVEN), "tuple[Value, ...]": several}[
+        plain
+    ]
     unit = f"[{', '.join(units) if isinstance(units, tuple) else units or 1}]"
     return _or_null(found, unit) if optional else {**found, "description": unit}
 
 
 def _field(field: Field[Any]) -> dict[str, Any]:
-    """The schema of a field with its unit; one of any type is an array over time, which a batch has not."""
+    """The schema of a field with its unit; one of any type is an array over time, which a batch has
+    not.
+    """
     found = _declared("Value | None" if field.type == "Any" else str(field.type))
-    return {**found, "description": f"[{field.metadata['unit']}]"} if "unit" in field.metadata else found
+    return (
+        {**found, "description": f"[{field.metadata['unit']}]"}
+        if "unit" in field.metadata
+        else found
+    )
 
 
 def _declared(declared: str) -> dict[str, Any]:
@@ -192,7 +247,12 @@ def _or_null(found: dict[str, Any], description: str) -> dict[str, Any]:
 
 def _closed(properties: dict[str, Any]) -> dict[str, Any]:
     """An object with exactly these properties."""
-    return {"type": "object", "properties": properties, "required": list(properties), "additionalProperties": False}
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": list(properties),
+        "additionalProperties": False,
+    }
 
 
 def _pair(value: dict[str, Any]) -> dict[str, Any]:
@@ -212,7 +272,13 @@ def _by_model(value: dict[str, Any]) -> dict[str, Any]:
 def _batch(value: dict[str, Any], dtype: dict[str, Any]) -> dict[str, Any]:
     """A batch: a flat list of one value per case, and the shape."""
     size = {"type": "integer", "minimum": 0}
-    return _closed({"dtype": dtype, "shape": {"type": "array", "items": size}, "values": {"type": "array", "items": value}})
+    return _closed(
+        {
+            "dtype": dtype,
+            "shape": {"type": "array", "items": size},
+            "values": {"type": "array", "items": value},
+        }
+    )
 
 
 def _each(value: dict[str, Any]) -> dict[str, Any]:

@@ -1,4 +1,6 @@
-"""Side: one vehicle's share of an impact: states before and after, delta-V, PDOF, impulses and work."""
+"""Side: one vehicle's share of an impact: states before and after, delta-V, PDOF, impulses and
+work.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,17 @@ from ..kernels.elementwise import select
 from ..kernels.status import Passed
 from ..messages.errors import MissingInputError, Status
 from ..quantities.attribute_stubs import SideQuantities
-from ..quantities.attributes import Frozen, Quantities, attributes, derived, hypot, numeric, returns, show, unit_of
+from ..quantities.attributes import (
+    Frozen,
+    Quantities,
+    attributes,
+    derived,
+    hypot,
+    numeric,
+    returns,
+    show,
+    unit_of,
+)
 from ..quantities.directions import Angle, angle_of
 from ..quantities.formatting import clock_hour
 from ..quantities.reading import ArgumentReader, broadcast, widened
@@ -29,8 +41,8 @@ if TYPE_CHECKING:
 class Side(Frozen, Summarized):
     """One vehicle's part in an impact: its states before, during and after, and what changed.
 
-    ``delta_v`` is the change of velocity of the centre of mass. Directions are in scene axes, with angles counter-clockwise
-    from +x, except for the PDOF. Values are floats, or arrays in a batch.
+    ``delta_v`` is the change of velocity of the centre of mass. Directions are in scene axes, with
+    angles counter-clockwise from +x, except for the PDOF. Values are floats, or arrays in a batch.
     """
 
     _inputs: Inputs
@@ -42,7 +54,12 @@ class Side(Frozen, Summarized):
     def __init__(self, inputs: Inputs, raw: Any, index: int, choice: ModelChoice | None) -> None:
         # Not the Impact itself: a cycle would keep a batch in memory until the collector runs.
         found = self.__dict__
-        found["_inputs"], found["_answer"], found["_index"], found["_choice"] = inputs, raw, index, choice
+        found["_inputs"], found["_answer"], found["_index"], found["_choice"] = (
+            inputs,
+            raw,
+            index,
+            choice,
+        )
 
     def _change(self) -> tuple[Value, Value, Value]:
         raw = self._answer
@@ -53,7 +70,11 @@ class Side(Frozen, Summarized):
     def _until_compressed(self) -> tuple[Value, Value, Value]:
         """The part of the change that has passed at the end of compression."""
         if isinstance(self._answer, Passed):
-            return self._passed("compression_vx"), self._passed("compression_vy"), self._passed("compression_yaw_rate")
+            return (
+                self._passed("compression_vx"),
+                self._passed("compression_vy"),
+                self._passed("compression_yaw_rate"),
+            )
         from .choice import until_compressed
 
         names = [f"delta_{name}_{'ab'[self._index]}" for name in ("vx", "vy", "yaw_rate")]
@@ -62,7 +83,9 @@ class Side(Frozen, Summarized):
 
     @property
     def q(self) -> SideQuantities:
-        """The same attributes as pint Quantities; one that needs a heading not given raises a MissingInputError."""
+        """The same attributes as pint Quantities; one that needs a heading not given raises a
+        MissingInputError.
+        """
         return cast(SideQuantities, Quantities(self))
 
     @derived()
@@ -73,10 +96,13 @@ class Side(Frozen, Summarized):
     @derived()
     def after(self) -> Vehicle:
         """The vehicle just after separation, ready to be the start of the next impact."""
-        # Not self.before: of one case, of which most callers read little else, it would be a tenth of the time.
+        # Not self.before: of one case, of which most callers read little else, it would be a tenth
+        # of the time.
         before, (dvx, dvy, dw) = (self._inputs.b if self._index else self._inputs.a), self._change()
         if type(dvx) is float:
-            return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw, self._units())
+            return moved(
+                before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw, self._units()
+            )
         motion = _changed(before.vx, dvx), _changed(before.vy, dvy), _changed(before.yaw_rate, dw)
         return moved(before, *motion, self._units())
 
@@ -90,10 +116,12 @@ class Side(Frozen, Summarized):
 
     @derived()
     def at_compression(self) -> Vehicle:
-        """The vehicle at the end of compression, after the impulse P/(1+e) (u and w0 of eqs 12 to 19 of the paper).
+        """The vehicle at the end of compression, after the impulse P/(1+e) (u and w0 of eqs 12 to
+        19 of the paper).
 
-        Under the law "stronge" it is the vehicle after the impulse up to then, which is no fixed part of P. An incomplete
-        impact ends before compression does; there it is the vehicle after the impact.
+        Under the law "stronge" it is the vehicle after the impulse up to then, which is no fixed
+        part of P. An incomplete impact ends before compression does; there it is the vehicle after
+        the impact.
         """
         before, (dvx, dvy, dw) = self.before, self._until_compressed()
         return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw, self._units())
@@ -143,15 +171,18 @@ class Side(Frozen, Summarized):
 
     @derived("rad")
     def impulse_direction(self) -> Value:
-        """Scene angle of the impulse on this vehicle [rad], counter-clockwise from +x; NaN without an impulse."""
+        """Scene angle of the impulse on this vehicle [rad], counter-clockwise from +x; NaN without
+        an impulse.
+        """
         return angle_of(self.impulse_x, self.impulse_y)
 
     @derived("rad")
     def pdof(self) -> Value | None:
         """Principal direction of force [rad]: where the force comes from, seen from the vehicle.
 
-        It is 0 from straight ahead and positive clockwise (from the right), in (-pi, pi]. Tools disagree on the sign. It is
-        taken from the contact impulse, also for a pinned vehicle. None without a heading, NaN without an impulse.
+        It is 0 from straight ahead and positive clockwise (from the right), in (-pi, pi]. Tools
+        disagree on the sign. It is taken from the contact impulse, also for a pinned vehicle. None
+        without a heading, NaN without an impulse.
         """
         forward, left = self._own_axes(self.impulse_x, self.impulse_y)
         if forward is None or left is None:
@@ -160,7 +191,9 @@ class Side(Frozen, Summarized):
 
     @derived()
     def pdof_clock(self) -> Any:
-        """The PDOF as the nearest hour of a clock face, 12 from straight ahead, 3 from the right; None without a heading."""
+        """The PDOF as the nearest hour of a clock face, 12 from straight ahead, 3 from the right;
+        None without a heading.
+        """
         pdof = self.pdof
         if pdof is None:
             return None
@@ -170,15 +203,19 @@ class Side(Frozen, Summarized):
 
     @derived("m")
     def moment_arm(self) -> Value | None:
-        """Moment arm h of the resultant contact impulse about the centre of mass [m], positive if it turns counter-clockwise.
+        """Moment arm h of the resultant contact impulse about the centre of mass [m], positive if
+        it turns counter-clockwise.
 
-        The arm times the impulse is the moment. NaN without an impulse; None without a contact point or a position.
+        The arm times the impulse is the moment. NaN without an impulse; None without a contact
+        point or a position.
         """
         return self._arm(self.impulse_x, self.impulse_y)
 
     @derived("m")
     def normal_arm(self) -> Value | None:
-        """Moment arm of the normal impulse alone about the centre of mass [m], signed as ``moment_arm`` (r of eq 13)."""
+        """Moment arm of the normal impulse alone about the centre of mass [m], signed as
+        ``moment_arm`` (r of eq 13).
+        """
         nx, ny = self._inputs.normal
         answered = 0.0 * self._answer.normal_impulse
         towards = 1.0 if self._index else -1.0
@@ -186,45 +223,57 @@ class Side(Frozen, Summarized):
 
     @derived("")
     def gamma(self) -> Value | None:
-        """Share of the mass that acts at the impulse, k^2/(k^2 + h^2), with k the radius of gyration and h ``moment_arm``.
+        """Share of the mass that acts at the impulse, k^2/(k^2 + h^2), with k the radius of
+        gyration and h ``moment_arm``.
 
-        This is the mass reduction factor of the CRASH programs: 1 for an impulse through the centre of mass, or a body that
-        cannot turn. None without ``moment_arm`` or yaw inertia.
+        This is the mass reduction factor of the CRASH programs: 1 for an impulse through the centre
+        of mass, or a body that cannot turn. None without ``moment_arm`` or yaw inertia.
         """
         h, inertia = self.moment_arm, self.before.yaw_inertia
         if h is None or inertia is None:
             return None
         central = (h == 0.0) | (numeric(inertia).isinf(inertia) & (h == h))
         with np.errstate(all="ignore"):
-            found: Value = select(central, 1.0, 1.0 / (1.0 + (h * h) * (self.before.mass / inertia)))
+            found: Value = select(
+                central, 1.0, 1.0 / (1.0 + (h * h) * (self.before.mass / inertia))
+            )
         return found
 
     @derived("N*s")
     def tyre_impulse_x(self) -> Value:
-        """Impulse of the tyres on this vehicle during a contact that lasts, along scene x [N*s]; otherwise 0."""
+        """Impulse of the tyres on this vehicle during a contact that lasts, along scene x [N*s];
+        otherwise 0.
+        """
         return self._passed("tyre_impulse_x")
 
     @derived("N*s")
     def tyre_impulse_y(self) -> Value:
-        """Impulse of the tyres on this vehicle during a contact that lasts, along scene y [N*s]; otherwise 0."""
+        """Impulse of the tyres on this vehicle during a contact that lasts, along scene y [N*s];
+        otherwise 0.
+        """
         return self._passed("tyre_impulse_y")
 
     @derived("kg*m**2/s")
     def tyre_moment(self) -> Value:
-        """Moment of the impulse of the tyres about the centre of mass [N*m*s], counter-clockwise; otherwise 0."""
+        """Moment of the impulse of the tyres about the centre of mass [N*m*s], counter-clockwise;
+        otherwise 0.
+        """
         return self._passed("tyre_moment")
 
     @derived("J")
     def tyre_loss(self) -> Value:
-        """Energy that the tyres of this vehicle dissipated during the contact [J]; not part of ``energy_loss``."""
+        """Energy that the tyres of this vehicle dissipated during the contact [J]; not part of
+        ``energy_loss``.
+        """
         return self._passed("tyre_loss")
 
     @derived("J")
     def kinetic_energy_change(self) -> Value:
-        """Kinetic energy after minus that before [J]: the work of the contact, of an impulse from outside, and of the tyres.
+        """Kinetic energy after minus that before [J]: the work of the contact, of an impulse from
+        outside, and of the tyres.
 
-        It depends on the frame of reference and is not damage. After a contact that took time it is NaN if both bodies move
-        with an infinite mass or turn with an infinite yaw inertia.
+        It depends on the frame of reference and is not damage. After a contact that took time it is
+        NaN if both bodies move with an infinite mass or turn with an infinite yaw inertia.
         """
         if isinstance(self._answer, Passed):
             return self._work() - self.tyre_loss
@@ -245,15 +294,18 @@ class Side(Frozen, Summarized):
 
     @derived("kg*m**2/s")
     def outside_yaw(self) -> Value:
-        """Moment of the impulse from outside about the centre of mass, as given [N*m*s], counter-clockwise."""
+        """Moment of the impulse from outside about the centre of mass, as given [N*m*s],
+        counter-clockwise.
+        """
         return self._from_outside(2)
 
     @derived("J")
     def outside_work(self) -> Value:
-        """Work of the impulse from outside on this vehicle [J], at the mean of the velocities before and after.
+        """Work of the impulse from outside on this vehicle [J], at the mean of the velocities
+        before and after.
 
-        The kinetic energy of both vehicles before, plus this work on both, is their kinetic energy after plus ``energy_loss``.
-        The work depends on the frame of reference.
+        The kinetic energy of both vehicles before, plus this work on both, is their kinetic energy
+        after plus ``energy_loss``. The work depends on the frame of reference.
         """
         before, (dvx, dvy, dw) = self.before, self._change()
         if self._outside() is None:
@@ -263,19 +315,24 @@ class Side(Frozen, Summarized):
 
     @derived("N*s")
     def pivot_impulse_x(self) -> Value:
-        """Impulse of the pivot on this vehicle along scene x [N*s]; 0 for a body that is not pinned."""
+        """Impulse of the pivot on this vehicle along scene x [N*s]; 0 for a body that is not
+        pinned.
+        """
         return self._pivot_impulse(self.delta_vx, self.impulse_x, 0)
 
     @derived("N*s")
     def pivot_impulse_y(self) -> Value:
-        """Impulse of the pivot on this vehicle along scene y [N*s]; 0 for a body that is not pinned."""
+        """Impulse of the pivot on this vehicle along scene y [N*s]; 0 for a body that is not
+        pinned.
+        """
         return self._pivot_impulse(self.delta_vy, self.impulse_y, 1)
 
     @returns("m/s")
     def delta_v_at(self, point: Pair) -> tuple[Value, Value]:
         """Change of velocity (x, y) [m/s] of the point of the vehicle that lies at a scene point.
 
-        It is what an accelerometer there would have recorded, not the delta-V of the centre of mass.
+        It is what an accelerometer there would have recorded, not the delta-V of the centre of
+        mass.
 
         Parameters
         ----------
@@ -298,17 +355,26 @@ class Side(Frozen, Summarized):
 
     def _passed(self, name: str) -> Value:
         """What a time-resolved impact answers for this vehicle; 0 for an impulse."""
-        value: Value = getattr(self._answer, f"{name}_{'ab'[self._index]}", 0.0 * self._answer.normal_impulse)
+        value: Value = getattr(
+            self._answer, f"{name}_{'ab'[self._index]}", 0.0 * self._answer.normal_impulse
+        )
         return value
 
     def _work(self) -> Value:
-        """Work of a contact that took time; of a body without a finite energy what the other one and the losses leave."""
-        own, other = self._gain(), Side(self._inputs, self._answer, 1 - self._index, self._choice)._gain()
+        """Work of a contact that took time; of a body without a finite energy what the other one
+        and the losses leave.
+        """
+        own, other = (
+            self._gain(),
+            Side(self._inputs, self._answer, 1 - self._index, self._choice)._gain(),
+        )
         work: Value = select(own == own, own, -self._answer.energy_loss - other)
         return work
 
     def _gain(self) -> Any:
-        """Change of kinetic energy by the contact, without what the tyres took; NaN where it is not finite."""
+        """Change of kinetic energy by the contact, without what the tyres took; NaN where it is not
+        finite.
+        """
         before, (dvx, dvy, dw) = self.before, self._change()
         vx, vy, spin = widened((before.vx, before.vy, before.yaw_rate), (dvx,))
         inertia = math.inf if before.yaw_inertia is None else before.yaw_inertia
@@ -331,11 +397,14 @@ class Side(Frozen, Summarized):
         return self._inputs.outside_b if self._index else self._inputs.outside_a
 
     def _at_contact(self, change: tuple[Value, Value, Value]) -> tuple[Value, Value, Value, Value]:
-        """Velocity before, and that of this ``change``, of the contact point; in a central model of the centre of mass."""
+        """Velocity before, and that of this ``change``, of the contact point; in a central model of
+        the centre of mass.
+        """
         before, place = self.before, self._inputs.point
         dvx, dvy, dw = change
         motion = before.vx, before.vy, dvx, dvy
-        # ``solve`` keeps the point it was given, also where it took a central model; cases that it refused may lack a position.
+        # ``solve`` keeps the point it was given, also where it took a central model; cases that it
+        # refused may lack a position.
         answered = self._answer.status <= Status.ENERGY_GAIN
         turns = True if self._choice is None else (self._choice.model == "eccentric") & answered
         if place is None or not np.any(turns):
@@ -346,7 +415,9 @@ class Side(Frozen, Summarized):
             turn_x, turn_y = turn_at(before, yaw_rate, px, py, "velocity_at", x, y)
             more_x, more_y = turn_at(before, dw, px, py, "velocity_at", x, y)
             there = ux + turn_x, uy + turn_y, dvx + more_x, dvy + more_y
-        vx, vy, dvx, dvy = (select(turns, at_point, centre) for at_point, centre in zip(there, motion, strict=True))
+        vx, vy, dvx, dvy = (
+            select(turns, at_point, centre) for at_point, centre in zip(there, motion, strict=True)
+        )
         return vx, vy, dvx, dvy
 
     def _arm(self, x: Value, y: Value) -> Value | None:
@@ -371,7 +442,9 @@ class Side(Frozen, Summarized):
         """The error for an attribute that is None, if a field of the vehicle is missing."""
         if name not in ("moment_arm", "normal_arm", "gamma"):
             return missing(self.before, "heading", name, "ab"[self._index])
-        lacking = [field for field in ("x", "y", "yaw_inertia") if getattr(self.before, field) is None]
+        lacking = [
+            field for field in ("x", "y", "yaw_inertia") if getattr(self.before, field) is None
+        ]
         if self._inputs.point is None or not lacking:
             return None
         return missing(self.before, lacking[0], name, "ab"[self._index])
@@ -390,7 +463,9 @@ class Side(Frozen, Summarized):
 
     def _summary(self, numbers: Cells) -> Summary:
         numbers.answered = self._answer.status <= Status.ENERGY_GAIN
-        return Summary(title_of(self), [*beside((self,), numbers), all_numbers(self._rows())], SIGNS)
+        return Summary(
+            title_of(self), [*beside((self,), numbers), all_numbers(self._rows())], SIGNS
+        )
 
     def _texts(self) -> Iterable[Any]:
         return self._inputs.texts
@@ -417,7 +492,9 @@ def title_of(side: Side) -> str:
 
 def beside(sides: Sequence[Side], numbers: Cells) -> list[Part]:
     """The rows of a summary on one or both vehicles, each in a column of its own."""
-    turning = any(not without_turning(state.yaw_rate) for side in sides for state in (side.before, side.after))
+    turning = any(
+        not without_turning(state.yaw_rate) for side in sides for state in (side.before, side.after)
+    )
     state = {name: label for name, label in _STATE.items() if turning or name != "yaw_rate"}
 
     def rows(text: Callable[[Side, str], str], labels: dict[str, str]) -> list[tuple[str, ...]]:
@@ -428,8 +505,12 @@ def beside(sides: Sequence[Side], numbers: Cells) -> list[Part]:
     pointing = any(side.before.heading is not None for side in sides)
     change = {name: label for name, label in _CHANGE.items() if pointing or name == "delta_v"}
     return [
-        Part(rows(lambda side, name: _of_state(side.before, name, numbers), state), "Before", columns),
-        Part(rows(lambda side, name: _of_state(side.after, name, numbers), state), "After", columns),
+        Part(
+            rows(lambda side, name: _of_state(side.before, name, numbers), state), "Before", columns
+        ),
+        Part(
+            rows(lambda side, name: _of_state(side.after, name, numbers), state), "After", columns
+        ),
         Part(rows(lambda side, name: _of_change(side, name, numbers), change), "Delta-V", columns),
     ]
 
@@ -442,8 +523,15 @@ def _of_state(vehicle: Vehicle, name: str, numbers: Cells) -> str:
 
 
 def _changed(value: Value, change: Value) -> Value:
-    """The sum; where a change that is the same in all cases meets one number, it is that of all cases too."""
-    if isinstance(change, np.ndarray) and change.size and not any(change.strides) and not isinstance(value, np.ndarray):
+    """The sum; where a change that is the same in all cases meets one number, it is that of all
+    cases too.
+    """
+    if (
+        isinstance(change, np.ndarray)
+        and change.size
+        and not any(change.strides)
+        and not isinstance(value, np.ndarray)
+    ):
         return np.broadcast_to(value + change.flat[0], change.shape)
     return value + change
 

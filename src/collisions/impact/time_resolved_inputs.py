@@ -1,4 +1,6 @@
-"""What a contact that takes time needs beyond an impulse: read, and handed with the other inputs to the kernel."""
+"""What a contact that takes time needs beyond an impulse: read, and handed with the other inputs to
+the kernel.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,17 @@ from ..quantities.units import shown
 from ..vehicle.drag import GRAVITY, read_drag, read_duration
 from ..vehicle.tyres import Tyres, kernel_numbers, not_tyres
 from ..vehicle.vehicle import Vehicle, missing
-from .inputs import CRUSH_UNITS, NO_IMPULSE, OUTSIDE, STIFFNESSES, TYRES, Inputs, body_numbers, named_numbers, read_inputs
+from .inputs import (
+    CRUSH_UNITS,
+    NO_IMPULSE,
+    OUTSIDE,
+    STIFFNESSES,
+    TYRES,
+    Inputs,
+    body_numbers,
+    named_numbers,
+    read_inputs,
+)
 from .pulse import passed
 
 Geometry: TypeAlias = Literal["maximum_engagement", "first_contact", "fixed"]
@@ -41,7 +53,10 @@ _STEPS = 100
 _SIZES = {"wheelbase": 2.7, "track": 1.5}
 # Cases of a block; fewer than so many are faster one by one.
 _BLOCK, _FEW = 1024, 128
-_STIFFNESS = "duration='100 ms', stiffness='800 kN/m', or crush_a=('60 kN/m', '700 kN/m**2', '1.5 m') with or without crush_b"
+_STIFFNESS = (
+    "duration='100 ms', stiffness='800 kN/m', or crush_a=('60 kN/m', '700 kN/m**2', '1.5 m') "
+    "with or without crush_b"
+)
 
 
 def read_contact_time(
@@ -51,8 +66,8 @@ def read_contact_time(
     reader = ArgumentReader()
     if friction is None:
         text = (
-            "friction is None, and time_resolved needs it; there is no default, because it decides cases: write friction=0.5, "
-            "or friction=0 for a frictionless contact"
+            "friction is None, and time_resolved needs it; there is no default, because it "
+            "decides cases: write friction=0.5, or friction=0 for a frictionless contact"
         )
         reader.refuse(MissingInputError(text, code="one_tangential", argument="friction"))
         friction = 0.0
@@ -62,12 +77,16 @@ def read_contact_time(
         text = f"geometry must be one of {known}, got {shown(found['geometry'])}"
         reader.refuse(InputError(text, code="bad_option", argument="geometry"))
     if not is_whole(found["steps"]) or not _FEWEST <= found["steps"] <= _MOST:
-        text = f"steps must be a whole number from {_FEWEST} to {_MOST}, got {shown(found['steps'])}"
+        text = (
+            f"steps must be a whole number from {_FEWEST} to {_MOST}, got {shown(found['steps'])}"
+        )
         reader.refuse(InputError(text, code="bad_option", argument="steps"))
     else:
         found["steps"] = int(found["steps"])
     found |= read_tyres(reader, "time_resolved", a, b, extra)
-    times = {name: value for name, value in extra.items() if name not in _SIZES or value is not None}
+    times = {
+        name: value for name, value in extra.items() if name not in _SIZES or value is not None
+    }
     if found["tyres_a"] is None and found["tyres_b"] is None:
         found |= _SIZES
     elif times["drag"] is None or (type(times["drag"]) is float and times["drag"] == 0.0):
@@ -75,15 +94,28 @@ def read_contact_time(
     found |= read_times(reader, times)
     arguments = a, b, restitution, normal, point, (friction, None, None), BRACH
     given_numbers = [found.get(name) for name in DOMAINS]
-    beside = [part for value in given_numbers for part in (value if isinstance(value, tuple) else (value,))]
-    beside += [part for label in "ab" if found[f"tyres_{label}"] for part in found[f"tyres_{label}"].named.values()]
+    beside = [
+        part
+        for value in given_numbers
+        for part in (value if isinstance(value, tuple) else (value,))
+    ]
+    beside += [
+        part
+        for label in "ab"
+        if found[f"tyres_{label}"]
+        for part in found[f"tyres_{label}"].named.values()
+    ]
     inputs = read_inputs("time_resolved", arguments, reader.problems, beside)
     given = {**(inputs.given or {}), **reader.texts} or None
     return replace(inputs, given=given, **found)
 
 
-def read_tyres(reader: ArgumentReader, model: str, a: Any, b: Any, extra: dict[str, Any]) -> dict[str, Any]:
-    """The tyres of both vehicles, where given; they stand in place of a drag, and their wheels along the heading."""
+def read_tyres(
+    reader: ArgumentReader, model: str, a: Any, b: Any, extra: dict[str, Any]
+) -> dict[str, Any]:
+    """The tyres of both vehicles, where given; they stand in place of a drag, and their wheels
+    along the heading.
+    """
     found: dict[str, Any] = {}
     for label, vehicle in (("a", a), ("b", b)):
         name = f"tyres_{label}"
@@ -93,27 +125,46 @@ def read_tyres(reader: ArgumentReader, model: str, a: Any, b: Any, extra: dict[s
         if not isinstance(found[name], Tyres):
             reader.refuse(not_tyres(name, found[name]))
             found[name] = None
-        elif isinstance(vehicle, Vehicle) and vehicle.heading is None and not np.all(np.isinf(vehicle.mass)):
+        elif (
+            isinstance(vehicle, Vehicle)
+            and vehicle.heading is None
+            and not np.all(np.isinf(vehicle.mass))
+        ):
             reader.refuse(missing(vehicle, "heading", f"{model} with {name}", label))
     stray = {name: extra.get(name) for name in ("drag", *_SIZES)}
-    stray = {name: given for name, given in stray.items() if not (given is None or (type(given) is float and given == 0.0))}
+    stray = {
+        name: given
+        for name, given in stray.items()
+        if not (given is None or (type(given) is float and given == 0.0))
+    }
     if stray and any(tyres is not None for tyres in found.values()):
         text = (
-            f"give {' and '.join(stray)} or tyres, not both: tyres_a and tyres_b have friction, braking, wheelbase "
-            "and track of the wheels of each vehicle; one without tyres is not held"
+            f"give {' and '.join(stray)} or tyres, not both: tyres_a and tyres_b have friction, "
+            "braking, wheelbase and track of the wheels of each vehicle; one without tyres is "
+            "not held"
         )
         reader.refuse(InputError(text, code="bad_combination", argument=next(iter(stray))))
     return found
 
 
-def read_least_time(reader: ArgumentReader, a: Any, b: Any, duration: Any, drag: Any, tyres: tuple[Any, Any]) -> dict[str, Any]:
-    """Duration and drag or tyres as ``solve`` takes them, all optional: without a duration no contact takes time."""
-    found = read_tyres(reader, "solve", a, b, {**dict(zip(TYRES, tyres, strict=True)), "drag": drag})
+def read_least_time(
+    reader: ArgumentReader, a: Any, b: Any, duration: Any, drag: Any, tyres: tuple[Any, Any]
+) -> dict[str, Any]:
+    """Duration and drag or tyres as ``solve`` takes them, all optional: without a duration no
+    contact takes time.
+    """
+    found = read_tyres(
+        reader, "solve", a, b, {**dict(zip(TYRES, tyres, strict=True)), "drag": drag}
+    )
     if duration is None:
         what = f"drag = {shown(drag)} needs" if drag is not None else "tyres need"
-        text = f"{what} a duration, in which the tyres act; write duration='100 ms', or leave them out"
+        text = (
+            f"{what} a duration, in which the tyres act; write duration='100 ms', or leave them out"
+        )
         reader.refuse(InputError(text, code="one_stiffness", argument="duration"))
-    given = {name: value for name, value in (("duration", duration), ("drag", drag)) if value is not None}
+    given = {
+        name: value for name, value in (("duration", duration), ("drag", drag)) if value is not None
+    }
     return found | (read_times(reader, given) if "duration" in given else {})
 
 
@@ -126,11 +177,16 @@ def timed(inputs: Inputs, steps: int = _STEPS) -> Inputs:
 
 
 def read_times(reader: ArgumentReader, extra: dict[str, Any]) -> dict[str, Any]:
-    """The numbers in ``extra`` that say how a contact passes; one kind of stiffness has to be among them."""
+    """The numbers in ``extra`` that say how a contact passes; one kind of stiffness has to be among
+    them.
+    """
     found: dict[str, Any] = dict.fromkeys(extra.keys() & DOMAINS.keys())
     kinds = [name for name in STIFFNESSES if extra.get(name) is not None]
     if not kinds or (len(kinds) > 1 and kinds != ["crush_a", "crush_b"]):
-        text = f"give one of {_STIFFNESS}; got {' and '.join(kinds) or 'none'}. It says how long the contact takes"
+        text = (
+            f"give one of {_STIFFNESS}; got {' and '.join(kinds) or 'none'}. It says how long "
+            "the contact takes"
+        )
         reader.refuse(InputError(text, code="one_stiffness", argument="duration"))
     for name, domains in DOMAINS.items():
         value = extra.get(name)
@@ -141,23 +197,33 @@ def read_times(reader: ArgumentReader, extra: dict[str, Any]) -> dict[str, Any]:
         elif name == "duration":
             found[name] = read_duration(reader, value)
             if isinstance(found[name], float) and found[name] == 0.0:
-                text = f"duration must be > 0, got {shown(value)}; a contact that takes no time is eccentric's"
+                text = (
+                    f"duration must be > 0, got {shown(value)}; a contact that takes no time is "
+                    "eccentric's"
+                )
                 reader.refuse(InputError(text, code="not_positive", argument=name))
         elif name.startswith("crush"):
             found[name] = _read_crush(reader, value, name)
         else:
-            found[name] = reader.number(value, {"stiffness": "N/m"}.get(name, "m"), name, domains[0])
+            found[name] = reader.number(
+                value, {"stiffness": "N/m"}.get(name, "m"), name, domains[0]
+            )
     return found
 
 
 def _read_crush(reader: ArgumentReader, value: Any, name: str) -> Any:
     """A, B and the width of a crush stiffness."""
     if not isinstance(value, tuple) or len(value) != 3:
-        text = f"{name} must be (A, B, width), such as ('60 kN/m', '700 kN/m**2', '1.5 m'), got {shown(value)}"
+        text = (
+            f"{name} must be (A, B, width), such as ('60 kN/m', '700 kN/m**2', '1.5 m'), got "
+            f"{shown(value)}"
+        )
         return reader.refuse(ShapeError(text, code="bad_shape", argument=name))
     return tuple(
         reader.number(part, unit, f"{name}[{at}]", domain)
-        for at, (part, unit, domain) in enumerate(zip(value, CRUSH_UNITS, DOMAINS[name], strict=True))
+        for at, (part, unit, domain) in enumerate(
+            zip(value, CRUSH_UNITS, DOMAINS[name], strict=True)
+        )
     )
 
 
@@ -168,7 +234,9 @@ def crushes(inputs: Inputs) -> dict[str, tuple[Any, ...]]:
 
 
 def residual_crushes(inputs: Inputs, peak_force: Any) -> dict[str, Any]:
-    """By vehicle what is left of its crush, in CRASH's meaning: 0 where the largest crush was not beyond A/B."""
+    """By vehicle what is left of its crush, in CRASH's meaning: 0 where the largest crush was not
+    beyond A/B.
+    """
     found = {}
     for label, (begins, growth, width) in crushes(inputs).items():
         left = (peak_force / width - begins) / growth
@@ -177,15 +245,22 @@ def residual_crushes(inputs: Inputs, peak_force: Any) -> dict[str, Any]:
 
 
 def tyres_numbers(inputs: Inputs, label: str, cut: Callable[[Any], Any]) -> Any:
-    """The tyres of a vehicle as the kernels take them; where there is only a drag, those of wheels that slide."""
+    """The tyres of a vehicle as the kernels take them; where there is only a drag, those of wheels
+    that slide.
+    """
     from ..kernels.tyre import Tyres as Numbers
 
     tyres = getattr(inputs, f"tyres_{label}")
     if tyres is None:
-        drag, *sizes = (0.0 if one is None else cut(one) for one in (inputs.drag, inputs.wheelbase, inputs.track))
+        drag, *sizes = (
+            0.0 if one is None else cut(one)
+            for one in (inputs.drag, inputs.wheelbase, inputs.track)
+        )
         return Numbers((1.0,) * 4, drag, 0.0, *(0.5 * size for size in sizes))
     named = {name: cut(value) for name, value in tyres.named.items()}
-    return kernel_numbers(named, np if any(isinstance(value, np.ndarray) for value in named.values()) else math)
+    return kernel_numbers(
+        named, np if any(isinstance(value, np.ndarray) for value in named.values()) else math
+    )
 
 
 def wheels_that_roll(tyres: Tyres) -> Any:
@@ -198,27 +273,35 @@ def wheels_that_roll(tyres: Tyres) -> Any:
 def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
     """The answer of an impulse, with that of the tyres during its contact as one from outside.
 
-    Solved twice: without the tyres for the motion before and after, between which their force is taken, and with what they
-    give. ``solve`` solves inputs, quietly or not.
+    Solved twice: without the tyres for the motion before and after, between which their force is
+    taken, and with what they give. ``solve`` solves inputs, quietly or not.
     """
     bare = _alike(inputs, tyres_a=None, tyres_b=None, duration=None, given=None)
     first = solve(bare, True)
     pushes = {label: held_impulse(inputs, first, label) for label in "ab"}
     outside: dict[str, Any] = {
-        name: tuple(one + more for one, more in zip(getattr(inputs, name) or NO_IMPULSE, pushes[name[-1]], strict=True))
+        name: tuple(
+            one + more
+            for one, more in zip(getattr(inputs, name) or NO_IMPULSE, pushes[name[-1]], strict=True)
+        )
         for name in OUTSIDE
     }
     # A case that has no answer without tyres is refused for that.
     with np.errstate(all="ignore"):
         refused = first.status > Status.ENERGY_GAIN
-        outside = {name: tuple(select(refused, 0.0, part) for part in parts) for name, parts in outside.items()}
+        outside = {
+            name: tuple(select(refused, 0.0, part) for part in parts)
+            for name, parts in outside.items()
+        }
         if inputs.shape is not None:
             # As precise as what they are worked out from.
             from ..quantities.precision import precision
 
             dtype = precision(named_numbers(inputs).values())
             outside = {
-                name: tuple(part.astype(dtype) if isinstance(part, np.ndarray) else part for part in parts)
+                name: tuple(
+                    part.astype(dtype) if isinstance(part, np.ndarray) else part for part in parts
+                )
                 for name, parts in outside.items()
             }
     raw = solve(_alike(inputs, tyres_a=None, tyres_b=None, duration=None, **outside), False)
@@ -233,7 +316,9 @@ def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
             )
             names = ("tyre_impulse_x", "tyre_impulse_y", "tyre_moment")
             found |= {f"{name}_{label}": part for name, part in zip(names, push, strict=True)}
-            found[f"tyre_loss_{label}"] = answered + 0.0 - sum(part * mean for part, mean in zip(push, means, strict=True))
+            found[f"tyre_loss_{label}"] = (
+                answered + 0.0 - sum(part * mean for part, mean in zip(push, means, strict=True))
+            )
     if inputs.shape is not None:
         found = {name: np.asarray(value, raw.delta_vx_a.dtype) for name, value in found.items()}
     return WithTyres(*(getattr(raw, name) for name in Answer._fields), **lock(found))
@@ -248,7 +333,9 @@ def _alike(inputs: Inputs, **changes: Any) -> Inputs:
 
 
 def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any]:
-    """Impulse of the tyres of one vehicle during the contact, and its moment about the centre of mass."""
+    """Impulse of the tyres of one vehicle during the contact, and its moment about the centre of
+    mass.
+    """
     tyres, body = inputs.tyres.get(label), getattr(inputs, label)
     if tyres is None or body.heading is None:
         return NO_IMPULSE
@@ -256,7 +343,15 @@ def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any
 
     changes = [getattr(answer, f"delta_{name}_{label}") for name in ("vx", "vy", "yaw_rate")]
     inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
-    numbers = [body.mass, inertia, *from_radians(body.heading), body.vx, body.vy, body.yaw_rate, *changes]
+    numbers = [
+        body.mass,
+        inertia,
+        *from_radians(body.heading),
+        body.vx,
+        body.vy,
+        body.yaw_rate,
+        *changes,
+    ]
     numbers += [passed(inputs.restitution, 0.5), inputs.duration, GRAVITY]
     own = tyres_numbers(inputs, label, lambda value: value)
     numbers += [*own.locks, *own[1:]]
@@ -264,7 +359,13 @@ def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any
     found = _held_function(*settings)(numbers) if inputs.shape is None else None
     if found is None:
         with np.errstate(all="ignore"):
-            found = held(*(value if inputs.shape is None else np.asarray(value, np.float64) for value in numbers), *settings)
+            found = held(
+                *(
+                    value if inputs.shape is None else np.asarray(value, np.float64)
+                    for value in numbers
+                ),
+                *settings,
+            )
     return tuple(found)
 
 
@@ -277,7 +378,9 @@ def _held_function(steered: bool, transfers: bool) -> Callable[[Any], Any]:
     return compile_for_floats(held, tuple(f"[{at}]" for at in range(NUMBERS)), (steered, transfers))
 
 
-def read_lasting(reader: ArgumentReader, model: str, a: Any, b: Any, duration: Any, tyres: tuple[Any, Any]) -> dict[str, Any]:
+def read_lasting(
+    reader: ArgumentReader, model: str, a: Any, b: Any, duration: Any, tyres: tuple[Any, Any]
+) -> dict[str, Any]:
     """Duration and tyres of an impulse with those of its wheels: both, or neither."""
     given = dict(zip(TYRES, tyres, strict=True))
     found = read_tyres(reader, model, a, b, given)
@@ -287,15 +390,17 @@ def read_lasting(reader: ArgumentReader, model: str, a: Any, b: Any, duration: A
         return found
     if tyres == (None, None):
         text = (
-            f"{model} takes a duration for tyres_a and tyres_b alone, and neither was given; give travel.Tyres, or use "
-            "time_resolved"
+            f"{model} takes a duration for tyres_a and tyres_b alone, and neither was given; "
+            "give travel.Tyres, or use time_resolved"
         )
         reader.refuse(InputError(text, code="bad_combination", argument="duration"))
     return found | read_times(reader, {"duration": duration})
 
 
 def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) -> Passed:
-    """Step through one case of plain numbers, every step kept; or through one of a batch, which ``cut`` takes from arrays."""
+    """Step through one case of plain numbers, every step kept; or through one of a batch, which
+    ``cut`` takes from arrays.
+    """
     # A twentieth of the import of the package, and impulses need none of it.
     from ..engine.floats import compile_loop
     from ..kernels import time_resolved as kernel
@@ -303,7 +408,9 @@ def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) 
     note: list[tuple[float, ...]] | None = [] if cut is None else None
     try:
         found = kernel.time_resolved(
-            **_arguments(inputs, cut or (lambda value: value)), run=partial(kernel.float_run, compiled=compile_loop), note=note
+            **_arguments(inputs, cut or (lambda value: value)),
+            run=partial(kernel.float_run, compiled=compile_loop),
+            note=note,
         )
     except ArithmeticError:
         return Passed(Status.OUT_OF_RANGE)
@@ -312,7 +419,9 @@ def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) 
 
 
 def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
-    """Step through the cases of a batch, in blocks or, if they are few, one by one; a refused one is NaN."""
+    """Step through the cases of a batch, in blocks or, if they are few, one by one; a refused one
+    is NaN.
+    """
     from ..engine.blocks import each_block, flat
     from ..engine.floats import compile_loop
     from ..kernels import time_resolved as kernel
@@ -329,12 +438,18 @@ def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
         def cut(value: Any) -> Any:
             if not isinstance(value, np.ndarray):
                 return value
-            return float(flat(value, shape)[start]) if length == 1 else flat(value, shape)[block].astype(np.float64)
+            return (
+                float(flat(value, shape)[start])
+                if length == 1
+                else flat(value, shape)[block].astype(np.float64)
+            )
 
         with np.errstate(all="ignore"):
             faults = [check.fault(*map(cut, check.values)) for check in reversed(cases.checks)]
             if length > 1:
-                found = kernel.time_resolved(**_arguments(inputs, cut), run=partial(kernel.block_run, compiled=compile_loop))
+                found = kernel.time_resolved(
+                    **_arguments(inputs, cut), run=partial(kernel.block_run, compiled=compile_loop)
+                )
             elif any(faults):
                 found = Passed(Status.OK)
             else:
@@ -345,7 +460,9 @@ def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
             for fault in faults:
                 np.copyto(status, fault, where=np.not_equal(fault, Status.OK), casting="unsafe")
             if cases.dtype == np.float32:
-                beyond = np.logical_or.reduce([np.isinf(outputs[name][block]) for name in names[1:]])
+                beyond = np.logical_or.reduce(
+                    [np.isinf(outputs[name][block]) for name in names[1:]]
+                )
                 status[beyond & (status == Status.OK)] = Status.OUT_OF_RANGE
         refused = status > Status.ENERGY_GAIN
         for name in names[1:]:
@@ -364,7 +481,10 @@ def _arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
     spring = cut(inputs.stiffness if inputs.duration is None else inputs.duration)
     if spring is None:
         # The force is the same on both, so that what each gives way adds up.
-        growths = [growth * width for _, growth, width in (map(cut, crush) for crush in crushes(inputs).values())]
+        growths = [
+            growth * width
+            for _, growth, width in (map(cut, crush) for crush in crushes(inputs).values())
+        ]
         spring = growths[0] if len(growths) == 1 else growths[0] / (1.0 + growths[0] / growths[1])
     bodies = []
     for body in (inputs.a, inputs.b):
@@ -386,6 +506,9 @@ def _arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
         "spring": spring,
         "bodies": tuple(bodies),
         "settings": kernel.Settings(
-            inputs.geometry or "maximum_engagement", inputs.steps or _STEPS, inputs.duration is not None, *wheels
+            inputs.geometry or "maximum_engagement",
+            inputs.steps or _STEPS,
+            inputs.duration is not None,
+            *wheels,
         ),
     }

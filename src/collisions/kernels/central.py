@@ -1,4 +1,6 @@
-"""Central impacts of two point masses: along one line (eqs 2 to 8 of the paper), and oblique, with friction (eq 9)."""
+"""Central impacts of two point masses: along one line (eqs 2 to 8 of the paper), and oblique, with
+friction (eq 9).
+"""
 
 from math import inf
 from typing import Any
@@ -11,11 +13,13 @@ from .status import EPS, Answer, Status
 def shares(mass_a: Any, mass_b: Any) -> tuple[Any, Any, Any, Any]:
     """Share of A, share of B, reduced mass, and whether both bodies are immovable.
 
-    Built on ratios of the masses, which are 0 or infinite against a barrier: no sum or product of masses overflows, and no
-    infinity meets another. The reduced mass is the lighter mass times its own share.
+    Built on ratios of the masses, which are 0 or infinite against a barrier: no sum or product of
+    masses overflows, and no infinity meets another. The reduced mass is the lighter mass times its
+    own share.
     """
     fixed_a, fixed_b = mass_a == inf, mass_b == inf
-    # An infinite ratio is chosen, not divided: its derivative would be infinite, and NaN times the 0 of its share.
+    # An infinite ratio is chosen, not divided: its derivative would be infinite, and NaN times the
+    # 0 of its share.
     share_a = 1.0 / (1.0 + select(fixed_a, inf, select(fixed_a, 1.0, mass_a) / mass_b))
     share_b = 1.0 / (1.0 + select(fixed_b, inf, select(fixed_b, 1.0, mass_b) / mass_a))
     lighter = mass_a <= mass_b
@@ -42,11 +46,12 @@ def linear_central(
 ) -> Answer:
     """The ``Answer`` of the linear central model.
 
-    What turns or moves across the normal is refused, or, if ``carrying``, carried through unchanged. ``contact_velocity`` is as
-    for ``eccentric``, without slip.
+    What turns or moves across the normal is refused, or, if ``carrying``, carried through
+    unchanged. ``contact_velocity`` is as for ``eccentric``, without slip.
     """
     share_a, share_b, effective_mass, immovable = shares(mass_a, mass_b)
-    # Velocities are subtracted before anything else, so that a common motion of both bodies costs no digits.
+    # Velocities are subtracted before anything else, so that a common motion of both bodies costs
+    # no digits.
     ux = vx_b - vx_a
     uy = vy_b - vy_a
     closing = -(nx * ux + ny * uy)
@@ -68,9 +73,11 @@ def linear_central(
         total = total + slip
     elif not all_zero(ny, vy_a, vy_b, spin_a, spin_b):
         spins = (spin_a != 0.0) | (spin_b != 0.0)
-        # Most impacts are along x: compiled for floats, the first condition ends the look at what is across.
+        # Most impacts are along x: compiled for floats, the first condition ends the look at what
+        # is across.
         sideways = (ny != 0.0) | (vy_a != 0.0) | (vy_b != 0.0)
-        # What rounding leaves of motions along the normal is below 8 eps of the speeds, also after an impact has cancelled one.
+        # What rounding leaves of motions along the normal is below 8 eps of the speeds, also after
+        # an impact has cancelled one.
         most = 8.0 * eps * (abs(nx * vx_a + ny * vy_a) + abs(nx * vx_b + ny * vy_b))
         across = sideways & (larger(abs(nx * vy_a - ny * vx_a), abs(nx * vy_b - ny * vx_b)) > most)
     fine = (closing > 0.0) & (total - total == 0.0) & ((spins | across) ^ True)
@@ -130,10 +137,12 @@ def oblique_central(
     eps: float = EPS,
     impulse_only: bool = False,
 ) -> Any:
-    """The ``Answer`` of the oblique central model: the masses divide the change of relative velocity (along n and t).
+    """The ``Answer`` of the oblique central model: the masses divide the change of relative
+    velocity (along n and t).
 
     A body that turns is refused, or, if ``carrying``, its yaw rate is carried through unchanged.
-    With ``impulse_only``: whether there is an answer, whether no slip would need a pull, and the impulse along n and t.
+    With ``impulse_only``: whether there is an answer, whether no slip would need a pull, and the
+    impulse along n and t.
     """
     share_a, share_b, effective_mass, immovable = shares(mass_a, mass_b)
     ux = vx_b - vx_a
@@ -146,8 +155,15 @@ def oblique_central(
     energetic = LAWS[law].energetic
     if energetic:
         # In changes of velocity, each of which is its impulse over the effective mass.
-        passage = energetic_contact(restitution, closing, slip, tangential, lambda along_n, along_t: (along_n, along_t), 1.0)
-        change_n, change_t, sticks, pulls = passage.normal, passage.tangential, passage.sticks, passage.normal <= 0.0
+        passage = energetic_contact(
+            restitution, closing, slip, tangential, lambda along_n, along_t: (along_n, along_t), 1.0
+        )
+        change_n, change_t, sticks, pulls = (
+            passage.normal,
+            passage.tangential,
+            passage.sticks,
+            passage.normal <= 0.0,
+        )
     else:
         sticks, ratio, _, pulls = RULES[rule].decide(tangential, change_n, no_slip_t)
         change_t = select(sticks, no_slip_t, ratio * change_n)
@@ -167,7 +183,17 @@ def oblique_central(
         slip_after = sticking_slip * slip + beyond_sticking
         impulse_work = normal * change_n + impulse_t * change_t if dissipates(rule, law) else None
         loss_n, loss_t, loss, gains = energy_losses(
-            law, restitution, closing, slip, slip_after, sticks, beyond_sticking, normal, impulse_t, impulse_work, eps
+            law,
+            restitution,
+            closing,
+            slip,
+            slip_after,
+            sticks,
+            beyond_sticking,
+            normal,
+            impulse_t,
+            impulse_work,
+            eps,
         )
 
     change_x = nx * change_n - ny * change_t

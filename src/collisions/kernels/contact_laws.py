@@ -1,6 +1,8 @@
-"""How restitution and friction act at a contact: the laws, what may be said of the tangent, and the energy that is lost.
+"""How restitution and friction act at a contact: the laws, what may be said of the tangent, and the
+energy that is lost.
 
-A new law or a new tangential rule is an entry of the tables below; every solver, page and message reads it there.
+A new law or a new tangential rule is an entry of the tables below; every solver, page and message
+reads it there.
 """
 
 from collections.abc import Callable
@@ -18,15 +20,16 @@ class Law(NamedTuple):
     name : str
         As given to ``law=``.
     sticking_slip : callable
-        Slip after over slip before of a contact that sticks, from the restitution, by + - * / alone: ``explain`` writes it in
-        symbols.
+        Slip after over slip before of a contact that sticks, from the restitution, by + - * /
+        alone: ``explain`` writes it in symbols.
     no_slip : str
         What no slip means, in a few words for messages.
     derivation, assumption : str
         The same as ``explain`` and a report say it.
     energetic : bool
-        Whether restitution gives back a part of the work of compression, as in ``energetic_contact``, and not of the impulse
-        or the closing speed. Such a law takes friction only, and has its own separation speed.
+        Whether restitution gives back a part of the work of compression, as in
+        ``energetic_contact``, and not of the impulse or the closing speed. Such a law takes
+        friction only, and has its own separation speed.
     """
 
     name: str
@@ -38,7 +41,8 @@ class Law(NamedTuple):
 
     @property
     def compression_limit(self) -> bool:
-        """Whether a sticking contact ends with -e of its slip: at rest in between, its impulse until then multiplied by 1 + e.
+        """Whether a sticking contact ends with -e of its slip: at rest in between, its impulse
+        until then multiplied by 1 + e.
 
         Then the energy lost with friction is a sum of terms that are >= 0.
         """
@@ -48,7 +52,8 @@ class Law(NamedTuple):
 class Tangent(NamedTuple):
     """What a rule decides: whether the contact sticks, and its impulse ratio if it does not.
 
-    ``needs_no_slip`` says whether the no-slip impulse matters, ``pulls`` whether that would need the bodies to pull.
+    ``needs_no_slip`` says whether the no-slip impulse matters, ``pulls`` whether that would need
+    the bodies to pull.
     """
 
     sticks: Any
@@ -79,9 +84,10 @@ class Rule(NamedTuple):
 
 
 def _coulomb(friction: Any, no_slip_n: Any, no_slip_t: Any) -> Tangent:
-    # The no-slip impulse decides: the sign of the initial slip is the wrong one where the levers reverse it. The limit is
-    # compared by multiplication, so that an infinite friction needs no case of its own. Adding 0 turns a -0 into 0.
-    # A contact that sticks has no use for the ratio, and an infinite one would make its derivatives NaN.
+    # The no-slip impulse decides: the sign of the initial slip is the wrong one where the levers
+    # reverse it. The limit is compared by multiplication, so that an infinite friction needs no
+    # case of its own. Adding 0 turns a -0 into 0. A contact that sticks has no use for the ratio,
+    # and an infinite one would make its derivatives NaN.
     matters = friction > 0.0
     sticks = matters & (no_slip_n > 0.0) & (abs(no_slip_t) <= friction * no_slip_n)
     ratio = select(sticks, 0.0, select(no_slip_t < 0.0, -friction, friction) + 0.0)
@@ -118,25 +124,29 @@ LAWS = {
             lambda restitution: 0.0,
             no_slip="no slip at separation",
             derivation='no slip is left at separation (law "brach")',
-            assumption="restitution acts on the normal impulse; with enough friction the contact has stopped slipping when the "
-            "vehicles part",
+            assumption="restitution acts on the normal impulse; with enough friction the contact "
+            "has stopped slipping when the vehicles part",
         ),
         Law(
             KUDLICH_SLIBAR,
             lambda restitution: -restitution,
             no_slip="no slip at the end of compression",
-            derivation="the contact is at rest at the end of compression and the whole compression impulse is multiplied by "
-            '1 + e (law "kudlich-slibar"), which turns the slip around and leaves e times as much',
-            assumption="with enough friction the contact is at rest at the end of compression, and the whole impulse until "
-            "then is multiplied by 1 + e, so that slip comes back with the opposite sign",
+            derivation="the contact is at rest at the end of compression and the whole "
+            "compression impulse is multiplied by "
+            '1 + e (law "kudlich-slibar"), which turns the slip around and leaves e '
+            "times as much",
+            assumption="with enough friction the contact is at rest at the end of compression, "
+            "and the whole impulse until then is multiplied by 1 + e, so that slip "
+            "comes back with the opposite sign",
         ),
         Law(
             STRONGE,
             lambda restitution: 0.0,
             no_slip="slip that stops or turns around during the contact",
             derivation='no slip is left just as the vehicles part (law "stronge")',
-            assumption="restitution gives back e squared of the work that compression took along the normal; friction acts "
-            "against the slip as it changes during the contact, in which it may stop for good or turn around",
+            assumption="restitution gives back e squared of the work that compression took along "
+            "the normal; friction acts against the slip as it changes during the "
+            "contact, in which it may stop for good or turn around",
             energetic=True,
         ),
     )
@@ -144,7 +154,9 @@ LAWS = {
 
 
 class Passage(NamedTuple):
-    """How a contact passed under an energetic law: its impulse on B, the speeds after, the losses, and whether it stuck."""
+    """How a contact passed under an energetic law: its impulse on B, the speeds after, the losses,
+    and whether it stuck.
+    """
 
     normal: Any
     tangential: Any
@@ -156,33 +168,44 @@ class Passage(NamedTuple):
 
 
 def energetic_contact(
-    restitution: Any, closing: Any, slip: Any, friction: Any, respond: Callable[[Any, Any], tuple[Any, Any]], stuck: Any
+    restitution: Any,
+    closing: Any,
+    slip: Any,
+    friction: Any,
+    respond: Callable[[Any, Any], tuple[Any, Any]],
+    stuck: Any,
 ) -> Passage:
-    """A contact whose slip may stop or turn around while it lasts, with energetic restitution (law "stronge").
+    """A contact whose slip may stop or turn around while it lasts, with energetic restitution (law
+    "stronge").
 
-    Along the impulse the velocities at the contact change linearly until the slip stops; then, after a corner, linearly again:
-    without slip if friction can hold it, else sliding on, the way that the coupling of normal and tangent pushes. Compression
-    ends where the closing speed is 0, restitution where e squared of its work has been given back. An incomplete impact
-    (e < 0) ends where e squared of that work was still to be done.
+    Along the impulse the velocities at the contact change linearly until the slip stops; then,
+    after a corner, linearly again: without slip if friction can hold it, else sliding on, the way
+    that the coupling of normal and tangent pushes. Compression ends where the closing speed is 0,
+    restitution where e squared of its work has been given back. An incomplete impact (e < 0) ends
+    where e squared of that work was still to be done.
 
-    ``respond`` gives the change of velocity along n and t by an impulse along n and t, ``stuck`` that along n by a unit of
-    normal impulse while the contact sticks. Losses are sums of terms that are >= 0.
+    ``respond`` gives the change of velocity along n and t by an impulse along n and t, ``stuck``
+    that along n by a unit of normal impulse while the contact sticks. Losses are sums of terms that
+    are >= 0.
 
-    Stronge, Journal of Applied Mechanics 58 (1991); Wang and Mason, Journal of Applied Mechanics 59 (1992).
+    Stronge, Journal of Applied Mechanics 58 (1991); Wang and Mason, Journal of Applied Mechanics 59
+    (1992).
     """
     unit = select(closing > 0.0, closing + abs(slip), 1.0)
     c = select(closing > 0.0, closing / unit, 1.0)
     forward = select(slip < 0.0, -1.0, 1.0)
     # Not abs(slip), whose derivative at 0 is not that of the answer; adding 0 turns a -0 into 0.
     s = (forward * slip + 0.0) / unit
-    # Along n and t by a unit of the way on which friction slides: an infinite friction needs no case of its own.
+    # Along n and t by a unit of the way on which friction slides: an infinite friction needs no
+    # case of its own.
     moderate = friction <= 1.0
     along = select(moderate, 1.0, 1.0 / select(moderate, 1.0, friction))
     across = select(moderate, friction, 1.0)
     yields, by_friction = respond(along, -forward * across)
     slows = -forward * by_friction
-    # Here and below no branch that is not taken may hold an infinite number or the root of 0, which times the 0 of its share
-    # would make derivatives NaN. A slip that never stops therefore has a time of 0 where its condition decides.
+    # Here and below no branch that is not taken may hold an infinite number or the root of 0, which
+    # times the 0 of its share would make derivatives NaN. A slip that never stops therefore has a
+    # time of 0 where its condition decides.
     ends = slows > 0.0
     never = (ends | (s == 0.0)) ^ True
     stops = select(ends, s / select(ends, slows, 1.0), select(never & (yields <= 0.0), inf, 0.0))
@@ -193,7 +216,8 @@ def energetic_contact(
     compressing = (w > 0.0) & (slides ^ True)
     per_c = select(yields == 0.0, 1.0, yields)
 
-    # After the stop: what friction cannot hold of the coupling, and the change along n by a unit of normal impulse, a sum.
+    # After the stop: what friction cannot hold of the coupling, and the change along n by a unit of
+    # normal impulse, a sum.
     coupling, k_tt = respond(0.0, 1.0)
     k_tt = select(k_tt == 0.0, 1.0, k_tt)
     bounded = select(friction == inf, 0.0, friction)
@@ -206,30 +230,42 @@ def energetic_contact(
     softer = select(softer > 0.0, softer, 1.0)
     first = along * stops
     work = select(compressing, 0.5 * first * (c + w), 0.0)
-    stored = select(compressing | slides, 0.0, along * ((restitution * c - w) * ((restitution * c + w) / per_c)))
+    stored = select(
+        compressing | slides, 0.0, along * ((restitution * c - w) * ((restitution * c + w) / per_c))
+    )
     squared = select(slides, 1.0, w * w + softer * select(compressing, 2.0 * work, stored))
     parting = select(compressing, restitution, 1.0) * squared**0.5
     regained = safe_divisor(True, select(compressing | slides, 1.0, parting - w))
     rest = select(compressing, (w + parting) / softer, stored / regained)
-    absorbed = select(compressing, work + w * (w / (2.0 * softer)), along * (c * (c / (2.0 * per_c))))
+    absorbed = select(
+        compressing, work + w * (w / (2.0 * softer)), along * (c * (c / (2.0 * per_c)))
+    )
     lost = (1.0 - restitution) * (1.0 + restitution) * absorbed
 
-    # An incomplete impact may end before the slip has stopped, but not where infinite friction stops it at once.
+    # An incomplete impact may end before the slip has stopped, but not where infinite friction
+    # stops it at once.
     early = compressing & (rest <= 0.0)
     sliding = early & (along > 0.0)
     per_way = select(sliding, along, 1.0)
     squared = w * w + yields * (rest * (parting - w)) / per_way
-    # Where yields < 0 this is a difference, which rounding may bring below 0: then what the work lost leaves, a sum.
+    # Where yields < 0 this is a difference, which rounding may bring below 0: then what the work
+    # lost leaves, a sum.
     squared = select(squared <= 0.0, c * c - 2.0 * (yields * (lost / per_way)), squared)
     still = select(early, squared, 1.0) ** 0.5
-    to_end = select(early, 2.0 * lost / select(sliding, along * (c + still), 1.0), (1.0 + restitution) * (c / per_c))
+    to_end = select(
+        early,
+        2.0 * lost / select(sliding, along * (c + still), 1.0),
+        (1.0 + restitution) * (c / per_c),
+    )
     slides = slides | early
     moves = moves & (slides ^ True)
     to_stop = select(slides, to_end, stops)
     slip_left = select(slides, s - slows * to_end, 0.0)
     rest = select(slides, 0.0, rest)
     after = select(moves, beyond * rest, 0.0)
-    by_friction = 0.5 * across * to_stop * (s + slip_left) + select(moves, 0.5 * bounded * (rest * after), 0.0)
+    by_friction = 0.5 * across * to_stop * (s + slip_left) + select(
+        moves, 0.5 * bounded * (rest * after), 0.0
+    )
     return Passage(
         normal=(along * to_stop + rest) * unit,
         tangential=(select(slides, 0.0, ratio * rest) - forward * across * to_stop) * unit,
@@ -254,22 +290,30 @@ def energy_losses(
     impulse_work: Any,
     eps: float,
 ) -> tuple[Any, Any, Any, Any]:
-    """Loss along the normal (eq 8), loss along the tangent, their sum, and whether the sum is a gain beyond its own rounding.
+    """Loss along the normal (eq 8), loss along the tangent, their sum, and whether the sum is a
+    gain beyond its own rounding.
 
-    Kelvin's theorem, and for friction with a compression limit the form that cannot go negative. Differences of kinetic
-    energies (eq 7 of the paper) lose every digit in a moving frame; these forms use only what happens at the contact, hold for
-    barriers and pivots and do not depend on the frame. ``impulse_work`` is P.K P, twice an energy, where the law ``dissipates``
-    and nothing else acts, else None; ``slip_change`` the difference of the slip after from that of a sticking contact.
+    Kelvin's theorem, and for friction with a compression limit the form that cannot go negative.
+    Differences of kinetic energies (eq 7 of the paper) lose every digit in a moving frame; these
+    forms use only what happens at the contact, hold for barriers and pivots and do not depend on
+    the frame. ``impulse_work`` is P.K P, twice an energy, where the law ``dissipates`` and nothing
+    else acts, else None; ``slip_change`` the difference of the slip after from that of a sticking
+    contact.
     """
     slip_sum = slip_before + slip_after
     if LAWS[law].compression_limit:
         # After sticking a share of the slip is left, so that nothing cancels in the sum.
-        slip_sum = select(sticks, (1.0 + LAWS[law].sticking_slip(restitution)) * slip_before, slip_sum)
+        slip_sum = select(
+            sticks, (1.0 + LAWS[law].sticking_slip(restitution)) * slip_before, slip_sum
+        )
     loss_n = 0.5 * (1.0 - restitution) * (closing * normal)
     loss_t = 0.0 - 0.5 * tangential * slip_sum
     if impulse_work is not None:
-        # Every term is >= 0: the compression impulse's own work, and friction over the slip left at the end of compression.
-        loss = (0.5 * (1.0 - restitution) * impulse_work + abs(tangential * slip_change)) / (1.0 + restitution)
+        # Every term is >= 0: the compression impulse's own work, and friction over the slip left at
+        # the end of compression.
+        loss = (0.5 * (1.0 - restitution) * impulse_work + abs(tangential * slip_change)) / (
+            1.0 + restitution
+        )
         return loss_n, loss_t, loss, False
     loss = loss_n + loss_t
     rounding = -16.0 * eps * (loss_n + abs(tangential) * (abs(slip_before) + abs(slip_after)))

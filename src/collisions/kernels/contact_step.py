@@ -1,8 +1,10 @@
-"""One step of a contact that takes time: force over penetration, friction, tyres, and bodies that move and turn meanwhile.
+"""One step of a contact that takes time: force over penetration, friction, tyres, and bodies that
+move and turn meanwhile.
 
-Each step is a half drift, the impulses of the contact, and a half drift (position Verlet); the impulse of the tyres comes
-between two steps. It changes motions by equal and opposite impulses at one point, so momentum is kept to rounding, and the
-energies are those of the same steps. All in units of the contact: its effective mass, closing speed and nominal duration.
+Each step is a half drift, the impulses of the contact, and a half drift (position Verlet); the
+impulse of the tyres comes between two steps. It changes motions by equal and opposite impulses at
+one point, so momentum is kept to rounding, and the energies are those of the same steps. All in
+units of the contact: its effective mass, closing speed and nominal duration.
 """
 
 from collections.abc import Iterator
@@ -19,21 +21,25 @@ _LEFT = 1e-9
 
 
 class Rolling(NamedTuple):
-    """That the wheels roll, brake and steer as those of a run-out do; settings of ``wheel_forces``."""
+    """That the wheels roll, brake and steer as those of a run-out do; settings of
+    ``wheel_forces``.
+    """
 
     steered: bool
     transfers: bool
 
 
-# Of wheels that slide whatever way they move, where each is: ahead and left by half the wheelbase and half the track.
+# Of wheels that slide whatever way they move, where each is: ahead and left by half the wheelbase
+# and half the track.
 Wheels: TypeAlias = tuple[tuple[float, float], ...] | Rolling
 
 
 class Body(NamedTuple):
-    """What does not change of a body: how it gives way, its lever, its heading, and its tyres, as ``Tyres`` have them.
+    """What does not change of a body: how it gives way, its lever, its heading, and its tyres, as
+    ``Tyres`` have them.
 
-    ``grip`` is the load of one wheel, ``cap`` the impulse for its speed that no tyre exceeds: with more, the four together
-    could turn the motion round.
+    ``grip`` is the load of one wheel, ``cap`` the impulse for its speed that no tyre exceeds: with
+    more, the four together could turn the motion round.
     """
 
     per_mass: Any
@@ -65,7 +71,9 @@ class Body(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """Velocity, way since the start, turn since the start as its cosine and sine, and what the tyres have done."""
+    """Velocity, way since the start, turn since the start as its cosine and sine, and what the
+    tyres have done.
+    """
 
     vx: Any
     vy: Any
@@ -82,7 +90,8 @@ class Motion(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """What does not change of the contact: a spring of this stiffness, which gives back a share of its work.
+    """What does not change of the contact: a spring of this stiffness, which gives back a share of
+    its work.
 
     ``on_a`` and ``turn_a`` are the shares of A in carrying the point and the normal.
     """
@@ -99,7 +108,9 @@ class Contact(NamedTuple):
 
 
 class Passing(NamedTuple):
-    """How far the contact has come: turn of the normal, penetration and the deepest one, impulse on B, work along n and t."""
+    """How far the contact has come: turn of the normal, penetration and the deepest one, impulse on
+    B, work along n and t.
+    """
 
     c: Any = 1.0
     s: Any = 0.0
@@ -128,7 +139,9 @@ class Place(NamedTuple):
 
 
 def force_back(contact: Contact, depth: Any, deepest: Any) -> tuple[Any, Any]:
-    """Force on the way back, or where it is deeper than ever, and the penetration at which the bodies part."""
+    """Force on the way back, or where it is deeper than ever, and the penetration at which the
+    bodies part.
+    """
     way = contact.restitution * contact.restitution * deepest
     # 0.0 at the end of a plastic contact, whose way back has no length.
     share = 1.0 - (deepest - depth) / select(way > 0.0, way, 1.0)
@@ -143,12 +156,19 @@ def turned(c: Any, s: Any, half: Any) -> tuple[Any, Any]:
     return c - (versed * c + sine * s), s - (versed * s - sine * c)
 
 
-def place_of(contact: Contact, a: Body, b: Body, on_a: Motion, on_b: Motion, passing: Passing) -> Place:
-    """Normal and levers of this moment: the point is carried by the places of both bodies that met."""
+def place_of(
+    contact: Contact, a: Body, b: Body, on_a: Motion, on_b: Motion, passing: Passing
+) -> Place:
+    """Normal and levers of this moment: the point is carried by the places of both
+    bodies that met.
+    """
     ax, ay = on_a.c * a.rx - on_a.s * a.ry, on_a.s * a.rx + on_a.c * a.ry
     bx, by = on_b.c * b.rx - on_b.s * b.ry, on_b.s * b.rx + on_b.c * b.ry
     # From the place on A to the place on B.
-    apart_x, apart_y = (on_b.dx - on_a.dx) + ((bx - b.rx) - (ax - a.rx)), (on_b.dy - on_a.dy) + ((by - b.ry) - (ay - a.ry))
+    apart_x, apart_y = (
+        (on_b.dx - on_a.dx) + ((bx - b.rx) - (ax - a.rx)),
+        (on_b.dy - on_a.dy) + ((by - b.ry) - (ay - a.ry)),
+    )
     off_a, off_b = 1.0 - contact.on_a, contact.on_a
     return Place(
         passing.c * contact.nx - passing.s * contact.ny,
@@ -163,7 +183,10 @@ def place_of(contact: Contact, a: Body, b: Body, on_a: Motion, on_b: Motion, pas
 def approach(place: Place, on_a: Motion, on_b: Motion) -> tuple[Any, Any]:
     """Closing speed, and slip of B relative to A."""
     nx, ny, ax, ay, bx, by = place
-    ux, uy = (on_b.vx - on_b.spin * by) - (on_a.vx - on_a.spin * ay), (on_b.vy + on_b.spin * bx) - (on_a.vy + on_a.spin * ax)
+    ux, uy = (
+        (on_b.vx - on_b.spin * by) - (on_a.vx - on_a.spin * ay),
+        (on_b.vy + on_b.spin * bx) - (on_a.vy + on_a.spin * ax),
+    )
     return -(nx * ux + ny * uy), nx * uy - ny * ux
 
 
@@ -180,7 +203,9 @@ def compliance(place: Place, a: Body, b: Body) -> tuple[Any, Any, Any]:
 
 
 def braked(body: Body, motion: Motion, time: Any, wheels: Wheels) -> Motion:
-    """The motion after the tyres have acted for a time; each pulls against its own motion and cannot turn it round."""
+    """The motion after the tyres have acted for a time; each pulls against its own motion and
+    cannot turn it round.
+    """
     if not wheels:
         return motion
     # In the axes of the vehicle.
@@ -195,9 +220,13 @@ def braked(body: Body, motion: Motion, time: Any, wheels: Wheels) -> Motion:
         forward, left, yaw = forward + along, left + across, yaw + (ahead * across - aside * along)
     x, y = cos * forward - sin * left, sin * forward + cos * left
     after = motion._replace(
-        vx=motion.vx + body.per_mass * x, vy=motion.vy + body.per_mass * y, spin=motion.spin + body.per_inertia * yaw
+        vx=motion.vx + body.per_mass * x,
+        vy=motion.vy + body.per_mass * y,
+        spin=motion.spin + body.per_inertia * yaw,
     )
-    work = 0.5 * (x * (motion.vx + after.vx) + y * (motion.vy + after.vy) + yaw * (motion.spin + after.spin))
+    work = 0.5 * (
+        x * (motion.vx + after.vx) + y * (motion.vy + after.vy) + yaw * (motion.spin + after.spin)
+    )
     return after._replace(
         tyre_x=motion.tyre_x + x,
         tyre_y=motion.tyre_y + y,
@@ -206,8 +235,12 @@ def braked(body: Body, motion: Motion, time: Any, wheels: Wheels) -> Motion:
     )
 
 
-def _sliding(body: Body, forward: Any, left: Any, spin: Any, time: Any, cap: Any, wheels: Any) -> Iterator[Any]:
-    """Place and impulse of each wheel, which has its whole friction against its motion, whatever way that is."""
+def _sliding(
+    body: Body, forward: Any, left: Any, spin: Any, time: Any, cap: Any, wheels: Any
+) -> Iterator[Any]:
+    """Place and impulse of each wheel, which has its whole friction against its motion, whatever
+    way that is.
+    """
     share = 4.0 / len(wheels)
     most, cap = share * (body.friction * (body.grip * time)), share * cap
     for ahead, aside in wheels:
@@ -218,7 +251,9 @@ def _sliding(body: Body, forward: Any, left: Any, spin: Any, time: Any, cap: Any
         yield at, (-hold * ux, -hold * uy)
 
 
-def _rolling(body: Body, forward: Any, left: Any, spin: Any, time: Any, cap: Any, wheels: Any) -> Iterator[Any]:
+def _rolling(
+    body: Body, forward: Any, left: Any, spin: Any, time: Any, cap: Any, wheels: Any
+) -> Iterator[Any]:
     """The same of wheels that roll, brake and steer, with the force that they have in a run-out."""
     tyres, here = body.tyres, (body.friction,) * len(CORNERS)
     reach = spin * spin * (body.ahead * body.ahead + body.left * body.left)
@@ -226,7 +261,9 @@ def _rolling(body: Body, forward: Any, left: Any, spin: Any, time: Any, cap: Any
     standing = STANDING * select(speed > 0.0, speed, 1.0)
     # On one ground and under the loads at rest, what a brake holds is its lock.
     brakes = None if wheels.transfers else list(tyres.locks)
-    forces = wheel_forces(tyres, here, forward, left, spin, standing, **wheels._asdict(), brakes=brakes)
+    forces = wheel_forces(
+        tyres, here, forward, left, spin, standing, **wheels._asdict(), brakes=brakes
+    )
     most = body.friction * (body.grip * time)
     for (ahead, aside, _), (along, across, load) in zip(CORNERS, forces, strict=True):
         at = ahead * body.ahead, aside * body.left
@@ -243,17 +280,31 @@ def _rolling(body: Body, forward: Any, left: Any, spin: Any, time: Any, cap: Any
 def drifted(motion: Motion, time: Any) -> Motion:
     """The motion some time later, with the velocities that it has."""
     c, s = turned(motion.c, motion.s, 0.5 * time * motion.spin)
-    return motion._replace(dx=motion.dx + time * motion.vx, dy=motion.dy + time * motion.vy, c=c, s=s)
+    return motion._replace(
+        dx=motion.dx + time * motion.vx, dy=motion.dy + time * motion.vy, c=c, s=s
+    )
 
 
-def _drifted(contact: Contact, on_a: Motion, on_b: Motion, passing: Passing, time: Any) -> tuple[Motion, Motion, Passing]:
+def _drifted(
+    contact: Contact, on_a: Motion, on_b: Motion, passing: Passing, time: Any
+) -> tuple[Motion, Motion, Passing]:
     spin = contact.turn_a * on_a.spin + (1.0 - contact.turn_a) * on_b.spin
     c, s = turned(passing.c, passing.s, 0.5 * time * spin)
     return drifted(on_a, time), drifted(on_b, time), passing._replace(c=c, s=s)
 
 
-def _pushed(body: Body, motion: Motion, x: Any, y: Any, arm: tuple[Any, Any], per_time: Any, tyres: tuple[Any, Any]) -> Motion:
-    """The motion after an impulse, and the square of its largest acceleration so far, by that and by the force of the tyres."""
+def _pushed(
+    body: Body,
+    motion: Motion,
+    x: Any,
+    y: Any,
+    arm: tuple[Any, Any],
+    per_time: Any,
+    tyres: tuple[Any, Any],
+) -> Motion:
+    """The motion after an impulse, and the square of its largest acceleration so far, by that and
+    by the force of the tyres.
+    """
     ax, ay = body.per_mass * (x * per_time + tyres[0]), body.per_mass * (y * per_time + tyres[1])
     square = ax * ax + ay * ay
     return motion._replace(
@@ -276,7 +327,9 @@ def advance(
     wheels_a: Wheels,
     wheels_b: Wheels,
 ) -> tuple[Motion, Motion, Passing]:
-    """One step of a contact that is still active: ``engaging`` up to maximum engagement, and else of the way back."""
+    """One step of a contact that is still active: ``engaging`` up to maximum engagement, and else
+    of the way back.
+    """
     active, crush, deepest = passing.active, passing.crush, passing.deepest
     step = contact.step if engaging else contact.step_back
     if not engaging:
@@ -304,13 +357,18 @@ def advance(
     turn = select(opposes, abs(slip) / select(opposes, coupled + held, 1.0), inf)
 
     def tangential(normal: Any) -> tuple[Any, Any]:
-        wanted, most = -(slip + k_nt * normal) / select(k_tt > 0.0, k_tt, inf), contact.friction * normal
+        wanted, most = (
+            -(slip + k_nt * normal) / select(k_tt > 0.0, k_tt, inf),
+            contact.friction * normal,
+        )
         limited = select(wanted > most, most, select(wanted < -most, -most, wanted))
         # Friction that cannot hold turns with the slip, within the step.
         turns = turn < normal
         turning = contact.friction * (normal - 2.0 * select(turns, turn, 0.0))
         turning = select(k_nt < 0.0, turning, -turning)
-        return select(turns, turning, limited), (wanted <= most) & (wanted >= -most) & (turns ^ True)
+        return select(turns, turning, limited), (wanted <= most) & (wanted >= -most) & (
+            turns ^ True
+        )
 
     part: Any = 1.0
     normal = force * step

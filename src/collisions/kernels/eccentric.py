@@ -1,7 +1,8 @@
-"""Eccentric impact: bodies that also turn, free, pinned to a point of the road, or fixed (eqs 10 to 19 of the paper).
+"""Eccentric impact: bodies that also turn, free, pinned to a point of the road, or fixed (eqs 10 to
+19 of the paper).
 
-Every body answers an impulse at the contact through K_i = a_i 1 + b_i q q^T, with q its lever turned by +90 degrees. Barriers,
-pivots and free bodies differ only in a_i and b_i.
+Every body answers an impulse at the contact through K_i = a_i 1 + b_i q q^T, with q its lever
+turned by +90 degrees. Barriers, pivots and free bodies differ only in a_i and b_i.
 """
 
 from math import nan
@@ -14,21 +15,48 @@ from .status import EPS, Answer, Status
 
 
 def response(
-    mass: Any, inertia: Any, vx: Any, vy: Any, x: Any, y: Any, pivot_x: Any, pivot_y: Any, px: Any, py: Any, pinned: bool
+    mass: Any,
+    inertia: Any,
+    vx: Any,
+    vy: Any,
+    x: Any,
+    y: Any,
+    pivot_x: Any,
+    pivot_y: Any,
+    px: Any,
+    py: Any,
+    pinned: bool,
 ) -> tuple[Any, Any, Any, Any, Any, Any]:
     """The body's a and b, its lever (x, y), and the part of its velocity that is not spin.
 
-    A pinned body turns about the pivot: its inertia is taken about it, it takes no share in a, and all its velocity is spin.
+    A pinned body turns about the pivot: its inertia is taken about it, it takes no share in a, and
+    all its velocity is spin.
     """
     if pinned:
         arm_x = x - pivot_x
         arm_y = y - pivot_y
-        return 0.0, 1.0 / (inertia + mass * (arm_x * arm_x + arm_y * arm_y)), px - pivot_x, py - pivot_y, 0.0, 0.0
+        return (
+            0.0,
+            1.0 / (inertia + mass * (arm_x * arm_x + arm_y * arm_y)),
+            px - pivot_x,
+            py - pivot_y,
+            0.0,
+            0.0,
+        )
     return 1.0 / mass, 1.0 / inertia, px - x, py - y, vx, vy
 
 
 def recoil(
-    a: Any, b: Any, torque: Any, impulse_x: Any, impulse_y: Any, x: Any, y: Any, pivot_x: Any, pivot_y: Any, pinned: bool
+    a: Any,
+    b: Any,
+    torque: Any,
+    impulse_x: Any,
+    impulse_y: Any,
+    x: Any,
+    y: Any,
+    pivot_x: Any,
+    pivot_y: Any,
+    pinned: bool,
 ) -> tuple[Any, Any, Any]:
     """Change of velocity (x, y) and of yaw rate of a body under an impulse at the contact."""
     spin = b * torque
@@ -37,8 +65,12 @@ def recoil(
     return a * impulse_x, a * impulse_y, spin
 
 
-def moment_about(impulse: tuple[Any, ...], x: Any, y: Any, pivot_x: Any, pivot_y: Any, pinned: bool) -> Any:
-    """Moment of an impulse from outside, with components x, y, yaw at the centre of mass: about that, or about the pivot."""
+def moment_about(
+    impulse: tuple[Any, ...], x: Any, y: Any, pivot_x: Any, pivot_y: Any, pinned: bool
+) -> Any:
+    """Moment of an impulse from outside, with components x, y, yaw at the centre of mass: about
+    that, or about the pivot.
+    """
     jx, jy, yaw = impulse
     return yaw + ((x - pivot_x) * jy - (y - pivot_y) * jx) if pinned else yaw
 
@@ -80,15 +112,21 @@ def eccentric(
 ) -> Any:
     """The ``Answer`` of the eccentric model.
 
-    ``contact_velocity`` is the closing speed and the slip before, known to more digits than the motions hold. It is used where
-    it is that of the motions to their rounding. ``outside`` has impulses on A and then on B from other things than the contact
-    (x, y, yaw at the centre of mass): they shift the velocities at the contact, which brings what is left to the separation.
+    ``contact_velocity`` is the closing speed and the slip before, known to more digits than the
+    motions hold. It is used where it is that of the motions to their rounding. ``outside`` has
+    impulses on A and then on B from other things than the contact (x, y, yaw at the centre of
+    mass): they shift the velocities at the contact, which brings what is left to the separation.
 
-    With ``impulse_only``: whether there is an answer, the closing speed, the impulse along n and t, that without slip, and of A
-    and B a and b, the torque, and the torque of the impulse without slip.
+    With ``impulse_only``: whether there is an answer, the closing speed, the impulse along n and t,
+    that without slip, and of A and B a and b, the torque, and the torque of the impulse without
+    slip.
     """
-    a_a, b_a, rx_a, ry_a, ux_a, uy_a = response(mass_a, inertia_a, vx_a, vy_a, x_a, y_a, pivot_x_a, pivot_y_a, px, py, pinned_a)
-    a_b, b_b, rx_b, ry_b, ux_b, uy_b = response(mass_b, inertia_b, vx_b, vy_b, x_b, y_b, pivot_x_b, pivot_y_b, px, py, pinned_b)
+    a_a, b_a, rx_a, ry_a, ux_a, uy_a = response(
+        mass_a, inertia_a, vx_a, vy_a, x_a, y_a, pivot_x_a, pivot_y_a, px, py, pinned_a
+    )
+    a_b, b_b, rx_b, ry_b, ux_b, uy_b = response(
+        mass_b, inertia_b, vx_b, vy_b, x_b, y_b, pivot_x_b, pivot_y_b, px, py, pinned_b
+    )
     # Contact velocity of A relative to B: differences first, then the spins, and into (n, t) last.
     ux = (ux_a - ux_b) + (spin_b * ry_b - spin_a * ry_a)
     uy = (uy_a - uy_b) + (spin_a * rx_a - spin_b * rx_b)
@@ -103,7 +141,8 @@ def eccentric(
     rn_b = nx * rx_b + ny * ry_b
     rt_b = nx * ry_b - ny * rx_b
 
-    # K, its trace less a, and its determinant over that trace: sums of terms that are >= 0, so nothing cancels.
+    # K, its trace less a, and its determinant over that trace: sums of terms that are >= 0, so
+    # nothing cancels.
     a = a_a + a_b
     brt_a = b_a * rt_a
     brt_b = b_b * rt_b
@@ -154,7 +193,10 @@ def eccentric(
         def respond(along_n: Any, along_t: Any) -> tuple[Any, Any]:
             turn_a = b_a * (rt_a * along_n - rn_a * along_t)
             turn_b = b_b * (rt_b * along_n - rn_b * along_t)
-            return a * along_n + rt_a * turn_a + rt_b * turn_b, a * along_t - rn_a * turn_a - rn_b * turn_b
+            return (
+                a * along_n + rt_a * turn_a + rt_b * turn_b,
+                a * along_t - rn_a * turn_a - rn_b * turn_b,
+            )
 
         k_tt = respond(0.0, 1.0)[1]
         stuck_n = determinant * (trace / select(k_tt == 0.0, 1.0, k_tt))
@@ -174,7 +216,8 @@ def eccentric(
     closes = closing > 0.0
     apart = closing < 0.0
     if outside is not None:
-        # Under an energetic law restitution gives back work of compression, of which there is none if pushed <= 0.
+        # Under an energetic law restitution gives back work of compression, of which there is none
+        # if pushed <= 0.
         parts = (change_n <= 0.0) | (pushed <= 0.0) if energetic else change_n <= 0.0
         closes, apart = closes & (parts ^ True), apart | ((closing > 0.0) & parts)
     if impulse_only:
@@ -190,20 +233,33 @@ def eccentric(
         loss_n, loss_t, gains = passage.loss_n, passage.loss_t, False
         loss = loss_n + loss_t
         if outside is not None:
-            # What the contact took, at the mean of the velocities before and after; the passage began with those shifted.
+            # What the contact took, at the mean of the velocities before and after; the passage
+            # began with those shifted.
             mean = separation / safe_divisor(closing != 0.0, closing)
             of_mean = mean, closing, slip, slip_after, sticks, 0.0, normal, impulse_t, None
             _, _, loss, gains = energy_losses(law, *of_mean, eps)
             loss_n = loss - loss_t
     else:
-        beyond_sticking = select(sticks, 0.0, (determinant * impulse_t - no_slip_t_determinant) / (k_nn / trace))
+        beyond_sticking = select(
+            sticks, 0.0, (determinant * impulse_t - no_slip_t_determinant) / (k_nn / trace)
+        )
         slip_after = sticking_slip * slip + beyond_sticking
         impulse_work: Any = None
         if dissipates(rule, law) and outside is None:
             work_a, work_b = b_a * torque_a * torque_a, b_b * torque_b * torque_b
             impulse_work = a * (normal * normal + impulse_t * impulse_t) + work_a + work_b
         loss_n, loss_t, loss, gains = energy_losses(
-            law, restitution, closing, slip, slip_after, sticks, beyond_sticking, normal, impulse_t, impulse_work, eps
+            law,
+            restitution,
+            closing,
+            slip,
+            slip_after,
+            sticks,
+            beyond_sticking,
+            normal,
+            impulse_t,
+            impulse_work,
+            eps,
         )
 
     impulse_x = nx * normal - ny * impulse_t
@@ -212,8 +268,12 @@ def eccentric(
     by_b: Any = torque_b, impulse_x, impulse_y
     if outside is not None:
         by_a, by_b = tuple(map(add, by_a, on_a)), tuple(map(add, by_b, on_b))
-    dvx_a, dvy_a, spin_change_a = recoil(a_a, b_a, by_a[0], by_a[1], by_a[2], x_a, y_a, pivot_x_a, pivot_y_a, pinned_a)
-    dvx_b, dvy_b, spin_change_b = recoil(a_b, b_b, by_b[0], by_b[1], by_b[2], x_b, y_b, pivot_x_b, pivot_y_b, pinned_b)
+    dvx_a, dvy_a, spin_change_a = recoil(
+        a_a, b_a, by_a[0], by_a[1], by_a[2], x_a, y_a, pivot_x_a, pivot_y_a, pinned_a
+    )
+    dvx_b, dvy_b, spin_change_b = recoil(
+        a_b, b_b, by_b[0], by_b[1], by_b[2], x_b, y_b, pivot_x_b, pivot_y_b, pinned_b
+    )
     # 0.0 * value is 0 if finite, else NaN: adding the values themselves could overflow.
     total = loss + slip_after + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
     total = total + (0.0 * impulse_x + 0.0 * impulse_y + 0.0 * no_slip_n + 0.0 * no_slip_t)
@@ -268,10 +328,14 @@ def eccentric(
 
 
 def from_contact_velocity(closing: Any, slip: Any, *inputs: Any) -> Any:
-    """``eccentric`` with the closing speed and the slip before, which stand before its other inputs."""
+    """``eccentric`` with the closing speed and the slip before, which stand before its other
+    inputs.
+    """
     return eccentric(*inputs, contact_velocity=(closing, slip))
 
 
 def with_outside(*inputs: Any) -> Any:
-    """``eccentric`` with the impulses from outside on A and on B, which stand before its other inputs."""
+    """``eccentric`` with the impulses from outside on A and on B, which stand before its other
+    inputs.
+    """
     return eccentric(*inputs[6:], outside=inputs[:6])

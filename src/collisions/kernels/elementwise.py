@@ -1,4 +1,6 @@
-"""``select``, vector conditions that work on floats and arrays alike, and the domains of the inputs (``Domain``)."""
+"""``select``, vector conditions that work on floats and arrays alike, and the domains of the inputs
+(``Domain``).
+"""
 
 from collections.abc import Callable
 from math import inf, isfinite
@@ -17,13 +19,17 @@ def select(condition: Any, yes: Any, no: Any) -> Any:
         return no
     xp = library(condition, yes, no)
     if xp is not np:
-        yes, no = (xp.asarray(int(value)) if isinstance(value, Status) else value for value in (yes, no))
+        yes, no = (
+            xp.asarray(int(value)) if isinstance(value, Status) else value for value in (yes, no)
+        )
         yes = xp.asarray(yes) if isinstance(yes, float) and isinstance(no, float) else yes
     return xp.where(condition, yes, no)
 
 
 def library(*values: Any) -> Any:
-    """The array library of these values: numpy, unless one of them is an array of another, as of JAX."""
+    """The array library of these values: numpy, unless one of them is an array of another, as of
+    JAX.
+    """
     for value in values:
         if (named := getattr(value, "__array_namespace__", None)) is not None:
             return named()
@@ -35,11 +41,15 @@ def larger(one: Any, other: Any) -> Any:
     if isinstance(one, float) and isinstance(other, float):
         return one if one >= other or other != other else other
     xp = library(one, other)
-    return np.fmax(one, other) if xp is np else xp.where((one >= other) | (other != other), one, other)
+    return (
+        np.fmax(one, other) if xp is np else xp.where((one >= other) | (other != other), one, other)
+    )
 
 
 def safe_divisor(usable: Any, value: Any) -> Any:
-    """``value``, or 1.0 where the quotient is discarded (Python floats raise on division by zero)."""
+    """``value``, or 1.0 where the quotient is discarded (Python floats raise on
+    division by zero).
+    """
     return 1.0 if usable is False or (isinstance(value, float) and value == 0.0) else value
 
 
@@ -53,20 +63,30 @@ def first_status(*findings: tuple[Any, Status]) -> Any:
 
 
 def all_zero(*values: Any) -> bool:
-    """Whether all of these are the plain number 0, so that what depends on them alone need not be worked out."""
+    """Whether all of these are the plain number 0, so that what depends on them alone need not be
+    worked out.
+    """
     return all(type(value) is float and value == 0.0 for value in values)
 
 
-def more_digits(known: tuple[Any, Any], closing: Any, slip: Any, speeds: Any, eps: float) -> tuple[Any, Any]:
-    """The ``known`` closing speed and slip where they equal the computed ones to the rounding of ``speeds``, else those."""
+def more_digits(
+    known: tuple[Any, Any], closing: Any, slip: Any, speeds: Any, eps: float
+) -> tuple[Any, Any]:
+    """The ``known`` closing speed and slip where they equal the computed ones to the rounding of
+    ``speeds``, else those.
+    """
     exact_closing, exact_slip = known
     scale = speeds + abs(exact_closing) + abs(exact_slip)
     same = abs(exact_closing - closing) + abs(exact_slip - slip) <= 64.0 * eps * scale
     return select(same, exact_closing, closing), select(same, exact_slip, slip)
 
 
-def turning_velocity(yaw_rate: Any, x: Any, y: Any, center_x: Any, center_y: Any) -> tuple[Any, Any]:
-    """Velocity at (x, y) of a body that turns about the centre: the arm turned by +90 degrees, times the yaw rate."""
+def turning_velocity(
+    yaw_rate: Any, x: Any, y: Any, center_x: Any, center_y: Any
+) -> tuple[Any, Any]:
+    """Velocity at (x, y) of a body that turns about the centre: the arm turned by +90 degrees,
+    times the yaw rate.
+    """
     return -yaw_rate * (y - center_y), yaw_rate * (x - center_x)
 
 
@@ -87,11 +107,21 @@ def either_infinite(mass: Any, inertia: Any = 0.0) -> Any:
 
 def rounding(eps: float, *values: Any) -> float:
     """The coarser of ``eps`` and the rounding of the arrays among the values."""
-    return max(eps, *(float(np.finfo(value.dtype).eps) if isinstance(value, np.ndarray) else EPS for value in values))
+    return max(
+        eps,
+        *(
+            float(np.finfo(value.dtype).eps) if isinstance(value, np.ndarray) else EPS
+            for value in values
+        ),
+    )
 
 
-def not_about_pivot(vx: Any, vy: Any, yaw_rate: Any, x: Any, y: Any, pivot_x: Any, pivot_y: Any, eps: float = EPS) -> Any:
-    """Whether a velocity is not yaw rate times arm, to 1e-9 (or to the rounding of a coarser precision)."""
+def not_about_pivot(
+    vx: Any, vy: Any, yaw_rate: Any, x: Any, y: Any, pivot_x: Any, pivot_y: Any, eps: float = EPS
+) -> Any:
+    """Whether a velocity is not yaw rate times arm, to 1e-9 (or to the rounding of a coarser
+    precision).
+    """
     wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, pivot_x, pivot_y)
     tolerance = max(1e-9, 8.0 * eps)
     return abs(vx - wanted_x) + abs(vy - wanted_y) > tolerance * (abs(wanted_x) + abs(wanted_y))
@@ -100,8 +130,8 @@ def not_about_pivot(vx: Any, vy: Any, yaw_rate: Any, x: Any, y: Any, pivot_x: An
 class Domain(NamedTuple):
     """The set of values that an argument may have.
 
-    ``faults`` has conditions for values outside, each with its status; ``holds`` is a cheaper test of a whole array, which
-    may be False although every value is inside.
+    ``faults`` has conditions for values outside, each with its status; ``holds`` is a cheaper test
+    of a whole array, which may be False although every value is inside.
     """
 
     name: str
@@ -117,7 +147,10 @@ FINITE = Domain(
 )
 POSITIVE = Domain(
     "positive",
-    ((lambda value: value != value, Status.NOT_FINITE), (lambda value: value <= 0.0, Status.NOT_POSITIVE)),
+    (
+        (lambda value: value != value, Status.NOT_FINITE),
+        (lambda value: value <= 0.0, Status.NOT_POSITIVE),
+    ),
     # The least of an array with NaN is NaN.
     lambda values: bool(np.minimum.reduce(values) > 0.0),
 )
@@ -126,9 +159,13 @@ NOT_NEGATIVE = Domain(
     ((lambda value: (value < 0.0) | (value != value), Status.BAD_FRICTION),),
     lambda values: bool(np.minimum.reduce(values) >= 0.0),
 )
-POSITIVE_FINITE = Domain("positive and finite", (*POSITIVE.faults, *FINITE.faults), lambda values: False)
+POSITIVE_FINITE = Domain(
+    "positive and finite", (*POSITIVE.faults, *FINITE.faults), lambda values: False
+)
 AT_LEAST_ZERO = Domain(
-    "at least 0 and finite", (*FINITE.faults, (lambda value: value < 0.0, Status.NEGATIVE_SIZE)), lambda values: False
+    "at least 0 and finite",
+    (*FINITE.faults, (lambda value: value < 0.0, Status.NEGATIVE_SIZE)),
+    lambda values: False,
 )
 UNIT_INTERVAL = Domain(
     "unit interval",
@@ -142,7 +179,9 @@ INCOMPLETE = Domain(
     ((lambda value: (value <= -1.0) | (value > 1.0) | (value != value), Status.BAD_RESTITUTION),),
     lambda values: bool(np.minimum.reduce(values) > -1.0 and np.maximum.reduce(values) <= 1.0),
 )
-RESTITUTION = UNIT_INTERVAL._replace(name="restitution", faults=((UNIT_INTERVAL.faults[0][0], Status.BAD_RESTITUTION),))
+RESTITUTION = UNIT_INTERVAL._replace(
+    name="restitution", faults=((UNIT_INTERVAL.faults[0][0], Status.BAD_RESTITUTION),)
+)
 
 
 def restitution_domain(incomplete: Any) -> Domain:

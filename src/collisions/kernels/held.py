@@ -1,4 +1,6 @@
-"""The impulse of tyres during a contact that is taken as an instant: the mean force of their wheels, times its duration."""
+"""The impulse of tyres during a contact that is taken as an instant: the mean force of their
+wheels, times its duration.
+"""
 
 from typing import Any, NamedTuple
 
@@ -8,7 +10,9 @@ from .tyre import Tyres
 
 
 class Held(NamedTuple):
-    """Impulse of the tyres of one vehicle along x and y, and its moment about the centre of mass."""
+    """Impulse of the tyres of one vehicle along x and y, and its moment about the
+    centre of mass.
+    """
 
     x: Any
     y: Any
@@ -22,11 +26,13 @@ NUMBERS = 13 + len(Tyres._fields) - 1 + 4
 
 
 def held(*inputs: Any) -> Held:
-    """The impulse of the wheels of one vehicle, from numbers and, at the end, the settings of its wheels.
+    """The impulse of the wheels of one vehicle, from numbers and, at the end, the settings of its
+    wheels.
 
-    The numbers are mass, yaw inertia, cosine and sine of the heading, velocity and yaw rate before, their changes, the share
-    of the change at half of the time, the duration, gravity, and those of ``Tyres`` with their four locks first. At each of
-    the three moments no wheel has more than would stop its motion.
+    The numbers are mass, yaw inertia, cosine and sine of the heading, velocity and yaw rate before,
+    their changes, the share of the change at half of the time, the duration, gravity, and those of
+    ``Tyres`` with their four locks first. At each of the three moments no wheel has more than would
+    stop its motion.
     """
     mass, inertia, cos, sin, vx, vy, spin, dvx, dvy, dw, half, duration, gravity, *rest = inputs
     *numbers, steered, transfers = rest
@@ -39,5 +45,9 @@ def held(*inputs: Any) -> Held:
     for weight, share in zip(_WEIGHTS, (0.0, half, 1.0), strict=True):
         motion = Motion(vx + share * dvx, vy + share * dvy, spin + share * dw)
         after = braked(body, motion, duration, wheels)
-        x, y, yaw = x + weight * after.tyre_x, y + weight * after.tyre_y, yaw + weight * after.tyre_yaw
+        x, y, yaw = (
+            x + weight * after.tyre_x,
+            y + weight * after.tyre_y,
+            yaw + weight * after.tyre_yaw,
+        )
     return Held(x, y, yaw)

@@ -1,13 +1,15 @@
-"""Formulas of the reverse solvers: in-line impacts from any three values, crossing courses, and roots of polynomials.
+"""Formulas of the reverse solvers: in-line impacts from any three values, crossing courses, and
+roots of polynomials.
 
-In line (eqs 5 to 8 of the paper, read backwards) everything follows from the closing speed g and the separation speed r = e g:
-with the shares of the masses f_a + f_b = 1,
+In line (eqs 5 to 8 of the paper, read backwards) everything follows from the closing speed g and
+the separation speed r = e g: with the shares of the masses f_a + f_b = 1,
 
-    va - vb = g     vb' - va' = r     va - va' = f_a (g + r)     vb' - vb = f_b (g + r)     loss = m (g - r)(g + r) / 2
+    va - vb = g     vb' - va' = r     va - va' = f_a (g + r)     vb' - vb = f_b (g + r)     loss = m
+    (g - r)(g + r) / 2
 
-Along courses that cross, every moving body is a term: sign (+ before, - after), mass, speed, course. The balance
-sum(sign m s h) + J = 0 crossed with one unknown's course leaves the other unknown alone, and all cross products are sines of
-differences of courses.
+Along courses that cross, every moving body is a term: sign (+ before, - after), mass, speed,
+course. The balance sum(sign m s h) + J = 0 crossed with one unknown's course leaves the other
+unknown alone, and all cross products are sines of differences of courses.
 """
 
 from collections.abc import Iterable, Sequence
@@ -20,7 +22,8 @@ from .status import EPS
 VELOCITIES = ("va", "vb", "va_after", "vb_after")
 # Closing and separation speed.
 Pair: TypeAlias = tuple[Any, Any]
-# Sample points of a quartic: no point is 0 or a multiple of another, where a body at rest would carry no information.
+# Sample points of a quartic: no point is 0 or a multiple of another, where a body at rest would
+# carry no information.
 PLACES = np.array([-1.06, -0.47, 0.13, 0.61, 1.27])
 _FROM_PLACES = np.linalg.inv(np.vander(PLACES, increasing=True)).T
 # A double root comes out of rounding as a pair with imaginary parts of the square root of it.
@@ -28,9 +31,15 @@ _REAL = 1e-6
 
 
 def inline_speeds(
-    known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any, eps: float = EPS, incomplete: bool = False
+    known: dict[str, Any],
+    share_a: Any,
+    share_b: Any,
+    reduced: Any,
+    eps: float = EPS,
+    incomplete: bool = False,
 ) -> list[Pair]:
-    """Closing and separation speeds that fit the three known values: one pair, or two that the caller must tell apart.
+    """Closing and separation speeds that fit the three known values: one pair, or two that the
+    caller must tell apart.
 
     ``incomplete`` says whether the separation speed may be below 0.
     """
@@ -49,11 +58,15 @@ def inline_speeds(
     return _from_energy(v, share_a, share_b, squared, eps, incomplete)
 
 
-def allowed_losses(known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any) -> tuple[Any, Any]:
-    """The least and the most that two known velocities can lose with e from 0 to 1; NaN where no impact has these velocities.
+def allowed_losses(
+    known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any
+) -> tuple[Any, Any]:
+    """The least and the most that two known velocities can lose with e from 0 to 1; NaN where no
+    impact has these velocities.
 
-    With e = 0 they lose (difference / p)^2 m / 2. That is the most, unless q is negative: then a bounce needs a faster
-    approach, and the loss rises with e, without end if p <= -q, else until e = -q/p, from where it falls to 0.
+    With e = 0 they lose (difference / p)^2 m / 2. That is the most, unless q is negative: then a
+    bounce needs a faster approach, and the loss rises with e, without end if p <= -q, else until e
+    = -q/p, from where it falls to 0.
     """
     v = {name: known[name] for name in VELOCITIES if name in known}
     if len(v) != 2 or _names(v) == ("va_after", "vb_after"):
@@ -64,11 +77,15 @@ def allowed_losses(known: dict[str, Any], share_a: Any, share_b: Any, reduced: A
     bounced = np.where(difference == 0.0, 0.0, 0.5 * reduced * difference**2 / (p + q))
     most = np.where(without_end, np.inf, np.where(np.less(q, 0.0), bounced, plastic))
     possible = difference >= 0.0
-    return np.where(possible, np.where(without_end, plastic, 0.0), np.nan), np.where(possible, most, np.nan)
+    return np.where(possible, np.where(without_end, plastic, 0.0), np.nan), np.where(
+        possible, most, np.nan
+    )
 
 
 def moving_apart(known: dict[str, Any], share_a: Any, share_b: Any) -> Any:
-    """Whether two known velocities leave no approach, whatever the energy: with p > -q and g > r, p g + q r is positive."""
+    """Whether two known velocities leave no approach, whatever the energy: with p > -q and g > r, p
+    g + q r is positive.
+    """
     v = {name: known[name] for name in VELOCITIES if name in known}
     if len(v) != 2 or "energy_loss" not in known:
         return False
@@ -89,12 +106,18 @@ def energy_of_speeds(mass_a: Any, speed_a: Any, mass_b: Any, speed_b: Any) -> An
 
 
 def changing_speed(delta_v: Any, share: Any, restitution: Any) -> Any:
-    """Closing speed that changes the velocity of a body with this share by delta-V (eqs 5 and 6)."""
+    """Closing speed that changes the velocity of a body with this share by delta-V (eqs
+    5 and 6).
+    """
     return delta_v / (share * (1.0 + restitution))
 
 
 def _from_three(v: dict[str, Any], share_a: Any, share_b: Any) -> Pair:
-    total = (v["va"] - v["va_after"]) / share_a if {"va", "va_after"} <= v.keys() else (v["vb_after"] - v["vb"]) / share_b
+    total = (
+        (v["va"] - v["va_after"]) / share_a
+        if {"va", "va_after"} <= v.keys()
+        else (v["vb_after"] - v["vb"]) / share_b
+    )
     if {"va", "vb"} <= v.keys():
         closing = v["va"] - v["vb"]
         return closing, total - closing
@@ -103,7 +126,9 @@ def _from_three(v: dict[str, Any], share_a: Any, share_b: Any) -> Pair:
 
 
 def _relation(v: dict[str, Any], share_a: Any, share_b: Any) -> tuple[Any, Any, Any]:
-    """The equation that two velocities give for closing and separation speed, p g + q r = value: p, q and the value."""
+    """The equation that two velocities give for closing and separation speed, p g + q r = value: p,
+    q and the value.
+    """
     first, second = v.values()
     return {
         ("va", "vb"): (1.0, 0.0, first - second),
@@ -120,7 +145,9 @@ def _names(v: dict[str, Any]) -> tuple[str, str]:
     return first, second
 
 
-def _from_energy(v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, eps: float, incomplete: bool) -> list[Pair]:
+def _from_energy(
+    v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, eps: float, incomplete: bool
+) -> list[Pair]:
     """With (g - r)(g + r) given."""
     p, q, difference = _relation(v, share_a, share_b)
     root = np.sqrt(squared)
@@ -129,14 +156,19 @@ def _from_energy(v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, ep
             left = (difference - root) * (difference + root)
             # Rounding may leave a value below 0 for an impact that loses all it can.
             parting = np.sqrt(np.where((left < 0.0) & (left >= -16.0 * eps * squared), 0.0, left))
-            return [(difference, parting), (difference, -parting)] if incomplete else [(difference, parting)]
+            return (
+                [(difference, parting), (difference, -parting)]
+                if incomplete
+                else [(difference, parting)]
+            )
         case ("va_after", "vb_after"):
             return [(np.hypot(difference, root), difference)]
         case ("va", "va_after") | ("vb", "vb_after"):
             total = difference / p
             less = np.where(squared == 0.0, 0.0, squared / total)
             return [(0.5 * (total + less), 0.5 * (total - less))]
-    # p g + q r with p > 0 > q is a hyperbola cut by a line: the roots, each in the form that subtracts nothing.
+    # p g + q r with p > 0 > q is a hyperbola cut by a line: the roots, each in the form that
+    # subtracts nothing.
     q = -q
     inside = difference * difference + (q - p) * squared
     rounding = 16.0 * eps * (difference * difference + squared)
@@ -153,7 +185,9 @@ def _from_energy(v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, ep
 
 
 class Term(NamedTuple):
-    """One body before or after; ``speed`` is None where it is unknown, ``course`` None for a body at rest."""
+    """One body before or after; ``speed`` is None where it is unknown, ``course`` None for a body
+    at rest.
+    """
 
     sign: float
     mass: Any
@@ -161,12 +195,18 @@ class Term(NamedTuple):
     course: Any
 
 
-def unknown_speed(terms: Iterable[Term], impulse: tuple[Any, Any] | None, wanted: Term, other: Term) -> Any:
-    """The speed of one unknown term, the other being eliminated; not finite where their courses are parallel."""
+def unknown_speed(
+    terms: Iterable[Term], impulse: tuple[Any, Any] | None, wanted: Term, other: Term
+) -> Any:
+    """The speed of one unknown term, the other being eliminated; not finite where their courses are
+    parallel.
+    """
     total: Any = 0.0
     for term in terms:
         if term.speed is not None and term.course is not None:
-            total = total + term.sign * (term.mass / wanted.mass) * (term.speed * term.course.to(other.course)[1])
+            total = total + term.sign * (term.mass / wanted.mass) * (
+                term.speed * term.course.to(other.course)[1]
+            )
     if impulse is not None:
         c, s = other.course.direction
         total = total + (impulse[0] * s - impulse[1] * c) / wanted.mass
@@ -174,7 +214,9 @@ def unknown_speed(terms: Iterable[Term], impulse: tuple[Any, Any] | None, wanted
 
 
 def parabola_roots(samples: Sequence[Any], step: Any) -> tuple[Any, Any]:
-    """Roots of the parabola through three points a step apart, the middle one at 0, rising; NaN where there are none."""
+    """Roots of the parabola through three points a step apart, the middle one at 0, rising; NaN
+    where there are none.
+    """
     behind, middle, ahead = samples
     square = 0.5 * (ahead + behind) - middle
     linear = 0.5 * (ahead - behind)
@@ -182,7 +224,9 @@ def parabola_roots(samples: Sequence[Any], step: Any) -> tuple[Any, Any]:
     square = np.where(abs(square) <= 8.0 * EPS * scale, 0.0, square)
     inside = linear * linear - 4.0 * square * middle
     # A double root, where the line only touches the parabola, survives rounding.
-    inside = np.where(abs(inside) <= 64.0 * EPS * (linear * linear + abs(square) * scale), 0.0, inside)
+    inside = np.where(
+        abs(inside) <= 64.0 * EPS * (linear * linear + abs(square) * scale), 0.0, inside
+    )
     half = -0.5 * (linear + np.copysign(np.sqrt(inside), linear))
     one = np.where(square == 0.0, np.nan, half / square)
     other = np.where(half == 0.0, np.where(square == 0.0, np.nan, 0.0), middle / half)
@@ -190,7 +234,9 @@ def parabola_roots(samples: Sequence[Any], step: Any) -> tuple[Any, Any]:
 
 
 def quartic_roots(samples: Sequence[Any], step: Any) -> list[Any]:
-    """Real roots of the quartic through five points at ``PLACES`` times the step; NaN in place of complex ones."""
+    """Real roots of the quartic through five points at ``PLACES`` times the step; NaN in place of
+    complex ones.
+    """
     values = np.stack(np.broadcast_arrays(*samples), axis=-1)
     largest = np.max(abs(values), axis=-1, keepdims=True)
     coefficients = (values / largest) @ _FROM_PLACES

@@ -1,8 +1,9 @@
 """One step of a vehicle that runs out on its tyres, of orders 5 and 4, and how near the end it is.
 
-All in units of the motion at its start: its speed, that over gravity, and the product of both. The steps are over a time that
-slows down with the vehicle (time over speed), in which forces depend on the direction of the motion alone and its end is
-regular. The yaw rate is over the distance of a wheel from the centre of mass, so that it is a speed too.
+All in units of the motion at its start: its speed, that over gravity, and the product of both. The
+steps are over a time that slows down with the vehicle (time over speed), in which forces depend on
+the direction of the motion alone and its end is regular. The yaw rate is over the distance of a
+wheel from the centre of mass, so that it is a speed too.
 """
 
 from typing import Any, NamedTuple
@@ -22,7 +23,8 @@ _STAGES = (
     (35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84),
 )
 _ERRORS = (71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40)
-# A motion whose direction changes at less than this share of its slowing, or of the least slowing that counts, is straight.
+# A motion whose direction changes at less than this share of its slowing, or of the least slowing
+# that counts, is straight.
 _STRAIGHT, _SLOWEST = 1e-6, 1e-4
 
 # In the error of a step, the weight of that over the speed that is left.
@@ -30,7 +32,9 @@ _RELATIVE = 1e-3
 
 
 class Ground(NamedTuple):
-    """What does not change in a step: tyres, the friction under each wheel, mass over inertia, turn per way, slope."""
+    """What does not change in a step: tyres, the friction under each wheel, mass over inertia, turn
+    per way, slope.
+    """
 
     tyres: Tyres
     here: tuple[Any, ...]
@@ -41,7 +45,9 @@ class Ground(NamedTuple):
 
 
 class Settings(NamedTuple):
-    """What is the same for all cases: whether wheels are steered, loads follow forces, and the ground slopes."""
+    """What is the same for all cases: whether wheels are steered, loads follow forces, and the
+    ground slopes.
+    """
 
     steered: bool
     transfers: bool
@@ -52,7 +58,11 @@ def ground_of(numbers: tuple[Any, ...]) -> Ground:
     """The ground, from its numbers in a row."""
     if isinstance(numbers[0], np.ndarray) and numbers[0].ndim:
         # The wheels in the rows of one array: a quarter of the calls.
-        return Ground(Tyres((np.array(numbers[:4]),), *numbers[4:12]), (np.array(numbers[12:16]),), *numbers[16:20])
+        return Ground(
+            Tyres((np.array(numbers[:4]),), *numbers[4:12]),
+            (np.array(numbers[12:16]),),
+            *numbers[16:20],
+        )
     return Ground(Tyres(numbers[:4], *numbers[4:12]), numbers[12:16], *numbers[16:20])
 
 
@@ -66,13 +76,24 @@ def size(vx: Any, vy: Any, turn: Any) -> Any:
 
 
 def accelerations(*numbers: Any) -> tuple[Any, Any, Any]:
-    """Along x and y and in yaw, from those of the ground, the velocities, cosine and sine of the heading, and settings."""
+    """Along x and y and in yaw, from those of the ground, the velocities, cosine and sine of the
+    heading, and settings.
+    """
     *rest, steered, transfers, sloped = numbers
-    return _accelerations(ground_of(tuple(rest[:OF_GROUND])), Settings(steered, transfers, sloped), *rest[OF_GROUND:])
+    return _accelerations(
+        ground_of(tuple(rest[:OF_GROUND])), Settings(steered, transfers, sloped), *rest[OF_GROUND:]
+    )
 
 
 def _accelerations(
-    ground: Ground, settings: Settings, vx: Any, vy: Any, turn: Any, c: Any, s: Any, brakes: Any = None
+    ground: Ground,
+    settings: Settings,
+    vx: Any,
+    vy: Any,
+    turn: Any,
+    c: Any,
+    s: Any,
+    brakes: Any = None,
 ) -> tuple[Any, Any, Any]:
     speed = size(vx, vy, turn)
     scale = select(speed > 0.0, speed, 1.0)
@@ -94,9 +115,11 @@ def _accelerations(
 
 
 def step(*numbers: Any) -> tuple[Any, ...]:
-    """One step: velocities after it, way along x and y, turn and time, accelerations after it, and the error.
+    """One step: velocities after it, way along x and y, turn and time, accelerations after it, and
+    the error.
 
-    Of the numbers of the ground; velocities, cosine and sine of the heading, accelerations, and width; and settings.
+    Of the numbers of the ground; velocities, cosine and sine of the heading, accelerations, and
+    width; and settings.
     """
     *rest, steered, transfers, sloped = numbers
     ground, settings = ground_of(tuple(rest[:OF_GROUND])), Settings(steered, transfers, sloped)
@@ -110,7 +133,17 @@ def step(*numbers: Any) -> tuple[Any, ...]:
         speed = size(vx, vy, turn)
         x, y, turning = found or _accelerations(ground, settings, vx, vy, turn, c, s, brakes)
         rate = speed * (turn * ground.spin)
-        row = speed * x, speed * y, speed * turning, -rate * s, rate * c, speed * vx, speed * vy, rate, speed
+        row = (
+            speed * x,
+            speed * y,
+            speed * turning,
+            -rate * s,
+            rate * c,
+            speed * vx,
+            speed * vy,
+            rate,
+            speed,
+        )
         return np.array(row) if rows else row, (x, y, turning)
 
     stages, now = [rates(start, (ax, ay, yaw))[0]], start
@@ -120,17 +153,28 @@ def step(*numbers: Any) -> tuple[Any, ...]:
         stages.append(further)
     way = [width * part for part in _sum(_STAGES[-1], stages, 5, 9)]
     off = [*_sum(_ERRORS, stages, 0, 3), *_sum(_ERRORS, stages, 7, 8)]
-    # What it moves and turns the place of rest: an error in velocity lasts for a time that is as long as the speed is high.
+    # What it moves and turns the place of rest: an error in velocity lasts for a time that is as
+    # long as the speed is high.
     left = size(*now[:3])
     relative = _RELATIVE / select(left > 0.0, left, 1.0)
-    off_velocity, off_turn, off_heading = (off[0] * off[0] + off[1] * off[1]) ** 0.5, abs(off[2]), abs(off[3])
-    wrong = width * (off_velocity * (left + relative) + off_turn * (left * (1.0 + ground.spin) + relative) + off_heading)
+    off_velocity, off_turn, off_heading = (
+        (off[0] * off[0] + off[1] * off[1]) ** 0.5,
+        abs(off[2]),
+        abs(off[3]),
+    )
+    wrong = width * (
+        off_velocity * (left + relative)
+        + off_turn * (left * (1.0 + ground.spin) + relative)
+        + off_heading
+    )
     return (*now[:3], *way, *after, wrong)
 
 
 def _sum(weights: tuple[float, ...], stages: list[Any], first: int, end: int) -> Any:
     """The weighted sums of some of the rates over the stages: rows of an array, or one by one."""
-    used = [(weight, stage[first:end]) for weight, stage in zip(weights, stages, strict=False) if weight]
+    used = [
+        (weight, stage[first:end]) for weight, stage in zip(weights, stages, strict=False) if weight
+    ]
     weight, stage = used[0]
     if isinstance(stage, np.ndarray):
         total = weight * stage
@@ -149,8 +193,11 @@ def _further(start: Any, width: Any, rates: Any) -> Any:
     return tuple(one + width * part for one, part in zip(start, rates, strict=True))
 
 
-def ending(vx: Any, vy: Any, turn: Any, ax: Any, ay: Any, yaw: Any) -> tuple[Any, Any, Any, Any, Any]:
-    """The speed, how fast it falls, how fast its direction changes, and whether the motion is straight from here.
+def ending(
+    vx: Any, vy: Any, turn: Any, ax: Any, ay: Any, yaw: Any
+) -> tuple[Any, Any, Any, Any, Any]:
+    """The speed, how fast it falls, how fast its direction changes, and whether the motion is
+    straight from here.
 
     That is, whether it slides on without turning, and whether it turns on the spot.
     """

@@ -1,4 +1,6 @@
-"""The time-resolved impact: the contact set up in its own units, its start found, stepped through, and answered in SI."""
+"""The time-resolved impact: the contact set up in its own units, its start found, stepped through,
+and answered in SI.
+"""
 
 from collections.abc import Callable
 from functools import lru_cache
@@ -26,8 +28,9 @@ from .elementwise import first_status, select
 from .status import EPS, Passed, Status
 from .tyre import Tyres
 
-# How often the start is corrected with all steps. How near what is reached has to be to the places given, in closing speed
-# times duration and in radians: at 100 steps, and at most. By the cube of the steps it stays below their own error.
+# How often the start is corrected with all steps. How near what is reached has to be to the places
+# given, in closing speed times duration and in radians: at 100 steps, and at most. By the cube of
+# the steps it stays below their own error.
 _CORRECTIONS, _NEAR, _NEAREST = 20, 3e-3, 1e-2
 # Before that it is corrected with these parts of the steps; with fewer a contact is not followed.
 _PARTS, _FEWEST = (0.05, 0.1, 0.2), 5
@@ -48,7 +51,9 @@ Run = Callable[[Fixed, Moving, bool, Any], Moving]
 
 
 class Settings(NamedTuple):
-    """What is the same of all cases: geometry, steps a nominal duration, whether that is given, and the wheels of A and B."""
+    """What is the same of all cases: geometry, steps a nominal duration, whether that is given, and
+    the wheels of A and B.
+    """
 
     geometry: str
     steps: int
@@ -58,7 +63,9 @@ class Settings(NamedTuple):
 
 
 def wheels_of(heading: Any, drag: Any) -> Wheels:
-    """The wheels of a vehicle that slide: none without drag; all of its weight at the centre of mass without a heading."""
+    """The wheels of a vehicle that slide: none without drag; all of its weight at the centre of
+    mass without a heading.
+    """
     return () if isinstance(drag, float) and drag == 0.0 else _ONE if heading is None else _FOUR
 
 
@@ -77,8 +84,8 @@ def time_resolved(
 ) -> Passed:
     """Solve one case of floats, or a block of arrays, as ``run`` does; SI in and out.
 
-    ``spring`` is the nominal duration or a stiffness, as ``settings.timed`` says. ``bodies`` have mass, inertia, velocity, yaw
-    rate, position, and cosine and sine of the heading, or None.
+    ``spring`` is the nominal duration or a stiffness, as ``settings.timed`` says. ``bodies`` have
+    mass, inertia, velocity, yaw rate, position, and cosine and sine of the heading, or None.
     """
     e, (nx, ny), steps = restitution, normal, run(settings)
     own = [_own(body, *point) for body in bodies]
@@ -97,7 +104,10 @@ def time_resolved(
             scaled(body, numbers[7], mass, length, weight, held),
             Motion(motion.vx / closing, motion.vy / closing, motion.spin * duration),
         )
-        for body, motion, numbers, held in ((a, on_a, bodies[0], tyres[0]), (b, on_b, bodies[1], tyres[1]))
+        for body, motion, numbers, held in (
+            (a, on_a, bodies[0], tyres[0]),
+            (b, on_b, bodies[1], tyres[1]),
+        )
     )
     step = 1.0 / settings.steps
     back = e**0.5 * step
@@ -115,15 +125,21 @@ def time_resolved(
         step_back=select(back < soonest, back, soonest),
     )
     # Broadcast, so that all that moves has the shape of the cases.
-    zero = 0.0 * (closing + contact.step_back + contact.friction + on_a.vx + on_b.vx + sum((*a, *b)))
+    zero = 0.0 * (
+        closing + contact.step_back + contact.friction + on_a.vx + on_b.vx + sum((*a, *b))
+    )
     start = [Motion(*(value + zero for value in motion)) for motion in (on_a, on_b)]
     none = zero != zero
-    passing = Passing(*(zero for _ in Passing._fields))._replace(c=1.0 + zero, sticks=none, active=none ^ True)
+    passing = Passing(*(zero for _ in Passing._fields))._replace(
+        c=1.0 + zero, sticks=none, active=none ^ True
+    )
     moving: Moving = start[0], start[1], passing
     begun = (contact, a, b), moving
     converged: Any = True
     if settings.geometry == "maximum_engagement":
-        begun, engaged, converged = _found(*begun, steps, (closing_speed > 0.0) & yields, settings.steps, note)
+        begun, engaged, converged = _found(
+            *begun, steps, (closing_speed > 0.0) & yields, settings.steps, note
+        )
     fixed, moving = begun
     contact, a, b = fixed
     first = place_of(contact, a, b, *moving)
@@ -133,7 +149,12 @@ def time_resolved(
         engaged = steps(fixed, moving, True, None if note is None else note.append)
     _, parting = force_back(contact, engaged[2].crush, engaged[2].deepest)
     more = (engaged[2].crush > parting) & (engaged[2].time < LONGEST)
-    moving = steps(fixed, (*engaged[:2], engaged[2]._replace(active=more)), False, None if note is None else note.append)
+    moving = steps(
+        fixed,
+        (*engaged[:2], engaged[2]._replace(active=more)),
+        False,
+        None if note is None else note.append,
+    )
     passing = moving[2]
     owed = select(passing.owed > 0.0, passing.owed, 0.0)
     on_a, on_b = after = (
@@ -170,12 +191,22 @@ def time_resolved(
     }
     there = place_of(contact, a, b, *engaged)
     found["common_velocity"] = closing * (
-        there.nx * (engaged[0].vx - engaged[0].spin * there.ay) + there.ny * (engaged[0].vy + engaged[0].spin * there.ax)
+        there.nx * (engaged[0].vx - engaged[0].spin * there.ay)
+        + there.ny * (engaged[0].vy + engaged[0].spin * there.ax)
     )
-    for label, sign, body, before, most_engaged, end in zip("ab", (-1.0, 1.0), (a, b), start, engaged, after, strict=False):
-        for prefix, motion, at in (("compression", most_engaged, engaged[2]), ("delta", end, passing)):
-            found[f"{prefix}_vx_{label}"] = body.per_mass * (sign * at.impulse_x + motion.tyre_x) * closing
-            found[f"{prefix}_vy_{label}"] = body.per_mass * (sign * at.impulse_y + motion.tyre_y) * closing
+    for label, sign, body, before, most_engaged, end in zip(
+        "ab", (-1.0, 1.0), (a, b), start, engaged, after, strict=False
+    ):
+        for prefix, motion, at in (
+            ("compression", most_engaged, engaged[2]),
+            ("delta", end, passing),
+        ):
+            found[f"{prefix}_vx_{label}"] = (
+                body.per_mass * (sign * at.impulse_x + motion.tyre_x) * closing
+            )
+            found[f"{prefix}_vy_{label}"] = (
+                body.per_mass * (sign * at.impulse_y + motion.tyre_y) * closing
+            )
             found[f"{prefix}_yaw_rate_{label}"] = (motion.spin - before.spin) / duration
         found[f"tyre_impulse_x_{label}"] = end.tyre_x * impulse
         found[f"tyre_impulse_y_{label}"] = end.tyre_y * impulse
@@ -201,17 +232,27 @@ def time_resolved(
         (loss < -_ROUNDED * absorbed, Status.ENERGY_GAIN),
     )
     if note and status <= Status.ENERGY_GAIN:
-        found["history"] = _history(note, contact, start, closing, duration, length, impulse / duration)
+        found["history"] = _history(
+            note, contact, start, closing, duration, length, impulse / duration
+        )
     return Passed(status=status, **found)
 
 
-def _history(note: list[tuple[float, ...]], contact: Contact, start: list[Motion], *units: float) -> tuple[Any, ...]:
-    """Time, force, crush, delta-V of A and B, and their yaw rates, at the start and after every step."""
+def _history(
+    note: list[tuple[float, ...]], contact: Contact, start: list[Motion], *units: float
+) -> tuple[Any, ...]:
+    """Time, force, crush, delta-V of A and B, and their yaw rates, at the start and after every
+    step.
+    """
     closing, duration, length, newton = units
-    on_a, on_b, passing = _moving_of(np.array([(*start[0], *start[1], *Passing()), *note], dtype=np.float64).T)
+    on_a, on_b, passing = _moving_of(
+        np.array([(*start[0], *start[1], *Passing()), *note], dtype=np.float64).T
+    )
     crush, deepest = passing.crush, passing.deepest
     with np.errstate(all="ignore"):
-        force = np.where(crush < deepest, force_back(contact, crush, deepest)[0], contact.stiffness * deepest)
+        force = np.where(
+            crush < deepest, force_back(contact, crush, deepest)[0], contact.stiffness * deepest
+        )
     if contact.restitution == 0.0 or crush[-1] < deepest[-1]:
         force[-1] = 0.0
     return (
@@ -226,7 +267,11 @@ def _history(note: list[tuple[float, ...]], contact: Contact, start: list[Motion
 def _moving_of(numbers: Any) -> Moving:
     """What moves, from its numbers in a row."""
     count = len(Motion._fields)
-    return Motion(*numbers[:count]), Motion(*numbers[count : 2 * count]), Passing(*numbers[2 * count :])
+    return (
+        Motion(*numbers[:count]),
+        Motion(*numbers[count : 2 * count]),
+        Passing(*numbers[2 * count :]),
+    )
 
 
 def _own(body: tuple[Any, ...], px: Any, py: Any) -> tuple[Body, Motion]:
@@ -250,12 +295,19 @@ def scaled(body: Body, heading: Any, mass: Any, length: Any, weight: Any, tyres:
 
 
 def _found(
-    fixed: Fixed, moving: Moving, run: Run, usable: Any, steps: int, note: list[tuple[float, ...]] | None
+    fixed: Fixed,
+    moving: Moving,
+    run: Run,
+    usable: Any,
+    steps: int,
+    note: list[tuple[float, ...]] | None,
 ) -> tuple[tuple[Fixed, Moving], Moving, Any]:
-    """The geometry at first contact for which that given is reached at maximum engagement, with the motions there.
+    """The geometry at first contact for which that given is reached at maximum engagement, with the
+    motions there.
 
-    What the bodies move and turn until then is guessed, and corrected by what they do, with the step of a secant: first with
-    few steps, as their error hardly matters, then with more, and with all until what is reached is near enough.
+    What the bodies move and turn until then is guessed, and corrected by what they do, with the
+    step of a secant: first with few steps, as their error hardly matters, then with more, and with
+    all until what is reached is near enough.
     """
     on_a, on_b, passing = moving
     names = ("dx", "dy", "c", "s")
@@ -264,7 +316,9 @@ def _found(
     older: tuple[list[Any], list[Any]] | None = None
 
     def followed(step: Any) -> tuple[Fixed, Moving, Any, list[Any], list[Any]]:
-        """Start, end, whether they approach there, what is reached, and what by rights should be the next guess."""
+        """Start, end, whether they approach there, what is reached, and what by rights should be
+        the next guess.
+        """
         nonlocal older
         start = _moved_back(fixed[0]._replace(step=step), *fixed[1:], guess)
         closing, _ = approach(place_of(*start, *moving), on_a, on_b)
@@ -288,7 +342,11 @@ def _found(
             note.clear()
         start, end, approaching, off, trial = followed(fixed[0].step)
         # Of a block only the cases that have not arrived are followed again.
-        begun, engaged = (start, end) if begun is None else (_where(left, start, begun), _where(left, end, engaged))
+        begun, engaged = (
+            (start, end)
+            if begun is None
+            else (_where(left, start, begun), _where(left, end, engaged))
+        )
         far: Any = sum(abs(one) for one in off)
         left = left & (((far <= near) & approaching) ^ True)
         if not np.any(left):
@@ -323,7 +381,9 @@ def put(parts: Any, some: Any, new: Any) -> Any:
     return whole
 
 
-def _secant(reached: list[Any], off: list[Any], off_before: list[Any], reached_before: list[Any]) -> list[Any]:
+def _secant(
+    reached: list[Any], off: list[Any], off_before: list[Any], reached_before: list[Any]
+) -> list[Any]:
     """The next guess, from where the last two led and by how much they missed."""
     change = [now - then for now, then in zip(off, off_before, strict=True)]
     square: Any = sum(part * part for part in change)
@@ -334,7 +394,9 @@ def _secant(reached: list[Any], off: list[Any], off_before: list[Any], reached_b
 
 
 def _moved_back(contact: Contact, a: Body, b: Body, moved: list[Any]) -> tuple[Contact, Body, Body]:
-    """Geometry at first contact from that at maximum engagement, by what moves and turns between them."""
+    """Geometry at first contact from that at maximum engagement, by what moves and turns between
+    them.
+    """
     turned = []
     for body, (dx, dy, c, s) in ((a, moved[:4]), (b, moved[4:8])):
         size = (c * c + s * s) ** 0.5
@@ -375,13 +437,22 @@ def float_run(settings: Settings, compiled: Callable[..., Any]) -> Run:
         if not moving[2].active:
             return moving
         step = _loop(compiled, (engaging, moves, *wheels))
-        return _moving_of(step([v for part in fixed for v in part], [v for part in moving for v in part], most, note))
+        return _moving_of(
+            step(
+                [v for part in fixed for v in part],
+                [v for part in moving for v in part],
+                most,
+                note,
+            )
+        )
 
     return run
 
 
 def block_run(settings: Settings, compiled: Callable[..., Any]) -> Run:
-    """Step through a block of arrays, and through its last cases one by one; ``compiled`` makes a loop of floats from a step."""
+    """Step through a block of arrays, and through its last cases one by one; ``compiled`` makes a
+    loop of floats from a step.
+    """
     moves, one = settings.geometry != "fixed", float_run(settings, compiled)
 
     def run(fixed: Fixed, moving: Moving, engaging: bool, note: Any) -> Moving:
@@ -394,7 +465,11 @@ def block_run(settings: Settings, compiled: Callable[..., Any]) -> Run:
                 return _one_by_one(one, fixed, moving, engaging)
             if 2 * count < active.size:
                 # Most have ended: go on without them.
-                whole: Moving = put(moving, active, run(cases_of(fixed, active), cases_of(moving, active), engaging, note))
+                whole: Moving = put(
+                    moving,
+                    active,
+                    run(cases_of(fixed, active), cases_of(moving, active), engaging, note),
+                )
                 return whole
             moving = advance(*fixed, *moving, engaging, moves, settings.wheels_a, settings.wheels_b)
         return moving
@@ -405,7 +480,11 @@ def block_run(settings: Settings, compiled: Callable[..., Any]) -> Run:
 def _one_by_one(run: Run, fixed: Fixed, moving: Moving, engaging: bool) -> Moving:
     """Step through the active cases of a block as floats."""
     lost = Motion(*[nan] * len(Motion._fields))
-    nowhere: Moving = lost, lost, Passing(*[nan] * len(Passing._fields))._replace(sticks=False, active=False)
+    nowhere: Moving = (
+        lost,
+        lost,
+        Passing(*[nan] * len(Passing._fields))._replace(sticks=False, active=False),
+    )
 
     def ended(at: Any) -> Moving:
         try:
@@ -415,7 +494,9 @@ def _one_by_one(run: Run, fixed: Fixed, moving: Moving, engaging: bool) -> Movin
             return nowhere
 
     some = np.flatnonzero(moving[2].active)
-    numbers = zip(*([value for part in one for value in part] for one in map(ended, some)), strict=True)
+    numbers = zip(
+        *([value for part in one for value in part] for one in map(ended, some)), strict=True
+    )
     whole: Moving = put(moving, some, _moving_of([np.array(column) for column in numbers]))
     return whole
 

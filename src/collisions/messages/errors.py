@@ -9,7 +9,9 @@ from ..kernels.status import Status as Status
 
 
 class _Carrying(BaseException):
-    """Base that carries a label and named fields in addition to the message, through pickling too."""
+    """Base that carries a label and named fields in addition to the message, through
+    pickling too.
+    """
 
     def __init__(self, message: str = "", *, code: str = "", **fields: Any) -> None:
         super().__init__(message)
@@ -28,16 +30,21 @@ class _Carrying(BaseException):
 class CollisionsError(_Carrying, Exception):
     """Base of every error raised by this library.
 
-    ``code`` is a short label that does not change between versions; ``fields`` holds what else is known of the case.
+    ``code`` is a short label that does not change between versions; ``fields`` holds what else is
+    known of the case.
     """
 
 
 class InputError(CollisionsError, ValueError):
-    """An argument that cannot be used: the message names it, what was given, what is allowed and what to write."""
+    """An argument that cannot be used: the message names it, what was given, what is allowed and
+    what to write.
+    """
 
 
 class UnitsError(InputError):
-    """A quantity or a unit string that cannot be read, or that is of another kind than the argument."""
+    """A quantity or a unit string that cannot be read, or that is of another kind than the
+    argument.
+    """
 
 
 class ShapeError(InputError):
@@ -49,7 +56,9 @@ class MissingInputError(InputError):
 
 
 class NoImpactError(CollisionsError, ValueError):
-    """The bodies do not approach each other along the normal; ``closing_speed`` [m/s] tells by how much."""
+    """The bodies do not approach each other along the normal; ``closing_speed`` [m/s] tells by how
+    much.
+    """
 
     @property
     def closing_speed(self) -> float | None:
@@ -63,7 +72,9 @@ class NoSolutionError(CollisionsError, ValueError):
 
     @property
     def solutions(self) -> tuple[Any, ...]:
-        """The solutions known when the case was refused: all that fit, or the ends of their range; empty if there are none."""
+        """The solutions known when the case was refused: all that fit, or the ends of their range;
+        empty if there are none.
+        """
         return tuple(self.fields.get("solutions", ()))
 
 
@@ -74,13 +85,15 @@ class AmbiguousSolutionError(NoSolutionError):
 class InternalError(CollisionsError, RuntimeError):
     """A defect of this library, which it found itself: two numbers that must agree do not.
 
-    Neither number may be used. ``fields`` has what was compared: for a line of ``explain`` its ``equation`` and ``share``,
-    the difference over the largest term.
+    Neither number may be used. ``fields`` has what was compared: for a line of ``explain`` its
+    ``equation`` and ``share``, the difference over the largest term.
     """
 
 
 class CollisionsWarning(_Carrying, UserWarning):
-    """Base of every warning given by this library; carries ``code`` and ``fields`` like the errors."""
+    """Base of every warning given by this library; carries ``code`` and ``fields`` like
+    the errors.
+    """
 
 
 class EnergyGainWarning(CollisionsWarning):

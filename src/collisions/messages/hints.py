@@ -1,4 +1,6 @@
-"""Hints for an argument that a function does not have: the TypeError names the one that is meant, or all that there are."""
+"""Hints for an argument that a function does not have: the TypeError names the one that is meant,
+or all that there are.
+"""
 
 from __future__ import annotations
 
@@ -44,7 +46,10 @@ _CALLED = {
 
 
 def no_argument(
-    caller: str, names: Iterable[str], unknown: Iterable[str], hints: Mapping[str, str] = MappingProxyType({})
+    caller: str,
+    names: Iterable[str],
+    unknown: Iterable[str],
+    hints: Mapping[str, str] = MappingProxyType({}),
 ) -> TypeError:
     """The error for an argument that a function does not have, with the one that is meant."""
     from difflib import get_close_matches
@@ -53,7 +58,11 @@ def no_argument(
     stem, side = parted(given)
     near = [name for name in known if given in _CALLED.get(name, "").split()]
     # Without the letter of a vehicle: v_a is speed_a.
-    near += [name for name in known if parted(name)[1] == side and stem in _CALLED.get(parted(name)[0], "").split()]
+    near += [
+        name
+        for name in known
+        if parted(name)[1] == side and stem in _CALLED.get(parted(name)[0], "").split()
+    ]
     near += get_close_matches(given, known, 1, 0.75)  # friction is not restitution
     hint = hints.get(given) or (f"write {near[0]}=" if near else f"it has {', '.join(known)}")
     return TypeError(f"{caller} has no argument {given!r}; {hint}")
@@ -82,20 +91,29 @@ def hinted(function: Callable[P, T]) -> Callable[P, T]:
             if unknown := [name for name in options if name not in names]:
                 raise no_argument(caller, names, unknown) from None
             by_name = [one.name for one in taken if one.kind is Parameter.KEYWORD_ONLY]
-            surplus = f"; write the others by name, such as {by_name[0]}=" if "were given" in str(error) and by_name else ""
+            surplus = (
+                f"; write the others by name, such as {by_name[0]}="
+                if "were given" in str(error) and by_name
+                else ""
+            )
             raise TypeError(str(error).replace(own, caller) + surplus) from None
 
     return call
 
 
 def open_to_hints(function: F) -> F:
-    """Decorate a function that takes ``**unknown`` to refuse it with a hint, for a fiftieth of the cost of ``hinted``.
+    """Decorate a function that takes ``**unknown`` to refuse it with a hint, for a fiftieth of the
+    cost of ``hinted``.
 
-    Its signature does not show ``**unknown``. What has no default is None in a call, as otherwise Python would say that it is
-    missing, and not what it was given as; a reader refuses the None.
+    Its signature does not show ``**unknown``. What has no default is None in a call, as otherwise
+    Python would say that it is missing, and not what it was given as; a reader refuses the None.
     """
     shown = signature(function)
-    taken = [one for one in shown.parameters.values() if one.kind not in (Parameter.VAR_KEYWORD, Parameter.VAR_POSITIONAL)]
+    taken = [
+        one
+        for one in shown.parameters.values()
+        if one.kind not in (Parameter.VAR_KEYWORD, Parameter.VAR_POSITIONAL)
+    ]
     vars(function)["__signature__"] = shown.replace(parameters=taken)
     needed = [one for one in taken if one.default is Parameter.empty and one.name != "self"]
     by_name = {one.name: None for one in needed if one.kind is Parameter.KEYWORD_ONLY}

@@ -13,15 +13,21 @@ _PATIENCE = 1.0  # seconds before anything is shown
 
 
 def reporter(progress: Progress | None) -> Callable[[int, int], None] | None:
-    """The function to call with cases done and cases in all: the caller's own, or for True a progress bar."""
+    """The function to call with cases done and cases in all: the caller's own, or for True a
+    progress bar.
+    """
     return (progress if callable(progress) else Bar()) if progress else None
 
 
 def halves(report: Callable[[int, int], None] | None) -> tuple[Any, Any]:
-    """A reporter for a run that goes over its cases twice: a case counts as done after its second time."""
+    """A reporter for a run that goes over its cases twice: a case counts as done after its second
+    time.
+    """
     if report is None:
         return None, None
-    return lambda done, total: report(done // 2, total), lambda done, total: report((total + done) // 2, total)
+    return lambda done, total: report(done // 2, total), lambda done, total: report(
+        (total + done) // 2, total
+    )
 
 
 class Bar:
@@ -36,7 +42,9 @@ class Bar:
             if done == total or time.monotonic() - self.started < _PATIENCE:
                 return
             try:
-                self.bar = import_module("tqdm.auto").tqdm(total=total, unit="case", unit_scale=True)
+                self.bar = import_module("tqdm.auto").tqdm(
+                    total=total, unit="case", unit_scale=True
+                )
             except ImportError:
                 self.bar = _Line(total)
         self.bar.update(done - self.bar.n)

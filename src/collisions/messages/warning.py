@@ -1,4 +1,6 @@
-"""Warnings: given at the caller's own line, silenced, or counted over the samples of a study and stated with its result."""
+"""Warnings: given at the caller's own line, silenced, or counted over the samples of a study and
+stated with its result.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,8 @@ from .errors import CollisionsWarning
 
 
 class Noted(NamedTuple):
-    """A warning raised while a model was called: what it says without its numbers, and the cases of that call it is of.
+    """A warning raised while a model was called: what it says without its numbers, and the cases of
+    that call it is of.
 
     ``cases`` is None where it is of all of them.
     """
@@ -26,7 +29,9 @@ class Noted(NamedTuple):
 
 
 class Note(NamedTuple):
-    """A statement about a result; one that is also a warning has a ``code``, and its ``rest`` follows the sentence."""
+    """A statement about a result; one that is also a warning has a ``code``, and its ``rest``
+    follows the sentence.
+    """
 
     warning: type[CollisionsWarning] | None
     sentence: str
@@ -42,7 +47,9 @@ _sampling: ContextVar[list[Noted] | None] = ContextVar("sampling", default=None)
 
 
 def warn(warning: CollisionsWarning) -> None:
-    """Warn at the line of the first caller outside this package; within a study it is noted, as of all cases."""
+    """Warn at the line of the first caller outside this package; within a study it is noted, as of
+    all cases.
+    """
     noted = _sampling.get()
     if noted is not None:
         noted.append(Noted(str(warning), type(warning), warning.code, None))
@@ -58,11 +65,14 @@ def warn(warning: CollisionsWarning) -> None:
 def warn_of_cases(warning: CollisionsWarning, parts: Mapping[str, int | None]) -> None:
     """Warn of what some cases show; nothing within ``quietly()``.
 
-    Within a study the ``parts`` are noted instead: what is said of how many cases, without numbers that belong to one of them.
+    Within a study the ``parts`` are noted instead: what is said of how many cases, without numbers
+    that belong to one of them.
     """
     noted = _sampling.get()
     if noted is not None:
-        noted += (Noted(sentence, type(warning), warning.code, count) for sentence, count in parts.items())
+        noted += (
+            Noted(sentence, type(warning), warning.code, count) for sentence, count in parts.items()
+        )
     elif not _quiet.get():
         warn(warning)
 
@@ -75,7 +85,9 @@ def warn_of_samples(warning: CollisionsWarning) -> None:
 
 @contextmanager
 def quietly(noted: list[Noted] | None = None) -> Iterator[None]:
-    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``noted`` the cases are those of a study."""
+    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``noted`` the
+    cases are those of a study.
+    """
     token, sampled = _quiet.set(True), _sampling.set(noted)
     try:
         yield
@@ -85,7 +97,9 @@ def quietly(noted: list[Noted] | None = None) -> Iterator[None]:
 
 
 def notes_of_samples(noted: Iterable[Noted], total: int) -> tuple[Note, ...]:
-    """What was noted over all samples of a study: each warning once, with the number and the share of the samples it is of."""
+    """What was noted over all samples of a study: each warning once, with the number and the share
+    of the samples it is of.
+    """
     counts: dict[tuple[str, type[CollisionsWarning], str], int] = {}
     for sentence, kind, code, count in noted:
         key = sentence, kind, code
@@ -96,7 +110,9 @@ def notes_of_samples(noted: Iterable[Noted], total: int) -> tuple[Note, ...]:
         share = cases / total
         of = "" if total == 1 else f"{cases} of {total} cases ({100.0 * share:.3g} %): "
         raised = kind if share >= _SELDOM else None
-        notes.append(Note(raised, of + sentence, code=code, fields={"cases": cases, "share": share}))
+        notes.append(
+            Note(raised, of + sentence, code=code, fields={"cases": cases, "share": share})
+        )
     return tuple(sorted(notes, key=lambda note: -note.fields["cases"]))
 
 
@@ -106,4 +122,10 @@ def warn_of(notes: Iterable[Note]) -> None:
     for note in {note.code: note for note in raised}.values():
         alike = [one for one in raised if one.code == note.code]
         assert note.warning is not None
-        warn(note.warning("; ".join(one.sentence for one in alike) + note.rest, code=note.code, **alike[0].fields))
+        warn(
+            note.warning(
+                "; ".join(one.sentence for one in alike) + note.rest,
+                code=note.code,
+                **alike[0].fields,
+            )
+        )

@@ -1,4 +1,6 @@
-"""Shared by all pictures: matplotlib, the Axes, the units of the labels, and the check that the impact is solved."""
+"""Shared by all pictures: matplotlib, the Axes, the units of the labels, and the check that the
+impact is solved.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,16 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..impact.impact import Impact
 from ..messages.errors import InputError, MissingInputError
-from ..quantities.formatting import KIND_OF, SI_UNITS, decimals_of, in_words, number_with_unit, places, typeset, with_decimals
+from ..quantities.formatting import (
+    KIND_OF,
+    SI_UNITS,
+    decimals_of,
+    in_words,
+    number_with_unit,
+    places,
+    typeset,
+    with_decimals,
+)
 from ..quantities.reading import need_one_case
 from ..quantities.tables import Summarized, cells
 from ..quantities.units import shown
@@ -34,7 +45,9 @@ SMALLEST, LARGEST = 1e-100, 1e100
 
 
 class Units:
-    """The units a picture is labelled in, by kind of quantity or by SI unit; others, and no unit, stay as they are."""
+    """The units a picture is labelled in, by kind of quantity or by SI unit; others, and no unit,
+    stay as they are.
+    """
 
     def __init__(self, system: Any, of: Summarized | None = None) -> None:
         self._system = cells(system, of._texts() if isinstance(of, Summarized) else ())
@@ -68,7 +81,9 @@ def _kind(unit: str | None) -> str | None:
 
 
 def number(value: float, decimals: int = _MOST_DECIMALS) -> str:
-    """Four figures, without an exponent where people expect none, and no more decimals than these unless all would be 0."""
+    """Four figures, without an exponent where people expect none, and no more decimals than these
+    unless all would be 0.
+    """
     size = abs(value)
     if not math.isfinite(value):
         return in_words(value)
@@ -77,12 +92,16 @@ def number(value: float, decimals: int = _MOST_DECIMALS) -> str:
     else:
         wanted = 0 if size == 0.0 else places(value, 4)
         thousands = THIN if size >= 9999.5 else ""
-        text = with_decimals(value, min(wanted, decimals) if size >= 0.5 * 10.0**-decimals else wanted, thousands)
+        text = with_decimals(
+            value, min(wanted, decimals) if size >= 0.5 * 10.0**-decimals else wanted, thousands
+        )
     return text.replace("-", MINUS)
 
 
 def check_impact(impact: Impact, function: str, impulse: bool = False) -> None:
-    """Raise unless it is a single solved impact with numbers that can be drawn, and an impulse where one is needed."""
+    """Raise unless it is a single solved impact with numbers that can be drawn, and an impulse
+    where one is needed.
+    """
     spread = ", or draw a spread with plot.distribution(propagate(...)['...'])"
     need_one_case(impact, (Impact,), f"plot.{function}", many=spread)
     for side in (impact.a, impact.b):
@@ -95,7 +114,8 @@ def check_impact(impact: Impact, function: str, impulse: bool = False) -> None:
         check_size(name, getattr(impact, name), least=SMALLEST)
     if impulse and impact.pulse is not None:
         raise InputError(
-            f"impact was followed in time, and {function} draws an impulse; write plot.pulse(impact)",
+            f"impact was followed in time, and {function} draws an impulse; write "
+            "plot.pulse(impact)",
             code="takes_time",
             argument="impact",
         )
@@ -105,8 +125,8 @@ def check_size(name: str, value: float, least: float = 0.0) -> None:
     """Raise if a number is too large, or smaller than ``least``, for axes to be laid out."""
     if not least <= abs(value) <= LARGEST:
         raise InputError(
-            f"{name} = {value:.3g} cannot be drawn: a picture shows what is between {SMALLEST:g} and {LARGEST:g} in SI; look "
-            f"for a wrong unit or a slipped digit",
+            f"{name} = {value:.3g} cannot be drawn: a picture shows what is between {SMALLEST:g} "
+            f"and {LARGEST:g} in SI; look for a wrong unit or a slipped digit",
             code="out_of_range",
             argument=name,
         )
@@ -124,7 +144,9 @@ def drawable(text: str) -> str:
 
 
 def in_lines(text: str, width: int = _WIDTH, most: int = 3) -> str:
-    """A text broken into lines of this length; the rest after so many lines is cut off with a mark."""
+    """A text broken into lines of this length; the rest after so many lines is cut off
+    with a mark.
+    """
     text = drawable(text)
     if len(text) <= width:
         return text
@@ -138,7 +160,8 @@ def begin(axes: Any, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
         import matplotlib.pyplot as plt
     except ImportError as error:
         raise MissingInputError(
-            f"collisions.plot needs matplotlib, which cannot be imported ({error}); write: python -m pip install matplotlib",
+            f"collisions.plot needs matplotlib, which cannot be imported ({error}); write: "
+            "python -m pip install matplotlib",
             code="missing_matplotlib",
             argument="matplotlib",
         ) from error
@@ -147,19 +170,23 @@ def begin(axes: Any, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
         return made
     if not isinstance(axes, matplotlib.axes.Axes) or axes.name != "rectilinear":
         raise InputError(
-            f"axes must be one Axes with x and y, got {shown(axes)} of type {type(axes).__name__}; write "
-            f"figure, axes = matplotlib.pyplot.subplots() and give axes",
+            f"axes must be one Axes with x and y, got {shown(axes)} of type "
+            f"{type(axes).__name__}; write figure, axes = matplotlib.pyplot.subplots() and give "
+            "axes",
             code="bad_option",
             argument="axes",
         )
-    # Axes that held a scene are still of equal scales, which clear() leaves: other pictures would be needles.
+    # Axes that held a scene are still of equal scales, which clear() leaves: other pictures would
+    # be needles.
     axes.set_aspect("auto")
     axes.apply_aspect()
     return axes
 
 
 def tidy(axes: Axes, in_full: tuple[int, int] = (-3, 6)) -> None:
-    """Hide unneeded spines; write tick labels in full, or with a power of ten at the axis's end outside this range."""
+    """Hide unneeded spines; write tick labels in full, or with a power of ten at the axis's end
+    outside this range.
+    """
     from matplotlib.ticker import ScalarFormatter
 
     from .ticks import PlainTicks
@@ -179,7 +206,8 @@ def legend_below(axes: Axes, columns: int = 2) -> None:
     axes.legend(
         loc="upper center",
         bbox_to_anchor=(0.5, 0.0),
-        bbox_transform=axes.transAxes + ScaledTranslation(0.0, -below / 72.0, axes.figure.dpi_scale_trans),
+        bbox_transform=axes.transAxes
+        + ScaledTranslation(0.0, -below / 72.0, axes.figure.dpi_scale_trans),
         borderaxespad=0.0,
         ncols=columns,
         frameon=False,

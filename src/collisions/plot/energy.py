@@ -14,10 +14,12 @@ from .canvas import COLOURS, FORCE, GREY, INK, Axes, Units, begin, check_impact,
 
 @hinted
 def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
-    """The energy balance: kinetic energy of A and B before, the losses along normal and tangent, and what A and B have after.
+    """The energy balance: kinetic energy of A and B before, the losses along normal and tangent,
+    and what A and B have after.
 
-    Every bar begins where the one above ends, so that the last ends at zero: what came in is what went out. Kinetic energies
-    depend on the frame of reference; the losses do not. A negative loss is energy gained, and is drawn as such.
+    Every bar begins where the one above ends, so that the last ends at zero: what came in is what
+    went out. Kinetic energies depend on the frame of reference; the losses do not. A negative loss
+    is energy gained, and is drawn as such.
 
     Parameters
     ----------
@@ -31,13 +33,14 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
     Returns
     -------
     matplotlib.axes.Axes
-        Bars by gid: "a.before", "b.before", "lost.normal", "lost.tangential", "lost.tyres" (only of a time-resolved
-        impact with tyres), "a.after", "b.after".
+        Bars by gid: "a.before", "b.before", "lost.normal", "lost.tangential", "lost.tyres" (only of
+        a time-resolved impact with tyres), "a.after", "b.after".
 
     Raises
     ------
     InputError
-        An unknown option, an infinite mass or inertia that moves, or anything but one answered impact.
+        An unknown option, an infinite mass or inertia that moves, or anything but one answered
+        impact.
     MissingInputError
         If matplotlib is missing.
 
@@ -61,7 +64,13 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
         ("a.before", f"{names[0]} before", _kinetic(a.before, "a"), COLOURS[0], ""),
         ("b.before", f"{names[1]} before", _kinetic(b.before, "b"), COLOURS[1], ""),
         ("lost.normal", "lost along\nthe normal", -impact.energy_loss_normal, FORCE, "xxx"),
-        ("lost.tangential", "lost along\nthe tangent", -impact.energy_loss_tangential, FORCE, "..."),
+        (
+            "lost.tangential",
+            "lost along\nthe tangent",
+            -impact.energy_loss_tangential,
+            FORCE,
+            "...",
+        ),
         *([("lost.tyres", "lost by\nthe tyres", -tyres, FORCE, "|||")] if tyres else []),
         ("a.after", f"{names[0]} after", -_kinetic(a.after, "a"), COLOURS[0], "///"),
         ("b.after", f"{names[1]} after", -_kinetic(b.after, "b"), COLOURS[1], "///"),
@@ -72,14 +81,26 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
     reached = 0.0
     for row, (gid, _, value, colour, hatch) in enumerate(rows):
         step = value * factor
-        axes.barh(row, step, left=reached, height=0.62, fc=_tint(colour), ec=colour, hatch=hatch, lw=1.3, gid=gid, zorder=3)
+        axes.barh(
+            row,
+            step,
+            left=reached,
+            height=0.62,
+            fc=_tint(colour),
+            ec=colour,
+            hatch=hatch,
+            lw=1.3,
+            gid=gid,
+            zorder=3,
+        )
         end = reached + step
         if row < len(rows) - 1:
             axes.plot([end, end], [row - 0.31, row + 1.31], color=GREY, lw=0.9, ls=":", zorder=2)
         gains = gid.startswith("lost") and value > 0.0
         text = labels.text(abs(value), "J") + (" gained" if gains else "")
         axes.annotate(
-            text, (max(reached, end), row), (6, 0), textcoords="offset points", va="center", fontsize=9.5, color=INK,
+            text, (max(reached, end), row), (6, 0), textcoords="offset points", va="center",
+            fontsize=9.5, color=INK,
             annotation_clip=False,
         )  # fmt: skip
         reached = end
@@ -90,26 +111,38 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
     axes.set_xlim(min(0.0, low), max(high, total) + 0.22 * (max(high, total) - min(0.0, low)))
     axes.set_xlabel(labels.label("energy", "J"))
     lost = impact.energy_loss
-    share = f"\n{number(100.0 * abs(lost) * factor / total, 1)} % of the kinetic energy in this frame" if total > 0.0 else ""
+    share = (
+        f"\n{number(100.0 * abs(lost) * factor / total, 1)} % of the kinetic energy in this frame"
+        if total > 0.0
+        else ""
+    )
     for label in axes.get_yticklabels():
         label.set_fontsize(10 if "\n" not in label.get_text() else 8.5)
-    axes.set_title(f"Energy {'lost' if lost >= 0.0 else 'gained'}: {labels.text(abs(lost), 'J')}{share}", fontsize=10.5)
+    axes.set_title(
+        f"Energy {'lost' if lost >= 0.0 else 'gained'}: {labels.text(abs(lost), 'J')}{share}",
+        fontsize=10.5,
+    )
     axes.locator_params(axis="x", nbins=5)
     tidy(axes)
     return axes
 
 
 def _tint(colour: str) -> str:
-    """A quarter of a colour on white: in SVG the hatching of a translucent face is lost in its colour."""
-    return "#" + "".join(f"{255 - (255 - int(colour[at : at + 2], 16)) // 4:02x}" for at in (1, 3, 5))
+    """A quarter of a colour on white: in SVG the hatching of a translucent face is lost in its
+    colour.
+    """
+    return "#" + "".join(
+        f"{255 - (255 - int(colour[at : at + 2], 16)) // 4:02x}" for at in (1, 3, 5)
+    )
 
 
 def _kinetic(state: Vehicle, letter: str) -> float:
     found = float(state.kinetic_energy)
     if math.isinf(found):
         raise InputError(
-            f"{letter} has an infinite mass or yaw inertia and moves, so its kinetic energy is infinite in this frame; solve "
-            f"the impact in a frame in which it rests (take its velocity from both vehicles), which changes no loss",
+            f"{letter} has an infinite mass or yaw inertia and moves, so its kinetic energy is "
+            "infinite in this frame; solve the impact in a frame in which it rests (take its "
+            "velocity from both vehicles), which changes no loss",
             code="infinite_mass",
             argument="impact",
             vehicle=letter,

@@ -1,4 +1,6 @@
-"""``momentum``: a diagram of the momenta before, the momenta after and their total, head to tail."""
+"""``momentum``: a diagram of the momenta before, the momenta after and their total,
+head to tail.
+"""
 
 from __future__ import annotations
 
@@ -10,10 +12,26 @@ from ..messages.errors import InputError
 from ..messages.hints import hinted
 from ..quantities.formatting import UnitSystem
 from ..vehicle.vehicle import Vehicle
-from .canvas import COLOURS, FORCE, GREY, GRID, INK, SIDES, Axes, Units, begin, check_impact, in_lines, legend_below, tidy, who
+from .canvas import (
+    COLOURS,
+    FORCE,
+    GREY,
+    GRID,
+    INK,
+    SIDES,
+    Axes,
+    Units,
+    begin,
+    check_impact,
+    in_lines,
+    legend_below,
+    tidy,
+    who,
+)
 from .drawing import ALONG_ONE_LINE, Drawing, Place, beside, covers, cross
 
-# Gap between momenta side by side, as a share of the longest: where all are, or where only some would hide each other.
+# Gap between momenta side by side, as a share of the longest: where all are, or where only some
+# would hide each other.
 _SIDE_BY_SIDE, _APART = 0.11, 0.04
 _TRIED = 12
 _NOTHING = 1e-9  # relative: a momentum or a speed this small is rounding
@@ -22,12 +40,14 @@ _TITLE = 60  # characters on one line
 
 @hinted
 def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
-    """The momentum diagram: A and B before head to tail, A and B after head to tail, and their common total.
+    """The momentum diagram: A and B before head to tail, A and B after head to tail, and their
+    common total.
 
-    Momenta along one line, as in a linear impact, are drawn side by side, because they would otherwise hide each other. What
-    comes from outside, through a body of infinite mass, a pivot or tyres, follows A and B before as an arrow of its own, and so
-    ends where A and B after end; no total is drawn then. If A or B after would hide one of these arrows, both are drawn to one
-    side, and thin lines join the points that coincide. A body of infinite mass has no momentum to draw.
+    Momenta along one line, as in a linear impact, are drawn side by side, because they would
+    otherwise hide each other. What comes from outside, through a body of infinite mass, a pivot or
+    tyres, follows A and B before as an arrow of its own, and so ends where A and B after end; no
+    total is drawn then. If A or B after would hide one of these arrows, both are drawn to one side,
+    and thin lines join the points that coincide. A body of infinite mass has no momentum to draw.
 
     Parameters
     ----------
@@ -41,8 +61,8 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     Returns
     -------
     matplotlib.axes.Axes
-        Arrows by gid: "before.a", "before.b", "after.a", "after.b", and "total", or "outside" where something comes from
-        outside. "begin" and "end" are the thin lines.
+        Arrows by gid: "before.a", "before.b", "after.a", "after.b", and "total", or "outside" where
+        something comes from outside. "begin" and "end" are the thin lines.
 
     Raises
     ------
@@ -68,15 +88,24 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     takes_part = [math.isfinite(side.before.mass) for side in sides]
     if not any(takes_part):
         raise InputError(
-            "both vehicles have an infinite mass, so there is no momentum to draw", code="infinite_mass", argument="impact"
+            "both vehicles have an infinite mass, so there is no momentum to draw",
+            code="infinite_mass",
+            argument="impact",
         )
     axes = begin(axes, (6.5, 6.2))
     factor = labels.factor("kg*m/s")
-    chains = {when: [_momentum(getattr(side, when), factor) for side in sides] for when in ("before", "after")}
+    chains = {
+        when: [_momentum(getattr(side, when), factor) for side in sides]
+        for when in ("before", "after")
+    }
     totals = {when: beside(of_a, of_b) for when, (of_a, of_b) in chains.items()}
     outside = beside(totals["after"], totals["before"], -1.0)
-    longest = max(math.hypot(*vector) for vector in (*chains["before"], *chains["after"], *totals.values()))
-    open_ended = not all(takes_part) or any(side.tyre_loss or side.before.pivot is not None for side in sides)
+    longest = max(
+        math.hypot(*vector) for vector in (*chains["before"], *chains["after"], *totals.values())
+    )
+    open_ended = not all(takes_part) or any(
+        side.tyre_loss or side.before.pivot is not None for side in sides
+    )
 
     drawing = Drawing(axes, longest)
     across = _common_normal([*chains["before"], *chains["after"]], longest)
@@ -84,18 +113,33 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     if across is None and open_ended:
         aside = _aside(_chain((0.0, 0.0), [*chains["before"], outside]), chains["after"], longest)
 
-    def draw(tail: Place, vector: Place, gid: str, tag: str, text: str, colour: str, style: Any, width: float = 2.0) -> None:
+    def draw(
+        tail: Place,
+        vector: Place,
+        gid: str,
+        tag: str,
+        text: str,
+        colour: str,
+        style: Any,
+        width: float = 2.0,
+    ) -> None:
         length = math.hypot(*vector)
         if length <= _NOTHING * longest:
             return
         # To the right, seen along the arrow.
         side = (vector[1] / length, -vector[0] / length) if across is None else across
-        start = tail if across is None else beside(tail, across, -_SIDE_BY_SIDE * longest * len(drawing.arrows))
+        start = (
+            tail
+            if across is None
+            else beside(tail, across, -_SIDE_BY_SIDE * longest * len(drawing.arrows))
+        )
         while across is None and drawing.covers(start, vector):
             start = beside(start, side, _APART * longest)
             drawing.moved = True
         drawing.arrow(start, beside(start, vector), gid, colour=colour, style=style, width=width)
-        middle, *others = (beside(start, vector, share) for share in (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8))
+        middle, *others = (
+            beside(start, vector, share) for share in (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
+        )
         drawing.label(middle, tag, side, colour, *others)
         label = f"{tag}: {text} {labels.text(length / factor, 'kg*m/s')}"
         axes.plot([], [], color=colour, lw=width, ls=style, label=label)
@@ -108,27 +152,63 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
             tail = beside(tail, vector)
             if takes_part[index] and math.hypot(*vector) <= _NOTHING * longest:
                 still = state.speed <= _NOTHING * impact.closing_speed and not state.yaw_rate
-                axes.plot([], [], ls="none", label=f"{tag}: {'at rest' if still else 'no momentum'} {when}")
+                axes.plot(
+                    [],
+                    [],
+                    ls="none",
+                    label=f"{tag}: {'at rest' if still else 'no momentum'} {when}",
+                )
     if not open_ended:
-        draw((0.0, 0.0), totals["before"], "total", "total", "before and after", INK, (0, (1, 1.2)), 1.6)
+        draw(
+            (0.0, 0.0),
+            totals["before"],
+            "total",
+            "total",
+            "before and after",
+            INK,
+            (0, (1, 1.2)),
+            1.6,
+        )
     else:
-        draw(totals["before"], outside, "outside", "outside", _by_whom(impact), FORCE, (0, (7, 2, 1, 2)))
+        draw(
+            totals["before"],
+            outside,
+            "outside",
+            "outside",
+            _by_whom(impact),
+            FORCE,
+            (0, (7, 2, 1, 2)),
+        )
 
     if aside != (0.0, 0.0):
         for place, gid in (((0.0, 0.0), "begin"), (totals["after"], "end")):
             drawing.line(place, beside(place, aside), gid, color=GREY, lw=0.8, ls=":", zorder=1)
     drawing.include((0.0, 0.0))
     axes.plot([0.0], [0.0], "o", color=GREY, ms=4, zorder=3, gid="origin")
-    axes.set(xlabel=labels.label("momentum along x", "kg*m/s"), ylabel=labels.label("momentum along y", "kg*m/s"))
+    axes.set(
+        xlabel=labels.label("momentum along x", "kg*m/s"),
+        ylabel=labels.label("momentum along y", "kg*m/s"),
+    )
     for axis, along in ((axes.yaxis, (0.0, 1.0)), (axes.xaxis, (1.0, 0.0))):
-        # Arrows along the other axis are drawn side by side, so distances along this one mean nothing.
+        # Arrows along the other axis are drawn side by side, so distances along this one mean
+        # nothing.
         axis.set_visible(across is None or math.dist(across, along) > ALONG_ONE_LINE)
     vehicles = enumerate((impact.a.before, impact.b.before))
-    named = [in_lines(f"{'AB'[at]}: {vehicle.name}", _TITLE, 1) for at, vehicle in vehicles if who(at, vehicle) != "AB"[at]]
+    named = [
+        in_lines(f"{'AB'[at]}: {vehicle.name}", _TITLE, 1)
+        for at, vehicle in vehicles
+        if who(at, vehicle) != "AB"[at]
+    ]
     together = ", ".join(named)
-    title = ["Momenta before (dashed) and after (solid)", *([together] if 0 < len(together) <= _TITLE else named)]
+    title = [
+        "Momenta before (dashed) and after (solid)",
+        *([together] if 0 < len(together) <= _TITLE else named),
+    ]
     if aside != (0.0, 0.0):
-        title.append("(those after are drawn side by side with those before;\nthin lines join what is one place)")
+        title.append(
+            "(those after are drawn side by side with those before;\nthin lines join what is one "
+            "place)"
+        )
     elif across is not None or drawing.moved:
         title.append("(momenta on one line are drawn side by side)")
     axes.set_title("\n".join(title), fontsize=10.5, parse_math=False)
@@ -142,14 +222,18 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
 
 
 def _momentum(state: Vehicle, factor: float) -> Place:
-    """The momentum of a body; 0 for an infinite mass, of which only the momentum it gives is drawn."""
+    """The momentum of a body; 0 for an infinite mass, of which only the momentum it
+    gives is drawn.
+    """
     return (0.0, 0.0) if math.isinf(state.mass) else beside((0.0, 0.0), state.momentum, factor)
 
 
 def _common_normal(vectors: list[Place], longest: float) -> Place | None:
     """The direction across the line all of them lie along; None if they do not."""
     chief = max(vectors, key=lambda vector: math.hypot(*vector))
-    if longest == 0.0 or any(abs(cross(chief, v)) > ALONG_ONE_LINE * longest * math.hypot(*chief) for v in vectors):
+    if longest == 0.0 or any(
+        abs(cross(chief, v)) > ALONG_ONE_LINE * longest * math.hypot(*chief) for v in vectors
+    ):
         return None
     length = math.hypot(*chief)
     across = -chief[1] / length, chief[0] / length
@@ -163,7 +247,9 @@ def _aside(drawn: list[tuple[Place, Place]], second: list[Place], longest: float
     for step in range(_TRIED):
         far = (step + 1) // 2 * _SIDE_BY_SIDE * longest * (-1.0) ** step
         moved = (-far * chief[1] / length, far * chief[0] / length) if length else (0.0, 0.0)
-        if not any(covers(*arrow, *other, longest) for arrow in _chain(moved, second) for other in drawn):
+        if not any(
+            covers(*arrow, *other, longest) for arrow in _chain(moved, second) for other in drawn
+        ):
             return moved
     return 0.0, 0.0
 
@@ -179,7 +265,9 @@ def _chain(start: Place, vectors: list[Place]) -> list[tuple[Place, Place]]:
 
 
 def _by_whom(impact: Impact) -> str:
-    """A phrase naming the infinite masses, pivots and tyres that give momentum to the bodies drawn."""
+    """A phrase naming the infinite masses, pivots and tyres that give momentum to the
+    bodies drawn.
+    """
     parts = []
     for index, side in enumerate((impact.a, impact.b)):
         if math.isinf(side.before.mass):

@@ -1,4 +1,6 @@
-"""The scene from above: vehicles, velocities, the contact with its normal and tangent, and the impulse."""
+"""The scene from above: vehicles, velocities, the contact with its normal and tangent, and the
+impulse.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,21 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.units import shown
 from ..vehicle.outlines import placed, read_outline
 from ..vehicle.vehicle import Vehicle, missing
-from .canvas import COLOURS, FORCE, GREY, INK, LARGEST, SIDES, THIN, Axes, Units, begin, check_impact, tidy, who
+from .canvas import (
+    COLOURS,
+    FORCE,
+    GREY,
+    INK,
+    LARGEST,
+    SIDES,
+    THIN,
+    Axes,
+    Units,
+    begin,
+    check_impact,
+    tidy,
+    who,
+)
 from .drawing import APART, Drawing, Place, beside
 
 _MOMENTS = {"before": ("before",), "after": ("after",), "both": ("before", "after")}
@@ -41,11 +57,13 @@ def scene(
 ) -> Axes:
     """The scene from above at the moment of impact, to scale.
 
-    Velocities before point to the centre of mass, those after point away from it; the vehicles stay where they were, because an
-    impulse takes no time. The impulse acts at the contact point, or in a central impact at the centres of mass; that of a pivot
-    on its vehicle acts at the pivot. Arrows that would hide each other, as in an in-line impact, are drawn side by side;
-    a note below the picture says so, and the scales of the arrows are stated there too. Positions that a central model does not
-    need are never made up: without them the picture is a sketch without a scale of length, and says so.
+    Velocities before point to the centre of mass, those after point away from it; the vehicles stay
+    where they were, because an impulse takes no time. The impulse acts at the contact point, or in
+    a central impact at the centres of mass; that of a pivot on its vehicle acts at the pivot.
+    Arrows that would hide each other, as in an in-line impact, are drawn side by side; a note below
+    the picture says so, and the scales of the arrows are stated there too. Positions that a central
+    model does not need are never made up: without them the picture is a sketch without a scale of
+    length, and says so.
 
     Parameters
     ----------
@@ -54,19 +72,21 @@ def scene(
     moment : "before", "after" or "both"
         Which velocities are drawn; "before" leaves out the impulse.
     outline_a, outline_b : tuple or corners [m], optional
-        As for ``diagnose``: (length, width), (length, width, how far the centre of mass is ahead of the middle), or the
-        corners (forward, left) of a convex outline. Without it only the centre of mass is marked.
+        As for ``diagnose``: (length, width), (length, width, how far the centre of mass is ahead of
+        the middle), or the corners (forward, left) of a convex outline. Without it only the centre
+        of mass is marked.
     axes : matplotlib.axes.Axes, optional
         Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
-        m/s, m and N·s; km/h, m and kN·s; mph, ft and lbf·s. By default those of the inputs, as for ``summary``.
+        m/s, m and N·s; km/h, m and kN·s; mph, ft and lbf·s. By default those of the inputs, as for
+        ``summary``.
 
     Returns
     -------
     matplotlib.axes.Axes
-        Arrows by gid: "a.before", "a.after", "b.before", "b.after", "normal", "tangent", "impulse.a", "impulse.b",
-        "pivot_impulse.a", "pivot_impulse.b"; and "a.centre", "b.centre", "a.outline", "b.outline", "a.wall", "b.wall",
-        "a.pivot", "b.pivot", "contact".
+        Arrows by gid: "a.before", "a.after", "b.before", "b.after", "normal", "tangent",
+        "impulse.a", "impulse.b", "pivot_impulse.a", "pivot_impulse.b"; and "a.centre", "b.centre",
+        "a.outline", "b.outline", "a.wall", "b.wall", "a.pivot", "b.pivot", "contact".
 
     Raises
     ------
@@ -89,7 +109,9 @@ def scene(
     labels = Units(units, impact)
     if not isinstance(moment, str) or moment not in _MOMENTS:
         raise InputError(
-            f"moment must be 'before', 'after' or 'both', got {shown(moment)}", code="bad_option", argument="moment"
+            f"moment must be 'before', 'after' or 'both', got {shown(moment)}",
+            code="bad_option",
+            argument="moment",
         )
     check_impact(impact, "scene")
     sides = impact.a, impact.b
@@ -99,7 +121,9 @@ def scene(
     ]
     centres, contact, sketched = _places(impact)
     if sketched and any(corners):
-        lacking = next(i for i, side in enumerate(sides) if side.before.x is None or side.before.y is None)
+        lacking = next(
+            i for i, side in enumerate(sides) if side.before.x is None or side.before.y is None
+        )
         name = "x" if sides[lacking].before.x is None else "y"
         raise missing(sides[lacking].before, name, "a picture with an outline", SIDES[lacking])
     axes = begin(axes, (7.5, 6.5))
@@ -107,7 +131,9 @@ def scene(
     at, bodies = picture.scaled(contact), [place and picture.scaled(place) for place in centres]
     outlines = [[picture.scaled(corner) for corner in outline] for outline in corners]
     pins = [side.before.pivot and picture.scaled(side.before.pivot) for side in sides]
-    known = [place for place in (*bodies, *outlines[0], *outlines[1], *pins, at) if place is not None]
+    known = [
+        place for place in (*bodies, *outlines[0], *outlines[1], *pins, at) if place is not None
+    ]
     picture.include(*known)
     picture.size = size = size_of(known, labels, sketched)
 
@@ -123,7 +149,13 @@ def scene(
     speed_scale = _scale(speeds, labels.factor("m/s"), 0.55 * size)
     for when in moments if speed_scale else ():
         for index, side in enumerate(sides):
-            picture.velocity(bodies[index] or at, index, getattr(side, when), when, labels.factor("m/s") / speed_scale)
+            picture.velocity(
+                bodies[index] or at,
+                index,
+                getattr(side, when),
+                when,
+                labels.factor("m/s") / speed_scale,
+            )
     starts = [at if impact.point is not None or place is None else place for place in bodies]
     impulse_scale = picture.impulses(impact, starts, pins) if moment != "before" else 0.0
     picture.frame(at, impact.normal, marked=impact.point is not None)
@@ -133,7 +165,8 @@ def scene(
     stated = "; ".join(
         f"one scale for all {what}"
         if sketched
-        else f"1 {labels.name('m')} = {f'{scale:,g}'.replace(',', THIN)} {labels.name(unit)} for {what}"
+        else f"1 {labels.name('m')} = {f'{scale:,g}'.replace(',', THIN)} {labels.name(unit)} for "
+        f"{what}"
         for what, scale, unit in scales
         if scale
     )
@@ -153,7 +186,9 @@ def scene(
 def _places(impact: Impact) -> tuple[list[Place | None], Place, bool]:
     """Both centres of mass (None if unknown), the contact, and whether they are only a sketch."""
     states = impact.a.before, impact.b.before
-    given: list[Place | None] = [None if state.x is None or state.y is None else (state.x, state.y) for state in states]
+    given: list[Place | None] = [
+        None if state.x is None or state.y is None else (state.x, state.y) for state in states
+    ]
     if impact.point is not None:
         return given, impact.point, False
     one, other = given
@@ -186,8 +221,9 @@ def size_of(known: list[Place], labels: Units, sketched: bool) -> float:
     length = labels.factor("m")
     if max(size, 4.0 * length) < _RESOLVED * farthest or size > LARGEST:
         raise InputError(
-            f"there is no picture of {labels.text(size / length, 'm')} that lies {labels.text(farthest / length, 'm')} from "
-            f"the origin of its coordinates; count x and y from a place near the contact, and check positions and outlines",
+            f"there is no picture of {labels.text(size / length, 'm')} that lies "
+            f"{labels.text(farthest / length, 'm')} from the origin of its coordinates; count x "
+            "and y from a place near the contact, and check positions and outlines",
             code="out_of_range",
             argument="impact",
         )
@@ -195,7 +231,9 @@ def size_of(known: list[Place], labels: Units, sketched: bool) -> float:
 
 
 def _scale(values: list[float], factor: float, most: float) -> float:
-    """The magnitude per unit of length: 1, 2 or 5 times a power of ten, so that the longest is at most ``most``."""
+    """The magnitude per unit of length: 1, 2 or 5 times a power of ten, so that the longest is at
+    most ``most``.
+    """
     largest = max(values) * factor
     if largest == 0.0:
         return 0.0
@@ -224,52 +262,93 @@ class Picture(Drawing):
         edge = [one, other, beside(other, deep), beside(one, deep)]
         self.axes.fill(
             *zip(*edge, strict=True),
-            fc="white", ec=COLOURS[index], hatch="////", lw=1.2, zorder=1, gid=f"{SIDES[index]}.wall",
+            fc="white", ec=COLOURS[index], hatch="////", lw=1.2, zorder=1,
+            gid=f"{SIDES[index]}.wall",
         )  # fmt: skip
         self.include(one, other)
-        self.label(edge[-1], who(index, vehicle), (away * n[0], away * n[1]), COLOURS[index], of=index)
+        self.label(
+            edge[-1], who(index, vehicle), (away * n[0], away * n[1]), COLOURS[index], of=index
+        )
 
     def body(self, place: Place, index: int, name: str, corners: list[Place]) -> None:
-        """The centre of mass with its name, and the outline where it was given, its front edge the heavy one."""
+        """The centre of mass with its name, and the outline where it was given, its front edge the
+        heavy one.
+        """
         letter, colour = SIDES[index], COLOURS[index]
         if corners:
             self.outline(index, corners, f"{letter}.outline", 0.08)
             self.area(index, corners)
-        self.axes.plot(*place, "os"[index], ms=7, mfc="white", mec=colour, mew=2.0, zorder=7, gid=f"{letter}.centre")
+        self.axes.plot(
+            *place,
+            "os"[index],
+            ms=7,
+            mfc="white",
+            mec=colour,
+            mew=2.0,
+            zorder=7,
+            gid=f"{letter}.centre",
+        )
         self.label(place, name, (0.0, 1.0), colour, of=index)
 
-    def outline(self, index: int, corners: list[Place], gid: str, filled: float, width: float = 1.4) -> None:
+    def outline(
+        self, index: int, corners: list[Place], gid: str, filled: float, width: float = 1.4
+    ) -> None:
         """The outline of a vehicle, filled with this share of its colour, and its front."""
         from matplotlib.colors import to_rgba
 
         colour = COLOURS[index]
         self.include(*corners)
-        self.axes.fill(*zip(*corners, strict=True), fc=to_rgba(colour, filled), ec=colour, lw=width, zorder=2, gid=gid)
+        self.axes.fill(
+            *zip(*corners, strict=True),
+            fc=to_rgba(colour, filled),
+            ec=colour,
+            lw=width,
+            zorder=2,
+            gid=gid,
+        )
         front: Any = {"color": colour, "lw": 3.0 * width, "solid_capstyle": "butt", "zorder": 3}
-        self.axes.plot(*zip(*corners[:2], strict=True), **front, gid=gid.replace("outline", "front"))
+        self.axes.plot(
+            *zip(*corners[:2], strict=True), **front, gid=gid.replace("outline", "front")
+        )
 
     def pivot(self, pin: Place, index: int) -> None:
         """Where a body is pinned."""
-        self.axes.plot(*pin, "^", ms=10, mfc="white", mec=COLOURS[index], mew=1.6, zorder=5, gid=f"{SIDES[index]}.pivot")
+        self.axes.plot(
+            *pin,
+            "^",
+            ms=10,
+            mfc="white",
+            mec=COLOURS[index],
+            mew=1.6,
+            zorder=5,
+            gid=f"{SIDES[index]}.pivot",
+        )
         self.label(pin, f"pivot of {'AB'[index]}", (0.0, -1.0), COLOURS[index], of=index)
 
     def velocity(self, place: Place, index: int, state: Vehicle, when: str, share: float) -> None:
         """The velocity before ends at the centre of mass, the one after starts there."""
         text = f"{'AB'[index]} {when}: {self.labels.text(state.speed, 'm/s')}"
         if state.yaw_rate:
-            text += f"\nyaw {self.labels.text(abs(state.yaw_rate), 'rad/s')} {'↺' if state.yaw_rate > 0.0 else '↻'}"
+            text += (
+                f"\nyaw {self.labels.text(abs(state.yaw_rate), 'rad/s')} "
+                f"{'↺' if state.yaw_rate > 0.0 else '↻'}"
+            )
         before = when == "before"
         vector: Place = (state.vx * share, state.vy * share)
         ((start, vector),) = self.free([(beside(place, vector, -1.0) if before else place, vector)])
         tip = beside(start, vector)
         style: Any = (0, (4, 2)) if before else "-"
-        self.arrow(start, tip, f"{SIDES[index]}.{when}", colour=COLOURS[index], style=style, width=2.0)
+        self.arrow(
+            start, tip, f"{SIDES[index]}.{when}", colour=COLOURS[index], style=style, width=2.0
+        )
         away = (0.0, -1.0) if not state.speed else (-vector[0], -vector[1]) if before else vector
         if state.speed or state.yaw_rate or not math.isinf(state.mass):
             self.label(start if before else tip, text, away, COLOURS[index], of=index)
 
     def impulses(self, impact: Impact, starts: list[Place], pins: list[Place | None]) -> float:
-        """Draw the impulse on both from these places, and that of each pivot; gives how much one unit of length stands for."""
+        """Draw the impulse on both from these places, and that of each pivot; gives how much one
+        unit of length stands for.
+        """
         sides = impact.a, impact.b
         impulse = math.hypot(impact.normal_impulse, impact.tangential_impulse)
         pulls = [math.hypot(side.pivot_impulse_x, side.pivot_impulse_y) for side in sides]
@@ -291,18 +370,27 @@ class Picture(Drawing):
                 self._impulse(start, vector, f"pivot_impulse.{SIDES[index]}", text, index, 1.6)
         return scale
 
-    def _impulse(self, start: Place, vector: Place, gid: str, text: str, index: int, width: float) -> None:
+    def _impulse(
+        self, start: Place, vector: Place, gid: str, text: str, index: int, width: float
+    ) -> None:
         tip = beside(start, vector)
         self.arrow(start, tip, gid, colour=FORCE, width=width)
         self.label(tip, text, vector, FORCE, of=index)
 
     def frame(self, at: Place, n: Place, marked: bool) -> None:
-        """The line of impact, the normal and the tangent, and the contact point where the model has one."""
+        """The line of impact, the normal and the tangent, and the contact point where the model has
+        one.
+        """
         t, size = (-n[1], n[0]), self.size
-        styles: Any = ((n, 0.42 if marked else 0.62, "normal", (0, (6, 3))), (t, 0.28, "tangent", ":"))
+        styles: Any = (
+            (n, 0.42 if marked else 0.62, "normal", (0, (6, 3))),
+            (t, 0.28, "tangent", ":"),
+        )
         # Through both centres of mass where these lie on it.
         for vector, out, name, style in styles:
-            while self.hides(beside(at, vector, out * size), (0.06 * size * vector[0], 0.06 * size * vector[1])):
+            while self.hides(
+                beside(at, vector, out * size), (0.06 * size * vector[0], 0.06 * size * vector[1])
+            ):
                 out += APART
             tip, tail, head = (beside(at, vector, far * size) for far in (out, -out, out + 0.06))
             self.line(tail, tip, f"line of the {name}", color=GREY, lw=0.9, ls=style, zorder=1)

@@ -10,7 +10,8 @@ _RAISED = str.maketrans("-\u22120123456789", "⁻⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
 class PlainTicks(ScalarFormatter):
     """Numbers in full, or beyond these powers of ten with one at the end of the axis.
 
-    Math text would stand there as its source wherever formulas are switched off, as in a report, whose names are no formulas.
+    Math text would stand there as its source wherever formulas are switched off, as in a report,
+    whose names are no formulas.
     """
 
     def __init__(self, in_full: tuple[int, int]) -> None:

@@ -1,4 +1,6 @@
-"""How an uncertain output is distributed, and which input matters: its shares of the variance with their standard errors."""
+"""How an uncertain output is distributed, and which input matters: its shares of the variance with
+their standard errors.
+"""
 
 from __future__ import annotations
 
@@ -12,29 +14,53 @@ from ..quantities.formatting import UnitSystem, with_decimals
 from ..quantities.units import shown
 from ..uncertainty.intervals import Bounds
 from ..uncertainty.result import COVERAGE, Output, Propagation
-from .canvas import BARS, FORCE, GREY, INK, LIGHT, MINUS, Axes, Units, begin, check_size, drawable, in_lines, legend_below, tidy
+from .canvas import (
+    BARS,
+    FORCE,
+    GREY,
+    INK,
+    LIGHT,
+    MINUS,
+    Axes,
+    Units,
+    begin,
+    check_size,
+    drawable,
+    in_lines,
+    legend_below,
+    tidy,
+)
 
 _ASIDE = 0.24  # of a row: error bars, diamonds and figures from its middle
 
 
 @hinted
 def distribution(
-    output: Output, *, coverage: float = COVERAGE, bins: int = 30, axes: Axes | None = None, units: UnitSystem | None = None
+    output: Output,
+    *,
+    coverage: float = COVERAGE,
+    bins: int = 30,
+    axes: Axes | None = None,
+    units: UnitSystem | None = None,
 ) -> Axes:
-    """Histogram of the sampled cases of an output, with mean, median and interval, given the stated inputs.
+    """Histogram of the sampled cases of an output, with mean, median and interval, given the stated
+    inputs.
 
     Parameters
     ----------
     output : Output
-        One output, such as ``result["delta_v"]``, of ``uncertainty.propagate`` by a method that samples, or of a posterior.
+        One output, such as ``result["delta_v"]``, of ``uncertainty.propagate`` by a method that
+        samples, or of a posterior.
     coverage : float [-]
         Probability of the shaded interval, with equal tails below and above it.
     bins : int
-        Number of bars. With few inputs the cases of "quasi_random" lie on lines that 40 bars or more may show as a comb.
+        Number of bars. With few inputs the cases of "quasi_random" lie on lines that 40 bars or
+        more may show as a comb.
     axes : matplotlib.axes.Axes, optional
         Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
-        For an output that the model returned as a Quantity. Others are labelled with their names alone.
+        For an output that the model returned as a Quantity. Others are labelled with their names
+        alone.
 
     Returns
     -------
@@ -44,7 +70,8 @@ def distribution(
     Raises
     ------
     InputError
-        An output that was not sampled, has an Interval among its inputs or has no spread; or anything but an output.
+        An output that was not sampled, has an Interval among its inputs or has no spread; or
+        anything but an output.
     MissingInputError
         If matplotlib is missing.
 
@@ -63,15 +90,17 @@ def distribution(
     labels = Units(units, output)
     if not isinstance(output, Output):
         raise InputError(
-            f"output must be one output of what uncertainty.propagate returned, got {type(output).__name__}; write "
-            f"plot.distribution(result['delta_v']), and in other units plot.distribution(result['delta_v'], units='us')",
+            "output must be one output of what uncertainty.propagate returned, got "
+            f"{type(output).__name__}; write plot.distribution(result['delta_v']), and in other "
+            "units plot.distribution(result['delta_v'], units='us')",
             code="bad_option",
             argument="output",
         )
     if isinstance(output, Bounds):
         raise InputError(
-            f"{output.name!r} has no one distribution, because an Interval among the inputs says nothing of likelihood; draw "
-            f"that of an end of the interval: fix the input there and propagate again",
+            f"{output.name!r} has no one distribution, because an Interval among the inputs says "
+            "nothing of likelihood; draw that of an end of the interval: fix the input there "
+            "and propagate again",
             code="no_variance",
             argument="output",
         )
@@ -83,11 +112,20 @@ def distribution(
     factor = labels.factor(unit)
     axes.axvspan(low * factor, high * factor, color=LIGHT, alpha=0.5, lw=0, zorder=0)
     axes.stairs(
-        100.0 * histogram.shares, histogram.edges * factor, fill=True, fc=BARS, ec=INK, lw=0.9, zorder=2, gid="histogram"
+        100.0 * histogram.shares,
+        histogram.edges * factor,
+        fill=True,
+        fc=BARS,
+        ec=INK,
+        lw=0.9,
+        zorder=2,
+        gid="histogram",
     )
     median = output.quantile(0.5)
     start, end = (labels.text(value, unit) for value in (low, high))
-    span = f"{100.0 * coverage:.4g} % interval, {start.removesuffix(f' {labels.name(unit)}')} to {end}"
+    span = (
+        f"{100.0 * coverage:.4g} % interval, {start.removesuffix(f' {labels.name(unit)}')} to {end}"
+    )
     for gid, value, style, colour, text in (
         ("mean", output.mean, "-", FORCE, f"mean {labels.text(output.mean, unit)}"),
         ("median", median, (0, (1, 1.2)), INK, f"median {labels.text(median, unit)}"),
@@ -106,12 +144,18 @@ def distribution(
 
 @hinted
 def contributions(
-    result: Propagation | Output, output: str | None = None, *, axes: Axes | None = None, units: UnitSystem | None = None
+    result: Propagation | Output,
+    output: str | None = None,
+    *,
+    axes: Axes | None = None,
+    units: UnitSystem | None = None,
 ) -> Axes:
-    """The share of an output's variance due to each input: by itself (bar), and with its interactions (diamond).
+    """The share of an output's variance due to each input: by itself (bar), and with its
+    interactions (diamond).
 
-    The figure for each stands beside it. To know an input exactly would remove the share of its bar. Horizontal lines are
-    standard errors to either side; a local method has none. Where diamond and bar differ, inputs act together.
+    The figure for each stands beside it. To know an input exactly would remove the share of its
+    bar. Horizontal lines are standard errors to either side; a local method has none. Where diamond
+    and bar differ, inputs act together.
 
     Parameters
     ----------
@@ -127,20 +171,25 @@ def contributions(
     Returns
     -------
     matplotlib.axes.Axes
-        Bars by gid: "share of ..." with the name of the input; the diamonds are the line "total". Their figures are "own of
+        Bars by gid: "share of ..." with the name of the input; the diamonds are the line "total".
+        Their figures are "own of
         ..." and "total of ...".
 
     Raises
     ------
     InputError
-        An output that is not there, an Interval among the inputs, no variance to share, or anything but a result.
+        An output that is not there, an Interval among the inputs, no variance to share, or anything
+        but a result.
     MissingInputError
         If matplotlib is missing.
 
     Examples
     --------
     >>> from collisions import plot, uncertainty
-    >>> known = {"mass": uncertainty.Normal("1200 kg", "30 kg"), "speed": uncertainty.Normal("20 m/s", "0.5 m/s")}
+    >>> known = {
+    ...     "mass": uncertainty.Normal("1200 kg", "30 kg"),
+    ...     "speed": uncertainty.Normal("20 m/s", "0.5 m/s"),
+    ... }
     >>> model = lambda mass, speed: {"energy": 0.5 * mass * speed**2}
     >>> axes = plot.contributions(uncertainty.propagate(model, known, method="first_order"))
     >>> [label.get_text() for label in axes.get_yticklabels()]
@@ -148,12 +197,17 @@ def contributions(
     """
     labels = Units(units, result)
     found = _output(result, output)
-    own, total, errors = found.contributions, found.total_contributions, found.contribution_standard_errors
+    own, total, errors = (
+        found.contributions,
+        found.total_contributions,
+        found.contribution_standard_errors,
+    )
     names = list(own)
     figures = np.array([(own[name], total[name], *errors[name]) for name in names])
     if not names or not np.all(np.isfinite(figures[:, :2])):
         raise InputError(
-            f"{found.name!r} has no variance to share: it does not differ from case to case, or has too few answers",
+            f"{found.name!r} has no variance to share: it does not differ from case to case, or "
+            "has too few answers",
             code="no_variance",
             argument="result",
         )
@@ -164,23 +218,28 @@ def contributions(
     known = np.isfinite(percent[:, 2:])
     for row, name in enumerate(names):
         axes.barh(
-            row, percent[row, 0], height=0.6, fc=BARS, ec=INK, hatch="///", lw=1.0, gid=f"share of {name}", zorder=2,
+            row, percent[row, 0], height=0.6, fc=BARS, ec=INK, hatch="///", lw=1.0,
+            gid=f"share of {name}", zorder=2,
             label=None if row else "by itself",
         )  # fmt: skip
     axes.plot(
-        percent[:, 1], rows + _ASIDE, "D", ms=7, mfc="white", mec=INK, mew=1.5, ls="none", zorder=5, gid="total",
+        percent[:, 1], rows + _ASIDE, "D", ms=7, mfc="white", mec=INK, mew=1.5, ls="none",
+            zorder=5, gid="total",
         label="with its interactions",
     )  # fmt: skip
     for column, aside in ((0, -_ASIDE), (1, _ASIDE)):
         if known[:, column].all():
             axes.errorbar(
-                percent[:, column], rows + aside, xerr=percent[:, 2 + column], fmt="none", ecolor=INK, lw=1.4, capsize=3,
+                percent[:, column], rows + aside, xerr=percent[:, 2 + column], fmt="none",
+                    ecolor=INK, lw=1.4, capsize=3,
                 zorder=4, label=None if column else "standard error",
             )  # fmt: skip
     # Each number next to its own mark: that of the bar above, that of the diamond below.
     ends = percent[:, :2] + np.nan_to_num(percent[:, 2:])
     for row, share in enumerate(percent[:, :2]):
-        for column, (what, before, aside) in enumerate((("own", "", -_ASIDE), ("total", "in all ", _ASIDE))):
+        for column, (what, before, aside) in enumerate(
+            (("own", "", -_ASIDE), ("total", "in all ", _ASIDE))
+        ):
             text = f"{before}{with_decimals(share[column], 1)} %".replace("-", MINUS)
             axes.annotate(
                 text, (max(ends[row, column], 0.0), row + aside), (9, 0),
@@ -194,7 +253,8 @@ def contributions(
     axes.set_xlabel("share of the variance [%]")
     spread = labels.text(found.std, found.unit) if found.unit else f"{found.std:.4g}"
     axes.set_title(
-        f"{in_lines(found.name, 50)}: standard deviation {spread}\nshares sum to {percent[:, 0].sum():.0f} %",
+        f"{in_lines(found.name, 50)}: standard deviation {spread}\nshares sum to "
+        f"{percent[:, 0].sum():.0f} %",
         fontsize=10.5,
         parse_math=False,
     )
@@ -209,20 +269,28 @@ def _output(result: Any, output: Any) -> Output:
     if isinstance(result, Output) and output is None:
         return result
     if not isinstance(result, Propagation):
-        what = f"{type(result).__name__}" if not isinstance(result, Output) else "an output, and a name beside it"
+        what = (
+            f"{type(result).__name__}"
+            if not isinstance(result, Output)
+            else "an output, and a name beside it"
+        )
         raise InputError(
-            f"result must be what uncertainty.propagate returned, or one output of it without a name, got {what}",
+            "result must be what uncertainty.propagate returned, or one output of it without a "
+            f"name, got {what}",
             code="bad_option",
             argument="result",
         )
     if output is None:
         if len(result) != 1:
             raise InputError(
-                f"result has the outputs {', '.join(map(repr, result))}; say which one: output={next(iter(result), '')!r}",
+                f"result has the outputs {', '.join(map(repr, result))}; say which one: "
+                f"output={next(iter(result), '')!r}",
                 code="no_output",
                 argument="output",
             )
         output = next(iter(result))
     if not isinstance(output, str):
-        raise InputError(f"output must be a name, got {shown(output)}", code="no_output", argument="output")
+        raise InputError(
+            f"output must be a name, got {shown(output)}", code="no_output", argument="output"
+        )
     return result[output]

@@ -1,1 +1,3 @@
-"""Numbers with units: read from what a caller gives, and shown as attributes, texts, tables and JSON."""
+"""Numbers with units: read from what a caller gives, and shown as attributes, texts, tables and
+JSON.
+"""

@@ -1,4 +1,6 @@
-"""What ``.q`` of each result has, by name, for editors and type checkers; a test compares the lists with the results."""
+"""What ``.q`` of each result has, by name, for editors and type checkers; a test compares the lists
+with the results.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ _QUANTITY: Any = None
 class VehicleQuantities:
     """Those of ``Vehicle``."""
 
-    course = given = heading = kinetic_energy = mass = momentum = name = pivot = point = speed = _QUANTITY
+    course = given = heading = kinetic_energy = mass = momentum = name = pivot = point = speed = (
+        _QUANTITY
+    )
     velocity_at = vx = vy = x = y = yaw_inertia = yaw_rate = _QUANTITY
 
 
@@ -21,9 +25,15 @@ class SideQuantities:
     before: VehicleQuantities
     after: VehicleQuantities
     at_compression: VehicleQuantities
-    delta_v = delta_v_at = delta_v_forward = delta_v_left = delta_vx = delta_vy = delta_yaw_rate = gamma = _QUANTITY
-    impulse_direction = impulse_x = impulse_y = kinetic_energy_change = moment_arm = normal_arm = pdof = _QUANTITY
-    pdof_clock = pivot_impulse_x = pivot_impulse_y = tyre_impulse_x = tyre_impulse_y = tyre_loss = tyre_moment = _QUANTITY
+    delta_v = delta_v_at = delta_v_forward = delta_v_left = delta_vx = delta_vy = delta_yaw_rate = (
+        gamma
+    ) = _QUANTITY
+    impulse_direction = impulse_x = impulse_y = kinetic_energy_change = moment_arm = normal_arm = (
+        pdof
+    ) = _QUANTITY
+    pdof_clock = pivot_impulse_x = pivot_impulse_y = tyre_impulse_x = tyre_impulse_y = tyre_loss = (
+        tyre_moment
+    ) = _QUANTITY
     outside_x = outside_y = outside_yaw = outside_work = _QUANTITY
 
 
@@ -32,31 +42,51 @@ class ImpactQuantities:
 
     a: SideQuantities
     b: SideQuantities
-    choice = closing_speed = common_velocity = complete = compression_impulse = critical_impulse_ratio = ees = _QUANTITY
-    effective_mass = energy_absorbed = energy_loss = energy_loss_normal = energy_loss_tangential = _QUANTITY
-    friction = impulse_ratio = kind = law = max_crush_speeds = model = momentum_residual = normal = _QUANTITY
-    normal_angle = normal_impulse = ok = point = pulse = reconstruction = refused = regime = _QUANTITY
-    relative_speed = restitution = restitution_impulse = separation_speed = slip_after = slip_before = _QUANTITY
+    choice = closing_speed = common_velocity = complete = compression_impulse = (
+        critical_impulse_ratio
+    ) = ees = _QUANTITY
+    effective_mass = energy_absorbed = energy_loss = energy_loss_normal = energy_loss_tangential = (
+        _QUANTITY
+    )
+    friction = impulse_ratio = kind = law = max_crush_speeds = model = momentum_residual = (
+        normal
+    ) = _QUANTITY
+    normal_angle = normal_impulse = ok = point = pulse = reconstruction = refused = regime = (
+        _QUANTITY
+    )
+    relative_speed = restitution = restitution_impulse = separation_speed = slip_after = (
+        slip_before
+    ) = _QUANTITY
     status = tangential_impulse = _QUANTITY
 
 
 class MomentumSolutionQuantities:
     """Those of ``MomentumSolution``."""
 
-    closing_speed = condition = course_a = course_a_after = course_b = course_b_after = delta_v_a = _QUANTITY
-    delta_v_b = given = heading_a = heading_b = mass_a = mass_b = normal_angle = ok = outside_impulse_x = _QUANTITY
-    outside_impulse_y = pdof_a = pdof_b = restitution = sensitivity = speed_a = speed_a_after = speed_b = _QUANTITY
+    closing_speed = condition = course_a = course_a_after = course_b = course_b_after = (
+        delta_v_a
+    ) = _QUANTITY
+    delta_v_b = given = heading_a = heading_b = mass_a = mass_b = normal_angle = ok = (
+        outside_impulse_x
+    ) = _QUANTITY
+    outside_impulse_y = pdof_a = pdof_b = restitution = sensitivity = speed_a = speed_a_after = (
+        speed_b
+    ) = _QUANTITY
     speed_b_after = status = translational_energy_loss = unknowns = _QUANTITY
 
 
 class RunOutQuantities:
     """Those of ``RunOut``."""
 
-    course = course_difference = course_error = crab_angles = distance = drags = speed = speed_error = _QUANTITY
+    course = course_difference = course_error = crab_angles = distance = drags = speed = (
+        speed_error
+    ) = _QUANTITY
     speeds = straight_course = time = yaw_rate = yaw_rate_error = _QUANTITY
 
 
 class TyresQuantities:
     """Those of ``Tyres``."""
 
-    cornering = friction = height = lock = locks = named = steer = steered = track = transfers = wheelbase = _QUANTITY
+    cornering = friction = height = lock = locks = named = steer = steered = track = transfers = (
+        wheelbase
+    ) = _QUANTITY

@@ -1,4 +1,6 @@
-"""``@derived(unit)`` declares an attribute with its SI unit; ``.q`` gives it as a Quantity, ``show`` with its unit."""
+"""``@derived(unit)`` declares an attribute with its SI unit; ``.q`` gives it as a Quantity,
+``show`` with its unit.
+"""
 
 from __future__ import annotations
 
@@ -18,15 +20,16 @@ from .units import Value, to_quantity
 T = TypeVar("T")
 P = ParamSpec("P")
 F = TypeVar("F", bound=Callable[..., Any])
-# A declared unit that stands for the ``unit`` of the object itself, known only when the object is made.
+# A declared unit that stands for the ``unit`` of the object itself, known only when the object is
+# made.
 OWN = "own"
 
 
 class Derived(Generic[T]):
     """A read-only attribute with its unit, computed at first use and cached.
 
-    The value is cached in the owner's ``__dict__``, if it has one, where Python finds it before this descriptor. Assignment is
-    refused by the owner.
+    The value is cached in the owner's ``__dict__``, if it has one, where Python finds it before
+    this descriptor. Assignment is refused by the owner.
     """
 
     def __init__(self, unit: str | None, work_out: Callable[[Any], T]) -> None:
@@ -62,7 +65,8 @@ class LookedUp:
 
     __slots__ = ()
 
-    # By attribute of something within the result, where it is found: a missing name is looked up there.
+    # By attribute of something within the result, where it is found: a missing name is looked up
+    # there.
     _elsewhere: ClassVar[Mapping[type[Any], str]] = {}
 
     if not TYPE_CHECKING:  # with it type checkers would take any name
@@ -81,16 +85,26 @@ class Frozen(LookedUp):
         raise AttributeError(f"an answer is frozen: {name} of {type(self).__name__} cannot be set")
 
     def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"an answer is frozen: {name} of {type(self).__name__} cannot be deleted")
+        raise AttributeError(
+            f"an answer is frozen: {name} of {type(self).__name__} cannot be deleted"
+        )
 
 
 def _no_attribute(owner: LookedUp, name: str, written: str) -> AttributeError:
-    """The error for an attribute that an object does not have, with where it is and how it is written there."""
-    places = [where.format(written) for kind, where in owner._elsewhere.items() if name[:1] != "_" and hasattr(kind, name)]
+    """The error for an attribute that an object does not have, with where it is and how it is
+    written there.
+    """
+    places = [
+        where.format(written)
+        for kind, where in owner._elsewhere.items()
+        if name[:1] != "_" and hasattr(kind, name)
+    ]
     # What the object has of each vehicle.
     places += [f"{written}_a or {written}_b"] if hasattr(type(owner), f"{name}_a") else []
     hint = f"; write {places[0]}" if places else ""
-    return AttributeError(f"{type(owner).__name__!r} object has no attribute {name!r}{hint}", name=name, obj=owner)
+    return AttributeError(
+        f"{type(owner).__name__!r} object has no attribute {name!r}{hint}", name=name, obj=owner
+    )
 
 
 def derived(unit: str | None = None) -> Callable[[Callable[[Any], T]], Derived[T]]:
@@ -119,7 +133,9 @@ def unit_of(kind: type[Any], name: str) -> str | None:
 
 
 class NoQuantityError(MissingInputError, AttributeError):
-    """An attribute is None as an input is missing. Also an AttributeError, so that ``hasattr`` and completion pass over it."""
+    """An attribute is None as an input is missing. Also an AttributeError, so that ``hasattr`` and
+    completion pass over it.
+    """
 
     name: Any = None  # Otherwise Python would suggest another attribute.
 
@@ -127,7 +143,8 @@ class NoQuantityError(MissingInputError, AttributeError):
 class Quantities:
     """The owner's attributes and the results of its methods as Quantities.
 
-    The owner's ``_missing(name)``, if it has one, gives the error that names the missing input of an attribute that is None.
+    The owner's ``_missing(name)``, if it has one, gives the error that names the missing input of
+    an attribute that is None.
     """
 
     __slots__ = ("_owner",)
@@ -149,7 +166,9 @@ class Quantities:
             unit = self._owner.unit
         if callable(value):
             if unit is None:
-                raise AttributeError(f"{name} gives no quantity; call it on the object itself, without .q")
+                raise AttributeError(
+                    f"{name} gives no quantity; call it on the object itself, without .q"
+                )
             return lambda *args, **kwargs: self._with_unit(value(*args, **kwargs), unit)
         if value is None and hasattr(self._owner, "_missing"):
             problem = self._owner._missing(name)
@@ -165,7 +184,11 @@ class Quantities:
     def __dir__(self) -> list[str]:
         kind = type(self._owner)
         names = [name for name in dir(kind) if name != "q" and not name.startswith("_")]
-        return [name for name in names if unit_of(kind, name) is not None or not callable(getattr(kind, name))]
+        return [
+            name
+            for name in names
+            if unit_of(kind, name) is not None or not callable(getattr(kind, name))
+        ]
 
     def __repr__(self) -> str:
         return f"<Quantities of {self._owner!r}>"
@@ -197,7 +220,9 @@ def attributes(kind: type[Any]) -> list[str]:
 
 
 def numeric(*values: Any) -> Any:
-    """``math`` for numbers; ``numpy`` if any of these values is an array, or an operand of a recording."""
+    """``math`` for numbers; ``numpy`` if any of these values is an array, or an operand of a
+    recording.
+    """
     return math if all(isinstance(value, (float, int)) for value in values) else np
 
 
@@ -228,9 +253,16 @@ def show(value: Any, unit: str | None = None) -> str:
 def same(one: Any, other: Any) -> bool:
     """Equality by value for numbers, arrays, pairs, mappings and None, NaN equal to itself."""
     if isinstance(one, Mapping) and isinstance(other, Mapping):
-        return one.keys() == other.keys() and all(same(value, other[name]) for name, value in one.items())
+        return one.keys() == other.keys() and all(
+            same(value, other[name]) for name, value in one.items()
+        )
     if isinstance(one, tuple) or isinstance(other, tuple):
-        return isinstance(one, tuple) and isinstance(other, tuple) and len(one) == len(other) and all(map(same, one, other))
+        return (
+            isinstance(one, tuple)
+            and isinstance(other, tuple)
+            and len(one) == len(other)
+            and all(map(same, one, other))
+        )
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
         if one is None or other is None or np.shape(one) != np.shape(other):
             return False
@@ -240,12 +272,18 @@ def same(one: Any, other: Any) -> bool:
 
 
 def same_fields(one: Any, other: Any) -> bool:
-    """Equality of two dataclasses of one kind by the values of their fields, which may be arrays."""
-    return type(one) is type(other) and all(same(getattr(one, f.name), getattr(other, f.name)) for f in fields(one))
+    """Equality of two dataclasses of one kind by the values of their fields, which may
+    be arrays.
+    """
+    return type(one) is type(other) and all(
+        same(getattr(one, f.name), getattr(other, f.name)) for f in fields(one)
+    )
 
 
 class Shown(LookedUp, Summarized):
-    """Base of result dataclasses: shown with units as text and as a table, with ``.q``; arrays stay locked when unpickled."""
+    """Base of result dataclasses: shown with units as text and as a table, with ``.q``; arrays stay
+    locked when unpickled.
+    """
 
     __slots__ = ("_inputs_as_texts",)
 
@@ -264,16 +302,24 @@ class Shown(LookedUp, Summarized):
         return same_fields(self, other) if isinstance(other, Shown) else NotImplemented
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (type(self), {f.name: getattr(self, f.name) for f in fields(self)}, tuple(self._texts()))
+        return _restored, (
+            type(self),
+            {f.name: getattr(self, f.name) for f in fields(self)},
+            tuple(self._texts()),
+        )
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._rows())})"
+        return (
+            f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._rows())})"
+        )
 
     def _summary(self, numbers: Cells) -> Summary:
         return Summary(self._title, [*sided(self._values(), numbers), all_numbers(self._rows())])
 
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
-        """Name, value and SI unit of every attribute that has one or is yes or no; of results within it by their own names."""
+        """Name, value and SI unit of every attribute that has one or is yes or no; of results
+        within it by their own names.
+        """
         for name in (*(f.name for f in fields(self)), *attributes(type(self))):
             value, unit = getattr(self, name), unit_of(type(self), name)
             if isinstance(value, Shown):

@@ -1,4 +1,6 @@
-"""Directions in the road plane: unit vectors from an angle or a vector, and the angle of a vector."""
+"""Directions in the road plane: unit vectors from an angle or a vector, and the angle
+of a vector.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ class Angle(NamedTuple):
     @property
     def radians(self) -> Any:
         """The angle in radians."""
-        return np.multiply(self.value, math.pi / 180.0) if self.in_degrees else np.asarray(self.value)
+        return (
+            np.multiply(self.value, math.pi / 180.0) if self.in_degrees else np.asarray(self.value)
+        )
 
     @property
     def direction(self) -> tuple[Any, Any]:
@@ -35,19 +39,25 @@ class Angle(NamedTuple):
         return from_degrees(self.value) if self.in_degrees else from_radians(self.value)
 
     def to(self, other: Angle) -> tuple[Any, Any]:
-        """Cosine and sine of the angle from here to the other, from their difference: exact for nearly equal courses."""
+        """Cosine and sine of the angle from here to the other, from their difference: exact for
+        nearly equal courses.
+        """
         if self.in_degrees and other.in_degrees:
             return from_degrees(np.fmod(other.value, 360.0) - np.fmod(self.value, 360.0))
         with np.errstate(over="ignore"):
             return from_radians(np.asarray(other.radians - self.radians))
 
 
-# A vector whose length is this close to 1 is taken as it is, so that a unit vector read from a result stays the same bits.
+# A vector whose length is this close to 1 is taken as it is, so that a unit vector read from a
+# result stays the same bits.
 _UNIT_LENGTH = 2.0**-52
 
 
-def direction(reader: ArgumentReader, value: Any, argument: str, beside: Iterable[Any] = ()) -> tuple[Any, Any]:
-    """Unit vector from an angle (number, text, Quantity or array) or from a tuple of two components.
+def direction(
+    reader: ArgumentReader, value: Any, argument: str, beside: Iterable[Any] = ()
+) -> tuple[Any, Any]:
+    """Unit vector from an angle (number, text, Quantity or array) or from a tuple of two
+    components.
 
     A float32 angle is widened to float64 if any value in ``beside`` is float64.
     """
@@ -67,8 +77,8 @@ def direction(reader: ArgumentReader, value: Any, argument: str, beside: Iterabl
         return normalised(reader, vx, vy, argument)
     if isinstance(value, list):
         text = (
-            f"{argument} is a list, which could be a vector or several angles: write the tuple (nx, ny) for a vector, "
-            f"np.array([...]) for angles"
+            f"{argument} is a list, which could be a vector or several angles: write the tuple "
+            "(nx, ny) for a vector, np.array([...]) for angles"
         )
         return reader.refuse(ShapeError(text, code="bad_shape", argument=argument)), math.nan
     return Angle(*reader.angle(value, argument)).beside(beside).direction
@@ -78,15 +88,21 @@ def course(reader: ArgumentReader, value: Any, argument: str) -> Angle:
     """The angle of a course or a heading (number, text, Quantity or array); a vector is refused."""
     if isinstance(value, (tuple, list)):
         kind = argument.partition("_")[0]
-        text = f"{argument} is a {type(value).__name__}, and a {kind} is an angle; many angles go in a numpy array"
+        text = (
+            f"{argument} is a {type(value).__name__}, and a {kind} is an angle; many angles go "
+            "in a numpy array"
+        )
         return Angle(reader.refuse(ShapeError(text, code="bad_shape", argument=argument)), False)
     return Angle(*reader.angle(value, argument))
 
 
 def normalised(reader: ArgumentReader, vx: Any, vy: Any, argument: str) -> tuple[Any, Any]:
-    """The vector divided by its length; cases of length 0 stay (0, 0), a single vector of length 0 is refused."""
+    """The vector divided by its length; cases of length 0 stay (0, 0), a single vector of length 0
+    is refused.
+    """
     if isinstance(vx, float) and isinstance(vy, float):
-        # Scaled first: the length of a vector of 1e308 would overflow, that of one of 5e-324 loses all its digits.
+        # Scaled first: the length of a vector of 1e308 would overflow, that of one of 5e-324 loses
+        # all its digits.
         scale = max(abs(vx), abs(vy))
         if scale == 0.0:
             text = f"{argument} has no length: (0, 0); give the direction it points in"
@@ -108,17 +124,21 @@ def normalised(reader: ArgumentReader, vx: Any, vy: Any, argument: str) -> tuple
         keep = abs(length - 1.0) <= np.finfo(length.dtype).eps
         # A part that is not finite makes the whole vector NaN.
         finite = np.where(np.isfinite(vx) & np.isfinite(vy), 0.0, np.nan).astype(length.dtype)
-        return np.where(keep, vx, scaled_x / divisor) + finite, np.where(keep, vy, scaled_y / divisor) + finite
+        return np.where(keep, vx, scaled_x / divisor) + finite, np.where(
+            keep, vy, scaled_y / divisor
+        ) + finite
 
 
 def angle_of(x: Any, y: Any) -> Value:
     """Direction of a vector [rad] in (-pi, pi]; NaN without a length."""
     atan2: Any = math.atan2 if isinstance(x, float) and isinstance(y, float) else np.arctan2
     angle = atan2(y, x)
-    # A vector that points straight back but for the last bit, or for the sign of a 0, has the angle pi.
+    # A vector that points straight back but for the last bit, or for the sign of a 0, has the angle
+    # pi.
     back = angle <= -math.pi
     if getattr(angle, "dtype", None) == np.float32:
-        # Some processors round such an angle of float32 to the next number; its vector tells it all the same.
+        # Some processors round such an angle of float32 to the next number; its vector tells it all
+        # the same.
         back = back | ((angle < -3.0) & (abs(y) <= float(np.finfo(np.float32).eps) * abs(x)))
         angle = np.where(back, np.float32(-math.pi), angle)
     angle = select(back, -angle, angle)
@@ -150,7 +170,8 @@ def from_radians(angle: Any) -> tuple[Any, Any]:
 def from_degrees(degrees: Any) -> tuple[Any, Any]:
     """Cosine and sine of an angle in degrees, exact at the quarter turns and accurate near them.
 
-    Whole turns and the nearest quarter turn are taken off first, which rounds nothing; only the rest is converted.
+    Whole turns and the nearest quarter turn are taken off first, which rounds nothing; only the
+    rest is converted.
     """
     xp: Any = math if isinstance(degrees, float) else np
     with np.errstate(invalid="ignore"):

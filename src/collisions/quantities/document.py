@@ -21,7 +21,8 @@ _ENDING = re.compile(r"\.[A-Za-z][A-Za-z0-9]{0,7}")
 
 
 class Document(str):
-    """The text of a page: a ``str`` that a notebook shows as a page, and that ``save`` writes to a file.
+    """The text of a page: a ``str`` that a notebook shows as a page, and that ``save`` writes to a
+    file.
 
     Attributes
     ----------
@@ -63,7 +64,8 @@ class Document(str):
         ending = target.suffix.lower()
         if ending not in endings and _ENDING.fullmatch(ending):
             raise InputError(
-                f"path ends in {target.suffix}, but this page is {kind}{_not_as(ending)}; " + self._instead(target),
+                f"path ends in {target.suffix}, but this page is {kind}{_not_as(ending)}; "
+                + self._instead(target),
                 code="bad_option",
                 argument="path",
             )
@@ -71,10 +73,16 @@ class Document(str):
             target.write_text(self, encoding="utf-8", newline="\n")
         except FileNotFoundError as error:
             folder = str(target.parent)
-            text = f"there is no folder {folder!r}; make it first, by pathlib.Path({folder!r}).mkdir(parents=True), to save"
+            text = (
+                f"there is no folder {folder!r}; make it first, by "
+                f"pathlib.Path({folder!r}).mkdir(parents=True), to save"
+            )
             raise FileNotFoundError(error.errno, text, str(target)) from None
         except IsADirectoryError as error:
-            text = f"this is a folder; name a file in it, such as {str(target / f'report{suffix}')!r}, in place of"
+            text = (
+                "this is a folder; name a file in it, such as "
+                f"{str(target / f'report{suffix}')!r}, in place of"
+            )
             raise IsADirectoryError(error.errno, text, str(target)) from None
         return target
 
@@ -93,7 +101,10 @@ class Document(str):
         # In a frame: the page has a style of its own, which is not that of the notebook.
         if self.form != "html":
             return None
-        return f'<iframe srcdoc="{escape(self)}" style="width:100%;height:64em;max-height:95vh;border:1px solid #ccc"></iframe>'
+        return (
+            f'<iframe srcdoc="{escape(self)}" '
+            'style="width:100%;height:64em;max-height:95vh;border:1px solid #ccc"></iframe>'
+        )
 
     def _repr_markdown_(self) -> str | None:
         return str(self) if self.form == "markdown" else None

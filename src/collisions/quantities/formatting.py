@@ -21,7 +21,11 @@ def in_words(value: float) -> str:
 
 def percent(share: float, decimals: int = 0) -> str:
     """A share in percent."""
-    return f"{with_decimals(100.0 * share, decimals)} percent" if math.isfinite(share) else in_words(share)
+    return (
+        f"{with_decimals(100.0 * share, decimals)} percent"
+        if math.isfinite(share)
+        else in_words(share)
+    )
 
 
 def clock_hour(pdof: float) -> int:
@@ -30,12 +34,18 @@ def clock_hour(pdof: float) -> int:
 
 
 def clock(name: str, value: float) -> str:
-    """The text after a PDOF, known by the name of its attribute: its clock hour; "" after other numbers."""
-    return f" ({clock_hour(value)} o'clock)" if "pdof" in name.lower() and math.isfinite(value) else ""
+    """The text after a PDOF, known by the name of its attribute: its clock hour; "" after other
+    numbers.
+    """
+    return (
+        f" ({clock_hour(value)} o'clock)" if "pdof" in name.lower() and math.isfinite(value) else ""
+    )
 
 
 def places(value: float, figures: int) -> int:
-    """The decimals that show so many figures after rounding; negative to the left of the decimal point."""
+    """The decimals that show so many figures after rounding; negative to the left of the decimal
+    point.
+    """
     return figures - 1 - int(f"{value:.{figures - 1}e}".partition("e")[2])
 
 
@@ -48,7 +58,9 @@ def with_decimals(value: float, decimals: int, thousands: str = "") -> str:
 
 
 def rounded(value: float, decimals: int) -> str:
-    """A number of a result with so many decimals; from 1e15, where a float does not hold them, with six figures."""
+    """A number of a result with so many decimals; from 1e15, where a float does not hold them, with
+    six figures.
+    """
     return f"{value:.6g}" if abs(value) >= 1e15 else with_decimals(value, decimals)
 
 
@@ -70,7 +82,8 @@ class Numbers:
 
     # Whether units are written as on a printed page, lb·ft² and 30°, or as pint reads them.
     typeset = False
-    # The kind that numbers are taken to be of if their SI unit is none of those in the table of kinds.
+    # The kind that numbers are taken to be of if their SI unit is none of those in the table of
+    # kinds.
     unlisted: str | None = None
 
     # The kinds that are written in degrees whatever the system, as the inputs were.
@@ -80,7 +93,9 @@ class Numbers:
         self.name = system
 
     def system_of(self, kind: str) -> str:
-        """The system that a kind is written in: "metric" has the degrees of what "si" has in radians."""
+        """The system that a kind is written in: "metric" has the degrees of what "si" has in
+        radians.
+        """
         return "metric" if kind in self.in_degrees and self.name == "si" else self.name
 
     def label(self, kind: str) -> str:
@@ -101,14 +116,17 @@ class Numbers:
         found = value * self.scale(kind)
         if math.isinf(found):
             raise InputError(
-                f"{value:.6g} {unit_of(kind, 'si')} is too large to be written in {self.label(kind)}; look for a slipped digit",
+                f"{value:.6g} {unit_of(kind, 'si')} is too large to be written in "
+                f"{self.label(kind)}; look for a slipped digit",
                 code="out_of_range",
                 argument="units",
             )
         return found
 
     def span(self, low: float, high: float, kind: str, deviation: float | None = None) -> str:
-        """A range as a result, with the unit at its end; one value if both ends are printed alike."""
+        """A range as a result, with the unit at its end; one value if both ends are
+        printed alike.
+        """
         ends = [self.answer(end, kind, deviation).partition(" ± ")[0] for end in (low, high)]
         if not math.isfinite(low + high):
             return " to ".join(ends)
@@ -116,11 +134,17 @@ class Numbers:
         return " to ".join(dict.fromkeys(end.removesuffix(unit) for end in ends)) + unit
 
     def answer(self, value: float, kind: str, deviation: float | None = None) -> str:
-        """A number as a result, rounded to its standard deviation where that is known, with the unit."""
+        """A number as a result, rounded to its standard deviation where that is known, with the
+        unit.
+        """
         if not math.isfinite(value):
             return in_words(value)
         number, unit = self.converted(value, kind), self.unit(kind)
-        if deviation is not None and math.isfinite(deviation) and deviation > _NO_SPREAD * abs(value):
+        if (
+            deviation is not None
+            and math.isfinite(deviation)
+            and deviation > _NO_SPREAD * abs(value)
+        ):
             spread = self.converted(deviation, kind)
             decimals = places(spread, 2)
             return f"{rounded(number, decimals)} ± {rounded(spread, decimals)}{unit}"
@@ -138,12 +162,15 @@ class _Kind(NamedTuple):
     si: str
     metric: str
     us: str
-    decimals: tuple[int, int, int] | None = None  # of a result, by system; without an entry, figures are used
+    decimals: tuple[int, int, int] | None = (
+        None  # of a result, by system; without an entry, figures are used
+    )
 
 
-# Decimals: 0.1 km/h, 0.1 mph, 0.1 degree, 1 degree/s, and in SI the next finer power of ten.
-# US inertia is lb*ft**2, not lbf*ft*s**2: only beside masses in lb does 1/m + r**2/I add up as it is printed.
-# A contact lasts some hundredths of a second, so its duration is in ms; other times are those of travel.
+# Decimals: 0.1 km/h, 0.1 mph, 0.1 degree, 1 degree/s, and in SI the next finer power of ten. US
+# inertia is lb*ft**2, not lbf*ft*s**2: only beside masses in lb does 1/m + r**2/I add up as it is
+# printed. A contact lasts some hundredths of a second, so its duration is in ms; other times are
+# those of travel.
 _KINDS = {
     "number": _Kind("", "", "", (2, 2, 2)),
     "ratio": _Kind("", "", "", (3, 3, 3)),
@@ -195,8 +222,8 @@ def check_system(units: Any) -> None:
     """Refuse an argument ``units`` that names none of the systems."""
     if not isinstance(units, str) or units not in SYSTEMS:
         raise InputError(
-            f"units must be 'si', 'metric' or 'us', got {shown(units)}; they are those of what is printed, not those of the "
-            f"inputs",
+            f"units must be 'si', 'metric' or 'us', got {shown(units)}; they are those of what "
+            "is printed, not those of the inputs",
             code="bad_option",
             argument="units",
         )

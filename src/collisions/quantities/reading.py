@@ -1,4 +1,5 @@
-"""The reader: the arguments of a call in, SI numbers out, and one error that names every argument that cannot be used.
+"""The reader: the arguments of a call in, SI numbers out, and one error that names every argument
+that cannot be used.
 
 Nothing behind it ever sees a unit.
 """
@@ -11,8 +12,24 @@ from typing import Any
 
 import numpy as np
 
-from ..kernels.elementwise import AT_LEAST_ZERO, FINITE, INCOMPLETE, NOT_NEGATIVE, POSITIVE, RESTITUTION, UNIT_INTERVAL, Domain
-from ..messages.errors import CollisionsError, InputError, ShapeError, Status, SuspectUnitsWarning, UnitsError
+from ..kernels.elementwise import (
+    AT_LEAST_ZERO,
+    FINITE,
+    INCOMPLETE,
+    NOT_NEGATIVE,
+    POSITIVE,
+    RESTITUTION,
+    UNIT_INTERVAL,
+    Domain,
+)
+from ..messages.errors import (
+    CollisionsError,
+    InputError,
+    ShapeError,
+    Status,
+    SuspectUnitsWarning,
+    UnitsError,
+)
 from ..messages.warning import warn
 from .settings import Default, units_required
 from .units import (
@@ -31,7 +48,8 @@ from .units import (
     without_commas,
 )
 
-# Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
+# Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is
+# three turns a second).
 _PLAUSIBLE = {"rad": 2.0 * math.pi * (1.0 + 1e-9), "rad/s": 20.0}
 # Of the components of an impulse from outside: along x and y, and about the centre of mass.
 OUTSIDE_UNITS = ("N*s", "N*s", "kg*m**2/s")
@@ -63,12 +81,17 @@ class ArgumentReader:
         text = "\n".join(f"- {problem}" for problem in self.problems)
         return kind(
             f"{len(self.problems)} arguments cannot be used:\n{text}",
-            code=next((problem.code for problem in self.problems if type(problem) is kind), "several_arguments"),
+            code=next(
+                (problem.code for problem in self.problems if type(problem) is kind),
+                "several_arguments",
+            ),
             problems=tuple(self.problems),
         )
 
     def number(self, value: Any, unit: str, argument: str, domain: Domain = FINITE) -> Any:
-        """A float or a locked float array in the given SI unit; scalars are checked against the domain."""
+        """A float or a locked float array in the given SI unit; scalars are checked against the
+        domain.
+        """
         try:
             read, text = _read(value, unit, argument)
         except InputError as problem:
@@ -90,23 +113,30 @@ class ArgumentReader:
         return read
 
     def impulse(self, value: Any, argument: str) -> tuple[Any, Any, Any]:
-        """Components x, y [N*s] and, if there is a third, yaw [N*m*s] of an impulse from outside."""
+        """Components x, y [N*s] and, if there is a third, yaw [N*m*s] of an impulse
+        from outside.
+        """
         if not isinstance(value, (tuple, list)) or len(value) not in (2, 3):
             self.refuse(
                 ShapeError(
-                    f"{argument} must be (x, y) or (x, y, yaw): an impulse on the vehicle in N*s along the axes of the scene "
-                    f"and its moment about the centre of mass in N*m*s, got {shown(value)}",
+                    f"{argument} must be (x, y) or (x, y, yaw): an impulse on the vehicle in N*s "
+                    "along the axes of the scene and its moment about the centre of mass in "
+                    f"N*m*s, got {shown(value)}",
                     code="bad_shape",
                     argument=argument,
                 )
             )
             return math.nan, math.nan, math.nan
         parts = zip((*value, 0.0)[:3], OUTSIDE_UNITS, strict=True)
-        x, y, yaw = (self.number(part, unit, f"{argument}[{i}]") for i, (part, unit) in enumerate(parts))
+        x, y, yaw = (
+            self.number(part, unit, f"{argument}[{i}]") for i, (part, unit) in enumerate(parts)
+        )
         return x, y, yaw
 
     def pair(self, value: Any, unit: str, argument: str) -> tuple[Any, Any]:
-        """Two numbers from a pair, each part a number, string, Quantity or array, or from one length-2 Quantity."""
+        """Two numbers from a pair, each part a number, string, Quantity or array, or from one
+        length-2 Quantity.
+        """
         whole = magnitude(value) if is_quantity(value) else value
         parts = value
         if isinstance(whole, np.ndarray):
@@ -115,22 +145,31 @@ class ArgumentReader:
             shape = f" of shape {whole.shape}" if isinstance(whole, np.ndarray) else ""
             self.refuse(
                 ShapeError(
-                    f"{argument} must be a pair (x, y), got {shown(value)}{shape}; for many points write "
-                    f"(xs, ys) with one array each, such as (points[:, 0], points[:, 1])",
+                    f"{argument} must be a pair (x, y), got {shown(value)}{shape}; for many "
+                    "points write (xs, ys) with one array each, such as (points[:, 0], "
+                    "points[:, 1])",
                     code="bad_shape",
                     argument=argument,
                 )
             )
             return math.nan, math.nan
-        return self.number(parts[0], unit, f"{argument}[0]"), self.number(parts[1], unit, f"{argument}[1]")
+        return self.number(parts[0], unit, f"{argument}[0]"), self.number(
+            parts[1], unit, f"{argument}[1]"
+        )
 
     def angle(self, value: Any, argument: str) -> tuple[Any, bool]:
-        """An angle, and whether it is in degrees; these are kept as given, so that they can be reduced exactly."""
+        """An angle, and whether it is in degrees; these are kept as given, so that they can be
+        reduced exactly.
+        """
         try:
             quantity = parse(value, "rad", argument) if isinstance(value, str) else value
             if in_degrees(quantity):
                 degrees, text = _convert(quantity, "degree", argument, value)
-                problem_found = None if isinstance(degrees, np.ndarray) else _outside(degrees, FINITE, argument, value)
+                problem_found = (
+                    None
+                    if isinstance(degrees, np.ndarray)
+                    else _outside(degrees, FINITE, argument, value)
+                )
                 if problem_found is not None:
                     raise problem_found
                 if text and not isinstance(degrees, np.ndarray):
@@ -142,12 +181,16 @@ class ArgumentReader:
 
 
 def is_whole(value: Any) -> bool:
-    """Whether this is an integer; a bool does not count, nor does a timedelta, which numpy counts among its integers."""
+    """Whether this is an integer; a bool does not count, nor does a timedelta, which numpy counts
+    among its integers.
+    """
     return isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
 
 
 def broadcast(values: Mapping[str, Any]) -> tuple[int, ...] | None:
-    """The common shape of the arrays among these values; None without any. ShapeError names them all."""
+    """The common shape of the arrays among these values; None without any. ShapeError names them
+    all.
+    """
     shapes = {name: value.shape for name, value in values.items() if isinstance(value, np.ndarray)}
     if not shapes:
         return None
@@ -155,11 +198,15 @@ def broadcast(values: Mapping[str, Any]) -> tuple[int, ...] | None:
         return np.broadcast_shapes(*shapes.values())
     except ValueError:
         listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-        raise ShapeError(f"these arrays do not broadcast together: {listed}", code="bad_shape") from None
+        raise ShapeError(
+            f"these arrays do not broadcast together: {listed}", code="bad_shape"
+        ) from None
 
 
 def widened(parts: Collection[Any], beside: Iterable[Any] = ()) -> Any:
-    """The parts; float32 arrays are widened if any number in ``parts`` or ``beside`` needs float64."""
+    """The parts; float32 arrays are widened if any number in ``parts`` or ``beside``
+    needs float64.
+    """
     for part in parts:
         if isinstance(part, np.ndarray) and part.dtype == np.float32:
             break
@@ -169,7 +216,9 @@ def widened(parts: Collection[Any], beside: Iterable[Any] = ()) -> Any:
     from .precision import precision
 
     kind = precision([*parts, *beside])
-    return [part.astype(kind, copy=False) if isinstance(part, np.ndarray) else part for part in parts]
+    return [
+        part.astype(kind, copy=False) if isinstance(part, np.ndarray) else part for part in parts
+    ]
 
 
 def largest(value: Any) -> float:
@@ -181,14 +230,19 @@ def largest(value: Any) -> float:
     return max(-low, high)
 
 
-def warn_if_large(given: Any, read: Any, limit: float, argument: str, meaning: str, *units: str) -> None:
-    """Warns that a number without a unit is so large that it may have been meant in one of these units."""
+def warn_if_large(
+    given: Any, read: Any, limit: float, argument: str, meaning: str, *units: str
+) -> None:
+    """Warns that a number without a unit is so large that it may have been meant in one of these
+    units.
+    """
     worst = largest(read)
     if limit < worst < math.inf and not has_unit(given):
         spelled = " or ".join(f"'{worst:g} {unit}'" for unit in units)
         warn(
             SuspectUnitsWarning(
-                f"{argument} = {worst:g} is read as {meaning}; if another unit was meant, write {spelled}",
+                f"{argument} = {worst:g} is read as {meaning}; if another unit was meant, write "
+                f"{spelled}",
                 code="suspect_units",
                 argument=argument,
                 value=worst,
@@ -197,12 +251,16 @@ def warn_if_large(given: Any, read: Any, limit: float, argument: str, meaning: s
 
 
 def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
-    """The value in the unit, and the text it was given as if it had a unit; of an array the text of one such unit."""
+    """The value in the unit, and the text it was given as if it had a unit; of an array the text of
+    one such unit.
+    """
     if type(value) is float:
         return value, ""
     if isinstance(value, str):
         quantity = parse(value, unit, argument)
-        return _convert(quantity, unit, argument, value)[0], value.strip() if has_unit(quantity) else ""
+        return _convert(quantity, unit, argument, value)[0], value.strip() if has_unit(
+            quantity
+        ) else ""
     if is_quantity(value):
         return _convert(value, unit, argument, value)
     return _plain(value, argument, unit), ""
@@ -224,7 +282,9 @@ def _convert(quantity: Any, unit: str, argument: str, given: Any) -> tuple[Any, 
             number *= by
         converted, overflows = number, bool(np.count_nonzero(np.isinf(number)) > infinite)
     if overflows:
-        raise InputError(f"{argument} is too large: {shown(given)}", code="out_of_range", argument=argument)
+        raise InputError(
+            f"{argument} is too large: {shown(given)}", code="out_of_range", argument=argument
+        )
     return converted, text
 
 
@@ -257,28 +317,40 @@ def _plain(value: Any, argument: str, unit: str) -> Any:
         raise _not_a_number(value, argument, unit)
     if type(value) not in (np.ndarray, np.memmap):
         raise InputError(
-            f"{argument} is a {type(value).__module__}.{type(value).__name__}, whose mask or unit would be lost; give a plain "
-            f"numpy array (masked values filled with nan), or a pint Quantity",
+            f"{argument} is a {type(value).__module__}.{type(value).__name__}, whose mask or "
+            "unit would be lost; give a plain numpy array (masked values filled with nan), or a "
+            "pint Quantity",
             code="not_a_number",
             argument=argument,
         )
     if value.ndim > _MOST_DIMENSIONS:
         raise ShapeError(
-            f"{argument} is an array of {value.ndim} dimensions, and may have {_MOST_DIMENSIONS} at most; give it as "
-            f"{argument}.ravel()",
+            f"{argument} is an array of {value.ndim} dimensions, and may have {_MOST_DIMENSIONS} "
+            f"at most; give it as {argument}.ravel()",
             code="bad_shape",
             argument=argument,
         )
     if value.dtype.kind not in "fiu":
-        parts, cure = value.flat[:20].tolist(), "give an array of floats or integers, for example by .astype(float)"
+        parts, cure = (
+            value.flat[:20].tolist(),
+            "give an array of floats or integers, for example by .astype(float)",
+        )
         if any(isinstance(part, str) or is_quantity(part) for part in parts):
             cure = _as_quantity(parts, argument, unit)
-        raise InputError(f"{argument} is an array of {value.dtype}; {cure}", code="not_a_number", argument=argument)
+        raise InputError(
+            f"{argument} is an array of {value.dtype}; {cure}",
+            code="not_a_number",
+            argument=argument,
+        )
     dtype = value.dtype.newbyteorder("=") if value.dtype == np.float32 else np.dtype(np.float64)
     with np.errstate(over="ignore"):
         array = np.array(value, dtype=dtype)
     if value.dtype.itemsize > 8 and bool(np.any(np.isinf(array) & ~np.isinf(value))):
-        raise InputError(f"{argument} holds numbers too large for a float64", code="out_of_range", argument=argument)
+        raise InputError(
+            f"{argument} holds numbers too large for a float64",
+            code="out_of_range",
+            argument=argument,
+        )
     return float(array) if array.ndim == 0 else array
 
 
@@ -288,11 +360,16 @@ def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
         item, depth = stack.pop()
         if isinstance(item, (list, tuple)):
             if depth == _MOST_DIMENSIONS:
-                raise ShapeError(f"{argument} is nested too deeply; give an array", code="bad_shape", argument=argument)
+                raise ShapeError(
+                    f"{argument} is nested too deeply; give an array",
+                    code="bad_shape",
+                    argument=argument,
+                )
             stack.extend((part, depth + 1) for part in item)
         elif is_quantity(item) or isinstance(item, str):
             raise UnitsError(
-                f"{argument} is a {type(value).__name__} with {shown(item)} in it; {_as_quantity(value, argument, unit)}",
+                f"{argument} is a {type(value).__name__} with {shown(item)} in it; "
+                f"{_as_quantity(value, argument, unit)}",
                 code="bad_units",
                 argument=argument,
             )
@@ -304,15 +381,28 @@ def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
         return np.array(value)
     except ValueError:
         raise ShapeError(
-            f"{argument} is a {type(value).__name__} of unequal rows; give an array", code="bad_shape", argument=argument
+            f"{argument} is a {type(value).__name__} of unequal rows; give an array",
+            code="bad_shape",
+            argument=argument,
         ) from None
 
 
 def _as_quantity(values: Sequence[Any], argument: str, unit: str) -> str:
-    """How a list of texts and Quantities is written as one Quantity, in the first unit in it; dots for what cannot be read."""
+    """How a list of texts and Quantities is written as one Quantity, in the first unit in it; dots
+    for what cannot be read.
+    """
     commas = {part: without_commas(part) for part in values if isinstance(part, str)}
-    note = next((f"cannot read {shown(part)}: {no_comma(part)}; " for part, meant in commas.items() if meant), "")
-    values = [commas[part][0] if isinstance(part, str) and commas[part] else part for part in values]
+    note = next(
+        (
+            f"cannot read {shown(part)}: {no_comma(part)}; "
+            for part, meant in commas.items()
+            if meant
+        ),
+        "",
+    )
+    values = [
+        commas[part][0] if isinstance(part, str) and commas[part] else part for part in values
+    ]
     first = next((part for part in values if has_unit(part)), None)
     if first is None:
         return f"{note}give numbers, without quotes"
@@ -335,7 +425,11 @@ def _as_quantity(values: Sequence[Any], argument: str, unit: str) -> str:
 
 
 def _not_a_number(value: Any, argument: str, unit: str) -> InputError:
-    got = "it was not given, or as None" if value is None else f"got {shown(value)} of type {type(value).__name__}"
+    got = (
+        "it was not given, or as None"
+        if value is None
+        else f"got {shown(value)} of type {type(value).__name__}"
+    )
     got += "; write its mass, such as a.mass" if unit == "kg" and hasattr(value, "mass") else ""
     return InputError(
         f"{argument} must be a number, an array or a Quantity, such as {example(unit)}; {got}",
@@ -352,11 +446,15 @@ def _outside(value: float, domain: Domain, argument: str, given: Any) -> InputEr
     return None
 
 
-def _out_of_domain(value: float, domain: Domain, status: Status, argument: str, given: Any) -> InputError:
+def _out_of_domain(
+    value: float, domain: Domain, status: Status, argument: str, given: Any
+) -> InputError:
     must, hint = domain.name, f": {status.sentence}"
     if status is Status.NOT_FINITE and domain is not AT_LEAST_ZERO:
         if math.isnan(value):
-            return InputError(f"{argument} is NaN; give a number", code=status.label, argument=argument)
+            return InputError(
+                f"{argument} is NaN; give a number", code=status.label, argument=argument
+            )
         must, hint = "finite", "; only mass, yaw_inertia and friction may be inf"
     elif status is Status.NOT_POSITIVE:
         must, hint = "> 0 (inf allowed)" if domain is POSITIVE else "> 0", ""
@@ -369,8 +467,13 @@ def _out_of_domain(value: float, domain: Domain, status: Status, argument: str, 
         if 1.1 <= value <= 100.0:
             hint = f"; if percent were meant, write '{value:g} %'"
         elif domain is RESTITUTION and -1.0 < value < 0.0:
-            hint = "; of bodies that pass or tear before a common velocity, the impulse solvers take it with incomplete=True"
-    return InputError(f"{argument} must be {must}, got {shown(given)}{hint}", code=status.label, argument=argument)
+            hint = (
+                "; of bodies that pass or tear before a common velocity, the impulse solvers "
+                "take it with incomplete=True"
+            )
+    return InputError(
+        f"{argument} must be {must}, got {shown(given)}{hint}", code=status.label, argument=argument
+    )
 
 
 def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:
@@ -382,7 +485,8 @@ def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:
         degrees = "deg" if unit == "rad" else "deg/s"
         warn(
             SuspectUnitsWarning(
-                f"{argument} = {worst:g} is read as {unit}; if degrees were meant, write '{worst:g} {degrees}'",
+                f"{argument} = {worst:g} is read as {unit}; if degrees were meant, write "
+                f"'{worst:g} {degrees}'",
                 code="suspect_units",
                 argument=argument,
                 value=worst,
@@ -393,31 +497,49 @@ def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:
 def _without_unit(value: Any, unit: str, argument: str) -> UnitsError:
     written = example(unit).split("'")[1]
     return UnitsError(
-        f"{argument} = {shown(value)} has no unit, and options(require_units=True) asks for one; write for example {written!r}",
+        f"{argument} = {shown(value)} has no unit, and options(require_units=True) asks for one; "
+        f"write for example {written!r}",
         code="bad_units",
         argument=argument,
     )
 
 
-_CODES = {"m/s": "negative_speed", "J": "negative_energy", "m": "negative_length", "N/m": "negative_stiffness"}
+_CODES = {
+    "m/s": "negative_speed",
+    "J": "negative_energy",
+    "m": "negative_length",
+    "N/m": "negative_stiffness",
+}
 
 
-def amount(reader: ArgumentReader, value: Any, unit: str, name: str, hint: str = "give the magnitude") -> Any:
-    """A number read through the reader; the elements of an array are checked later, by the solvers."""
+def amount(
+    reader: ArgumentReader, value: Any, unit: str, name: str, hint: str = "give the magnitude"
+) -> Any:
+    """A number read through the reader; the elements of an array are checked later, by
+    the solvers.
+    """
     return at_least_zero(reader, reader.number(value, unit, name), value, name, _CODES[unit], hint)
 
 
-def at_least_zero(reader: ArgumentReader, read: Any, given: Any, name: str, code: str, hint: str) -> Any:
+def at_least_zero(
+    reader: ArgumentReader, read: Any, given: Any, name: str, code: str, hint: str
+) -> Any:
     """A number that was read; refused if it is a single number below zero."""
     if isinstance(read, float) and read < 0.0:
-        return reader.refuse(InputError(f"{name} must be >= 0, got {shown(given)}; {hint}", code=code, argument=name))
+        return reader.refuse(
+            InputError(f"{name} must be >= 0, got {shown(given)}; {hint}", code=code, argument=name)
+        )
     return read
 
 
-def single_number(reader: ArgumentReader, read: Any, name: str, text: str, argument: str = "") -> Any:
+def single_number(
+    reader: ArgumentReader, read: Any, name: str, text: str, argument: str = ""
+) -> Any:
     """A number that was read; refused with the text, which follows its name, if it is an array."""
     if isinstance(read, np.ndarray):
-        return reader.refuse(ShapeError(f"{name} {text}", code="bad_shape", argument=argument or name))
+        return reader.refuse(
+            ShapeError(f"{name} {text}", code="bad_shape", argument=argument or name)
+        )
     return read
 
 
@@ -436,14 +558,15 @@ def need_one_case(
 ) -> None:
     """Raise unless the argument ``impact`` is a single result of one of these types.
 
-    ``function`` is the name of the caller in messages; ``instead`` and ``many`` are advice for another type and for a batch;
-    ``refused`` makes the error of a refused case from its status, a text and fields.
+    ``function`` is the name of the caller in messages; ``instead`` and ``many`` are advice for
+    another type and for a batch; ``refused`` makes the error of a refused case from its status, a
+    text and fields.
     """
     if not isinstance(answer, kinds):
         if isinstance(answer, tuple) and answer and all(isinstance(one, kinds) for one in answer):
             raise InputError(
-                f"impact must be one answer, got a tuple of {len(answer)}, all that fit; write {function}(found[0]) for the "
-                f"first",
+                f"impact must be one answer, got a tuple of {len(answer)}, all that fit; write "
+                f"{function}(found[0]) for the first",
                 code="not_an_impact",
                 argument="impact",
             )
@@ -451,7 +574,8 @@ def need_one_case(
         wanted = " or ".join(f"{'an' if name[0] in 'AEIOU' else 'a'} {name}" for name in names)
         fit = "" if "Fit" in names else ", for a Fit with the values that it found"
         raise InputError(
-            f"impact must be {wanted}, got {type(answer).__name__}; write {function}(collisions.eccentric(...)){fit}{instead}",
+            f"impact must be {wanted}, got {type(answer).__name__}; write "
+            f"{function}(collisions.eccentric(...)){fit}{instead}",
             code="not_an_impact",
             argument="impact",
         )
@@ -461,15 +585,20 @@ def need_one_case(
         how = "ask the solver again with the numbers of that case, such as mass=float(masses[0])"
         if hasattr(answer, "case"):
             first = 0 if status.ndim == 1 else (0,) * status.ndim
-            how = f"write {function}(impact.case({first})) for the first one; impact.to_columns() has the table of all"
+            how = (
+                f"write {function}(impact.case({first})) for the first one; impact.to_columns() "
+                "has the table of all"
+            )
         raise ShapeError(
-            f"impact is a batch of shape {status.shape}, and {function} takes one case: {how}{many}",
+            f"impact is a batch of shape {status.shape}, and {function} takes one case: "
+            f"{how}{many}",
             code="bad_shape",
             argument="impact",
         )
     if status > Status.ENERGY_GAIN:
         raise refused(
             int(status),
-            f"impact was refused, so {function} has nothing to work on: {status.sentence}; mend its inputs and solve it again",
+            f"impact was refused, so {function} has nothing to work on: {status.sentence}; mend "
+            "its inputs and solve it again",
             argument="impact",
         )

@@ -1,4 +1,6 @@
-"""``options``: refuses numbers without a unit, for callers who want that; for the current thread or task only."""
+"""``options``: refuses numbers without a unit, for callers who want that; for the current thread or
+task only.
+"""
 
 from __future__ import annotations
 
@@ -23,15 +25,17 @@ class Default(float):
 
 
 class options:
-    """Settings that hold from the call on, or in a ``with`` block until its end; in this thread or task only.
+    """Settings that hold from the call on, or in a ``with`` block until its end; in this thread or
+    task only.
 
     Parameters
     ----------
     require_units : bool
-        Whether a number without a unit is refused where one with a unit is expected, as in ``vx=20``: by vehicles, solvers,
-        reverse solvers, ``travel``, ``diagnose``, ``left_out``, ``explain``, ``report`` and pictures. 0 and infinity need none,
-        nor do the numbers of a distribution such as ``Normal(13, 1)``, whose dimension is not known. Models of ``propagate``,
-        ``fit`` and ``posterior`` are called with SI numbers, and may pass them on.
+        Whether a number without a unit is refused where one with a unit is expected, as in
+        ``vx=20``: by vehicles, solvers, reverse solvers, ``travel``, ``diagnose``, ``left_out``,
+        ``explain``, ``report`` and pictures. 0 and infinity need none, nor do the numbers of a
+        distribution such as ``Normal(13, 1)``, whose dimension is not known. Models of
+        ``propagate``, ``fit`` and ``posterior`` are called with SI numbers, and may pass them on.
 
     Raises
     ------
@@ -41,18 +45,20 @@ class options:
     Examples
     --------
     >>> import collisions as col
-    >>> with col.options(require_units=True):
+    >>> with col.options(require_units=True):  # doctest: +ELLIPSIS
     ...     col.Vehicle(mass="1500 kg", vx=20)
     Traceback (most recent call last):
     ...
-    collisions.UnitsError: vx = 20 has no unit, and options(require_units=True) asks for one; write for example '80 km/h'
+    collisions.UnitsError: vx = 20 has no unit, and options(require_units=True) asks for one; ...
     """
 
     @hinted
     def __init__(self, *, require_units: bool) -> None:
         if not isinstance(require_units, bool):
             raise InputError(
-                f"require_units must be True or False, got {shown(require_units)}", code="bad_option", argument="require_units"
+                f"require_units must be True or False, got {shown(require_units)}",
+                code="bad_option",
+                argument="require_units",
             )
         self._before = units_required.set(require_units)
 
@@ -69,7 +75,9 @@ def in_si() -> AbstractContextManager[None]:
 
 
 def callers_options() -> AbstractContextManager[None]:
-    """Within this context a function under ``computing`` reads its own arguments, by the options of its caller."""
+    """Within this context a function under ``computing`` reads its own arguments, by the options of
+    its caller.
+    """
     return _set(units_required, _callers.get())
 
 
@@ -83,7 +91,8 @@ def _set(variable: ContextVar[bool], value: bool) -> Iterator[None]:
 
 
 def computing(function: F) -> F:
-    """Decorate a function that works on results: the numbers it gives on are the package's own, in SI.
+    """Decorate a function that works on results: the numbers it gives on are the package's own, in
+    SI.
 
     Its arguments are the caller's, and are read in ``callers_options``.
     """

@@ -12,7 +12,9 @@ from ..messages.errors import Status
 
 
 def strict(value: Any) -> Any:
-    """The value as strict JSON: an infinity and NaN by name, an array with its precision, a pair as a list."""
+    """The value as strict JSON: an infinity and NaN by name, an array with its precision, a pair as
+    a list.
+    """
     if isinstance(value, np.ndarray):
         return {
             "dtype": str(value.dtype),

@@ -16,18 +16,27 @@ from .units import kinds_in_degrees, system_given
 
 _LARGEST = 1e9  # beyond it numbers are written with a power of ten
 _SHORT = 30  # characters of a cell that is a number, and not a sentence
-_PAGE, _LEAST = 88, 24  # characters of a line of the plain table, and at least of its longest column
+_PAGE, _LEAST = (
+    88,
+    24,
+)  # characters of a line of the plain table, and at least of its longest column
 _NOT_KNOWN = "\u2013"
 # Names of one of the two vehicles: "delta_v_a", "speed_a_after", "a.tyre_delta_v".
 _SIDED = r"(?:(?P<lead>[ab])\.(?P<inner>.+)|(?P<stem>.+)_(?P<side>[ab])(?P<after>_after)?)"
-# Names of angles that are directions, of which 180 and -180 degrees are one; others, such as a rotation, may count turns.
-_DIRECTION = r"(?:(?:straight_)?course|heading|pdof|normal_angle|crab_angles|course_difference)(?:_[ab](?:_after)?)?"
+# Names of angles that are directions, of which 180 and -180 degrees are one; others, such as a
+# rotation, may count turns.
+_DIRECTION = (
+    r"(?:(?:straight_)?course|heading|pdof|normal_angle|crab_angles|"
+    r"course_difference)(?:_[ab](?:_after)?)?"
+)
 _ANGLE_TOL = 1e-6  # more than the rounding of a direction in float32
 _WORDS = {"delta v": "delta-V", "pdof": "PDOF", "ees": "EES"}
 
 
 class Part(NamedTuple):
-    """Rows, each of a label and its cells, under a heading and the names of the columns; a folded one is for notebooks only."""
+    """Rows, each of a label and its cells, under a heading and the names of the columns; a folded
+    one is for notebooks only.
+    """
 
     rows: Sequence[tuple[str, ...]]
     heading: str = ""
@@ -36,7 +45,9 @@ class Part(NamedTuple):
 
 
 class Cells(Numbers):
-    """Writes numbers for a table: rounded, with the unit; angles are in degrees in every system of units."""
+    """Writes numbers for a table: rounded, with the unit; angles are in degrees in every system of
+    units.
+    """
 
     typeset = True
     # Of a batch, which cases have an answer: ranges are of these alone.
@@ -45,7 +56,9 @@ class Cells(Numbers):
     over_time = False
 
     def text(self, value: Any, unit: str | None, name: str = "") -> str:
-        """A number in this SI unit; the range of an array, of directions by its name; other values as they are."""
+        """A number in this SI unit; the range of an array, of directions by its name; other values
+        as they are.
+        """
         if value is None:
             return _NOT_KNOWN
         if isinstance(value, tuple):
@@ -85,9 +98,11 @@ class Cells(Numbers):
 
 
 def _arc(directions: Any) -> tuple[float, float]:
-    """The ends of the shortest arc that holds all directions, rising: 174 to 186 degrees for 174 and -174.
+    """The ends of the shortest arc that holds all directions, rising: 174 to 186 degrees for 174
+    and -174.
 
-    Where it does not cross 180 degrees they are the least and the greatest value, and so for values that span more than a turn.
+    Where it does not cross 180 degrees they are the least and the greatest value, and so for values
+    that span more than a turn.
     """
     found = np.sort(directions, axis=None).astype(np.float64)
     low, high = float(found[0]), float(found[-1])
@@ -103,7 +118,9 @@ def _arc(directions: Any) -> tuple[float, float]:
 
 
 def cells(units: Any, texts: Iterable[Any] = ()) -> Cells:
-    """How a table writes its numbers: in the system named or, for None, in that of the texts the inputs were given as."""
+    """How a table writes its numbers: in the system named or, for None, in that of the texts the
+    inputs were given as.
+    """
     if units is None:
         return Cells(system_given(text for text in texts if isinstance(text, str)))
     check_system(units)
@@ -111,12 +128,14 @@ def cells(units: Any, texts: Iterable[Any] = ()) -> Cells:
 
 
 class Sentences:
-    """How sentences about a case write its numbers: called with an SI number and its kind, in the units of the inputs.
+    """How sentences about a case write its numbers: called with an SI number and its kind, in the
+    units of the inputs.
 
     Parameters
     ----------
     texts : iterable
-        What the inputs were given as; the texts with units among it are read when the first number is written.
+        What the inputs were given as; the texts with units among it are read when the first number
+        is written.
     """
 
     def __init__(self, texts: Iterable[Any] = ()) -> None:
@@ -130,7 +149,8 @@ class Sentences:
         return system
 
     def __call__(self, value: float, kind: str, figures: int = 6) -> str:
-        # A number that is too large for the unit stays as it is: the sentence is about something else.
+        # A number that is too large for the unit stays as it is: the sentence is about something
+        # else.
         system = self._system if math.isfinite(value * self._system.scale(kind)) else Cells("si")
         return f"{value * system.scale(kind) + 0.0:.{figures}g}{system.unit(kind)}"
 
@@ -141,12 +161,15 @@ def said(value: float, kind: str, texts: Iterable[Any], figures: int = 6) -> str
 
 
 def spoken_system(texts: Iterable[Any]) -> str:
-    """The system for sentences about inputs given as these texts: "us" if they are in US units, else "metric"."""
+    """The system for sentences about inputs given as these texts: "us" if they are in US units,
+    else "metric".
+    """
     return "us" if cells(None, texts).name == "us" else "metric"
 
 
 class Summary:
-    """A result as a table. ``print`` writes it as plain text; a notebook shows it as HTML, with the folded part below.
+    """A result as a table. ``print`` writes it as plain text; a notebook shows it as HTML, with the
+    folded part below.
 
     Attributes
     ----------
@@ -158,17 +181,33 @@ class Summary:
     """
 
     def __init__(self, title: str, parts: Iterable[Part], notes: Iterable[str] = ()) -> None:
-        self.title, self.parts, self.notes = title, tuple(part for part in parts if part.rows), tuple(notes)
+        self.title, self.parts, self.notes = (
+            title,
+            tuple(part for part in parts if part.rows),
+            tuple(notes),
+        )
 
     def __str__(self) -> str:
         from textwrap import wrap
 
         lines = [self.title]
         shown = [part for part in self.parts if not part.folded]
-        wide = {id(part) for part in shown if any(len(cell) > _SHORT for row in part.rows for cell in row[1:])}
+        wide = {
+            id(part)
+            for part in shown
+            if any(len(cell) > _SHORT for row in part.rows for cell in row[1:])
+        }
         indent = {id(part): "  " if part.heading or part.columns else "" for part in shown}
-        aligned = [((indent[id(part)] + row[0], *row[1:]), part) for part in shown for row in part.rows if id(part) not in wide]
-        widths = _widths([row for row, _ in aligned] + [("", *part.columns) for part in shown if id(part) not in wide])
+        aligned = [
+            ((indent[id(part)] + row[0], *row[1:]), part)
+            for part in shown
+            for row in part.rows
+            if id(part) not in wide
+        ]
+        widths = _widths(
+            [row for row, _ in aligned]
+            + [("", *part.columns) for part in shown if id(part) not in wide]
+        )
         columns: tuple[str, ...] = ()
         for part in shown:
             rows = [(indent[id(part)] + row[0], *row[1:]) for row in part.rows]
@@ -194,13 +233,19 @@ class Summary:
         for part in self.parts:
             if part.folded:
                 inside = _html("", [part._replace(heading="")], 2)
-                tables.append(f"<details><summary>{escape(part.heading)}</summary>{inside}</details>")
-        notes = "".join(f"<p style='font-size:smaller;margin:.3em 0'>{escape(note)}</p>" for note in self.notes)
+                tables.append(
+                    f"<details><summary>{escape(part.heading)}</summary>{inside}</details>"
+                )
+        notes = "".join(
+            f"<p style='font-size:smaller;margin:.3em 0'>{escape(note)}</p>" for note in self.notes
+        )
         return "".join([*tables[:1], notes, *tables[1:]])
 
 
 class Summarized:
-    """Base of results with a summary: ``_parts`` gives its rows, ``_texts`` the texts that its inputs were given as."""
+    """Base of results with a summary: ``_parts`` gives its rows, ``_texts`` the texts that its
+    inputs were given as.
+    """
 
     __slots__ = ()
 
@@ -210,7 +255,8 @@ class Summarized:
         Parameters
         ----------
         units : {"si", "metric", "us"}, optional
-            By default those that the inputs were given in, if they agree; otherwise SI. Angles are in degrees.
+            By default those that the inputs were given in, if they agree; otherwise SI. Angles are
+            in degrees.
 
         Returns
         -------
@@ -297,18 +343,34 @@ def _html(title: str, parts: Sequence[Part], span: int) -> str:
     lines = [f"<table>{f'<caption>{escape(title)}</caption>' if title else ''}<tbody>"]
     columns: tuple[str, ...] = ()
     for part in parts:
-        # Columns of numbers are aligned at the right and never broken, those with sentences in them at the left.
-        longest = [max(map(len, column)) for column in zip_longest(*(row[1:] for row in part.rows), fillvalue="")]
+        # Columns of numbers are aligned at the right and never broken, those with sentences in them
+        # at the left.
+        longest = [
+            max(map(len, column))
+            for column in zip_longest(*(row[1:] for row in part.rows), fillvalue="")
+        ]
         short = "text-align:right;white-space:nowrap" if not part.folded else "text-align:left"
-        styles = [f"{short if most <= _SHORT else 'text-align:left'};padding-left:1em" for most in longest]
+        styles = [
+            f"{short if most <= _SHORT else 'text-align:left'};padding-left:1em" for most in longest
+        ]
         if part.heading or part.columns != columns:
             heads = part.columns if part.columns != columns else ()
             columns = part.columns
-            cells = "".join(f"<th style='{style}'>{escape(head)}</th>" for style, head in zip(styles, heads, strict=False))
+            cells = "".join(
+                f"<th style='{style}'>{escape(head)}</th>"
+                for style, head in zip(styles, heads, strict=False)
+            )
             rest = "" if heads else f" colspan='{span}'"
             if part.heading or heads:
-                lines.append(f"<tr><th style='text-align:left'{rest}>{escape(part.heading)}</th>{cells}</tr>")
+                lines.append(
+                    f"<tr><th style='text-align:left'{rest}>{escape(part.heading)}</th>{cells}</tr>"
+                )
         for label, *texts in part.rows:
-            tds = "".join(f"<td style='{style}'>{escape(text)}</td>" for style, text in zip(styles, texts, strict=False))
-            lines.append(f"<tr><th style='text-align:left;font-weight:normal'>{escape(label)}</th>{tds}</tr>")
+            tds = "".join(
+                f"<td style='{style}'>{escape(text)}</td>"
+                for style, text in zip(styles, texts, strict=False)
+            )
+            lines.append(
+                f"<tr><th style='text-align:left;font-weight:normal'>{escape(label)}</th>{tds}</tr>"
+            )
     return "".join([*lines, "</tbody></table>"])

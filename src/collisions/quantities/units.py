@@ -1,4 +1,5 @@
-"""Units: reads texts and Quantities (``parse``, ``magnitude``), and makes Quantities (``to_quantity``).
+"""Units: reads texts and Quantities (``parse``, ``magnitude``), and makes Quantities
+(``to_quantity``).
 
 The only file that names pint, which it loads when a unit first appears.
 """
@@ -21,7 +22,9 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     class Quantity(Protocol):
-        """The interface of a pint Quantity of any registry; pint's own types are not known to every type checker."""
+        """The interface of a pint Quantity of any registry; pint's own types are not known to every
+        type checker.
+        """
 
         @property
         def magnitude(self) -> Any: ...
@@ -100,7 +103,10 @@ _LONGEST_TEXT = 60
 _ANGLES = ("degree", "turn", "arcminute", "arcsecond", "grade")
 # Names that mean one thing to pint, or to one version of it, and another to their users.
 _AMBIGUOUS = {
-    "mil": "a mil is one of 6400, 6300 or 6000 to the turn, and one of 64000 to older versions of pint: write 'deg' or 'rad'",
+    "mil": (
+        "a mil is one of 6400, 6300 or 6000 to the turn, and one of 64000 to older versions of "
+        "pint: write 'deg' or 'rad'"
+    ),
     "ton": "a ton may be 1000 kg, 2000 lb or 2240 lb: write 'tonne', 'kg' or 'lb'",
     "quarter": "a quarter may be 25 lb, 28 lb, 500 lb or 560 lb: write 'kg' or 'lb'",
 }
@@ -116,7 +122,10 @@ _MEANT = {
 # Marks in place of a unit, and units of which pounds are a force.
 _MARKS = {"'": "ft", '"': "in", "''": "in", "#": "lb"}
 _FORCES = {"J", "N*s", "N/m", "N/m**2", "kg*m**2/s"}
-_NEVER_PREFIXED = {"metric_ton", "force_kilogram"}  # "mt" as milli-tonne; the kilopond of older versions of pint, 1000 kgf
+_NEVER_PREFIXED = {
+    "metric_ton",
+    "force_kilogram",
+}  # "mt" as milli-tonne; the kilopond of older versions of pint, 1000 kgf
 
 # Held while a registry is asked for the first time: pint loads its own at its first use, and a
 # second thread would find it half loaded. What has been read is looked up without it.
@@ -128,39 +137,55 @@ _known: WeakKeyDictionary[Any, dict[tuple[Any, str], tuple[float, str]]] = WeakK
 
 
 def is_quantity(value: Any) -> bool:
-    """Whether this is a Quantity of any pint registry; asked before numpy is, which would strip the unit in silence."""
+    """Whether this is a Quantity of any pint registry; asked before numpy is, which would strip the
+    unit in silence.
+    """
     pint = sys.modules.get("pint")
     return pint is not None and isinstance(value, getattr(pint, "Quantity", ()))
 
 
 def to_quantity(value: Any, unit: str) -> Any:
-    """The SI value as a Quantity of pint's application registry, so that it mixes with the caller's own; pairs part by part."""
+    """The SI value as a Quantity of pint's application registry, so that it mixes with the caller's
+    own; pairs part by part.
+    """
     if isinstance(value, tuple):
         return tuple(to_quantity(part, unit) for part in value)
     registry, _ = _registry()
     if registry.non_int_type.__name__ == "Decimal":
         # Such a registry cannot multiply floats. A float is a Decimal exactly.
-        value = np.vectorize(registry.non_int_type, otypes=[object])(np.asarray(value, dtype=np.float64))[()]
+        value = np.vectorize(registry.non_int_type, otypes=[object])(
+            np.asarray(value, dtype=np.float64)
+        )[()]
     # Not kept among the texts that were read: callers may not write every unit of a result, such
     # as 1/s.
     return registry.Quantity(value, _units_of(registry, {}, unit))
 
 
 def magnitude(quantity: Any) -> Any:
-    """The number or array of a Quantity, floats for Decimals; a Decimal that no float can hold stays, to be refused."""
+    """The number or array of a Quantity, floats for Decimals; a Decimal that no float can hold
+    stays, to be refused.
+    """
     given = quantity.magnitude
     if type(given) is float:
         return given
     from decimal import Decimal
 
-    parts = given.ravel().tolist() if isinstance(given, np.ndarray) and given.dtype == object else [given]
+    parts = (
+        given.ravel().tolist()
+        if isinstance(given, np.ndarray) and given.dtype == object
+        else [given]
+    )
     if not all(type(part) is Decimal for part in parts):
         return given
     try:
         floats = np.array([float(part) for part in parts])
     except ValueError:  # a signalling NaN
         return given
-    if any(part.is_finite() for part, read in zip(parts, floats.tolist(), strict=True) if math.isinf(read)):
+    if any(
+        part.is_finite()
+        for part, read in zip(parts, floats.tolist(), strict=True)
+        if math.isinf(read)
+    ):
         return given
     return floats.reshape(np.shape(given)) if isinstance(given, np.ndarray) else float(floats[0])
 
@@ -174,17 +199,20 @@ def has_unit(value: Any) -> bool:
 
 
 def in_degrees(value: Any) -> bool:
-    """Whether this is an angle to be read in degrees, which can be reduced exactly; radians cannot."""
+    """Whether this is an angle to be read in degrees, which can be reduced exactly;
+    radians cannot.
+    """
     return is_quantity(value) and dict(value._units) in [{name: 1} for name in _ANGLES]
 
 
 def si_unit(value: Any, argument: str = "value", per_angle: bool = False) -> str:
-    """The SI unit of the kind that a Quantity or a text is of, such as "m/s"; "" for a plain number or a proportion.
+    """The SI unit of the kind that a Quantity or a text is of, such as "m/s"; "" for a plain number
+    or a proportion.
 
-    An angle is "rad". Of kinds that share a dimension the library knows one: a moment reads "J". Refused, because here nothing
-    else tells what was meant, are a count such as Hz, which may be of turns or of radians; grams, which are hardly ever meant;
-    and an angle that is a part of another quantity, as in m/s/deg, unless ``per_angle``, as it may be a speed whose unit was
-    mistyped.
+    An angle is "rad". Of kinds that share a dimension the library knows one: a moment reads "J".
+    Refused, because here nothing else tells what was meant, are a count such as Hz, which may be of
+    turns or of radians; grams, which are hardly ever meant; and an angle that is a part of another
+    quantity, as in m/s/deg, unless ``per_angle``, as it may be a speed whose unit was mistyped.
 
     Examples
     --------
@@ -199,10 +227,15 @@ def si_unit(value: Any, argument: str = "value", per_angle: bool = False) -> str
     except Exception as error:
         raise _bad_units(value, _ANY_KIND, argument, error) from None
     names = [str(name) for name in quantity._units]
-    if names == ["gram"] or any(_is_count(quantity._REGISTRY, name) and name not in _SPOKEN_PROPORTIONS for name in names):
+    if names == ["gram"] or any(
+        _is_count(quantity._REGISTRY, name) and name not in _SPOKEN_PROPORTIONS for name in names
+    ):
         hint = "a drag factor is a plain number, an acceleration '6.9 m/s**2', a mass '0.7 kg'"
         if names != ["gram"]:
-            hint = "it counts, and could be meant as turns or as radians: write 'turn/s', 'rad/s' or 'deg/s', or a plain number"
+            hint = (
+                "it counts, and could be meant as turns or as radians: write 'turn/s', 'rad/s' "
+                "or 'deg/s', or a plain number"
+            )
         raise UnitsError(
             f"{argument}: what {shown(value)} is meant to be is not clear from its unit; {hint}",
             code="bad_units",
@@ -214,7 +247,10 @@ def si_unit(value: Any, argument: str = "value", per_angle: bool = False) -> str
     powers = {unit: roots.get(root, 0) for root, unit in _ROOTS.items()}
     beside = any(power > 0 for unit, power in powers.items() if unit != "rad")
     if not per_angle and (powers["rad"] not in (0, 1) or (powers["rad"] and beside)):
-        hint = "; an angle stands above the line and alone there, as in rad/s: give any other as a plain number in SI"
+        hint = (
+            "; an angle stands above the line and alone there, as in rad/s: give any other as a "
+            "plain number in SI"
+        )
         raise _bad_units(value, _ANY_KIND, argument, None, hint)
     mechanical = tuple(powers[unit] for unit in ("kg", "m", "s", "rad"))
     if sum(map(abs, powers.values())) == sum(map(abs, mechanical)) and mechanical in _WRITTEN:
@@ -230,19 +266,27 @@ def unit_as_written(given: Any) -> str:
 
 
 def with_symbol(text: str) -> str:
-    """A text with the symbol of its unit, such as mph, where it has the name that pint gives a Quantity's."""
+    """A text with the symbol of its unit, such as mph, where it has the name that pint gives a
+    Quantity's.
+    """
     try:
         units = parse(text, _ANY_KIND, "").units
     except UnitsError:
         return text
     named = f"{units}"
-    return text.replace(named, unit_as_written(units)).replace(".0 ", " ", 1) if f" {named}" in text else text
+    return (
+        text.replace(named, unit_as_written(units)).replace(".0 ", " ", 1)
+        if f" {named}" in text
+        else text
+    )
 
 
 class Texts(dict[str, str]):
-    """What was given with a unit, as texts by argument; ``units`` has the units of what has no text of its own.
+    """What was given with a unit, as texts by argument; ``units`` has the units of what has no text
+    of its own.
 
-    That is an array, and any number of a result: it is shown in the units of what it was worked out from.
+    That is an array, and any number of a result: it is shown in the units of what it was worked out
+    from.
     """
 
     def __init__(self, *givens: Mapping[str, str] | None, units: Iterable[str] = ()) -> None:
@@ -259,12 +303,17 @@ def texts_of(given: Mapping[str, Any] | None) -> tuple[Any, ...]:
 
 
 def system_given(texts: Iterable[str]) -> str:
-    """The system, "si", "metric" or "us", that these texts with units agree on; of speeds if others differ; else SI.
+    """The system, "si", "metric" or "us", that these texts with units agree on; of speeds if others
+    differ; else SI.
 
     Speeds in m/s are what this library returns, so beside other units they do not count.
     """
     found = [_systems(text) for text in texts]
-    for votes in (found, [vote for vote in found if "speed" in vote], [vote for vote in found if vote != {"si"}]):
+    for votes in (
+        found,
+        [vote for vote in found if "speed" in vote],
+        [vote for vote in found if vote != {"si"}],
+    ):
         agreed = set.intersection({"si", "metric", "us", "speed"}, *votes) - {"speed"}
         if votes and agreed:
             return next(name for name in ("si", "metric", "us") if name in agreed)
@@ -291,20 +340,29 @@ def _systems(text: str) -> set[str]:
     except UnitsError:
         return {"si", "metric", "us"}
     names = {str(name) for name in units}
-    speed = {"speed"} if names & {"mile_per_hour", "kilometer_per_hour"} or names >= {"kilometer", "hour"} else set()
+    speed = (
+        {"speed"}
+        if names & {"mile_per_hour", "kilometer_per_hour"} or names >= {"kilometer", "hour"}
+        else set()
+    )
     if names & _US_UNITS:
         return speed | {"us"}
     if names & {"kilometer", "kilometer_per_hour"}:
         return speed | {"metric"}
     if names >= {"meter", "second"}:
         return speed | {"si"}
-    return {"si", "metric"} if names & {"meter", "kilogram", "newton", "kilonewton"} else {"si", "metric", "us"}
+    return (
+        {"si", "metric"}
+        if names & {"meter", "kilogram", "newton", "kilonewton"}
+        else {"si", "metric", "us"}
+    )
 
 
 def parse(text: str, unit: str, argument: str) -> Any:
     """A Quantity from one plain number and one unit: float reads the number, pint only the unit.
 
-    Whole strings are never handed to pint, which reads "80 km/h 5" as 400 km/h and "1 500 kg" as 500 kg.
+    Whole strings are never handed to pint, which reads "80 km/h 5" as 400 km/h and "1 500 kg" as
+    500 kg.
     """
     stripped = text.strip()
     number = re.match(_NUMBER, stripped) if len(stripped) <= _LONGEST_TEXT else None
@@ -314,14 +372,17 @@ def parse(text: str, unit: str, argument: str) -> Any:
     if number is None or not readable:
         how = "one plain number and one unit" if unit else "one plain number"
         raise UnitsError(
-            f"{argument}: cannot read {shown(text)}{_cure(stripped, unit)}; write {how}, such as {example(unit)}",
+            f"{argument}: cannot read {shown(text)}{_cure(stripped, unit)}; write {how}, such as "
+            f"{example(unit)}",
             code="bad_units",
             argument=argument,
             text=text,
         )
     value = float(number.group())
     if math.isinf(value) and "inf" not in number.group():
-        raise InputError(f"{argument} is too large: {shown(text)}", code="out_of_range", argument=argument)
+        raise InputError(
+            f"{argument} is too large: {shown(text)}", code="out_of_range", argument=argument
+        )
     try:
         return registry.Quantity(value, _units_of(registry, read, name))
     except UnitsError as error:
@@ -348,7 +409,10 @@ def _units_of(registry: Any, read: dict[str, Any], name: str) -> Any:
                     meant = ["".join(found) for found in registry.parse_unit_name(part)]
                     if len(meant) > 1 and part not in registry._units:
                         text = f"in this registry, made with case_sensitive=False, {part!r} may be "
-                        text += f"{' or '.join(sorted(meant))}: write it in its own upper and lower case"
+                        text += (
+                            f"{' or '.join(sorted(meant))}: write it in its own upper and lower "
+                            "case"
+                        )
                         raise UnitsError(text, code="bad_units") from None
                 units = registry.parse_units(name, case_sensitive=False)._units
             read[name] = units
@@ -359,18 +423,26 @@ def _cure(text: str, unit: str) -> str:
     """The hint for a text that is nearly one number and one unit; "" for others."""
     if re.match(r"\[[\[\s]*(?:[-+.]?[0-9]|nan\b|[-+]?inf\b)", text):
         return (
-            ": this is a printed array. A model of propagate is called with arrays of cases, and the unit belongs in the "
-            "distribution, Normal('30 mph', '2 mph')"
+            ": this is a printed array. A model of propagate is called with arrays of cases, and "
+            "the unit belongs in the distribution, Normal('30 mph', '2 mph')"
         )
     if len(text) > _LONGEST_TEXT:
         return f": a text of {len(text)} characters is no number"
     if unit == "rad" and re.match(r"(north|south|east|west|[ns] ?\d|[nsew]{1,3}$)", text.lower()):
-        return ": angles are counted from the x axis, counter-clockwise; with x to the east, north is '90 deg'"
+        return (
+            ": angles are counted from the x axis, counter-clockwise; with x to the east, north "
+            "is '90 deg'"
+        )
     if mark := re.fullmatch(rf"({_NUMBER})\s*('|\"|''|#|\w+\.)", text):
         return f", {f'{mark[1]} {_MARKS.get(mark[2]) or mark[2][:-1]}'!r} can be read"
-    feet = re.fullmatch(r"""([0-9]+)\s*(?:'|ft|feet)\s*([0-9]+(?:\.[0-9]+)?)\s*(?:"|''|in|inch|inches)""", text)
+    feet = re.fullmatch(
+        r"""([0-9]+)\s*(?:'|ft|feet)\s*([0-9]+(?:\.[0-9]+)?)\s*(?:"|''|in|inch|inches)""", text
+    )
     if feet:
-        return f": feet and inches are two numbers, '{int(feet[1]) + float(feet[2]) / 12.0:.6g} ft' is one"
+        return (
+            f": feet and inches are two numbers, '{int(feet[1]) + float(feet[2]) / 12.0:.6g} ft' "
+            "is one"
+        )
     if re.match(_WITH_COMMA, text):
         return f": {no_comma(text)}" if without_commas(text) else ""
     if "\u2212" in text:
@@ -386,7 +458,9 @@ def _cure(text: str, unit: str) -> str:
 
 
 def without_commas(text: str) -> list[str]:
-    """What a text may mean whose number has commas: between thousands, or as a decimal point; empty for others."""
+    """What a text may mean whose number has commas: between thousands, or as a decimal point; empty
+    for others.
+    """
     text = text.strip()
     if not re.match(_WITH_COMMA, text):
         return []
@@ -404,7 +478,9 @@ def _as_force(text: str) -> str:
 
 
 def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, str]:
-    """The factor to SI and the unit's name, cached for each registry: pint takes 60 us to find out."""
+    """The factor to SI and the unit's name, cached for each registry: pint takes 60 us
+    to find out.
+    """
     registry = quantity._REGISTRY
     known = _known.get(registry)
     if known is None:
@@ -456,21 +532,33 @@ def example(unit: str) -> str:
 
 
 def _out_of_place(quantity: Any, unit: str, units_of_it: Any) -> str:
-    """The hint for an angle, a proportion or a count that has no place in the wanted unit; "" without one.
+    """The hint for an angle, a proportion or a count that has no place in the wanted unit; ""
+    without one.
 
-    To pint they are numbers, by which it multiplies: "5 m/s/deg" would be 286 m/s, and 4 %*% would be 0.0004.
+    To pint they are numbers, by which it multiplies: "5 m/s/deg" would be 286 m/s, and 4 %*% would
+    be 0.0004.
     """
     registry = quantity._REGISTRY
     units = {str(name): power for name, power in quantity._units.items()}
     if unit == "" and units in [{name: 1} for name in _SPOKEN_PROPORTIONS]:
         return ""
     wanted = _radians(registry, units_of_it)
-    angles = {name: turned * power for name, power in units.items() if (turned := _radians(registry, name))}
+    angles = {
+        name: turned * power
+        for name, power in units.items()
+        if (turned := _radians(registry, name))
+    }
     strange = [] if wanted and list(angles.values()) == [wanted] else list(angles)
-    strange += [name for name in units if _is_count(registry, name) or (unit == "" and registry.Unit(name).dimensionless)]
+    strange += [
+        name
+        for name in units
+        if _is_count(registry, name) or (unit == "" and registry.Unit(name).dimensionless)
+    ]
     if strange and unit == "rad/s" and not registry.Unit(strange[0]).dimensionless:
         return "; Hz counts turns: write 'deg/s', 'rad/s' or 'turn/s'"
-    return f"; {strange[0]} has no place in it, though pint takes it for a number" if strange else ""
+    return (
+        f"; {strange[0]} has no place in it, though pint takes it for a number" if strange else ""
+    )
 
 
 def _radians(registry: Any, unit: Any) -> Any:
@@ -479,11 +567,16 @@ def _radians(registry: Any, unit: Any) -> Any:
 
 
 def _is_count(registry: Any, name: str) -> bool:
-    """Whether a unit is a number or a rate, such as Hz, bpm or curie, that holds no angle, as rpm does. pi is just a number."""
+    """Whether a unit is a number or a rate, such as Hz, bpm or curie, that holds no angle, as rpm
+    does. pi is just a number.
+    """
     powers = {str(kind): power for kind, power in registry.get_dimensionality(name).items()}
     if name == "pi" or powers not in ({}, {"[time]": -1}):
         return False
-    return _radians(registry, name) != 1 or not registry.get_root_units(name)[1]._units.keys() <= {"radian", "second"}
+    return _radians(registry, name) != 1 or not registry.get_root_units(name)[1]._units.keys() <= {
+        "radian",
+        "second",
+    }
 
 
 def _ambiguous_unit(quantity: Any) -> str:
@@ -502,7 +595,9 @@ def _ambiguous_unit(quantity: Any) -> str:
     return ""
 
 
-def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hint: str = "", beside: str = "") -> UnitsError:
+def _bad_units(
+    given: Any, unit: str, argument: str, error: Exception | None, hint: str = "", beside: str = ""
+) -> UnitsError:
     wanted = unit or "a plain number without a unit"
     text = str(given)
     dimensions = str(getattr(error, "dim1", ""))
@@ -519,7 +614,8 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hi
     # pint's own words are about dimensions, and the hint says it better.
     reason = f" ({error})" if str(error or "") and not hint else ""
     return UnitsError(
-        f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}{beside}; write for example {example(unit)}",
+        f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}{beside}; write "
+        f"for example {example(unit)}",
         code="bad_units",
         argument=argument,
         text=text,

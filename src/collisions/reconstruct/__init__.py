@@ -1,6 +1,8 @@
-"""The reverse solvers: from evidence after an impact to the speeds before it, one function for each kind of evidence.
+"""The reverse solvers: from evidence after an impact to the speeds before it, one function for each
+kind of evidence.
 
-``reconstruct.q`` has ``inline_closing_speed``, ``crush_energy`` and ``crush_delta_v``, which there return Quantities.
+``reconstruct.q`` has ``inline_closing_speed``, ``crush_energy`` and ``crush_delta_v``, which there
+return Quantities.
 """
 
 from ..estimate.compare import Comparison, compare

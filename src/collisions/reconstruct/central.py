@@ -1,4 +1,6 @@
-"""``central``: reconstructs an in-line impact from any three of four velocities, restitution and energy loss."""
+"""``central``: reconstructs an in-line impact from any three of four velocities, restitution and
+energy loss.
+"""
 
 from __future__ import annotations
 
@@ -22,18 +24,31 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Sentences
 from ..quantities.units import Input
 from ..vehicle.vehicle import Vehicle, moved
-from .common import Cases, exactly, finish, input_faults, read_amounts, read_masses, run_forward, warn_of_condition
+from .common import (
+    Cases,
+    exactly,
+    finish,
+    input_faults,
+    read_amounts,
+    read_masses,
+    run_forward,
+    warn_of_condition,
+)
 
 _ALONG_X: Any = (1.0, 0.0)
 _FRICTIONLESS: Any = 0.0
 _MOST_ROUNDING = 0.01  # of e: the largest excess beyond 0 and 1 that is taken for rounding
 # The texts of these are kept with the vehicles.
 _OF_VEHICLES = ("mass_a", "mass_b", "va", "vb", "heading_a", "heading_b")
-_STEP = 1e-6  # relative, for the sensitivity: between the rounding of a quotient and the curvature of a square root
+# relative, for the sensitivity: between the rounding of a quotient and the curvature of a square
+# root
+_STEP = 1e-6
 
 
 class Candidate(NamedTuple):
-    """A candidate solution: velocities before, restitution, closing speed, and whether it is a possible impact."""
+    """A candidate solution: velocities before, restitution, closing speed, and whether it is a
+    possible impact.
+    """
 
     va: Any
     vb: Any
@@ -60,10 +75,11 @@ def central(
 ) -> Impact:
     """In-line impact from exactly three of four velocities, restitution and energy loss.
 
-    Two point masses move on one line, A behind B. Velocities are positive in the direction from A to B, so ``va > vb`` before
-    the impact and ``va_after <= vb_after`` after it, unless the impact was incomplete. All twenty combinations are solved in
-    closed form (eqs 5 to 8 of "Application of Impulse Momentum Theory to Vehicle Collisions"), and the result is that of
-    ``linear_central`` for the state found.
+    Two point masses move on one line, A behind B. Velocities are positive in the direction from A
+    to B, so ``va > vb`` before the impact and ``va_after <= vb_after`` after it, unless the impact
+    was incomplete. All twenty combinations are solved in closed form (eqs 5 to 8 of "Application of
+    Impulse Momentum Theory to Vehicle Collisions"), and the result is that of ``linear_central``
+    for the state found.
 
     Parameters
     ----------
@@ -76,22 +92,26 @@ def central(
     restitution : float, str, Quantity or array [1], optional
         Coefficient of restitution, 0 to 1.
     energy_loss : float, str, Quantity or array [J], optional
-        Energy dissipated, >= 0: what remains lost after restitution, not the energy absorbed at maximum crush.
+        Energy dissipated, >= 0: what remains lost after restitution, not the energy absorbed at
+        maximum crush.
     heading_a, heading_b : float, str, Quantity or array [rad], optional
-        Where each vehicle points, counter-clockwise from the line from A to B: 0 for a car struck from behind or that strikes
-        with its front, "180 deg" for one met head-on. They decide nothing; delta-V forward and PDOF need them.
+        Where each vehicle points, counter-clockwise from the line from A to B: 0 for a car struck
+        from behind or that strikes with its front, "180 deg" for one met head-on. They decide
+        nothing; delta-V forward and PDOF need them.
     incomplete : bool, optional
-        Whether the restitution may be negative (above -1), as for ``linear_central``. Both velocities before and the energy
-        loss then leave its sign open, and there are two answers.
+        Whether the restitution may be negative (above -1), as for ``linear_central``. Both
+        velocities before and the energy loss then leave its sign open, and there are two answers.
     on_failure : {None, "raise", "nan"}, optional
-        What to do with a refused case of a batch: NaN and one warning, an error, or NaN without a warning.
+        What to do with a refused case of a batch: NaN and one warning, an error, or NaN without a
+        warning.
 
     Returns
     -------
     Impact
-        As ``linear_central`` returns it; ``reconstruction.condition`` says how well conditioned the problem was. Impulse and
-        energy keep all their digits even where the closing speed is tiny: they are computed from
-        ``reconstruction.contact_velocity``, not from the rounded velocities before.
+        As ``linear_central`` returns it; ``reconstruction.condition`` says how well conditioned the
+        problem was. Impulse and energy keep all their digits even where the closing speed is tiny:
+        they are computed from ``reconstruction.contact_velocity``, not from the rounded velocities
+        before.
 
     Raises
     ------
@@ -106,7 +126,8 @@ def central(
 
     Examples
     --------
-    Example 2 of the paper: 1100 kg at 80 km/h strikes the rear of 950 kg at rest, which leaves at 60 km/h.
+    Example 2 of the paper: 1100 kg at 80 km/h strikes the rear of 950 kg at rest, which leaves at
+    60 km/h.
 
     >>> from collisions import reconstruct
     >>> impact = reconstruct.central("1100 kg", "950 kg", va="80 km/h", vb=0.0, vb_after="60 km/h")
@@ -140,7 +161,9 @@ def central(
     }
     check_flag(reader, "incomplete", incomplete)
     reader.close()
-    pointing = {f"heading_{label}": heading for label, heading in headings.items() if heading is not None}
+    pointing = {
+        f"heading_{label}": heading for label, heading in headings.items() if heading is not None
+    }
     with np.errstate(all="ignore"):
         cases = Cases.of(numbers | pointing)
         return _answer(cases, numbers, pointing, tuple(given), reader.texts, on_failure, incomplete)
@@ -164,15 +187,23 @@ def _answer(
     apart = apart | (abs(one.restitution - other.restitution) > np.sqrt(64.0 * cases.eps))
     ambiguous = one.fits & other.fits & apart
     status = cases.first_status(
-        (*input_faults(arrays, incomplete), (ambiguous, Status.AMBIGUOUS), (found.fits, Status.OK), *_faults(arrays, found))
+        (
+            *input_faults(arrays, incomplete),
+            (ambiguous, Status.AMBIGUOUS),
+            (found.fits, Status.OK),
+            *_faults(arrays, found),
+        )
     )
 
     def origin_of(found: Candidate, which: Any, count: Any, where: Any = True) -> Reconstruction:
         condition = _condition(arrays, found, which, cases.eps, incomplete)
-        return cases.provenance("central", known, condition, count, (found.closing, 0.0 * found.closing), where)
+        return cases.provenance(
+            "central", known, condition, count, (found.closing, 0.0 * found.closing), where
+        )
 
     def inputs_of(found: Candidate, keep: Any) -> Inputs:
-        # In line, so that nothing moves across or turns; no warnings for states that were not found.
+        # In line, so that nothing moves across or turns; no warnings for states that were not
+        # found.
         still: Any = 0.0 if np.all(keep) else cases.where(keep, 0.0)
         bodies = []
         for label, speed in (("a", found.va), ("b", found.vb)):
@@ -190,21 +221,30 @@ def _answer(
         if status != Status.AMBIGUOUS:
             return _refusal(status, found, arrays, incomplete, say)
         solutions = tuple(
-            run_forward(partial(inputs_of, one), Status.OK, origin_of(one, np.intp(i), len(candidates)))
+            run_forward(
+                partial(inputs_of, one), Status.OK, origin_of(one, np.intp(i), len(candidates))
+            )
             for i, one in enumerate(candidates)
         )
-        both = " or ".join(f"va = {say(s.a.before.vx, 'speed')} with e = {s.restitution:.4g}" for s in solutions)
+        both = " or ".join(
+            f"va = {say(s.a.before.vx, 'speed')} with e = {s.restitution:.4g}" for s in solutions
+        )
         return AmbiguousSolutionError(
-            f"two impacts fit {', '.join(known)}: {both}; both are in .solutions, and a velocity of the other kind decides",
+            f"two impacts fit {', '.join(known)}: {both}; both are in .solutions, and a velocity "
+            "of the other kind decides",
             code="ambiguous",
             solutions=solutions,
         )
 
     def solve_case(index: tuple[int, ...]) -> Impact:
-        of_case: dict[str, Any] = {name: cases.one(value, index) for name, value in (arrays | headings).items()}
+        of_case: dict[str, Any] = {
+            name: cases.one(value, index) for name, value in (arrays | headings).items()
+        }
         return central(**of_case, incomplete=incomplete)
 
-    origin = origin_of(found, which, np.where(ambiguous, len(candidates), 1), np.equal(status, Status.OK))
+    origin = origin_of(
+        found, which, np.where(ambiguous, len(candidates), 1), np.equal(status, Status.OK)
+    )
     impact = finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
     warn_of_condition(origin)
     return impact
@@ -228,7 +268,9 @@ def _candidates(known: dict[str, Any], eps: float, incomplete: bool) -> list[Can
         scale = sum(abs(known[name]) for name in VELOCITIES if name in known) + abs(va) + abs(vb)
         rounding = np.fmin(16.0 * eps * (1.0 + scale / (share * abs(closing))), _MOST_ROUNDING)
         e = separation / closing
-        e = np.where((e < 0.0) & (e >= -rounding), 0.0, np.where((e > 1.0) & (e <= 1.0 + rounding), 1.0, e))
+        e = np.where(
+            (e < 0.0) & (e >= -rounding), 0.0, np.where((e > 1.0) & (e <= 1.0 + rounding), 1.0, e)
+        )
         e = known.get("restitution", e)
         least = (e > -1.0) if incomplete else (e >= 0.0)
         fits = (closing > 0.0) & least & (e <= 1.0) & np.isfinite(va + vb) & ~np.asarray(fixed)
@@ -236,8 +278,12 @@ def _candidates(known: dict[str, Any], eps: float, incomplete: bool) -> list[Can
     return found
 
 
-def _condition(numbers: dict[str, Any], found: Candidate, which: Any, eps: float, incomplete: bool) -> Any:
-    """Condition: sum over the known values of the change in the speeds before, in closing speeds, per relative change."""
+def _condition(
+    numbers: dict[str, Any], found: Candidate, which: Any, eps: float, incomplete: bool
+) -> Any:
+    """Condition: sum over the known values of the change in the speeds before, in closing speeds,
+    per relative change.
+    """
     total = np.zeros(())
     for name, value in numbers.items():
         beside = _candidates({**numbers, name: value * (1.0 + _STEP)}, eps, incomplete)
@@ -248,7 +294,9 @@ def _condition(numbers: dict[str, Any], found: Candidate, which: Any, eps: float
 
 
 def _only_changing(known: dict[str, Any]) -> str:
-    """The body whose change of velocity is the only information on the impact; it says nothing if its mass is infinite."""
+    """The body whose change of velocity is the only information on the impact; it says nothing if
+    its mass is infinite.
+    """
     return next((label for label in "ab" if {f"v{label}", f"v{label}_after"} <= known.keys()), "")
 
 
@@ -256,13 +304,18 @@ def _faults(known: dict[str, Any], found: Candidate) -> list[tuple[Any, int]]:
     """The reasons why no candidate fits; the first that applies counts."""
     share_a, share_b, *_ = shares(known["mass_a"], known["mass_b"])
     fixed = {label: np.isinf(known[f"mass_{label}"]) for label in "ab"}
-    plastic_end = np.equal(known.get("restitution", 0.5), 0.0) & ({"va_after", "vb_after"} <= known.keys())
+    plastic_end = np.equal(known.get("restitution", 0.5), 0.0) & (
+        {"va_after", "vb_after"} <= known.keys()
+    )
     apart = moving_apart(known, share_a, share_b)
     return [
         (fixed["a"] & fixed["b"], Status.IMMOVABLE),
         (fixed.get(_only_changing(known), False), Status.INFINITE_MASS),
         (plastic_end, Status.INVERSE_E0),
-        (np.isnan(found.closing) & np.equal(known.get("energy_loss", 0.0), 0.0), Status.UNDETERMINED),
+        (
+            np.isnan(found.closing) & np.equal(known.get("energy_loss", 0.0), 0.0),
+            Status.UNDETERMINED,
+        ),
         (((found.closing < 0.0) & np.isfinite(found.closing)) | apart, Status.SEPARATING),
         (found.closing == 0.0, Status.NO_CLOSING),
         (found.restitution < 0.0, Status.NOT_SEPARATING),
@@ -270,36 +323,56 @@ def _faults(known: dict[str, Any], found: Candidate) -> list[tuple[Any, int]]:
     ]
 
 
-def _refusal(status: int, found: Candidate, numbers: dict[str, Any], incomplete: bool, say: Sentences) -> CollisionsError:
+def _refusal(
+    status: int, found: Candidate, numbers: dict[str, Any], incomplete: bool, say: Sentences
+) -> CollisionsError:
     closing, e = float(found.closing), float(found.restitution)
     known = {name: float(value) for name, value in numbers.items() if not name.startswith("mass")}
     kinds = {"energy_loss": "energy", "restitution": "number"}
-    given = ", ".join(f"{name} = {say(value, kinds.get(name, 'speed'))}" for name, value in known.items())
+    given = ", ".join(
+        f"{name} = {say(value, kinds.get(name, 'speed'))}" for name, value in known.items()
+    )
     along = "velocities are counted along the line from A to B, A behind"
     match status:
         case Status.SEPARATING:
-            speed = "no approach" if np.isnan(closing) else f"a closing speed of {say(closing, 'speed')}"
-            text = f"{given} mean {speed}, so the bodies moved apart; {along}: change the signs, or exchange A and B"
+            speed = (
+                "no approach"
+                if np.isnan(closing)
+                else f"a closing speed of {say(closing, 'speed')}"
+            )
+            text = (
+                f"{given} mean {speed}, so the bodies moved apart; {along}: change the signs, or "
+                "exchange A and B"
+            )
         case Status.NO_CLOSING:
             text = f"{given} mean a closing speed of 0, so there was no impact; {along}"
         case Status.NOT_SEPARATING:
             text = (
-                f"{given} mean that the bodies still approach after the impact (restitution {e:.4g}): one of them would pass "
-                f"through the other; {along}{_allowed_losses(numbers, incomplete, say)}"
+                f"{given} mean that the bodies still approach after the impact (restitution "
+                f"{e:.4g}): one of them would pass through the other; "
+                f"{along}{_allowed_losses(numbers, incomplete, say)}"
             )
             if not incomplete and e > -1.0:
-                text += "; if they passed or tore before they had a common velocity, write incomplete=True"
+                text += (
+                    "; if they passed or tore before they had a common velocity, write "
+                    "incomplete=True"
+                )
         case Status.INVERSE_E0:
             apart = known["vb_after"] - known["va_after"]
-            differs = f" (here vb_after - va_after is {say(apart, 'speed')}, which contradicts that)" if apart else ""
+            differs = (
+                f" (here vb_after - va_after is {say(apart, 'speed')}, which contradicts that)"
+                if apart
+                else ""
+            )
             text = (
-                f"{given}: after a plastic impact (restitution = 0) both have one velocity{differs}, and nothing is left of "
-                f"the closing speed; give energy_loss, va or vb instead of restitution"
+                f"{given}: after a plastic impact (restitution = 0) both have one "
+                f"velocity{differs}, and nothing is left of the closing speed; give energy_loss, "
+                "va or vb instead of restitution"
             )
         case Status.INFINITE_MASS:
             text = (
-                f"{given}: a body of infinite mass keeps its velocity, which tells nothing of the impact; give a velocity of "
-                f"the other body"
+                f"{given}: a body of infinite mass keeps its velocity, which tells nothing of "
+                "the impact; give a velocity of the other body"
             )
         case Status.IMMOVABLE:
             text = "both masses are infinite, so nothing can yield; give at least one a finite mass"
@@ -311,28 +384,41 @@ def _refusal(status: int, found: Candidate, numbers: dict[str, Any], incomplete:
 
 
 def _contradiction(
-    given: str, known: dict[str, float], e: float, numbers: dict[str, Any], incomplete: bool, say: Sentences
+    given: str,
+    known: dict[str, float],
+    e: float,
+    numbers: dict[str, Any],
+    incomplete: bool,
+    say: Sentences,
 ) -> str:
     """The contradiction between the known values, and its size."""
     names = [name for name in VELOCITIES if name in known]
     if "energy_loss" not in known and len(names) == 2:
         apart = known[names[0]] - known[names[1]]
         return (
-            f"{given}: with these masses and this restitution {names[0]} and {names[1]} are equal in every impact, and here "
-            f"they differ by {say(apart, 'speed')}"
+            f"{given}: with these masses and this restitution {names[0]} and {names[1]} are "
+            f"equal in every impact, and here they differ by {say(apart, 'speed')}"
         )
     if len(names) == 1:
-        return f"{given}: an elastic impact (restitution = 1) loses no energy; give energy_loss = 0 and two velocities"
+        return (
+            f"{given}: an elastic impact (restitution = 1) loses no energy; give energy_loss = 0 "
+            "and two velocities"
+        )
     if e > 1.0:
-        return f"{given} mean a restitution of {e:.6g}, above 1: the impact would gain energy; check masses and signs"
+        return (
+            f"{given} mean a restitution of {e:.6g}, above 1: the impact would gain energy; "
+            "check masses and signs"
+        )
     return (
-        f"no impact fits {given}: with these masses and velocities the energy_loss cannot be as given"
-        f"{_allowed_losses(numbers, incomplete, say)}"
+        f"no impact fits {given}: with these masses and velocities the energy_loss cannot be as "
+        f"given{_allowed_losses(numbers, incomplete, say)}"
     )
 
 
 def _allowed_losses(numbers: dict[str, Any], incomplete: bool, say: Sentences) -> str:
-    """The range of energy losses that the masses and two velocities allow with e from 0 to 1, if an energy was given."""
+    """The range of energy losses that the masses and two velocities allow with e from 0 to 1, if an
+    energy was given.
+    """
     share_a, share_b, reduced, _ = shares(numbers["mass_a"], numbers["mass_b"])
     least, most = allowed_losses(numbers, share_a, share_b, reduced)
     if "energy_loss" not in numbers or np.isnan(least) or incomplete:

@@ -1,4 +1,6 @@
-"""Shared by the reverse solvers: known values, single cases and batches (``Cases``), and the forward run at the end."""
+"""Shared by the reverse solvers: known values, single cases and batches (``Cases``), and the
+forward run at the end.
+"""
 
 from __future__ import annotations
 
@@ -45,23 +47,31 @@ def counted(given: Iterable[str]) -> tuple[str, ...]:
 
 
 def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:
-    """The known values that were given; refused unless there are exactly as many as needed. A pair counts as one."""
+    """The known values that were given; refused unless there are exactly as many as needed. A pair
+    counts as one.
+    """
     given = {name: value for name, value in known.items() if value is not None}
     for one, other in PAIRS.items():
         if (one in given) != (other in given):
             raise InputError(
-                f"give both {one} and {other}, or neither; that of an infinite mass is 0", code="one_ees", argument=one
+                f"give both {one} and {other}, or neither; that of an infinite mass is 0",
+                code="one_ees",
+                argument=one,
             )
     names = counted(given)
     if len(names) == count:
         return given
-    words = {name: f"{name} with {PAIRS[name]}" if name in PAIRS else name for name in counted(known)}
+    words = {
+        name: f"{name} with {PAIRS[name]}" if name in PAIRS else name for name in counted(known)
+    }
     missing = ", ".join(word for name, word in words.items() if name not in given)
     more = len(names) > count
-    advice = f"leave out {len(names) - count}" if more else f"give {count - len(names)} of {missing}"
+    advice = (
+        f"leave out {len(names) - count}" if more else f"give {count - len(names)} of {missing}"
+    )
     raise InputError(
-        f"{what} takes exactly {count} of {', '.join(words.values())}; got {len(names)} ({', '.join(names) or 'none'}): "
-        f"{advice}",
+        f"{what} takes exactly {count} of {', '.join(words.values())}; got {len(names)} "
+        f"({', '.join(names) or 'none'}): {advice}",
         code="too_many_knowns" if more else "too_few_knowns",
         argument=", ".join(names),
         given=names,
@@ -70,30 +80,46 @@ def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:
 
 def read_masses(reader: ArgumentReader, mass_a: Any, mass_b: Any) -> dict[str, Any]:
     """Both masses by name."""
-    return {name: reader.number(mass, "kg", name, POSITIVE) for name, mass in (("mass_a", mass_a), ("mass_b", mass_b))}
+    return {
+        name: reader.number(mass, "kg", name, POSITIVE)
+        for name, mass in (("mass_a", mass_a), ("mass_b", mass_b))
+    }
 
 
 def read_amounts(reader: ArgumentReader, given: Mapping[str, Any]) -> dict[str, Any]:
     """Known energies and speeds by name."""
-    return {name: amount(reader, value, "J" if name == "energy_loss" else "m/s", name) for name, value in given.items()}
+    return {
+        name: amount(reader, value, "J" if name == "energy_loss" else "m/s", name)
+        for name, value in given.items()
+    }
 
 
 def split_texts(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], dict[str, str]]:
-    """A vehicle's texts in two parts: of the fields that stay, and of those in ``motion``, which the result replaces."""
+    """A vehicle's texts in two parts: of the fields that stay, and of those in ``motion``, which
+    the result replaces.
+    """
     texts = Texts(body.given)
     staying = {name: text for name, text in texts.items() if name not in motion}
     return staying, {name: text for name, text in texts.items() if name in motion}
 
 
 def numbers_by_name(inputs: Inputs, state: str = "", without: Sequence[str] = ()) -> dict[str, Any]:
-    """The numbers of a contact and of both vehicles by their names in messages; ``state`` is appended, as in a_after."""
-    found = {inputs.rule: inputs.rule_value, "normal[0]": inputs.normal[0], "normal[1]": inputs.normal[1]}
+    """The numbers of a contact and of both vehicles by their names in messages; ``state`` is
+    appended, as in a_after.
+    """
+    found = {
+        inputs.rule: inputs.rule_value,
+        "normal[0]": inputs.normal[0],
+        "normal[1]": inputs.normal[1],
+    }
     found |= {f"point[{i}]": part for i, part in enumerate(inputs.point or ())}
     bodies = ((f"a{state}", inputs.a), (f"b{state}", inputs.b))
     for label, body in bodies:
         numbers = zip(NUMBERS, body_numbers(body, inputs.point), strict=True)
         found |= {f"{label}.{name}": value for name, value in numbers if name not in without}
-    return found | {f"{label}.heading": body.heading for label, body in bodies if body.heading is not None}
+    return found | {
+        f"{label}.heading": body.heading for label, body in bodies if body.heading is not None
+    }
 
 
 class Cases(NamedTuple):
@@ -146,16 +172,33 @@ class Cases(NamedTuple):
         """The number of these cases, to begin a message; "" for a single case."""
         if self.shape is None:
             return ""
-        return f"{int(np.count_nonzero(np.broadcast_to(where, self.shape)))} of {math.prod(self.shape)} cases: "
+        return (
+            f"{int(np.count_nonzero(np.broadcast_to(where, self.shape)))} of "
+            f"{math.prod(self.shape)} cases: "
+        )
 
     def number(self, where: Any) -> int | None:
-        """The number of these cases; None for a single case, which is the same for every sample of a study."""
-        return None if self.shape is None else int(np.count_nonzero(np.broadcast_to(where, self.shape)))
+        """The number of these cases; None for a single case, which is the same for every sample of
+        a study.
+        """
+        return (
+            None
+            if self.shape is None
+            else int(np.count_nonzero(np.broadcast_to(where, self.shape)))
+        )
 
     def provenance(
-        self, method: str, known: Sequence[str], condition: Any, answers: Any, velocity: Sequence[Any] = (), where: Any = True
+        self,
+        method: str,
+        known: Sequence[str],
+        condition: Any,
+        answers: Any,
+        velocity: Sequence[Any] = (),
+        where: Any = True,
     ) -> Reconstruction:
-        """The ``Reconstruction`` with closing speed and slip if they are known; numbers are NaN where ``where`` is False."""
+        """The ``Reconstruction`` with closing speed and slip if they are known; numbers are NaN
+        where ``where`` is False.
+        """
         condition, *found = (self.where(where, value) for value in (condition, *velocity))
         return Reconstruction(
             method=method,
@@ -171,14 +214,19 @@ class Cases(NamedTuple):
 
 
 def input_faults(numbers: Mapping[str, Any], incomplete: bool = False) -> list[tuple[Any, int]]:
-    """The faults of arrays, whose elements the reader does not check; and of NaN from a case that was refused."""
+    """The faults of arrays, whose elements the reader does not check; and of NaN from a case that
+    was refused.
+    """
     found: list[tuple[Any, int]] = []
     with np.errstate(invalid="ignore"):
         for name, value in numbers.items():
             if not np.ndim(value):
                 found += [(True, Status.NOT_FINITE)] if value != value else []
                 continue
-            found += [(fault(value), status) for fault, status in _domain(name.rpartition(".")[2], incomplete).faults]
+            found += [
+                (fault(value), status)
+                for fault, status in _domain(name.rpartition(".")[2], incomplete).faults
+            ]
             if name.startswith(_AMOUNTS):
                 found.append((value < 0.0, Status.CONTRADICTORY))
     return found
@@ -200,10 +248,12 @@ def finish(
     refusal: Callable[[], CollisionsError],
     solve_case: Callable[[tuple[int, ...]], Any],
 ) -> Impact:
-    """The impact from the reconstructed state; cases without one are handled as ``on_failure`` says.
+    """The impact from the reconstructed state; cases without one are handled as ``on_failure``
+    says.
 
-    ``inputs_of(found)`` gives the inputs, with NaN for the reconstructed values except in the ``found`` cases. ``refusal``
-    makes the error of a single case, ``solve_case`` solves the case of a batch at an index alone.
+    ``inputs_of(found)`` gives the inputs, with NaN for the reconstructed values except in the
+    ``found`` cases. ``refusal`` makes the error of a single case, ``solve_case`` solves the case of
+    a batch at an index alone.
     """
     check_options(on_failure)
     if not isinstance(status, np.ndarray):
@@ -232,8 +282,8 @@ def warn_of_condition(origin: Reconstruction) -> None:
         return
     worst = float(np.max(np.where(ill, origin.condition, 0.0)))
     why = (
-        "a change of a millionth of what is known may move the speeds before by more than the closing speed; give another "
-        "known value in place of one of these"
+        "a change of a millionth of what is known may move the speeds before by more than the "
+        "closing speed; give another known value in place of one of these"
     )
     known = " and ".join(origin.known)
     of = f"{np.count_nonzero(ill)} of {ill.size} cases: " if ill.ndim else ""
@@ -243,19 +293,29 @@ def warn_of_condition(origin: Reconstruction) -> None:
     warn_of_cases(warning, {sentence: int(np.count_nonzero(ill)) if ill.ndim else None})
 
 
-def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconstruction, on_failure: Any = None) -> Impact:
-    """The forward impact from the reconstructed state; where it is refused, the reconstructed values are NaN."""
+def run_forward(
+    inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconstruction, on_failure: Any = None
+) -> Impact:
+    """The forward impact from the reconstructed state; where it is refused, the reconstructed
+    values are NaN.
+    """
     found = np.equal(status, Status.OK)
     inputs = replace(inputs_of(found), contact_velocity=origin.contact_velocity)
     impact = solved(inputs, on_failure=on_failure)
     if np.any(found & impact.refused):
         velocity = origin_where_answered(origin, impact.status).contact_velocity
-        inputs = replace(inputs_of(found & np.logical_not(impact.refused)), contact_velocity=velocity)
+        inputs = replace(
+            inputs_of(found & np.logical_not(impact.refused)), contact_velocity=velocity
+        )
     return found_by(origin, inputs, answer_of(impact), status)
 
 
-def raise_or_warn(status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError]) -> None:
-    """Raise or warn about refused cases; ``error`` gives that of the case at an index, () if there is only one."""
+def raise_or_warn(
+    status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError]
+) -> None:
+    """Raise or warn about refused cases; ``error`` gives that of the case at an index, () if there
+    is only one.
+    """
     if on_failure == "nan" or not np.any(status > Status.ENERGY_GAIN):
         return
     if not isinstance(status, np.ndarray):

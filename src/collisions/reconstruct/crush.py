@@ -1,4 +1,6 @@
-"""What damage says, by the CRASH programs: the energy of a crush profile, how two vehicles share it, and delta-V from it."""
+"""What damage says, by the CRASH programs: the energy of a crush profile, how two vehicles share
+it, and delta-V from it.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,9 @@ from .common import ASK_ALONE, Cases, input_faults, read_masses
 _RIGHT_ANGLE = 2.0**-52  # the cosine of 90 degrees in radians is not exactly 0
 # In metres: no car is crushed so deep, and no damage is so wide.
 _DEEPEST, _WIDEST = 2.0, 10.0
-_MOST_OBLIQUE = math.radians(45.0)  # where the correction reaches 2, as far as the CRASH programs take it
+_MOST_OBLIQUE = math.radians(
+    45.0
+)  # where the correction reaches 2, as far as the CRASH programs take it
 
 
 @hinted
@@ -36,34 +40,39 @@ def crush_energy(
 ) -> Value:
     """Energy absorbed by the crush of one vehicle.
 
-    The force per unit width at a depth C is taken as A + B C, A being what the structure bears before it yields, so each unit
-    of width absorbs A C + B C^2 / 2 + A^2 / (2 B). Between two measured depths the profile is taken as straight, which
-    integrates exactly to the trapezoid rule of the CRASH programs for any number of points. If the force is at an angle, the
-    energy is divided by the square of the cosine, so that the work of the whole force is counted.
+    The force per unit width at a depth C is taken as A + B C, A being what the structure bears
+    before it yields, so each unit of width absorbs A C + B C^2 / 2 + A^2 / (2 B). Between two
+    measured depths the profile is taken as straight, which integrates exactly to the trapezoid rule
+    of the CRASH programs for any number of points. If the force is at an angle, the energy is
+    divided by the square of the cosine, so that the work of the whole force is counted.
 
-    A list, a tuple, a numpy array or a Quantity of one dimension is the profile of one case. For many cases give lists whose
-    entries are arrays, one entry for each point or gap, with one element for each case; the other arguments may be arrays too.
+    A list, a tuple, a numpy array or a Quantity of one dimension is the profile of one case. For
+    many cases give lists whose entries are arrays, one entry for each point or gap, with one
+    element for each case; the other arguments may be arrays too.
 
     Parameters
     ----------
     widths : float, str, Quantity, or a profile [m]
-        Width of the damage, divided evenly between the depths, or the width of each gap, one fewer than the depths; >= 0.
+        Width of the damage, divided evenly between the depths, or the width of each gap, one fewer
+        than the depths; >= 0.
     depths : a profile [m]
         Depth of crush at two or more points from one end of the damage to the other, >= 0.
     stiffness_a : float, str, Quantity or array [N/m]
         Force per width at which crush begins, >= 0.
     stiffness_b : float, str, Quantity or array [N/m**2]
-        Increase of the force per width with depth, > 0. Both coefficients are specific to the vehicle, the side struck and the
-        speed of the tests they were fitted to: none are supplied here.
+        Increase of the force per width with depth, > 0. Both coefficients are specific to the
+        vehicle, the side struck and the speed of the tests they were fitted to: none are supplied
+        here.
     force_angle : angle [rad], optional
         Angle between the direction of force and the perpendicular to the damaged side.
 
     Returns
     -------
     float or array [J]
-        Energy that the coefficients stand for. If they were fitted to the impact speeds of barrier tests, as is usual, it is
-        the energy absorbed at maximum crush: that of ``max_crush_speed_a``. If rebound was deducted in the fit, it is the
-        energy dissipated: that of ``ees_a`` by ISO 12353 and of ``energy_loss``. NaN for a refused case of a batch.
+        Energy that the coefficients stand for. If they were fitted to the impact speeds of barrier
+        tests, as is usual, it is the energy absorbed at maximum crush: that of
+        ``max_crush_speed_a``. If rebound was deducted in the fit, it is the energy dissipated: that
+        of ``ees_a`` by ISO 12353 and of ``energy_loss``. NaN for a refused case of a batch.
 
     Raises
     ------
@@ -91,14 +100,19 @@ def crush_energy(
     b = reader.number(stiffness_b, "N/m**2", "stiffness_b")
     if isinstance(b, float) and b <= 0.0:
         reader.refuse(
-            InputError(f"stiffness_b must be > 0, got {shown(stiffness_b)}", code="not_positive", argument="stiffness_b")
+            InputError(
+                f"stiffness_b must be > 0, got {shown(stiffness_b)}",
+                code="not_positive",
+                argument="stiffness_b",
+            )
         )
     angle = Angle(*reader.angle(force_angle, "force_angle"))
     cosine = angle.direction[0]
     if isinstance(cosine, float) and cosine <= _RIGHT_ANGLE:
         reader.refuse(
             InputError(
-                f"force_angle must be less than 90 deg from the perpendicular of the damaged side, got {shown(force_angle)}",
+                "force_angle must be less than 90 deg from the perpendicular of the damaged "
+                f"side, got {shown(force_angle)}",
                 code="bad_angle",
                 argument="force_angle",
             )
@@ -106,36 +120,52 @@ def crush_energy(
     reader.close()
     _warn_if_large(depths, crush, _DEEPEST, "depths", max)
     _warn_if_large(widths, whole if isinstance(whole, list) else [whole], _WIDEST, "widths", sum)
-    amounts = {f"depths[{i}]": depth for i, depth in enumerate(crush)} | {f"widths[{i}]": gap for i, gap in enumerate(gaps)}
+    amounts = {f"depths[{i}]": depth for i, depth in enumerate(crush)} | {
+        f"widths[{i}]": gap for i, gap in enumerate(gaps)
+    }
     amounts["stiffness_a"] = a
     numbers = amounts | {"stiffness_b": b, "force_angle": angle.value}
     cases = Cases.of(numbers)
     cosine = angle.beside((*amounts.values(), b)).direction[0]
-    oblique = np.less(cosine, math.cos(_MOST_OBLIQUE) * (1.0 - 1e-12)) & np.greater(cosine, _RIGHT_ANGLE)
+    oblique = np.less(cosine, math.cos(_MOST_OBLIQUE) * (1.0 - 1e-12)) & np.greater(
+        cosine, _RIGHT_ANGLE
+    )
     if np.any(oblique):
         warn(
             OutOfRangeWarning(
-                f"force_angle = {shown(force_angle)} is more than 45 deg, where the correction exceeds 2: outside what the "
-                f"crush model is used for",
+                f"force_angle = {shown(force_angle)} is more than 45 deg, where the correction "
+                "exceeds 2: outside what the crush model is used for",
                 code="force_angle",
             )
         )
     with np.errstate(all="ignore"):
-        widths, depths, (a, b) = ([np.asarray(x, dtype=np.float64) for x in values] for values in (gaps, crush, (a, b)))
-        energy = sum(_gap_energy(*parts, a, b) for parts in zip(widths, depths, depths[1:], strict=False)) / (cosine * cosine)
-        faults = [*input_faults(numbers), *((np.less(value, 0.0), Status.CONTRADICTORY) for value in amounts.values())]
-        faults += [(np.less_equal(b, 0.0), Status.NOT_POSITIVE), (np.less_equal(cosine, _RIGHT_ANGLE), Status.CONTRADICTORY)]
+        widths, depths, (a, b) = (
+            [np.asarray(x, dtype=np.float64) for x in values] for values in (gaps, crush, (a, b))
+        )
+        energy = sum(
+            _gap_energy(*parts, a, b) for parts in zip(widths, depths, depths[1:], strict=False)
+        ) / (cosine * cosine)
+        faults = [
+            *input_faults(numbers),
+            *((np.less(value, 0.0), Status.CONTRADICTORY) for value in amounts.values()),
+        ]
+        faults += [
+            (np.less_equal(b, 0.0), Status.NOT_POSITIVE),
+            (np.less_equal(cosine, _RIGHT_ANGLE), Status.CONTRADICTORY),
+        ]
     return _answers(cases, faults, energy)[0]
 
 
 @hinted
 def crush_share(stiffness_a: Input, stiffness_b: Input) -> Value:
-    """Share of the crush energy that A absorbs, from the stiffness of both: ``stiffness_b / (stiffness_a + stiffness_b)``.
+    """Share of the crush energy that A absorbs, from the stiffness of both: ``stiffness_b /
+    (stiffness_a + stiffness_b)``.
 
-    The same force acts on both, so of two linear springs the softer absorbs more: energy is inversely proportional to
-    stiffness. The same holds for the force A + B C of ``crush_energy``, its energy A^2 / (2 B) included, where each side is
-    crushed evenly; the stiffness is then B times the width. It is the share for ``Impact.ees`` and ``Impact.max_crush_speeds``.
-    Where only the damage to A is known, with the energy E_A, that to B took E_A (1 - share) / share.
+    The same force acts on both, so of two linear springs the softer absorbs more: energy is
+    inversely proportional to stiffness. The same holds for the force A + B C of ``crush_energy``,
+    its energy A^2 / (2 B) included, where each side is crushed evenly; the stiffness is then B
+    times the width. It is the share for ``Impact.ees`` and ``Impact.max_crush_speeds``. Where only
+    the damage to A is known, with the energy E_A, that to B took E_A (1 - share) / share.
 
     Parameters
     ----------
@@ -154,8 +184,9 @@ def crush_share(stiffness_a: Input, stiffness_b: Input) -> Value:
 
     Notes
     -----
-    Two springs in series under one force are the model of the damage analysis in the CRASH programs (EDCRASH manual, chapter 4,
-    collinear impact). Real fronts are not linear, and stiffness differs from car to car within a class: state a range.
+    Two springs in series under one force are the model of the damage analysis in the CRASH programs
+    (EDCRASH manual, chapter 4, collinear impact). Real fronts are not linear, and stiffness differs
+    from car to car within a class: state a range.
 
     Examples
     --------
@@ -164,7 +195,9 @@ def crush_share(stiffness_a: Input, stiffness_b: Input) -> Value:
     >>> import collisions as col
     >>> from collisions import reconstruct
     >>> share = reconstruct.crush_share("900 kN/m", "500 kN/m")
-    >>> impact = col.linear_central(col.Vehicle(mass=1500, vx="50 km/h"), col.Vehicle(mass=1200), 0.1)
+    >>> impact = col.linear_central(
+    ...     col.Vehicle(mass=1500, vx="50 km/h"), col.Vehicle(mass=1200), 0.1
+    ... )
     >>> round(share, 3), [round(3.6 * ees, 1) for ees in impact.ees(share)]
     (0.357, [19.8, 29.7])
     """
@@ -175,7 +208,9 @@ def crush_share(stiffness_a: Input, stiffness_b: Input) -> Value:
     cases = Cases.of(numbers)
     a, b = (np.asarray(value, dtype=np.float64) for value in numbers.values())
     with np.errstate(all="ignore"):
-        faults: list[tuple[Any, int]] = [(fault(value), status) for value in (a, b) for fault, status in POSITIVE.faults]
+        faults: list[tuple[Any, int]] = [
+            (fault(value), status) for value in (a, b) for fault, status in POSITIVE.faults
+        ]
         faults.append((np.isinf(a) & np.isinf(b), Status.IMMOVABLE))
         # Not the sum, which might overflow.
         return _answers(cases, faults, 1.0 / (1.0 + a / b))[0]
@@ -187,8 +222,8 @@ def crush_delta_v(
 ) -> tuple[Value, Value]:
     """Delta-V of both vehicles from the crush energy of both together, as in the CRASH programs.
 
-    The impulse keeps one direction and passes each centre of mass at a moment arm. On its line a vehicle responds like the mass
-    gamma m, and at maximum crush both move alike there::
+    The impulse keeps one direction and passes each centre of mass at a moment arm. On its line a
+    vehicle responds like the mass gamma m, and at maximum crush both move alike there::
 
         delta_v_a = sqrt(2 energy gamma_a / (mass_a (1 + gamma_a mass_a / (gamma_b mass_b))))
 
@@ -199,13 +234,15 @@ def crush_delta_v(
     mass_a, mass_b : float, str, Quantity or array [kg]
         Masses, > 0; ``inf`` for one that keeps its velocity, such as a wall.
     gamma_a, gamma_b : float, str, Quantity or array [-]
-        Mass reduction factors k^2 / (k^2 + h^2), with the radius of gyration k and the moment arm h of the impulse, as
-        ``gamma`` of each side of an ``Impact``. 1 where the impulse passes through the centre of mass.
+        Mass reduction factors k^2 / (k^2 + h^2), with the radius of gyration k and the moment arm h
+        of the impulse, as ``gamma`` of each side of an ``Impact``. 1 where the impulse passes
+        through the centre of mass.
 
     Returns
     -------
     tuple of float or array [m/s]
-        Of A and of B, up to the common velocity; with restitution e they are 1 + e times as large. NaN for a refused case.
+        Of A and of B, up to the common velocity; with restitution e they are 1 + e times as large.
+        NaN for a refused case.
 
     Raises
     ------
@@ -214,15 +251,18 @@ def crush_delta_v(
 
     Notes
     -----
-    CRASH3 technical manual; EDCRASH manual, chapter 4. The method leaves out the speed at which the vehicles slid past each
-    other and any change in the direction of the force. ``reconstruct.speeds`` with ``energy_loss`` does not.
+    CRASH3 technical manual; EDCRASH manual, chapter 4. The method leaves out the speed at which the
+    vehicles slid past each other and any change in the direction of the force.
+    ``reconstruct.speeds`` with ``energy_loss`` does not.
 
     Examples
     --------
     EDCRASH manual, tutorial "Visibility Study", where 60.7 and 59.4 km/h are printed:
 
     >>> from collisions import reconstruct
-    >>> found = reconstruct.crush_delta_v(262905.65 + 140864.15, 1124.04, 1149.52, gamma_a=0.8045, gamma_b=0.7637)
+    >>> found = reconstruct.crush_delta_v(
+    ...     262905.65 + 140864.15, 1124.04, 1149.52, gamma_a=0.8045, gamma_b=0.7637
+    ... )
     >>> [round(3.6 * delta_v, 1) for delta_v in found]
     [60.7, 59.4]
     """
@@ -235,12 +275,22 @@ def crush_delta_v(
     cases = Cases.of(numbers)
     work, *masses, one, two = (np.asarray(value, dtype=np.float64) for value in numbers.values())
     with np.errstate(all="ignore"):
-        faults = [*input_faults(numbers), (np.isinf(masses[0]) & np.isinf(masses[1]), Status.IMMOVABLE)]
-        faults += [(fault(value), status) for value in (one, two) for fault, status in UNIT_INTERVAL.faults]
+        faults = [
+            *input_faults(numbers),
+            (np.isinf(masses[0]) & np.isinf(masses[1]), Status.IMMOVABLE),
+        ]
+        faults += [
+            (fault(value), status) for value in (one, two) for fault, status in UNIT_INTERVAL.faults
+        ]
         ratio = one / two * (masses[0] / masses[1])
-        squares = work / masses[0] * (one / (1.0 + ratio)), work / masses[1] * (two / (1.0 + 1.0 / ratio))
+        squares = (
+            work / masses[0] * (one / (1.0 + ratio)),
+            work / masses[1] * (two / (1.0 + 1.0 / ratio)),
+        )
         # Neither moves if the impulse passes one of them infinitely far away.
-        found = [np.where((one == 0.0) | (two == 0.0), 0.0, np.sqrt(2.0 * square)) for square in squares]
+        found = [
+            np.where((one == 0.0) | (two == 0.0), 0.0, np.sqrt(2.0 * square)) for square in squares
+        ]
     of_a, of_b = _answers(cases, faults, *found)
     return of_a, of_b
 
@@ -252,7 +302,9 @@ def _answers(cases: Cases, faults: list[tuple[Any, int]], *found: Any) -> list[V
     if cases.shape is None and status != Status.OK:
         # The reader has checked the rest.
         text = {Status.IMMOVABLE: "both are infinite; at least one must be finite"}.get(
-            status, "the answer is not a finite number: the arguments are too large or too small for floats"
+            status,
+            "the answer is not a finite number: the arguments are too large or too small for "
+            "floats",
         )
         raise error_of(status, text)
     if cases.shape is not None and np.any(status > Status.ENERGY_GAIN):
@@ -260,8 +312,12 @@ def _answers(cases: Cases, faults: list[tuple[Any, int]], *found: Any) -> list[V
     return [cases.where(np.equal(status, Status.OK), answer) for answer in found]
 
 
-def _warn_if_large(given: Any, read: Sequence[Any], limit: float, name: str, of_all: Callable[[list[float]], float]) -> None:
-    """One warning for a profile given without a unit, if its largest value or its sum is too large."""
+def _warn_if_large(
+    given: Any, read: Sequence[Any], limit: float, name: str, of_all: Callable[[list[float]], float]
+) -> None:
+    """One warning for a profile given without a unit, if its largest value or its sum
+    is too large.
+    """
     parts = given if isinstance(given, (list, tuple)) else [given] * len(read)
     bare = [largest(number) for part, number in zip(parts, read, strict=True) if not has_unit(part)]
     if bare and of_all(bare) > limit:
@@ -276,7 +332,8 @@ def _profiles(reader: ArgumentReader, depths: Any, widths: Any) -> tuple[list[An
     if not isinstance(crush, list) or len(crush) < 2:
         got = type(depths).__name__ + (f" of {len(crush)}" if isinstance(crush, list) else "")
         raise ShapeError(
-            f"depths must be a list or an array of at least two depths, got {got}; write [0.2, 0.35, 0.1]",
+            f"depths must be a list or an array of at least two depths, got {got}; write [0.2, "
+            "0.35, 0.1]",
             code="bad_shape",
             argument="depths",
         )
@@ -285,8 +342,9 @@ def _profiles(reader: ArgumentReader, depths: Any, widths: Any) -> tuple[list[An
         gaps = [whole / (len(crush) - 1)] * (len(crush) - 1)
     elif len(gaps) != len(crush) - 1:
         raise ShapeError(
-            f"widths has {len(gaps)} values and depths {len(crush)}: give one width between each two depths, {len(crush) - 1} "
-            f"in all, or the whole width; for many cases, a list with one array per gap",
+            f"widths has {len(gaps)} values and depths {len(crush)}: give one width between each "
+            f"two depths, {len(crush) - 1} in all, or the whole width; for many cases, a list "
+            "with one array per gap",
             code="bad_shape",
             argument="widths",
         )
@@ -294,15 +352,18 @@ def _profiles(reader: ArgumentReader, depths: Any, widths: Any) -> tuple[list[An
 
 
 def _profile(reader: ArgumentReader, value: Any, name: str) -> Any:
-    """A list of one number for each point or gap, each with an array if it is of many cases; or a single number."""
+    """A list of one number for each point or gap, each with an array if it is of many cases; or a
+    single number.
+    """
     if not isinstance(value, (list, tuple)):
         read = amount(reader, value, "m", name)
         if not isinstance(read, np.ndarray):
             return read
         if read.ndim > 1:
             raise ShapeError(
-                f"{name} is an array of shape {read.shape}; one profile is an array of one dimension, and many cases are a "
-                f"list of arrays, such as list({name}.T) if each row is a case",
+                f"{name} is an array of shape {read.shape}; one profile is an array of one "
+                f"dimension, and many cases are a list of arrays, such as list({name}.T) if each "
+                "row is a case",
                 code="bad_shape",
                 argument=name,
             )
@@ -311,5 +372,9 @@ def _profile(reader: ArgumentReader, value: Any, name: str) -> Any:
 
 
 def _gap_energy(width: Any, one: Any, two: Any, a: Any, b: Any) -> Any:
-    """Energy of one gap: the integral of A C + B C^2 / 2 + A^2 / (2 B) over a depth that changes evenly."""
-    return width * (a * (one + two) / 2.0 + b * (one * one + one * two + two * two) / 6.0 + a * a / (2.0 * b))
+    """Energy of one gap: the integral of A C + B C^2 / 2 + A^2 / (2 B) over a depth that changes
+    evenly.
+    """
+    return width * (
+        a * (one + two) / 2.0 + b * (one * one + one * two + two * two) / 6.0 + a * a / (2.0 * b)
+    )

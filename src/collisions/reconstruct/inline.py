@@ -36,27 +36,32 @@ def inline_closing_speed(
     max_crush_speed_a: Input | None = None,
     max_crush_speed_b: Input | None = None,
 ) -> Value:
-    """Closing speed of an in-line central impact from one delta-V, the energy dissipated, or two equivalent speeds.
+    """Closing speed of an in-line central impact from one delta-V, the energy dissipated, or two
+    equivalent speeds.
 
-    Valid only where the line of impact passes through both centres of mass and nothing moves across it. In two oblique crash
-    tests this shortcut is 10 to 16 percent too high from the whole delta-V and 17 to 24 percent from the whole energy loss
-    (NHTSA 4363 and 4474, on the documentation's page "Reverse reconstruction"): for anything else use ``speeds``.
+    Valid only where the line of impact passes through both centres of mass and nothing moves across
+    it. In two oblique crash tests this shortcut is 10 to 16 percent too high from the whole delta-V
+    and 17 to 24 percent from the whole energy loss (NHTSA 4363 and 4474, on the documentation's
+    page "Reverse reconstruction"): for anything else use ``speeds``.
 
     Parameters
     ----------
     mass_a, mass_b : float, str, Quantity or array [kg]
         Masses, > 0; one may be ``inf``.
     restitution : float, str, Quantity or array [1], or function
-        Coefficient of restitution, or a function that gives it for a closing speed in m/s; the two are then solved together, in
-        a batch case by case, with NaN where no answer or more than one fits.
+        Coefficient of restitution, or a function that gives it for a closing speed in m/s; the two
+        are then solved together, in a batch case by case, with NaN where no answer or more than one
+        fits.
     delta_v_a, delta_v_b : float, str, Quantity or array [m/s], optional
         Change of velocity of one vehicle, >= 0.
     energy_loss : float, str, Quantity or array [J], optional
         Energy dissipated: what remains lost after restitution.
     ees_a, ees_b : float, str, Quantity or array [m/s], optional
-        Energy equivalent speeds of both, by ISO 12353: they stand for the energy dissipated. That of an infinite mass is 0.
+        Energy equivalent speeds of both, by ISO 12353: they stand for the energy dissipated. That
+        of an infinite mass is 0.
     max_crush_speed_a, max_crush_speed_b : float, str, Quantity or array [m/s], optional
-        Speeds of maximum crush of both: they stand for the energy absorbed before restitution. That of an infinite mass is 0.
+        Speeds of maximum crush of both: they stand for the energy absorbed before restitution. That
+        of an infinite mass is 0.
 
     Returns
     -------
@@ -74,8 +79,8 @@ def inline_closing_speed(
 
     Examples
     --------
-    For a delta-V of 5 km/h in a car struck by one of equal mass, a restitution suited to the low speed makes a difference of
-    two km/h:
+    For a delta-V of 5 km/h in a car struck by one of equal mass, a restitution suited to the low
+    speed makes a difference of two km/h:
 
     >>> from collisions import reconstruct, reference
     >>> def low_speed(v):  # from 2 to 15 mph
@@ -85,17 +90,31 @@ def inline_closing_speed(
     >>> round(3.6 * reconstruct.inline_closing_speed(1500, 1500, low_speed, delta_v_a="5 km/h"), 1)
     7.2
     """
-    known = {"delta_v_a": delta_v_a, "delta_v_b": delta_v_b, "energy_loss": energy_loss, "ees_a": ees_a, "ees_b": ees_b}
+    known = {
+        "delta_v_a": delta_v_a,
+        "delta_v_b": delta_v_b,
+        "energy_loss": energy_loss,
+        "ees_a": ees_a,
+        "ees_b": ees_b,
+    }
     known |= {"max_crush_speed_a": max_crush_speed_a, "max_crush_speed_b": max_crush_speed_b}
     given = exactly(known, 1, "inline_closing_speed")
     kind = next(iter(given))
     reader = ArgumentReader()
     numbers = read_masses(reader, mass_a, mass_b) | read_amounts(reader, given)
-    numbers["restitution"] = reader.number(0.0 if callable(restitution) else restitution, "", "restitution", RESTITUTION)
+    numbers["restitution"] = reader.number(
+        0.0 if callable(restitution) else restitution, "", "restitution", RESTITUTION
+    )
     reader.close()
     cases = Cases.of(numbers)
     if callable(restitution):
-        return _with_function(cases, kind, numbers, RestitutionOf(restitution, cases), Sentences(reader.texts.values()))
+        return _with_function(
+            cases,
+            kind,
+            numbers,
+            RestitutionOf(restitution, cases),
+            Sentences(reader.texts.values()),
+        )
     return _with_number(cases, kind, numbers)
 
 
@@ -109,19 +128,29 @@ def _closing_speed(kind: str, numbers: dict[str, Any]) -> Any:
             masses = [values[name] / reduced for name in ("mass_a", "mass_b")]
             per_mass = energy_of_speeds(masses[0], values[kind], masses[1], values[PAIRS[kind]])
             return losing_speed(per_mass, values["restitution"] if kind == "ees_a" else 0.0)
-        return changing_speed(values[kind], share_a if kind == "delta_v_a" else share_b, values["restitution"])
+        return changing_speed(
+            values[kind], share_a if kind == "delta_v_a" else share_b, values["restitution"]
+        )
 
 
-def _with_number(cases: Cases, kind: str, numbers: dict[str, Any], found: Any = None, faults: Any = ()) -> Value:
+def _with_number(
+    cases: Cases, kind: str, numbers: dict[str, Any], found: Any = None, faults: Any = ()
+) -> Value:
     speed = _closing_speed(kind, numbers) if found is None else found
     status = cases.first_status(
         (
             *input_faults(numbers),
             (np.isinf(numbers["mass_a"]) & np.isinf(numbers["mass_b"]), Status.IMMOVABLE),
-            (np.isinf(numbers.get(f"mass_{kind[-1]}", 0.0)) & kind.startswith("delta"), Status.INFINITE_MASS),
+            (
+                np.isinf(numbers.get(f"mass_{kind[-1]}", 0.0)) & kind.startswith("delta"),
+                Status.INFINITE_MASS,
+            ),
             *faults,
             (~cases.beyond(speed), Status.OK),
-            (kind in ("energy_loss", "ees_a") and np.equal(numbers["restitution"], 1.0), Status.UNDETERMINED),
+            (
+                kind in ("energy_loss", "ees_a") and np.equal(numbers["restitution"], 1.0),
+                Status.UNDETERMINED,
+            ),
             (True, Status.UNDETERMINED if kind == "energy_loss" else Status.CONTRADICTORY),
         )
     )
@@ -129,10 +158,19 @@ def _with_number(cases: Cases, kind: str, numbers: dict[str, Any], found: Any = 
     if cases.shape is None and status != Status.OK:
         text = {
             Status.IMMOVABLE: "both masses are infinite; give at least one a finite mass",
-            Status.INFINITE_MASS: f"{kind} is that of an infinite mass, which has none; give that of the other vehicle",
-            Status.UNDETERMINED: "restitution = 1 loses no energy, so the energy tells nothing of the closing speed; give a "
-            "delta-V",
-        }.get(status, "these values give no finite closing speed; an infinite mass has an equivalent speed of 0")
+            Status.INFINITE_MASS: (
+                f"{kind} is that of an infinite mass, which has none; give that of the other "
+                "vehicle"
+            ),
+            Status.UNDETERMINED: (
+                "restitution = 1 loses no energy, so the energy tells nothing of the closing "
+                "speed; give a delta-V"
+            ),
+        }.get(
+            status,
+            "these values give no finite closing speed; an infinite mass has an equivalent speed "
+            "of 0",
+        )
         raise error_of(status, text)
     if np.any(np.not_equal(status, Status.OK)):
         warn_of_refusals(status, ASK_ALONE)
@@ -140,14 +178,21 @@ def _with_number(cases: Cases, kind: str, numbers: dict[str, Any], found: Any = 
     return answer
 
 
-def _with_function(cases: Cases, kind: str, numbers: dict[str, Any], function: RestitutionOf, say: Sentences) -> Value:
+def _with_function(
+    cases: Cases, kind: str, numbers: dict[str, Any], function: RestitutionOf, say: Sentences
+) -> Value:
     if cases.shape is None:
         _with_number(cases, kind, numbers)  # refuses inputs that are wrong whatever the restitution
     shape = cases.shape or ()
-    flat = {name: np.broadcast_to(np.asarray(value, dtype=np.float64), shape).reshape(-1) for name, value in numbers.items()}
+    flat = {
+        name: np.broadcast_to(np.asarray(value, dtype=np.float64), shape).reshape(-1)
+        for name, value in numbers.items()
+    }
 
     def speed(e: Any, case: Any) -> Any:
-        return _closing_speed(kind, {name: value[case] for name, value in flat.items()} | {"restitution": e})
+        return _closing_speed(
+            kind, {name: value[case] for name, value in flat.items()} | {"restitution": e}
+        )
 
     def mismatch(e: Any, case: Any) -> list[Any]:
         # Both speeds of maximum crush give the closing speed without e.
@@ -166,10 +211,13 @@ def _with_function(cases: Cases, kind: str, numbers: dict[str, Any], function: R
     (answers,) = each
     if not answers:
         function.complain()
-        raise NoSolutionError("no closing speed has the restitution that leads to it", code="contradictory")
+        raise NoSolutionError(
+            "no closing speed has the restitution that leads to it", code="contradictory"
+        )
     if len(answers) > 1:
         raise AmbiguousSolutionError(
-            f"the function of restitution is met at closing speeds of {' and '.join(say(g, 'speed') for g in answers)}",
+            "the function of restitution is met at closing speeds of "
+            f"{' and '.join(say(g, 'speed') for g in answers)}",
             code="ambiguous",
             solutions=answers,
         )

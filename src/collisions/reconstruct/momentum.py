@@ -1,4 +1,6 @@
-"""``momentum``: two unknown speeds from planar momentum ("360-degree"), masses, courses and the other two speeds."""
+"""``momentum``: two unknown speeds from planar momentum ("360-degree"), masses, courses and the
+other two speeds.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,9 @@ from .momentum_solution import MomentumSolution, Sensitivity
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
 _COURSES = ("course_a", "course_b", "course_a_after", "course_b_after")
-_NO_COSINE = 8.0 * EPS  # of the cosine of a right angle: rounding of the courses, in radians, and of their difference
+_NO_COSINE = (
+    8.0 * EPS
+)  # of the cosine of a right angle: rounding of the courses, in radians, and of their difference
 
 
 @hinted
@@ -59,9 +63,10 @@ def momentum(
 ) -> MomentumSolution:
     """Two unknown speeds of an impact from planar momentum, with all courses known.
 
-    The linear momentum of two bodies in the road plane is conserved (eqs 1 and 2 of "Application of Impulse Momentum Theory to
-    Vehicle Collisions"), apart from a stated outside impulse. Nothing is assumed about restitution, friction or rotation. The
-    method is good where the courses cross; the nearer they come to one line, the less momentum tells, whatever the algorithm.
+    The linear momentum of two bodies in the road plane is conserved (eqs 1 and 2 of "Application of
+    Impulse Momentum Theory to Vehicle Collisions"), apart from a stated outside impulse. Nothing is
+    assumed about restitution, friction or rotation. The method is good where the courses cross; the
+    nearer they come to one line, the less momentum tells, whatever the algorithm.
 
     Parameters
     ----------
@@ -74,9 +79,11 @@ def momentum(
     heading_a, heading_b : float, str, Quantity or array [rad], optional
         Directions in which the vehicles pointed, for the PDOF.
     together : bool, optional
-        Whether the vehicles leave as one: give the common course, and the common speed if it is known, for either or both.
+        Whether the vehicles leave as one: give the common course, and the common speed if it is
+        known, for either or both.
     normal : angle [rad] or tuple (nx, ny), optional
-        Direction from A into B for the closing speed and restitution, which are those of the centres of mass.
+        Direction from A into B for the closing speed and restitution, which are those of the
+        centres of mass.
     outside_impulse : pair [N*s], optional
         Impulse of the tyres or a kerb on both vehicles together, during the impact.
     on_failure : {None, "raise", "nan"}, optional
@@ -85,8 +92,9 @@ def momentum(
     Returns
     -------
     MomentumSolution
-        All eight courses and speeds, delta-V, PDOF, ``condition`` = (1 + abs(cos)) / abs(sin) of the angle between the courses
-        of the unknown speeds (1 at right angles), and the ``sensitivity`` of each answer to each input.
+        All eight courses and speeds, delta-V, PDOF, ``condition`` = (1 + abs(cos)) / abs(sin) of
+        the angle between the courses of the unknown speeds (1 at right angles), and the
+        ``sensitivity`` of each answer to each input.
 
     Raises
     ------
@@ -102,26 +110,38 @@ def momentum(
     IllConditionedWarning
         The courses of the two unknown speeds are within 10 degrees of one line.
     OutOfRangeWarning
-        A speed came out negative: backwards along its course. Or, along ``normal``, the restitution is outside 0 to 1, or the
-        vehicles did not approach and it is NaN.
+        A speed came out negative: backwards along its course. Or, along ``normal``, the restitution
+        is outside 0 to 1, or the vehicles did not approach and it is NaN.
     EnergyGainWarning
         The vehicles leave with more energy than they had before.
 
     Examples
     --------
-    A car going south and one going east meet at right angles (course sheet, published answers 63.2 and 55.62 km/h).
+    A car going south and one going east meet at right angles (course sheet, published answers 63.2
+    and 55.62 km/h).
 
     >>> from collisions import reconstruct
     >>> found = reconstruct.momentum(
-    ...     1200, 1800, course_a="270 deg", course_b="0 deg", course_a_after="-30 deg", course_b_after="-40 deg",
-    ...     speed_a_after="30 km/h", speed_b_after="50 km/h")
+    ...     1200,
+    ...     1800,
+    ...     course_a="270 deg",
+    ...     course_b="0 deg",
+    ...     course_a_after="-30 deg",
+    ...     course_b_after="-40 deg",
+    ...     speed_a_after="30 km/h",
+    ...     speed_b_after="50 km/h",
+    ... )
     >>> round(found.q.speed_a.m_as("km/h"), 2), round(found.q.speed_b.m_as("km/h"), 2)
     (63.21, 55.62)
     >>> round(found.q.sensitivity["speed_a"]["course_b_after"].m_as("km/h/deg"), 2)
     -1.0
     """
     if not isinstance(together, bool):
-        raise InputError(f"together must be True or False, got {shown(together)}", code="bad_option", argument="together")
+        raise InputError(
+            f"together must be True or False, got {shown(together)}",
+            code="bad_option",
+            argument="together",
+        )
     check_options(on_failure)
     speeds = dict(zip(_SPEEDS, (speed_a, speed_b, speed_a_after, speed_b_after), strict=True))
     courses = dict(zip(_COURSES, (course_a, course_b, course_a_after, course_b_after), strict=True))
@@ -131,7 +151,9 @@ def momentum(
     for name, value in speeds.items():
         if value is not None:
             numbers[name] = amount(reader, value, "m/s", name, "turn its course by 180 deg")
-    angles = {name: course(reader, value, name) for name, value in courses.items() if value is not None}
+    angles = {
+        name: course(reader, value, name) for name, value in courses.items() if value is not None
+    }
     numbers |= {name: angle.value for name, angle in angles.items()}
     if outside_impulse is not None:
         x, y = reader.pair(outside_impulse, "N*s", "outside_impulse")
@@ -141,17 +163,28 @@ def momentum(
         numbers |= {"normal[0]": x, "normal[1]": y}
     reader.close()
     cases = Cases.of(numbers)
-    numbers = {name: value.astype(cases.dtype) if isinstance(value, np.ndarray) else value for name, value in numbers.items()}
+    numbers = {
+        name: value.astype(cases.dtype) if isinstance(value, np.ndarray) else value
+        for name, value in numbers.items()
+    }
     angles = {name: angle._replace(value=numbers[name]) for name, angle in angles.items()}
-    given: dict[str, Any] = {name: reader.texts.get(name, value) for name, value in numbers.items() if "[" not in name}
+    given: dict[str, Any] = {
+        name: reader.texts.get(name, value) for name, value in numbers.items() if "[" not in name
+    }
     if together:
         given["together"] = True
     if outside_impulse is not None:
-        given["outside_impulse"] = [reader.texts.get(name, numbers[name]) for name in numbers if name.startswith("outside")]
+        given["outside_impulse"] = [
+            reader.texts.get(name, numbers[name]) for name in numbers if name.startswith("outside")
+        ]
     if normal is not None and cases.shape is None:
-        given["normal"] = [*map(_as_given, normal)] if isinstance(normal, tuple) else _as_given(normal)
+        given["normal"] = (
+            [*map(_as_given, normal)] if isinstance(normal, tuple) else _as_given(normal)
+        )
     with np.errstate(all="ignore"):
-        unlike = np.logical_or(_share(numbers, "speed"), _share(angles, "course")) if together else False
+        unlike = (
+            np.logical_or(_share(numbers, "speed"), _share(angles, "course")) if together else False
+        )
         terms = _terms(numbers, angles, together)
         exactly({name: term.speed for name, term in terms.items()}, len(terms) - 2, "momentum")
         _need_courses(terms)
@@ -160,7 +193,10 @@ def momentum(
             for name in ("outside_impulse", "normal")
         )
         known = _Known(cases, numbers, angles, terms, impulse, normal, unlike)
-        return in_units_of(_solve(known, given if cases.shape is None else None, on_failure), texts_of(reader.texts))
+        return in_units_of(
+            _solve(known, given if cases.shape is None else None, on_failure),
+            texts_of(reader.texts),
+        )
 
 
 def _as_given(value: Any) -> str | float:
@@ -171,17 +207,24 @@ def _as_given(value: Any) -> str | float:
 
 
 def _share(given: dict[str, Any], kind: str) -> Any:
-    """Give both vehicles the value of their common motion; where two were given and differ, refuse (in a batch: mark)."""
+    """Give both vehicles the value of their common motion; where two were given and differ, refuse
+    (in a batch: mark).
+    """
     names = [f"{kind}_a_after", f"{kind}_b_after"]
     found = [given[name] for name in names if name in given]
     if not found:
         return False
     one, other = found[0], found[-1]
-    unlike: Any = np.logical_not(_same_course(one, other)) if kind == "course" else np.not_equal(one, other)
+    unlike: Any = (
+        np.logical_not(_same_course(one, other)) if kind == "course" else np.not_equal(one, other)
+    )
     if np.ndim(unlike) == 0 and unlike:
-        both = " and ".join(show(value.radians.item() if isinstance(value, Angle) else value) for value in found)
+        both = " and ".join(
+            show(value.radians.item() if isinstance(value, Angle) else value) for value in found
+        )
         raise InputError(
-            f"{names[0]} and {names[1]} differ ({both}), which vehicles that leave together cannot; give one of them",
+            f"{names[0]} and {names[1]} differ ({both}), which vehicles that leave together "
+            "cannot; give one of them",
             code="contradictory",
             argument=names[1],
         )
@@ -195,8 +238,14 @@ def _same_course(one: Angle, other: Angle) -> Any:
 
 
 def _angle_rounding(one: Angle, other: Angle, eps: float) -> Any:
-    """Rounding error of the angle between two courses; courses in whole degrees only have the error of their conversion."""
-    return 4.0 * eps * (1.0 + sum(0.0 if angle.in_degrees else abs(angle.radians) for angle in (one, other)))
+    """Rounding error of the angle between two courses; courses in whole degrees only have the error
+    of their conversion.
+    """
+    return (
+        4.0
+        * eps
+        * (1.0 + sum(0.0 if angle.in_degrees else abs(angle.radians) for angle in (one, other)))
+    )
 
 
 def _terms(numbers: dict[str, Any], angles: dict[str, Angle], together: bool) -> dict[str, Term]:
@@ -207,23 +256,32 @@ def _terms(numbers: dict[str, Any], angles: dict[str, Angle], together: bool) ->
         terms[name] = Term(sign, mass, numbers.get(name), angles.get(course_name))
     if together:
         del terms["speed_b_after"]
-        terms["speed_a_after"] = terms["speed_a_after"]._replace(mass=numbers["mass_a"] + numbers["mass_b"])
+        terms["speed_a_after"] = terms["speed_a_after"]._replace(
+            mass=numbers["mass_a"] + numbers["mass_b"]
+        )
     return terms
 
 
 def _need_courses(terms: dict[str, Term]) -> None:
-    missing = [name for name, term in terms.items() if term.course is None and np.any(np.not_equal(term.speed, 0.0))]
+    missing = [
+        name
+        for name, term in terms.items()
+        if term.course is None and np.any(np.not_equal(term.speed, 0.0))
+    ]
     if missing:
         wanted = ", ".join(name.replace("speed", "course") for name in missing)
         raise MissingInputError(
-            f"{wanted} not given, and momentum needs the course of every vehicle that moves; only a speed of 0 needs none",
+            f"{wanted} not given, and momentum needs the course of every vehicle that moves; "
+            "only a speed of 0 needs none",
             code="missing_course",
             argument=wanted,
         )
 
 
 class _Known(NamedTuple):
-    """The known numbers, courses and headings by argument, the moving bodies, and the cases in which common values differ."""
+    """The known numbers, courses and headings by argument, the moving bodies, and the cases in
+    which common values differ.
+    """
 
     cases: Cases
     numbers: dict[str, Any]
@@ -238,7 +296,9 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     """Solve one case or many; raises for a refused single case."""
     cases, impulse, normal = known.cases, known.impulse, known.normal
     masses = known.numbers["mass_a"], known.numbers["mass_b"]
-    (first, one), (second, other) = unknown = [(name, term) for name, term in known.terms.items() if term.speed is None]
+    (first, one), (second, other) = unknown = [
+        (name, term) for name, term in known.terms.items() if term.speed is None
+    ]
     cosine, sine = one.course.to(other.course)
     speeds = {name: term.speed for name, term in known.terms.items()}
     speeds[first] = unknown_speed(known.terms.values(), impulse, one, other)
@@ -258,14 +318,23 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
             (normal is not None and (normal[0] == 0.0) & (normal[1] == 0.0), Status.ZERO_NORMAL),
             *input_faults(known.numbers),
             (known.unlike, Status.CONTRADICTORY),
-            (abs(sine) <= _angle_rounding(one.course, other.course, cases.eps), Status.PARALLEL_HEADINGS),
+            (
+                abs(sine) <= _angle_rounding(one.course, other.course, cases.eps),
+                Status.PARALLEL_HEADINGS,
+            ),
             (cases.beyond(speeds[first] + speeds[second] + loss), Status.OUT_OF_RANGE),
             (gains & (impulse is None), Status.ENERGY_GAIN),
         )
     )
-    raise_or_warn(status, on_failure, lambda index: _refusal(Status(int(np.asarray(status)[index])), first, second))
+    raise_or_warn(
+        status,
+        on_failure,
+        lambda index: _refusal(Status(int(np.asarray(status)[index])), first, second),
+    )
     sure = np.less_equal(status, Status.ENERGY_GAIN)
-    found = {"mass_a": masses[0], "mass_b": masses[1]} | {name: angle.radians for name, angle in known.angles.items()}
+    found = {"mass_a": masses[0], "mass_b": masses[1]} | {
+        name: angle.radians for name, angle in known.angles.items()
+    }
     if normal is not None:
         found["normal_angle"] = angle_of(*normal)
     if impulse is not None:
@@ -287,21 +356,23 @@ def _refusal(status: Status, first: str, second: str) -> CollisionsError:
     """The error for a case with these unknowns."""
     if status is Status.PARALLEL_HEADINGS:
         return NoSolutionError(
-            f"the courses of {first} and {second} are parallel, so momentum cannot tell them apart; for an in-line impact "
-            f"use reconstruct.central or reconstruct.inline_closing_speed, for one with known geometry reconstruct.speeds",
+            f"the courses of {first} and {second} are parallel, so momentum cannot tell them "
+            "apart; for an in-line impact use reconstruct.central or "
+            "reconstruct.inline_closing_speed, for one with known geometry reconstruct.speeds",
             code="parallel_headings",
         )
     if status is Status.INFINITE_MASS:
         return NoSolutionError(
-            "a mass is inf, and a body that no impulse slows down has no balance of momentum; for an impact on a barrier use "
-            "reconstruct.central, reconstruct.planar or reconstruct.speeds",
+            "a mass is inf, and a body that no impulse slows down has no balance of momentum; "
+            "for an impact on a barrier use reconstruct.central, reconstruct.planar or "
+            "reconstruct.speeds",
             code="infinite_mass",
         )
     why = status.sentence
     if status is Status.CONTRADICTORY:
         why = (
-            "a known speed is below 0 (turn its course by 180 deg), or vehicles that leave together have two speeds or two "
-            "courses"
+            "a known speed is below 0 (turn its course by 180 deg), or vehicles that leave "
+            "together have two speeds or two courses"
         )
     return InputError(f"momentum: {why}", code=status.label)
 
@@ -333,23 +404,34 @@ def _outcome(known: _Known, speeds: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
-def _sensitivity(known: _Known, speeds: dict[str, Any], unknown: list[tuple[str, Term]], sure: Any) -> Sensitivity:
+def _sensitivity(
+    known: _Known, speeds: dict[str, Any], unknown: list[tuple[str, Term]], sure: Any
+) -> Sensitivity:
     """Derivatives of both unknown speeds by every input, from the momentum balance itself."""
     found = Sensitivity()
     moving = {name: term for name, term in known.terms.items() if term.course is not None}
     for (name, wanted), (_, other) in (unknown, unknown[::-1]):
-        # Cosine and sine from each course to that of the other unknown, with which the balance is crossed.
+        # Cosine and sine from each course to that of the other unknown, with which the balance is
+        # crossed.
         turns = {label: term.course.to(other.course) for label, term in moving.items()}
         row: dict[str, Any] = {}
         for side in "ab":
             # Vehicles that leave together have one term.
-            own = [label for label in moving if side == label[6] or (label == "speed_a_after" and len(known.terms) == 3)]
-            row[f"mass_{side}"] = sum(moving[label].sign * (speeds[label] * turns[label][1]) for label in own)
+            own = [
+                label
+                for label in moving
+                if side == label[6] or (label == "speed_a_after" and len(known.terms) == 3)
+            ]
+            row[f"mass_{side}"] = sum(
+                moving[label].sign * (speeds[label] * turns[label][1]) for label in own
+            )
         for label, term in moving.items():
             cosine, sine = turns[label]
             if term.speed is not None:
                 row[label] = term.sign * term.mass * sine
-            row[label.replace("speed", "course")] = -term.sign * term.mass * (speeds[label] * cosine)
+            row[label.replace("speed", "course")] = (
+                -term.sign * term.mass * (speeds[label] * cosine)
+            )
         if known.impulse is not None:
             c, s = other.course.direction
             row["outside_impulse_x"], row["outside_impulse_y"] = s, -c
@@ -359,22 +441,41 @@ def _sensitivity(known: _Known, speeds: dict[str, Any], unknown: list[tuple[str,
             # What the cosine of a right angle leaves is rounding, and no sensitivity.
             course = label.replace("speed", "course")
             row[course] = np.where(abs(row[course]) <= _NO_COSINE * most, 0.0, row[course])
-        by_input = {label: np.divide(-wanted.sign * cross, across) + 0.0 for label, cross in row.items()}
+        by_input = {
+            label: np.divide(-wanted.sign * cross, across) + 0.0 for label, cross in row.items()
+        }
         found[name] = {label: known.cases.where(sure, moved) for label, moved in by_input.items()}
     return found
 
 
-def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution: MomentumSolution, rounding: Any) -> None:
+def _warn(
+    known: _Known,
+    sure: Any,
+    gains: Any,
+    found: dict[str, Any],
+    solution: MomentumSolution,
+    rounding: Any,
+) -> None:
     """Warn where the solution is ill-conditioned or not a possible impact."""
     texts = (solution.given or {}).values()
 
-    def say(kind: type[CollisionsWarning], where: Any, text: str, code: str, of: str, sentence: str, **field: Any) -> None:
+    def say(
+        kind: type[CollisionsWarning],
+        where: Any,
+        text: str,
+        code: str,
+        of: str,
+        sentence: str,
+        **field: Any,
+    ) -> None:
         if np.any(where):
             ((name, values),) = field.items()
             values = np.broadcast_to(values, np.shape(where))[where]
             worst = float(values[np.argmax(abs(values))])
             number = said(worst, of, texts) if of else worst
-            warning = kind(known.cases.how_many(where) + text.format(number), code=code, **{name: worst})
+            warning = kind(
+                known.cases.how_many(where) + text.format(number), code=code, **{name: worst}
+            )
             warn_of_cases(warning, {sentence: known.cases.number(where)})
 
     one, other = (known.terms[name].course for name in solution.unknowns)
@@ -382,34 +483,98 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
     near = sure & (sine < math.sin(NEARLY_COLLINEAR))
     if np.any(near):
         degrees = math.degrees(math.asin(float(np.min(np.where(near, sine, 1.0)))))
-        numbers = "; ".join(_largest_by_degree(answer, row, near, texts) for answer, row in solution.sensitivity.items())
+        numbers = "; ".join(
+            _largest_by_degree(answer, row, near, texts)
+            for answer, row in solution.sensitivity.items()
+        )
         courses = f"{' and '.join(solution.unknowns).replace('speed', 'course')} are"
-        sentence = f"{courses} within 10 degrees of one line, and small errors of a course move both far"
-        text = f"{courses} {degrees:.2g} degrees from one line (condition {{:.3g}}): {numbers}; an in-line method may tell more"
-        say(IllConditionedWarning, near, text, "nearly_collinear", "", sentence, condition=found["condition"])
+        sentence = (
+            f"{courses} within 10 degrees of one line, and small errors of a course move both far"
+        )
+        text = (
+            f"{courses} {degrees:.2g} degrees from one line (condition {{:.3g}}): {numbers}; an "
+            "in-line method may tell more"
+        )
+        say(
+            IllConditionedWarning,
+            near,
+            text,
+            "nearly_collinear",
+            "",
+            sentence,
+            condition=found["condition"],
+        )
     for name in solution.unknowns:
         cure = "backwards along its course; check the courses, or turn its course by 180 deg"
         text, sentence = f"{name} = {{}}: {cure}", f"{name} is below 0, {cure}"
         # A negative speed within rounding of 0 is not a backward motion.
-        say(OutOfRangeWarning, sure & (found[name] < -rounding), text, "negative_speed", "speed", sentence, value=found[name])
-    text = "the vehicles leave with {} more than they came with, which no impact gives; check courses and speeds"
-    sentence = "the vehicles leave with more energy than they came with, which no impact gives; check courses and speeds"
-    say(EnergyGainWarning, gains, text, "energy_gain", "energy", sentence, gain=-found["translational_energy_loss"])
+        say(
+            OutOfRangeWarning,
+            sure & (found[name] < -rounding),
+            text,
+            "negative_speed",
+            "speed",
+            sentence,
+            value=found[name],
+        )
+    text = (
+        "the vehicles leave with {} more than they came with, which no impact gives; check "
+        "courses and speeds"
+    )
+    sentence = (
+        "the vehicles leave with more energy than they came with, which no impact gives; check "
+        "courses and speeds"
+    )
+    say(
+        EnergyGainWarning,
+        gains,
+        text,
+        "energy_gain",
+        "energy",
+        sentence,
+        gain=-found["translational_energy_loss"],
+    )
     if known.normal is None:
         return
     closing, e = found["closing_speed"], found["restitution"]
     sentence = "the centres do not approach along the normal, which must point from A into B"
     text = f"{sentence}: closing speed {{}}, so there is no restitution"
-    say(OutOfRangeWarning, closing <= 0.0, text, "separating", "speed", sentence, closing_speed=closing)
+    say(
+        OutOfRangeWarning,
+        closing <= 0.0,
+        text,
+        "separating",
+        "speed",
+        sentence,
+        closing_speed=closing,
+    )
     slack = rounding / closing
     what = "the restitution of the centres along the normal is"
-    cure = "outside 0 to 1: check the normal, courses and speeds, or ask reconstruct.restitution with the contact point"
+    cure = (
+        "outside 0 to 1: check the normal, courses and speeds, or ask reconstruct.restitution "
+        "with the contact point"
+    )
     wrong = (e < -slack) | (e > 1.0 + slack)
-    say(OutOfRangeWarning, wrong, f"{what} {{:.4g}}, {cure}", "observed_restitution", "", f"{what} {cure}", value=e)
+    say(
+        OutOfRangeWarning,
+        wrong,
+        f"{what} {{:.4g}}, {cure}",
+        "observed_restitution",
+        "",
+        f"{what} {cure}",
+        value=e,
+    )
 
 
 def _largest_by_degree(answer: str, row: dict[str, Any], near: Any, texts: Collection[Any]) -> str:
     """The course to which a speed is most sensitive, and the sensitivity per degree."""
-    moves = {name: float(np.max(np.where(near, abs(value), 0.0))) for name, value in row.items() if name.startswith("course")}
+    moves = {
+        name: float(np.max(np.where(near, abs(value), 0.0)))
+        for name, value in row.items()
+        if name.startswith("course")
+    }
     name = max(moves, key=moves.__getitem__)
-    return f"{answer} changes by {said(moves[name] * math.pi / 180.0, 'speed', texts, 3)} per degree of {name}"
+    return (
+        f"{answer} changes by {said(moves[name] * math.pi / 180.0, 'speed', texts, 3)} per "
+        f"degree of {name}"
+    )

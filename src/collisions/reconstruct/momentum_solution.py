@@ -1,4 +1,6 @@
-"""``MomentumSolution``: the result of planar momentum, courses and speeds before and after, and their sensitivities."""
+"""``MomentumSolution``: the result of planar momentum, courses and speeds before and after, and
+their sensitivities.
+"""
 
 from __future__ import annotations
 
@@ -17,17 +19,32 @@ from ..quantities.tables import Cells, Part, Summary, all_numbers, sided
 from ..quantities.units import Value, to_quantity
 
 # The arguments that give attributes which may be None.
-_NEEDED = {"pdof_a": "heading_a", "pdof_b": "heading_b", "closing_speed": "normal", "restitution": "normal"}
-_SENSITIVITY_UNITS = {"mass": "m/s/kg", "speed": "m/s/(m/s)", "course": "m/s/deg", "outside": "m/s/(N*s)"}
+_NEEDED = {
+    "pdof_a": "heading_a",
+    "pdof_b": "heading_b",
+    "closing_speed": "normal",
+    "restitution": "normal",
+}
+_SENSITIVITY_UNITS = {
+    "mass": "m/s/kg",
+    "speed": "m/s/(m/s)",
+    "course": "m/s/deg",
+    "outside": "m/s/(N*s)",
+}
 
 
 class Sensitivity(dict[str, dict[str, Value]]):
-    """Sensitivities by unknown speed, then by input: change per SI unit of the input; per degree through ``.q``."""
+    """Sensitivities by unknown speed, then by input: change per SI unit of the input; per degree
+    through ``.q``.
+    """
 
     @property
     def q(self) -> dict[str, dict[str, Any]]:
         """The same with units, per degree where the input is an angle."""
-        return {answer: {name: self._quantity(name, value) for name, value in row.items()} for answer, row in self.items()}
+        return {
+            answer: {name: self._quantity(name, value) for name, value in row.items()}
+            for answer, row in self.items()
+        }
 
     def __eq__(self, other: object) -> bool:
         return same(self, other) if isinstance(other, Mapping) else NotImplemented
@@ -38,15 +55,18 @@ class Sensitivity(dict[str, dict[str, Value]]):
     @staticmethod
     def _quantity(name: str, value: Any) -> Any:
         kind = name.partition("_")[0]
-        return to_quantity(value * math.pi / 180.0 if kind == "course" else value, _SENSITIVITY_UNITS[kind])
+        return to_quantity(
+            value * math.pi / 180.0 if kind == "course" else value, _SENSITIVITY_UNITS[kind]
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class MomentumSolution(Shown):
-    """The result of planar momentum: two vehicles before and after an impact, and how sensitive the speeds are.
+    """The result of planar momentum: two vehicles before and after an impact, and how sensitive the
+    speeds are.
 
-    Speeds are along the courses: a computed speed below 0 is motion backwards along its course. Values are floats, or arrays in
-    a batch.
+    Speeds are along the courses: a computed speed below 0 is motion backwards along its course.
+    Values are floats, or arrays in a batch.
     """
 
     mass_a: Value = field(metadata={"unit": "kg"})
@@ -91,7 +111,9 @@ class MomentumSolution(Shown):
         argument = _NEEDED[name]
         kind = argument.partition("_")[0]
         return MissingInputError(
-            f"{name} needs a {kind}, which was not given; write {argument}='30 deg'", code=f"missing_{kind}", argument=argument
+            f"{name} needs a {kind}, which was not given; write {argument}='30 deg'",
+            code=f"missing_{kind}",
+            argument=argument,
         )
 
     def _summary(self, numbers: Cells) -> Summary:
@@ -99,9 +121,19 @@ class MomentumSolution(Shown):
         values = (row for row in self._values() if row[0] != "ok")
         degree, speeds = math.pi / 180.0, self.sensitivity
         courses = [name for name in next(iter(speeds.values()), ()) if name.startswith("course")]
-        rows = [(_of_vehicle(name), *(numbers.text(degree * row[name], "m/s") for row in speeds.values())) for name in courses]
+        rows = [
+            (
+                _of_vehicle(name),
+                *(numbers.text(degree * row[name], "m/s") for row in speeds.values()),
+            )
+            for name in courses
+        ]
         changes = Part(rows, "Change per degree of", tuple(map(_of_vehicle, speeds)))
-        return Summary(self._title, [*sided(values, numbers), changes, all_numbers(self._rows())], self._outcome())
+        return Summary(
+            self._title,
+            [*sided(values, numbers), changes, all_numbers(self._rows())],
+            self._outcome(),
+        )
 
     def _outcome(self) -> list[str]:
         """Sentences on cases that were refused or gain energy."""
@@ -112,7 +144,10 @@ class MomentumSolution(Shown):
             return [] if self.status is Status.OK else [sentence[0].upper() + sentence[1:]]
         many = f"of {np.size(self.status)} cases"
         said = (
-            (self.status > Status.ENERGY_GAIN, "were refused, for what their status says; the ranges are those of the others."),
+            (
+                self.status > Status.ENERGY_GAIN,
+                "were refused, for what their status says; the ranges are those of the others.",
+            ),
             (self.status == Status.ENERGY_GAIN, "end with more energy than they began with."),
         )
         return [f"{np.count_nonzero(which)} {many} {what}" for which, what in said if np.any(which)]

@@ -1,4 +1,6 @@
-"""The states that may have been before an end state: candidate impulses taken off it, each tried on the forward kernel."""
+"""The states that may have been before an end state: candidate impulses taken off it, each tried on
+the forward kernel.
+"""
 
 from __future__ import annotations
 
@@ -7,22 +9,35 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR, LAWS
+from ..kernels.contact_laws import (
+    BRACH,
+    CRITICAL_FRACTION,
+    FRICTION,
+    IMPULSE_RATIO,
+    KUDLICH_SLIBAR,
+    LAWS,
+)
 from ..kernels.eccentric import recoil, response
 from ..kernels.status import EPS, Status
 from ..quantities.tables import Sentences
 from .common import NUMBERS, forward
 
-_NEARLY_PLASTIC = 0.01  # of the closing speed: what measured motions may still approach after a plastic impact
+_NEARLY_PLASTIC = (
+    0.01  # of the closing speed: what measured motions may still approach after a plastic impact
+)
 _IMPULSE_TOL = 1e-6  # of the impulse: far above rounding, far below what separates two origins
 _MOTION_ROUNDING = 64.0  # eps of the motions
-_LOST_MOTION = 1e-6  # of the closing speed: a motion after that may be the rounding of a slip before which nothing bounds
+# of the closing speed: a motion after that may be the rounding of a slip before which nothing
+# bounds
+_LOST_MOTION = 1e-6
 
 
 class Origin(NamedTuple):
-    """A candidate for the state before: how the contact ended, the impulse on B, what goes with it, and whether it fits.
+    """A candidate for the state before: how the contact ended, the impulse on B, what goes with it,
+    and whether it fits.
 
-    ``contact_velocity`` is the closing speed and the slip before; where friction ``jams``, none ends this way.
+    ``contact_velocity`` is the closing speed and the slip before; where friction ``jams``, none
+    ends this way.
     """
 
     regime: str
@@ -52,10 +67,20 @@ class End:
         self.numbers = numbers
         # How messages write numbers.
         self.say = Sentences()
-        self.kind, self.rule, self.law, self.pinned, self.incomplete = kind, rule, law, pinned, incomplete
+        self.kind, self.rule, self.law, self.pinned, self.incomplete = (
+            kind,
+            rule,
+            law,
+            pinned,
+            incomplete,
+        )
         self.known, self.bound = numbers[kind], numbers[rule]
         # Whether all that the rule allows is sticking, and whether it allows it at all.
-        self.only_sticks = np.isposinf(self.bound) if rule == FRICTION else (rule == CRITICAL_FRACTION) & (self.bound == 1.0)
+        self.only_sticks = (
+            np.isposinf(self.bound)
+            if rule == FRICTION
+            else (rule == CRITICAL_FRACTION) & (self.bound == 1.0)
+        )
         self.may_stick = self.bound > 0.0 if rule == FRICTION else self.only_sticks
         self.n = numbers["normal[0]"], numbers["normal[1]"]
         self.p = numbers["point[0]"], numbers["point[1]"]
@@ -68,13 +93,18 @@ class End:
         self.k_nt = here.coupling
         self.size = self._size(self.bodies)
         # The motion before leaves its rounding in the one after.
-        self.closing = np.sqrt(2.0 * self.known * self.k_nn) if kind == "energy_loss" else self._closing()
-        self.rounding = _MOTION_ROUNDING * eps * (self.size + np.where(self.closing > 0.0, self.closing, 0.0))
+        self.closing = (
+            np.sqrt(2.0 * self.known * self.k_nn) if kind == "energy_loss" else self._closing()
+        )
+        self.rounding = (
+            _MOTION_ROUNDING * eps * (self.size + np.where(self.closing > 0.0, self.closing, 0.0))
+        )
         self.approach = 0.0 - self.separation
         slight = (self.approach > self.rounding) & (self.approach <= _NEARLY_PLASTIC * self.closing)
         self.pressed = slight & (kind != "restitution") & (not incomplete)
         if np.any(self.pressed):
-            # The nearest end that is plastic: a small push along the normal takes off what still approaches.
+            # The nearest end that is plastic: a small push along the normal takes off what still
+            # approaches.
             push = np.where(self.pressed, self.approach / self.k_nn, 0.0)
             self.bodies = self._moving(self._struck(push, 0.0 * push))
             here = self._contact()
@@ -87,22 +117,33 @@ class End:
         self.at_rest = (abs(self.slip) <= self.noise) & (abs(self.separation) <= self.noise)
 
     def origins(self, regime: str | None) -> list[Origin]:
-        """The candidates; those fit that are of the regime, lead to this end and repeat no earlier one."""
+        """The candidates; those fit that are of the regime, lead to this end and repeat no earlier
+        one.
+        """
         found: list[Origin] = []
         for origin in self._candidates():
             new = np.asarray(origin.fits) & (regime in (None, origin.regime))
             for earlier in found:
-                apart = abs(origin.normal - earlier.normal) + abs(origin.tangential - earlier.tangential)
-                new = new & ~(earlier.fits & (apart <= _IMPULSE_TOL * (abs(origin.normal) + abs(origin.tangential))))
+                apart = abs(origin.normal - earlier.normal) + abs(
+                    origin.tangential - earlier.tangential
+                )
+                new = new & ~(
+                    earlier.fits
+                    & (apart <= _IMPULSE_TOL * (abs(origin.normal) + abs(origin.tangential)))
+                )
             found.append(origin._replace(fits=new))
         return found
 
     def resistance(self, ratio: Any) -> Any:
-        """The contact's resistance along the normal to an impulse of this ratio; where it is not above 0, the bodies jam."""
+        """The contact's resistance along the normal to an impulse of this ratio; where it is not
+        above 0, the bodies jam.
+        """
         return sum(a + b * rt * (rt - ratio * rn) for a, b, rn, rt in self.responses)
 
     def elastic_loss(self, ratio: Any) -> Any:
-        """The energy lost by an impact of this ratio with e = 1 that ends this way: the least possible."""
+        """The energy lost by an impact of this ratio with e = 1 that ends this way: the least
+        possible.
+        """
         normal = 2.0 * self.separation / self.resistance(ratio)
         return 0.0 - ratio * normal * (self.slip - 0.5 * self._slip_change(normal, ratio * normal))
 
@@ -111,25 +152,40 @@ class End:
         return self.only_sticks & (self.law == law)
 
     def slip_range(self) -> tuple[Any, Any]:
-        """The range of the slip before, for a contact that stuck under "brach"; infinite where friction jams."""
+        """The range of the slip before, for a contact that stuck under "brach"; infinite where
+        friction jams.
+        """
         if not self.slides or self.law != BRACH:
             return np.full((), np.nan), np.full((), np.nan)
-        slips = [np.where(one.jams, np.copysign(np.inf, self.k_nt), one.contact_velocity[1]) for one in self.slides]
+        slips = [
+            np.where(one.jams, np.copysign(np.inf, self.k_nt), one.contact_velocity[1])
+            for one in self.slides
+        ]
         return np.minimum(*slips), np.maximum(*slips)
 
     def forgets_slip(self) -> Any:
-        """Whether the contact ended so that the law keeps no trace of the slip before: without slip, or at rest."""
-        return self.may_stick & (self.at_rest if self.law == KUDLICH_SLIBAR else abs(self.slip) <= self.noise)
+        """Whether the contact ended so that the law keeps no trace of the slip before: without
+        slip, or at rest.
+        """
+        return self.may_stick & (
+            self.at_rest if self.law == KUDLICH_SLIBAR else abs(self.slip) <= self.noise
+        )
 
     def _mobilities(self) -> None:
-        """Whether K has an inverse, and by how much the rounding of a contact that sticks is magnified in the motion after."""
+        """Whether K has an inverse, and by how much the rounding of a contact that sticks is
+        magnified in the motion after.
+        """
         nx, ny = self.n
         self.levers = []
-        for (mass, inertia, vx, vy, _, cx, cy, ox, oy), pinned in zip(self.bodies, self.pinned, strict=True):
+        for (mass, inertia, vx, vy, _, cx, cy, ox, oy), pinned in zip(
+            self.bodies, self.pinned, strict=True
+        ):
             a, b, rx, ry, _, _ = response(mass, inertia, vx, vy, cx, cy, ox, oy, *self.p, pinned)
             self.levers.append((a, b, rx, ry))
         # The same with the lever along n and t.
-        self.responses = [(a, b, nx * rx + ny * ry, nx * ry - ny * rx) for a, b, rx, ry in self.levers]
+        self.responses = [
+            (a, b, nx * rx + ny * ry, nx * ry - ny * rx) for a, b, rx, ry in self.levers
+        ]
         (a_a, b_a, rn_a, rt_a), (a_b, b_b, rn_b, rt_b) = self.responses
         a, cross = a_a + a_b, rn_a * rt_b - rt_a * rn_b
         self.trace = a + b_a * (rn_a * rn_a + rt_a * rt_a) + b_b * (rn_b * rn_b + rt_b * rt_b)
@@ -138,39 +194,65 @@ class End:
         self.magnified = np.where(self.singular, 1.0, 1.0 / determinant)
 
     def _contact(self, e: Any = 0.0, n: tuple[Any, Any] | None = None) -> Any:
-        """What the kernel says of the end state as if it approached: the closing speed there is minus the separation speed."""
+        """What the kernel says of the end state as if it approached: the closing speed there is
+        minus the separation speed.
+        """
         return self._kernel(np.full((), e), FRICTION, np.zeros(()), self.bodies, n)
 
-    def _kernel(self, e: Any, rule: str, bound: Any, bodies: Sequence[Sequence[Any]], n: Any = None, **known: Any) -> Any:
+    def _kernel(
+        self,
+        e: Any,
+        rule: str,
+        bound: Any,
+        bodies: Sequence[Sequence[Any]],
+        n: Any = None,
+        **known: Any,
+    ) -> Any:
         law = self.law if rule == self.rule else BRACH
         inputs = (e, *(n or self.n), bound, *self.p, *bodies[0], *bodies[1])
         return forward(*inputs, rule, law, *self.pinned, **known)
 
     def _struck(self, normal: Any, tangential: Any) -> Any:
-        """The motions of A and B when an impulse with these parts on B, and its opposite on A, is added."""
+        """The motions of A and B when an impulse with these parts on B, and its opposite on A, is
+        added.
+        """
         nx, ny = self.n
         x, y = nx * normal - ny * tangential, ny * normal + nx * tangential
         motions = []
-        for body, (a, b, rx, ry), pinned, sign in zip(self.bodies, self.levers, self.pinned, (-1.0, 1.0), strict=True):
+        for body, (a, b, rx, ry), pinned, sign in zip(
+            self.bodies, self.levers, self.pinned, (-1.0, 1.0), strict=True
+        ):
             cx, cy, ox, oy = body[5:]
-            changes = recoil(a, b, sign * (rx * y - ry * x), sign * x, sign * y, cx, cy, ox, oy, pinned)
-            motions.append(tuple(part + change for part, change in zip(body[2:5], changes, strict=True)))
+            changes = recoil(
+                a, b, sign * (rx * y - ry * x), sign * x, sign * y, cx, cy, ox, oy, pinned
+            )
+            motions.append(
+                tuple(part + change for part, change in zip(body[2:5], changes, strict=True))
+            )
         return tuple(motions)
 
     def _moving(self, motions: Any) -> list[list[Any]]:
         """The numbers of both bodies in other motions."""
-        return [[*body[:2], *motion, *body[5:]] for body, motion in zip(self.bodies, motions, strict=True)]
+        return [
+            [*body[:2], *motion, *body[5:]]
+            for body, motion in zip(self.bodies, motions, strict=True)
+        ]
 
     def _size(self, bodies: Sequence[Sequence[Any]]) -> Any:
         """The speeds of motions whose rounding matters at the contact."""
-        return sum(np.hypot(b[2], b[3]) + abs(b[4]) * np.hypot(self.p[0] - b[5], self.p[1] - b[6]) for b in bodies)
+        return sum(
+            np.hypot(b[2], b[3]) + abs(b[4]) * np.hypot(self.p[0] - b[5], self.p[1] - b[6])
+            for b in bodies
+        )
 
     def _noise(self, eps: float) -> Any:
-        """What rounding may leave of the slip and of the separation speed where the contact is at rest after the impact.
+        """What rounding may leave of the slip and of the separation speed where the contact is at
+        rest after the impact.
 
-        The motion after may then be next to nothing, so the motion before counts. The slip before a contact that stuck lies
-        between those of contacts that slid either way, and the energy lost bounds it; where friction jams on one side or has no
-        end, and no energy is known, nothing does.
+        The motion after may then be next to nothing, so the motion before counts. The slip before a
+        contact that stuck lies between those of contacts that slid either way, and the energy lost
+        bounds it; where friction jams on one side or has no end, and no energy is known, nothing
+        does.
         """
         size = self.size + np.where(self.closing > 0.0, self.closing, 0.0)
         endless = self.only_sticks
@@ -199,14 +281,20 @@ class End:
         if self.rule == FRICTION:
             found = [self._along("frictionless", frictionless), *self.slides]
         else:
-            shared = [np.where((self.bound > 0.0) & (self.bound < 1.0), ratio, np.nan) for ratio in self._shared_ratios()]
+            shared = [
+                np.where((self.bound > 0.0) & (self.bound < 1.0), ratio, np.nan)
+                for ratio in self._shared_ratios()
+            ]
             found = [self._along("given", ratio) for ratio in (frictionless, *shared)]
         # Under "brach" a contact that sticks keeps no trace of the slip before.
         return found if self.law == BRACH else [*found, self._sticking()]
 
     def _slip_change(self, normal: Any, tangential: Any) -> Any:
         """What an impulse adds to the slip."""
-        return sum(a * tangential + b * rn * (rn * tangential - rt * normal) for a, b, rn, rt in self.responses)
+        return sum(
+            a * tangential + b * rn * (rn * tangential - rt * normal)
+            for a, b, rn, rt in self.responses
+        )
 
     def _closing(self) -> Any:
         """The closing speed, where it or the restitution is known."""
@@ -216,12 +304,20 @@ class End:
         """The origin for a given impulse ratio."""
         resistance = self.resistance(ratio)
         if self.kind == "energy_loss":
-            # Along the impulse the contact is a one-dimensional one, with the effective mass of that direction.
+            # Along the impulse the contact is a one-dimensional one, with the effective mass of
+            # that direction.
             length = np.hypot(1.0, ratio)
-            there = self._contact(n=((self.n[0] - ratio * self.n[1]) / length, (self.n[1] + ratio * self.n[0]) / length))
+            there = self._contact(
+                n=(
+                    (self.n[0] - ratio * self.n[1]) / length,
+                    (self.n[1] + ratio * self.n[0]) / length,
+                )
+            )
             parting, mass = 0.0 - there.closing_speed, there.effective_mass
             root = np.sqrt(parting * parting + 2.0 * self.known / mass)
-            impulse = mass * np.where(parting > 0.0, parting + root, (2.0 * self.known / mass) / (root - parting))
+            impulse = mass * np.where(
+                parting > 0.0, parting + root, (2.0 * self.known / mass) / (root - parting)
+            )
             normal = impulse / length
             closing = resistance * normal - self.separation
             e, condition = self.separation / closing, 2.0
@@ -239,7 +335,9 @@ class End:
         return self._origin(regime, normal, tangential, e, condition, velocity, resistance > 0.0)
 
     def _sticking(self) -> Origin:
-        """The origin of a contact that does not slip under "kudlich-slibar", which returns the whole velocity times e."""
+        """The origin of a contact that does not slip under "kudlich-slibar", which returns the
+        whole velocity times e.
+        """
         if self.kind == "energy_loss":
             stored = self.stopping[0] * self.separation + self.stopping[1] * self.slip
             inverse = np.copysign(np.sqrt(1.0 + 2.0 * self.known / stored), self.separation)
@@ -253,13 +351,21 @@ class End:
         possible = self.may_stick & ~self.at_rest & (parts > self.rounding)
         impulse = factor * self.stopping[0], factor * self.stopping[1]
         regime = "sticking" if self.rule == FRICTION else "given"
-        return self._origin(regime, *impulse, 1.0 / inverse, abs(factor), (closing, 0.0 - self.slip * inverse), possible)
+        return self._origin(
+            regime,
+            *impulse,
+            1.0 / inverse,
+            abs(factor),
+            (closing, 0.0 - self.slip * inverse),
+            possible,
+        )
 
     def _shared_ratios(self) -> tuple[Any, Any]:
         """Impulse ratios that are the given share of the critical one.
 
-        The no-slip impulse is proportional to P - y, with y = K^-1 (0, s') under "brach" and K^-1 (r, s') under
-        "kudlich-slibar"; P_t N_s = f T_s P_n, with P_n from the closing speed, leaves a quadratic in the ratio.
+        The no-slip impulse is proportional to P - y, with y = K^-1 (0, s') under "brach" and K^-1
+        (r, s') under "kudlich-slibar"; P_t N_s = f T_s P_n, with P_n from the closing speed, leaves
+        a quadratic in the ratio.
         """
         y_n, y_t = self.stopping
         if self.law == BRACH:
@@ -268,18 +374,35 @@ class End:
             y_n, y_t = 0.0 - only_slip.no_slip_normal, 0.0 - only_slip.no_slip_tangential
         share = self.bound
         square = y_n * self.k_nt
-        linear = y_n * self.k_nn - share * y_t * self.k_nt - (1.0 - share) * (self._closing() + self.separation)
+        linear = (
+            y_n * self.k_nn
+            - share * y_t * self.k_nt
+            - (1.0 - share) * (self._closing() + self.separation)
+        )
         constant = 0.0 - share * y_t * self.k_nn
-        half = -0.5 * (linear + np.copysign(np.sqrt(linear * linear - 4.0 * square * constant), linear))
+        half = -0.5 * (
+            linear + np.copysign(np.sqrt(linear * linear - 4.0 * square * constant), linear)
+        )
         return half / square, constant / half
 
     def _origin(
-        self, regime: str, normal: Any, tangential: Any, e: Any, condition: Any, velocity: tuple[Any, Any], possible: Any
+        self,
+        regime: str,
+        normal: Any,
+        tangential: Any,
+        e: Any,
+        condition: Any,
+        velocity: tuple[Any, Any],
+        possible: Any,
     ) -> Origin:
         e = np.where((e < 0.0) & (abs(self.separation) <= self.rounding), 0.0, e)
-        e = np.where((e > 1.0) & (e <= 1.0 + 16.0 * EPS + self.rounding / abs(self.separation)), 1.0, e)
+        e = np.where(
+            (e > 1.0) & (e <= 1.0 + 16.0 * EPS + self.rounding / abs(self.separation)), 1.0, e
+        )
         motions = self._struck(0.0 - normal, 0.0 - tangential)
-        found = self._kernel(e, self.rule, self.bound, self._moving(motions), contact_velocity=velocity)
+        found = self._kernel(
+            e, self.rule, self.bound, self._moving(motions), contact_velocity=velocity
+        )
         off = abs(found.normal_impulse - normal) + abs(found.tangential_impulse - tangential)
         again = off <= _IMPULSE_TOL * (abs(normal) + abs(tangential))
         fits = (

@@ -1,8 +1,8 @@
 """``planar``: reconstructs the motion before an impact from the motion after, rotation included.
 
-An impact run backwards in time is again an impact: velocities change sign, closing and separation exchange places, and the
-impulse stays the same. So every origin of an end state is that state less a candidate impulse; the forward kernel then says
-whether it leads there.
+An impact run backwards in time is again an impact: velocities change sign, closing and separation
+exchange places, and the impulse stays the same. So every origin of an end state is that state less
+a candidate impulse; the forward kernel then says whether it leads there.
 """
 
 from __future__ import annotations
@@ -35,14 +35,25 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Sentences
 from ..quantities.units import Input, Pair, shown
 from ..vehicle.vehicle import Vehicle, moved
-from .common import Cases, exactly, finish, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
+from .common import (
+    Cases,
+    exactly,
+    finish,
+    input_faults,
+    numbers_by_name,
+    read_amounts,
+    run_forward,
+    split_texts,
+)
 from .origins import End, Origin
 from .speeds_algebra import shares_critical
 
 Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "given"]
 _REGIMES = get_args(Regime)
 _MOTION = ("vx", "vy", "speed", "course", "yaw_rate")
-_NEARLY_STICKING = 0.05  # of the difference between both directions of sliding: a smaller slip may be 0
+_NEARLY_STICKING = (
+    0.05  # of the difference between both directions of sliding: a smaller slip may be 0
+)
 
 
 @hinted
@@ -65,11 +76,13 @@ def planar(
 ) -> Impact:
     """The impact that ended in these motions: ``eccentric`` backwards.
 
-    The states after, the contact and the material determine the states before, except where the impact has erased them. A
-    contact that ended without slip under "brach", or at rest under either law, keeps no trace of the slip before it; a plastic
-    impact leaves no trace of the closing speed, so that it or the energy loss must be known; and an end state may have two
-    origins. Such cases are refused, with any answers in ``solutions``; the message says what would decide. The theory is eqs 10
-    to 19 of "Application of Impulse Momentum Theory to Vehicle Collisions" with friction, solved for the motion before.
+    The states after, the contact and the material determine the states before, except where the
+    impact has erased them. A contact that ended without slip under "brach", or at rest under either
+    law, keeps no trace of the slip before it; a plastic impact leaves no trace of the closing
+    speed, so that it or the energy loss must be known; and an end state may have two origins. Such
+    cases are refused, with any answers in ``solutions``; the message says what would decide. The
+    theory is eqs 10 to 19 of "Application of Impulse Momentum Theory to Vehicle Collisions" with
+    friction, solved for the motion before.
 
     Parameters
     ----------
@@ -80,7 +93,8 @@ def planar(
     point : pair [m]
         Contact point.
     restitution : float, str, Quantity or array [1], optional
-        Coefficient of restitution, above 0. Exactly one of restitution, closing speed and energy loss is given.
+        Coefficient of restitution, above 0. Exactly one of restitution, closing speed and energy
+        loss is given.
     closing_speed : float, str, Quantity or array [m/s], optional
         Speed at which the contact points approached along the normal, > 0.
     energy_loss : float, str, Quantity or array [J], optional
@@ -92,18 +106,20 @@ def planar(
     regime : {"frictionless", "sliding", "sticking", "given"}, optional
         How the contact ended, where that decides between two origins: a value of ``Impact.regime``.
     incomplete : bool, optional
-        Whether the restitution may be negative (above -1), as for ``eccentric``: the contact points then go on approaching.
+        Whether the restitution may be negative (above -1), as for ``eccentric``: the contact points
+        then go on approaching.
     on_failure : {None, "raise", "nan"}, optional
         What to do with a refused case of a batch.
 
     Returns
     -------
     Impact
-        The result of ``eccentric`` for the states found. ``reconstruction.condition`` is (1+e)/e for a given restitution and
-        for a contact that sticks under "kudlich-slibar"; otherwise it is 1 for a closing speed, and at most 2 for an energy
-        loss. Where a slip may be zero (see below) it is the jump divided by that slip, or infinite. Impulse and energy keep all
-        their digits even where the closing speed is tiny: they are computed from ``reconstruction.contact_velocity``, not from
-        the rounded motions before.
+        The result of ``eccentric`` for the states found. ``reconstruction.condition`` is (1+e)/e
+        for a given restitution and for a contact that sticks under "kudlich-slibar"; otherwise it
+        is 1 for a closing speed, and at most 2 for an energy loss. Where a slip may be zero (see
+        below) it is the jump divided by that slip, or infinite. Impulse and energy keep all their
+        digits even where the closing speed is tiny: they are computed from
+        ``reconstruction.contact_velocity``, not from the rounded motions before.
 
     Raises
     ------
@@ -112,17 +128,18 @@ def planar(
     AmbiguousSolutionError
         More than one origin fits; all are in ``solutions``.
     NoSolutionError
-        The contact points do not separate, or by no more than rounding; the contact stuck and says nothing about the slip
-        before; or no motion before the impact ends in these motions.
+        The contact points do not separate, or by no more than rounding; the contact stuck and says
+        nothing about the slip before; or no motion before the impact ends in these motions.
 
     Warns
     -----
     IllConditionedWarning
-        The slip after the impact is so small that it may be zero: under "brach" the answer then jumps with its sign, or is the
-        only end of a range that is open on the side where friction jams.
+        The slip after the impact is so small that it may be zero: under "brach" the answer then
+        jumps with its sign, or is the only end of a range that is open on the side where friction
+        jams.
     OutOfRangeWarning
-        With ``closing_speed`` or ``energy_loss``: the contact points still approach after the impact, by at most 1 percent of
-        the closing speed, and were taken to stay together.
+        With ``closing_speed`` or ``energy_loss``: the contact points still approach after the
+        impact, by at most 1 percent of the closing speed, and were taken to stay together.
 
     Examples
     --------
@@ -135,14 +152,22 @@ def planar(
     >>> round(start.a.before.vx, 12), round(start.b.before.vy, 12)
     (20.0, 16.0)
     """
-    given = exactly({"restitution": restitution, "closing_speed": closing_speed, "energy_loss": energy_loss}, 1, "planar")
+    given = exactly(
+        {"restitution": restitution, "closing_speed": closing_speed, "energy_loss": energy_loss},
+        1,
+        "planar",
+    )
     (kind,) = given
     reader = ArgumentReader()
     amounts = {} if kind == "restitution" else read_amounts(reader, given)
     speed = amounts.get("closing_speed")
     if isinstance(speed, float) and speed == 0.0:
         reader.refuse(
-            InputError("closing_speed must be > 0, got 0: without closing, no impact", code="not_positive", argument=kind)
+            InputError(
+                "closing_speed must be > 0, got 0: without closing, no impact",
+                code="not_positive",
+                argument=kind,
+            )
         )
     if regime is not None and (not isinstance(regime, str) or regime not in _REGIMES):
         reader.refuse(
@@ -153,19 +178,28 @@ def planar(
             )
         )
     e = given.get("restitution", 0.0)
-    arguments = a_after, b_after, e, normal, point, (friction, impulse_ratio, critical_fraction), law
+    arguments = (
+        a_after,
+        b_after,
+        e,
+        normal,
+        point,
+        (friction, impulse_ratio, critical_fraction),
+        law,
+    )
     inputs = read_inputs("eccentric", arguments, reader.problems, amounts.values(), incomplete)
     if inputs.law not in (BRACH, KUDLICH_SLIBAR):
         raise InputError(
-            f"reconstruct.planar cannot go back under law {inputs.law!r}; give {BRACH!r} or {KUDLICH_SLIBAR!r}, or fit a model "
-            f"with this law to what is known after (reconstruct.fit)",
+            f"reconstruct.planar cannot go back under law {inputs.law!r}; give {BRACH!r} or "
+            f"{KUDLICH_SLIBAR!r}, or fit a model with this law to what is known after "
+            "(reconstruct.fit)",
             code="law_not_reversible",
             argument="law",
         )
     if kind == "energy_loss" and shares_critical(inputs.rule, inputs.rule_value):
         raise InputError(
-            "a critical_fraction between 0 and 1 cannot be used with energy_loss; give impulse_ratio=, or the restitution or "
-            "closing_speed instead of the energy",
+            "a critical_fraction between 0 and 1 cannot be used with energy_loss; give "
+            "impulse_ratio=, or the restitution or closing_speed instead of the energy",
             code="bad_combination",
             argument="critical_fraction",
         )
@@ -176,10 +210,18 @@ def planar(
     with np.errstate(all="ignore"):
         end = End(arrays, kind, inputs.rule, inputs.law or BRACH, pinned, cases.eps, incomplete)
         end.say = Sentences((*inputs.texts, *reader.texts.values()))
-        return _answer(cases, end, replace(inputs, given={**reader.texts, **(inputs.given or {})}), regime, on_failure)
+        return _answer(
+            cases,
+            end,
+            replace(inputs, given={**reader.texts, **(inputs.given or {})}),
+            regime,
+            on_failure,
+        )
 
 
-def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_failure: Any) -> Impact:
+def _answer(
+    cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_failure: Any
+) -> Impact:
     texts = dict(inputs.given or {})
     staying = []
     for label, body in (("a", inputs.a), ("b", inputs.b)):
@@ -193,14 +235,19 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
     no_trace = end.forgets_slip() & ((regime != "sliding") | end.always_sticks())
     plastic = np.equal(end.known, 0.0) & (end.kind == "restitution")
     if end.kind == "restitution":
-        parts = np.where(np.less(end.known, 0.0), end.separation < -end.rounding, end.separation > end.rounding)
+        parts = np.where(
+            np.less(end.known, 0.0), end.separation < -end.rounding, end.separation > end.rounding
+        )
     else:
         parts = end.incomplete | (end.separation > -end.rounding)
     status = cases.first_status(
         (
             *input_faults(end.numbers, end.incomplete),
             (end.status == Status.IMMOVABLE, Status.IMMOVABLE),
-            (end.singular & (end.bound > 0.0) & (end.rule != IMPULSE_RATIO), Status.SINGULAR_CONTACT),
+            (
+                end.singular & (end.bound > 0.0) & (end.rule != IMPULSE_RATIO),
+                Status.SINGULAR_CONTACT,
+            ),
             (plastic, Status.INVERSE_E0),
             (np.logical_not(parts), Status.NOT_SEPARATING),
             (no_trace, Status.STICK_INVERSE),
@@ -214,19 +261,27 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
     low, high = end.slip_range()
     jump = high - low
     # For a half-open range, the distance to its one end counts as half its length.
-    reach = np.where(np.isinf(jump), 2.0 * np.minimum(abs(low - end.slip), abs(high - end.slip)), jump)
+    reach = np.where(
+        np.isinf(jump), 2.0 * np.minimum(abs(low - end.slip), abs(high - end.slip)), jump
+    )
     nearly = sure & (abs(end.slip) < _NEARLY_STICKING * reach)
     condition = np.where(nearly, np.maximum(found.condition, jump / abs(end.slip)), found.condition)
 
     def origin_of(origin: Origin, condition: Any, count: Any, where: Any = True) -> Reconstruction:
-        return cases.provenance("planar", (end.kind, end.rule), condition, count, origin.contact_velocity, where)
+        return cases.provenance(
+            "planar", (end.kind, end.rule), condition, count, origin.contact_velocity, where
+        )
 
     def inputs_of(origin: Origin, keep: Any) -> Inputs:
         bodies = []
         for body, motion, given in zip((inputs.a, inputs.b), origin.motions, staying, strict=True):
             vx, vy, yaw_rate = (cases.where(keep, part) for part in motion)
             bodies.append(moved(body, vx, vy, yaw_rate, given))
-        e = inputs.restitution if end.kind == "restitution" else cases.where(keep, origin.restitution)
+        e = (
+            inputs.restitution
+            if end.kind == "restitution"
+            else cases.where(keep, origin.restitution)
+        )
         return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
 
     def refusal() -> CollisionsError:
@@ -244,7 +299,11 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
     def solve_case(index: tuple[int, ...]) -> Impact:
         take = partial(cases.one, index=index)
         contact: dict[str, Any] = {name: take(end.numbers[name]) for name in (end.kind, end.rule)}
-        contact |= {"law": end.law, "normal": tuple(map(take, end.n)), "point": tuple(map(take, end.p))}
+        contact |= {
+            "law": end.law,
+            "normal": tuple(map(take, end.n)),
+            "point": tuple(map(take, end.p)),
+        }
         contact |= {"regime": regime, "incomplete": end.incomplete}
         return planar(part_of(inputs.a, take), part_of(inputs.b, take), **contact)
 
@@ -258,7 +317,11 @@ def _first_that_fits(origins: Sequence[Origin]) -> Origin:
     which = np.argmax(np.stack(np.broadcast_arrays(*(one.fits for one in origins))), axis=0)
 
     def choose(values: Sequence[Any]) -> Any:
-        return tuple(map(choose, zip(*values, strict=True))) if isinstance(values[0], tuple) else np.choose(which, values)
+        return (
+            tuple(map(choose, zip(*values, strict=True)))
+            if isinstance(values[0], tuple)
+            else np.choose(which, values)
+        )
 
     _, *parts = zip(*origins, strict=True)
     return Origin("", *map(choose, parts))
@@ -272,22 +335,29 @@ def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
         taken = "taken as 0, a plastic impact, and the motions after changed by as much"
         text = f"{cases.how_many(pressed)}{what}, by up to {end.say(most, 'speed', 3)}: {taken}"
         warning: CollisionsWarning = OutOfRangeWarning(text, code="nearly_plastic", approach=most)
-        warn_of_cases(warning, {f"{what}, by no more than rounding: {taken}": cases.number(pressed)})
+        warn_of_cases(
+            warning, {f"{what}, by no more than rounding: {taken}": cases.number(pressed)}
+        )
     if np.any(nearly):
         low, high = end.slip_range()
         single = cases.shape is None
         where = _interval(float(low), float(high), end.say) if single else "in a wide range"
-        which = "is that end of the range" if single and np.isinf(high - low) else "follows the sign of that slip"
+        which = (
+            "is that end of the range"
+            if single and np.isinf(high - low)
+            else "follows the sign of that slip"
+        )
         least = float(np.min(np.where(nearly, abs(end.slip), np.inf)))
         text = (
-            f"{cases.how_many(nearly)}the slip after the impact, "
-            f"{end.say(least, 'speed', 3)}, is so small that it may be none: then the "
-            f"contact stuck, and the slip before was anything {where}. The answer {which}; carry all digits, or decide with "
-            f"impulse_ratio= of either sign"
+            f"{cases.how_many(nearly)}the slip after the impact, {end.say(least, 'speed', 3)}, "
+            "is so small that it may be none: then the contact stuck, and the slip before was "
+            f"anything {where}. The answer {which}; carry all digits, or decide with "
+            "impulse_ratio= of either sign"
         )
         warning = IllConditionedWarning(text, code="nearly_sticking", slip_after=least)
         sentence = (
-            "the slip after the impact is so small that it may be none: then the contact stuck, and the slip before is open"
+            "the slip after the impact is so small that it may be none: then the contact stuck, "
+            "and the slip before is open"
         )
         warn_of_cases(warning, {sentence: cases.number(nearly)})
 
@@ -300,8 +370,12 @@ def _interval(low: float, high: float, say: Sentences | None = None) -> str:
     return f"above {least}" if math.isinf(high) else f"between {least} and {most}"
 
 
-def _refusal(status: int, end: End, regime: str | None, regimes: list[str], solutions: tuple[Impact, ...]) -> CollisionsError:
-    """The error for a single case, with the candidates and their regimes; its advice does not lead to the same error."""
+def _refusal(
+    status: int, end: End, regime: str | None, regimes: list[str], solutions: tuple[Impact, ...]
+) -> CollisionsError:
+    """The error for a single case, with the candidates and their regimes; its advice does not lead
+    to the same error.
+    """
     separation, slip = float(end.separation), float(end.slip)
     match status:
         case Status.AMBIGUOUS_INVERSE:
@@ -312,8 +386,8 @@ def _refusal(status: int, end: End, regime: str | None, regimes: list[str], solu
             )
             deciding = " or ".join(f"regime={how!r}" for how in regimes if regimes.count(how) == 1)
             return AmbiguousSolutionError(
-                f"{len(solutions)} states before end so: {each}; all are in .solutions; what decides is "
-                f"{deciding}{', or ' if deciding else ''}impulse_ratio= of one of them",
+                f"{len(solutions)} states before end so: {each}; all are in .solutions; what "
+                f"decides is {deciding}{', or ' if deciding else ''}impulse_ratio= of one of them",
                 code="ambiguous_inverse",
                 solutions=solutions,
             )
@@ -324,7 +398,10 @@ def _refusal(status: int, end: End, regime: str | None, regimes: list[str], solu
         case Status.CONTRADICTORY:
             text = _contradiction(end, separation, slip, regime)
         case Status.INVERSE_E0:
-            text = f"restitution = 0: after a plastic impact nothing is left of the closing speed; give {_instead(end)} instead"
+            text = (
+                "restitution = 0: after a plastic impact nothing is left of the closing speed; "
+                f"give {_instead(end)} instead"
+            )
         case _:
             text = Status(status).message
     return error_of(status, text, separation_speed=separation, slip_after=slip, solutions=solutions)
@@ -332,7 +409,11 @@ def _refusal(status: int, end: End, regime: str | None, regimes: list[str], solu
 
 def _instead(end: End) -> str:
     """The inputs that could replace the restitution."""
-    return "closing_speed=" if shares_critical(end.rule, end.bound) else "closing_speed= or energy_loss="
+    return (
+        "closing_speed="
+        if shares_critical(end.rule, end.bound)
+        else "closing_speed= or energy_loss="
+    )
 
 
 def _jamming_ratio(end: End) -> float:
@@ -345,22 +426,29 @@ def _stuck(end: End, slip: float, ends: int) -> str:
     held = ""
     if ends == 1:
         held = (
-            f".solutions holds the one end of the range, where friction is just used up; to the other side it is open, for "
-            f"impulse ratios towards {jamming:.4g}, where the bodies jam. "
+            ".solutions holds the one end of the range, where friction is just used up; to the "
+            f"other side it is open, for impulse ratios towards {jamming:.4g}, where the bodies "
+            "jam. "
         )
     elif ends:
         held = f".solutions holds the {ends} ends of the range, where friction is just used up. "
-    low, high = (-float(end.bound), float(end.bound)) if end.rule == FRICTION else (-math.inf, math.inf)
+    low, high = (
+        (-float(end.bound), float(end.bound)) if end.rule == FRICTION else (-math.inf, math.inf)
+    )
     if math.isfinite(jamming):
         low, high = (max(low, jamming), high) if jamming < 0.0 else (low, min(high, jamming))
     allowed = _interval(low, high)
     # At rest the slip before is lost under the other law too.
-    other = f", or law={KUDLICH_SLIBAR!r} if that is the model" if end.law == BRACH and abs(end.separation) > end.noise else ""
+    other = (
+        f", or law={KUDLICH_SLIBAR!r} if that is the model"
+        if end.law == BRACH and abs(end.separation) > end.noise
+        else ""
+    )
     return (
-        f"the contact ended without slip (slip after "
-        f"{end.say(slip, 'speed', 3)}, no more than rounding leaves), and under {end.law!r} any "
-        f"slip before may end so: the motion across the normal is lost. {held}What decides is impulse_ratio=, the tangential "
-        f"over the normal impulse{f' ({allowed})' if allowed else ''}{other}"
+        f"the contact ended without slip (slip after {end.say(slip, 'speed', 3)}, no more than "
+        f"rounding leaves), and under {end.law!r} any slip before may end so: the motion across "
+        f"the normal is lost. {held}What decides is impulse_ratio=, the tangential over the "
+        f"normal impulse{f' ({allowed})' if allowed else ''}{other}"
     )
 
 
@@ -368,10 +456,10 @@ def _not_parting(end: End, separation: float) -> str:
     rounding = float(end.rounding)
     if end.kind == "restitution" and abs(separation) <= rounding:
         return (
-            f"whether the contact points part after the impact cannot be told from rounding: separation speed "
-            f"{end.say(separation, 'speed', 3)}, of which rounding may be "
-            f"{end.say(rounding, 'speed', 3)}. The restitution says nothing of the closing "
-            f"speed then; give {_instead(end)} instead"
+            "whether the contact points part after the impact cannot be told from rounding: "
+            f"separation speed {end.say(separation, 'speed', 3)}, of which rounding may be "
+            f"{end.say(rounding, 'speed', 3)}. The restitution says nothing of the closing speed "
+            f"then; give {_instead(end)} instead"
         )
     why = f"; for a plastic impact give {_instead(end)}"
     if end.kind != "restitution":
@@ -393,17 +481,19 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
     free = "give a finite friction=, or impulse_ratio="
     origins = end.origins(None)
     fitting = {one.regime for one in origins if one.fits}
-    if regime is not None and (fitting or regime not in {one.regime for one in origins if not np.isnan(one.normal)}):
+    if regime is not None and (
+        fitting or regime not in {one.regime for one in origins if not np.isnan(one.normal)}
+    ):
         found = f", the contact ended {' or '.join(sorted(fitting))}" if fitting else ""
         return (
-            f"no motion before ends so in the regime {regime!r} under {end.law!r} with this {end.rule} and {end.kind}: {here}; "
-            f"leave out regime={found}"
+            f"no motion before ends so in the regime {regime!r} under {end.law!r} with this "
+            f"{end.rule} and {end.kind}: {here}; leave out regime={found}"
         )
     if end.always_sticks():
         return (
-            f"with this {end.rule} a contact under {end.law!r} ends without slip, but the slip after is "
-            f"{end.say(slip, 'speed')}; if "
-            f"that is an error of measurement, the contact stuck and its motion across the normal is lost; {free}"
+            f"with this {end.rule} a contact under {end.law!r} ends without slip, but the slip "
+            f"after is {end.say(slip, 'speed')}; if that is an error of measurement, the contact "
+            f"stuck and its motion across the normal is lost; {free}"
         )
     if end.kind == "closing_speed" and separation > known:
         return (
@@ -412,28 +502,36 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
             f"separation speed, or restitution= instead"
         )
     if end.always_sticks(KUDLICH_SLIBAR):
-        return f"with {given} the contact sticks, and under {end.law!r} none that sticks ends so: {here}; {free}"
+        return (
+            f"with {given} the contact sticks, and under {end.law!r} none that sticks ends so: "
+            f"{here}; {free}"
+        )
     ratios = {FRICTION: (bound, -bound), IMPULSE_RATIO: (bound,)}.get(end.rule, ())
     if any(end.resistance(ratio) <= 0.0 for ratio in ratios):
         limit = _jamming_ratio(end)
         limit = abs(limit) if end.rule == FRICTION else limit
         return (
             f"{given} jams the bodies in a contact that ends so ({here}); give {end.rule}= "
-            f"{'below' if limit > 0.0 else 'above'} {limit:.4g}, or check the yaw rates and the normal"
+            f"{'below' if limit > 0.0 else 'above'} {limit:.4g}, or check the yaw rates and the "
+            "normal"
         )
     if end.kind == "energy_loss":
-        # Friction acts against the slip; under "kudlich-slibar" against that of compression, and the one after may be either.
+        # Friction acts against the slip; under "kudlich-slibar" against that of compression, and
+        # the one after may be either.
         either = end.rule == IMPULSE_RATIO or end.law != BRACH
-        least = min((end.elastic_loss(ratio) for ratio in ratios if either or ratio * slip <= 0.0), default=0.0)
+        least = min(
+            (end.elastic_loss(ratio) for ratio in ratios if either or ratio * slip <= 0.0),
+            default=0.0,
+        )
         if least > known:
             return (
-                f"energy_loss="
-                f"{end.say(known, 'energy')} is less than an impact with {given} loses that ends so ({here}); give at least "
+                f"energy_loss={end.say(known, 'energy')} is less than an impact with {given} "
+                f"loses that ends so ({here}); give at least "
                 f"{end.say(float(least), 'energy', 7)}, or restitution= or closing_speed= instead"
             )
     kind = {"energy_loss": "energy", "closing_speed": "speed"}.get(end.kind, "number")
     return (
-        f"no motion before ends so under {end.law!r} with {given} and {end.kind}="
-        f"{end.say(known, kind)}: {here}; check the normal and the "
-        f"motions after{', or give friction= or impulse_ratio=' if end.rule == CRITICAL_FRACTION else ''}"
+        f"no motion before ends so under {end.law!r} with {given} and "
+        f"{end.kind}={end.say(known, kind)}: {here}; check the normal and the motions "
+        f"after{', or give friction= or impulse_ratio=' if end.rule == CRITICAL_FRACTION else ''}"
     )

@@ -1,4 +1,6 @@
-"""``recorded_pulse``: what the delta-V over time of an event data recorder says, with its error and whether it ended."""
+"""``recorded_pulse``: what the delta-V over time of an event data recorder says, with its error and
+whether it ended.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,8 @@ from .recorder_table import read_table
 Polarity = Literal["49 CFR 563", "ISO 8855"]
 # Sign of a positive lateral reading, counted to the left.
 _LEFTWARD = {"49 CFR 563": -1.0, "ISO 8855": 1.0}
-# 49 CFR 563.5: the event has ended when the resultant changes by no more than 0.8 km/h within 20 ms.
+# 49 CFR 563.5: the event has ended when the resultant changes by no more than 0.8 km/h within 20
+# ms.
 _QUIET_CHANGE, _QUIET_TIME = 0.8 / 3.6, 0.020
 _LONGEST = 3.0  # s; no contact of vehicles lasts longer
 _NAMES = {"time": "s", "delta_v_forward": "m/s", "delta_v_left": "m/s"}
@@ -31,11 +34,13 @@ _NAMES = {"time": "s", "delta_v_forward": "m/s", "delta_v_left": "m/s"}
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class RecordedPulse(Shown):
-    """Recorded delta-V: its components at the largest resultant, when that was reached, and whether the pulse had ended.
+    """Recorded delta-V: its components at the largest resultant, when that was reached, and whether
+    the pulse had ended.
 
-    The errors are half the widths of the ranges that 49 CFR 563.8, Table III allows (``reference.RECORDER_ACCURACY``): a tenth
-    of each component, and at least half the step in which it is reported. A record that stops before the pulse has ended is a
-    lower bound: its components say how far delta-V had come. ``time``, ``forward`` and ``left`` are the samples.
+    The errors are half the widths of the ranges that 49 CFR 563.8, Table III allows
+    (``reference.RECORDER_ACCURACY``): a tenth of each component, and at least half the step in
+    which it is reported. A record that stops before the pulse has ended is a lower bound: its
+    components say how far delta-V had come. ``time``, ``forward`` and ``left`` are the samples.
     """
 
     _title = "Recorded pulse"
@@ -56,8 +61,14 @@ class RecordedPulse(Shown):
 
     @derived("rad")
     def pdof(self) -> float | None:
-        """Principal direction of force [rad], 0 ahead, positive clockwise (from the right); None without lateral delta-V."""
-        return None if self.delta_v_left is None else math.atan2(self.delta_v_left, -self.delta_v_forward)
+        """Principal direction of force [rad], 0 ahead, positive clockwise (from the right); None
+        without lateral delta-V.
+        """
+        return (
+            None
+            if self.delta_v_left is None
+            else math.atan2(self.delta_v_left, -self.delta_v_forward)
+        )
 
     @derived("m/s")
     def error_forward(self) -> float:
@@ -91,14 +102,22 @@ class RecordedPulse(Shown):
             "recorded forward": (self.forward, "m/s"),
             "recorded left": (self.left, "m/s"),
         }
-        rows = {name: numbers.text(value, unit) for name, (value, unit) in values.items() if value is not None}
-        for name, error in (("delta-V forward", self.error_forward), ("delta-V left", self.error_left)):
+        rows = {
+            name: numbers.text(value, unit)
+            for name, (value, unit) in values.items()
+            if value is not None
+        }
+        for name, error in (
+            ("delta-V forward", self.error_forward),
+            ("delta-V left", self.error_left),
+        ):
             if error is not None:
                 rows[name] += f", within {numbers.text(error, 'm/s')}"
         return Summary(self._title, [Part(list(rows.items())), all_numbers(self._rows())])
 
     def inputs(self, label: Literal["a", "b"]) -> dict[str, Uniform]:
-        """The components with their errors, named as the arguments of ``reconstruct.speeds``, as inputs for ``propagate``.
+        """The components with their errors, named as the arguments of ``reconstruct.speeds``, as
+        inputs for ``propagate``.
 
         Parameters
         ----------
@@ -113,19 +132,28 @@ class RecordedPulse(Shown):
         Raises
         ------
         InputError
-            The record stops early (code ``pulse_cut``): a lower bound has no range about it. See ``evidence``.
+            The record stops early (code ``pulse_cut``): a lower bound has no range about it. See
+            ``evidence``.
         """
         if not isinstance(label, str) or label not in ("a", "b"):
-            raise InputError(f"label must be 'a' or 'b', got {shown(label)}", code="bad_option", argument="label")
+            raise InputError(
+                f"label must be 'a' or 'b', got {shown(label)}", code="bad_option", argument="label"
+            )
         if not self.ended:
             cut = _cut(self.time, self.delta_v)
             raise InputError(
-                f"{cut}, and no range can be stated of it; give .evidence to reconstruct.posterior, which takes it as a bound",
+                f"{cut}, and no range can be stated of it; give .evidence to "
+                "reconstruct.posterior, which takes it as a bound",
                 code="pulse_cut",
             )
         parts = {"forward": self.delta_v_forward, "left": self.delta_v_left}
-        values = {f"delta_v_{part}_{label}": value for part, value in parts.items() if value is not None}
-        return {name: Uniform(value - _error(value), value + _error(value)) for name, value in values.items()}
+        values = {
+            f"delta_v_{part}_{label}": value for part, value in parts.items() if value is not None
+        }
+        return {
+            name: Uniform(value - _error(value), value + _error(value))
+            for name, value in values.items()
+        }
 
 
 @hinted
@@ -136,12 +164,13 @@ def recorded_pulse(
     *,
     polarity: Polarity,
 ) -> RecordedPulse:
-    """Total delta-V of a recorder's pulse, when it was reached, its direction, and whether the pulse had ended.
+    """Total delta-V of a recorder's pulse, when it was reached, its direction, and whether the
+    pulse had ended.
 
-    The total is the largest resultant (maximum delta-V of 49 CFR 563.5). The pulse has ended if there are 20 ms, up to that
-    maximum or later, in which the resultant changes by no more than 0.8 km/h (end of event time, ibid.). The recorder is
-    taken to sit at the centre of mass: in a car that turns, one mounted elsewhere reads a different delta-V
-    (``Side.delta_v_at``).
+    The total is the largest resultant (maximum delta-V of 49 CFR 563.5). The pulse has ended if
+    there are 20 ms, up to that maximum or later, in which the resultant changes by no more than 0.8
+    km/h (end of event time, ibid.). The recorder is taken to sit at the centre of mass: in a car
+    that turns, one mounted elsewhere reads a different delta-V (``Side.delta_v_at``).
 
     Parameters
     ----------
@@ -156,8 +185,9 @@ def recorded_pulse(
     delta_v_forward, delta_v_left : array [m/s], optional
         Cumulative delta-V at these times; left out with a file. The lateral one may be missing.
     polarity : {"49 CFR 563", "ISO 8855"}
-        Whether lateral readings are positive from left to right, as in US recorders, or to the left, as in this library.
-        Forward is positive in both. There is no default: the wrong sign puts the other car on the other side.
+        Whether lateral readings are positive from left to right, as in US recorders, or to the
+        left, as in this library. Forward is positive in both. There is no default: the wrong sign
+        puts the other car on the other side.
 
     Returns
     -------
@@ -180,15 +210,26 @@ def recorded_pulse(
     >>> time = np.arange(0.0, 0.26, 0.01)
     >>> shape = np.clip(time / 0.11, 0.0, 1.0)
     >>> pulse = recorded_pulse(time, -8.0 * shape, 1.5 * shape, polarity="49 CFR 563")
-    >>> pulse.delta_v_forward, pulse.delta_v_left, pulse.ended, round(pulse.duration, 3), round(pulse.error_forward, 3)
+    >>> (
+    ...     pulse.delta_v_forward,
+    ...     pulse.delta_v_left,
+    ...     pulse.ended,
+    ...     round(pulse.duration, 3),
+    ...     round(pulse.error_forward, 3),
+    ... )
     (-8.0, -1.5, True, 0.11, 0.8)
     """
     reader = ArgumentReader()
     if not isinstance(polarity, str) or polarity not in _LEFTWARD:
         text = (
-            f"polarity must be '49 CFR 563' (lateral positive to the right) or 'ISO 8855' (to the left), got {shown(polarity)}"
+            "polarity must be '49 CFR 563' (lateral positive to the right) or 'ISO 8855' (to "
+            f"the left), got {shown(polarity)}"
         )
-        reader.refuse(InputError(f"{text}; the recorder's report says which", code="bad_option", argument="polarity"))
+        reader.refuse(
+            InputError(
+                f"{text}; the recorder's report says which", code="bad_option", argument="polarity"
+            )
+        )
     if isinstance(time, (str, os.PathLike)):
         for name, beside in (("delta_v_forward", delta_v_forward), ("delta_v_left", delta_v_left)):
             if beside is not None:
@@ -199,12 +240,22 @@ def recorded_pulse(
         read = read_table(reader, os.fspath(time), polarity)
     else:
         given = {"time": time, "delta_v_forward": delta_v_forward, "delta_v_left": delta_v_left}
-        read = {name: reader.number(value, _NAMES[name], name) for name, value in given.items() if value is not None}
+        read = {
+            name: reader.number(value, _NAMES[name], name)
+            for name, value in given.items()
+            if value is not None
+        }
     reader.close()
     shapes = {name: np.shape(value) for name, value in read.items()}
-    if len(shapes) < 2 or len(set(shapes.values())) > 1 or len(shapes["time"]) != 1 or shapes["time"][0] < 2:
+    if (
+        len(shapes) < 2
+        or len(set(shapes.values())) > 1
+        or len(shapes["time"]) != 1
+        or shapes["time"][0] < 2
+    ):
         raise ShapeError(
-            f"a pulse is time, delta_v_forward and perhaps delta_v_left as arrays of one length, two samples at least; got "
+            "a pulse is time, delta_v_forward and perhaps delta_v_left as arrays of one length, "
+            "two samples at least; got "
             f"{', '.join(f'{name} {shape}' for name, shape in shapes.items())}",
             code="bad_shape",
             argument="time",
@@ -212,10 +263,14 @@ def recorded_pulse(
     times, forward, *rest = (np.array(value, dtype=np.float64) + 0.0 for value in read.values())
     left = _LEFTWARD[polarity] * rest[0] + 0.0 if rest else None
     size = np.hypot(forward, 0.0 if left is None else left)
-    if not (np.isfinite(size).all() and np.all(np.diff(times) > 0.0) and times[-1] - times[0] <= _LONGEST):
+    if not (
+        np.isfinite(size).all()
+        and np.all(np.diff(times) > 0.0)
+        and times[-1] - times[0] <= _LONGEST
+    ):
         raise InputError(
-            f"time must rise from sample to sample, by {_LONGEST:g} s in all at most (were milliseconds meant?), and every "
-            f"value be a finite number",
+            f"time must rise from sample to sample, by {_LONGEST:g} s in all at most (were "
+            "milliseconds meant?), and every value be a finite number",
             code="bad_pulse",
             argument="time",
         )
@@ -254,11 +309,16 @@ def _evidence(value: float | None, ended: bool) -> Normal | Censored | None:
 
 
 def _cut(times: Any, size: float) -> str:
-    return f"the record stops at {times[-1]:.3g} s while delta-V still changes: {3.6 * size:.1f} km/h is a lower bound"
+    return (
+        f"the record stops at {times[-1]:.3g} s while delta-V still changes: {3.6 * size:.1f} "
+        "km/h is a lower bound"
+    )
 
 
 def _ended(times: Any, size: Any, at: int) -> bool:
-    """Whether within some 20 ms that end at the largest resultant, or later, it changes by no more than 0.8 km/h."""
+    """Whether within some 20 ms that end at the largest resultant, or later, it changes by no more
+    than 0.8 km/h.
+    """
     ends = times[at:][times[at:] - _QUIET_TIME >= times[0] - 1e-9]
     changes = abs(np.interp(ends, times, size) - np.interp(ends - _QUIET_TIME, times, size))
     return bool(np.any(changes <= _QUIET_CHANGE + 1e-12))

@@ -29,7 +29,8 @@ _CALLED = {"time": "time", "delta_v_forward": "longitudinal", "delta_v_left": "l
 # same.
 _OTHERS = {
     "acceleration", "accel", "angle", "backward", "backwards", "driver", "end", "indicated", "max",
-    "maximum", "maximal", "minus", "neg", "negative", "peak", "rate", "rear", "rearward", "rearwards",
+    "maximum", "maximal", "minus", "neg", "negative", "peak", "rate", "rear", "rearward",
+    "rearwards",
     "resultant", "total", "vertical", "wheel",
 }  # fmt: skip
 _SPEEDS, _CHANGES = {"speed", "v", "velocity"}, {"change", "delta", "dv", "deltav", "δv", "δ"}
@@ -75,7 +76,9 @@ def _text(path: str) -> str:
     if len(data) > _LARGEST_FILE:
         raise ValueError("it is larger than 1 MB, and the table of a pulse is a page")
     try:
-        text = data.decode("utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig")
+        text = data.decode(
+            "utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig"
+        )
     except UnicodeDecodeError:
         raise ValueError("it is no text in UTF-8; save it as CSV in UTF-8") from None
     if "\0" in text:
@@ -91,21 +94,32 @@ def _cells(text: str) -> tuple[list[str], list[list[str]], bool]:
     try:
         # With its own line ends, which may stand within quotes.
         table = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
-        heads, *rows = [[cell.strip() for cell in row] for row in table if any(cell.strip() for cell in row)] or [[]]
+        heads, *rows = [
+            [cell.strip() for cell in row] for row in table if any(cell.strip() for cell in row)
+        ] or [[]]
     except csv.Error as error:
         raise ValueError(f"it is no table ({error})") from None
     if not heads:
         raise ValueError("it is empty")
     for number, row in enumerate([heads, *rows], 1):
         if long := next((cell for cell in row if len(cell) > _LONGEST_CELL), ""):
-            raise ValueError(f"row {number} has a cell of {len(long)} characters, and may have {_LONGEST_CELL}")
+            raise ValueError(
+                f"row {number} has a cell of {len(long)} characters, and may have {_LONGEST_CELL}"
+            )
     # A separator at the end of every line makes a column of nothing.
-    while heads and not heads[-1] and all(len(row) < len(heads) or not row[len(heads) - 1] for row in rows):
+    while (
+        heads
+        and not heads[-1]
+        and all(len(row) < len(heads) or not row[len(heads) - 1] for row in rows)
+    ):
         heads, rows = heads[:-1], [row[: len(heads) - 1] for row in rows]
     for number, row in enumerate(rows, 2):
         if len(row) != len(heads):
             quotes = f"a head with {shown(separator)} stands in quotes, and nothing above the heads"
-            raise ValueError(f"row {number} has {len(row)} cells under {len(heads)} heads; it needs rows as long; {quotes}")
+            raise ValueError(
+                f"row {number} has {len(row)} cells under {len(heads)} heads; it needs rows as "
+                f"long; {quotes}"
+            )
     return heads, rows, separator != ","
 
 
@@ -115,17 +129,33 @@ def _by_name(reader: ArgumentReader, heads: list[str], polarity: str) -> dict[st
     for at, head in enumerate(heads):
         words, groups = _parts(head)
         names = [name for name, (_, own) in _COLUMNS.items() if words & own]
-        if strange := sorted(words & _OTHERS) or sorted(words & _SPEEDS if not words & _CHANGES else ()):
-            raise ValueError(f"the head {shown(head)} says {strange[0]!r}, and a column has to be time or cumulative delta-V")
+        if strange := sorted(words & _OTHERS) or sorted(
+            words & _SPEEDS if not words & _CHANGES else ()
+        ):
+            raise ValueError(
+                f"the head {shown(head)} says {strange[0]!r}, and a column has to be time or "
+                "cumulative delta-V"
+            )
         if len(names) != 1:
-            may = " or ".join(_CALLED[name] for name in names) or "neither time, longitudinal nor lateral"
-            raise ValueError(f"the head {shown(head)} may be {may}; each names one, and other columns are to be left out")
+            may = (
+                " or ".join(_CALLED[name] for name in names)
+                or "neither time, longitudinal nor lateral"
+            )
+            raise ValueError(
+                f"the head {shown(head)} may be {may}; each names one, and other columns are to "
+                "be left out"
+            )
         name = names[0]
         if name in found:
-            raise ValueError(f"the heads {shown(heads[found[name][0]])} and {shown(head)} are both {_CALLED[name]}")
+            raise ValueError(
+                f"the heads {shown(heads[found[name][0]])} and {shown(head)} are both "
+                f"{_CALLED[name]}"
+            )
         sides = words & {"left", "right"}
         if len(sides) == 2:  # as 49 CFR 563 has it, "left to right"
-            sides = {side for side in sides if f"to {side}" in " ".join(re.findall(r"\w+", head.lower()))}
+            sides = {
+                side for side in sides if f"to {side}" in " ".join(re.findall(r"\w+", head.lower()))
+            }
         if words & {"left", "right"} and sides != {_SIDES[polarity]}:
             says = " or ".join(sorted(sides or words & {"left", "right"}))
             raise ValueError(
@@ -134,7 +164,10 @@ def _by_name(reader: ArgumentReader, heads: list[str], polarity: str) -> dict[st
             )
         found[name] = at, _unit(groups, head, _COLUMNS[name][0])
     if missing := [_CALLED[name] for name in ("time", "delta_v_forward") if name not in found]:
-        raise ValueError(f"it has no column whose head says {missing[0]!r}; its heads are {', '.join(map(shown, heads))}")
+        raise ValueError(
+            f"it has no column whose head says {missing[0]!r}; its heads are "
+            f"{', '.join(map(shown, heads))}"
+        )
     return {name: found[name] for name in _COLUMNS if name in found}
 
 
@@ -157,7 +190,9 @@ def _unit(groups: list[str], head: str, wanted: str) -> str:
     units = [_UNITS.get(group.lower(), group) for group in groups]
     fit = [unit for unit in units if _reads(unit, wanted)]
     if any(mark in unit for unit in units for mark in "[("):
-        raise ValueError(f"the head {shown(head)} has two units; keep one of them, and its number in each cell")
+        raise ValueError(
+            f"the head {shown(head)} has two units; keep one of them, and its number in each cell"
+        )
     if len(fit) > 1 or not units:
         many = "has two units" if fit else "has no unit"
         raise ValueError(f"the head {shown(head)} {many}, and needs one, its unit in brackets")
@@ -176,7 +211,9 @@ def _numbers(rows: list[list[str]], places: dict[str, int], comma: bool) -> dict
     That may be a whole lateral column, and rows at the end.
     """
     parts = [name for name in places if name != "time"]
-    missing = {name: [row[places[name]].lower() in _NOT_AVAILABLE for row in rows] for name in parts}
+    missing = {
+        name: [row[places[name]].lower() in _NOT_AVAILABLE for row in rows] for name in parts
+    }
     if len(parts) == 2 and rows and all(missing["delta_v_left"]):
         parts, missing = parts[:1], {parts[0]: missing[parts[0]]}
     count = len(rows)
@@ -186,22 +223,34 @@ def _numbers(rows: list[list[str]], places: dict[str, int], comma: bool) -> dict
         if True in missing[name][:count]:
             at = missing[name].index(True)
             raise ValueError(
-                f"{_CALLED[name]} is not available in row {at + 2}, and the table is read only where "
-                f"a whole column, or all of the last rows, are not; leave out the rows or the column "
-                f"that cannot be used"
+                f"{_CALLED[name]} is not available in row {at + 2}, and the table is read only "
+                "where a whole column, or all of the last rows, are not; leave out the rows or "
+                "the column that cannot be used"
             )
     cells = {name: [row[places[name]] for row in rows[:count]] for name in ("time", *parts)}
     texts = [cell for column in cells.values() for cell in column]
     commas = [cell for cell in texts if _WITH_COMMA.fullmatch(cell)]
     if commas and (points := [cell for cell in texts if "." in cell]):
-        raise ValueError(f"{commas[0]!r} has a decimal comma and {points[0]!r} a point; write one of them throughout")
+        raise ValueError(
+            f"{commas[0]!r} has a decimal comma and {points[0]!r} a point; write one of them "
+            "throughout"
+        )
     if commas and not comma:
-        raise ValueError(f"{commas[0]!r} has a decimal comma, for which semicolons or tabs have to separate the columns")
-    return {name: np.array([_float(cell, at) for at, cell in enumerate(column, 2)]) for name, column in cells.items()}
+        raise ValueError(
+            f"{commas[0]!r} has a decimal comma, for which semicolons or tabs have to separate "
+            "the columns"
+        )
+    return {
+        name: np.array([_float(cell, at) for at, cell in enumerate(column, 2)])
+        for name, column in cells.items()
+    }
 
 
 def _float(cell: str, row: int) -> float:
     text = cell.replace(",", ".") if _WITH_COMMA.fullmatch(cell) else cell
     if _NUMBER.fullmatch(text) is None:
-        raise ValueError(f"could not convert {shown(cell)} in row {row}; a cell is a number, such as -12.5, or SNA")
+        raise ValueError(
+            f"could not convert {shown(cell)} in row {row}; a cell is a number, such as -12.5, "
+            "or SNA"
+        )
     return float(text)

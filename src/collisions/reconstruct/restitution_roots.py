@@ -1,4 +1,6 @@
-"""Finds the restitution when it is a function of the closing speed: roots on a grid of e, then narrowed."""
+"""Finds the restitution when it is a function of the closing speed: roots on a grid of e, then
+narrowed.
+"""
 
 from __future__ import annotations
 
@@ -33,10 +35,12 @@ _Mismatch = Callable[[Any, Any], Sequence[Any]]
 
 
 def crossings(mismatch: _Mismatch, count: int, least: float = 0.0) -> list[tuple[int, int, float]]:
-    """Every root of each row of ``mismatch(restitution, case)`` that a grid of restitutions shows: case, row and root.
+    """Every root of each row of ``mismatch(restitution, case)`` that a grid of restitutions shows:
+    case, row and root.
 
-    NaN marks where a row has no answer. A change of sign is narrowed down, also between a grid point and the place where a row
-    ends; where the mismatch comes near 0 and turns away again, its turning point is looked at, for two roots may hide there.
+    NaN marks where a row has no answer. A change of sign is narrowed down, also between a grid
+    point and the place where a row ends; where the mismatch comes near 0 and turns away again, its
+    turning point is looked at, for two roots may hide there.
     """
     found = []
     for start in range(0, count, _BLOCK):
@@ -64,9 +68,16 @@ def _crossings(mismatch: _Mismatch, cases: Any, least: float) -> list[tuple[int,
     brackets.append(ending._replace(high=_narrowed(mismatch, ending, _last_answer, 1).low))
 
     size, same = abs(values), signs[:, :-1] * signs[:, 1:] > 0.0
-    place, i = np.nonzero(same[:, :-1] & same[:, 1:] & (size[:, 1:-1] <= np.minimum(size[:, :-2], size[:, 2:])))
+    place, i = np.nonzero(
+        same[:, :-1] & same[:, 1:] & (size[:, 1:-1] <= np.minimum(size[:, :-2], size[:, 2:]))
+    )
     around, side = brackets_of(place, first[i], first[i + 2]), signs[place, i][:, np.newaxis]
-    turn = _narrowed(mismatch, around, lambda v: np.argmin(np.where(np.isnan(v), np.inf, side * v), axis=1) - 1, 2).low
+    turn = _narrowed(
+        mismatch,
+        around,
+        lambda v: np.argmin(np.where(np.isnan(v), np.inf, side * v), axis=1) - 1,
+        2,
+    ).low
     brackets += [around._replace(high=turn), around._replace(low=turn)]
 
     whole = _Brackets(*(np.concatenate(parts) for parts in zip(*brackets, strict=True)))
@@ -76,7 +87,16 @@ def _crossings(mismatch: _Mismatch, cases: Any, least: float) -> list[tuple[int,
     _, rest = _sampled(mismatch, found, 1)
     roots = np.where(abs(rest[:, 0]) <= abs(rest[:, 1]), found.low, found.high)
     sure = np.min(abs(rest), axis=1, initial=np.inf) <= _ROOT
-    return sorted(set(zip(found.case[sure].tolist(), found.row[sure].tolist(), roots[sure].tolist(), strict=True)))
+    return sorted(
+        set(
+            zip(
+                found.case[sure].tolist(),
+                found.row[sure].tolist(),
+                roots[sure].tolist(),
+                strict=True,
+            )
+        )
+    )
 
 
 class _Brackets(NamedTuple):
@@ -89,17 +109,25 @@ class _Brackets(NamedTuple):
 
 
 def _sampled(mismatch: _Mismatch, brackets: _Brackets, pieces: int) -> tuple[Any, Any]:
-    """Split each bracket into ``pieces``; gives the end points, and the mismatch of the bracket's row at them."""
+    """Split each bracket into ``pieces``; gives the end points, and the mismatch of the bracket's
+    row at them.
+    """
     row, low, high = (part[:, np.newaxis] for part in (brackets.row, brackets.low, brackets.high))
     places = np.append(low + (high - low) * (np.arange(pieces) / pieces), high, axis=1)
     if not places.size:
         return places, places
-    values = np.stack(list(mismatch(places.ravel(), np.repeat(brackets.case, pieces + 1)))).reshape(-1, *places.shape)
+    values = np.stack(list(mismatch(places.ravel(), np.repeat(brackets.case, pieces + 1)))).reshape(
+        -1, *places.shape
+    )
     return places, values[row, np.arange(len(row))[:, np.newaxis], np.arange(pieces + 1)]
 
 
-def _narrowed(mismatch: _Mismatch, brackets: _Brackets, first_piece: Callable[[Any], Any], count: int) -> _Brackets:
-    """Narrow the brackets by repeated subdivision, each time to ``count`` pieces from the one ``first_piece`` chooses."""
+def _narrowed(
+    mismatch: _Mismatch, brackets: _Brackets, first_piece: Callable[[Any], Any], count: int
+) -> _Brackets:
+    """Narrow the brackets by repeated subdivision, each time to ``count`` pieces from the one
+    ``first_piece`` chooses.
+    """
     for _ in range(_ROUNDS):
         places, values = _sampled(mismatch, brackets, _PIECES)
         if places.size:
@@ -120,7 +148,8 @@ def _last_answer(values: Any) -> Any:
 class RestitutionOf:
     """A caller's function of the closing speed, whose values outside ``least`` to 1 are no answer.
 
-    For a batch it is called with arrays of closing speeds if it takes these as it takes single ones.
+    For a batch it is called with arrays of closing speeds if it takes these as it takes single
+    ones.
     """
 
     def __init__(self, function: Callable[[float], Any], cases: Cases, least: float = 0.0) -> None:
@@ -132,7 +161,11 @@ class RestitutionOf:
         """Restitution at each closing speed; NaN where the function has none."""
         if self.takes_arrays is None:
             self.takes_arrays = self._same_in_arrays(closing)
-        return self._usable(closing, self._of_array(closing)) if self.takes_arrays else self._of_each(closing)
+        return (
+            self._usable(closing, self._of_array(closing))
+            if self.takes_arrays
+            else self._of_each(closing)
+        )
 
     def _same_in_arrays(self, closing: Any) -> bool:
         """Whether the function answers an array element by element."""
@@ -145,7 +178,9 @@ class RestitutionOf:
             return False
         some = np.flatnonzero(np.isfinite(closing))[:: max(1, closing.size // _COMPARED)]
         usable = self._usable(closing[some], e[some])
-        return bool(np.allclose(usable, self._of_each(closing[some]), rtol=1e-12, atol=0.0, equal_nan=True))
+        return bool(
+            np.allclose(usable, self._of_each(closing[some]), rtol=1e-12, atol=0.0, equal_nan=True)
+        )
 
     def _of_array(self, closing: Any) -> Any:
         with quietly():
@@ -158,7 +193,9 @@ class RestitutionOf:
         return np.array([self._one(float(speed)) for speed in closing])
 
     def slope(self, closing: Any) -> Any:
-        """Derivative of the restitution by closing speed, one-sided where the function ends; NaN where it has no value."""
+        """Derivative of the restitution by closing speed, one-sided where the function ends; NaN
+        where it has no value.
+        """
         places = np.stack([closing * (1.0 - _STEP), closing, closing * (1.0 + _STEP)])
         refused = self.refused
         values = self(places.ravel()).reshape(places.shape)
@@ -167,7 +204,8 @@ class RestitutionOf:
         known = np.isfinite(values)
         first, last = np.argmax(known, axis=0), 2 - np.argmax(known[::-1], axis=0)
         (low, start), (high, end) = (
-            [np.take_along_axis(part, at[np.newaxis], axis=0)[0] for part in (places, values)] for at in (first, last)
+            [np.take_along_axis(part, at[np.newaxis], axis=0)[0] for part in (places, values)]
+            for at in (first, last)
         )
         return np.where(last > first, (end - start) / (high - low), np.nan)
 
@@ -182,11 +220,21 @@ class RestitutionOf:
             given = self.function(closing)
             e = math.nan if isinstance(given, (str, bytes, bool)) else float(given)
         except Exception as error:
-            why = str(error) if isinstance(error, CollisionsError) else f"it raised {type(error).__name__}: {error}"
-            self.refused = f"the restitution function has no value at a closing speed of {closing:.6g} m/s: {why}"
+            why = (
+                str(error)
+                if isinstance(error, CollisionsError)
+                else f"it raised {type(error).__name__}: {error}"
+            )
+            self.refused = (
+                f"the restitution function has no value at a closing speed of {closing:.6g} m/s: "
+                f"{why}"
+            )
             return math.nan
         if not self._is_one(e):
-            self.refused = f"restitution({closing:.6g}) gave {shown(given)}, which is not a number from {self.least:g} to 1"
+            self.refused = (
+                f"restitution({closing:.6g}) gave {shown(given)}, which is not a number from "
+                f"{self.least:g} to 1"
+            )
             return math.nan
         return e
 
@@ -194,7 +242,8 @@ class RestitutionOf:
         """Raise if the function had no value where one was needed."""
         if self.refused:
             raise InputError(
-                f"{self.refused}; the function takes closing speeds in m/s, and must hold where the answer lies",
+                f"{self.refused}; the function takes closing speeds in m/s, and must hold where "
+                "the answer lies",
                 code="bad_restitution",
                 argument="restitution",
             )

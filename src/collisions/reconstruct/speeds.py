@@ -41,11 +41,19 @@ from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shar
 from .speeds_components import ComponentScene
 
 # What may be known: any two, or else components of delta-V, with speeds or without.
-_TWO_OF = ("speed_a", "speed_b", "delta_v_a", "delta_v_b", "energy_loss", *chain.from_iterable(PAIRS.items()))
+_TWO_OF = (
+    "speed_a",
+    "speed_b",
+    "delta_v_a",
+    "delta_v_b",
+    "energy_loss",
+    *chain.from_iterable(PAIRS.items()),
+)
 _COMPONENTS = tuple(f"delta_v_{part}_{label}" for label in "ab" for part in ("forward", "left"))
 # Above this restitution hardly any energy is lost along the normal.
 _ELASTIC = 1.0 - 1e-6
-# Distances of two answers whose ratio is less: the fold, quadratic, is as near as the samples are apart.
+# Distances of two answers whose ratio is less: the fold, quadratic, is as near as the samples are
+# apart.
 _NEAR_FOLD = 0.7
 
 
@@ -81,20 +89,23 @@ def speeds(
 ) -> tuple[Impact, ...]:
     """Impact speeds of both vehicles from the geometry of the impact and two known quantities.
 
-    The model is that of ``eccentric``: lever arms, rotation, friction and both laws. All pairs of speeds that fit are returned.
+    The model is that of ``eccentric``: lever arms, rotation, friction and both laws. All pairs of
+    speeds that fit are returned.
 
     Parameters
     ----------
     a, b : Vehicle
-        The vehicles at the moment of impact: mass, yaw inertia, position, yaw rate (and heading for the PDOF). Their velocities
-        are sought; any that are given are replaced.
+        The vehicles at the moment of impact: mass, yaw inertia, position, yaw rate (and heading for
+        the PDOF). Their velocities are sought; any that are given are replaced.
     course_a, course_b : angle [rad]
         Directions of motion before the impact; None for a vehicle whose speed is known to be 0.
     restitution : float, str, Quantity or array [1], or function
-        Coefficient of restitution, or a function that gives it for a closing speed in m/s. A function is solved together with
-        the speeds, in a batch case by case, and called with arrays if it takes them element by element. With a number, every
-        root is found in closed form. With a function, which is much slower, they are sought on a grid of 129 restitutions,
-        between its points and where the mismatch turns or ends; two roots that the grid does not separate may be missed.
+        Coefficient of restitution, or a function that gives it for a closing speed in m/s. A
+        function is solved together with the speeds, in a batch case by case, and called with arrays
+        if it takes them element by element. With a number, every root is found in closed form. With
+        a function, which is much slower, they are sought on a grid of 129 restitutions, between its
+        points and where the mismatch turns or ends; two roots that the grid does not separate may
+        be missed.
     normal : angle [rad] or tuple (nx, ny)
         Direction from A into B.
     point : pair [m]
@@ -104,51 +115,64 @@ def speeds(
     law : str, optional
         How restitution acts and what friction does, as for ``eccentric``.
     incomplete : bool, optional
-        Whether the restitution, given or from its function, may be negative (above -1), as for ``eccentric``.
+        Whether the restitution, given or from its function, may be negative (above -1), as for
+        ``eccentric``.
     speed_a, speed_b : float, str, Quantity or array [m/s], optional
-        A known speed, >= 0. Exactly two are needed of: a speed, a delta-V, the energy dissipated, the energy at maximum crush.
+        A known speed, >= 0. Exactly two are needed of: a speed, a delta-V, the energy dissipated,
+        the energy at maximum crush.
     delta_v_a, delta_v_b : float, str, Quantity or array [m/s], optional
-        A known delta-V, as from an event data recorder at the centre of mass. Not both: they carry the same information.
+        A known delta-V, as from an event data recorder at the centre of mass. Not both: they carry
+        the same information.
     energy_loss : float, str, Quantity or array [J], optional
         Energy dissipated, along the normal and by friction.
     ees_a, ees_b : float, str, Quantity or array [m/s], optional
-        Energy equivalent speeds of both vehicles by ISO 12353: together they stand for the energy dissipated and replace it.
+        Energy equivalent speeds of both vehicles by ISO 12353: together they stand for the energy
+        dissipated and replace it.
     max_crush_speed_a, max_crush_speed_b : float, str, Quantity or array [m/s], optional
-        Speeds of maximum crush of both vehicles: the energy absorbed along the normal at maximum crush, before restitution.
-    delta_v_forward_a, delta_v_left_a, delta_v_forward_b, delta_v_left_b : float, str, Quantity or array [m/s], optional
-        Components of delta-V in the axes of a vehicle, which then needs its heading, as from an event data recorder (whose
-        lateral delta-V is positive to the right, the opposite sign). With the known speeds they must be two or more in all, and
-        none of the other kinds may be given beside them. Where the contact sticks, both components of one vehicle are enough,
-        and with ``friction=inf`` no value of friction is needed. Where it slides, they only repeat the friction, and one speed
-        must be known.
+        Speeds of maximum crush of both vehicles: the energy absorbed along the normal at maximum
+        crush, before restitution.
+    delta_v_forward_a, delta_v_left_a : float, str, Quantity or array [m/s], optional
+        Components of delta-V in the axes of a vehicle, which then needs its heading, as from an
+        event data recorder (whose lateral delta-V is positive to the right, the opposite sign).
+        With the known speeds they must be two or more in all, and none of the other kinds may be
+        given beside them. Where the contact sticks, both components of one vehicle are enough, and
+        with ``friction=inf`` no value of friction is needed. Where it slides, they only repeat the
+        friction, and one speed must be known.
+    delta_v_forward_b, delta_v_left_b : float, str, Quantity or array [m/s], optional
+        The same of B.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
 
     Returns
     -------
     tuple of Impact
-        Every impact that fits, in order of rising closing speed. In a batch each holds one root of every case, NaN where a case
-        has none. With more components than are needed, the answer is that of least squares: all have equal weight as parts of
-        the impulse, since the error of a recorder is a share of it, and a speed is taken as exact.
+        Every impact that fits, in order of rising closing speed. In a batch each holds one root of
+        every case, NaN where a case has none. With more components than are needed, the answer is
+        that of least squares: all have equal weight as parts of the impulse, since the error of a
+        recorder is a share of it, and a speed is taken as exact.
 
     Raises
     ------
     InputError
         An argument that cannot be used, or too few or too many known quantities.
     NoSolutionError
-        No speeds fit; or the known quantities leave the speeds open, or include the delta-V of an infinite mass.
+        No speeds fit; or the known quantities leave the speeds open, or include the delta-V of an
+        infinite mass.
 
     Warns
     -----
     OutOfRangeWarning
-        A speed came out negative: backwards along its course. Or, under ``propagate`` and the like, two answers meet and end
-        among the samples or near them, which are then not the range of one answer.
+        A speed came out negative: backwards along its course. Or, under ``propagate`` and the like,
+        two answers meet and end among the samples or near them, which are then not the range of one
+        answer.
     IllConditionedWarning
-        Components disagree with one another, or with a known speed, by more than ``reference.RECORDER_ACCURACY``; beyond three
-        times that they are refused. Or they leave open whether the contact stuck, as assumed, or slid; or, with no speed known,
-        the courses are near one line.
+        Components disagree with one another, or with a known speed, by more than
+        ``reference.RECORDER_ACCURACY``; beyond three times that they are refused. Or they leave
+        open whether the contact stuck, as assumed, or slid; or, with no speed known, the courses
+        are near one line.
     CollisionsWarning
-        Some cases of a batch have no answer; they are NaN, and ``status`` of the first impact says why.
+        Some cases of a batch have no answer; they are NaN, and ``status`` of the first impact says
+        why.
 
     Examples
     --------
@@ -158,8 +182,17 @@ def speeds(
     >>> a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.0, y=0.0)
     >>> b = col.Vehicle(mass=1300, yaw_inertia=2000, x=2.0, y=0.8)
     >>> (found,) = col.reconstruct.speeds(
-    ...     a, b, course_a=0.0, course_b=None, speed_b=0.0, delta_v_a=6.0, restitution=0.1, normal=0.0, point=(0.0, 0.4),
-    ...     friction=0.5)
+    ...     a,
+    ...     b,
+    ...     course_a=0.0,
+    ...     course_b=None,
+    ...     speed_b=0.0,
+    ...     delta_v_a=6.0,
+    ...     restitution=0.1,
+    ...     normal=0.0,
+    ...     point=(0.0, 0.4),
+    ...     friction=0.5,
+    ... )
     >>> round(found.a.before.vx, 2), round(found.a.delta_v, 12)
     (11.96, 6.0)
 
@@ -167,8 +200,17 @@ def speeds(
 
     >>> a, b = (v.replace(heading=heading) for v, heading in ((a, "10 deg"), (b, "80 deg")))
     >>> (found,) = col.reconstruct.speeds(
-    ...     a, b, course_a="10 deg", course_b="80 deg", delta_v_forward_a="-18.5 km/h", delta_v_left_a="4.6 km/h",
-    ...     restitution=0.1, normal=0.0, point=(0.0, 0.4), friction=float("inf"))
+    ...     a,
+    ...     b,
+    ...     course_a="10 deg",
+    ...     course_b="80 deg",
+    ...     delta_v_forward_a="-18.5 km/h",
+    ...     delta_v_left_a="4.6 km/h",
+    ...     restitution=0.1,
+    ...     normal=0.0,
+    ...     point=(0.0, 0.4),
+    ...     friction=float("inf"),
+    ... )
     >>> [round(3.6 * side.before.speed, 1) for side in (found.a, found.b)]
     [49.9, 39.8]
     """
@@ -187,15 +229,25 @@ def speeds(
     arguments = a, b, e, normal, point, (friction, impulse_ratio, critical_fraction), law
     beside = (*known.values(), *(angle.value for angle in courses.values()))
     inputs = read_inputs("eccentric", arguments, reader.problems, beside, incomplete)
-    numbers = {**known, "restitution": inputs.restitution, **numbers_by_name(inputs, without=("vx", "vy"))}
+    numbers = {
+        **known,
+        "restitution": inputs.restitution,
+        **numbers_by_name(inputs, without=("vx", "vy")),
+    }
     # Both courses are widened to the precision of all other inputs.
     beside = (*numbers.values(), *(angle.value for angle in courses.values()))
     for label, angle in courses.items():
-        numbers |= {f"course_{label}[{i}]": part for i, part in enumerate(angle.beside(beside).direction)}
+        numbers |= {
+            f"course_{label}[{i}]": part for i, part in enumerate(angle.beside(beside).direction)
+        }
     cases = Cases.of(numbers)
     with np.errstate(all="ignore"):
         _refuse_combinations(inputs, known, bool(components), callable(restitution))
-        function = RestitutionOf(restitution, cases, -1.0 if incomplete else 0.0) if callable(restitution) else None
+        function = (
+            RestitutionOf(restitution, cases, -1.0 if incomplete else 0.0)
+            if callable(restitution)
+            else None
+        )
         kind = ComponentScene if components else Scene
         known_of = numbers, inputs.rule, inputs.law or BRACH, counted(known), cases.shape or ()
 
@@ -213,35 +265,48 @@ def speeds(
 
 
 def _known_beside(components: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
-    """The known quantities that were given: two of them, or speeds beside components, at least two in all."""
-    others = {name: value for name, value in known.items() if value is not None} if components else exactly(known, 2, "speeds")
+    """The known quantities that were given: two of them, or speeds beside components, at least two
+    in all.
+    """
+    others = (
+        {name: value for name, value in known.items() if value is not None}
+        if components
+        else exactly(known, 2, "speeds")
+    )
     if {"speed_a", "speed_b"} <= others.keys():
         raise InputError(
-            "speed_a and speed_b are both known: that is the forward problem, use eccentric", code="too_many_knowns"
+            "speed_a and speed_b are both known: that is the forward problem, use eccentric",
+            code="too_many_knowns",
         )
     stray = [name for name in others if components and not name.startswith("speed")]
     if stray:
         raise InputError(
-            f"{', '.join(components)} and {', '.join(stray)} are not taken together: beside components of delta-V give a speed",
+            f"{', '.join(components)} and {', '.join(stray)} are not taken together: beside "
+            "components of delta-V give a speed",
             code="bad_combination",
             argument=stray[0],
         )
     if len(components) + len(others) < 2:
         raise InputError(
-            f"{next(iter(components))} alone leaves the speeds open; give another component, or one of the speeds",
+            f"{next(iter(components))} alone leaves the speeds open; give another component, or "
+            "one of the speeds",
             code="too_few_knowns",
             argument=next(iter(components)),
         )
     return others
 
 
-def _course(reader: ArgumentReader, label: str, body: Any, given: Any, speed: Any, components: Iterable[str]) -> Angle:
-    """The course of a vehicle, not needed at rest; refuses a vehicle that has a pivot, or lacks the heading it needs."""
+def _course(
+    reader: ArgumentReader, label: str, body: Any, given: Any, speed: Any, components: Iterable[str]
+) -> Angle:
+    """The course of a vehicle, not needed at rest; refuses a vehicle that has a pivot, or lacks the
+    heading it needs.
+    """
     if given is None and np.any(np.not_equal(speed, 0.0)):
         reader.refuse(
             MissingInputError(
-                f"course_{label} is None, and speeds needs the course of every vehicle that moves; only a known speed of 0 "
-                f"needs none",
+                f"course_{label} is None, and speeds needs the course of every vehicle that "
+                "moves; only a known speed of 0 needs none",
                 code="missing_course",
                 argument=f"course_{label}",
             )
@@ -249,59 +314,76 @@ def _course(reader: ArgumentReader, label: str, body: Any, given: Any, speed: An
     if isinstance(body, Vehicle) and body.pivot is not None:
         reader.refuse(
             InputError(
-                f"{label} has a pivot, so its velocity has no course of its own; use planar", code="pinned", argument="pivot"
+                f"{label} has a pivot, so its velocity has no course of its own; use planar",
+                code="pinned",
+                argument="pivot",
             )
         )
-    if isinstance(body, Vehicle) and body.heading is None and any(name[-1] == label for name in components):
+    if (
+        isinstance(body, Vehicle)
+        and body.heading is None
+        and any(name[-1] == label for name in components)
+    ):
         reader.refuse(missing(body, "heading", "a component of its delta-V", label))
     return Angle(0.0, False) if given is None else course(reader, given, f"course_{label}")
 
 
-def _refuse_combinations(inputs: Inputs, known: dict[str, Any], components: bool, function: bool) -> None:
+def _refuse_combinations(
+    inputs: Inputs, known: dict[str, Any], components: bool, function: bool
+) -> None:
     """Refuse what gives the same information twice, and what cannot be solved together."""
     if LAWS[inputs.law or BRACH].energetic:
         raise InputError(
-            f"reconstruct.speeds cannot go back under law {inputs.law!r}, whose impulse is not linear in the speeds; give "
-            f"another law, or fit a model with this one to what is known (reconstruct.fit)",
+            f"reconstruct.speeds cannot go back under law {inputs.law!r}, whose impulse is not "
+            "linear in the speeds; give another law, or fit a model with this one to what is "
+            "known (reconstruct.fit)",
             code="law_not_reversible",
             argument="law",
         )
     if known.keys() == {"delta_v_a", "delta_v_b"}:
-        on_a, on_b = (np.multiply(body.mass, known[f"delta_v_{label}"]) for label, body in (("a", inputs.a), ("b", inputs.b)))
+        on_a, on_b = (
+            np.multiply(body.mass, known[f"delta_v_{label}"])
+            for label, body in (("a", inputs.a), ("b", inputs.b))
+        )
         # fmax passes over the NaN of infinite masses.
-        apart = float(np.fmax.reduce(abs(on_a - on_b) / np.maximum(on_a, on_b), axis=None, initial=0.0))
+        apart = float(
+            np.fmax.reduce(abs(on_a - on_b) / np.maximum(on_a, on_b), axis=None, initial=0.0)
+        )
         raise InputError(
-            f"delta_v_a and delta_v_b both give the impulse (here they differ by {apart:.1%}); give one of them and a "
-            f"speed or an energy",
+            f"delta_v_a and delta_v_b both give the impulse (here they differ by {apart:.1%}); "
+            "give one of them and a speed or an energy",
             code="same_information",
             argument="delta_v_b",
             mismatch=apart,
         )
     if {"energy_loss", "ees_a"} <= known.keys():
         raise InputError(
-            "energy_loss and both EES tell the same, the energy dissipated; give one of them and a speed or a delta-V",
+            "energy_loss and both EES tell the same, the energy dissipated; give one of them and "
+            "a speed or a delta-V",
             code="same_information",
             argument="ees_a",
         )
     shares = shares_critical(inputs.rule, inputs.rule_value)
     if (function or shares) and components:
         raise InputError(
-            "components of delta-V take a number for the restitution, and no critical_fraction between 0 and 1; give "
-            "friction=, friction=inf or impulse_ratio=",
+            "components of delta-V take a number for the restitution, and no critical_fraction "
+            "between 0 and 1; give friction=, friction=inf or impulse_ratio=",
             code="bad_combination",
             argument="restitution" if function else "critical_fraction",
         )
     if function and shares:
         raise InputError(
-            "a function of restitution and a critical_fraction between 0 and 1 cannot be solved together; give impulse_ratio= "
-            "or a number for the restitution",
+            "a function of restitution and a critical_fraction between 0 and 1 cannot be solved "
+            "together; give impulse_ratio= or a number for the restitution",
             code="bad_combination",
             argument="critical_fraction",
         )
 
 
 def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
-    """Candidates where the restitution is a function of the closing speed: found on a grid of e, then refined."""
+    """Candidates where the restitution is a function of the closing speed: found on a grid of e,
+    then refined.
+    """
     count = math.prod(scene.shape)
 
     def difference(part: Scene, closing: Any, e: Any) -> Any:
@@ -309,7 +391,9 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
 
     def mismatch(e: Any, case: Any) -> list[Any]:
         part = scene.of(case, e)
-        return [difference(part, part.observe(LAW, *pair).closing, e) for _, *pair in part.candidates()]
+        return [
+            difference(part, part.observe(LAW, *pair).closing, e) for _, *pair in part.candidates()
+        ]
 
     def slips(e: Any, case: Any) -> list[Any]:
         part = scene.of(case, e)
@@ -331,7 +415,9 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
         for at, row, e in crossings(slips, count, function.least):
             # Any slip goes with this restitution; it is an answer if the function gives it there.
             part = scene.of(np.array([at]), np.full(1, e))
-            undetermined[at] |= abs(difference(part, part.any_slip_at(part.regimes()[row])[1], e)[0]) <= REDUNDANT
+            undetermined[at] |= (
+                abs(difference(part, part.any_slip_at(part.regimes()[row])[1], e)[0]) <= REDUNDANT
+            )
     scene.undetermined = undetermined.reshape(scene.shape)
     return found
 
@@ -360,7 +446,11 @@ def _in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple
     apart = abs(speeds_a[1:] - speeds_a[:-1]) + abs(speeds_b[1:] - speeds_b[:-1])
     closing[1:][apart <= ROOT_TOL * closing[1:]] = np.nan
     sort()
-    return [(Root(*root), there) for root, there in zip(whole, closing > 0.0, strict=True) if np.any(there)]
+    return [
+        (Root(*root), there)
+        for root, there in zip(whole, closing > 0.0, strict=True)
+        if np.any(there)
+    ]
 
 
 def _answers(
@@ -374,16 +464,27 @@ def _answers(
 ) -> tuple[Impact, ...]:
     """The impact of each root; raises for a single case without one."""
     faults = input_faults(scene.numbers, inputs.incomplete)
-    of_walls = [np.isinf(scene.numbers[f"{name[-1]}.mass"]) for name in scene.names if name.startswith("delta_v")]
+    of_walls = [
+        np.isinf(scene.numbers[f"{name[-1]}.mass"])
+        for name in scene.names
+        if name.startswith("delta_v")
+    ]
     faults += [(of_wall, Status.INFINITE_MASS) for of_wall in of_walls]
     faults.append((scene.undetermined, Status.UNDETERMINED))
-    staying = [split_texts(body, ("vx", "vy", "speed", "course"))[0] for body in (inputs.a, inputs.b)]
+    staying = [
+        split_texts(body, ("vx", "vy", "speed", "course"))[0] for body in (inputs.a, inputs.b)
+    ]
 
     def inputs_of(root: Root, keep: Any) -> Inputs:
         bodies = []
-        for label, body, speed, given in zip("ab", (inputs.a, inputs.b), root[:2], staying, strict=True):
+        for label, body, speed, given in zip(
+            "ab", (inputs.a, inputs.b), root[:2], staying, strict=True
+        ):
             speed = speed * scene.speed_unit
-            vx, vy = (cases.where(keep, speed * scene.numbers[f"course_{label}[{i}]"] + 0.0) for i in range(2))
+            vx, vy = (
+                cases.where(keep, speed * scene.numbers[f"course_{label}[{i}]"] + 0.0)
+                for i in range(2)
+            )
             bodies.append(moved(body, vx, vy, body.yaw_rate, given))
         e = inputs.restitution if function is None else cases.where(keep, root.restitution)
         return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
@@ -397,10 +498,14 @@ def _answers(
         if isinstance(status, int) and status != Status.OK:
             raise _refusal(scene, status, known, function, forward_only, Sentences(inputs.texts))
         origin = cases.provenance("speeds", scene.names, root.condition, count)
-        impact = run_forward(partial(inputs_of, root), status, origin, None if cases.shape is None else "nan")
+        impact = run_forward(
+            partial(inputs_of, root), status, origin, None if cases.shape is None else "nan"
+        )
         for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
-            backward, whose = min((backward, whose), (float(np.fmin.reduce(speed, axis=None, initial=0.0)), label))
+            backward, whose = min(
+                (backward, whose), (float(np.fmin.reduce(speed, axis=None, initial=0.0)), label)
+            )
             turned = turned | np.less(speed, 0.0)
         impacts.append(impact)
     if cases.shape is not None and np.any(impacts[0].refused):
@@ -409,15 +514,25 @@ def _answers(
     if isinstance(scene, ComponentScene):
         scene.warn(np.logical_not(impacts[0].refused), cases)
     if backward < 0.0:
-        cure = "backwards along its course; check the courses, and the normal, which must point from A into B"
-        text = f"the speed of {whose} came out as {said(backward, 'speed', impacts[0]._texts())}: {cure}"
-        warning = OutOfRangeWarning(cases.how_many(turned) + text, code="negative_speed", value=backward)
+        cure = (
+            "backwards along its course; check the courses, and the normal, which must point "
+            "from A into B"
+        )
+        text = (
+            f"the speed of {whose} came out as {said(backward, 'speed', impacts[0]._texts())}: "
+            f"{cure}"
+        )
+        warning = OutOfRangeWarning(
+            cases.how_many(turned) + text, code="negative_speed", value=backward
+        )
         warn_of_cases(warning, {f"a speed comes out below 0, {cure}": cases.number(turned)})
     return tuple(impacts)
 
 
 def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> None:
-    """Warn a study of samples near a fold: some cases have no answer, or its two answers all but meet."""
+    """Warn a study of samples near a fold: some cases have no answer, or its two answers all but
+    meet.
+    """
     if len(found) < 2:
         return
     (one, _), (other, both) = found[:2]
@@ -425,53 +540,78 @@ def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> N
     if gap.size and (np.any(np.less(count, 2)) or gap.min() < _NEAR_FOLD * gap.max()):
         warn_of_samples(
             OutOfRangeWarning(
-                f"{' and '.join(scene.names)} reach a fold, where two answers meet and beyond which there is none: the samples "
-                f"are no range of one answer. Look at both answers, or give components of delta-V or another known",
+                f"{' and '.join(scene.names)} reach a fold, where two answers meet and beyond "
+                "which there is none: the samples are no range of one answer. Look at both "
+                "answers, or give components of delta-V or another known",
                 code="fold",
             )
         )
 
 
 def _refusal(
-    scene: Scene, status: int, known: dict[str, Any], function: RestitutionOf | None, forward_only: bool, say: Sentences
+    scene: Scene,
+    status: int,
+    known: dict[str, Any],
+    function: RestitutionOf | None,
+    forward_only: bool,
+    say: Sentences,
 ) -> CollisionsError:
     """The error for a single case without a solution."""
     names = " and ".join(known)
-    values = {name: f"{name} = {say(value, 'energy' if name == 'energy_loss' else 'speed')}" for name, value in known.items()}
+    values = {
+        name: f"{name} = {say(value, 'energy' if name == 'energy_loss' else 'speed')}"
+        for name, value in known.items()
+    }
     speed_is_known = scene.kinds[0].startswith("speed")
     forward = ", none of them backwards," if forward_only else ""
-    (ax, ay), (bx, by) = ([scene.numbers[f"course_{label}[{i}]"] for i in range(2)] for label in "ab")
+    (ax, ay), (bx, by) = (
+        [scene.numbers[f"course_{label}[{i}]"] for i in range(2)] for label in "ab"
+    )
     if status == Status.INFINITE_MASS:
         kind = next(kind for kind in known if kind.startswith("delta_v"))
         other = "delta_v_b" if kind == "delta_v_a" else "delta_v_a"
-        text = f"{kind} is that of an infinite mass, whose motion tells nothing of the impact; give {other}"
+        text = (
+            f"{kind} is that of an infinite mass, whose motion tells nothing of the impact; give "
+            f"{other}"
+        )
     elif isinstance(scene, ComponentScene) and status == Status.UNDETERMINED:
         text = (
-            f"the contact slides, or its speeds do not show in {names}: their direction only repeats the friction, which "
-            f"leaves the slip undetermined; give one of the speeds"
+            f"the contact slides, or its speeds do not show in {names}: their direction only "
+            "repeats the friction, which leaves the slip undetermined; give one of the speeds"
         )
-    elif not isinstance(scene, ComponentScene) and not speed_is_known and abs(ax * by - ay * bx) <= 8.0 * EPS:
+    elif (
+        not isinstance(scene, ComponentScene)
+        and not speed_is_known
+        and abs(ax * by - ay * bx) <= 8.0 * EPS
+    ):
         status = Status.PARALLEL_HEADINGS
-        text = f"the courses are parallel, so {names} tell of the closing speed alone; give one of the speeds"
+        text = (
+            f"the courses are parallel, so {names} tell of the closing speed alone; give one of "
+            "the speeds"
+        )
     elif status == Status.UNDETERMINED and "energy_loss" in scene.kinds and scene.e > _ELASTIC:
         energy = values[scene.names[scene.kinds.index("energy_loss")]]
         text = (
-            f"many speeds along these courses lead to {energy} as far as rounding lets it tell, so it does not "
-            f"say which of them; give another of the knowns"
+            f"many speeds along these courses lead to {energy} as far as rounding lets it tell, "
+            "so it does not say which of them; give another of the knowns"
         )
     elif status == Status.UNDETERMINED and speed_is_known:
-        text = f"{names} leave the other speed open, for many lead to the same; give another of the knowns"
+        text = (
+            f"{names} leave the other speed open, for many lead to the same; give another of the "
+            "knowns"
+        )
     elif status == Status.UNDETERMINED:
         text = (
-            f"where the contact slides, {names} tell of the closing speed alone and leave the slip open; give one of the speeds"
+            f"where the contact slides, {names} tell of the closing speed alone and leave the "
+            "slip open; give one of the speeds"
         )
     else:
         if function is not None:
             function.complain()
         status = Status.CONTRADICTORY
         text = (
-            f"no speeds along these courses{forward} fit {' and '.join(values.values())} with this restitution, {scene.rule} "
-            f"and geometry; check the courses, and the normal, which must point from A into B, or give another known in place "
-            f"of one of these"
+            f"no speeds along these courses{forward} fit {' and '.join(values.values())} with "
+            f"this restitution, {scene.rule} and geometry; check the courses, and the normal, "
+            "which must point from A into B, or give another known in place of one of these"
         )
     return error_of(status, text)

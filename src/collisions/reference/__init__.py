@@ -1,4 +1,5 @@
-"""Published values as data: each with its source, the range and the domain it holds for, and how good it is.
+"""Published values as data: each with its source, the range and the domain it holds for, and how
+good it is.
 
 Nothing here is a default of a solver. ``PUBLISHED`` lists every value, ``FITS`` every formula.
 """
@@ -31,7 +32,13 @@ from .contact import (
     restitution_by_overlap,
     restitution_range,
 )
-from .ground import DRAG_FACTORS, ENGINE_BRAKING_HIGH, ENGINE_BRAKING_LOW, ROLLING_RESISTANCE, drag_factor
+from .ground import (
+    DRAG_FACTORS,
+    ENGINE_BRAKING_HIGH,
+    ENGINE_BRAKING_LOW,
+    ROLLING_RESISTANCE,
+    drag_factor,
+)
 from .inertia import YAW_INERTIA_INDEX, YAW_INERTIA_RECTANGLE, YAW_INERTIA_WHEELBASE, yaw_inertia
 from .published import Fit, Published
 

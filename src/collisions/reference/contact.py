@@ -17,8 +17,9 @@ from .published import Fit, Outside, Published, check_outside, settle
 _MPH = 0.44704
 _PYCRASH = "https://github.com/joe-cormier/pycrash"
 _EDCRASH = (
-    "EDCRASH manual, chapter 6, Coefficient of Restitution Warnings (Engineering Dynamics Corporation; "
-    "https://github.com/edccorp/hveManuals, docs/manuals/programs/EDCRASH/06-messages.md)"
+    "EDCRASH manual, chapter 6, Coefficient of Restitution Warnings (Engineering Dynamics "
+    "Corporation; https://github.com/edccorp/hveManuals, "
+    "docs/manuals/programs/EDCRASH/06-messages.md)"
 )
 _OBLIQUE_TESTS = (
     "Rose, Fenton and Beauchamp, SAE 2006-01-0908, NHTSA tests 4363, 4364, 4438 and 4474, as in "
@@ -33,15 +34,18 @@ _SMALL_OVERLAP = "cars of 2008 to 2012 into a barrier, 40 mph, 20 or 25 percent 
 
 RESTITUTION_FIT = Fit(
     name="restitution against closing speed",
-    formula="e = 0.47477 - 0.26139 L + 0.03382 L**2 - 0.11639 L**3, L = log10(closing speed in m/s)",
+    formula="e = 0.47477 - 0.26139 L + 0.03382 L**2 - 0.11639 L**3, L = log10(closing speed in "
+    "m/s)",
     unit="",
     ranges={"closing_speed": (2.0 * _MPH, 15.0 * _MPH, "m/s")},
-    source=f"Cipriani and others, SAE 2002-01-0540, as it stands in {_PYCRASH} (pycrash/functions/ar.py, cipriani_rest)",
+    source=f"Cipriani and others, SAE 2002-01-0540, as it stands in {_PYCRASH} "
+    "(pycrash/functions/ar.py, cipriani_rest)",
     domain="low-speed, collinear, vehicle to vehicle",
     quality=(
-        "Read from pycrash, not from the paper: neither the speeds that the paper tested nor the scatter about the fit could "
-        "be checked, and 2 to 15 mph is the range in which it is used here. Two rear-end tests published by GBB lie 0.17 "
-        "and 0.05 below it. It is negative above 58.7 km/h."
+        "Read from pycrash, not from the paper: neither the speeds that the paper tested nor the "
+        "scatter about the fit could be checked, and 2 to 15 mph is the range in which it is "
+        "used here. Two rear-end tests published by GBB lie 0.17 and 0.05 below it. It is "
+        "negative above 58.7 km/h."
     ),
 )
 RESTITUTION = Published(
@@ -50,22 +54,27 @@ RESTITUTION = Published(
     high=0.25,
     source=_EDCRASH,
     domain="vehicle to vehicle; may be higher at low speed, where bumpers spring back",
-    quality="A rule in the manual of a program, without tests beside it; the tests at full speed exceed it by at most 0.003.",
+    quality="A rule in the manual of a program, without tests beside it; the tests at full speed "
+    "exceed it by at most 0.003.",
 )
 RESTITUTION_LOW_SPEED = Published(
     name="restitution, low speed",
     low=0.2,
     high=0.4,
-    source="SAE 931842, abstract (https://www.sae.org/publications/technical-papers/content/931842/)",
-    domain="rear-end and barrier tests with factory bumpers, velocity changes of 2 to 5 mph (0.9 to 2.2 m/s)",
-    quality="Measured with accelerometers and high-speed film; the abstract says clustered in this range, not bounded by it.",
+    source="SAE 931842, abstract "
+    "(https://www.sae.org/publications/technical-papers/content/931842/)",
+    domain="rear-end and barrier tests with factory bumpers, velocity changes of 2 to 5 mph (0.9 "
+    "to 2.2 m/s)",
+    quality="Measured with accelerometers and high-speed film; the abstract says clustered in "
+    "this range, not bounded by it.",
 )
 RESTITUTION_OBLIQUE = Published(
     name="restitution, oblique frontal tests at full speed",
     low=0.089,
     high=0.150,
     source=_OBLIQUE_TESTS,
-    domain="car into car or utility vehicle, 35 mph each, along the contact normal, closing speed 23.4 and 24.4 m/s in two",
+    domain="car into car or utility vehicle, 35 mph each, along the contact normal, closing "
+    "speed 23.4 and 24.4 m/s in two",
     quality="Four tests; how the paper arrived at the values could not be checked.",
 )
 RESTITUTION_SMALL_OVERLAP = Published(
@@ -73,41 +82,61 @@ RESTITUTION_SMALL_OVERLAP = Published(
     low=0.0,
     high=0.253,
     source=_SMALL_OVERLAP_TESTS,
-    domain="cars of 2008 to 2012, 40 mph, 20 or 25 percent of the width; closing speed along the contact normal 3.8 to 5.0 m/s",
-    quality="Fitted to measured motion; some yaw inertias behind the fit are borrowed from another car.",
+    domain="cars of 2008 to 2012, 40 mph, 20 or 25 percent of the width; closing speed along the "
+    "contact normal 3.8 to 5.0 m/s",
+    quality="Fitted to measured motion; some yaw inertias behind the fit are borrowed from "
+    "another car.",
 )
 RESTITUTION_FRONTAL_BARRIER = Published(
     name="restitution, full frontal rigid barrier",
     low=0.158,
     high=0.181,
     typical=0.17,
-    source=f"NHTSA test 10146, raw accelerometers in {_PYCRASH} (projects/pycrash demo/data/input/v10146ascii), integrated",
+    source=f"NHTSA test 10146, raw accelerometers in {_PYCRASH} (projects/pycrash "
+    "demo/data/input/v10146ascii), integrated",
     domain="one car of 2018 into a rigid barrier at 57.1 km/h",
     quality="One test; the range is that of its sensors.",
 )
 
 
-def _by_overlap(which: str, low: float, high: float, source: str, domain: str, quality: str) -> Published:
+def _by_overlap(
+    which: str, low: float, high: float, source: str, domain: str, quality: str
+) -> Published:
     """A row of restitution by the share of the width that overlaps."""
-    return Published(name=f"restitution, rear-end, {which}", low=low, high=high, source=source, domain=domain, quality=quality)
+    return Published(
+        name=f"restitution, rear-end, {which}",
+        low=low,
+        high=high,
+        source=source,
+        domain=domain,
+        quality=quality,
+    )
 
 
 _REAR_END = (
-    "Verkehrsunfall und Fahrzeugtechnik 2000, p. 275, abstract at https://www.colliseum.eu/wiki (Die Stosszahl bei "
-    "Auffahrkollisionen)",
+    "Verkehrsunfall und Fahrzeugtechnik 2000, p. 275, abstract at "
+    "https://www.colliseum.eu/wiki (Die Stosszahl bei Auffahrkollisionen)",
     "car into the rear of a car, relative speed 7.8 to 32.4 km/h",
-    "Second hand: the abstract of an evaluation of 38 tests, which calls it a guide; few tests had a small overlap.",
+    (
+        "Second hand: the abstract of an evaluation of 38 tests, which calls it a guide; few "
+        "tests had a small overlap."
+    ),
 )
 _LOW_SPEED_REAR_END = (
     "Moosmueller and Reinkemeyer, Verkehrsunfall und Fahrzeugtechnik 45 (2007), p. 44, summary at "
     "https://www.colliseum.eu/wiki (Erkenntnisse zum Deformationsverhalten moderner Fahrzeuge)",
     "modern cars of 2002 to 2004 into the rear of one, delta-V up to 10 km/h",
-    "Second hand: a summary of three test series of the Allianz Zentrum für Technik, of which it quotes the values.",
+    (
+        "Second hand: a summary of three test series of the Allianz Zentrum für Technik, of "
+        "which it quotes the values."
+    ),
 )
 RESTITUTION_OVERLAP_SMALL = _by_overlap("under half the width", 0.0, 0.15, *_REAR_END)
 RESTITUTION_OVERLAP_HALF = _by_overlap("about half the width", 0.10, 0.20, *_REAR_END)
 RESTITUTION_OVERLAP_LARGE = _by_overlap("over half the width", 0.15, 0.30, *_REAR_END)
-RESTITUTION_LOW_SPEED_HALF = _by_overlap("half the width, low speed", 0.173, 0.247, *_LOW_SPEED_REAR_END)
+RESTITUTION_LOW_SPEED_HALF = _by_overlap(
+    "half the width, low speed", 0.173, 0.247, *_LOW_SPEED_REAR_END
+)
 RESTITUTION_LOW_SPEED_FULL = _by_overlap("full width, low speed", 0.328, 0.38, *_LOW_SPEED_REAR_END)
 
 INTER_VEHICLE_FRICTION = Published(
@@ -117,13 +146,13 @@ INTER_VEHICLE_FRICTION = Published(
     typical=0.55,
     source=(
         "McHenry and McHenry, SAE 970947, as quoted by the authors "
-        "(http://www.mchenrysoftware.com/board/viewtopic.php?f=36&t=26); 0.55 is also the default of EDSMAC "
-        "(https://github.com/edccorp/hveManuals)"
+        "(http://www.mchenrysoftware.com/board/viewtopic.php?f=36&t=26); 0.55 is also the "
+        "default of EDSMAC (https://github.com/edccorp/hveManuals)"
     ),
     domain="Coulomb friction between vehicle bodies in SMAC simulations",
     quality=(
-        "A recommendation from use, not a measurement. The same page reports that Marine (SAE 2007-01-0744) has values far "
-        "above 1; pycrash has 0.3 as default."
+        "A recommendation from use, not a measurement. The same page reports that Marine (SAE "
+        "2007-01-0744) has values far above 1; pycrash has 0.3 as default."
     ),
 )
 IMPULSE_RATIO_OBLIQUE = Published(
@@ -132,7 +161,8 @@ IMPULSE_RATIO_OBLIQUE = Published(
     high=0.51,
     source=_OBLIQUE_TESTS,
     domain=_OBLIQUE,
-    quality="Four tests; the critical ratio of each, which follows from geometry and speeds: no measurement of its own.",
+    quality="Four tests; the critical ratio of each, which follows from geometry and speeds: no "
+    "measurement of its own.",
 )
 IMPULSE_RATIO_SMALL_OVERLAP = Published(
     name="impulse ratio, magnitude, small overlap with a barrier",
@@ -148,7 +178,8 @@ SHARE_OF_CRITICAL_OBLIQUE = Published(
     high=1.0,
     source=_OBLIQUE_TESTS,
     domain=_OBLIQUE,
-    quality="Used by the authors for four tests; the delta-Vs that follow from it are their solution, not a measurement.",
+    quality="Used by the authors for four tests; the delta-Vs that follow from it are their "
+    "solution, not a measurement.",
 )
 SHARE_OF_CRITICAL_SMALL_OVERLAP = Published(
     name="share of the critical impulse ratio, small overlap with a barrier",
@@ -160,10 +191,13 @@ SHARE_OF_CRITICAL_SMALL_OVERLAP = Published(
 )
 
 _COLLISEUM = (
-    "Fahrzeugbelastungen bei Heck-Crashs im niedrigen Geschwindigkeitsbereich (DTC, AGU), as quoted at "
-    "https://www.colliseum.eu/wiki (Stosszeit)"
+    "Fahrzeugbelastungen bei Heck-Crashs im niedrigen Geschwindigkeitsbereich (DTC, AGU), as "
+    "quoted at https://www.colliseum.eu/wiki (Stosszeit)"
 )
-_DURATION = "Second hand: ends and mean of a series of tests; the end of a contact is a matter of the threshold."
+_DURATION = (
+    "Second hand: ends and mean of a series of tests; the end of a contact is a matter of the "
+    "threshold."
+)
 CONTACT_DURATION = Published(
     name="duration of contact, rear-end, unbraked",
     low=0.078,
@@ -189,9 +223,11 @@ CONTACT_DURATION_SIDESWIPE = Published(
     low=0.3,
     high=1.0,
     unit="s",
-    source="https://www.colliseum.eu/wiki (Stosszeit) for over 0.3 s; about 1 s by Funk and others (SAE, 2004)",
+    source="https://www.colliseum.eu/wiki (Stosszeit) for over 0.3 s; about 1 s by Funk and "
+    "others (SAE, 2004)",
     domain="cars that slide along each other",
-    quality="Second hand: one test by its video, and a round number that is quoted of a paper which was not read.",
+    quality="Second hand: one test by its video, and a round number that is quoted of a paper "
+    "which was not read.",
 )
 
 _RECORDER = "49 CFR 563.8, Table III (https://www.ecfr.gov/current/title-49/part-563)"
@@ -200,8 +236,10 @@ RECORDER_ACCURACY = Published(
     low=-0.10,
     high=0.10,
     source=_RECORDER,
-    domain="longitudinal and lateral delta-V of US light vehicles with a recorder under Part 563, from September 2012 on",
-    quality="What the regulation demands, each component by itself; of an impact within the range of the sensor.",
+    domain="longitudinal and lateral delta-V of US light vehicles with a recorder under Part "
+    "563, from September 2012 on",
+    quality="What the regulation demands, each component by itself; of an impact within the "
+    "range of the sensor.",
 )
 RECORDER_RESOLUTION = Published(
     name="step in which a recorder reports delta-V",
@@ -217,14 +255,18 @@ RECORDER_ERROR = Published(
     low=0.0,
     high=0.10,
     typical=0.06,
-    source="Niehoff and others, Evaluation of Event Data Recorders in Full Systems Crash Tests, ESV 2005 (NHTSA), abstract",
-    domain="recorders of three makers before Part 563, in frontal tests, where the whole pulse was recorded",
-    quality="The average is just under 6 percent; the upper end is that of Part 563. Pulses that ended early read too low.",
+    source="Niehoff and others, Evaluation of Event Data Recorders in Full Systems Crash Tests, "
+    "ESV 2005 (NHTSA), abstract",
+    domain="recorders of three makers before Part 563, in frontal tests, where the whole pulse "
+    "was recorded",
+    quality="The average is just under 6 percent; the upper end is that of Part 563. Pulses that "
+    "ended early read too low.",
 )
 
 # Half the width of the range that SAE 931842 measured, taken as the scatter about the fit.
 _SCATTER = 0.5 * (RESTITUTION_LOW_SPEED.high - RESTITUTION_LOW_SPEED.low)
-# Upper bound above the speeds of the fit: the highest value published there, 0.253, with a small margin.
+# Upper bound above the speeds of the fit: the highest value published there, 0.253, with a small
+# margin.
 _HIGHEST = 0.3
 
 
@@ -232,16 +274,16 @@ _HIGHEST = 0.3
 def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
     """Coefficient of restitution at a closing speed, by the fit of Cipriani and others.
 
-    The fit is a mean over pairs of vehicles, and a single pair may be 0.1 to 0.2 off, so use a range. Its source, range and
-    quality are in ``RESTITUTION_FIT``.
+    The fit is a mean over pairs of vehicles, and a single pair may be 0.1 to 0.2 off, so use a
+    range. Its source, range and quality are in ``RESTITUTION_FIT``.
 
     Parameters
     ----------
     closing_speed : float, str, Quantity or array [m/s]
         Along the contact normal, > 0.
     outside : {"warn", "refuse"}
-        What to do outside 2 to 15 mph: extrapolate with a warning, or refuse. Where the formula gives no restitution, above
-        58.7 km/h or below 0.25 km/h, the speed is refused in any case.
+        What to do outside 2 to 15 mph: extrapolate with a warning, or refuse. Where the formula
+        gives no restitution, above 58.7 km/h or below 0.25 km/h, the speed is refused in any case.
 
     Returns
     -------
@@ -251,7 +293,8 @@ def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
     Raises
     ------
     InputError
-        An argument that cannot be used; a single closing speed for which there is no answer (code ``outside_reference``).
+        An argument that cannot be used; a single closing speed for which there is no answer (code
+        ``outside_reference``).
 
     Warns
     -----
@@ -280,8 +323,8 @@ def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
     if isinstance(e, float) and not usable:
         given = shown(closing_speed) if has_unit(closing_speed) else f"{speed:.6g} m/s"
         raise InputError(
-            f"closing_speed {given}: the fit gives {e:.3g}, which is no restitution; it holds from 2 to 15 mph. "
-            f"Give a value, such as one from reference.RESTITUTION",
+            f"closing_speed {given}: the fit gives {e:.3g}, which is no restitution; it holds "
+            "from 2 to 15 mph. Give a value, such as one from reference.RESTITUTION",
             code="outside_reference",
             argument="closing_speed",
         )
@@ -292,10 +335,10 @@ def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
 def restitution_range(closing_speed: Input) -> tuple[Value, Value]:
     """Lowest and highest plausible restitution at a closing speed.
 
-    The lowest is 0, because bodies may stay together. Up to 15 mph the highest is the fit plus 0.1 (half the width of
-    ``RESTITUTION_LOW_SPEED``), but at least 0.3. Above 15 mph it is 0.3, which exceeds every value published here for such
-    speeds (``RESTITUTION``, ``RESTITUTION_OBLIQUE``, ``RESTITUTION_SMALL_OVERLAP``). Below 2 mph it is 1, because nothing is
-    published.
+    The lowest is 0, because bodies may stay together. Up to 15 mph the highest is the fit plus 0.1
+    (half the width of ``RESTITUTION_LOW_SPEED``), but at least 0.3. Above 15 mph it is 0.3, which
+    exceeds every value published here for such speeds (``RESTITUTION``, ``RESTITUTION_OBLIQUE``,
+    ``RESTITUTION_SMALL_OVERLAP``). Below 2 mph it is 1, because nothing is published.
 
     Parameters
     ----------
@@ -319,16 +362,31 @@ def restitution_range(closing_speed: Input) -> tuple[Value, Value]:
     """
     reader = ArgumentReader()
     speed: Any = reader.number(closing_speed, "m/s", "closing_speed")
-    speed = at_least_zero(reader, speed, closing_speed, "closing_speed", "negative_speed", "it is the speed of approach")
+    speed = at_least_zero(
+        reader,
+        speed,
+        closing_speed,
+        "closing_speed",
+        "negative_speed",
+        "it is the speed of approach",
+    )
     reader.close()
     slowest, fastest, _ = RESTITUTION_FIT.ranges["closing_speed"]
     with np.errstate(all="ignore"):
-        fitted = np.where(speed < slowest, 1.0, np.where(speed > fastest, -1.0, _fitted(np.log10(speed)) + _SCATTER))
+        fitted = np.where(
+            speed < slowest,
+            1.0,
+            np.where(speed > fastest, -1.0, _fitted(np.log10(speed)) + _SCATTER),
+        )
         usable = np.isfinite(speed) & np.greater_equal(speed, 0.0)
-        ends: list[Any] = [np.where(usable, end, math.nan) for end in (0.0, np.maximum(fitted, _HIGHEST))]
+        ends: list[Any] = [
+            np.where(usable, end, math.nan) for end in (0.0, np.maximum(fitted, _HIGHEST))
+        ]
     for end in ends:
         end.setflags(write=False)
-    found: tuple[Any, Any] = (float(ends[0]), float(ends[1])) if isinstance(speed, float) else (ends[0], ends[1])
+    found: tuple[Any, Any] = (
+        (float(ends[0]), float(ends[1])) if isinstance(speed, float) else (ends[0], ends[1])
+    )
     return found
 
 
@@ -339,9 +397,11 @@ def _fitted(x: Any) -> Any:
 
 @hinted
 def restitution_by_overlap(overlap: Input) -> Published:
-    """Published range of the restitution in a rear-end collision, by the share of the width that overlaps.
+    """Published range of the restitution in a rear-end collision, by the share of the width that
+    overlaps.
 
-    Here up to 45 percent counts as under half and 55 percent or more as over half; the source says only "about".
+    Here up to 45 percent counts as under half and 55 percent or more as over half; the source says
+    only "about".
 
     Parameters
     ----------
@@ -365,10 +425,18 @@ def restitution_by_overlap(overlap: Input) -> Published:
     (0.0, 0.15)
     """
     reader = ArgumentReader()
-    share = single_number(reader, reader.number(overlap, "", "overlap"), "overlap", "takes one value; ask for each")
+    share = single_number(
+        reader, reader.number(overlap, "", "overlap"), "overlap", "takes one value; ask for each"
+    )
     if share <= 0.0 or share > 1.0:
         reader.refuse(
-            InputError(f"overlap must be > 0 and at most 1, got {shown(overlap)}", code="bad_fraction", argument="overlap")
+            InputError(
+                f"overlap must be > 0 and at most 1, got {shown(overlap)}",
+                code="bad_fraction",
+                argument="overlap",
+            )
         )
     reader.close()
-    return (RESTITUTION_OVERLAP_SMALL, RESTITUTION_OVERLAP_HALF, RESTITUTION_OVERLAP_LARGE)[(share > 0.45) + (share >= 0.55)]
+    return (RESTITUTION_OVERLAP_SMALL, RESTITUTION_OVERLAP_HALF, RESTITUTION_OVERLAP_LARGE)[
+        (share > 0.45) + (share >= 0.55)
+    ]

@@ -12,18 +12,20 @@ from .published import Published
 
 _THIRTY = 30.0 * 0.44704
 _MANUAL = (
-    "EDSMAC manual, chapter 2 (Engineering Dynamics Corporation; https://github.com/edccorp/hveManuals, "
-    "docs/manuals/programs/EDSMAC/02-program-input.md)"
+    "EDSMAC manual, chapter 2 (Engineering Dynamics Corporation; "
+    "https://github.com/edccorp/hveManuals, docs/manuals/programs/EDSMAC/02-program-input.md)"
 )
 _TABLE = f"{_MANUAL}, Table 2-7"
 _BAKER = (
-    "Baker, Traffic Accident Investigation Manual (Northwestern University, 1975; Fricke 1990), as quoted at "
-    "http://mfes.com/friction.html; the same values in the "
+    "Baker, Traffic Accident Investigation Manual (Northwestern University, 1975; Fricke 1990), "
+    "as quoted at http://mfes.com/friction.html; the same values in the "
 ) + _TABLE
-_HOW_GOOD = "A table in the manual of a program, which cites its source by number and claims no accuracy."
+_HOW_GOOD = (
+    "A table in the manual of a program, which cites its source by number and claims no accuracy."
+)
 _HOW_GOOD_DRY = (
-    "A table of which its author could not recall who had tested what (mfes.com); newer studies reviewed there find 0.72 to "
-    "0.78 on dry asphalt on average, so its lower ends are low."
+    "A table of which its author could not recall who had tested what (mfes.com); newer studies "
+    "reviewed there find 0.72 to 0.78 on dry asphalt on average, so its lower ends are low."
 )
 _ROWS: dict[str, tuple[float, ...]] = {
     # Lowest and highest in turn: dry below and above 30 mph, wet below and above.
@@ -70,13 +72,20 @@ _BY_SURFACE = {
 
 _not_braked = partial(
     Published,
-    source=f"{_MANUAL}, Table 2-6, which has it from Calspan report ZQ-6057-V-6 (HS 805 040, NHTSA, 1978)",
+    source=f"{_MANUAL}, Table 2-6, which has it from Calspan report ZQ-6057-V-6 (HS 805 040, "
+    "NHTSA, 1978)",
     domain="cars on pavement; the table divides it by the friction, to give a share of it",
     quality=_HOW_GOOD,
 )
-ROLLING_RESISTANCE = _not_braked(name="drag factor, free rolling, full to partial tyre inflation", low=0.010, high=0.013)
-ENGINE_BRAKING_HIGH = _not_braked(name="drag factor, engine braking in high gear", low=0.150, high=0.200)
-ENGINE_BRAKING_LOW = _not_braked(name="drag factor, engine braking in low gear", low=0.200, high=0.400)
+ROLLING_RESISTANCE = _not_braked(
+    name="drag factor, free rolling, full to partial tyre inflation", low=0.010, high=0.013
+)
+ENGINE_BRAKING_HIGH = _not_braked(
+    name="drag factor, engine braking in high gear", low=0.150, high=0.200
+)
+ENGINE_BRAKING_LOW = _not_braked(
+    name="drag factor, engine braking in low gear", low=0.200, high=0.400
+)
 _STATUTE = Published(
     name="drag factor behind a statutory table of stopping distances",
     low=0.70,
@@ -85,12 +94,16 @@ _STATUTE = Published(
         "Code of Virginia, section 46.2-880, as quoted at "
         "https://www.lawserver.com/law/state/virginia/va-code/virginia_code_46-2-880"
     ),
-    domain="automobile in good condition, level, dry highway free from loose material, 10 to 100 mph",
-    quality="Worked out here: the square of the speed in mph, over 30 times 0.70, gives every braking distance of the table "
-    "to the foot; a baseline by law.",
+    domain="automobile in good condition, level, dry highway free from loose material, 10 to 100 "
+    "mph",
+    quality="Worked out here: the square of the speed in mph, over 30 times 0.70, gives every "
+    "braking distance of the table to the foot; a baseline by law.",
 )
 
-DRAG_FACTORS: tuple[Published, ...] = (*(row for rows in _BY_SURFACE.values() for row in rows), _STATUTE)
+DRAG_FACTORS: tuple[Published, ...] = (
+    *(row for rows in _BY_SURFACE.values() for row in rows),
+    _STATUTE,
+)
 """Every published drag factor of locked wheels."""
 
 
@@ -98,15 +111,16 @@ DRAG_FACTORS: tuple[Published, ...] = (*(row for rows in _BY_SURFACE.values() fo
 def drag_factor(surface: str, *, speed: Input) -> Published:
     """Published range of the drag factor of locked wheels on a surface.
 
-    For rolling wheels there are ``ROLLING_RESISTANCE``, ``ENGINE_BRAKING_HIGH`` and ``ENGINE_BRAKING_LOW``. Other surfaces and
-    other vehicles have other values, none of which could be checked.
+    For rolling wheels there are ``ROLLING_RESISTANCE``, ``ENGINE_BRAKING_HIGH`` and
+    ``ENGINE_BRAKING_LOW``. Other surfaces and other vehicles have other values, none of which could
+    be checked.
 
     Parameters
     ----------
     surface : str
-        "new", "travelled" or "polished", then "dry" or "wet", then "asphalt" or "concrete"; or "dry" or "wet" and one of
-        "asphalt with excess tar", "packed and oiled gravel", "loose gravel", "packed cinders", "crushed rock", "ice", "packed
-        snow" and "loose snow".
+        "new", "travelled" or "polished", then "dry" or "wet", then "asphalt" or "concrete"; or
+        "dry" or "wet" and one of "asphalt with excess tar", "packed and oiled gravel", "loose
+        gravel", "packed cinders", "crushed rock", "ice", "packed snow" and "loose snow".
     speed : float, str or Quantity [m/s]
         Speed at which the slide begins, >= 0.
 
@@ -130,14 +144,21 @@ def drag_factor(surface: str, *, speed: Input) -> Published:
     (0.4, 0.6)
     """
     reader = ArgumentReader()
-    fast = single_number(reader, reader.number(speed, "m/s", "speed"), "speed", "takes one value; ask for each")
+    fast = single_number(
+        reader, reader.number(speed, "m/s", "speed"), "speed", "takes one value; ask for each"
+    )
     if fast < 0.0:
-        reader.refuse(InputError(f"speed must be >= 0, got {shown(speed)}", code="negative_speed", argument="speed"))
+        reader.refuse(
+            InputError(
+                f"speed must be >= 0, got {shown(speed)}", code="negative_speed", argument="speed"
+            )
+        )
     if not isinstance(surface, str) or surface not in _BY_SURFACE:
         reader.refuse(
             InputError(
-                f"surface must be one of {', '.join(map(repr, _BY_SURFACE))}, got {shown(surface)}; for any other there is no "
-                f"value here that could be checked: measure it",
+                f"surface must be one of {', '.join(map(repr, _BY_SURFACE))}, got "
+                f"{shown(surface)}; for any other there is no value here that could be checked: "
+                "measure it",
                 code="unknown_surface",
                 argument="surface",
             )

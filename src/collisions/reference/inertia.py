@@ -22,13 +22,14 @@ YAW_INERTIA_WHEELBASE = Fit(
     unit="kg*m**2",
     ranges={**_CARS, "wheelbase": (2.4, 2.795, "m")},
     source=(
-        "https://github.com/boonich/eeswebgl (ees/ees.py, routine SR1), whose cars are those of Schreier and Nelson, SAE "
-        "Transactions 96 (1987)"
+        "https://github.com/boonich/eeswebgl (ees/ees.py, routine SR1), whose cars are those of "
+        "Schreier and Nelson, SAE Transactions 96 (1987)"
     ),
     domain="passenger cars; the range is that of the three cars it was found used or checked for",
     quality=(
-        "Read from a program; its own source was not found. Of the one car found with mass, dimensions and yaw inertia "
-        "together (2008 Ford Fusion in pycrash: 1621 kg, 3168 kg m2) it gives 15 percent less."
+        "Read from a program; its own source was not found. Of the one car found with mass, "
+        "dimensions and yaw inertia together (2008 Ford Fusion in pycrash: 1621 kg, 3168 kg m2) "
+        "it gives 15 percent less."
     ),
 )
 YAW_INERTIA_RECTANGLE = Fit(
@@ -39,8 +40,9 @@ YAW_INERTIA_RECTANGLE = Fit(
     source="Geometry: a uniform rectangle about its centre",
     domain="passenger cars; the range is that of the three cars of YAW_INERTIA_WHEELBASE",
     quality=(
-        "Exact for a uniform rectangle, which no car is: its ends are lighter than its middle. Of the one car found with mass, "
-        "dimensions and yaw inertia together (2008 Ford Fusion in pycrash: 1621 kg, 3168 kg m2) it gives 14 percent more."
+        "Exact for a uniform rectangle, which no car is: its ends are lighter than its middle. "
+        "Of the one car found with mass, dimensions and yaw inertia together (2008 Ford Fusion "
+        "in pycrash: 1621 kg, 3168 kg m2) it gives 14 percent more."
     ),
 )
 
@@ -49,13 +51,14 @@ YAW_INERTIA_INDEX = Published(
     low=0.89,
     high=1.13,
     source=(
-        "Heydinger and others, SAE 1999-01-1336 (NHTSA's measurements until 1998), of seven vehicles as quoted in the program "
-        "OpenFPS (OpenFPS.Common, RunningGear)"
+        "Heydinger and others, SAE 1999-01-1336 (NHTSA's measurements until 1998), of seven "
+        "vehicles as quoted in the program OpenFPS (OpenFPS.Common, RunningGear)"
     ),
-    domain="small and mid-size US and imported cars, and pickups up to three quarters of a ton, with their driver",
+    domain="small and mid-size US and imported cars, and pickups up to three quarters of a ton, "
+    "with their driver",
     quality=(
-        "Second hand: the paper has hundreds of vehicles; quoted were 0.95, 1.13, 1.05, 0.98 and 1.11 of five cars, 0.89 and "
-        "0.92 of two pickups."
+        "Second hand: the paper has hundreds of vehicles; quoted were 0.95, 1.13, 1.05, 0.98 and "
+        "1.11 of five cars, 0.89 and 0.92 of two pickups."
     ),
 )
 
@@ -69,12 +72,14 @@ def yaw_inertia(
     width: Input | None = None,
     outside: Outside = "warn",
 ) -> Value:
-    """Yaw inertia [kg*m**2] about the centre of mass, estimated from dimensions: by the wheelbase, or as a rectangle.
+    """Yaw inertia [kg*m**2] about the centre of mass, estimated from dimensions: by the wheelbase,
+    or as a rectangle.
 
-    A measured value is better: NHTSA measured hundreds of vehicles (SAE 1999-01-1336). For the one car that could be compared,
-    the first form gives 15 percent less and the second 14 percent more than its yaw inertia, so take the two as a range. Their
-    sources are in ``YAW_INERTIA_WHEELBASE`` and ``YAW_INERTIA_RECTANGLE``. For larger vehicles, the mass times the distances of
-    both axles from the centre of mass, times ``YAW_INERTIA_INDEX``, gives a range that was measured.
+    A measured value is better: NHTSA measured hundreds of vehicles (SAE 1999-01-1336). For the one
+    car that could be compared, the first form gives 15 percent less and the second 14 percent more
+    than its yaw inertia, so take the two as a range. Their sources are in ``YAW_INERTIA_WHEELBASE``
+    and ``YAW_INERTIA_RECTANGLE``. For larger vehicles, the mass times the distances of both axles
+    from the centre of mass, times ``YAW_INERTIA_INDEX``, gives a range that was measured.
 
     Parameters
     ----------
@@ -95,7 +100,8 @@ def yaw_inertia(
     Raises
     ------
     InputError
-        An argument that cannot be used, both or neither of wheelbase and width, or one of them not below the length.
+        An argument that cannot be used, both or neither of wheelbase and width, or one of them not
+        below the length.
 
     Warns
     -----
@@ -112,7 +118,11 @@ def yaw_inertia(
     if (wheelbase is None) == (width is None):
         found = "none" if wheelbase is None else "both"
         reader.refuse(
-            InputError(f"give exactly one of wheelbase= and width=, got {found}", code="one_form", argument="wheelbase")
+            InputError(
+                f"give exactly one of wheelbase= and width=, got {found}",
+                code="one_form",
+                argument="wheelbase",
+            )
         )
     other = "wheelbase" if width is None else "width"
     numbers: dict[str, Any] = {"mass": reader.number(mass, "kg", "mass", POSITIVE)}
@@ -127,13 +137,19 @@ def yaw_inertia(
         if other == "wheelbase":
             fit, found_inertia = YAW_INERTIA_WHEELBASE, 0.1269 * weight * second * over_all
         else:
-            fit, found_inertia = YAW_INERTIA_RECTANGLE, weight * (over_all * over_all + second * second) / 12.0
+            fit, found_inertia = (
+                YAW_INERTIA_RECTANGLE,
+                weight * (over_all * over_all + second * second) / 12.0,
+            )
         usable = (second < over_all) & (weight > 0.0) & (second > 0.0) & np.isfinite(found_inertia)
     if shape is None and not math.isfinite(found_inertia):
-        raise InputError("the yaw inertia is not a finite number", code="out_of_range", argument="mass")
+        raise InputError(
+            "the yaw inertia is not a finite number", code="out_of_range", argument="mass"
+        )
     if shape is None and not usable:
         raise InputError(
-            f"{other} {second:.6g} m is not below length {over_all:.6g} m; exchange them, or correct the unit",
+            f"{other} {second:.6g} m is not below length {over_all:.6g} m; exchange them, or "
+            "correct the unit",
             code="bad_dimensions",
             argument=other,
         )

@@ -1,4 +1,6 @@
-"""``Published`` and ``Fit``: published values and formulas with source and range, and the handling of inputs outside it."""
+"""``Published`` and ``Fit``: published values and formulas with source and range, and the handling
+of inputs outside it.
+"""
 
 from __future__ import annotations
 
@@ -58,12 +60,24 @@ class Published:
     def q(self) -> Any:
         """The same attributes, with the numbers as pint Quantities."""
         given = {name: getattr(self, name) for name in ("low", "high", "typical")}
-        return replace(self, **{name: to_quantity(value, self.unit) for name, value in given.items() if value is not None})
+        return replace(
+            self,
+            **{
+                name: to_quantity(value, self.unit)
+                for name, value in given.items()
+                if value is not None
+            },
+        )
 
     def __contains__(self, value: Input) -> bool:
         """Whether a number in the SI unit, or with its unit, lies in the range."""
         reader = ArgumentReader()
-        number = single_number(reader, reader.number(value, self.unit, "value"), "value", "must be one number; ask of each")
+        number = single_number(
+            reader,
+            reader.number(value, self.unit, "value"),
+            "value",
+            "must be one number; ask of each",
+        )
         reader.close()
         return bool(self.low <= number <= self.high)
 
@@ -81,7 +95,8 @@ class Fit:
     unit : str
         SI unit of what it gives.
     ranges : dict of (float, float, str)
-        By argument: lowest value, highest value and SI unit of the range for which it was found in use, or checked.
+        By argument: lowest value, highest value and SI unit of the range for which it was found in
+        use, or checked.
     source, domain, quality : str
         As for ``Published``.
     """
@@ -98,7 +113,8 @@ class Fit:
     def q(self) -> Any:
         """The same attributes, with the ends of the ranges as pint Quantities."""
         ranges: Any = {
-            name: (to_quantity(low, unit), to_quantity(high, unit), unit) for name, (low, high, unit) in self.ranges.items()
+            name: (to_quantity(low, unit), to_quantity(high, unit), unit)
+            for name, (low, high, unit) in self.ranges.items()
         }
         return replace(self, ranges=ranges)
 
@@ -108,7 +124,8 @@ def check_outside(reader: ArgumentReader, outside: Any) -> None:
     if not isinstance(outside, str) or outside not in ("warn", "refuse"):
         reader.refuse(
             InputError(
-                f"outside must be 'warn' (a value with a warning) or 'refuse', got {shown(outside)}",
+                "outside must be 'warn' (a value with a warning) or 'refuse', got "
+                f"{shown(outside)}",
                 code="bad_option",
                 argument="outside",
             )
@@ -116,9 +133,15 @@ def check_outside(reader: ArgumentReader, outside: Any) -> None:
 
 
 def settle(fit: Fit, found: Value, given: dict[str, Any], usable: Any, outside: str) -> Value:
-    """The value of a fit; NaN for batch cases without one; inputs outside its ranges raise or warn."""
-    spans = {name: f"{low:.4g} to {high:.4g} {unit}" for name, (low, high, unit) in fit.ranges.items()}
-    ranges = ", ".join(span if len(spans) == 1 else f"{name} {span}" for name, span in spans.items())
+    """The value of a fit; NaN for batch cases without one; inputs outside its ranges
+    raise or warn.
+    """
+    spans = {
+        name: f"{low:.4g} to {high:.4g} {unit}" for name, (low, high, unit) in fit.ranges.items()
+    }
+    ranges = ", ".join(
+        span if len(spans) == 1 else f"{name} {span}" for name, span in spans.items()
+    )
     beyond: Any = False
     for name, (low, high, _) in fit.ranges.items():
         beyond = beyond | (given[name] < low) | (given[name] > high)
@@ -129,22 +152,32 @@ def settle(fit: Fit, found: Value, given: dict[str, Any], usable: Any, outside: 
     lost = ~usable | (beyond if outside == "refuse" else False)
     answer = np.where(lost, np.array(math.nan, dtype=found.dtype), found)
     answer.setflags(write=False)
-    counts = {"outside_reference": int(np.count_nonzero(beyond & ~lost)), "refused": int(np.count_nonzero(lost))}
+    counts = {
+        "outside_reference": int(np.count_nonzero(beyond & ~lost)),
+        "refused": int(np.count_nonzero(lost)),
+    }
     if any(counts.values()):
         warn_of_cases(
             OutOfRangeWarning(
-                f"{fit.name}: of {found.size} cases {counts['outside_reference']} lie outside the range it holds for "
-                f"({ranges}), and {counts['refused']} have no answer and are NaN",
+                f"{fit.name}: of {found.size} cases {counts['outside_reference']} lie outside "
+                f"the range it holds for ({ranges}), and {counts['refused']} have no answer and "
+                "are NaN",
                 code="outside_reference",
                 counts=counts,
             ),
-            {f"{fit.name} outside the range it holds for ({ranges}) or without an answer": sum(counts.values())},
+            {
+                f"{fit.name} outside the range it holds for ({ranges}) or without an answer": sum(
+                    counts.values()
+                )
+            },
         )
     return answer
 
 
 def _tell_of_one(fit: Fit, ranges: str, given: dict[str, Any], outside: str) -> None:
-    where = ", ".join(f"{name} {given[name]:.6g} {unit}" for name, (_, _, unit) in fit.ranges.items())
+    where = ", ".join(
+        f"{name} {given[name]:.6g} {unit}" for name, (_, _, unit) in fit.ranges.items()
+    )
     text = f"{fit.name}: {where} lies outside the range it holds for, {ranges} ({fit.source})"
     if outside == "refuse":
         raise InputError(

@@ -1,4 +1,6 @@
-"""Reports of one impact: a page for people, ending with the record from which it can be made again."""
+"""Reports of one impact: a page for people, ending with the record from which it can be
+made again.
+"""
 
 from .making import report
 from .record import options, replay

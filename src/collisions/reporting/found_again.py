@@ -1,4 +1,6 @@
-"""Works out again how well-posed a reverse solution was, so that what a record says of it can be held against it."""
+"""Works out again how well-posed a reverse solution was, so that what a record says of it can be
+held against it.
+"""
 
 from __future__ import annotations
 
@@ -14,48 +16,69 @@ from ..kernels.contact_laws import BRACH, RULES
 from ..messages.errors import AmbiguousSolutionError, CollisionsError
 from ..reconstruct import central, planar, speeds
 
-# What is worked out from an answer that was rounded differs in its later digits; a changed record differs in its first ones.
+# What is worked out from an answer that was rounded differs in its later digits; a changed record
+# differs in its first ones.
 _SAME_CONDITION = 0.01
 _METHODS = ("central", "planar", "speeds")
 _AS_RESULTS = {"restitution": "restitution"} | dict.fromkeys(RULES, "inputs.rule_value")
 
 
 def contradicted_origin(impact: Impact) -> Iterator[str]:
-    """What the record of a reverse solution says of its method, its condition or the number of answers that is not so."""
+    """What the record of a reverse solution says of its method, its condition or the number of
+    answers that is not so.
+    """
     origin = impact.reconstruction
     if origin is None:
         return
     if origin.method not in _METHODS:
-        yield f"its reconstruction names the method {origin.method!r}, which is none of {', '.join(_METHODS)}"
+        yield (
+            f"its reconstruction names the method {origin.method!r}, which is none of "
+            f"{', '.join(_METHODS)}"
+        )
         return
     strange = [name for name in origin.known if name not in _taken(origin.method)]
     if strange:
         yield f"its reconstruction was given {strange[0]!r}, which {origin.method} does not take"
         return
     if not float(origin.condition) >= 0.0 or not float(origin.answers) >= 1.0:
-        yield f"its reconstruction has a condition of {origin.condition} and {origin.answers} answers, which no solution has"
+        yield (
+            f"its reconstruction has a condition of {origin.condition} and {origin.answers} "
+            "answers, which no solution has"
+        )
         return
     again = _again(impact, origin)
     if again is None:
         return
     if not math.isclose(again.condition, origin.condition, rel_tol=_SAME_CONDITION):
-        yield f"its inputs give a condition of {again.condition:.6g}, and it says {origin.condition:.6g}"
+        yield (
+            f"its inputs give a condition of {again.condition:.6g}, and it says "
+            f"{origin.condition:.6g}"
+        )
     if origin.known != again.known:
-        yield f"its reconstruction was given {', '.join(origin.known)}, and solving again takes {', '.join(again.known)}"
+        yield (
+            f"its reconstruction was given {', '.join(origin.known)}, and solving again takes "
+            f"{', '.join(again.known)}"
+        )
     if again.answers != origin.answers:
         yield f"its inputs have {again.answers} answers, and it says {origin.answers}"
 
 
 def _taken(method: str) -> set[str]:
     """What a reverse solver can have been given, as its reconstruction names it."""
-    own = {"central": {"va", "vb", "restitution"}, "planar": {"restitution", *RULES}, "speeds": {"restitution", *RULES}}
+    own = {
+        "central": {"va", "vb", "restitution"},
+        "planar": {"restitution", *RULES},
+        "speeds": {"restitution", *RULES},
+    }
     return own[method] | {name for name, known in KNOWN.items() if method in known.methods}
 
 
 def _again(impact: Impact, origin: Reconstruction) -> Reconstruction | None:
-    """The same solution found again from the answer; None where what is left of it does not give it back.
+    """The same solution found again from the answer; None where what is left of it does not give it
+    back.
 
-    Of an answer at a fold, of an infinite range, or near the rounding of its inputs, nothing can be worked out again.
+    Of an answer at a fold, of an infinite range, or near the rounding of its inputs, nothing can be
+    worked out again.
     """
     try:
         with warnings.catch_warnings():
@@ -64,9 +87,14 @@ def _again(impact: Impact, origin: Reconstruction) -> Reconstruction | None:
     except AmbiguousSolutionError as error:
         found = error.solutions
     except (CollisionsError, TypeError):
-        # A known value that the method does not take; such a record was refused above, or is of an older version.
+        # A known value that the method does not take; such a record was refused above, or is of an
+        # older version.
         return None
-    near = [one.reconstruction for one in found if _is_same(one, impact) and one.reconstruction is not None]
+    near = [
+        one.reconstruction
+        for one in found
+        if _is_same(one, impact) and one.reconstruction is not None
+    ]
     return near[0] if near else None
 
 
@@ -89,7 +117,9 @@ def _solved_again(impact: Impact, origin: Reconstruction) -> tuple[Any, ...]:
 
 
 def _is_same(one: Impact, other: Impact) -> bool:
-    """Whether two impacts have the same speeds before, to what the condition leaves of the digits."""
+    """Whether two impacts have the same speeds before, to what the condition leaves of
+    the digits.
+    """
     scale = abs(other.closing_speed)
     pairs = ((getattr(one.inputs, label), getattr(other.inputs, label)) for label in "ab")
     return all(math.hypot(a.vx - b.vx, a.vy - b.vy) <= 1e-6 * scale for a, b in pairs)

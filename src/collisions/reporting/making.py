@@ -1,4 +1,6 @@
-"""``report``: the whole page of one result with its figures, from the first heading to the record."""
+"""``report``: the whole page of one result with its figures, from the first heading to
+the record.
+"""
 
 from __future__ import annotations
 
@@ -44,9 +46,16 @@ _OTHER_PARTS: dict[type, tuple[str, ...]] = {
     Fit: ("outline_a", "outline_b", "share_a", "duration", "drag", "limits", *EVIDENCE),
 }
 _OTHER_PARTS[Posterior] = (*_OTHER_PARTS[Fit], "derivation")
-_SIZES = {"scene": (7.5, 6.5), "momentum": (6.5, 6.2), "impulse-plane": (7.5, 6.0), "energy": (7.0, 4.2), "pulse": (7.0, 7.0)}
+_SIZES = {
+    "scene": (7.5, 6.5),
+    "momentum": (6.5, 6.2),
+    "impulse-plane": (7.5, 6.0),
+    "energy": (7.0, 4.2),
+    "pulse": (7.0, 7.0),
+}
 _SIZE = (6.5, 4.6)
-# Nothing in a file may depend on chance or on whoever runs it; its letters stay letters, and names are no formulas.
+# Nothing in a file may depend on chance or on whoever runs it; its letters stay letters, and names
+# are no formulas.
 _SETTINGS: Any = {"svg.hashsalt": "collisions", "svg.fonttype": "none", "text.parse_math": False}
 _UNDATED = dict.fromkeys(("Creator", "Date", "Format", "Type"))
 _TAG = re.compile(r"<[^<>]*>")
@@ -76,16 +85,19 @@ def report(
     figures: bool = True,
     derivation: bool = False,
 ) -> Document:
-    """One page about an answer: inputs, assumptions, results, uncertainty, findings, figures, sources and the record.
+    """One page about an answer: inputs, assumptions, results, uncertainty, findings, figures,
+    sources and the record.
 
-    An energy gain comes first. Every number comes from the result, from ``diagnose``, ``left_out`` or the propagation, rounded
-    as in ``explain``. The page has one fact per line and no date; the same arguments give the same page, byte for byte. From
-    the record at its end ``reporting.replay`` gives the impact again and ``reporting.options`` the options; with both,
+    An energy gain comes first. Every number comes from the result, from ``diagnose``, ``left_out``
+    or the propagation, rounded as in ``explain``. The page has one fact per line and no date; the
+    same arguments give the same page, byte for byte. From the record at its end
+    ``reporting.replay`` gives the impact again and ``reporting.options`` the options; with both,
     ``report`` makes the same page again.
 
-    A ``MomentumSolution`` has neither contact nor positions, and a ``Fit`` or a ``Posterior`` has only unknowns and
-    observations: their pages have only the parts that apply, and options for other parts are refused. The record of the last
-    two has their numbers, but gives no impact back, because their model is code.
+    A ``MomentumSolution`` has neither contact nor positions, and a ``Fit`` or a ``Posterior`` has
+    only unknowns and observations: their pages have only the parts that apply, and options for
+    other parts are refused. The record of the last two has their numbers, but gives no impact back,
+    because their model is code.
 
     Parameters
     ----------
@@ -94,22 +106,25 @@ def report(
     title : str, optional
         By default the names of the vehicles.
     form : {"html", "markdown"}
-        One self-contained HTML file, to be read in a browser or printed; or Markdown, without figures.
+        One self-contained HTML file, to be read in a browser or printed; or Markdown, without
+        figures.
     units : {"si", "metric", "us"}, optional
         By default those of the inputs, as for ``summary``.
     uncertainty : Propagation, optional
-        From ``uncertainty.propagate``. An output with the name of an answer, such as "b.after.vx" or "b_after_vx", also sets
-        the rounding of that answer.
+        From ``uncertainty.propagate``. An output with the name of an answer, such as "b.after.vx"
+        or "b_after_vx", also sets the rounding of that answer.
     outline_a, outline_b, duration, drag, limits
         As for ``diagnose``; the outlines are also drawn.
     crush_energy, damage_pdof_a, damage_pdof_b, damage_delta_v_a, damage_delta_v_b
         What the damage shows, as for ``diagnose``; printed among the inputs.
     share_a : float, str or Quantity [-], optional
-        A's share of the energy, 0 to 1, for ``Impact.ees`` and ``max_crush_speeds``; without it neither is given.
+        A's share of the energy, 0 to 1, for ``Impact.ees`` and ``max_crush_speeds``; without it
+        neither is given.
     notes : str, dict or sequence of these, optional
-        Your own words, each note in a paragraph of its own; or notes by input, printed beside it, such as where its value is
-        from: ``{"restitution": "Low-speed tests of the same model", "a.mass": "Weighed"}``. "duration", "drag", "law" and the
-        outlines that are given, "outline_a" and "outline_b", may have notes too.
+        Your own words, each note in a paragraph of its own; or notes by input, printed beside it,
+        such as where its value is from: ``{"restitution": "Low-speed tests of the same model",
+        "a.mass": "Weighed"}``. "duration", "drag", "law" and the outlines that are given,
+        "outline_a" and "outline_b", may have notes too.
     figures : bool
         Whether to draw figures. They need matplotlib; without it the report says so and goes on.
     derivation : bool
@@ -118,7 +133,8 @@ def report(
     Returns
     -------
     Document
-        The page: a ``str`` that a notebook shows as it is, and that ``.save("report.html")`` writes to a file.
+        The page: a ``str`` that a notebook shows as it is, and that ``.save("report.html")`` writes
+        to a file.
 
     Raises
     ------
@@ -132,7 +148,9 @@ def report(
     >>> import collisions as col
     >>> from collisions.reporting import report
     >>> a = col.Vehicle(mass="1100 kg", vx="80 km/h", name="Golf")
-    >>> page = report(col.linear_central(a, col.Vehicle(mass=950), 0.4), form="markdown", units="us")
+    >>> page = report(
+    ...     col.linear_central(a, col.Vehicle(mass=950), 0.4), form="markdown", units="us"
+    ... )
     >>> for line in page.splitlines():
     ...     if "velocity along x" in line or "delta-V |" in line:
     ...         print(line)
@@ -144,12 +162,17 @@ def report(
     given = dict(locals())
     from .. import __version__
 
-    need_one_case(impact, (Impact, MomentumSolution, Fit, Posterior), "report", instead=NOT_EXPLAINED)
+    need_one_case(
+        impact, (Impact, MomentumSolution, Fit, Posterior), "report", instead=NOT_EXPLAINED
+    )
     system: Any = cells(units, impact._texts()).name
     given["units"] = system
     options = plain_options(given)
     paragraphs, by_input, outlines = _checked(impact, options, uncertainty)
-    looked_at = {name: given[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units", *EVIDENCE)}
+    looked_at = {
+        name: given[name]
+        for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units", *EVIDENCE)
+    }
     spread = Spread(impact, uncertainty)
     sheet = (Html if form == "html" else Markdown)(system, spread.deviations, spread.ranges)
     sheet.title(plain(title or _title(impact)))
@@ -188,7 +211,9 @@ def report(
     if derivation and not isinstance(readable, Posterior):
         sheet.heading("Derivation")
         known = uncertainty if spread.outputs else None
-        text = explain(readable, units=system, form="text" if form == "html" else form, uncertainty=known)
+        text = explain(
+            readable, units=system, form="text" if form == "html" else form, uncertainty=known
+        )
         sheet.working(text)
     if findings is not None and isinstance(impact, (Impact, MomentumSolution)):
         sections.sources(sheet, impact, findings)
@@ -199,16 +224,24 @@ def report(
     return Document(sheet.whole(__version__), form)
 
 
-_USUAL = plain_options({name: parameter.default for name, parameter in signature(report).parameters.items()})
+_USUAL = plain_options(
+    {name: parameter.default for name, parameter in signature(report).parameters.items()}
+)
 
 
 def _is_usual(name: str, value: Any) -> bool:
-    """Whether an option has its default value; one that cannot be compared, such as an array, counts as not."""
+    """Whether an option has its default value; one that cannot be compared, such as an array,
+    counts as not.
+    """
     return type(value) is type(_USUAL[name]) and bool(value == _USUAL[name])
 
 
-def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple[list[str], dict[str, str], dict[str, Any]]:
-    """The notes, as paragraphs and by input, and the outlines by vehicle; one error names every option that cannot be used."""
+def _checked(
+    impact: Any, options: Mapping[str, Any], uncertainty: Any
+) -> tuple[list[str], dict[str, str], dict[str, Any]]:
+    """The notes, as paragraphs and by input, and the outlines by vehicle; one error names every
+    option that cannot be used.
+    """
     reader = ArgumentReader()
 
     def refuse(argument: str, text: str, code: str = "bad_option") -> None:
@@ -216,24 +249,40 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
 
     form, title, notes, share_a = (options[name] for name in ("form", "title", "notes", "share_a"))
     if not isinstance(form, str) or form not in get_args(Form):
-        refuse("form", f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}")
-    parts = notes if isinstance(notes, (list, tuple)) else [notes] if isinstance(notes, (str, Mapping)) else []
+        refuse(
+            "form", f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}"
+        )
+    parts = (
+        notes
+        if isinstance(notes, (list, tuple))
+        else [notes]
+        if isinstance(notes, (str, Mapping))
+        else []
+    )
     paragraphs = [part for part in parts if not isinstance(part, Mapping)]
-    beside = {name: text for part in parts if isinstance(part, Mapping) for name, text in part.items()}
+    beside = {
+        name: text for part in parts if isinstance(part, Mapping) for name, text in part.items()
+    }
     # For an impulse, duration and drag are not inputs but options of the page, as the outlines are.
     own = ["duration", "drag"] if isinstance(impact, Impact) and impact.pulse is None else []
     own += (name for name in ("outline_a", "outline_b") if options[name] is not None)
     known = list(dict.fromkeys([*inputs_of(impact), *own]))
     for name in [name for name in beside if name not in known]:
-        refuse("notes", f"notes has {shown(name)}, which is no input of this page; they are {', '.join(known)}")
+        refuse(
+            "notes",
+            f"notes has {shown(name)}, which is no input of this page; they are {', '.join(known)}",
+        )
     texts = [] if title is None else [("title", title)]
     for name, text in [*texts, *(("notes", text) for text in (*paragraphs, *beside.values()))]:
         if not isinstance(text, str) or not plain(text):
-            refuse(name, f"{name} must be a text that says something, got {shown(text)}", "not_a_text")
+            refuse(
+                name, f"{name} must be a text that says something, got {shown(text)}", "not_a_text"
+            )
     if notes is not None and not isinstance(notes, (str, list, tuple, Mapping)):
         refuse(
             "notes",
-            f"notes must be a text, a list of texts, or a dict of them by input, got {type(notes).__name__}",
+            "notes must be a text, a list of texts, or a dict of them by input, got "
+            f"{type(notes).__name__}",
             "not_a_text",
         )
     for name in ("figures", "derivation"):
@@ -242,15 +291,17 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
     if uncertainty is not None and not isinstance(uncertainty, Propagation):
         refuse(
             "uncertainty",
-            f"uncertainty must be what uncertainty.propagate returned, got {type(uncertainty).__name__}; standard "
-            f"deviations by name go to explain(impact, uncertainty=...)",
+            "uncertainty must be what uncertainty.propagate returned, got "
+            f"{type(uncertainty).__name__}; standard deviations by name go to explain(impact, "
+            "uncertainty=...)",
         )
     kind = type(impact)
     for name in _OTHER_PARTS.get(kind, ()):
         if not _is_usual(name, options[name]):
             refuse(
                 name,
-                f"{name} is for an Impact, and a {kind.__name__} has no part for it; leave it out, or report the impact itself",
+                f"{name} is for an Impact, and a {kind.__name__} has no part for it; leave it "
+                "out, or report the impact itself",
             )
     if kind in (Fit, Posterior) and isinstance(uncertainty, Propagation):
         reader.refuse(no_uncertainty(kind.__name__))
@@ -263,7 +314,11 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
         share = reader.number(share_a, "", "share_a", UNIT_INTERVAL)
         single_number(reader, share, "share_a", "takes one value: a report is of one case")
     reader.close()
-    return [plain(paragraph) for paragraph in paragraphs], {name: plain(text) for name, text in beside.items()}, outlines
+    return (
+        [plain(paragraph) for paragraph in paragraphs],
+        {name: plain(text) for name, text in beside.items()},
+        outlines,
+    )
 
 
 def inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
@@ -272,7 +327,11 @@ def inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
         found = [sections.key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
         for label, vehicle in (("a", impact.a.before), ("b", impact.b.before)):
             found += [f"{label}.{name}" for name, _ in sections.speed_rows(vehicle)]
-        found += [] if impact.law is None or impact.model in ("linear_central", "time_resolved") else ["law"]
+        found += (
+            []
+            if impact.law is None or impact.model in ("linear_central", "time_resolved")
+            else ["law"]
+        )
         return [*found, *(impact.inputs.given or {}).keys() - set(found)]
     rows = momentum_inputs(impact) if isinstance(impact, MomentumSolution) else ()
     return [name.partition("[")[0] for _, _, name, _, _ in rows]
@@ -281,7 +340,11 @@ def inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
 def _title(impact: Impact | MomentumSolution | Fit | Posterior) -> str:
     if isinstance(impact, Impact):
         return f"Impact of {who(0, impact.a.before)} and {who(1, impact.b.before)}"
-    titles = {Fit: "Fit to evidence", Posterior: "What the evidence says", MomentumSolution: "Planar momentum of A and B"}
+    titles = {
+        Fit: "Fit to evidence",
+        Posterior: "What the evidence says",
+        MomentumSolution: "Planar momentum of A and B",
+    }
     return titles[type(impact)]
 
 
@@ -294,19 +357,43 @@ def _readable(impact: Impact) -> Impact:
     return with_vehicles(impact, a, b)
 
 
-def _figures(sheet: Html, impact: Any, spread: Spread, uncertainty: Propagation | None, options: Mapping[str, Any]) -> None:
+def _figures(
+    sheet: Html,
+    impact: Any,
+    spread: Spread,
+    uncertainty: Propagation | None,
+    options: Mapping[str, Any],
+) -> None:
     """The figures of the impact and of its uncertainty, or a sentence where there can be none."""
     try:
         import_module("matplotlib.figure")
     except ImportError:
-        sheet.say("None: matplotlib cannot be imported here. Install it with: python -m pip install matplotlib")
+        sheet.say(
+            "None: matplotlib cannot be imported here. Install it with: python -m pip install "
+            "matplotlib"
+        )
         return
     units, before = options["units"], sheet.blocks[-1]
     if isinstance(impact, Impact):
         outlines = {name: options[name] for name in ("outline_a", "outline_b")}
-        _draw(sheet, "scene", "The scene from above at the moment of impact.", plot.scene, impact, units=units, **outlines)
+        _draw(
+            sheet,
+            "scene",
+            "The scene from above at the moment of impact.",
+            plot.scene,
+            impact,
+            units=units,
+            **outlines,
+        )
         if impact.model != "linear_central":
-            _draw(sheet, "momentum", "Momentum before and after, head to tail.", plot.momentum, impact, units=units)
+            _draw(
+                sheet,
+                "momentum",
+                "Momentum before and after, head to tail.",
+                plot.momentum,
+                impact,
+                units=units,
+            )
             if impact.pulse is not None:
                 caption = "Force, crush and delta-V over the time of the contact."
                 _draw(sheet, "pulse", caption, plot.pulse, impact, units=units)
@@ -315,8 +402,20 @@ def _figures(sheet: Html, impact: Any, spread: Spread, uncertainty: Propagation 
                 _draw(sheet, "impulse-plane", caption, plot.impulse_plane, impact, units=units)
         _draw(sheet, "energy", "Where the kinetic energy went.", plot.energy, impact, units=units)
     if isinstance(impact, Posterior):
-        _draw(sheet, "residuals", "Each observation less its computed value, in stated errors.", plot.residuals, impact)
-    outputs = impact.unknowns if isinstance(impact, Posterior) else {} if uncertainty is None else uncertainty.outputs
+        _draw(
+            sheet,
+            "residuals",
+            "Each observation less its computed value, in stated errors.",
+            plot.residuals,
+            impact,
+        )
+    outputs = (
+        impact.unknowns
+        if isinstance(impact, Posterior)
+        else {}
+        if uncertainty is None
+        else uncertainty.outputs
+    )
     for number, output in enumerate(outputs.values(), 1):
         name = spread.heading(output)
         if not varies(output):
@@ -324,16 +423,45 @@ def _figures(sheet: Html, impact: Any, spread: Spread, uncertainty: Propagation 
             continue
         if isinstance(output, Sampled):
             caption = f"{name}, in the cases drawn, given {output.given}."
-            _draw(sheet, f"distribution-{number}", caption, plot.distribution, output, units=units, words=name)
+            _draw(
+                sheet,
+                f"distribution-{number}",
+                caption,
+                plot.distribution,
+                output,
+                units=units,
+                words=name,
+            )
         if not isinstance(impact, Posterior) and len(shares_of(output)) != 1:
-            caption = f"{name}, and the share of its variance that each input brings, by itself and in all."
-            _draw(sheet, f"contributions-{number}", caption, plot.contributions, output, units=units, words=name)
+            caption = (
+                f"{name}, and the share of its variance that each input brings, by itself and in "
+                "all."
+            )
+            _draw(
+                sheet,
+                f"contributions-{number}",
+                caption,
+                plot.contributions,
+                output,
+                units=units,
+                words=name,
+            )
     if not isinstance(impact, Impact) and sheet.blocks[-1] == before:
         sheet.say("None: the variance is all of one input, and no cases were drawn.")
 
 
-def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], result: Any, words: str = "", **options: Any) -> None:
-    """One figure, drawn with default matplotlib settings, with words for its name; a sentence if the numbers allow none."""
+def _draw(
+    sheet: Html,
+    name: str,
+    caption: str,
+    draw: Callable[..., Any],
+    result: Any,
+    words: str = "",
+    **options: Any,
+) -> None:
+    """One figure, drawn with default matplotlib settings, with words for its name; a sentence if
+    the numbers allow none.
+    """
     from matplotlib import rc_context, rcdefaults, rcParams
     from matplotlib.figure import Figure
     from matplotlib.text import Text
@@ -353,12 +481,16 @@ def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], result
             found = text.get_text()
             text.set_text(visible(found.replace(result.name, words) if words else found))
         target = io.StringIO()
-        figure.savefig(target, format="svg", metadata=_UNDATED, bbox_inches="tight", pad_inches=0.05)
+        figure.savefig(
+            target, format="svg", metadata=_UNDATED, bbox_inches="tight", pad_inches=0.05
+        )
     sheet.picture(caption, _standalone(target.getvalue(), name, caption))
 
 
 def _standalone(svg: str, name: str, caption: str) -> str:
-    """The svg element of a figure, its ids made unique on the page and its style left to the page."""
+    """The svg element of a figure, its ids made unique on the page and its style left
+    to the page.
+    """
     svg = visible(svg[svg.index("<svg") :].rstrip())
     svg = re.sub(r"\n\s*<defs>\s*<style[^>]*>[^<]*</style>\s*</defs>", "", svg, count=1)
 

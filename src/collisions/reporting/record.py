@@ -1,4 +1,6 @@
-"""``record``, ``replay`` and ``options``: the JSON at the end of a report, its result solved again, and its options."""
+"""``record``, ``replay`` and ``options``: the JSON at the end of a report, its result solved again,
+and its options.
+"""
 
 from __future__ import annotations
 
@@ -32,9 +34,22 @@ from .render import FENCE, RECORD
 from .sections import EVIDENCE, contradicted
 
 _FORMAT = "collisions report 2"
-# The options that change the page, with the unit in which each is read; None for one that is not a number.
+# The options that change the page, with the unit in which each is read; None for one that is not a
+# number.
 _UNITS: dict[str, str | None] = {
-    **dict.fromkeys(("title", "form", "units", "outline_a", "outline_b", "limits", "notes", "figures", "derivation")),
+    **dict.fromkeys(
+        (
+            "title",
+            "form",
+            "units",
+            "outline_a",
+            "outline_b",
+            "limits",
+            "notes",
+            "figures",
+            "derivation",
+        )
+    ),
     "duration": "s",
     "drag": "",
     "share_a": "",
@@ -44,26 +59,32 @@ _UNITS: dict[str, str | None] = {
 _NUMBERS = (*DOMAINS, "pivot[0]", "pivot[1]", "speed", "course")
 # The velocity of a pinned vehicle may differ by 1e-9 from the text that it was given as.
 _READ_AGAIN = 2e-9
-# Results of another machine may differ by its rounding, relative or in SI; a page does not show that many digits.
+# Results of another machine may differ by its rounding, relative or in SI; a page does not show
+# that many digits.
 _OTHER_MACHINE = 1e-6
 # Sentences, which another version may word differently.
 _SENTENCES = ("choice.reason",)
 
 
 def record(
-    impact: Impact | MomentumSolution | Fit | Posterior, options: Mapping[str, Any], uncertainty: Propagation | None
+    impact: Impact | MomentumSolution | Fit | Posterior,
+    options: Mapping[str, Any],
+    uncertainty: Propagation | None,
 ) -> str:
     """The record: result, inputs as given, and options of the report, as JSON."""
     from .. import __version__
 
     whole: dict[str, Any] = {"format": _FORMAT, "version": __version__, "options": strict(options)}
     if uncertainty is not None:
-        whole["uncertainty"] = {name: getattr(uncertainty, name) for name in ("method", "samples", "seed")}
+        whole["uncertainty"] = {
+            name: getattr(uncertainty, name) for name in ("method", "samples", "seed")
+        }
     if isinstance(impact, Impact):
         whole["impact"] = impact.to_dict()
         inputs = whole["impact"]["inputs"]
         whole["other_texts"] = {
-            label: _other_texts(vehicle, inputs[label]) for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b))
+            label: _other_texts(vehicle, inputs[label])
+            for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b))
         }
     elif isinstance(impact, (Fit, Posterior)):
         whole[type(impact).__name__.lower()] = impact.to_dict()
@@ -73,9 +94,13 @@ def record(
 
 
 def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
-    """The options with numbers as floats or the texts given; a value that cannot be read is kept, for the reader to refuse."""
+    """The options with numbers as floats or the texts given; a value that cannot be read is kept,
+    for the reader to refuse.
+    """
     found = {name: value for name, value in given.items() if name in _UNITS}
-    found |= {name: _number(given[name], unit, name) for name, unit in _UNITS.items() if unit is not None}
+    found |= {
+        name: _number(given[name], unit, name) for name, unit in _UNITS.items() if unit is not None
+    }
     if isinstance(given["limits"], Mapping):
         found["limits"] = {
             code: _number(value, LIMITS[code].unit, code) if code in LIMITS else value
@@ -90,9 +115,13 @@ def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _number(value: Any, unit: str, name: str) -> Any:
-    """A number as a float, or as its text if that reads as the same number here; of several a list."""
+    """A number as a float, or as its text if that reads as the same number here; of
+    several a list.
+    """
     if isinstance(value, (tuple, list)):
-        return [part if isinstance(part, (tuple, list)) else _number(part, unit, name) for part in value]
+        return [
+            part if isinstance(part, (tuple, list)) else _number(part, unit, name) for part in value
+        ]
     if value is None or isinstance(value, str):
         return value
     reader = ArgumentReader(trusted=(name,))
@@ -101,11 +130,17 @@ def _number(value: Any, unit: str, name: str) -> Any:
         return value
     text = reader.texts.get(name)
     # A unit of another registry may differ here, or not exist.
-    return text if text is not None and ArgumentReader().number(text, unit, name, UNCHECKED) == read else read
+    return (
+        text
+        if text is not None and ArgumentReader().number(text, unit, name, UNCHECKED) == read
+        else read
+    )
 
 
 def _other_texts(vehicle: Vehicle, inputs: Mapping[str, Any]) -> dict[str, str]:
-    """The vehicle's texts that the record of the impact does not hold, because they do not read as the number here."""
+    """The vehicle's texts that the record of the impact does not hold, because they do not read as
+    the number here.
+    """
     texts = Texts(vehicle.given)
     return {name: text for name, text in texts.items() if _argument(inputs.get, name) != text}
 
@@ -119,15 +154,18 @@ def _argument(find: Callable[[str], Any], name: str) -> Any:
 
 def _results(solution: MomentumSolution) -> Any:
     """The fields of a planar-momentum result."""
-    return strict({f.name: getattr(solution, f.name) for f in fields(solution) if f.name != "given"})
+    return strict(
+        {f.name: getattr(solution, f.name) for f in fields(solution) if f.name != "given"}
+    )
 
 
 @computing
 def replay(text: str) -> Impact | MomentumSolution:
     """The answer of a report, solved again from the record at its end.
 
-    The record holds every input with all its digits. ``report`` with the same options makes the same report from it, byte for
-    byte, so whoever doubts a report can read it back, make it again and compare.
+    The record holds every input with all its digits. ``report`` with the same options makes the
+    same report from it, byte for byte, so whoever doubts a report can read it back, make it again
+    and compare.
 
     Parameters
     ----------
@@ -142,8 +180,9 @@ def replay(text: str) -> Impact | MomentumSolution:
     Raises
     ------
     InputError
-        A text without a record, or a record that cannot be read, whose inputs do not give its results, or whose texts and
-        numbers differ; or the report of a ``Fit`` or a ``Posterior``, whose model is code.
+        A text without a record, or a record that cannot be read, whose inputs do not give its
+        results, or whose texts and numbers differ; or the report of a ``Fit`` or a ``Posterior``,
+        whose model is code.
 
     Examples
     --------
@@ -157,8 +196,9 @@ def replay(text: str) -> Impact | MomentumSolution:
     found = _whole(text)
     if kind := next((kind for kind in ("fit", "posterior") if kind in found), ""):
         raise InputError(
-            f"text is the report of a {kind.capitalize()}, which cannot be made again from it: its model is code. Its numbers "
-            f"stand in the record; to check them call reconstruct.{kind} with the model again",
+            f"text is the report of a {kind.capitalize()}, which cannot be made again from it: "
+            "its model is code. Its numbers stand in the record; to check them call "
+            f"reconstruct.{kind} with the model again",
             code="no_record",
             argument="text",
         )
@@ -176,7 +216,10 @@ def replay(text: str) -> Impact | MomentumSolution:
     texts = found.get("other_texts")
     if not isinstance(texts, Mapping) or set(texts) != {"a", "b"}:
         raise _bad("it does not say how else a and b were given")
-    a, b = (_with_texts(vehicle, texts[label], label) for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b)))
+    a, b = (
+        _with_texts(vehicle, texts[label], label)
+        for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b))
+    )
     return with_vehicles(impact, a, b)
 
 
@@ -195,18 +238,25 @@ def _momentum(whole: Any) -> MomentumSolution:
 
 
 def _with_texts(vehicle: Vehicle, texts: Any, label: str) -> Vehicle:
-    """The vehicle with these texts added; a text that can be read here must agree with its number."""
+    """The vehicle with these texts added; a text that can be read here must agree with
+    its number.
+    """
     if not isinstance(texts, Mapping) or not all(isinstance(text, str) for text in texts.values()):
         raise _bad(f"what it says of how {label} was given is no dict of texts")
     for name, text in texts.items():
-        if name not in _NUMBERS or not isinstance(number := _argument(partial(getattr, vehicle), name), float):
+        if name not in _NUMBERS or not isinstance(
+            number := _argument(partial(getattr, vehicle), name), float
+        ):
             raise _bad(f"{label} has no {shown(name)} that could have been given")
         reader = ArgumentReader()
         unit = unit_of(Vehicle, name.partition("[")[0]) or ""
         read = reader.number(text, unit, name, UNCHECKED)
         apart = math.remainder(read - number, math.tau) if unit == "rad" else read - number
         if not reader.problems and abs(apart) > _READ_AGAIN * max(1.0, abs(number)):
-            raise _bad(f"{label}.{name} was given as {shown(text)}, which is not its number, {number!r} {unit}")
+            raise _bad(
+                f"{label}.{name} was given as {shown(text)}, which is not its number, {number!r} "
+                f"{unit}"
+            )
     return with_given(vehicle, dict(vehicle.given or {}) | dict(texts))
 
 
@@ -221,8 +271,9 @@ def options(text: str) -> dict[str, Any]:
     Returns
     -------
     dict
-        By argument of ``report``, every option that was not left at its default. ``uncertainty`` is missing: a propagation
-        holds a model, which is code, and the record has only its method, number of cases and seed.
+        By argument of ``report``, every option that was not left at its default. ``uncertainty`` is
+        missing: a propagation holds a model, which is code, and the record has only its method,
+        number of cases and seed.
 
     Raises
     ------
@@ -233,7 +284,9 @@ def options(text: str) -> dict[str, Any]:
     --------
     >>> import collisions as col
     >>> from collisions.reporting import options, replay, report
-    >>> impact = col.linear_central(col.Vehicle(mass=1100, vx="80 km/h"), col.Vehicle(mass=950), 0.4)
+    >>> impact = col.linear_central(
+    ...     col.Vehicle(mass=1100, vx="80 km/h"), col.Vehicle(mass=950), 0.4
+    ... )
     >>> page = report(impact, form="markdown", units="metric", duration="90 ms")
     >>> options(page)
     {'form': 'markdown', 'units': 'metric', 'duration': '90 ms'}
@@ -247,10 +300,14 @@ def options(text: str) -> dict[str, Any]:
         for name in {"outline_a", "outline_b"} & found.keys():
             # In metres, which they have to say where units are required.
             found[name] = [
-                tuple(f"{part!r} m" for part in corner) if units_required.get() else tuple(corner) for corner in found[name]
+                tuple(f"{part!r} m" for part in corner) if units_required.get() else tuple(corner)
+                for corner in found[name]
             ]
         if "limits" in found:
-            found["limits"] = {code: math.inf if limit == "inf" else limit for code, limit in found["limits"].items()}
+            found["limits"] = {
+                code: math.inf if limit == "inf" else limit
+                for code, limit in found["limits"].items()
+            }
     except (AttributeError, TypeError, ValueError):
         known = False
     if not known:
@@ -262,18 +319,24 @@ def _whole(text: Any) -> Mapping[str, Any]:
     """The parsed record at the end of a report."""
     if not isinstance(text, str):
         raise InputError(
-            f"text must be the text of a report, got {type(text).__name__}; write replay(open(path, encoding='utf-8').read())",
+            f"text must be the text of a report, got {type(text).__name__}; write "
+            "replay(open(path, encoding='utf-8').read())",
             code="not_a_text",
             argument="text",
         )
     text = text.removeprefix("\ufeff").replace("\r\n", "\n")
     if text.lstrip().startswith("<"):
-        inside = unescape(text.rpartition(f'<pre id="{RECORD}">')[2].partition("</pre>")[0]) if RECORD in text else ""
+        inside = (
+            unescape(text.rpartition(f'<pre id="{RECORD}">')[2].partition("</pre>")[0])
+            if RECORD in text
+            else ""
+        )
     else:
         inside = text.rpartition(FENCE)[2].rpartition("```")[0] if FENCE in text else ""
     if not inside.strip():
         raise InputError(
-            "text has no record of an impact at its end; give the whole text of a report as report(...) returned it",
+            "text has no record of an impact at its end; give the whole text of a report as "
+            "report(...) returned it",
             code="no_record",
             argument="text",
         )
@@ -287,7 +350,9 @@ def _whole(text: Any) -> Mapping[str, Any]:
 
 
 def _check(recorded: Any, found: Any) -> None:
-    """Raise if the record's results are incomplete or differ from those of its inputs by more than rounding may."""
+    """Raise if the record's results are incomplete or differ from those of its inputs by more than
+    rounding may.
+    """
     scale = max((abs(number) for number in _floats(found)), default=0.0)
     differing = next(_differences(recorded, found, "", max(_OTHER_MACHINE, 1e-12 * scale)), None)
     if differing is not None:
@@ -317,7 +382,10 @@ def _differences(recorded: Any, found: Any, name: str, off: float) -> Iterator[s
             yield from _differences(one, other, f"{name}[{i}]", off)
     elif isinstance(recorded, (int, float)) and isinstance(found, float):
         # JSON may hold whole numbers beyond any float.
-        if not (abs(recorded) <= sys.float_info.max and math.isclose(recorded, found, rel_tol=_OTHER_MACHINE, abs_tol=off)):
+        if not (
+            abs(recorded) <= sys.float_info.max
+            and math.isclose(recorded, found, rel_tol=_OTHER_MACHINE, abs_tol=off)
+        ):
             yield f"{name}, {recorded!r}, but {found!r}"
     elif recorded != found:
         yield f"{name}, {shown(recorded)}, but {shown(found)}"
@@ -325,5 +393,7 @@ def _differences(recorded: Any, found: Any, name: str, off: float) -> Iterator[s
 
 def _bad(why: str) -> InputError:
     return InputError(
-        f"the record of the report cannot be used: {why}; take the report as it was made", code="bad_record", argument="text"
+        f"the record of the report cannot be used: {why}; take the report as it was made",
+        code="bad_record",
+        argument="text",
     )

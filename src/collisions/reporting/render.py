@@ -1,4 +1,6 @@
-"""``Html`` and ``Markdown``: the output formats of a report. The HTML is one self-contained file."""
+"""``Html`` and ``Markdown``: the output formats of a report. The HTML is one
+self-contained file.
+"""
 
 from __future__ import annotations
 
@@ -16,9 +18,11 @@ from ..quantities.units import with_symbol
 
 RECORD = "collisions-record"
 _STYLE = """\
-body { font: 12pt/1.4 Georgia, "Times New Roman", serif; color: #1a1a1a; max-width: 48em; margin: 2em auto; padding: 0 1em; }
+body { font: 12pt/1.4 Georgia, "Times New Roman", serif; color: #1a1a1a; max-width: 48em; margin: \
+2em auto; padding: 0 1em; }
 h1 { font-size: 1.6em; margin: 0 0 .3em; }
-h2 { font-size: 1.15em; margin: 1.2em 0 .3em; border-bottom: 1px solid #6a6a6a; break-after: avoid; }
+h2 { font-size: 1.15em; margin: 1.2em 0 .3em; border-bottom: 1px solid #6a6a6a; break-after: \
+avoid; }
 p, ul { margin: .4em 0; overflow-wrap: anywhere; }
 ul { padding-left: 1.3em; }
 .stressed { font-weight: bold; border: 2px solid #a01040; padding: .4em .6em; }
@@ -26,7 +30,8 @@ ul { padding-left: 1.3em; }
 .tables > div { break-inside: avoid; }
 table { border-collapse: collapse; width: 100%; font-size: .92em; margin-bottom: .6em; }
 caption { text-align: left; font-weight: bold; padding-bottom: .1em; overflow-wrap: anywhere; }
-th, td { text-align: left; vertical-align: top; padding: .1em .5em .1em 0; border-bottom: 1px solid #d0d0d0; }
+th, td { text-align: left; vertical-align: top; padding: .1em .5em .1em 0; border-bottom: 1px \
+solid #d0d0d0; }
 th { font-weight: normal; width: 55%; }
 td { font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
 figure { margin: .8em 0; max-width: 38em; break-inside: avoid; }
@@ -47,7 +52,9 @@ _START = re.compile(r"^(\d*)([-+=.)])")
 # Joiners, which some scripts need; other invisible characters could change how a line reads.
 _JOINERS = "\u200c\u200d"
 _AS_PRINTED = 1e-9  # relative: a number this near to its six figures is shown by them
-_DIGITS = 12  # numbers with no more digits are shown in full, as somebody typed them; the record has all digits of the others
+# numbers with no more digits are shown in full, as somebody typed them; the record has all digits
+# of the others
+_DIGITS = 12
 
 
 def plain(text: str) -> str:
@@ -71,22 +78,29 @@ class Printed(System):
 class _Sheet(Page):
     """A derivation page with what both forms of a report have in common."""
 
-    def __init__(self, units: str, deviations: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> None:
+    def __init__(
+        self, units: str, deviations: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]
+    ) -> None:
         super().__init__(Printed(units), False, deviations, ranges)
-        # Apart from ``parts``, to which equations are written: a report has those in its derivation alone.
+        # Apart from ``parts``, to which equations are written: a report has those in its derivation
+        # alone.
         self.blocks: list[str] = []
 
     def name(self, text: str) -> str:
         return plain(text)
 
     def as_given(self, value: float | None, kind: str, text: str | None) -> str:
-        """A number in the units of the page, and how it was given; if not as a text, with all the digits that were typed."""
+        """A number in the units of the page, and how it was given; if not as a text, with all the
+        digits that were typed.
+        """
         if value is None:
             return f"given as {typeset(with_symbol(plain(text or '')))}"
         number = self.number(value, kind)
         if text is not None:
             return given_as(number, text)
-        if not math.isfinite(value) or abs(float(f"{value:.{_DIGITS}g}") - value) > 1e-15 * abs(value):
+        if not math.isfinite(value) or abs(float(f"{value:.{_DIGITS}g}") - value) > 1e-15 * abs(
+            value
+        ):
             return number
         printed = float(number.removesuffix(self.system.unit(kind)))
         if abs(printed - value * self.system.scale(kind)) <= _AS_PRINTED * abs(printed):
@@ -102,9 +116,13 @@ class _Sheet(Page):
 
 
 def given_as(value: str, text: str) -> str:
-    """A number as it is printed, and as it was given; not if it has the digits of a conversion, which nobody types."""
+    """A number as it is printed, and as it was given; not if it has the digits of a conversion,
+    which nobody types.
+    """
     given = typeset(with_symbol(plain(text)))
-    digits = max(len(number.replace(".", "").lstrip("0")) for number in ["", *re.findall(r"\d*\.?\d+", text)])
+    digits = max(
+        len(number.replace(".", "").lstrip("0")) for number in ["", *re.findall(r"\d*\.?\d+", text)]
+    )
     return value if given == value or digits > _DIGITS else f"{value}, given as {given}"
 
 
@@ -132,13 +150,19 @@ class Html(_Sheet):
             subjects.setdefault(row[0], []).append(row)
         for of, parts in subjects.items():
             lines += ["<div><table>", f"<caption>{escape(of)}</caption>", "<tbody>"]
-            lines += [f'<tr><th scope="row">{escape(what)}</th><td>{escape(value)}</td></tr>' for _, what, value in parts]
+            lines += [
+                f'<tr><th scope="row">{escape(what)}</th><td>{escape(value)}</td></tr>'
+                for _, what, value in parts
+            ]
             lines += ["</tbody>", "</table></div>"]
         self.blocks += [*lines, "</div>"]
 
     def items(self, lines: Sequence[tuple[str, str]]) -> None:
         starts = [f"<strong>{escape(start)}</strong> " if start else "" for start, _ in lines]
-        texts = [f"<li>{start}{escape(text)}</li>" for start, (_, text) in zip(starts, lines, strict=True)]
+        texts = [
+            f"<li>{start}{escape(text)}</li>"
+            for start, (_, text) in zip(starts, lines, strict=True)
+        ]
         self.blocks += ["<ul>", *texts, "</ul>"]
 
     def picture(self, caption: str, svg: str) -> None:
@@ -150,7 +174,12 @@ class Html(_Sheet):
 
     def record(self, text: str) -> None:
         summary = "<summary>Record with all digits (not printed)</summary>"
-        self.blocks += ["<details>", summary, f'<pre id="{RECORD}">{escape(text)}</pre>', "</details>"]
+        self.blocks += [
+            "<details>",
+            summary,
+            f'<pre id="{RECORD}">{escape(text)}</pre>',
+            "</details>",
+        ]
 
     def whole(self, version: str) -> str:
         lines = [
@@ -158,7 +187,8 @@ class Html(_Sheet):
             '<html lang="en">',
             "<head>",
             '<meta charset="utf-8">',
-            """<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">""",
+            """<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src \
+'unsafe-inline'">""",
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
             f'<meta name="generator" content="collisions {escape(version)}">',
             f"<title>{self._title}</title>",
@@ -192,7 +222,10 @@ class Markdown(_Sheet):
         self.blocks.append("\n".join([first, "| --- | --- | --- |", *lines]))
 
     def items(self, lines: Sequence[tuple[str, str]]) -> None:
-        texts = (f"**{_escaped(start)}** {_escaped(text)}" if start else _line(text) for start, text in lines)
+        texts = (
+            f"**{_escaped(start)}** {_escaped(text)}" if start else _line(text)
+            for start, text in lines
+        )
         self.blocks.append("\n".join(f"- {text}" for text in texts))
 
     def working(self, text: str) -> None:

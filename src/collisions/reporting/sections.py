@@ -31,10 +31,12 @@ from ..reconstruct import MomentumSolution, Posterior
 from ..vehicle.vehicle import Vehicle
 from .render import Sheet, given_as, plain
 
-# A reverse solver's result agrees with its inputs within this, relative to the speeds or energies of the impact; end states
-# that still approach by up to a hundredth of the closing speed are taken to stay together.
+# A reverse solver's result agrees with its inputs within this, relative to the speeds or energies
+# of the impact; end states that still approach by up to a hundredth of the closing speed are taken
+# to stay together.
 _COMES_OUT, _TOGETHER = 1e-6, 0.02
-# Components of delta-V are measured: if more are given than are needed, they are met only as well as they agree.
+# Components of delta-V are measured: if more are given than are needed, they are met only as well
+# as they agree.
 _RECORDED = 0.3
 _DEGREE = math.degrees(1.0)
 # What the damage shows, by the option that says it: what it is of, in words, and its kind.
@@ -47,19 +49,26 @@ EVIDENCE = {
 }
 _REGIMES = {
     "frictionless": "none: the contact is frictionless",
-    "sliding": "the contact slips to the end, and the impulse ratio has the size of the friction given",
+    "sliding": (
+        "the contact slips to the end, and the impulse ratio has the size of the friction given"
+    ),
     "sticking": "slip ends during the contact, with less than the friction given",
-    "reversing": "slip stops during the contact and goes on the other way, against which friction then acts",
+    "reversing": (
+        "slip stops during the contact and goes on the other way, against which friction then acts"
+    ),
     "given": "by the ratio that was given, not by a law of friction",
 }
 _GEOMETRIES = {
-    "maximum_engagement": "those given are of maximum engagement; the start of the contact was found from them.",
+    "maximum_engagement": (
+        "those given are of maximum engagement; the start of the contact was found from them."
+    ),
     "first_contact": "those given are of first contact.",
     "fixed": "they stay where they are during the contact.",
 }
 _TYRES = (
-    "their mean force before, half-way through and after the contact, times its duration, acts as an impulse from outside; "
-    "wheels roll, brake and steer, with the force that they have on the way to rest."
+    "their mean force before, half-way through and after the contact, times its duration, acts "
+    "as an impulse from outside; wheels roll, brake and steer, with the force that they have on "
+    "the way to rest."
 )
 _RANGE = (
     reference.RESTITUTION_FIT,
@@ -71,20 +80,29 @@ _RANGE = (
 # A published value in the source of a limit.
 _PUBLISHED = re.compile(r"reference\.(\w+)")
 # Below and above 30 mph.
-_DRAG = tuple(value for value in reference.DRAG_FACTORS if value.name.startswith("drag factor, travelled dry asphalt,"))
+_DRAG = tuple(
+    value
+    for value in reference.DRAG_FACTORS
+    if value.name.startswith("drag factor, travelled dry asphalt,")
+)
 
 
 def gain(sheet: Sheet, impact: Impact | MomentumSolution, loss: float) -> None:
     """Write the warning of an energy gain, before anything else."""
     if impact.status == Status.ENERGY_GAIN:
         sheet.stress(
-            f"Energy gain of {sheet.system.answer(-loss, 'energy')}: {impact.status.sentence}, which no impact "
-            f"gives. The inputs do not go together; the numbers are shown as they are."
+            f"Energy gain of {sheet.system.answer(-loss, 'energy')}: {impact.status.sentence}, "
+            "which no impact gives. The inputs do not go together; the numbers are shown as "
+            "they are."
         )
 
 
-def inputs(sheet: Sheet, impact: Impact, options: Mapping[str, Any], notes: Mapping[str, str]) -> None:
-    """Write the inputs with the texts they were given as, and the choice of the model or how the state was found."""
+def inputs(
+    sheet: Sheet, impact: Impact, options: Mapping[str, Any], notes: Mapping[str, str]
+) -> None:
+    """Write the inputs with the texts they were given as, and the choice of the model or how the
+    state was found.
+    """
     backwards = impact.reconstruction is not None
     sheet.heading("What was given and found" if backwards else "Inputs")
     vehicles = {"A": impact.a.before, "B": impact.b.before}
@@ -94,16 +112,32 @@ def inputs(sheet: Sheet, impact: Impact, options: Mapping[str, Any], notes: Mapp
         texts = (impact.inputs.given if vehicle is None else vehicle.given) or {}
         if names[0].startswith("tyres_"):
             wheels = impact.inputs.tyres.items()
-            texts = {f"tyres_{label}.{one}": text for label, own in wheels for one, text in own.given.items()}
-        name = f"{of} ({plain(vehicle.name)})" if vehicle is not None and vehicle.name not in ("", of) else of
+            texts = {
+                f"tyres_{label}.{one}": text
+                for label, own in wheels
+                for one, text in own.given.items()
+            }
+        name = (
+            f"{of} ({plain(vehicle.name)})"
+            if vehicle is not None and vehicle.name not in ("", of)
+            else of
+        )
         note = notes.get(key_of(of, names))
         value = _input(sheet, impact, vehicle, dict(zip(names, numbers, strict=True)), kind, texts)
         rows.append((name, quantity, _with(value, note)))
         rows += [(name, what, text) for what, text in _published(impact, names[0])]
         if vehicle is not None and quantity == "mass":
             for what, number in speed_rows(vehicle):
-                found = "" if number is None else sheet.number(number, "speed" if what == "speed" else "angle")
-                text = plain(texts[what]) if number is None else given_as(found, texts.get(what, found))
+                found = (
+                    ""
+                    if number is None
+                    else sheet.number(number, "speed" if what == "speed" else "angle")
+                )
+                text = (
+                    plain(texts[what])
+                    if number is None
+                    else given_as(found, texts.get(what, found))
+                )
                 rows.append((name, what, _with(text, notes.get(f"{of.lower()}.{what}"))))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution", _with(impact.law.title(), notes.get("law"))))
@@ -111,7 +145,10 @@ def inputs(sheet: Sheet, impact: Impact, options: Mapping[str, Any], notes: Mapp
     sheet.table(rows)
     known = [] if impact.reconstruction is None else _known(sheet, impact, notes)
     if any("given as" in text for *_, text in (*rows, *known)):
-        sheet.say("“Given as” repeats the text of an input that was given in another unit than that of this page.")
+        sheet.say(
+            "“Given as” repeats the text of an input that was given in another unit than that of "
+            "this page."
+        )
     sheet.say("The record at the end has every digit.")
     reverse.why_this_model(sheet, impact)
     if impact.reconstruction is not None:
@@ -121,7 +158,9 @@ def inputs(sheet: Sheet, impact: Impact, options: Mapping[str, Any], notes: Mapp
 
 
 def key_of(of: str, names: Sequence[str]) -> str:
-    """The name of an input in ``notes``, such as "a.mass" or "restitution"; one name for both parts of a place."""
+    """The name of an input in ``notes``, such as "a.mass" or "restitution"; one name for both parts
+    of a place.
+    """
     name = names[0].partition("[")[0]
     return name if of == "contact" else f"{of.lower()}.{name}"
 
@@ -152,10 +191,19 @@ def _restitution(closing_speed: float) -> str:
     if closing_speed < slowest:
         return "none: no value is published for so low a speed"
     if closing_speed <= fastest:
-        whence = f"{_short(reference.RESTITUTION_FIT)}, plus half the range of {_short(reference.RESTITUTION_LOW_SPEED)}"
+        whence = (
+            f"{_short(reference.RESTITUTION_FIT)}, plus half the range of "
+            f"{_short(reference.RESTITUTION_LOW_SPEED)}"
+        )
     else:
-        rule, tests = reference.RESTITUTION, (reference.RESTITUTION_OBLIQUE, reference.RESTITUTION_SMALL_OVERLAP)
-        whence = f"{_short(rule)}, to {rule.high:g}; tests, to {max(test.high for test in tests):g}; rounded up"
+        rule, tests = (
+            reference.RESTITUTION,
+            (reference.RESTITUTION_OBLIQUE, reference.RESTITUTION_SMALL_OVERLAP),
+        )
+        whence = (
+            f"{_short(rule)}, to {rule.high:g}; tests, to {max(test.high for test in tests):g}; "
+            "rounded up"
+        )
     return f"{low:.2g} to {high:.2g} ({whence})"
 
 
@@ -165,7 +213,12 @@ def _short(value: reference.Published | reference.Fit) -> str:
 
 
 def _input(
-    sheet: Sheet, impact: Impact, vehicle: Vehicle | None, numbers: Mapping[str, float], kind: str, texts: Mapping[str, Any]
+    sheet: Sheet,
+    impact: Impact,
+    vehicle: Vehicle | None,
+    numbers: Mapping[str, float],
+    kind: str,
+    texts: Mapping[str, Any],
 ) -> str:
     """One number or both of a place, and how they were given."""
     value = ", ".join(sheet.number(number, kind) for number in numbers.values())
@@ -178,12 +231,20 @@ def _input(
         return f"{value}, worked out from speed and course"
     if "normal" in numbers and impact.inputs.bare_normal is not None:
         return f"{value}, given as {impact.inputs.bare_normal:.6g} without a unit"
-    each = [sheet.as_given(float(number), kind, texts.get(name)) for name, number in numbers.items()]
-    return "; ".join(f"{axis}: {part}" for axis, part in zip("xy", each, strict=True)) if written else ", ".join(each)
+    each = [
+        sheet.as_given(float(number), kind, texts.get(name)) for name, number in numbers.items()
+    ]
+    return (
+        "; ".join(f"{axis}: {part}" for axis, part in zip("xy", each, strict=True))
+        if written
+        else ", ".join(each)
+    )
 
 
 def speed_rows(vehicle: Vehicle) -> Iterator[tuple[str, float | None]]:
-    """Speed and course if the velocity was given by them; at rest there is no course, except as a text that was given."""
+    """Speed and course if the velocity was given by them; at rest there is no course, except as a
+    text that was given.
+    """
     texts: Mapping[str, Any] = vehicle.given or {}
     for name, value in (("speed", vehicle.speed), ("course", vehicle.course)):
         if not math.isnan(value) and texts.keys() & {"speed", "course"}:
@@ -207,14 +268,20 @@ def _read(text: str, name: str) -> float | None:
     """The number of a text; None if its unit belongs to another registry."""
     reader = ArgumentReader()
     kind = KNOWN[name].kind
-    read = course(reader, text, name).radians if kind == "angle" else reader.number(text, SI_UNITS[kind], name)
+    read = (
+        course(reader, text, name).radians
+        if kind == "angle"
+        else reader.number(text, SI_UNITS[kind], name)
+    )
     return None if reader.problems else float(read)
 
 
 def contradicted(impact: Impact) -> Iterator[str]:
     """The known inputs of a reverse solver, by their texts, that the impact contradicts."""
     sides = (impact.a, impact.b)
-    speeds = impact.closing_speed + sum(state.speed for side in sides for state in (side.before, side.after))
+    speeds = impact.closing_speed + sum(
+        state.speed for side in sides for state in (side.before, side.after)
+    )
     turning = sum(abs(side.before.yaw_rate) + abs(side.after.yaw_rate) for side in sides)
     together = _TOGETHER if impact.restitution == 0.0 else 0.0
     allowed = {
@@ -232,15 +299,25 @@ def contradicted(impact: Impact) -> Iterator[str]:
         # A speed may come out negative, with the opposite course; a vehicle at rest has no course.
         apart = math.remainder(read - number, math.pi) if kind == "angle" else read - number
         measured = name.startswith(("delta_v_forward", "delta_v_left"))
-        if abs(apart) > (_RECORDED * max(side.delta_v for side in sides) if measured else allowed[kind]):
-            yield f"{name} was given as {text!r}, but the {known.what} is {number!r} {SI_UNITS[kind]}"
+        if abs(apart) > (
+            _RECORDED * max(side.delta_v for side in sides) if measured else allowed[kind]
+        ):
+            yield (
+                f"{name} was given as {text!r}, but the {known.what} is {number!r} {SI_UNITS[kind]}"
+            )
 
 
-def momentum(sheet: Sheet, solution: MomentumSolution, options: Mapping[str, Any], notes: Mapping[str, str]) -> None:
+def momentum(
+    sheet: Sheet, solution: MomentumSolution, options: Mapping[str, Any], notes: Mapping[str, str]
+) -> None:
     """Inputs, assumptions and results of planar momentum, and how far each input moves them."""
     given: dict[str, Any] = {}
     for name, value in (solution.given or {}).items():
-        given |= {f"{name}[{at}]": part for at, part in enumerate(value)} if isinstance(value, list) else {name: value}
+        given |= (
+            {f"{name}[{at}]": part for at, part in enumerate(value)}
+            if isinstance(value, list)
+            else {name: value}
+        )
     sheet.heading("Inputs")
     rows = []
     for of, what, name, number, kind in momentum_inputs(solution):
@@ -251,18 +328,31 @@ def momentum(sheet: Sheet, solution: MomentumSolution, options: Mapping[str, Any
     sheet.heading("Assumptions")
     together = " The vehicles leave together." if "together" in given else ""
     sheet.say(
-        "The momentum of both vehicles together is the same before and after, along x and along y (1), (2), save for an "
-        f"impulse from outside that is stated. Nothing is assumed of restitution, friction or rotation.{together}"
+        "The momentum of both vehicles together is the same before and after, along x and along "
+        "y (1), (2), save for an impulse from outside that is stated. Nothing is assumed of "
+        f"restitution, friction or rotation.{together}"
     )
     sheet.heading("Results")
     sheet.table(momentum_answers(sheet, solution))
     system, of_speed = sheet.system, sheet.system.scale("speed")
-    rows = [("both", "condition, from the angle between the courses of the unknown speeds", f"{solution.condition:.3g}")]
+    rows = [
+        (
+            "both",
+            "condition, from the angle between the courses of the unknown speeds",
+            f"{solution.condition:.3g}",
+        )
+    ]
     for answer, row in solution.sensitivity.items():
         for name, value in row.items():
-            kind = {"mass": "mass", "speed": "speed", "course": "angle", "outside": "impulse"}[name.partition("_")[0]]
+            kind = {"mass": "mass", "speed": "speed", "course": "angle", "outside": "impulse"}[
+                name.partition("_")[0]
+            ]
             # Nobody errs by a radian: per degree in every system.
-            scale, unit = (_DEGREE, "°") if kind == "angle" else (system.scale(kind), typeset(system.label(kind)))
+            scale, unit = (
+                (_DEGREE, "°")
+                if kind == "angle"
+                else (system.scale(kind), typeset(system.label(kind)))
+            )
             by = value * of_speed / scale
             moved = f"{f'{by:+.3g}' if by else '0'} {system.label('speed')} per {unit}"
             rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
@@ -292,55 +382,109 @@ def _damage(sheet: Sheet, options: Mapping[str, Any]) -> Iterator[tuple[str, str
 
 
 def assumptions(
-    sheet: Sheet, impact: Impact, options: Mapping[str, Any], outlines: Mapping[str, Any], notes: Mapping[str, str]
+    sheet: Sheet,
+    impact: Impact,
+    options: Mapping[str, Any],
+    outlines: Mapping[str, Any],
+    notes: Mapping[str, str],
 ) -> None:
-    """Write the model and its law, the conventions, and numbers for what an impulse neglects, or how the contact passed."""
-    found = left_out(impact, duration=options["duration"], drag=options["drag"]) if impact.pulse is None else None
+    """Write the model and its law, the conventions, and numbers for what an impulse neglects, or
+    how the contact passed.
+    """
+    found = (
+        left_out(impact, duration=options["duration"], drag=options["drag"])
+        if impact.pulse is None
+        else None
+    )
     sheet.heading("Assumptions")
     lines = [("Model:", BY_NAME[impact.model].assumptions)]
     if impact.model != "linear_central":
         if impact.pulse is None:
-            lines.append(("Law:", f"{str(impact.law).title()}: {LAWS[str(impact.law)].assumption}."))
-        back = impact.regime == "sticking" and sheet.system.working(abs(impact.slip_after), "speed") != "0"
+            lines.append(
+                ("Law:", f"{str(impact.law).title()}: {LAWS[str(impact.law)].assumption}.")
+            )
+        back = (
+            impact.regime == "sticking"
+            and sheet.system.working(abs(impact.slip_after), "speed") != "0"
+        )
         ends = ", and comes back" if back else ""
         lines.append(("Tangential impulse:", f"{impact.regime}: {_REGIMES[impact.regime]}{ends}."))
     vehicles = (impact.a.before, impact.b.before)
     pivots = " but the pivot's" if any(vehicle.pivot is not None for vehicle in vehicles) else ""
-    outside = ", unless an impulse from outside is given" if impact.inputs.outside_a is not None else ""
+    outside = (
+        ", unless an impulse from outside is given" if impact.inputs.outside_a is not None else ""
+    )
     if found is None:
         lines.append(("Places:", _GEOMETRIES[impact.inputs.geometry or "maximum_engagement"]))
         if impact.inputs.tyres:
-            lines.append(("Tyres:", "wheels roll, brake and steer, with the force that they have on the way to rest."))
+            lines.append(
+                (
+                    "Tyres:",
+                    (
+                        "wheels roll, brake and steer, with the force that they have on the way "
+                        "to rest."
+                    ),
+                )
+            )
         if impact.inputs.drag and any(vehicle.heading is None for vehicle in vehicles):
-            lines.append(("Tyres:", "a vehicle without a heading is held at its centre of mass, where tyres cannot turn it."))
+            lines.append(
+                (
+                    "Tyres:",
+                    (
+                        "a vehicle without a heading is held at its centre of mass, where tyres "
+                        "cannot turn it."
+                    ),
+                )
+            )
     else:
         left = "the forces of the tyres"
         if impact.inputs.tyres and impact.model == "eccentric":
             lines.append(("Tyres:", _TYRES))
             left = "other forces of the ground"
         instant = (
-            "it acts in an instant, along one normal that points from A into B. Positions, masses and inertias do not change "
-            f"while it acts; {left} and all others{pivots} are left out{outside}."
+            "it acts in an instant, along one normal that points from A into B. Positions, "
+            f"masses and inertias do not change while it acts; {left} and all others{pivots} are "
+            f"left out{outside}."
         )
         lines.append(("Impulse:", instant))
-    lines.append(("Axes:", "x and y lie in the road plane; angles and yaw are positive counter-clockwise, seen from above."))
+    lines.append(
+        (
+            "Axes:",
+            (
+                "x and y lie in the road plane; angles and yaw are positive counter-clockwise, "
+                "seen from above."
+            ),
+        )
+    )
     for label, corners in outlines.items():
         outline = _outline(sheet, [(float(ahead), float(left)) for ahead, left in corners])
-        lines.append((f"Outline of {label.upper()}:", f"{outline}. {notes.get(f'outline_{label}', '')}".rstrip()))
+        lines.append(
+            (
+                f"Outline of {label.upper()}:",
+                f"{outline}. {notes.get(f'outline_{label}', '')}".rstrip(),
+            )
+        )
     for code, value in read_limits(options["limits"], ArgumentReader()).items():
         if value is not None and value != LIMITS[code].default:
             lines.append(
-                (f"Limit of {label_of(code)}:", f"{sheet.number(value, KIND_OF[LIMITS[code].unit])}, set for this report.")
+                (
+                    f"Limit of {label_of(code)}:",
+                    f"{sheet.number(value, KIND_OF[LIMITS[code].unit])}, set for this report.",
+                )
             )
     sheet.items(lines)
     if found is None:
         _pulse(sheet, impact)
         return
     time, drag = f"{float(found.duration):g} s", f"{float(found.drag):g}"
-    bounded = any(vehicle.pivot is None and math.isfinite(float(vehicle.mass)) for vehicle in vehicles)
+    bounded = any(
+        vehicle.pivot is None and math.isfinite(float(vehicle.mass)) for vehicle in vehicles
+    )
     but = ", except what is marked as a bound" if bounded else ""
     held = impact.inputs.tyres and impact.model == "eccentric"
-    tyres = "beside the tyres, which are in it" if held else f"and tyres with a drag factor of {drag}"
+    tyres = (
+        "beside the tyres, which are in it" if held else f"and tyres with a drag factor of {drag}"
+    )
     sheet.say(f"What the model leaves out, for a contact of {time} {tyres} (estimates{but}):")
     crush = "not known: the impact is incomplete"
     if impact.complete:
@@ -350,11 +494,18 @@ def assumptions(
         *([] if held else [("contact", "drag of the tyres taken", _with(drag, notes.get("drag")))]),
         *([] if held else [("contact", what, text) for what, text in _published(impact, "drag")]),
         ("contact", "maximum mutual crush", crush),
-        ("contact", "sliding along the contact", sheet.system.answer(float(found.contact_slide), "length")),
+        (
+            "contact",
+            "sliding along the contact",
+            sheet.system.answer(float(found.contact_slide), "length"),
+        ),
     ]
     for index, (vehicle, side) in enumerate(zip(vehicles, (found.a, found.b), strict=True)):
         if math.isfinite(float(vehicle.mass)):
-            rows += [(plain(who(index, vehicle)), what, text) for what, text in _left_out(sheet, side, impact.model, vehicle)]
+            rows += [
+                (plain(who(index, vehicle)), what, text)
+                for what, text in _left_out(sheet, side, impact.model, vehicle)
+            ]
     sheet.table(rows)
 
 
@@ -370,31 +521,60 @@ def _pulse(sheet: Sheet, impact: Impact) -> None:
     ]
     for index, left in enumerate((found.residual_crush_a, found.residual_crush_b)):
         if left is not None:
-            text = answer(float(left), "length") if left > 0.0 else "none: the force stays below that which leaves some"
-            rows.append((plain(who(index, (impact.a, impact.b)[index].before)), "residual crush", text))
-    for index, (side, most) in enumerate(((impact.a, found.peak_acceleration_a), (impact.b, found.peak_acceleration_b))):
+            text = (
+                answer(float(left), "length")
+                if left > 0.0
+                else "none: the force stays below that which leaves some"
+            )
+            rows.append(
+                (plain(who(index, (impact.a, impact.b)[index].before)), "residual crush", text)
+            )
+    for index, (side, most) in enumerate(
+        ((impact.a, found.peak_acceleration_a), (impact.b, found.peak_acceleration_b))
+    ):
         if math.isfinite(float(side.before.mass)):
             name = plain(who(index, side.before))
-            rows.append((name, "largest acceleration of the centre of mass", answer(float(most), "acceleration")))
+            rows.append(
+                (
+                    name,
+                    "largest acceleration of the centre of mass",
+                    answer(float(most), "acceleration"),
+                )
+            )
             if impact.inputs.drag or impact.inputs.tyres:
-                held = (answer(float(part), "impulse") for part in (side.tyre_impulse_x, side.tyre_impulse_y))
+                held = (
+                    answer(float(part), "impulse")
+                    for part in (side.tyre_impulse_x, side.tyre_impulse_y)
+                )
                 rows.append((name, "impulse of the tyres (x, y)", ", ".join(held)))
-                rows.append((name, "energy lost by the tyres", answer(float(side.tyre_loss), "energy")))
+                rows.append(
+                    (name, "energy lost by the tyres", answer(float(side.tyre_loss), "energy"))
+                )
     sheet.say("How the contact passed:")
     sheet.table(rows)
 
 
-def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> Iterator[tuple[str, str]]:
+def _left_out(
+    sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle
+) -> Iterator[tuple[str, str]]:
     # Tyres of a body that turns about a pivot act on it by their levers, which are not known.
     own = "upper bound" if vehicle.pivot is None else "about"
-    way = (sheet.system.answer(float(part), "length") for part in (side.displacement_x, side.displacement_y))
+    way = (
+        sheet.system.answer(float(part), "length")
+        for part in (side.displacement_x, side.displacement_y)
+    )
     yield "travel during the contact (x, y)", ", ".join(way)
     if model == "eccentric":
         yield "rotation during the contact", sheet.system.answer(float(side.rotation), "angle")
     own_tyres = f"delta-V from its own tyres, {own}", ""
     both_tyres = "change of delta-V by the tyres of both vehicles", "speeds that the tyres leave"
-    later = "places and the normal of other moments of the contact, in which the bodies part as a rule"
-    moved = "change of delta-V as positions and normal move on from those of maximum engagement", later
+    later = (
+        "places and the normal of other moments of the contact, in which the bodies part as a rule"
+    )
+    moved = (
+        "change of delta-V as positions and normal move on from those of maximum engagement",
+        later,
+    )
     for (what, other), change, share in (
         (own_tyres, side.tyre_delta_v_bound, side.tyre_share_bound),
         (both_tyres, side.tyre_delta_v, side.tyre_share),
@@ -402,17 +582,23 @@ def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> 
     ):
         if change is not None and share is not None:
             part = "" if math.isnan(float(share)) else f" ({percent(float(share))})"
-            part = f": the model has no answer with the {other}" if math.isnan(float(change)) else part
+            part = (
+                f": the model has no answer with the {other}" if math.isnan(float(change)) else part
+            )
             yield what, sheet.system.answer(float(change), "speed") + part
 
 
 def _outline(sheet: Sheet, corners: Sequence[tuple[float, float]]) -> str:
-    """An outline in words: length and width of a rectangle about the centre of mass, else its corners."""
+    """An outline in words: length and width of a rectangle about the centre of mass, else its
+    corners.
+    """
     length, width = (max(corner[i] for corner in corners) for i in (0, 1))
     if set(corners) == {(ahead, left) for ahead in (length, -length) for left in (width, -width)}:
         long, wide = (sheet.number(2.0 * half, "length") for half in (length, width))
         return f"{long} long and {wide} wide, about the centre of mass"
-    places = "; ".join(", ".join(sheet.number(part, "length") for part in corner) for corner in corners)
+    places = "; ".join(
+        ", ".join(sheet.number(part, "length") for part in corner) for corner in corners
+    )
     return f"corners (forward, left) from the centre of mass: {places}"
 
 
@@ -443,19 +629,34 @@ def posterior(sheet: Sheet, found: Posterior) -> None:
         if not part.folded:
             # The evidence has no heading of its own in the summary.
             sheet.heading(part.heading or "How well model and priors predict the observations")
-            heads = part.columns or ("stated" if part.heading else "natural logarithm ± error of sampling",)
-            sheet.table([(plain(name), *row) for name, *texts in part.rows for row in zip(heads, texts, strict=True)])
+            heads = part.columns or (
+                "stated" if part.heading else "natural logarithm ± error of sampling",
+            )
+            sheet.table(
+                [
+                    (plain(name), *row)
+                    for name, *texts in part.rows
+                    for row in zip(heads, texts, strict=True)
+                ]
+            )
     sheet.say(f"{summary.title}, seed {found.seed}.")
 
 
 def findings(sheet: Sheet, found: Findings) -> None:
-    """Write the findings, each but a note with measure and limit; also the checks that were made, and those that were not."""
+    """Write the findings, each but a note with measure and limit; also the checks that were made,
+    and those that were not.
+    """
     sheet.heading("Findings")
     others = ", ".join(label_of(code) for code in LIMITS if code not in found.measured)
-    others = f" Not made, because they lack an input, do not apply or are switched off: {others}." if others else ""
+    others = (
+        f" Not made, because they lack an input, do not apply or are switched off: {others}."
+        if others
+        else ""
+    )
     if not found:
         sheet.say(
-            f"None of the {len(found.measured)} checks that were made found anything, which proves nothing by itself.{others}"
+            f"None of the {len(found.measured)} checks that were made found anything, which "
+            f"proves nothing by itself.{others}"
         )
         return
     lines = []
@@ -465,23 +666,41 @@ def findings(sheet: Sheet, found: Findings) -> None:
         end = "" if sentence.endswith("?") else "."
         judged = ""
         if not is_note(finding):
-            measured, limit = (sheet.number(value, KIND_OF[finding.unit]) for value in (finding.measured, finding.limit))
+            measured, limit = (
+                sheet.number(value, KIND_OF[finding.unit])
+                for value in (finding.measured, finding.limit)
+            )
             judged = f" Measured {measured}, limit {limit}. Basis of the limit: {_basis(finding)}."
         lines.append((f"{label_of(finding.code)}{of}:", f"{sentence}{end}{judged}"))
     sheet.items(lines)
-    sheet.say(f"{len(found.measured)} checks were made. A finding is a reason to look again, not an error.{others}")
+    sheet.say(
+        f"{len(found.measured)} checks were made. A finding is a reason to look again, not an "
+        f"error.{others}"
+    )
 
 
 def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Finding]) -> None:
     """Write the sources of equations, limits and comparable values."""
     sheet.heading("References")
-    lines = ['"Application of Impulse Momentum Theory to Vehicle Collisions"; a number such as (5) is an equation of it.']
+    lines = [
+        (
+            '"Application of Impulse Momentum Theory to Vehicle Collisions"; a number such as '
+            "(5) is an equation of it."
+        )
+    ]
     if isinstance(impact, Impact):
         values = [("restitution", value) for value in _RANGE]
         if any(_published(impact, impact.inputs.rule)):
             values.append(("friction", reference.INTER_VEHICLE_FRICTION))
-        values += [("drag", value) for value in _DRAG if impact.pulse is None or impact.inputs.drag is not None]
-        lines += [f"For comparison with the {what}: {value.name}; {value.source}. {value.quality}" for what, value in values]
+        values += [
+            ("drag", value)
+            for value in _DRAG
+            if impact.pulse is None or impact.inputs.drag is not None
+        ]
+        lines += [
+            f"For comparison with the {what}: {value.name}; {value.source}. {value.quality}"
+            for what, value in values
+        ]
     for finding in found:
         for name in _PUBLISHED.findall(finding.source):
             for value in _RANGE if name == "restitution_range" else (getattr(reference, name),):
@@ -489,13 +708,21 @@ def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Fin
     if isinstance(impact, Impact):
         duration = reference.CONTACT_DURATION
         ends = f"{duration.low:g} to {duration.high:g} s"
-        lines.append(f"For comparison with the duration: {duration.name}, {ends}; {duration.source}. {duration.quality}")
+        lines.append(
+            f"For comparison with the duration: {duration.name}, {ends}; {duration.source}. "
+            f"{duration.quality}"
+        )
     sheet.listed(list(dict.fromkeys(lines)))
 
 
 def _basis(finding: Finding) -> str:
-    """Where the limit comes from, with what the list of references calls a published value in place of its name in Python."""
+    """Where the limit comes from, with what the list of references calls a published value in place
+    of its name in Python.
+    """
     words = {"restitution_range": "the published range of restitution"}
     return _PUBLISHED.sub(
-        lambda found: f"{words.get(found[1]) or f'“{getattr(reference, found[1]).name}”'} (see References)", finding.source
+        lambda found: (
+            f"{words.get(found[1]) or f'“{getattr(reference, found[1]).name}”'} (see References)"
+        ),
+        finding.source,
     )

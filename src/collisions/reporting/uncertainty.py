@@ -1,4 +1,6 @@
-"""``Spread``: adds a propagation to a report: the spread of each result it covers, and a section of its own."""
+"""``Spread``: adds a propagation to a report: the spread of each result it covers, and a section of
+its own.
+"""
 
 from __future__ import annotations
 
@@ -19,8 +21,8 @@ from ..uncertainty.distribution import GivenUnit, from_numbers
 from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies
 from .render import Sheet, plain
 
-# Kind and number of inputs of the library that have no unit, and so are no more in SI than in any other units; their number
-# in this result is not known.
+# Kind and number of inputs of the library that have no unit, and so are no more in SI than in any
+# other units; their number in this result is not known.
 _UNITLESS = {
     f"{name}{of}": ("number", math.nan)
     for name in ("restitution", "drag", "lock", "grade", "share", *RULES)
@@ -31,15 +33,22 @@ _UNITLESS = {
 class Spread:
     """The outputs of a propagation that are results of the report, by the name of the result."""
 
-    def __init__(self, impact: Impact | MomentumSolution | Fit | Posterior, uncertainty: Propagation | None) -> None:
+    def __init__(
+        self, impact: Impact | MomentumSolution | Fit | Posterior, uncertainty: Propagation | None
+    ) -> None:
         self.impact = impact
         self.kinds = kinds_of_answers(impact)
-        self.outputs, self.deviations, self.ranges = ({}, {}, {}) if uncertainty is None else spread_of(impact, uncertainty)
+        self.outputs, self.deviations, self.ranges = (
+            ({}, {}, {}) if uncertainty is None else spread_of(impact, uncertainty)
+        )
 
     def heading(self, output: Output) -> str:
         """The result in words, such as "A: delta-V"; of any other output its name."""
         words = words_of_answers(self.impact)
-        return next((words[name] for name, answer in self.outputs.items() if answer is output), plain(output.name))
+        return next(
+            (words[name] for name, answer in self.outputs.items() if answer is output),
+            plain(output.name),
+        )
 
     def write(self, sheet: Sheet, uncertainty: Propagation) -> None:
         """Write the figures of every output and the inputs they assume."""
@@ -48,53 +57,67 @@ class Spread:
             self._check(sheet, name, output)
         rows: list[tuple[str, str, str]] = []
         for output in uncertainty.outputs.values():
-            rows += [(self.heading(output), what, text) for what, text in self._figures(sheet, output)]
+            rows += [
+                (self.heading(output), what, text) for what, text in self._figures(sheet, output)
+            ]
         sheet.table(rows)
         if any(what.startswith("variance from") for _, what, _ in rows):
             sheet.say(
-                "Variance from an input: its share by itself, and in all, with its interactions with other inputs. Where the "
-                "shares fall short of 100 % by more than their errors, the rest comes from interactions."
+                "Variance from an input: its share by itself, and in all, with its interactions "
+                "with other inputs. Where the shares fall short of 100 % by more than their "
+                "errors, the rest comes from interactions."
             )
         known = _UNITLESS | _inputs(self.impact)
         stated = [
-            (plain(name), _stated(sheet.system, value, *known.get(name, ()))) for name, value in uncertainty.inputs.items()
+            (plain(name), _stated(sheet.system, value, *known.get(name, ())))
+            for name, value in uncertainty.inputs.items()
         ]
         sheet.table([("Inputs as stated", *row) for row in stated])
         cases = (
-            f"{uncertainty.samples} cases, {f'{uncertainty.failed} without an' if uncertainty.failed else 'all with an'} answer"
+            f"{uncertainty.samples} cases, "
+            f"{f'{uncertainty.failed} without an' if uncertainty.failed else 'all with an'} "
+            "answer"
         )
         seed = "" if uncertainty.seed is None else f", seed {uncertainty.seed}"
         sheet.say(
-            f"± is one standard deviation. Method: {uncertainty.method.replace('_', '-')}, {cases}{seed}. Whatever the stated "
-            f"inputs leave out, these figures leave out too."
+            f"± is one standard deviation. Method: {uncertainty.method.replace('_', '-')}, "
+            f"{cases}{seed}. Whatever the stated inputs leave out, these figures leave out too."
         )
         if uncertainty.statements:
             sheet.stress("What was warned of:")
             sheet.listed([plain(as_sentence(sentence)) for sentence in uncertainty.statements])
 
     def _check(self, sheet: Sheet, name: str, output: Output) -> None:
-        """Warn if the result is outside the propagation's interval: one of the two then belongs to another case."""
+        """Warn if the result is outside the propagation's interval: one of the two then belongs to
+        another case.
+        """
         value: Any = self.impact
         for part in name.split("."):
             value = getattr(value, part)
         kind, (low, high) = self.kinds[name], output.interval()
         turns = (-1, 0, 1) if kind == "angle" else (0,)
         off = max(NO_SPREAD * max(abs(low), abs(high)), NOTHING.get(kind, NO_SPREAD))
-        if value is None or not any(low - off <= value + 2.0 * math.pi * turn <= high + off for turn in turns):
+        if value is None or not any(
+            low - off <= value + 2.0 * math.pi * turn <= high + off for turn in turns
+        ):
             text = "none" if value is None else sheet.system.answer(float(value), kind)
             sheet.stress(
-                f"{self.heading(output)}, {text} in this impact, lies outside the 95 percent interval of the propagation: are "
-                f"both of the same case?"
+                f"{self.heading(output)}, {text} in this impact, lies outside the 95 percent "
+                "interval of the propagation: are both of the same case?"
             )
 
     def _figures(self, sheet: Sheet, output: Output) -> list[tuple[str, str]]:
-        own = next((self.kinds[name] for name, answer in self.outputs.items() if answer is output), None)
+        own = next(
+            (self.kinds[name] for name, answer in self.outputs.items() if answer is output), None
+        )
         found = [(what, plain(text)) for what, text in figures(output, sheet.system, own)]
         return found if output.bounds_only else [*found, *_shares(output)]
 
 
 def _inputs(result: Any) -> dict[str, tuple[str, float]]:
-    """Kind and number of the inputs of a result, by the names of arguments: "mass_a", "speed_a", "restitution"."""
+    """Kind and number of the inputs of a result, by the names of arguments: "mass_a", "speed_a",
+    "restitution".
+    """
     if isinstance(result, MomentumSolution):
         return {name: (kind, number) for _, _, name, number, kind in momentum_inputs(result)}
     found = {
@@ -103,15 +126,24 @@ def _inputs(result: Any) -> dict[str, tuple[str, float]]:
         for name, number in zip(names, numbers, strict=True)
     }
     for label, vehicle in (("a", result.a.before), ("b", result.b.before)):
-        found |= {f"speed_{label}": ("speed", vehicle.speed), f"course_{label}": ("angle", vehicle.course)}
+        found |= {
+            f"speed_{label}": ("speed", vehicle.speed),
+            f"course_{label}": ("angle", vehicle.course),
+        }
     return found
 
 
 def _stated(system: Numbers, value: Any, kind: str = "", number: float = math.nan) -> str:
-    """An input as stated; bare numbers in the unit of the page if they are about the result's own input of that name."""
+    """An input as stated; bare numbers in the unit of the page if they are about the result's own
+    input of that name.
+    """
     if getattr(value, "unit", None) != "":
         return plain(str(value))
-    low, high = (value.low, value.high) if isinstance(value, Interval) else map(value.quantile, (0.0005, 0.9995))
+    low, high = (
+        (value.low, value.high)
+        if isinstance(value, Interval)
+        else map(value.quantile, (0.0005, 0.9995))
+    )
     if kind != "number" and not low <= number <= high:
         return f"{value}, in SI units"
     if SI_UNITS[kind]:
@@ -140,7 +172,10 @@ def _shares(output: Output) -> list[tuple[str, str]]:
     rows = [
         (
             f"variance from {plain(name)}",
-            f"{_share(_within(part), errors[name][0])}, in all {_share(_within(whole[name]), errors[name][1])}",
+            (
+                f"{_share(_within(part), errors[name][0])}, in all "
+                f"{_share(_within(whole[name]), errors[name][1])}"
+            ),
         )
         for name, part in shares.items()
     ]

@@ -1,4 +1,6 @@
-"""``what_if``: one HTML page with a slider for each input, whose physics is the recorded kernel printed as JavaScript."""
+"""``what_if``: one HTML page with a slider for each input, whose physics is the recorded kernel
+printed as JavaScript.
+"""
 
 from __future__ import annotations
 
@@ -32,11 +34,15 @@ from .render import plain
 
 _PAGE = Path(__file__).with_name("what_if.html")
 # The inputs that may have a slider, with their kinds: of the contact, and of a vehicle.
-_CONTACT = {"restitution": "number", "normal": "angle", "point_x": "length", "point_y": "length"} | dict.fromkeys(
-    RULES, "number"
-)
+_CONTACT = {
+    "restitution": "number",
+    "normal": "angle",
+    "point_x": "length",
+    "point_y": "length",
+} | dict.fromkeys(RULES, "number")
 _BODY = {
-    "speed": "speed", "course": "angle", "vx": "speed", "vy": "speed", "yaw_rate": "yaw rate", "mass": "mass",
+    "speed": "speed", "course": "angle", "vx": "speed", "vy": "speed", "yaw_rate": "yaw rate",
+    "mass": "mass",
     "yaw_inertia": "inertia", "x": "length", "y": "length", "heading": "angle",
 }  # fmt: skip
 SLIDERS = (*_CONTACT, *(f"{name}_{label}" for label in "ab" for name in _BODY))
@@ -45,12 +51,18 @@ _DOMAINS = {
     **{name: rule.domain for name, rule in RULES.items()},
 }  # fmt: skip
 _WORDS = {"vx": "velocity along x", "vy": "velocity along y"}
-# What the page shows and draws, by its path in an Impact and in a Side; the kinds of what it shows stand in the page.
+# What the page shows and draws, by its path in an Impact and in a Side; the kinds of what it shows
+# stand in the page.
 _OF_EACH = (
-    "before.speed", "after.speed", "delta_v", "pdof", "delta_yaw_rate", "before.x", "before.y", "before.heading", "before.vx",
+    "before.speed", "after.speed", "delta_v", "pdof", "delta_yaw_rate", "before.x", "before.y",
+    "before.heading", "before.vx",
     "before.vy", "after.vx", "after.vy", "impulse_x", "impulse_y",
 )  # fmt: skip
-_PATHS = ("closing_speed", "energy_loss", *(f"{label}.{name}" for label in "ab" for name in _OF_EACH))
+_PATHS = (
+    "closing_speed",
+    "energy_loss",
+    *(f"{label}.{name}" for label in "ab" for name in _OF_EACH),
+)
 _TO_DEGREES = 180.0 / math.pi
 
 
@@ -73,26 +85,31 @@ def what_if(
     outline_b: Any = None,
     units: UnitSystem | None = None,
 ) -> Document:
-    """One offline HTML page with a slider for each of these inputs, which redraws the scene, delta-V, PDOF, yaw and energy.
+    """One offline HTML page with a slider for each of these inputs, which redraws the scene,
+    delta-V, PDOF, yaw and energy.
 
-    At every move the page solves the impact again by the same model: the kernel itself, recorded and printed as JavaScript, so
-    that both give the same numbers (sine, cosine and arctangent are the browser's). It loads nothing from outside, and works by
-    keyboard and with screen readers. For an impact that a reverse solver found, it computes forward from the motions found.
+    At every move the page solves the impact again by the same model: the kernel itself, recorded
+    and printed as JavaScript, so that both give the same numbers (sine, cosine and arctangent are
+    the browser's). It loads nothing from outside, and works by keyboard and with screen readers.
+    For an impact that a reverse solver found, it computes forward from the motions found.
 
     Parameters
     ----------
     impact : Impact
         A single answered case of any solver; the sliders start at its values.
     ranges : dict
-        Ends (low, high) of each slider by the name of the input, with units as elsewhere, on either side of the value in the
-        impact. For a vehicle, however it was given: ``speed_a``, ``course_a``, or ``vx_a``, ``vy_a``; ``mass_a``,
-        ``yaw_rate_a``, ``yaw_inertia_a``, ``x_a``, ``y_a``, ``heading_a``, and the same with ``_b``. For the contact:
-        ``restitution``, ``normal``, ``point_x``, ``point_y``, and whichever of ``friction``, ``impulse_ratio`` and
+        Ends (low, high) of each slider by the name of the input, with units as elsewhere, on either
+        side of the value in the impact. For a vehicle, however it was given: ``speed_a``,
+        ``course_a``, or ``vx_a``, ``vy_a``; ``mass_a``, ``yaw_rate_a``, ``yaw_inertia_a``, ``x_a``,
+        ``y_a``, ``heading_a``, and the same with ``_b``. For the contact: ``restitution``,
+        ``normal``, ``point_x``, ``point_y``, and whichever of ``friction``, ``impulse_ratio`` and
         ``critical_fraction`` was given.
     outline_a, outline_b
-        As for ``diagnose``, for the drawing; without it a vehicle with a heading is drawn 4.5 m by 1.8 m, and the page says so.
+        As for ``diagnose``, for the drawing; without it a vehicle with a heading is drawn 4.5 m by
+        1.8 m, and the page says so.
     units : {"si", "metric", "us"}, optional
-        Units of the page; by default those that the inputs were given in, where they agree, else SI.
+        Units of the page; by default those that the inputs were given in, where they agree, else
+        SI.
 
     Returns
     -------
@@ -102,7 +119,8 @@ def what_if(
     Raises
     ------
     InputError
-        A name that the model of this impact does not use, ends in the wrong order, or a value of the impact outside them.
+        A name that the model of this impact does not use, ends in the wrong order, or a value of
+        the impact outside them.
     ShapeError
         A batch: take one case of it.
 
@@ -110,7 +128,10 @@ def what_if(
     --------
     >>> import collisions as col
     >>> a, b = col.Vehicle(mass="1500 kg", vx="50 km/h"), col.Vehicle(mass="1200 kg")
-    >>> page = col.what_if(col.linear_central(a, b, 0.2), {"speed_a": ("30 km/h", "80 km/h"), "restitution": (0.0, 0.4)})
+    >>> page = col.what_if(
+    ...     col.linear_central(a, b, 0.2),
+    ...     {"speed_a": ("30 km/h", "80 km/h"), "restitution": (0.0, 0.4)},
+    ... )
     >>> page[:15], page.count('<input type="range"')
     ('<!DOCTYPE html>', 2)
     """
@@ -118,40 +139,58 @@ def what_if(
     system = cells(units, impact._texts())
     if BY_NAME.get(impact.model) not in MODELS:
         raise InputError(
-            f"what_if has no page for {impact.model}; solve the case by eccentric", code="bad_option", argument="impact"
+            f"what_if has no page for {impact.model}; solve the case by eccentric",
+            code="bad_option",
+            argument="impact",
         )
     if impact.inputs.tyres and impact.model == "eccentric":
         raise InputError(
-            "what_if has no page for an impact with tyres, whose force it would not work out again; write impact.again("
-            "tyres_a=None, tyres_b=None, duration=None), with what they give as outside_a and outside_b",
+            "what_if has no page for an impact with tyres, whose force it would not work out "
+            "again; write impact.again(tyres_a=None, tyres_b=None, duration=None), with what "
+            "they give as outside_a and outside_b",
             code="bad_option",
             argument="impact",
         )
     sliders = _sliders(impact, ranges)
     reader, given = ArgumentReader(), {"a": outline_a, "b": outline_b}
-    read = {label: None if one is None else read_outline(reader, one, f"outline_{label}") for label, one in given.items()}
+    read = {
+        label: None if one is None else read_outline(reader, one, f"outline_{label}")
+        for label, one in given.items()
+    }
     reader.close()
-    outlines = {label: None if corners is None else corners.tolist() for label, corners in read.items()}
+    outlines = {
+        label: None if corners is None else corners.tolist() for label, corners in read.items()
+    }
 
     def page(*values: Any) -> dict[str, Any]:
         return results(impact, dict(zip((slider.name for slider in sliders), values, strict=True)))
 
-    return Document(_written(impact, sliders, outlines, javascript(page, len(sliders)), system), "html")
+    return Document(
+        _written(impact, sliders, outlines, javascript(page, len(sliders)), system), "html"
+    )
 
 
 def results(impact: Impact, given: Mapping[str, Any]) -> dict[str, Any]:
-    """The numbers of the page for these values of its sliders: floats, arrays, or operands of a recording."""
+    """The numbers of the page for these values of its sliders: floats, arrays, or operands of a
+    recording.
+    """
     was = impact.inputs
     a, b = (_body(getattr(was, label), label, given) for label in "ab")
     normal = from_degrees(given["normal"]) if "normal" in given else was.normal
     point = was.point and (given.get("point_x", was.point[0]), given.get("point_y", was.point[1]))
     contact = {"normal": normal, "point": point, "rule_value": given.get(was.rule, was.rule_value)}
-    contact |= {"restitution": given.get("restitution", was.restitution), "contact_velocity": None, "tolerance": None}
+    contact |= {
+        "restitution": given.get("restitution", was.restitution),
+        "contact_velocity": None,
+        "tolerance": None,
+    }
     inputs = replace(was, model=impact.model, a=a, b=b, **contact)
     model = model_of(inputs)
     raw = model.kernel(*model.numbers(inputs), *model.settings(inputs, impact.choice is not None))
     answer = build(inputs, raw)
-    found = {"status": raw.status, "nx": normal[0], "ny": normal[1]} | {path: attrgetter(path)(answer) for path in _PATHS}
+    found = {"status": raw.status, "nx": normal[0], "ny": normal[1]} | {
+        path: attrgetter(path)(answer) for path in _PATHS
+    }
     found |= {} if point is None else {"px": point[0], "py": point[1]}
     return {name: value for name, value in found.items() if value is not None}
 
@@ -177,7 +216,9 @@ def _heading_for(vehicle: Vehicle) -> tuple[Any, Any]:
 
 
 def starts(impact: Impact) -> dict[str, Any]:
-    """The value of each input that may have a slider, angles in degrees; NaN where only its range is known."""
+    """The value of each input that may have a slider, angles in degrees; NaN where only its range
+    is known.
+    """
     inputs, takes = impact.inputs, BY_NAME[impact.model].takes
     found = {"restitution": inputs.restitution, "normal": impact.normal_angle}
     if "rule_value" in takes:
@@ -186,11 +227,22 @@ def starts(impact: Impact) -> dict[str, Any]:
         found |= {"point_x": inputs.point[0], "point_y": inputs.point[1]}
     for label, body in (("a", inputs.a), ("b", inputs.b)):
         free = ("speed", "course", "vx", "vy") if body.pivot is None else ()
-        names = [*free, *(name for name in _BODY if f"{label}.{name}" in takes and name not in ("vx", "vy")), "heading"]
-        found |= {f"{name}_{label}": getattr(body, name) for name in names if getattr(body, name) is not None}
+        names = [
+            *free,
+            *(name for name in _BODY if f"{label}.{name}" in takes and name not in ("vx", "vy")),
+            "heading",
+        ]
+        found |= {
+            f"{name}_{label}": getattr(body, name)
+            for name in names
+            if getattr(body, name) is not None
+        }
         if not body.speed > 0.0 and free and "course" in (body.given or {}):
             found[f"course_{label}"] = angle_of(*_heading_for(body))
-    return {name: _TO_DEGREES * value if _kind(name) == "angle" else value for name, value in found.items()}
+    return {
+        name: _TO_DEGREES * value if _kind(name) == "angle" else value
+        for name, value in found.items()
+    }
 
 
 def _kind(name: str) -> str:
@@ -206,18 +258,33 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
 
     if not isinstance(ranges, Mapping) or not ranges:
         example = "{'speed_a': ('40 km/h', '70 km/h')}"
-        refuse(f"ranges must be a dict of (low, high) by input, such as {example}, got {shown(ranges)}")
+        refuse(
+            f"ranges must be a dict of (low, high) by input, such as {example}, got {shown(ranges)}"
+        )
         ranges = {}
     for name, ends in ranges.items():
         if name not in known:
-            refuse(f"{shown(name)} is no input of this {impact.model} that could be moved; take some of {', '.join(known)}")
+            refuse(
+                f"{shown(name)} is no input of this {impact.model} that could be moved; take "
+                f"some of {', '.join(known)}"
+            )
             continue
         count = len(reader.problems)
-        numbers = [_end(reader, name, end, impact) for end in ends] if isinstance(ends, (tuple, list)) else []
+        numbers = (
+            [_end(reader, name, end, impact) for end in ends]
+            if isinstance(ends, (tuple, list))
+            else []
+        )
         if len(reader.problems) > count:
             continue
-        if len(numbers) != 2 or not all(isinstance(end, float) and math.isfinite(end) for end in numbers):
-            refuse(f"{name} must be a pair of finite numbers (low, high), got {shown(ends)}", name, "bad_range")
+        if len(numbers) != 2 or not all(
+            isinstance(end, float) and math.isfinite(end) for end in numbers
+        ):
+            refuse(
+                f"{name} must be a pair of finite numbers (low, high), got {shown(ends)}",
+                name,
+                "bad_range",
+            )
             continue
         (low, high), kind = numbers, _kind(name)
         middle = 0.5 * low + 0.5 * high
@@ -226,19 +293,29 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
             start += 360.0 * round((middle - start) / 360.0)
         if not (low < high and low <= start <= high):
             now = f"{start:.10g}°" if kind == "angle" else said(start, kind, impact._texts(), 10)
-            bare = "" if kind == "number" or has_unit(ends[0]) else f", in {'rad' if kind == 'angle' else SI_UNITS[kind]}"
-            text = f"{name} must be a pair (low, high) in rising order around {now}, got {shown(ends)}{bare}"
+            bare = (
+                ""
+                if kind == "number" or has_unit(ends[0])
+                else f", in {'rad' if kind == 'angle' else SI_UNITS[kind]}"
+            )
+            text = (
+                f"{name} must be a pair (low, high) in rising order around {now}, got "
+                f"{shown(ends)}{bare}"
+            )
             refuse(text, name, "bad_range")
         found.append(Slider(name, kind, low, high, start))
     for label in "ab":
         moving = [name for name in ("vx", "vy", "speed", "course") if f"{name}_{label}" in ranges]
         if {"vx", "vy"} & set(moving) and {"speed", "course"} & set(moving):
             text = (
-                f"the velocity of {label} is moved in two ways, by {' and '.join(moving)}; take vx and vy, or speed and course"
+                f"the velocity of {label} is moved in two ways, by {' and '.join(moving)}; take "
+                "vx and vy, or speed and course"
             )
             refuse(text, code="speed_twice")
         if moving == ["speed"] and math.isnan(known.get(f"course_{label}", 0.0)):
-            text = f"{label} is at rest, so its course is not known; give course_{label} a range too"
+            text = (
+                f"{label} is at rest, so its course is not known; give course_{label} a range too"
+            )
             refuse(text, f"course_{label}", "missing_course")
     reader.close()
     return found
@@ -254,28 +331,37 @@ def _end(reader: ArgumentReader, name: str, given: Any, impact: Impact) -> Any:
     return reader.number(given, SI_UNITS[kind], name, domains.get(parted(name)[0], FINITE))
 
 
-def _written(impact: Impact, sliders: list[Slider], outlines: Mapping[str, Any], printed: str, system: Cells) -> str:
+def _written(
+    impact: Impact, sliders: list[Slider], outlines: Mapping[str, Any], printed: str, system: Cells
+) -> str:
     """The page: its sliders as HTML, what else the script needs as JSON, and the printed kernel."""
     from .. import __version__
 
     bodies = {"a": impact.inputs.a, "b": impact.inputs.b}
     names = {label: plain(who(at, body)) for at, (label, body) in enumerate(bodies.items())}
     units = {
-        kind: {"unit": typeset(system.label(kind)), "scale": system.scale(kind), "decimals": decimals_of(kind, system.name)}
+        kind: {
+            "unit": typeset(system.label(kind)),
+            "scale": system.scale(kind),
+            "decimals": decimals_of(kind, system.name),
+        }
         for kind in SI_UNITS
     }
     inputs = []
     for name, kind, *numbers in sliders:
         own, label = parted(name)
-        words = escape(_WORDS.get(own, own.replace("_", " ")) + (f" of {names[label]}" if label else ""))
+        words = escape(
+            _WORDS.get(own, own.replace("_", " ")) + (f" of {names[label]}" if label else "")
+        )
         scale = system.scale(kind) / (_TO_DEGREES if kind == "angle" else 1.0)
         low, high, start = (repr(number * scale) for number in numbers)
         ends = f"{float(low):.6g} to {float(high):.6g}"
         inputs.append(
-            f'<p><label for="{name}">{words} <small>{ends}{system.unit(kind)}</small></label>'
-            f'<output for="{name}" id="{name}-value" aria-hidden="true"></output><input type="range" id="{name}" '
-            f'min="{low}" max="{high}" value="{start}" step="any" data-kind="{kind}" data-start="{numbers[2]!r}" '
-            f'data-factor="{1.0 / scale!r}"></p>'
+            f'<p><label for="{name}">{words} '
+            f'<small>{ends}{system.unit(kind)}</small></label><output for="{name}" '
+            f'id="{name}-value" aria-hidden="true"></output><input type="range" id="{name}" '
+            f'min="{low}" max="{high}" value="{start}" step="any" data-kind="{kind}" '
+            f'data-start="{numbers[2]!r}" data-factor="{1.0 / scale!r}"></p>'
         )
     data = {
         "units": units,

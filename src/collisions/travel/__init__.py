@@ -1,13 +1,17 @@
-"""Work and energy before and after the impact: speed, distance and time of a vehicle that slows over known ground.
+"""Work and energy before and after the impact: speed, distance and time of a vehicle that slows
+over known ground.
 
-``drag`` is the deceleration on the level as a fraction of gravity, ``grade`` the rise over the run, positive uphill in the
-direction of travel. Distances are measured in plan, as on a scene diagram; speeds are along the slope, and times are for the
-length of the slope. A tape laid on the slope reads longer by a factor of ``sqrt(1 + grade**2)``: 0.5 % at a grade of 10 %.
+``drag`` is the deceleration on the level as a fraction of gravity, ``grade`` the rise over the run,
+positive uphill in the direction of travel. Distances are measured in plan, as on a scene diagram;
+speeds are along the slope, and times are for the length of the slope. A tape laid on the slope
+reads longer by a factor of ``sqrt(1 + grade**2)``: 0.5 % at a grade of 10 %.
 
-Worksheets in US units give the speed in mph as sqrt(30 f d), with d in feet. The constant for standard gravity is 29.914, so
-their speeds are 0.14 % higher than these; those of worksheets that use 32.2 ft/s2 are 0.04 % higher.
+Worksheets in US units give the speed in mph as sqrt(30 f d), with d in feet. The constant for
+standard gravity is 29.914, so their speeds are 0.14 % higher than these; those of worksheets that
+use 32.2 ft/s2 are 0.04 % higher.
 
-Results are SI floats. ``travel.q.speed``, ``travel.q.distance`` and ``travel.q.time`` give them as Quantities.
+Results are SI floats. ``travel.q.speed``, ``travel.q.distance`` and ``travel.q.time`` give them as
+Quantities.
 """
 
 from ..quantities.attributes import in_quantities
@@ -33,4 +37,14 @@ class q:
     time = staticmethod(in_quantities(time, "s"))
 
 
-__all__ = ["GRAVITY", "RunOut", "SimulatedPath", "Tyres", "distance", "path", "simulate", "speed", "time"]
+__all__ = [
+    "GRAVITY",
+    "RunOut",
+    "SimulatedPath",
+    "Tyres",
+    "distance",
+    "path",
+    "simulate",
+    "speed",
+    "time",
+]

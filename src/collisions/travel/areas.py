@@ -9,15 +9,18 @@ import numpy as np
 
 # Points along a step, between which the way of a wheel counts as straight.
 _CHORDS = 8
-# A wheel this near an edge, of the length that the motion has by its speed, is on the side that it moves to.
+# A wheel this near an edge, of the length that the motion has by its speed, is on the side that it
+# moves to.
 _NEAR = 1e-6
 
 
 class Areas(NamedTuple):
-    """Polygons, the friction of each in every case, that outside of all, and where the cases start and how long they are.
+    """Polygons, the friction of each in every case, that outside of all, and where the cases start
+    and how long they are.
 
-    ``corners`` are polygons of (n, 2) [m]; ``frictions`` has a row for each and a column for each case. Places are over
-    ``length`` and from ``origin`` [m]; ``ahead_of`` and ``left_of`` are places of the four wheels [m], of (4, cases).
+    ``corners`` are polygons of (n, 2) [m]; ``frictions`` has a row for each and a column for each
+    case. Places are over ``length`` and from ``origin`` [m]; ``ahead_of`` and ``left_of`` are
+    places of the four wheels [m], of (4, cases).
     """
 
     corners: Sequence[Any]
@@ -33,25 +36,35 @@ class Areas(NamedTuple):
         return Areas(self.corners, *(part[..., which] for part in self[1:]))
 
     def friction_at(self, px: Any, py: Any) -> Any:
-        """The friction at places in the scene [m], of (wheels, cases): of the first area that holds each."""
+        """The friction at places in the scene [m], of (wheels, cases): of the first area that holds
+        each.
+        """
         found = np.broadcast_to(self.outside, px.shape)
         for corners, mu in zip(reversed(self.corners), self.frictions[::-1], strict=True):
             inside = np.zeros(px.shape, dtype=bool)
             for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
                 if y0 != y1:
-                    inside ^= ((y0 > py) != (y1 > py)) & (px < x0 + (x1 - x0) * ((py - y0) / (y1 - y0)))
+                    inside ^= ((y0 > py) != (y1 > py)) & (
+                        px < x0 + (x1 - x0) * ((py - y0) / (y1 - y0))
+                    )
             found = np.where(inside, mu, found)
         return found
 
     def wheels(self, x: Any, y: Any, heading: Any) -> tuple[Any, Any]:
         """Places of the wheels in the scene [m], of (4, ...)."""
         c, s = np.cos(heading), np.sin(heading)
-        ahead, left = (part.reshape(4, *(1,) * (np.ndim(x) - 1), -1) for part in (self.ahead_of, self.left_of))
-        px, py = (origin + self.length * part for origin, part in zip(self.origin, (x, y), strict=True))
+        ahead, left = (
+            part.reshape(4, *(1,) * (np.ndim(x) - 1), -1) for part in (self.ahead_of, self.left_of)
+        )
+        px, py = (
+            origin + self.length * part for origin, part in zip(self.origin, (x, y), strict=True)
+        )
         return px + c * ahead - s * left, py + s * ahead + c * left
 
     def under(self, x: Any, y: Any, heading: Any, vx: Any, vy: Any, turning: Any) -> Any:
-        """The friction under each wheel, of (4, cases); on an edge that of the side to which the wheel moves."""
+        """The friction under each wheel, of (4, cases); on an edge that of the side to which the
+        wheel moves.
+        """
         px, py = self.wheels(x, y, heading)
         c, s = np.cos(heading), np.sin(heading)
         ux = self.length * vx - turning * (s * self.ahead_of + c * self.left_of)
@@ -61,7 +74,9 @@ class Areas(NamedTuple):
         return self.friction_at(px + near * ux, py + near * uy)
 
     def ahead(self, x: Any, y: Any, heading: Any, ux: Any, uy: Any, left: Any) -> Any:
-        """How far a vehicle that moves straight along (ux, uy) goes to the next edge; infinite if it rests before it."""
+        """How far a vehicle that moves straight along (ux, uy) goes to the next edge; infinite if
+        it rests before it.
+        """
         px, py = self.wheels(x, y, heading)
         edges = self._edges()
         # Beyond all areas is far enough.
@@ -70,11 +85,17 @@ class Areas(NamedTuple):
         near = np.minimum(_NEAR, far)
         ways = [self.length * part * np.array([near, far])[:, None] for part in (ux, uy)]
         share = _first((px + ways[0], py + ways[1]), edges)[0]
-        found: Any = np.where(np.isfinite(share), near + np.where(np.isfinite(share), share, 0.0) * (far - near), np.inf)
+        found: Any = np.where(
+            np.isfinite(share),
+            near + np.where(np.isfinite(share), share, 0.0) * (far - near),
+            np.inf,
+        )
         return found
 
     def crossed(self, before: Any, after: Any, spin: Any) -> Any:
-        """The share of the time of a step at which a wheel first crosses an edge; 1 or more if none does before its end."""
+        """The share of the time of a step at which a wheel first crosses an edge; 1 or more if none
+        does before its end.
+        """
         from .motion import between
 
         count = before.shape[1]
@@ -87,7 +108,9 @@ class Areas(NamedTuple):
         near = np.ones(count, dtype=bool)
         for axis in (0, 1):
             at = np.array([end[axis] for end in ends])
-            near &= (at.max(axis=(0, 1)) + most >= low[axis]) & (at.min(axis=(0, 1)) - most <= high[axis])
+            near &= (at.max(axis=(0, 1)) + most >= low[axis]) & (
+                at.min(axis=(0, 1)) - most <= high[axis]
+            )
         if not near.any():
             return found
         some = np.flatnonzero(near)
@@ -107,7 +130,14 @@ class Areas(NamedTuple):
         hit = np.flatnonzero(np.isfinite(at))
         if not len(hit):
             return found
-        own, before, after, spin, at, wheel = self.of(some[hit]), before[:, hit], after[:, hit], spin[hit], at[hit], wheel[hit]
+        own, before, after, spin, at, wheel = (
+            self.of(some[hit]),
+            before[:, hit],
+            after[:, hit],
+            spin[hit],
+            at[hit],
+            wheel[hit],
+        )
         (qx, qy), (rx, ry) = np.moveaxis(edges[:, edge[hit]], -1, 1)
         cases = np.arange(len(hit))
 
@@ -136,11 +166,14 @@ class Areas(NamedTuple):
     def _edges(self) -> Any:
         """Start and end of all edges, of (2, edges, 2)."""
         starts = np.concatenate(list(self.corners))
-        return np.array([starts, np.concatenate([np.roll(corners, -1, axis=0) for corners in self.corners])])
+        return np.array(
+            [starts, np.concatenate([np.roll(corners, -1, axis=0) for corners in self.corners])]
+        )
 
 
 def _first(points: tuple[Any, Any], edges: Any) -> tuple[Any, Any, Any]:
-    """Where polylines first cross an edge, which wheel and which edge, by case; infinite where none does.
+    """Where polylines first cross an edge, which wheel and which edge, by case; infinite where none
+    does.
 
     ``points`` are x and y, of (points, wheels, cases).
     """

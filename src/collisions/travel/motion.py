@@ -1,6 +1,8 @@
-"""The motion of vehicles on their tyres, followed step by step until they rest; areas of other friction end steps.
+"""The motion of vehicles on their tyres, followed step by step until they rest; areas of other
+friction end steps.
 
-Numbers are those of ``kernels.run_out``: over the speed at the start, that over gravity, and the product of both.
+Numbers are those of ``kernels.run_out``: over the speed at the start, that over gravity, and the
+product of both.
 """
 
 from __future__ import annotations
@@ -15,19 +17,22 @@ import numpy as np
 from ..kernels.run_out import OF_GROUND, Settings, accelerations, ending, size, step
 from .areas import Areas
 
-# Found for a case: at rest; nothing slows it, or it does not stay where it stops; its steps do not come to an end.
+# Found for a case: at rest; nothing slows it, or it does not stay where it stops; its steps do not
+# come to an end.
 RESTS, GOES_ON, NO_END = 0, 1, 2
 # Once the motion is down to this part of the first, by the way that is left, it goes on straight.
 _ENDING, _ENDING_ON_AREAS = 1e-2, 1e-3
 _FIRST_STEP, _LONGEST_STEP, _MOST_TURN = 0.05, 4.0, 0.5
-# Where the direction of the motion changes at less than this share of gravity, it comes to roll or slide straight.
+# Where the direction of the motion changes at less than this share of gravity, it comes to roll or
+# slide straight.
 _NEARLY = 0.05
 # Shorter steps are of a motion that cannot be followed, such as an immense spin.
 _SHORTEST_STEP = 1e-12
 _MOST_STEPS = 10_000
 # A slowing below this share of gravity is none.
 _NO_SLOWING = 1e-9
-# Cases that are left are followed one by one, in plain floats, which is quicker than arrays of them.
+# Cases that are left are followed one by one, in plain floats, which is quicker than arrays of
+# them.
 _FEW = 48
 # Rows of a step: time, place, heading, velocities, and accelerations at its start and at its end.
 ROWS = 13
@@ -36,7 +41,9 @@ _WAYS = tuple(f"[{at}]" for at in range(OF_GROUND + 9))
 
 
 class Motion(NamedTuple):
-    """Cases to follow: numbers of the ground by rows, velocities and heading at the start, and areas of other friction."""
+    """Cases to follow: numbers of the ground by rows, velocities and heading at the start, and
+    areas of other friction.
+    """
 
     ground: Any
     start: Any
@@ -55,11 +62,15 @@ def _of_floats(settings: Settings) -> tuple[Callable[..., Any], Callable[..., An
     """The step, and the accelerations, of one case of floats."""
     from ..engine.floats import compile_for_floats
 
-    return compile_for_floats(step, _WAYS, settings), compile_for_floats(accelerations, _WAYS[: OF_GROUND + 5], settings)
+    return compile_for_floats(step, _WAYS, settings), compile_for_floats(
+        accelerations, _WAYS[: OF_GROUND + 5], settings
+    )
 
 
 def follow(motion: Motion) -> tuple[Any, Any]:
-    """The rows of all steps of all cases, each of (``ROWS``, steps) in order of time, and what became of each case."""
+    """The rows of all steps of all cases, each of (``ROWS``, steps) in order of time, and what
+    became of each case.
+    """
     count = motion.start.shape[1]
     parts: list[list[Any]] = [[] for _ in range(count)]
     found: Any = np.full(count, NO_END)
@@ -79,7 +90,9 @@ def follow(motion: Motion) -> tuple[Any, Any]:
 
 
 def _wider(wrong: Any, tolerance: float) -> Any:
-    """By how much the next step may be wider, from the error of the last one; NaN counts as a large error."""
+    """By how much the next step may be wider, from the error of the last one; NaN counts as a large
+    error.
+    """
     if isinstance(wrong, float):
         ratio: float = (tolerance / max(wrong, 1e-300)) ** 0.2
         return min(4.0, max(0.2, 0.9 * ratio)) if wrong == wrong else 0.2
@@ -88,11 +101,15 @@ def _wider(wrong: Any, tolerance: float) -> Any:
 
 def _last(motion: Motion) -> float:
     """The part of the motion that goes on straight."""
-    return (_ENDING if motion.areas is None else _ENDING_ON_AREAS) * min(1.0, math.sqrt(motion.tolerance / 1e-5))
+    return (_ENDING if motion.areas is None else _ENDING_ON_AREAS) * min(
+        1.0, math.sqrt(motion.tolerance / 1e-5)
+    )
 
 
 def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int]:
-    """The rows of one case, and what became of it, in plain floats; from the start, or ``going`` on from a state."""
+    """The rows of one case, and what became of it, in plain floats; from the start, or ``going`` on
+    from a state.
+    """
     ground = [float(number) for number in motion.ground[:, 0]]
     areas, tolerance, spin, last = motion.areas, motion.tolerance, ground[17], _last(motion)
     alone, most = areas is None and not motion.settings.sloped, float(_settling(motion.ground)[0])
@@ -108,7 +125,9 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
         c, s = math.cos(heading), math.sin(heading)
         if known is None:
             if areas is not None:
-                ground[12:16] = areas.under(*_columns(x, y, heading, vx, vy, turn * spin))[:, 0].tolist()
+                ground[12:16] = areas.under(*_columns(x, y, heading, vx, vy, turn * spin))[
+                    :, 0
+                ].tolist()
             known = forced((*ground, vx, vy, turn, c, s))
             if known is None:
                 break
@@ -140,7 +159,11 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
         if left <= last * last * way:
             found = RESTS
             break
-        width = min(width, most if aside < _NEARLY else _LONGEST_STEP, _MOST_TURN / max(abs(speed * turn * spin), 1e-300))
+        width = min(
+            width,
+            most if aside < _NEARLY else _LONGEST_STEP,
+            _MOST_TURN / max(abs(speed * turn * spin), 1e-300),
+        )
         new = stepped((*ground, vx, vy, turn, c, s, *known, width))
         if new is None or width < _SHORTEST_STEP:
             break
@@ -152,10 +175,15 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
         row = (time + took, x + new[3], y + new[4], heading + new[5], *new[:3], *known, *new[7:10])
         if areas is not None:
             before = (time, x, y, heading, vx, vy, turn, *known, *known)
-            share = float(areas.crossed(np.array([before]).T, np.array([row]).T, np.array([spin]))[0])
+            share = float(
+                areas.crossed(np.array([before]).T, np.array([row]).T, np.array([spin]))[0]
+            )
             if share < 1.0:
                 # To the width over which so much of the time passes.
-                wanted, width = max(wanted, width), width * _passed(share, took, width, speed, after)
+                wanted, width = (
+                    max(wanted, width),
+                    width * _passed(share, took, width, speed, after),
+                )
                 continue
         rows.append(row)
         time, x, y, heading, vx, vy, turn = row[:7]
@@ -170,7 +198,9 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
 
 
 def _settling(ground: Any) -> Any:
-    """The longest step of a vehicle that nearly rolls straight: its slip fades as fast as its tyres are stiff."""
+    """The longest step of a vehicle that nearly rolls straight: its slip fades as fast as its tyres
+    are stiff.
+    """
     gyration, ahead = ground[16], ground[6]
     return 2.0 / (ground[5] * np.maximum(1.0, gyration * ahead * ahead))
 
@@ -181,7 +211,9 @@ def _columns(*numbers: Any) -> tuple[Any, ...]:
 
 
 def _passed(share: Any, took: Any, width: Any, before: Any, after: Any) -> Any:
-    """The share of a step over which so much of its time passes, by the cubic of time over the step."""
+    """The share of a step over which so much of its time passes, by the cubic of time over the
+    step.
+    """
     one, two = width * before / took, width * after / took
     part = share
     for _ in range(6):
@@ -192,7 +224,9 @@ def _passed(share: Any, took: Any, width: Any, before: Any, after: Any) -> Any:
 
 
 def _to_rest(state: Any, spin: Any) -> Any:
-    """The row of rest, from those of time to accelerations: the forces slow the whole motion as they do now."""
+    """The row of rest, from those of time to accelerations: the forces slow the whole motion as
+    they do now.
+    """
     time, x, y, heading, vx, vy, turn, ax, ay, yaw = state
     speed, slowing, *_ = ending(vx, vy, turn, ax, ay, yaw)
     takes = speed / slowing
@@ -209,7 +243,8 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
     alone = areas is None and not motion.settings.sloped
     ground: Any = motion.ground.copy()
     going: Any = np.arange(motion.start.shape[1])
-    # Rows: time, place, heading, velocities, accelerations, way, width, and the width that was wanted before an edge.
+    # Rows: time, place, heading, velocities, accelerations, way, width, and the width that was
+    # wanted before an edge.
     state: Any = np.zeros((13, len(going)))
     state[4:7], state[3], state[11] = motion.start[:3], motion.start[3], _FIRST_STEP
     first: Any = np.ones(len(going), dtype=bool)
@@ -228,7 +263,9 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
             if areas is not None:
                 turning = state[6, some] * ground[17, some]
                 ground[12:16, some] = areas.of(some).under(*(*state[1:6, some], turning))
-            state[7:10, some] = accelerations(*ground[:, some], *state[4:7, some], c[some], s[some], *motion.settings)
+            state[7:10, some] = accelerations(
+                *ground[:, some], *state[4:7, some], c[some], s[some], *motion.settings
+            )
             if first.any():
                 noted(some, np.concatenate([state[:10, some], state[7:10, some]]))
                 first = np.zeros(len(going), dtype=bool)
@@ -245,7 +282,9 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
             edge[some] = areas.of(some).ahead(*(*state[1:4, some], *towards, left[some]))
         goes_on = straight & ~stops & ~np.isfinite(edge)
         rests = usable & (
-            (straight & stops & (left <= edge)) | (~straight & (left <= last * last * state[10])) | (speed == 0.0)
+            (straight & stops & (left <= edge))
+            | (~straight & (left <= last * last * state[10]))
+            | (speed == 0.0)
         )
         moved = rests & (speed > 0.0)
         noted(moved, _to_rest(state[:10, moved], spin[moved]))
@@ -269,11 +308,17 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
             now, own = state[:, steps], ground[:, steps]
             turning = np.abs(speed[steps] * now[6] * own[17])
             longest = np.where(aside[steps] < _NEARLY, _settling(own), _LONGEST_STEP)
-            now[11] = np.minimum(np.minimum(now[11], longest), _MOST_TURN / np.maximum(turning, 1e-300))
-            new = np.array(step(*own, *now[4:7], c[steps], s[steps], *now[7:10], now[11], *motion.settings))
+            now[11] = np.minimum(
+                np.minimum(now[11], longest), _MOST_TURN / np.maximum(turning, 1e-300)
+            )
+            new = np.array(
+                step(*own, *now[4:7], c[steps], s[steps], *now[7:10], now[11], *motion.settings)
+            )
             wrong, took, after = new[10], new[6], size(*new[:3])
             good = wrong <= tolerance
-            rows = np.array([now[0] + took, *(now[1:4] + new[3:6]), *new[:3], *now[7:10], *new[7:10]])
+            rows = np.array(
+                [now[0] + took, *(now[1:4] + new[3:6]), *new[:3], *now[7:10], *new[7:10]]
+            )
             widths, wanted = now[11], now[12]
             scaled = np.where(good, 1.0, np.fmin(_wider(wrong, tolerance), 0.9))
             if areas is not None and good.any():
@@ -284,7 +329,10 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
                 cut = share < 1.0
                 good &= ~cut
                 part = _passed(share, took, widths, speed[steps], after)
-                scaled, wanted = np.where(cut, part, scaled), np.where(cut, np.maximum(wanted, widths), wanted)
+                scaled, wanted = (
+                    np.where(cut, part, scaled),
+                    np.where(cut, np.maximum(wanted, widths), wanted),
+                )
             done = steps[good]
             noted(done, rows[:, good])
             state[:7, done], state[7:10, done] = rows[:7, good], rows[10:, good]
@@ -296,12 +344,19 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
                 fresh[done] = True
         on = ~(rests | goes_on | stuck)
         if not on.all():
-            ground, state, going, fresh, first = ground[:, on], state[:, on], going[on], fresh[on], first[on]
+            ground, state, going, fresh, first = (
+                ground[:, on],
+                state[:, on],
+                going[on],
+                fresh[on],
+                first[on],
+            )
             areas = None if areas is None else areas.of(on)
     _sorted_into(parts, kept)
     for left_over, one in enumerate(going.tolist()):
         rows, ended = _one(
-            motion.of([one]), [*state[:7, left_over].tolist(), *state[10:12, left_over].tolist()] if kept else None
+            motion.of([one]),
+            [*state[:7, left_over].tolist(), *state[10:12, left_over].tolist()] if kept else None,
         )
         found[one] = ended
         parts[one].append(rows)
@@ -311,7 +366,10 @@ def _sorted_into(parts: list[list[Any]], kept: list[tuple[Any, Any]]) -> None:
     """Puts the rows of all steps to their cases, in order of time."""
     if not kept:
         return
-    cases, rows = np.concatenate([case for case, _ in kept]), np.concatenate([row for _, row in kept], axis=1)
+    cases, rows = (
+        np.concatenate([case for case, _ in kept]),
+        np.concatenate([row for _, row in kept], axis=1),
+    )
     order = np.argsort(cases, kind="stable")
     rows, counts = rows[:, order], np.bincount(cases, minlength=len(parts))
     for part, end, count in zip(parts, np.cumsum(counts), counts, strict=True):
@@ -319,9 +377,11 @@ def _sorted_into(parts: list[list[Any]], kept: list[tuple[Any, Any]]) -> None:
 
 
 def _holds(motion: Motion, x: float, y: float, heading: float) -> bool:
-    """Whether a vehicle that came to rest on a slope stays there: a creep down the slope comes to an end.
+    """Whether a vehicle that came to rest on a slope stays there: a creep down the slope comes to
+    an end.
 
-    The forces of the tyres are those that take most work out of a motion, so a creep that can go on at all goes on from there.
+    The forces of the tyres are those that take most work out of a motion, so a creep that can go on
+    at all goes on from there.
     """
     ground = [float(number) for number in motion.ground[:, 0]]
     if motion.areas is not None:
@@ -335,7 +395,10 @@ def _holds(motion: Motion, x: float, y: float, heading: float) -> bool:
     wheels = list(zip(ground[:4], ground[12:16], strict=True))
     held = [mu if lock >= 1.0 else min(mu, lock * ground[4]) for lock, mu in wheels]
     plain = not (motion.settings.steered or motion.settings.transfers)
-    if plain and all(one > 1.001 * along and mu > 1.001 * slope for one, (_, mu) in zip(held, wheels, strict=True)):
+    if plain and all(
+        one > 1.001 * along and mu > 1.001 * slope
+        for one, (_, mu) in zip(held, wheels, strict=True)
+    ):
         # Every wheel can hold what it carries.
         return True
     ground[17] = spin
@@ -357,9 +420,11 @@ def _holds(motion: Motion, x: float, y: float, heading: float) -> bool:
 
 
 def between(before: Any, after: Any, share: Any, spin: Any) -> tuple[Any, Any]:
-    """Place and heading, and their rates, at shares of the time of steps, from the rows at both ends.
+    """Place and heading, and their rates, at shares of the time of steps, from the rows at both
+    ends.
 
-    Polynomials of the fifth degree, which have the places, velocities and accelerations of both ends.
+    Polynomials of the fifth degree, which have the places, velocities and accelerations of both
+    ends.
     """
     took = after[0] - before[0]
     u = share

@@ -1,4 +1,6 @@
-"""``path``: speed at separation of a vehicle that yawed as it slid, from positions along its path."""
+"""``path``: speed at separation of a vehicle that yawed as it slid, from positions
+along its path.
+"""
 
 from __future__ import annotations
 
@@ -37,15 +39,18 @@ from .surfaces import (
 from .survey import HALF_TURN, in_radians, read_errors, read_headings, read_points, slopes, smooth
 
 _QUARTER_TURN = 0.5 * math.pi * (1.0 + 1e-9)
-# Distance of a wheel from the centre of mass [m]; its speed from the yaw, over that of the vehicle, above which it matters.
+# Distance of a wheel from the centre of mass [m]; its speed from the yaw, over that of the vehicle,
+# above which it matters.
 _WHEEL_ARM, _MOST_YAW = 1.5, 0.5
-# Numbers that the errors are worked out from together: few calls of numpy, and memory that is kept small.
+# Numbers that the errors are worked out from together: few calls of numpy, and memory that is kept
+# small.
 _AT_ONCE = 200_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class RunOut(Shown):
-    """A vehicle that slid and yawed from separation to where its speed is known, computed backward by ``path``.
+    """A vehicle that slid and yawed from separation to where its speed is known, computed backward
+    by ``path``.
 
     Attributes
     ----------
@@ -64,11 +69,13 @@ class RunOut(Shown):
     speeds : tuple of float or array [m/s]
         Speed at every point, along the slope.
     crab_angles : tuple of float or array [rad]
-        For every segment, heading minus course, in (-pi, pi]: positive where the vehicle points to the left of its path.
+        For every segment, heading minus course, in (-pi, pi]: positive where the vehicle points to
+        the left of its path.
     drags : tuple of float or array
         For every segment, the drag factor that results from friction, lock and crab angle.
     speed_error, course_error, yaw_rate_error : float or array, optional [m/s], [rad], [rad/s]
-        Standard errors of the three, from those of the positions and headings alone; None if these were not given.
+        Standard errors of the three, from those of the positions and headings alone; None if these
+        were not given.
     """
 
     _title = "Run-out"
@@ -93,7 +100,9 @@ class RunOut(Shown):
 
     @derived("rad")
     def course_difference(self) -> Value:
-        """Course at separation minus that of the straight line to rest [rad], in (-pi, pi]: the error of using the line."""
+        """Course at separation minus that of the straight line to rest [rad], in (-pi, pi]: the
+        error of using the line.
+        """
         difference: Value = _wrapped(self.course - self.straight_course)
         return difference
 
@@ -111,50 +120,56 @@ def path(
     point_error: Input | None = None,
     heading_error: Input | None = None,
 ) -> RunOut:
-    """Speed, course and yaw rate at separation of a vehicle that yawed as it slid, from positions along its path.
+    """Speed, course and yaw rate at separation of a vehicle that yawed as it slid, from positions
+    along its path.
 
-    A vehicle whose wheels roll freely slows little while it points along its path and much while it slides broadside, so no
-    single percentage of the friction fits a spin. Here each segment between two positions has its own drag, from its crab angle
-    (mean heading minus course) and from how far the wheels are braked::
+    A vehicle whose wheels roll freely slows little while it points along its path and much while it
+    slides broadside, so no single percentage of the friction fits a spin. Here each segment between
+    two positions has its own drag, from its crab angle (mean heading minus course) and from how far
+    the wheels are braked::
 
         along = min(lock, |cos(crab)|)
         drag  = friction * (along * |cos(crab)| + sqrt(1 - along**2) * |sin(crab)|)
 
-    A list runs over positions or segments, and so does one array for all points or all headings. For many cases at once, give
-    arrays in place of the single numbers: ``[(xs, ys), ...]``, ``[angles, ...]``, ``friction=factors``; they broadcast.
+    A list runs over positions or segments, and so does one array for all points or all headings.
+    For many cases at once, give arrays in place of the single numbers: ``[(xs, ys), ...]``,
+    ``[angles, ...]``, ``friction=factors``; they broadcast.
 
     Parameters
     ----------
     points : sequence of pairs, array or Quantity of shape (n, 2) [m]
-        Positions of the centre of mass in plan, at least two, in order of travel: from separation to where the speed is
-        ``end_speed``. They are joined by straight lines.
+        Positions of the centre of mass in plan, at least two, in order of travel: from separation
+        to where the speed is ``end_speed``. They are joined by straight lines.
     headings : sequence, array or Quantity, one for each point [rad]
-        Where the vehicle points, counted on through full turns and never reduced: 0, 100, 200, 290 deg for one that turned
-        290 deg to the left, 0, -70 deg for one that turned 70 deg to the right. From one point to the next, at most half a
-        turn; give more points for a faster spin.
+        Where the vehicle points, counted on through full turns and never reduced: 0, 100, 200, 290
+        deg for one that turned 290 deg to the left, 0, -70 deg for one that turned 70 deg to the
+        right. From one point to the next, at most half a turn; give more points for a faster spin.
     friction : float, str, Quantity or array [-], or a list with one for each segment
         Friction of locked tyres on the ground, >= 0.
     lock : float, str, Quantity or array [-], or a list with one for each segment
-        Braking of the wheels, from damage, brakes or an engaged gear, as a fraction of what locks them: 0 if all roll freely, 1
-        if all are locked.
+        Braking of the wheels, from damage, brakes or an engaged gear, as a fraction of what locks
+        them: 0 if all roll freely, 1 if all are locked.
     grade : float, str, Quantity or array [-], or a list with one for each segment
         Rise over run, positive uphill in the direction of travel.
     end_speed : float, str, Quantity or array [m/s]
         Speed at the last point, 0 at rest.
     window : float, str, Quantity or array [m]
-        Length of the path over which the survey is smoothed: a longer one makes errors of the points count less, a shorter one
-        follows a changing bend better. 0 takes in hardly more than the nearest three points.
+        Length of the path over which the survey is smoothed: a longer one makes errors of the
+        points count less, a shorter one follows a changing bend better. 0 takes in hardly more than
+        the nearest three points.
     point_error : float, str, Quantity or array, optional [m]
-        Standard deviation of each coordinate of every point, independent of the others: 0.06 m if each is within 0.1 m.
+        Standard deviation of each coordinate of every point, independent of the others: 0.06 m if
+        each is within 0.1 m.
     heading_error : float, str, Quantity or array, optional [rad]
         Standard deviation of every heading, independent of the others. Give both errors or neither.
 
     Returns
     -------
     RunOut
-        Course and yaw rate are tangents, at the first point, of least-squares parabolas: through the positions over the length
-        of the path, and through the headings over time. With two points they are those of the straight line. A case of a batch
-        that cannot be answered is NaN.
+        Course and yaw rate are tangents, at the first point, of least-squares parabolas: through
+        the positions over the length of the path, and through the headings over time. With two
+        points they are those of the straight line. A case of a batch that cannot be answered is
+        NaN.
 
     Raises
     ------
@@ -170,52 +185,63 @@ def path(
     CollisionsWarning
         How many cases of a batch cannot be answered, and why.
     OutOfRangeWarning
-        More than a quarter turn between two points, where one crab angle stands for all of it. A yaw rate at separation above
-        0.5 times the speed over 1.5 m: there the speed comes out 4 to 8 % too high, mostly 5 %, and beyond it soon more.
+        More than a quarter turn between two points, where one crab angle stands for all of it. A
+        yaw rate at separation above 0.5 times the speed over 1.5 m: there the speed comes out 4 to
+        8 % too high, mostly 5 %, and beyond it soon more.
     SuspectUnitsWarning
-        A bare friction above 1.5, grade beyond 0.5 or heading beyond a turn, which is probably in another unit.
+        A bare friction above 1.5, grade beyond 0.5 or heading beyond a turn, which is probably in
+        another unit.
 
     Notes
     -----
-    The drag is that of the tyres of ``Tyres``, which ``simulate`` has too: a wheel that is braked by a moment rolls until its
-    brake can hold it, so the force along it is that of the brake, or less where it is locked, and what the friction circle
-    leaves acts across it. The integrated spin of a wheel gives the same. Side forces are taken to be all that the circle
-    leaves, as they are from a crab angle of some degrees on. All wheels are taken to slip as the centre of mass does, which
-    leaves out what yawing adds to the slip of each wheel; steering and load transfer are left out too. In ``simulate``, which
-    includes the yawing, the drag along the path is lower by a fraction of about 0.4 (yaw rate * 1.5 m / speed)**2, both taken
-    at separation.
+    The drag is that of the tyres of ``Tyres``, which ``simulate`` has too: a wheel that is braked
+    by a moment rolls until its brake can hold it, so the force along it is that of the brake, or
+    less where it is locked, and what the friction circle leaves acts across it. The integrated spin
+    of a wheel gives the same. Side forces are taken to be all that the circle leaves, as they are
+    from a crab angle of some degrees on. All wheels are taken to slip as the centre of mass does,
+    which leaves out what yawing adds to the slip of each wheel; steering and load transfer are left
+    out too. In ``simulate``, which includes the yawing, the drag along the path is lower by a
+    fraction of about 0.4 (yaw rate * 1.5 m / speed)**2, both taken at separation.
 
-    Positions and headings are smoothed first, each by a weighted least-squares parabola about its point (local regression,
-    Cleveland, J. Am. Stat. Assoc. 74 (1979) 829, here of degree 2): chords between the points of a dense survey would be too
-    long, and their directions would scatter. The weights fall off along the path as a normal density with a standard deviation
-    of 0.384 windows, so that no point enters or leaves abruptly; at the end of a path this is as good as equal weights over the
-    window. Two more points always count, however far apart they are, since a parabola takes three. Where the curvature changes
-    by k per metre, the course is off by about 0.1 k window**2. ``course_error`` does not include this, nor does ``speed_error``
-    include the errors of ``friction`` and ``lock``: those are for ``uncertainty.propagate``. Errors are propagated to first
-    order, by computing again with each one added and subtracted; they are infinite where no speed is left.
+    Positions and headings are smoothed first, each by a weighted least-squares parabola about its
+    point (local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829, here of degree 2): chords
+    between the points of a dense survey would be too long, and their directions would scatter. The
+    weights fall off along the path as a normal density with a standard deviation of 0.384 windows,
+    so that no point enters or leaves abruptly; at the end of a path this is as good as equal
+    weights over the window. Two more points always count, however far apart they are, since a
+    parabola takes three. Where the curvature changes by k per metre, the course is off by about 0.1
+    k window**2. ``course_error`` does not include this, nor does ``speed_error`` include the errors
+    of ``friction`` and ``lock``: those are for ``uncertainty.propagate``. Errors are propagated to
+    first order, by computing again with each one added and subtracted; they are infinite where no
+    speed is left.
 
-    Chaining segments backward from rest, each with the drag of its mean crab angle, is the reverse trajectory of Struble and
-    Struble, Automotive Accident Reconstruction, 2nd edition, chapter 4. If ``lock`` is read as the share of wheels that are
-    locked while the others roll, the drag is friction times the sum of lock and (1 - lock) sin(crab), which is lower by at most
-    0.12 times the friction. On soft ground, the drag measured near broadside exceeds what such formulas give (Christoffersen
-    and others, SAE 950139).
+    Chaining segments backward from rest, each with the drag of its mean crab angle, is the reverse
+    trajectory of Struble and Struble, Automotive Accident Reconstruction, 2nd edition, chapter 4.
+    If ``lock`` is read as the share of wheels that are locked while the others roll, the drag is
+    friction times the sum of lock and (1 - lock) sin(crab), which is lower by at most 0.12 times
+    the friction. On soft ground, the drag measured near broadside exceeds what such formulas give
+    (Christoffersen and others, SAE 950139).
 
     Examples
     --------
-    A car spun 160 deg to the left on nearly free wheels and came to rest after 20 m. Its course at separation was 12 deg to the
-    right of the straight line to rest, and full friction throughout would make it 7 % faster:
+    A car spun 160 deg to the left on nearly free wheels and came to rest after 20 m. Its course at
+    separation was 12 deg to the right of the straight line to rest, and full friction throughout
+    would make it 7 % faster:
 
     >>> from collisions.travel import path, speed
     >>> places = [(0, 0), (6, -1.6), (12, -2.3), (20, -2.5)]
     >>> run = path(places, ["0 deg", "55 deg", "110 deg", "160 deg"], friction=0.7, lock=0.2)
     >>> [round(drag, 2) for drag in run.drags]
     [0.57, 0.7, 0.57]
-    >>> print(f"{run.q.speed.to('km/h'):.1f~P}, {run.q.yaw_rate.to('deg/s'):.0f~P}, {run.q.course_difference.to('deg'):.1f~P}")
+    >>> speed, yaw_rate = run.q.speed.to("km/h"), run.q.yaw_rate.to("deg/s")
+    >>> print(f"{speed:.1f~P}, {yaw_rate:.0f~P}, {run.q.course_difference.to('deg'):.1f~P}")
     56.0 km/h, 138 deg/s, -12.0 deg
     >>> round(speed(run.distance, drag=0.7) * 3.6, 1)
     60.0
     >>> errors = {"point_error": "0.1 m", "heading_error": "5 deg"}
-    >>> run = path(places, ["0 deg", "55 deg", "110 deg", "160 deg"], friction=0.7, lock=0.2, **errors)
+    >>> run = path(
+    ...     places, ["0 deg", "55 deg", "110 deg", "160 deg"], friction=0.7, lock=0.2, **errors
+    ... )
     >>> print(f"{run.q.speed_error.to('km/h'):.1f~P}, {run.q.course_error.to('deg'):.1f~P}")
     0.6 km/h, 2.3 deg
     """
@@ -232,23 +258,41 @@ def path(
     errors = read_errors(reader, point_error, heading_error)
     reader.close()
     placed: dict[str, Any] = {f"points[{i}]": place for i, place in enumerate(places or ())}
-    arguments = {"headings": [angle.value for angle in headed], "friction": frictions, "lock": locks, "grade": grades}
+    arguments = {
+        "headings": [angle.value for angle in headed],
+        "friction": frictions,
+        "lock": locks,
+        "grade": grades,
+    }
     beside = {"end_speed": [end], "window": [length], **errors}
     lists, named, shape = in_one_precision(placed | arguments | beside)
     *points, values, frictions, locks, grades, (end,), (length,) = lists[: len(lists) - len(errors)]
-    kind = next((value.dtype for part in lists for value in part if isinstance(value, np.ndarray)), None)
+    kind = next(
+        (value.dtype for part in lists for value in part if isinstance(value, np.ndarray)), None
+    )
 
-    run_out = partial(_run_out, frictions=frictions, locks=locks, grades=grades, end=end, window=length)
+    run_out = partial(
+        _run_out, frictions=frictions, locks=locks, grades=grades, end=end, window=length
+    )
     with np.errstate(all="ignore"):
-        turned = [in_radians(angle._replace(value=value)) for angle, value in zip(headed, values, strict=True)]
+        turned = [
+            in_radians(angle._replace(value=value))
+            for angle, value in zip(headed, values, strict=True)
+        ]
         found, gaps = run_out(points, turned, kind=kind)
         if errors:
             (place,), (turn,) = lists[-2:]
             found |= _errors(run_out, points, turned, place, turn, shape or (), kind)
         answered = found["time"] + found["distance"] + found["yaw_rate"]
         if shape is not None:
-            checks = [("coincident_points", np.equal(x0, x1) & np.equal(y0, y1)) for (x0, y0), (x1, y1) in pairwise(points)]
-            checks += [("turns_too_far", abs(after - before) > HALF_TURN) for before, after in pairwise(turned)]
+            checks = [
+                ("coincident_points", np.equal(x0, x1) & np.equal(y0, y1))
+                for (x0, y0), (x1, y1) in pairwise(points)
+            ]
+            checks += [
+                ("turns_too_far", abs(after - before) > HALF_TURN)
+                for before, after in pairwise(turned)
+            ]
             checks += [("contradictory", np.isnan(answer)) for answer in (*gaps, answered)]
             checks += [("out_of_range", np.isinf(answer)) for answer in (*gaps, answered)]
             checks += [("out_of_range", np.less_equal(gap, 0.0)) for gap in gaps]
@@ -270,7 +314,9 @@ def _run_out(
     window: Any,
     kind: Any,
 ) -> tuple[dict[str, Any], list[Any]]:
-    """The fields of the run-out from plain numbers, one case or many, and the duration of each segment."""
+    """The fields of the run-out from plain numbers, one case or many, and the duration of each
+    segment.
+    """
     surveyed = *map(list, zip(*points, strict=True)), list(headings)
     (xs, ys, turned), (at, weights) = smooth(surveyed, window, kind)
     places = list(zip(xs, ys, strict=True))
@@ -281,12 +327,16 @@ def _run_out(
         for (dx, dy), (before, after) in zip(steps, pairwise(turned), strict=True)
     ]
     drags = [_drag(mu, part, crab) for mu, part, crab in zip(frictions, locks, crabs, strict=True)]
-    speeds = speeds_along(lengths, [drag + rise for drag, rise in zip(drags, grades, strict=True)], end, _leg)
+    speeds = speeds_along(
+        lengths, [drag + rise for drag, rise in zip(drags, grades, strict=True)], end, _leg
+    )
     durations = durations_along(lengths, grades, speeds)
     found = {
         "speed": speeds[0],
         "course": angle_of(*slopes(surveyed[:2], at, weights, kind)),
-        "yaw_rate": slopes(surveyed[2:], list(accumulate(durations, initial=0.0)), weights, kind)[0],
+        "yaw_rate": slopes(surveyed[2:], list(accumulate(durations, initial=0.0)), weights, kind)[
+            0
+        ],
         "time": sum(durations),
         "distance": sum(lengths),
         "straight_course": angle_of(points[-1][0] - points[0][0], points[-1][1] - points[0][1]),
@@ -305,12 +355,22 @@ def _drag(friction: Any, lock: Any, crab: Any) -> Any:
 
 
 def _errors(
-    run_out: Any, points: Sequence[Any], turned: Sequence[Any], place: Any, heading: Any, shape: tuple[int, ...], kind: Any
+    run_out: Any,
+    points: Sequence[Any],
+    turned: Sequence[Any],
+    place: Any,
+    heading: Any,
+    shape: tuple[int, ...],
+    kind: Any,
 ) -> dict[str, Any]:
-    """Standard errors of speed, course and yaw rate, by computing again with each reading off by its error, either way."""
+    """Standard errors of speed, course and yaw rate, by computing again with each reading off by
+    its error, either way.
+    """
     squares = dict.fromkeys(("speed", "course", "yaw_rate"), np.zeros(shape))
     readings = 3 * len(points)
-    for group in np.array_split(np.arange(readings), math.ceil(readings * len(points) * math.prod(shape) / _AT_ONCE) or 1):
+    for group in np.array_split(
+        np.arange(readings), math.ceil(readings * len(points) * math.prod(shape) / _AT_ONCE) or 1
+    ):
         which = np.repeat(group, 2).reshape(-1, *(1 for _ in shape))
         off = np.resize([1.0, -1.0], which.shape)
         x, y, turn = (
@@ -318,13 +378,22 @@ def _errors(
             for first, error in enumerate((place, place, heading))
         )
         places = [(px + dx, py + dy) for (px, py), dx, dy in zip(points, x, y, strict=True)]
-        found, _ = run_out(places, [angle + change for angle, change in zip(turned, turn, strict=True)], kind=np.float64)
+        found, _ = run_out(
+            places,
+            [angle + change for angle, change in zip(turned, turn, strict=True)],
+            kind=np.float64,
+        )
         for name, square in squares.items():
             change = found[name][0::2] - found[name][1::2]
             change = _wrapped(change) if name == "course" else change
             squares[name] = square + np.sum(np.square(0.5 * change), axis=0)
-    errors = {f"{name}_error": np.where(np.isnan(square), np.inf, np.sqrt(square)) for name, square in squares.items()}
-    return {name: float(error) if kind is None else error.astype(kind) for name, error in errors.items()}
+    errors = {
+        f"{name}_error": np.where(np.isnan(square), np.inf, np.sqrt(square))
+        for name, square in squares.items()
+    }
+    return {
+        name: float(error) if kind is None else error.astype(kind) for name, error in errors.items()
+    }
 
 
 def _wrapped(angle: Any) -> Any:
@@ -346,13 +415,17 @@ def _read_lock(reader: ArgumentReader, value: Any, name: str) -> Any:
 
 def _warn_of_wide_segments(turned: Sequence[float], locks: Sequence[float]) -> None:
     turns = [abs(after - before) for before, after in pairwise(turned)]
-    wide = [i for i, (turn, part) in enumerate(zip(turns, locks, strict=True)) if np.any((turn > _QUARTER_TURN) & (part < 1.0))]
+    wide = [
+        i
+        for i, (turn, part) in enumerate(zip(turns, locks, strict=True))
+        if np.any((turn > _QUARTER_TURN) & (part < 1.0))
+    ]
     if wide:
         named = ", ".join(_leg(i) for i in wide)
         warn(
             OutOfRangeWarning(
-                f"{named}: the vehicle turns by more than 90 deg there, and one crab angle stands for all of it; give points "
-                f"between",
+                f"{named}: the vehicle turns by more than 90 deg there, and one crab angle "
+                "stands for all of it; give points between",
                 code="wide_segment",
                 segments=tuple(wide),
             )
@@ -364,9 +437,9 @@ def _warn_of_fast_yaw(yaw_rate: Any, speed: Any) -> None:
     if np.any(fast):
         warn(
             OutOfRangeWarning(
-                f"the yaw alone makes the wheels slip at more than {_MOST_YAW:g} of the speed at separation, which the drag "
-                f"here leaves out: the speed is 4 to 8 % too high there, more beyond; travel.simulate has the slip of each "
-                f"wheel",
+                f"the yaw alone makes the wheels slip at more than {_MOST_YAW:g} of the speed at "
+                "separation, which the drag here leaves out: the speed is 4 to 8 % too high "
+                "there, more beyond; travel.simulate has the slip of each wheel",
                 code="fast_yaw",
                 cases=int(np.count_nonzero(fast)),
             )

@@ -1,4 +1,6 @@
-"""``simulate``: a vehicle on four wheels from separation to rest, so that places of rest are evidence of its motion."""
+"""``simulate``: a vehicle on four wheels from separation to rest, so that places of rest are
+evidence of its motion.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,8 @@ _FINEST, _COARSEST = 1e-10, 1e-2
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class SimulatedPath(Shown):
-    """The motion of a vehicle from separation to rest, by ``simulate``; arrays are over moments, then over cases of a batch.
+    """The motion of a vehicle from separation to rest, by ``simulate``; arrays are over moments,
+    then over cases of a batch.
 
     Attributes
     ----------
@@ -55,8 +58,9 @@ class SimulatedPath(Shown):
     yaw_rate : array [rad/s]
         Positive counter-clockwise.
     marks : tuple of pairs of arrays [m]
-        For each wheel (front left, front right, rear left, rear right), x and y of its track where the tyre slides and so
-        leaves a mark, that is where it uses 90 % of the friction or more; NaN elsewhere.
+        For each wheel (front left, front right, rear left, rear right), x and y of its track where
+        the tyre slides and so leaves a mark, that is where it uses 90 % of the friction or more;
+        NaN elsewhere.
     rest : Vehicle
         The vehicle at rest.
     """
@@ -79,8 +83,8 @@ class SimulatedPath(Shown):
         Parameters
         ----------
         time : float, str, Quantity or array [s]
-            For a batch also one for each case. Between the moments, the motion is a polynomial with their places and
-            velocities: give more ``moments`` for more digits.
+            For a batch also one for each case. Between the moments, the motion is a polynomial with
+            their places and velocities: give more ``moments`` for more digits.
 
         Returns
         -------
@@ -90,9 +94,14 @@ class SimulatedPath(Shown):
         read = one_value(reader, time, "s", "time")
         reader.close()
         cases = self.time.shape[1:]
-        wanted = np.broadcast_to(np.asarray(read, float), np.broadcast_shapes(np.shape(read), cases))
+        wanted = np.broadcast_to(
+            np.asarray(read, float), np.broadcast_shapes(np.shape(read), cases)
+        )
         if self.time.ndim > 1 and wanted.shape != cases:
-            text = f"time has the shape {np.shape(read)}, and takes one value, or one for each case: {cases}"
+            text = (
+                f"time has the shape {np.shape(read)}, and takes one value, or one for each "
+                f"case: {cases}"
+            )
             raise ShapeError(text, code="bad_shape", argument="time")
         last, count = self.time[-1], len(self.time) - 1
         with np.errstate(all="ignore"):
@@ -102,11 +111,17 @@ class SimulatedPath(Shown):
             width = last / count
             state = dict.fromkeys(NAMES, 0.0) | {name: getattr(self.rest, name) for name in NAMES}
             for place, rate in (("x", "vx"), ("y", "vy"), ("heading", "yaw_rate")):
-                (p, q), (v, w) = ([_at(getattr(self, name), before + i) for i in (0, 1)] for name in (place, rate))
+                (p, q), (v, w) = (
+                    [_at(getattr(self, name), before + i) for i in (0, 1)] for name in (place, rate)
+                )
                 rise = q - p
                 v, w = width * v, width * w
-                state[place] = p + part * (v + part * (3.0 * rise - 2.0 * v - w + part * (v + w - 2.0 * rise)))
-                rates = v + part * (2.0 * (3.0 * rise - 2.0 * v - w) + part * 3.0 * (v + w - 2.0 * rise))
+                state[place] = p + part * (
+                    v + part * (3.0 * rise - 2.0 * v - w + part * (v + w - 2.0 * rise))
+                )
+                rates = v + part * (
+                    2.0 * (3.0 * rise - 2.0 * v - w) + part * 3.0 * (v + w - 2.0 * rise)
+                )
                 state[rate] = np.where(width > 0.0, rates / np.where(width > 0.0, width, 1.0), 0.0)
                 at_rest = wanted >= last
                 state[rate] = np.where(at_rest, 0.0 * q, state[rate])
@@ -114,7 +129,9 @@ class SimulatedPath(Shown):
                 if wanted.ndim == 0:
                     state[place], state[rate] = float(state[place]), float(state[rate])
                 else:
-                    state[place], state[rate] = (state[name].astype(self.x.dtype) for name in (place, rate))
+                    state[place], state[rate] = (
+                        state[name].astype(self.x.dtype) for name in (place, rate)
+                    )
         return vehicle_of(state, given=Texts(units=self._texts()))
 
     def _summary(self, numbers: Cells) -> Summary:
@@ -124,7 +141,10 @@ class SimulatedPath(Shown):
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         # The marks are for drawing; the end is what is compared with the scene.
         yield from (row for row in Shown._values(self, prefix) if row[0] != "marks")
-        yield from ((f"rest.{name}", getattr(self.rest, name), UNITS[name]) for name in ("x", "y", "heading"))
+        yield from (
+            (f"rest.{name}", getattr(self.rest, name), UNITS[name])
+            for name in ("x", "y", "heading")
+        )
 
 
 def _at(values: Any, moment: Any) -> Any:
@@ -144,26 +164,30 @@ def simulate(
     moments: int = 101,
     tolerance: float = _TOLERANCE,
 ) -> SimulatedPath:
-    """The motion of a vehicle from separation to rest on four wheels, each with its own friction, braking and slip.
+    """The motion of a vehicle from separation to rest on four wheels, each with its own friction,
+    braking and slip.
 
-    The vehicle moves in the plane under the forces of its tyres, as ``Tyres`` has them: each from the slip of its own wheel, to
-    which the yaw adds, and from the ground under it.
+    The vehicle moves in the plane under the forces of its tyres, as ``Tyres`` has them: each from
+    the slip of its own wheel, to which the yaw adds, and from the ground under it.
 
     Parameters
     ----------
     vehicle : Vehicle
-        At separation, with yaw inertia, position and heading, and free to move. Arrays in it are many cases.
+        At separation, with yaw inertia, position and heading, and free to move. Arrays in it are
+        many cases.
     tyres : Tyres
         Friction, braking and size; arrays in it are many cases.
     surfaces : sequence of (corners, friction), optional
-        Areas with a different friction, each with three or more corners [m] in order. The first that a wheel is in counts.
+        Areas with a different friction, each with three or more corners [m] in order. The first
+        that a wheel is in counts.
     slope : pair of float, str, Quantity or array [-]
-        Rise over run of the ground along x and along y of the scene: (0.05, 0) if it rises by 5 % in the direction of x.
+        Rise over run of the ground along x and along y of the scene: (0.05, 0) if it rises by 5 %
+        in the direction of x.
     moments : int
         Number of moments in the arrays, 2 or more.
     tolerance : float [-]
-        Error of one step of the integration in what the place of rest depends on: in velocity over that at separation, and in
-        heading [rad]; from 1e-10 to 0.01.
+        Error of one step of the integration in what the place of rest depends on: in velocity over
+        that at separation, and in heading [rad]; from 1e-10 to 0.01.
 
     Returns
     -------
@@ -177,8 +201,8 @@ def simulate(
     MissingInputError
         The vehicle has no yaw inertia, position or heading.
     NoSolutionError
-        The vehicle does not come to rest: nothing slows it, as where no wheel is braked and it rolls on, or it does not stay on
-        a slope where it stops. An infinite mass.
+        The vehicle does not come to rest: nothing slows it, as where no wheel is braked and it
+        rolls on, or it does not stay on a slope where it stops. An infinite mass.
 
     Warns
     -----
@@ -189,24 +213,28 @@ def simulate(
 
     Notes
     -----
-    That a braked wheel rolls until its brake can hold it, and that the side force has what the circle leaves, is what SMAC does
-    (McHenry, SAE 730980), with Fiala's side force (VDI-Z. 96 (1954) 973). The spin of a wheel, integrated with its inertia,
-    comes to the same forces.
+    That a braked wheel rolls until its brake can hold it, and that the side force has what the
+    circle leaves, is what SMAC does (McHenry, SAE 730980), with Fiala's side force (VDI-Z. 96
+    (1954) 973). The spin of a wheel, integrated with its inertia, comes to the same forces.
 
-    The model holds for cars that stay on their wheels on an even ground: suspension, rollover, kerbs, furrowing in soft ground,
-    other vehicles, driving forces, rolling resistance and air resistance are left out, and ``friction`` is the same at every
-    speed. Load transfer is left out unless ``Tyres`` has a height; then it is that of a vehicle without suspension: with 0.55 m
-    it moved the places of rest of 400 spun cars by 5 % of the way in the median, and by 14 % or more in one of ten. Near rest,
-    a rolling tyre is stiffer sideways than in reality. On a slope, positions are in plan, as in ``distance``.
+    The model holds for cars that stay on their wheels on an even ground: suspension, rollover,
+    kerbs, furrowing in soft ground, other vehicles, driving forces, rolling resistance and air
+    resistance are left out, and ``friction`` is the same at every speed. Load transfer is left out
+    unless ``Tyres`` has a height; then it is that of a vehicle without suspension: with 0.55 m it
+    moved the places of rest of 400 spun cars by 5 % of the way in the median, and by 14 % or more
+    in one of ten. Near rest, a rolling tyre is stiffer sideways than in reality. On a slope,
+    positions are in plan, as in ``distance``.
 
-    The integration is of orders 5 and 4 with its own step for each case, in a time that slows down with the vehicle, in which
-    the end of the motion is regular. Where the motion is straight, it goes on in closed form to its rest or to the next edge;
-    steps end at edges of areas. A wheel that nearly stands still has less than its full force, so that it is held without
-    chatter: below s = 0.02 of the speed of the vehicle (of which the yaw rate times the distance of the wheels from the centre
-    of mass is a part), its slip v counts as (s + v**2 / s) / 2, and across it acts at most the part of the friction that is its
-    side slip over that side slip counted in the same way. At the default ``tolerance``, the place of rest is off by at most
-    1e-3 of the distance travelled and the heading by 1e-3 rad, mostly by a hundredth of that; at 1e-5, in two thirds of the
-    time, by at most a few thousandths and mostly by 1e-4.
+    The integration is of orders 5 and 4 with its own step for each case, in a time that slows down
+    with the vehicle, in which the end of the motion is regular. Where the motion is straight, it
+    goes on in closed form to its rest or to the next edge; steps end at edges of areas. A wheel
+    that nearly stands still has less than its full force, so that it is held without chatter: below
+    s = 0.02 of the speed of the vehicle (of which the yaw rate times the distance of the wheels
+    from the centre of mass is a part), its slip v counts as (s + v**2 / s) / 2, and across it acts
+    at most the part of the friction that is its side slip over that side slip counted in the same
+    way. At the default ``tolerance``, the place of rest is off by at most 1e-3 of the distance
+    travelled and the heading by 1e-3 rad, mostly by a hundredth of that; at 1e-5, in two thirds of
+    the time, by at most a few thousandths and mostly by 1e-4.
 
     Examples
     --------
@@ -235,18 +263,27 @@ def simulate(
         reader.refuse(InputError(text, code="bad_option", argument="moments"))
     within = reader.number(tolerance, "", "tolerance", POSITIVE_FINITE)
     if not (isinstance(within, float) and (within != within or _FINEST <= within <= _COARSEST)):
-        text = f"tolerance must be one number from {_FINEST:g} to {_COARSEST:g}, got {shown(tolerance)}"
+        text = (
+            f"tolerance must be one number from {_FINEST:g} to {_COARSEST:g}, got "
+            f"{shown(tolerance)}"
+        )
         reader.refuse(InputError(text, code="bad_option", argument="tolerance"))
     if not isinstance(vehicle, Vehicle):
         reader.refuse(not_a_vehicle("vehicle", vehicle))
     elif vehicle.pivot is not None:
-        text = "vehicle is on a pivot; simulate takes one that is free: write vehicle.replace(pivot=None)"
+        text = (
+            "vehicle is on a pivot; simulate takes one that is free: write "
+            "vehicle.replace(pivot=None)"
+        )
         reader.refuse(InputError(text, code="pinned", argument="vehicle"))
     if not isinstance(tyres, Tyres):
         reader.refuse(not_tyres("tyres", tyres))
     reader.close()
     if isinstance(vehicle.mass, float) and math.isinf(vehicle.mass):
-        raise NoSolutionError("the mass of the vehicle is infinite, which friction does not stop", code="infinite_mass")
+        raise NoSolutionError(
+            "the mass of the vehicle is infinite, which friction does not stop",
+            code="infinite_mass",
+        )
     body = {name: needed(vehicle, name, "simulate") for name in ("mass", "yaw_inertia", *_MOTION)}
     wheels = tyres.named
     named = body | wheels | ground | rises
@@ -255,14 +292,20 @@ def simulate(
     unknown = _brakes_unknown(wheels, bool(areas))
     if unknown is True:
         raise InputError(
-            "friction of the tyres is 0, so that the brakes of lock between 0 and 1 hold nothing on any of the surfaces; give "
-            "the friction of the common ground to Tyres, and what is slippery as surfaces",
+            "friction of the tyres is 0, so that the brakes of lock between 0 and 1 hold nothing "
+            "on any of the surfaces; give the friction of the common ground to Tyres, and what "
+            "is slippery as surfaces",
             code="bad_friction",
             argument="tyres",
         )
     shape = broadcast(named)
-    flat = {name: np.broadcast_to(np.asarray(value, float), shape or ()).ravel() for name, value in named.items()}
-    settings = Settings(tyres.steered, tyres.transfers, any(bool(np.any(rise != 0.0)) for rise in rises.values()))
+    flat = {
+        name: np.broadcast_to(np.asarray(value, float), shape or ()).ravel()
+        for name, value in named.items()
+    }
+    settings = Settings(
+        tyres.steered, tyres.transfers, any(bool(np.any(rise != 0.0)) for rise in rises.values())
+    )
     with np.errstate(all="ignore"):
         motion, units = _prepared(flat, [corners for corners, _ in areas], settings, within)
         count = motion.start.shape[1]
@@ -273,50 +316,87 @@ def simulate(
         _refuse_one(int(ended[0]), way[:, :, 0], settings.sloped)
         found, still = way[..., 0], 0.0
     else:
-        positive = (body["mass"], body["yaw_inertia"], *(wheels[name] for name in ("wheelbase", "track", "cornering")))
+        positive = (
+            body["mass"],
+            body["yaw_inertia"],
+            *(wheels[name] for name in ("wheelbase", "track", "cornering")),
+        )
         checks = [("not_positive", ~np.greater(number, 0.0)) for number in positive]
         checks += [("infinite_mass", np.isinf(body["mass"]))]
-        checks += [("bad_friction", np.less(mu, 0.0)) for mu in (wheels["friction"], *ground.values())]
+        checks += [
+            ("bad_friction", np.less(mu, 0.0)) for mu in (wheels["friction"], *ground.values())
+        ]
         checks += [("bad_friction", unknown)]
         checks += [("negative_length", np.less(wheels.get("height", 0.0), 0.0))]
-        checks += [("wheel_lifts", lifts(wheels, mu)) for mu in (wheels["friction"], *ground.values())]
+        checks += [
+            ("wheel_lifts", lifts(wheels, mu)) for mu in (wheels["friction"], *ground.values())
+        ]
         ended = ended.reshape(shape)
         checks += [("never_stops", ended == GOES_ON), ("no_convergence", ended != RESTS)]
         kind = precision(named.values())
         with np.errstate(all="ignore"):
-            checks += [("out_of_range", ~np.isfinite(way[:4].astype(kind)).all(axis=(0, 1)).reshape(shape))]
-        finite = {name: number for name, number in named.items() if name not in ("mass", "yaw_inertia")}
+            checks += [
+                ("out_of_range", ~np.isfinite(way[:4].astype(kind)).all(axis=(0, 1)).reshape(shape))
+            ]
+        finite = {
+            name: number for name, number in named.items() if name not in ("mass", "yaw_inertia")
+        }
         # 0, or NaN where a case is refused.
         still = write_locked(settle(np.zeros(shape), finite, shape, checks).astype(kind))
         with np.errstate(all="ignore"):
             found = (way.reshape(len(way), moments, *shape) + still).astype(kind)
     time, x, y, heading, vx, vy, yaw_rate, *tracks = write_locked(tuple(found))
     end = {"x": x[-1], "y": y[-1], "heading": heading[-1]}
-    state = {name: getattr(vehicle, name) for name in NAMES} | dict.fromkeys(("vx", "vy", "yaw_rate"), still)
+    state = {name: getattr(vehicle, name) for name in NAMES} | dict.fromkeys(
+        ("vx", "vy", "yaw_rate"), still
+    )
     state |= {name: float(part) if shape is None else part for name, part in end.items()}
     marks = tuple(zip(tracks[::2], tracks[1::2], strict=True))
     texts = texts_of(vehicle.given)
     rest = vehicle_of(state, given=Texts(units=texts))
-    path = SimulatedPath(time=time, x=x, y=y, heading=heading, vx=vx, vy=vy, yaw_rate=yaw_rate, marks=marks, rest=rest)
+    path = SimulatedPath(
+        time=time,
+        x=x,
+        y=y,
+        heading=heading,
+        vx=vx,
+        vy=vy,
+        yaw_rate=yaw_rate,
+        marks=marks,
+        rest=rest,
+    )
     return in_units_of(path, texts)
 
 
 def _brakes_unknown(wheels: Mapping[str, Any], areas: bool) -> Any:
-    """Whether a friction of 0 leaves open what the brakes of partly locked wheels hold elsewhere."""
+    """Whether a friction of 0 leaves open what the brakes of partly locked wheels hold
+    elsewhere.
+    """
     if not areas:
         return False
     locks = [wheels[name] for name in ("lock", *LOCKS) if name in wheels]
     none = np.equal(wheels["friction"], 0.0)
-    found = none & np.any(np.broadcast_arrays(*(np.greater(part, 0.0) & np.less(part, 1.0) for part in locks)), axis=0)
+    found = none & np.any(
+        np.broadcast_arrays(*(np.greater(part, 0.0) & np.less(part, 1.0) for part in locks)), axis=0
+    )
     return bool(found) if found.ndim == 0 else found
 
 
-def _prepared(flat: dict[str, Any], corners: Sequence[Any], settings: Settings, tolerance: float) -> tuple[Motion, Any]:
-    """The motion of all cases, and the units of each: origin x and y, time, length, and distance of the wheels."""
+def _prepared(
+    flat: dict[str, Any], corners: Sequence[Any], settings: Settings, tolerance: float
+) -> tuple[Motion, Any]:
+    """The motion of all cases, and the units of each: origin x and y, time, length, and distance of
+    the wheels.
+    """
     own = kernel_numbers(flat, np)
     reach = hypot(own.ahead, own.left)
     # Refused cases need not be followed.
-    usable = (flat["friction"] >= 0.0) & (reach > 0.0) & (flat["mass"] > 0.0) & (flat["yaw_inertia"] > 0.0)
+    usable = (
+        (flat["friction"] >= 0.0)
+        & (reach > 0.0)
+        & (flat["mass"] > 0.0)
+        & (flat["yaw_inertia"] > 0.0)
+    )
     for part in own.locks:
         usable = usable & (part >= 0.0) & (part <= 1.0)
     rates = [np.where(usable, flat[name], 0.0) for name in ("vx", "vy", "yaw_rate")]
@@ -331,8 +411,15 @@ def _prepared(flat: dict[str, Any], corners: Sequence[Any], settings: Settings, 
     time, length = speed / GRAVITY, speed * (speed / GRAVITY)
     here = [flat["friction"]] * 4
     lengths = [own.ahead / reach, own.left / reach, own.cos, own.sin, own.over_ahead, own.over_left]
-    rest = [reach * (reach * (flat["mass"] / flat["yaw_inertia"])), length / reach, flat["slope[0]"], flat["slope[1]"]]
-    ground = np.array(np.broadcast_arrays(*own.locks, own.friction, own.cornering, *lengths, *here, *rest))
+    rest = [
+        reach * (reach * (flat["mass"] / flat["yaw_inertia"])),
+        length / reach,
+        flat["slope[0]"],
+        flat["slope[1]"],
+    ]
+    ground = np.array(
+        np.broadcast_arrays(*own.locks, own.friction, own.cornering, *lengths, *here, *rest)
+    )
     start = np.array([*(part / size for part in rates), flat["heading"]])
     origin = np.array([flat["x"], flat["y"]])
     areas = None
@@ -341,7 +428,9 @@ def _prepared(flat: dict[str, Any], corners: Sequence[Any], settings: Settings, 
         ahead = np.multiply.outer([1.0, 1.0, -1.0, -1.0], own.ahead)
         left = np.multiply.outer([1.0, -1.0, 1.0, -1.0], own.left)
         areas = Areas(corners, frictions, flat["friction"], origin, length, ahead, left)
-    return Motion(ground, start, areas, settings, tolerance), np.array([*origin, time, length, reach])
+    return Motion(ground, start, areas, settings, tolerance), np.array(
+        [*origin, time, length, reach]
+    )
 
 
 def _way(motion: Motion, units: Any, moments: int) -> tuple[Any, Any]:
@@ -388,9 +477,14 @@ def _way(motion: Motion, units: Any, moments: int) -> tuple[Any, Any]:
     tracks = []
     for (along, across), (ahead, aside) in zip(used, _corners(motion.ground, reach), strict=True):
         slides = np.hypot(along, across) >= _MARKS
-        tracks += [np.where(slides, x + c * ahead - s * aside, np.nan), np.where(slides, y + s * ahead + c * aside, np.nan)]
+        tracks += [
+            np.where(slides, x + c * ahead - s * aside, np.nan),
+            np.where(slides, y + s * ahead + c * aside, np.nan),
+        ]
     rate = length / second
-    return np.array([second * time, x, y, heading, rate * vx, rate * vy, turning / second, *tracks]), ended
+    return np.array(
+        [second * time, x, y, heading, rate * vx, rate * vy, turning / second, *tracks]
+    ), ended
 
 
 def _corners(ground: Any, reach: Any) -> list[tuple[Any, Any]]:
@@ -402,16 +496,21 @@ def _corners(ground: Any, reach: Any) -> list[tuple[Any, Any]]:
 def _refuse_one(ended: int, way: Any, sloped: bool) -> None:
     """Raises if a single case did not come to rest."""
     if ended == GOES_ON:
-        on_slope = " or it does not stay where it stops on the slope, which is too steep for its brakes," if sloped else ""
+        on_slope = (
+            " or it does not stay where it stops on the slope, which is too steep for its brakes,"
+            if sloped
+            else ""
+        )
         raise NoSolutionError(
-            f"the vehicle does not come to rest: nothing slows it, since friction or lock are 0 (a wheel of lock 0 rolls on),"
-            f"{on_slope} or the wheels are not braked; give the lock that stopped it, or the resistance to rolling as a lock "
-            f"such as 0.02",
+            "the vehicle does not come to rest: nothing slows it, since friction or lock are 0 "
+            f"(a wheel of lock 0 rolls on),{on_slope} or the wheels are not braked; give the "
+            "lock that stopped it, or the resistance to rolling as a lock such as 0.02",
             code="never_stops",
         )
     if ended != RESTS:
         raise NoSolutionError(
-            "the motion of the vehicle cannot be followed to its end: it spins too fast, or hardly anything slows it",
+            "the motion of the vehicle cannot be followed to its end: it spins too fast, or "
+            "hardly anything slows it",
             code="no_convergence",
         )
     if not np.all(np.isfinite(way[:4])):
@@ -424,10 +523,15 @@ def _read_surfaces(reader: ArgumentReader, surfaces: Any) -> list[tuple[Any, Any
     for i, area in enumerate(surfaces if isinstance(surfaces, (list, tuple)) else [surfaces]):
         corners = area[0] if isinstance(area, (list, tuple)) and len(area) == 2 else None
         if not isinstance(corners, (list, tuple)) or len(corners) < 3:
-            text = f"surfaces[{i}] must be a pair of corners, three or more (x, y) in a list, and friction; got {shown(area)}"
+            text = (
+                f"surfaces[{i}] must be a pair of corners, three or more (x, y) in a list, and "
+                f"friction; got {shown(area)}"
+            )
             reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))
             continue
-        places = [reader.pair(place, "m", f"surfaces[{i}][0][{j}]") for j, place in enumerate(corners)]
+        places = [
+            reader.pair(place, "m", f"surfaces[{i}][0][{j}]") for j, place in enumerate(corners)
+        ]
         if any(isinstance(part, np.ndarray) for place in places for part in place):
             text = f"surfaces[{i}] has an array among its corners; they are the same for every case"
             reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))

@@ -29,22 +29,27 @@ from .surfaces import (
 
 
 @hinted
-def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
+def speed(
+    distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0
+) -> Value:
     """Speed [m/s] at the start of a distance over which a vehicle slows.
 
-    The drag takes a known amount of energy over each surface, so the speeds are chained backward from the end::
+    The drag takes a known amount of energy over each surface, so the speeds are chained backward
+    from the end::
 
         v_start**2 = v_end**2 + 2 * GRAVITY * (drag + grade) * distance
 
-    A list or tuple for ``distance`` is for several surfaces in order of travel; drag and grade are then one value for all, or
-    a list of the same length. An array is for many cases; arrays broadcast, and may be the entries of a list.
+    A list or tuple for ``distance`` is for several surfaces in order of travel; drag and grade are
+    then one value for all, or a list of the same length. An array is for many cases; arrays
+    broadcast, and may be the entries of a list.
 
     Parameters
     ----------
     distance : float, str, Quantity, array or list of these [m]
         Horizontal distance, >= 0.
     drag : float, str, Quantity, array or list of these [-]
-        Drag factor, >= 0: a plain number such as 0.7, or a deceleration on the level such as ``"6.9 m/s**2"``.
+        Drag factor, >= 0: a plain number such as 0.7, or a deceleration on the level such as ``"6.9
+        m/s**2"``.
     grade : float, str, Quantity, array or list of these [-]
         Rise over run, positive uphill in the direction of travel; ``"-4 %"`` is downhill.
     end_speed : float, str, Quantity or array [m/s]
@@ -60,7 +65,8 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
     InputError
         Naming every argument that cannot be used.
     NoSolutionError
-        No initial speed leads to this end: the ground would have had to take more energy than there was.
+        No initial speed leads to this end: the ground would have had to take more energy than there
+        was.
 
     Warns
     -----
@@ -71,30 +77,37 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
 
     Notes
     -----
-    The vehicle is a point mass on a straight line or a gentle bend, and each surface has the same drag at every speed: load
-    transfer, air resistance and the build-up time of the brakes are left out. A vehicle that spins has a different drag at
-    every crab angle: see ``path``. On a slope at the angle atan(grade), the load and with it the drag are reduced by the
-    factor cos(atan(grade)), and the distance in plan is shorter than that along the slope by the same factor, so the balance
+    The vehicle is a point mass on a straight line or a gentle bend, and each surface has the same
+    drag at every speed: load transfer, air resistance and the build-up time of the brakes are left
+    out. A vehicle that spins has a different drag at every crab angle: see ``path``. On a slope at
+    the angle atan(grade), the load and with it the drag are reduced by the factor cos(atan(grade)),
+    and the distance in plan is shorter than that along the slope by the same factor, so the balance
     is exact. Speeds in plan are lower by that factor.
 
     Examples
     --------
-    A slide of 66 ft to rest on asphalt with a drag factor of 0.65; a course sheet that rounds to 30 f d gives 35.87 mph:
+    A slide of 66 ft to rest on asphalt with a drag factor of 0.65; a course sheet that rounds to 30
+    f d gives 35.87 mph:
 
     >>> round(speed("66 ft", drag=0.65) / 0.44704, 2)
     35.82
 
     12 m on asphalt, then 8 m up a grass bank, into a tree at 20 km/h:
 
-    >>> round(speed([12.0, "8 m"], drag=[0.7, 0.45], grade=[0, "10 %"], end_speed="20 km/h") * 3.6, 1)
+    >>> round(
+    ...     speed([12.0, "8 m"], drag=[0.7, 0.45], grade=[0, "10 %"], end_speed="20 km/h") * 3.6, 1
+    ... )
     60.4
     """
-    return _over_surfaces(distance, drag, grade, end_speed, lambda lengths, grades, speeds: speeds[0])
+    return _over_surfaces(
+        distance, drag, grade, end_speed, lambda lengths, grades, speeds: speeds[0]
+    )
 
 
 @hinted
 def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input = 0.0) -> Value:
-    """Distance [m] over which a vehicle goes from one speed to another on one surface; the inverse of ``speed``.
+    """Distance [m] over which a vehicle goes from one speed to another on one surface; the inverse
+    of ``speed``.
 
     The energy balance is that of ``speed``, with the same limits::
 
@@ -130,7 +143,8 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
 
     Examples
     --------
-    The table of stopping distances in the Code of Virginia, section 46.2-880, gives 119 ft of braking from 50 mph:
+    The table of stopping distances in the Code of Virginia, section 46.2-880, gives 119 ft of
+    braking from 50 mph:
 
     >>> round(distance("50 mph", drag=0.7) / 0.3048, 1)
     119.4
@@ -141,7 +155,9 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
     slope = read_grade(reader, grade, "grade")
     end = read_speed(reader, end_speed, "end_speed")
     reader.close()
-    lists, named, shape = in_one_precision({"speed": [start], "drag": [slowing], "grade": [slope], "end_speed": [end]})
+    lists, named, shape = in_one_precision(
+        {"speed": [start], "drag": [slowing], "grade": [slope], "end_speed": [end]}
+    )
     (start,), (slowing,), (slope,), (end,) = lists
     with np.errstate(all="ignore"):
         drop = slowing + slope
@@ -149,7 +165,11 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
         if isinstance(drop, float) and isinstance(change, float):
             _check_ends(start, end, drop)
         # A change that the ground works against would need a negative distance.
-        fits = ((change > 0.0) & (drop > 0.0)) | ((change < 0.0) & (drop < 0.0)) | ((change == 0.0) & (drop != 0.0))
+        fits = (
+            ((change > 0.0) & (drop > 0.0))
+            | ((change < 0.0) & (drop < 0.0))
+            | ((change == 0.0) & (drop != 0.0))
+        )
         rate = select(drop == 0.0, math.nan, 2.0 * GRAVITY * drop)
         # A rate that overflows would give a distance of 0.
         found = select(abs(rate) < math.inf, change / rate * (start + end) + 0.0, math.inf)
@@ -158,11 +178,14 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
 
 
 @hinted
-def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
+def time(
+    distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0
+) -> Value:
     """Time [s] that a vehicle takes to cover a distance.
 
-    The speeds at both ends of each surface are those of ``speed``, with the same limits; in between, the deceleration is
-    constant, so the mean speed is half their sum, over the length of the slope::
+    The speeds at both ends of each surface are those of ``speed``, with the same limits; in
+    between, the deceleration is constant, so the mean speed is half their sum, over the length of
+    the slope::
 
         time = sum(2 * distance * sqrt(1 + grade**2) / (v_start + v_end))
 
@@ -193,15 +216,27 @@ def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed
     >>> round(time("66 ft", drag=0.65), 2)
     2.51
     """
-    return _over_surfaces(distance, drag, grade, end_speed, lambda *along: sum(durations_along(*along), start=0.0))
+    return _over_surfaces(
+        distance, drag, grade, end_speed, lambda *along: sum(durations_along(*along), start=0.0)
+    )
 
 
-def _over_surfaces(length: Any, drag: Any, grade: Any, end_speed: Any, figure: Callable[..., Any]) -> Value:
-    """What ``figure`` makes of the lengths and grades of all surfaces, and of the speeds at their ends."""
+def _over_surfaces(
+    length: Any, drag: Any, grade: Any, end_speed: Any, figure: Callable[..., Any]
+) -> Value:
+    """What ``figure`` makes of the lengths and grades of all surfaces, and of the speeds at their
+    ends.
+    """
     reader = ArgumentReader()
     listed = isinstance(length, (list, tuple))
     if listed and not length:
-        reader.refuse(ShapeError("distance is an empty list; give at least one segment", code="bad_shape", argument="distance"))
+        reader.refuse(
+            ShapeError(
+                "distance is an empty list; give at least one segment",
+                code="bad_shape",
+                argument="distance",
+            )
+        )
     count = (len(length) or None) if listed else 0
     lengths = for_each(reader, length, "distance", count, read_length)
     drags = for_each(reader, drag, "drag", count, read_drag)
@@ -213,7 +248,9 @@ def _over_surfaces(length: Any, drag: Any, grade: Any, end_speed: Any, figure: C
     segment = "distance[{}]" if listed else "distance"
     with np.errstate(all="ignore"):
         drops = [slowing + slope for slowing, slope in zip(drags, grades, strict=True)]
-        found: Value = _answer(figure(lengths, grades, speeds_along(lengths, drops, end, segment.format)), named, shape)
+        found: Value = _answer(
+            figure(lengths, grades, speeds_along(lengths, drops, end, segment.format)), named, shape
+        )
     return found
 
 
@@ -222,26 +259,32 @@ def _check_ends(start: float, end: float, drop: float) -> None:
     if start > end and drop <= 0.0:
         what = "stops" if end == 0.0 else f"slows to {end:.6g} m/s"
         raise NoSolutionError(
-            f"the vehicle never {what}: drag + grade is {drop:.6g}, which does not slow it; correct the sign of the grade, or "
-            f"the drag",
+            f"the vehicle never {what}: drag + grade is {drop:.6g}, which does not slow it; "
+            "correct the sign of the grade, or the drag",
             code="never_stops",
         )
     if start < end and drop >= 0.0:
         raise NoSolutionError(
-            f"end_speed {end:.6g} m/s is above speed {start:.6g} m/s, and drag + grade is {drop:.6g}, which does not speed the "
-            f"vehicle up; exchange the two, or correct the sign of the grade",
+            f"end_speed {end:.6g} m/s is above speed {start:.6g} m/s, and drag + grade is "
+            f"{drop:.6g}, which does not speed the vehicle up; exchange the two, or correct the "
+            "sign of the grade",
             code="contradictory",
         )
     if start == end and drop == 0.0:
         raise NoSolutionError(
-            f"drag + grade is 0, so the vehicle keeps its {start:.6g} m/s over any distance", code="any_distance"
+            f"drag + grade is 0, so the vehicle keeps its {start:.6g} m/s over any distance",
+            code="any_distance",
         )
 
 
 def _answer(found: Any, named: dict[str, Any], shape: tuple[int, ...] | None) -> Any:
-    """The result: a single non-finite one is refused, in a batch such cases are NaN and counted by reason in one warning."""
+    """The result: a single non-finite one is refused, in a batch such cases are NaN and counted by
+    reason in one warning.
+    """
     if shape is None:
         if not math.isfinite(found):
             raise out_of_range()
         return found
-    return settle(found, named, shape, [("out_of_range", np.isinf(found)), ("contradictory", np.isnan(found))])
+    return settle(
+        found, named, shape, [("out_of_range", np.isinf(found)), ("contradictory", np.isnan(found))]
+    )

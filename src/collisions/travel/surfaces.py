@@ -1,4 +1,6 @@
-"""Surfaces one after another: lengths, drags, grades and speeds read, and the balance of energy backward along them."""
+"""Surfaces one after another: lengths, drags, grades and speeds read, and the balance of energy
+backward along them.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,13 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..kernels.elementwise import select
-from ..messages.errors import CollisionsError, CollisionsWarning, InputError, NoSolutionError, ShapeError
+from ..messages.errors import (
+    CollisionsError,
+    CollisionsWarning,
+    InputError,
+    NoSolutionError,
+    ShapeError,
+)
 from ..messages.warning import warn_of_cases
 from ..quantities.attributes import hypot, lock, numeric
 from ..quantities.reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
@@ -36,7 +44,9 @@ _BELOW_ZERO = {
 }
 
 
-def for_each(reader: ArgumentReader, value: Any, name: str, count: int | None, read: _Reader) -> list[Any]:
+def for_each(
+    reader: ArgumentReader, value: Any, name: str, count: int | None, read: _Reader
+) -> list[Any]:
     """Broadcast a value to one number per segment.
 
     ``count`` is 0 for one surface, not given as a list, and None if the segments could not be read.
@@ -48,11 +58,14 @@ def for_each(reader: ArgumentReader, value: Any, name: str, count: int | None, r
         return [read(reader, part, f"{name}[{i}]") for i, part in enumerate(value)]
     kind = type(value).__name__
     if count:
-        text = f"{name} is a {kind} of {len(value)}, and there are {count} segments; give one value for all, or one for each"
+        text = (
+            f"{name} is a {kind} of {len(value)}, and there are {count} segments; give one value "
+            "for all, or one for each"
+        )
     else:
         text = (
-            f"{name} is a {kind}, one value for each segment, and distance is one surface; give distance as a list too, or "
-            f"many cases as a numpy array"
+            f"{name} is a {kind}, one value for each segment, and distance is one surface; give "
+            "distance as a list too, or many cases as a numpy array"
         )
     reader.refuse(ShapeError(text, code="bad_shape", argument=name))
     return [math.nan] * (count or 1)
@@ -61,13 +74,17 @@ def for_each(reader: ArgumentReader, value: Any, name: str, count: int | None, r
 def read_length(reader: ArgumentReader, value: Any, name: str) -> Any:
     """A length along the path [m], >= 0."""
     read = one_value(reader, value, "m", name)
-    return at_least_zero(reader, read, value, name, "negative_distance", "it is counted along the way travelled")
+    return at_least_zero(
+        reader, read, value, name, "negative_distance", "it is counted along the way travelled"
+    )
 
 
 def read_speed(reader: ArgumentReader, value: Any, name: str) -> Any:
     """A speed along the path [m/s], >= 0."""
     read = one_value(reader, value, "m/s", name)
-    return at_least_zero(reader, read, value, name, "negative_speed", "it is counted along the way travelled")
+    return at_least_zero(
+        reader, read, value, name, "negative_speed", "it is counted along the way travelled"
+    )
 
 
 def read_grade(reader: ArgumentReader, value: Any, name: str) -> Any:
@@ -80,23 +97,34 @@ def read_grade(reader: ArgumentReader, value: Any, name: str) -> Any:
 def in_one_precision(
     arguments: Mapping[str, Sequence[Any]],
 ) -> tuple[list[list[Any]], dict[str, Any], tuple[int, ...] | None]:
-    """The numbers of each argument, widened to the precision of all; every number by name; and the shape of a batch."""
+    """The numbers of each argument, widened to the precision of all; every number by name; and the
+    shape of a batch.
+    """
     named: dict[str, Any] = {}
     for name, parts in arguments.items():
         one_for_all = all(part is parts[0] for part in parts)
-        named |= {name: parts[0]} if one_for_all else {f"{name}[{i}]": part for i, part in enumerate(parts)}
+        named |= (
+            {name: parts[0]}
+            if one_for_all
+            else {f"{name}[{i}]": part for i, part in enumerate(parts)}
+        )
     shape = broadcast(named)
     values = iter(widened([part for parts in arguments.values() for part in parts]))
     return [[next(values) for _ in parts] for parts in arguments.values()], named, shape
 
 
-def speeds_along(lengths: Sequence[Any], drops: Sequence[Any], end: Any, name: Callable[[int], str]) -> list[Any]:
-    """Speed at every point, start to end, chained backward; NaN in the cases of a batch that contradict themselves."""
+def speeds_along(
+    lengths: Sequence[Any], drops: Sequence[Any], end: Any, name: Callable[[int], str]
+) -> list[Any]:
+    """Speed at every point, start to end, chained backward; NaN in the cases of a batch that
+    contradict themselves.
+    """
     speeds = [end]
     for i in range(len(lengths) - 1, -1, -1):
         after = speeds[-1]
         gained = _root(2.0 * GRAVITY * abs(drops[i])) * _root(lengths[i])
-        # Downhill beyond the drag: the root of the difference of squares, without the squares that overflow.
+        # Downhill beyond the drag: the root of the difference of squares, without the squares that
+        # overflow.
         falling = _root(after - gained) * _root(after + gained)
         before = select(drops[i] >= 0.0, hypot(after, gained), falling)
         # A vehicle that nothing slows does not come to rest, unless it has not moved.
@@ -120,23 +148,27 @@ def _contradiction(where: str, drop: float, after: float, gained: float) -> Coll
         return out_of_range()
     if drop == 0.0:
         return NoSolutionError(
-            f"{where}: drag + grade is 0, so nothing slows the vehicle there, and it is to come to rest; correct "
-            f"what slows it, or give an end_speed",
+            f"{where}: drag + grade is 0, so nothing slows the vehicle there, and it is to come "
+            "to rest; correct what slows it, or give an end_speed",
             code="contradictory",
             missing=0.0,
         )
     missing = (after - gained) * (after + gained)
     return NoSolutionError(
-        f"{where}: drag + grade is {drop:.6g}, so the vehicle speeds up there, from rest already to {gained:.6g} m/s, and is "
-        f"to end at {after:.6g} m/s; the square of its speed before would be {missing:.6g} m2/s2. Correct the sign of the "
-        f"grade, the drag, or the end_speed",
+        f"{where}: drag + grade is {drop:.6g}, so the vehicle speeds up there, from rest already "
+        f"to {gained:.6g} m/s, and is to end at {after:.6g} m/s; the square of its speed before "
+        f"would be {missing:.6g} m2/s2. Correct the sign of the grade, the drag, or the end_speed",
         code="contradictory",
         missing=missing,
     )
 
 
-def durations_along(lengths: Sequence[Any], grades: Sequence[Any], speeds: Sequence[Any]) -> list[Any]:
-    """Time over each segment, along its slope: at a constant deceleration the mean speed is half the sum."""
+def durations_along(
+    lengths: Sequence[Any], grades: Sequence[Any], speeds: Sequence[Any]
+) -> list[Any]:
+    """Time over each segment, along its slope: at a constant deceleration the mean speed is half
+    the sum.
+    """
     found = []
     for plan, grade, before, after in zip(lengths, grades, speeds, speeds[1:], strict=False):
         length = plan * numeric(grade).hypot(1.0, grade)
@@ -150,12 +182,17 @@ def durations_along(lengths: Sequence[Any], grades: Sequence[Any], speeds: Seque
 def out_of_range() -> InputError:
     """The error for a single case with a result that is not finite."""
     return InputError(
-        "the answer is not a finite number: the arguments are too large or too small for floats", code="out_of_range"
+        "the answer is not a finite number: the arguments are too large or too small for floats",
+        code="out_of_range",
     )
 
 
-def settle(found: Any, named: Mapping[str, Any], shape: tuple[int, ...], checks: Iterable[tuple[str, Any]]) -> Any:
-    """A locked batch, or a dict or tuple of some, NaN where an argument is refused or a check holds; one warning counts why."""
+def settle(
+    found: Any, named: Mapping[str, Any], shape: tuple[int, ...], checks: Iterable[tuple[str, Any]]
+) -> Any:
+    """A locked batch, or a dict or tuple of some, NaN where an argument is refused or a check
+    holds; one warning counts why.
+    """
     reasons = [("not_finite", ~np.isfinite(value)) for value in named.values()]
     for name, value in named.items():
         code = _BELOW_ZERO.get(name.partition("[")[0])
@@ -174,11 +211,15 @@ def settle(found: Any, named: Mapping[str, Any], shape: tuple[int, ...], checks:
         listed = ", ".join(f"{count} {code}" for code, count in counts.items())
         warn_of_cases(
             CollisionsWarning(
-                f"{sum(counts.values())} of {answered.size} cases cannot be answered and are NaN ({listed})",
+                f"{sum(counts.values())} of {answered.size} cases cannot be answered and are NaN "
+                f"({listed})",
                 code="refused_cases",
                 counts=counts,
             ),
-            {f"without an answer on the ground, as {code}": count for code, count in counts.items()},
+            {
+                f"without an answer on the ground, as {code}": count
+                for code, count in counts.items()
+            },
         )
 
     def settled(answer: Any) -> Any:
@@ -188,7 +229,8 @@ def settle(found: Any, named: Mapping[str, Any], shape: tuple[int, ...], checks:
             return tuple(map(settled, answer))
         if counts:
             return select(answered, answer, np.nan)
-        # A large batch has most answers in its shape already, and a second copy of them would take as much memory again.
+        # A large batch has most answers in its shape already, and a second copy of them would take
+        # as much memory again.
         return answer if np.shape(answer) == shape else np.array(np.broadcast_to(answer, shape))
 
     return lock(settled(found))

@@ -1,4 +1,6 @@
-"""The survey of a path: points, headings and their errors as arguments, and a smooth path through them."""
+"""The survey of a path: points, headings and their errors as arguments, and a smooth path through
+them.
+"""
 
 from __future__ import annotations
 
@@ -17,15 +19,21 @@ from ..vehicle.drag import one_value
 
 # What a heading may turn by from one point to the next.
 HALF_TURN = math.pi * (1.0 + 1e-9)
-# Of the window: with this standard deviation, weights that fall off as a normal density err in the slope at the end of a path
-# as equal weights within the window do, by the errors of the points and by a bend that changes along the way alike.
+# Of the window: with this standard deviation, weights that fall off as a normal density err in the
+# slope at the end of a path as equal weights within the window do, by the errors of the points and
+# by a bend that changes along the way alike.
 _SPREAD = 0.384
-# The first lengths are those of the chords between the points, which errors of a dense survey make too long.
+# The first lengths are those of the chords between the points, which errors of a dense survey make
+# too long.
 _PASSES = 3
 
 
-def _parts(reader: ArgumentReader, value: Any, unit: str, name: str, row: tuple[int, ...]) -> list[Any] | None:
-    """The entries of a list, or the rows of an array if each has the shape ``row``; None for anything else."""
+def _parts(
+    reader: ArgumentReader, value: Any, unit: str, name: str, row: tuple[int, ...]
+) -> list[Any] | None:
+    """The entries of a list, or the rows of an array if each has the shape ``row``; None for
+    anything else.
+    """
     if isinstance(value, (list, tuple)):
         return list(value)
     count = len(reader.problems)
@@ -36,13 +44,18 @@ def _parts(reader: ArgumentReader, value: Any, unit: str, name: str, row: tuple[
         return rows
     if len(reader.problems) == count:
         what = f"an array of shape {got}" if got else "one number"
-        text = f"{name} is {what}; give a list with one for each point, or an array of shape {'(n, 2)' if row else '(n,)'}"
+        text = (
+            f"{name} is {what}; give a list with one for each point, or an array of shape "
+            f"{'(n, 2)' if row else '(n,)'}"
+        )
         reader.refuse(ShapeError(text, code="bad_shape", argument=name))
     return None
 
 
 def read_points(reader: ArgumentReader, points: Any) -> list[tuple[Any, Any]] | None:
-    """The positions, at least two and of a single case no two in a row alike; None if they could not be read."""
+    """The positions, at least two and of a single case no two in a row alike; None if they could
+    not be read.
+    """
     parts = _parts(reader, points, "m", "points", (2,))
     if parts is None:
         return None
@@ -51,21 +64,30 @@ def read_points(reader: ArgumentReader, points: Any) -> list[tuple[Any, Any]] | 
     for i, part in enumerate(parts):
         name = f"points[{i}]"
         if not _is_pair(part):
-            reader.refuse(ShapeError(f"{name} must be a pair (x, y), got {shown(part)}", code="bad_shape", argument=name))
+            reader.refuse(
+                ShapeError(
+                    f"{name} must be a pair (x, y), got {shown(part)}",
+                    code="bad_shape",
+                    argument=name,
+                )
+            )
             continue
         places.append(reader.pair(part, "m", name))
     if len(reader.problems) > wrong:
         return None
     if len(places) < 2:
-        text = f"points holds {len(places)}, and a path needs at least two: separation first, the end of the run-out last"
+        text = (
+            f"points holds {len(places)}, and a path needs at least two: separation first, the "
+            "end of the run-out last"
+        )
         reader.refuse(ShapeError(text, code="too_few_points", argument="points"))
         return None
     for i, (before, after) in enumerate(pairwise(places)):
         if all(isinstance(part, float) for part in (*before, *after)) and before == after:
             reader.refuse(
                 InputError(
-                    f"points[{i}] and points[{i + 1}] are the same place ({before[0]:.6g}, {before[1]:.6g}), which has no "
-                    f"course; leave one out",
+                    f"points[{i}] and points[{i + 1}] are the same place ({before[0]:.6g}, "
+                    f"{before[1]:.6g}), which has no course; leave one out",
                     code="coincident_points",
                     argument="points",
                 )
@@ -82,7 +104,8 @@ def _is_pair(value: Any) -> bool:
 
 def read_headings(reader: ArgumentReader, headings: Any, count: int | None) -> list[Angle]:
     """One heading for each point; ``count`` is None if the points could not be read."""
-    # Counted on through turns, headings grow beyond the size at which the reader suspects degrees; it looks at the first alone.
+    # Counted on through turns, headings grow beyond the size at which the reader suspects degrees;
+    # it looks at the first alone.
     reader.trusted = ("headings",)
     parts = _parts(reader, headings, "rad", "headings", ())
     if parts is None:
@@ -94,7 +117,10 @@ def read_headings(reader: ArgumentReader, headings: Any, count: int | None) -> l
         return []
     turned = [in_radians(angle) for angle in angles]
     if count is not None and len(turned) != count:
-        text = f"headings holds {len(turned)} and points holds {count}; give one heading for each point"
+        text = (
+            f"headings holds {len(turned)} and points holds {count}; give one heading for each "
+            "point"
+        )
         reader.refuse(ShapeError(text, code="bad_shape", argument="headings"))
     for i, (before, after) in enumerate(pairwise(turned)):
         if not (isinstance(before, float) and isinstance(after, float)):
@@ -103,12 +129,15 @@ def read_headings(reader: ArgumentReader, headings: Any, count: int | None) -> l
         if abs(turn) > HALF_TURN:
             part = headings[i + 1] if isinstance(headings, (list, tuple)) else headings
             bare = not (isinstance(part, str) or is_quantity(part))
-            radians = f"; bare numbers are radians, so write degrees as '{after:.6g} deg'" if bare else ""
+            radians = (
+                f"; bare numbers are radians, so write degrees as '{after:.6g} deg'" if bare else ""
+            )
             reader.refuse(
                 InputError(
-                    f"headings[{i}] to headings[{i + 1}] turn by {math.degrees(turn):.6g} deg, and at most half a turn can be "
-                    f"told: count headings on without a jump at a full turn (350 deg, then 370 deg), and give points between "
-                    f"for a faster spin{radians}",
+                    f"headings[{i}] to headings[{i + 1}] turn by {math.degrees(turn):.6g} deg, "
+                    "and at most half a turn can be told: count headings on without a jump at a "
+                    "full turn (350 deg, then 370 deg), and give points between for a faster "
+                    f"spin{radians}",
                     code="turns_too_far",
                     argument="headings",
                 )
@@ -135,7 +164,11 @@ def read_errors(reader: ArgumentReader, point: Any, heading: Any) -> dict[str, l
     for name, (value, unit) in given.items():
         if value is not None:
             error = one_value(reader, value, unit, name)
-            read[name] = [at_least_zero(reader, error, value, name, "negative_length", "it is a standard deviation")]
+            read[name] = [
+                at_least_zero(
+                    reader, error, value, name, "negative_length", "it is a standard deviation"
+                )
+            ]
     if len(read) == 1:
         (one,) = read
         (other,) = given.keys() - read
@@ -145,14 +178,18 @@ def read_errors(reader: ArgumentReader, point: Any, heading: Any) -> dict[str, l
 
 
 def smooth(columns: Sequence[Sequence[Any]], window: Any, kind: Any) -> tuple[list[list[Any]], Any]:
-    """x, y and heading at every point of a smooth path, and the weight of every point for the tangents at the first."""
+    """x, y and heading at every point of a smooth path, and the weight of every point for the
+    tangents at the first.
+    """
     given, spread = _stacked(columns, window)
     found, spread = given, _SPREAD * spread
     for _ in range(_PASSES):
         steps = np.hypot(*np.diff(found[:2], axis=1))
         lengths = np.concatenate([0.0 * steps[:1], np.cumsum(steps, axis=0)])
         weights = [_weights(lengths, i, spread) for i in range(len(lengths))]
-        found = np.stack([_parabola(lengths, given, weight, i)[0] for i, weight in enumerate(weights)], axis=1)
+        found = np.stack(
+            [_parabola(lengths, given, weight, i)[0] for i, weight in enumerate(weights)], axis=1
+        )
     return [list(row) for row in _rows(found, kind)], (lengths, weights[0])
 
 
@@ -170,24 +207,33 @@ def _stacked(columns: Sequence[Sequence[Any]], beside: Any = 0.0) -> tuple[Any, 
 
 
 def _rows(found: Any, kind: Any) -> list[Any]:
-    """The rows of an array in the precision of a batch; lists of floats, or floats, of a single case."""
+    """The rows of an array in the precision of a batch; lists of floats, or floats, of a single
+    case.
+    """
     return list(found.astype(kind)) if kind is not None else list(found.tolist())
 
 
 def _weights(lengths: Any, i: int, spread: Any) -> Any:
-    """The weight of every point for the parabola at point i; two more points count, however far away they are."""
+    """The weight of every point for the parabola at point i; two more points count, however far
+    away they are.
+    """
     last = len(lengths) - 1
     if last < 3:
         return np.ones_like(lengths)
-    far = np.maximum(lengths[i] - lengths[max(min(i - 1, last - 2), 0)], lengths[min(max(i + 1, 2), last)] - lengths[i])
+    far = np.maximum(
+        lengths[i] - lengths[max(min(i - 1, last - 2), 0)],
+        lengths[min(max(i + 1, 2), last)] - lengths[i],
+    )
     # Divided before it is squared, which might overflow.
     return np.exp(-0.5 * ((lengths - lengths[i]) / np.maximum(spread, 0.25 * far)) ** 2)
 
 
 def _parabola(at: Any, values: Any, weights: Any, i: int) -> tuple[Any, Any]:
-    """Value and slope at point i of the parabola of weighted least squares; ``values`` has the points on its second axis.
+    """Value and slope at point i of the parabola of weighted least squares; ``values`` has the
+    points on its second axis.
 
-    By polynomials that are orthogonal over the points, and from point i: coordinates of a map lose no digits.
+    By polynomials that are orthogonal over the points, and from point i: coordinates of a map lose
+    no digits.
     """
     size = at[-1]
     t = (at - at[i]) / size
@@ -199,7 +245,15 @@ def _parabola(at: Any, values: Any, weights: Any, i: int) -> tuple[Any, Any]:
     skew = (weights * one * one * one).sum(axis=0) / square
     two = one * (one - skew) - square / total
     first = (weights * one * rise).sum(axis=1) / square
-    second = (weights * two * rise).sum(axis=1) / (weights * two * two).sum(axis=0) if len(at) > 2 else 0.0 * first
+    second = (
+        (weights * two * rise).sum(axis=1) / (weights * two * two).sum(axis=0)
+        if len(at) > 2
+        else 0.0 * first
+    )
     # Through three points or two it passes, whatever the rounding.
-    value = (weights * rise).sum(axis=1) / total - first * mean + second * two[i] if len(at) > 3 else 0.0
+    value = (
+        (weights * rise).sum(axis=1) / total - first * mean + second * two[i]
+        if len(at) > 3
+        else 0.0
+    )
     return values[:, i] + value, (first - second * (2.0 * mean + skew)) / size

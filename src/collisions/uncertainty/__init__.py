@@ -1,6 +1,17 @@
-"""Uncertainty of results: distributions and intervals of the inputs, and their propagation to every output."""
+"""Uncertainty of results: distributions and intervals of the inputs, and their propagation to every
+output.
+"""
 
-from .distributions import Censored, Distribution, Interval, LogNormal, Normal, Samples, Triangular, Uniform
+from .distributions import (
+    Censored,
+    Distribution,
+    Interval,
+    LogNormal,
+    Normal,
+    Samples,
+    Triangular,
+    Uniform,
+)
 from .propagation import propagate
 from .result import Histogram, Output, Propagation, Shares
 

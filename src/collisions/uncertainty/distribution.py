@@ -1,4 +1,6 @@
-"""Base classes of the uncertain inputs: read with units once, frozen, compared by value, shown with their unit."""
+"""Base classes of the uncertain inputs: read with units once, frozen, compared by value, shown with
+their unit.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ from .normal import both_tails
 
 
 class GivenUnit(str):
-    """An SI unit that also has the unit its numbers were ``written`` in, and the ``factor`` from that to SI."""
+    """An SI unit that also has the unit its numbers were ``written`` in, and the ``factor`` from
+    that to SI.
+    """
 
     written: str
     factor: float
@@ -35,10 +39,12 @@ class GivenUnit(str):
 
 
 class Stated:
-    """Base of all statements about a quantity: a frozen value of SI numbers and the unit they are in.
+    """Base of all statements about a quantity: a frozen value of SI numbers and the unit they are
+    in.
 
-    ``_parts`` are what it was made of, by the names of the arguments; ``_derive`` takes them and sets all else. ``_range`` is
-    the low, high and share that ``between`` was given; people read these in place of the parts that follow from them.
+    ``_parts`` are what it was made of, by the names of the arguments; ``_derive`` takes them and
+    sets all else. ``_range`` is the low, high and share that ``between`` was given; people read
+    these in place of the parts that follow from them.
     """
 
     __slots__ = ("_parts", "_range", "unit")
@@ -49,7 +55,9 @@ class Stated:
     _range: tuple[float, float, float] | None
     _derive: Callable[..., None]
 
-    def _make(self, unit: str, given_range: tuple[float, float, float] | None = None, **parts: Any) -> None:
+    def _make(
+        self, unit: str, given_range: tuple[float, float, float] | None = None, **parts: Any
+    ) -> None:
         self._set(unit=unit, _parts=parts, _range=given_range)
         self._derive(**parts)
 
@@ -58,10 +66,14 @@ class Stated:
             object.__setattr__(self, name, value)
 
     def __setattr__(self, name: str, value: Any) -> None:
-        raise FrozenInstanceError(f"cannot change {name!r}: {type(self).__name__} is frozen, make a new one")
+        raise FrozenInstanceError(
+            f"cannot change {name!r}: {type(self).__name__} is frozen, make a new one"
+        )
 
     def __delattr__(self, name: str) -> None:
-        raise FrozenInstanceError(f"cannot delete {name!r}: {type(self).__name__} is frozen, make a new one")
+        raise FrozenInstanceError(
+            f"cannot delete {name!r}: {type(self).__name__} is frozen, make a new one"
+        )
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -75,7 +87,11 @@ class Stated:
         return from_numbers, (type(self), self.unit, self._parts, self._range)
 
     def __repr__(self) -> str:
-        shown = (f"{name}={show(part, self.unit)}" for name, part in self._parts.items() if part is not None)
+        shown = (
+            f"{name}={show(part, self.unit)}"
+            for name, part in self._parts.items()
+            if part is not None
+        )
         return f"{type(self).__name__}({', '.join(shown)})"
 
     def __str__(self) -> str:
@@ -84,7 +100,11 @@ class Stated:
     def _written(self, words: str, parts: Mapping[str, Any]) -> str:
         """The numbers in these words, with the unit of a range at its end."""
         text = words.format(**{name: show(part, self.unit) for name, part in parts.items()})
-        unit = f" {self.unit.written}" if isinstance(self.unit, GivenUnit) else f" {self.unit}".rstrip()
+        unit = (
+            f" {self.unit.written}"
+            if isinstance(self.unit, GivenUnit)
+            else f" {self.unit}".rstrip()
+        )
         return typeset(text.replace(f"{unit} to ", " to ") if unit else text)
 
 
@@ -98,7 +118,8 @@ class Distribution(Stated):
     mean, sd : float
         Mean and standard deviation.
     skewness, kurtosis : float
-        Third and fourth central moments over the third and fourth powers of ``sd``: 0 and 3 for a normal distribution.
+        Third and fourth central moments over the third and fourth powers of ``sd``: 0 and 3 for a
+        normal distribution.
     support : tuple of float
         Lowest and highest value.
     unit : str
@@ -137,7 +158,8 @@ class Distribution(Stated):
     def scored(self, z: Any) -> Any:
         """Value that is as likely to be exceeded as z is by a standard normal variable.
 
-        The quantile at the normal probability of z, without the digits that are lost in a probability near 1.
+        The quantile at the normal probability of z, without the digits that are lost in a
+        probability near 1.
 
         Parameters
         ----------
@@ -168,7 +190,9 @@ class Distribution(Stated):
         """The values with these probabilities below and above them, which add up to 1."""
         raise NotImplementedError
 
-    def _describe(self, mean: float, sd: float, skewness: float, kurtosis: float, support: tuple[float, float]) -> None:
+    def _describe(
+        self, mean: float, sd: float, skewness: float, kurtosis: float, support: tuple[float, float]
+    ) -> None:
         """Set the moments; refused if one has overflowed."""
         if not np.all(np.isfinite((mean, sd, skewness, kurtosis))):
             raise self._beyond_floats()
@@ -176,9 +200,12 @@ class Distribution(Stated):
             raise self._beyond_floats("its deviation is too small")
         self._set(mean=mean, sd=sd, skewness=skewness, kurtosis=kurtosis, support=support)
 
-    def _beyond_floats(self, what: str = "its mean, its deviation or their ratio is too large") -> InputError:
+    def _beyond_floats(
+        self, what: str = "its mean, its deviation or their ratio is too large"
+    ) -> InputError:
         return InputError(
-            f"{type(self).__name__}: {what} for a float64; look for a wrong unit or a slipped digit",
+            f"{type(self).__name__}: {what} for a float64; look for a wrong unit or a slipped "
+            "digit",
             code="out_of_range",
             argument=next(iter(self._parts)),
         )
@@ -203,7 +230,10 @@ T = TypeVar("T", bound=Stated)
 
 
 def from_numbers(
-    kind: type[T], unit: str, parts: Mapping[str, Any], given_range: tuple[float, float, float] | None = None
+    kind: type[T],
+    unit: str,
+    parts: Mapping[str, Any],
+    given_range: tuple[float, float, float] | None = None,
 ) -> T:
     """An instance from SI numbers, which are not read again."""
     made = object.__new__(kind)
@@ -215,9 +245,13 @@ def probability(given: Any, argument: str = "p") -> Any:
     """A probability or an array of them, as float64; texts and Quantities are refused."""
     reader = ArgumentReader()
     found = _plain_number(reader, given, argument)
-    if reader.problems or not (np.min(found, initial=0.0) >= 0.0 and np.max(found, initial=1.0) <= 1.0):
+    if reader.problems or not (
+        np.min(found, initial=0.0) >= 0.0 and np.max(found, initial=1.0) <= 1.0
+    ):
         raise InputError(
-            f"{argument} must be a probability from 0 to 1, got {shown(given)}", code="bad_fraction", argument=argument
+            f"{argument} must be a probability from 0 to 1, got {shown(given)}",
+            code="bad_fraction",
+            argument=argument,
         )
     return found
 
@@ -226,14 +260,20 @@ def _plain_number(reader: ArgumentReader, given: Any, argument: str) -> Any:
     """A float64 or an array of them, from a value without unit."""
     if isinstance(given, str) or is_quantity(given):
         return reader.refuse(
-            InputError(f"{argument} must be a plain number, got {shown(given)}", code="not_a_number", argument=argument)
+            InputError(
+                f"{argument} must be a plain number, got {shown(given)}",
+                code="not_a_number",
+                argument=argument,
+            )
         )
     found = reader.number(given, "", argument, UNCHECKED)
     return found.astype(np.float64, copy=False) if isinstance(found, np.ndarray) else found
 
 
 def show(value: Any, unit: str) -> str:
-    """A number of an input as people read it, in the unit it was given in: four digits, or all before the point."""
+    """A number of an input as people read it, in the unit it was given in: four digits, or all
+    before the point.
+    """
     if isinstance(value, tuple):
         return f"({', '.join(show(part, unit) for part in value)})"
     if not isinstance(value, float):
@@ -247,48 +287,82 @@ def show(value: Any, unit: str) -> str:
 def read_alike(
     needed: Mapping[str, Any], optional: Mapping[str, Any] | None = None, arrays: bool = False
 ) -> tuple[list[Any], str]:
-    """SI numbers of one kind, and their unit: all have a unit or none has; an optional one may be None."""
+    """SI numbers of one kind, and their unit: all have a unit or none has; an optional one may be
+    None.
+    """
     optional = optional or {}
     given = {**needed, **{name: value for name, value in optional.items() if value is not None}}
     measured = [name for name, value in given.items() if has_unit(value)]
     unit = GivenUnit.of(given[measured[0]], measured[0]) if measured else ""
     # 0 is the same in every unit.
-    zeros = [name for name, value in given.items() if (isinstance(value, float) or is_whole(value)) and value == 0]
+    zeros = [
+        name
+        for name, value in given.items()
+        if (isinstance(value, float) or is_whole(value)) and value == 0
+    ]
     bare = [name for name in given if name not in measured and name not in zeros]
     if measured and bare:
         raise UnitsError(
-            f"{bare[0]} = {shown(given[bare[0]])} has no unit, but {measured[0]} = {shown(given[measured[0]])} has one; "
-            f"give each with its unit, or each as a number in SI",
+            f"{bare[0]} = {shown(given[bare[0]])} has no unit, but {measured[0]} = "
+            f"{shown(given[measured[0]])} has one; give each with its unit, or each as a number "
+            "in SI",
             code="bad_units",
             argument=bare[0],
         )
     reader = ArgumentReader()
     numbers = {
-        name: reader.number(value, unit, name, UNCHECKED if name in optional else FINITE) for name, value in given.items()
+        name: reader.number(value, unit, name, UNCHECKED if name in optional else FINITE)
+        for name, value in given.items()
     }
     for name, number in numbers.items():
         if name in optional and isinstance(number, float) and not math.isfinite(number):
             what = "is NaN" if math.isnan(number) else f"must be finite, got {shown(given[name])}"
-            reader.refuse(InputError(f"{name} {what}; write None for an end that is open", code="not_finite", argument=name))
+            reader.refuse(
+                InputError(
+                    f"{name} {what}; write None for an end that is open",
+                    code="not_finite",
+                    argument=name,
+                )
+            )
         if isinstance(number, np.ndarray) is not arrays and not reader.problems:
-            what = "an array or a list of values" if arrays else "one number; for a set of measured values use Samples"
-            reader.refuse(ShapeError(f"{name} must be {what}, got {shown(given[name])}", code="bad_shape", argument=name))
+            what = (
+                "an array or a list of values"
+                if arrays
+                else "one number; for a set of measured values use Samples"
+            )
+            reader.refuse(
+                ShapeError(
+                    f"{name} must be {what}, got {shown(given[name])}",
+                    code="bad_shape",
+                    argument=name,
+                )
+            )
     reader.close()
     return [numbers.get(name) for name in (*needed, *optional)], unit
 
 
 def check_order(low: float, high: float, what: str = "low and high", unit: str = "") -> None:
-    """Refuse a range without width; for angles, with a hint on how to count on across the end of a turn."""
+    """Refuse a range without width; for angles, with a hint on how to count on across the end of a
+    turn.
+    """
     if low < high:
         return
-    hint = "exchange them" if high < low else "of a quantity that is known exactly give the number itself"
+    hint = (
+        "exchange them"
+        if high < low
+        else "of a quantity that is known exactly give the number itself"
+    )
     shown_ends = f"{show(low, unit)} and {show(high, unit)}"
     start, end = math.degrees(low), math.degrees(high)
     if unit == "rad" and high < low:
         onwards = (end - start) % 360.0
         if 0.0 < onwards < 180.0:
             hint = (
-                f"an angle that goes on across the end of the turn is counted on: write '{start:.6g} deg' and "
-                f"'{start + onwards:.6g} deg'"
+                "an angle that goes on across the end of the turn is counted on: write "
+                f"'{start:.6g} deg' and '{start + onwards:.6g} deg'"
             )
-    raise InputError(f"{what} must be in rising order, got {shown_ends}; {hint}", code="bad_range", argument="low")
+    raise InputError(
+        f"{what} must be in rising order, got {shown_ends}; {hint}",
+        code="bad_range",
+        argument="low",
+    )

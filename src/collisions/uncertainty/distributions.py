@@ -1,4 +1,6 @@
-"""``Uniform``, ``Triangular``, ``Samples``, and bounds alone: ``Interval`` for an input, ``Censored`` for a reading."""
+"""``Uniform``, ``Triangular``, ``Samples``, and bounds alone: ``Interval`` for an input,
+``Censored`` for a reading.
+"""
 
 from __future__ import annotations
 
@@ -16,11 +18,21 @@ from .distribution import Distribution, Stated, check_order, from_numbers, read_
 from .normal import power_of_two
 from .normal_family import LogNormal, Normal
 
-__all__ = ["Censored", "Distribution", "Interval", "LogNormal", "Normal", "Samples", "Triangular", "Uniform"]
+__all__ = [
+    "Censored",
+    "Distribution",
+    "Interval",
+    "LogNormal",
+    "Normal",
+    "Samples",
+    "Triangular",
+    "Uniform",
+]
 
 
 class Uniform(Distribution):
-    """A quantity equally likely to lie anywhere between two bounds: a claim in itself, which ``Interval`` does not make.
+    """A quantity equally likely to lie anywhere between two bounds: a claim in itself, which
+    ``Interval`` does not make.
 
     Parameters
     ----------
@@ -53,7 +65,9 @@ class Uniform(Distribution):
 
     def _derive(self, low: float, high: float) -> None:
         check_order(low, high, unit=self.unit)
-        self._describe(0.5 * low + 0.5 * high, (high - low) / math.sqrt(12.0), 0.0, 1.8, (low, high))
+        self._describe(
+            0.5 * low + 0.5 * high, (high - low) / math.sqrt(12.0), 0.0, 1.8, (low, high)
+        )
 
     def _at(self, below: Any, above: Any) -> Any:
         low, high = self.support
@@ -63,7 +77,8 @@ class Uniform(Distribution):
 
 
 class Triangular(Distribution):
-    """A quantity between two bounds with a most likely value, from which the density falls in straight lines to either bound.
+    """A quantity between two bounds with a most likely value, from which the density falls in
+    straight lines to either bound.
 
     Parameters
     ----------
@@ -109,8 +124,15 @@ class Triangular(Distribution):
             raise self._beyond_floats()
         left, right = (mode - low) / width, (high - mode) / width
         square = (left * left + left * right + right * right) / 18.0
-        skewness = (right - left) * (2.0 * left + right) * (left + 2.0 * right) / (270.0 * square * math.sqrt(square))
-        self._describe(low + width * (1.0 + left) / 3.0, width * math.sqrt(square), skewness, 2.4, (low, high))
+        skewness = (
+            (right - left)
+            * (2.0 * left + right)
+            * (left + 2.0 * right)
+            / (270.0 * square * math.sqrt(square))
+        )
+        self._describe(
+            low + width * (1.0 + left) / 3.0, width * math.sqrt(square), skewness, 2.4, (low, high)
+        )
 
     def _at(self, below: Any, above: Any) -> Any:
         low, high = self.support
@@ -123,8 +145,9 @@ class Triangular(Distribution):
 class Samples(Distribution):
     """A quantity known from values that were measured or drawn elsewhere, all equally likely.
 
-    The empirical distribution, with no values between the given ones or beyond. ``sd`` is that of the values themselves,
-    with their number as the divisor, not an estimate for the population they came from.
+    The empirical distribution, with no values between the given ones or beyond. ``sd`` is that of
+    the values themselves, with their number as the divisor, not an estimate for the population they
+    came from.
 
     Parameters
     ----------
@@ -167,7 +190,8 @@ class Samples(Distribution):
 
     @classmethod
     def joint(cls, /, **values: Any) -> dict[str, Samples]:
-        """Quantities that were measured together: each draw takes the same row of all, which keeps their dependence.
+        """Quantities that were measured together: each draw takes the same row of all, which keeps
+        their dependence.
 
         Parameters
         ----------
@@ -195,7 +219,9 @@ class Samples(Distribution):
         if not columns or len(set(lengths.values())) > 1:
             listed = ", ".join(f"{name} {length}" for name, length in lengths.items())
             raise ShapeError(
-                f"joint needs columns of one length, one value of each in a row; got {listed or 'none'}", code="bad_shape"
+                "joint needs columns of one length, one value of each in a row; got "
+                f"{listed or 'none'}",
+                code="bad_shape",
             )
         group = os.urandom(8).hex() if len(columns) > 1 else None
         return {
@@ -214,7 +240,12 @@ class Samples(Distribution):
             away -= mean
             sd = float(np.sqrt(np.mean(away**2)))
             away /= sd
-            moments = float(rows[0]) + scale * mean, scale * sd, float(np.mean(away**3)), float(np.mean(away**4))
+            moments = (
+                float(rows[0]) + scale * mean,
+                scale * sd,
+                float(np.mean(away**3)),
+                float(np.mean(away**4)),
+            )
         self._describe(*moments, support=(float(ordered[0]), float(ordered[-1])))
 
     def __hash__(self) -> int:
@@ -222,30 +253,41 @@ class Samples(Distribution):
 
     def __repr__(self) -> str:
         joint = ", joint" if self.group is not None else ""
-        return f"Samples({self.rows.size} values, mean={show(self.mean, self.unit)}, sd={show(self.sd, self.unit)}{joint})"
+        return (
+            f"Samples({self.rows.size} values, mean={show(self.mean, self.unit)}, "
+            f"sd={show(self.sd, self.unit)}{joint})"
+        )
 
     def __str__(self) -> str:
         low, high = (show(end, self.unit) for end in self.support)
         return f"one of {self.rows.size} values from {low} to {high}"
 
     def _at(self, below: Any, above: Any) -> Any:
-        return self._sorted[np.minimum(np.floor(below * self.rows.size).astype(np.intp), self.rows.size - 1)]
+        return self._sorted[
+            np.minimum(np.floor(below * self.rows.size).astype(np.intp), self.rows.size - 1)
+        ]
 
 
 def _checked(rows: Any, argument: str) -> Any:
     """A fresh row of finite values that are not all the same."""
     if rows.ndim != 1:
-        raise ShapeError(f"{argument} must be one row of values, got shape {rows.shape}", code="bad_shape", argument=argument)
+        raise ShapeError(
+            f"{argument} must be one row of values, got shape {rows.shape}",
+            code="bad_shape",
+            argument=argument,
+        )
     if not np.all(np.isfinite(rows)):
         raise InputError(
-            f"{argument}: value {int(np.argmin(np.isfinite(rows)))} is not a finite number; leave out what was not measured",
+            f"{argument}: value {int(np.argmin(np.isfinite(rows)))} is not a finite number; "
+            "leave out what was not measured",
             code="not_finite",
             argument=argument,
         )
     if rows.size < 2 or rows.min() == rows.max():
         raise InputError(
-            f"{argument} must hold at least two different values, got {rows.size}{' that are all the same' * (rows.size > 1)}; "
-            f"of a quantity that is known exactly give the number itself",
+            f"{argument} must hold at least two different values, got "
+            f"{rows.size}{' that are all the same' * (rows.size > 1)}; of a quantity that is "
+            "known exactly give the number itself",
             code="no_spread",
             argument=argument,
         )
@@ -253,9 +295,11 @@ def _checked(rows: Any, argument: str) -> Any:
 
 
 class Interval(Stated):
-    """Two bounds between which a quantity lies, and nothing more: no value is said to be likelier than another.
+    """Two bounds between which a quantity lies, and nothing more: no value is said to be likelier
+    than another.
 
-    Not a distribution: it is never sampled as if it were uniform. Mixed with distributions, it gives bounds on quantiles.
+    Not a distribution: it is never sampled as if it were uniform. Mixed with distributions, it
+    gives bounds on quantiles.
 
     Parameters
     ----------
@@ -302,10 +346,11 @@ class Interval(Stated):
 class Censored(Stated):
     """A reading known only to lie above a bound, below one, or between two.
 
-    A recorder that ended early would have read at least what it had reached; a speed class or a display in steps gives two
-    values with the reading between them. As evidence, it is weighted by the probability that a reading falls within the
-    bounds, where readings are normally distributed about the truth with the standard deviation ``error``. Without an error, the
-    truth itself lies within the bounds, and an observation ``Interval(low, high)`` says the same.
+    A recorder that ended early would have read at least what it had reached; a speed class or a
+    display in steps gives two values with the reading between them. As evidence, it is weighted by
+    the probability that a reading falls within the bounds, where readings are normally distributed
+    about the truth with the standard deviation ``error``. Without an error, the truth itself lies
+    within the bounds, and an observation ``Interval(low, high)`` says the same.
 
     Parameters
     ----------
@@ -336,14 +381,17 @@ class Censored(Stated):
     error: float | None
 
     @hinted
-    def __init__(self, low: Input | None = None, high: Input | None = None, error: Input | None = None) -> None:
+    def __init__(
+        self, low: Input | None = None, high: Input | None = None, error: Input | None = None
+    ) -> None:
         (start, end, sigma), unit = read_alike({}, {"low": low, "high": high, "error": error})
         self._make(unit, low=start, high=end, error=sigma)
 
     def _derive(self, low: float | None, high: float | None, error: float | None) -> None:
         if low is None and high is None:
             raise MissingInputError(
-                "a censored reading needs a bound; write Censored(low=...) for at least, Censored(high=...) for at most",
+                "a censored reading needs a bound; write Censored(low=...) for at least, "
+                "Censored(high=...) for at most",
                 code="missing_bound",
                 argument="low",
             )
@@ -351,7 +399,8 @@ class Censored(Stated):
             check_order(low, high, unit=self.unit)
         if error is not None and not error > 0.0:
             raise InputError(
-                f"error must be > 0, got {show(error, self.unit)}; leave it out where the bounds are sharp",
+                f"error must be > 0, got {show(error, self.unit)}; leave it out where the bounds "
+                "are sharp",
                 code="not_positive",
                 argument="error",
             )
@@ -359,4 +408,6 @@ class Censored(Stated):
 
     def __str__(self) -> str:
         bounds = (("at least", self.low), ("at most", self.high), ("±", self.error))
-        return ", ".join(f"{word} {show(value, self.unit)}" for word, value in bounds if value is not None)
+        return ", ".join(
+            f"{word} {show(value, self.unit)}" for word, value in bounds if value is not None
+        )

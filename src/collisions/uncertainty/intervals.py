@@ -1,8 +1,10 @@
-"""Propagation of ``Interval`` inputs: searches for the least and greatest outputs between the bounds.
+"""Propagation of ``Interval`` inputs: searches for the least and greatest outputs between the
+bounds.
 
-An interval is never drawn from. Without distributions, the search is for the extremes of the outputs. Mixed with distributions,
-it is for the extremes of the mean, the standard deviation and both ends of the 95 percent interval, over the same few drawn
-cases at every place; the full run is then made at the places found.
+An interval is never drawn from. Without distributions, the search is for the extremes of the
+outputs. Mixed with distributions, it is for the extremes of the mean, the standard deviation and
+both ends of the 95 percent interval, over the same few drawn cases at every place; the full run is
+then made at the places found.
 """
 
 from __future__ import annotations
@@ -30,10 +32,11 @@ _PATIENCE = 10  # steps for each halving, at most
 
 
 class _Effort(NamedTuple):
-    """Limits of the search: number of intervals, points of the grid in all and along one interval, halvings of the search box.
+    """Limits of the search: number of intervals, points of the grid in all and along one interval,
+    halvings of the search box.
 
-    Every interval doubles the corners, which are always among the places. Up to ``diagonal`` intervals it also steps along
-    diagonals.
+    Every interval doubles the corners, which are always among the places. Up to ``diagonal``
+    intervals it also steps along diagonals.
     """
 
     intervals: int
@@ -43,8 +46,12 @@ class _Effort(NamedTuple):
     diagonal: int
 
 
-_ONLY_INTERVALS = _Effort(intervals=14, places=20000, finest=41, halvings=60, diagonal=6)  # to rounding
-_MIXED = _Effort(intervals=10, places=400, finest=21, halvings=24, diagonal=3)  # to a millionth of the interval
+_ONLY_INTERVALS = _Effort(
+    intervals=14, places=20000, finest=41, halvings=60, diagonal=6
+)  # to rounding
+_MIXED = _Effort(
+    intervals=10, places=400, finest=21, halvings=24, diagonal=3
+)  # to a millionth of the interval
 
 _FIGURES: tuple[Callable[[Any], Any], ...] = (
     np.mean,
@@ -55,7 +62,9 @@ _FIGURES: tuple[Callable[[Any], Any], ...] = (
 
 
 class Extremes(NamedTuple):
-    """Least and greatest value by output, the points of all extremes, the cost, and the cuts of mean directions."""
+    """Least and greatest value by output, the points of all extremes, the cost, and the cuts of
+    mean directions.
+    """
 
     values: dict[str, tuple[float, float]]
     places: list[dict[str, float]]
@@ -65,17 +74,22 @@ class Extremes(NamedTuple):
     cuts: dict[str, float | None]
 
 
-def extremes(model: Model, bounds: Mapping[str, tuple[float, float]], common: Mapping[str, Any]) -> Extremes:
-    """Find where the outputs, or their figures over the ``common`` drawn cases, are least and greatest.
+def extremes(
+    model: Model, bounds: Mapping[str, tuple[float, float]], common: Mapping[str, Any]
+) -> Extremes:
+    """Find where the outputs, or their figures over the ``common`` drawn cases, are least and
+    greatest.
 
-    A grid finds where to look, then a shrinking box around the best place finds the extreme: exact where there is a single one
-    between the bounds or the figure is monotone, as those of solver outputs are but for friction limits.
+    A grid finds where to look, then a shrinking box around the best place finds the extreme: exact
+    where there is a single one between the bounds or the figure is monotone, as those of solver
+    outputs are but for friction limits.
     """
     effort = _MIXED if common else _ONLY_INTERVALS
     if len(bounds) > effort.intervals:
         raise InputError(
-            f"{len(bounds)} intervals are {2 ** len(bounds)} corners; give at most {effort.intervals}"
-            f"{' beside distributions' if common else ''}, the others as {'distributions' if common else 'numbers'}",
+            f"{len(bounds)} intervals are {2 ** len(bounds)} corners; give at most "
+            f"{effort.intervals}{' beside distributions' if common else ''}, the others as "
+            f"{'distributions' if common else 'numbers'}",
             code="too_many_intervals",
             argument="inputs",
         )
@@ -86,12 +100,17 @@ def extremes(model: Model, bounds: Mapping[str, tuple[float, float]], common: Ma
     for name, values in first.items():
         if np.isnan(values).all():
             raise NoSolutionError(
-                f"the model has no answer for {name!r} anywhere between the bounds", code="all_failed", output=name
+                f"the model has no answer for {name!r} anywhere between the bounds",
+                code="all_failed",
+                output=name,
             )
         for figure in _FIGURES if common else _FIGURES[:1]:
             judged = _by_place(figure, values)
             if not np.isnan(judged).all():
-                searches += (_Search(name, figure, _steps_to(grid, judged, sign, effort)) for sign in (1.0, -1.0))
+                searches += (
+                    _Search(name, figure, _steps_to(grid, judged, sign, effort))
+                    for sign in (1.0, -1.0)
+                )
     ends = _in_lockstep(places, searches)
     found: dict[str, tuple[float, float]] = {}
     for search, (_, least), (_, most) in zip(searches[::2], ends[::2], ends[1::2], strict=True):
@@ -99,14 +118,22 @@ def extremes(model: Model, bounds: Mapping[str, tuple[float, float]], common: Ma
     spots = [place for place, _ in ends]
     unique = np.unique(np.round(spots, 12), axis=0)
     listed = [dict(zip(bounds, map(float, places.at(spot)), strict=True)) for spot in unique]
-    wrapped = tuple(name for name, values in first.items() if model.units[name] is None and turns.jump(values.ravel()))
+    wrapped = tuple(
+        name
+        for name, values in first.items()
+        if model.units[name] is None and turns.jump(values.ravel())
+    )
     return Extremes(found, listed, places.samples, places.failed, wrapped, places.cuts)
 
 
 class _Places:
-    """The model at points between bounds, given as shares of the way from the lower to the upper bound."""
+    """The model at points between bounds, given as shares of the way from the lower to the upper
+    bound.
+    """
 
-    def __init__(self, model: Model, bounds: Mapping[str, tuple[float, float]], common: Mapping[str, Any]) -> None:
+    def __init__(
+        self, model: Model, bounds: Mapping[str, tuple[float, float]], common: Mapping[str, Any]
+    ) -> None:
         self.model = model
         self.names = tuple(bounds)
         self.low, self.high = (np.array([bounds[name][end] for name in bounds]) for end in (0, 1))
@@ -116,10 +143,14 @@ class _Places:
         self.cuts: dict[str, float | None] = {}
 
     def at(self, shares: Any) -> Any:
-        """The inputs at these shares; measured from the nearer bound, so that a share of 1 is exactly the upper one."""
+        """The inputs at these shares; measured from the nearer bound, so that a share of 1 is
+        exactly the upper one.
+        """
         with np.errstate(all="ignore"):
             width = self.high - self.low
-            return np.where(shares < 0.5, self.low + shares * width, self.high - (1.0 - shares) * width)
+            return np.where(
+                shares < 0.5, self.low + shares * width, self.high - (1.0 - shares) * width
+            )
 
     def answers(self, shares: Any) -> dict[str, Any]:
         """The values at every point by output, one row per point."""
@@ -137,7 +168,9 @@ class _Places:
         return {name: self._counted(name, one.reshape(len(at), -1)) for name, one in found.items()}
 
     def count_directions(self, first: Mapping[str, Any]) -> dict[str, Any]:
-        """Decide from the first values which outputs are directions; unwraps them, and all later ones, within one turn."""
+        """Decide from the first values which outputs are directions; unwraps them, and all later
+        ones, within one turn.
+        """
         for name, values in first.items():
             if self.model.units[name] == "rad" and turns.are_directions(values):
                 self.cuts[name] = turns.cut(_means(turns.counted(values)))
@@ -147,11 +180,15 @@ class _Places:
         if name not in self.cuts:
             return values
         about = turns.counted(values)
-        return about + math.tau * np.reshape(turns.turns_to(_means(about), self.cuts[name]), (-1, 1))
+        return about + math.tau * np.reshape(
+            turns.turns_to(_means(about), self.cuts[name]), (-1, 1)
+        )
 
 
 class _Search(NamedTuple):
-    """A search for one extreme: the output, the figure of it that is judged, and the steps, which ask for points."""
+    """A search for one extreme: the output, the figure of it that is judged, and the steps, which
+    ask for points.
+    """
 
     output: str
     figure: Callable[[Any], Any]
@@ -161,8 +198,8 @@ class _Search(NamedTuple):
 def _in_lockstep(places: _Places, searches: Sequence[_Search]) -> list[tuple[Any, float]]:
     """The point and the figure where each search ends.
 
-    All searches take each step together, so that the model is called once a step, and no figure is worked out twice: searches
-    for different outputs meet at the same corners.
+    All searches take each step together, so that the model is called once a step, and no figure is
+    worked out twice: searches for different outputs meet at the same corners.
     """
     ends: list[Any] = [None] * len(searches)
     asked = {at: next(search.steps) for at, search in enumerate(searches)}
@@ -194,10 +231,13 @@ def _in_lockstep(places: _Places, searches: Sequence[_Search]) -> list[tuple[Any
     return ends
 
 
-def _steps_to(grid: Any, judged: Any, sign: float, effort: _Effort) -> Generator[Any, Any, tuple[Any, float]]:
+def _steps_to(
+    grid: Any, judged: Any, sign: float, effort: _Effort
+) -> Generator[Any, Any, tuple[Any, float]]:
     """The steps from the best of the grid to the least figure, or the greatest for a sign of -1.
 
-    Each step asks for the figures at the points around the best one; the end is that point and its figure.
+    Each step asks for the figures at the points around the best one; the end is that point and its
+    figure.
     """
     best = int(np.nanargmin(sign * judged))
     place, value = grid[best], sign * float(judged[best])
@@ -224,7 +264,9 @@ def _means(values: Any) -> Any:
 
 
 def _by_place(figure: Callable[[Any], Any], values: Any) -> Any:
-    """The figure over the answered cases of every row; NaN for fewer than two. If the row is one case, its value."""
+    """The figure over the answered cases of every row; NaN for fewer than two. If the row is one
+    case, its value.
+    """
     if values.shape[1] == 1:
         return values[:, 0]
     rows = (row[~np.isnan(row)] for row in values)
@@ -235,24 +277,39 @@ def _by_place(figure: Callable[[Any], Any], values: Any) -> Any:
 def _grid(count: int, effort: _Effort) -> Any:
     """Grid points as shares from lower to upper bound, as fine as is cheap; corners included."""
     fineness = max(2, min(effort.finest, int(effort.places ** (1.0 / count) + 1e-9)))
-    return np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, fineness)] * count, indexing="ij"), axis=-1).reshape(-1, count)
+    return np.stack(
+        np.meshgrid(*[np.linspace(0.0, 1.0, fineness)] * count, indexing="ij"), axis=-1
+    ).reshape(-1, count)
 
 
 def _steps(count: int, effort: _Effort) -> Any:
-    """Search directions: along each input both ways, and along the diagonals if there are few inputs."""
+    """Search directions: along each input both ways, and along the diagonals if there are few
+    inputs.
+    """
     unit = np.eye(count)
     steps = np.concatenate((unit, -unit))
     if count <= effort.diagonal:
-        steps = np.concatenate((steps, np.array(list(itertools.product((-1.0, 1.0), repeat=count)))))
+        steps = np.concatenate(
+            (steps, np.array(list(itertools.product((-1.0, 1.0), repeat=count))))
+        )
     return steps
 
 
 class Bounds(Output):
-    """An output with an interval among its inputs: the range of every figure over ``cases``, the places where it was found."""
+    """An output with an interval among its inputs: the range of every figure over ``cases``, the
+    places where it was found.
+    """
 
-    def __init__(self, name: str, unit: str | None, cases: Sequence[Local | Sampled], cut: float | None = None) -> None:
+    def __init__(
+        self,
+        name: str,
+        unit: str | None,
+        cases: Sequence[Local | Sampled],
+        cut: float | None = None,
+    ) -> None:
         super().__init__(name, unit)
-        # One turn for the means of all directions, the one that ends at the cut, or the figures could not be compared.
+        # One turn for the means of all directions, the one that ends at the cut, or the figures
+        # could not be compared.
         self.cases = [case.turned(float(turns.turns_to(case.mean, cut))) for case in cases]
 
     @property
@@ -277,7 +334,9 @@ class Bounds(Output):
 
     @returns(OWN)
     def interval(self, coverage: float = COVERAGE) -> tuple[float, float]:
-        """The range (low, high) that holds the value with at least this probability wherever in the interval the truth lies."""
+        """The range (low, high) that holds the value with at least this probability wherever in the
+        interval the truth lies.
+        """
         ends = [case.interval(coverage) for case in self.cases]
         return min(low for low, _ in ends), max(high for _, high in ends)
 
@@ -288,11 +347,22 @@ class Bounds(Output):
         least, most = self.mean
         if self.bounds_only:
             return self.name, f"between {low:.6g} and {high:.6g}{unit}"
-        return self.name, f"mean between {least:.6g} and {most:.6g}{unit}, 95 percent within {low:.6g} to {high:.6g}{unit}"
+        return (
+            self.name,
+            (
+                f"mean between {least:.6g} and {most:.6g}{unit}, 95 percent within {low:.6g} to "
+                f"{high:.6g}{unit}"
+            ),
+        )
 
     def record(self) -> dict[str, Any]:
         """The figures as plain values that strict JSON can hold."""
-        figures = {"unit": self.unit, "mean": self.mean, "std": self.std, "interval_95": self.interval()}
+        figures = {
+            "unit": self.unit,
+            "mean": self.mean,
+            "std": self.std,
+            "interval_95": self.interval(),
+        }
         found: dict[str, Any] = strict(figures)
         return found
 
@@ -309,8 +379,9 @@ class Bounds(Output):
 
     def _shares(self) -> Shares:
         raise InputError(
-            f"{self.name!r} has no variance to share, because an Interval among the inputs says nothing of likelihood; give it "
-            f"a distribution, or compare the bounds with and without it",
+            f"{self.name!r} has no variance to share, because an Interval among the inputs says "
+            "nothing of likelihood; give it a distribution, or compare the bounds with and "
+            "without it",
             code="no_variance",
             argument=self.name,
         )

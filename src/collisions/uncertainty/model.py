@@ -1,4 +1,6 @@
-"""``Model``: the user's function. Its fixed inputs are read, it is called with arrays of cases, and its outputs are checked."""
+"""``Model``: the user's function. Its fixed inputs are read, it is called with arrays of cases, and
+its outputs are checked.
+"""
 
 from __future__ import annotations
 
@@ -23,19 +25,25 @@ from .distributions import Distribution, Interval
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
 
 _LOW_CASES = 4  # asked again together: as alone, a threshold of those few divides them
-# Of the width of the middle half of the answers: an iteration that goes on until every case has converged ends a little
-# differently for one case. A smaller difference, whatever its cause, changes no digit that anyone reads.
+# Of the width of the middle half of the answers: an iteration that goes on until every case has
+# converged ends a little differently for one case. A smaller difference, whatever its cause,
+# changes no digit that anyone reads.
 _UNNOTICED = 1e-6
-_ROUNDINGS = 64.0 * float(np.finfo(np.float64).eps)  # of an answer: numpy adds in another order for one number than for many
+_ROUNDINGS = 64.0 * float(
+    np.finfo(np.float64).eps
+)  # of an answer: numpy adds in another order for one number than for many
 
 
 class Model:
-    """A function of named inputs and its fixed inputs; the names and units of its outputs from the first call on."""
+    """A function of named inputs and its fixed inputs; the names and units of its outputs from the
+    first call on.
+    """
 
     def __init__(self, function: Any, fixed: Mapping[str, Any]) -> None:
         if not callable(function):
             raise _bad_model(
-                f"model must be a function of the named inputs that returns a dict of outputs, got {type(function).__name__}"
+                "model must be a function of the named inputs that returns a dict of outputs, "
+                f"got {type(function).__name__}"
             )
         self.function = function
         self.fixed = dict(fixed)
@@ -52,12 +60,15 @@ class Model:
     def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> dict[str, Any]:
         """The outputs of the cases as new float arrays; NaN where the model's value is not finite.
 
-        The first time, a few cases are computed again on their own. ``check=False`` leaves that to another call: among calls
-        from several threads, it is always the same one that does it. Warnings about cases are kept in ``noted``.
+        The first time, a few cases are computed again on their own. ``check=False`` leaves that to
+        another call: among calls from several threads, it is always the same one that does it.
+        Warnings about cases are kept in ``noted``.
         """
         found = self._answers(values, count, self.noted)
         if check and not self._checked:
-            self._checked = check_elementwise(lambda cases, count: self._answers(cases, count, []), values, found)
+            self._checked = check_elementwise(
+                lambda cases, count: self._answers(cases, count, []), values, found
+            )
         return found
 
     def _answers(self, values: Mapping[str, Any], count: int, noted: list[Noted]) -> dict[str, Any]:
@@ -67,29 +78,45 @@ class Model:
         try:
             with quietly(here), in_si(), np.errstate(all="ignore"):
                 answered = self.function(**self.fixed, **values)
-            noted += (one._replace(cases=count if one.cases is None else min(one.cases, count)) for one in here)
+            noted += (
+                one._replace(cases=count if one.cases is None else min(one.cases, count))
+                for one in here
+            )
         except Exception as error:
             called = (
-                f"called with arrays of {count} cases for {', '.join(values) or 'nothing'}, and must work case by case: write "
-                f"numpy in place of math (numpy.sqrt), numpy.where in place of if (numpy.where(x > 0, x, -x)), and let refused "
-                f"cases be NaN: on_failure='nan' where the solver has it (reconstruct.speeds gives NaN by itself)"
-                f"{pair_hints(self.fixed)}"
+                f"called with arrays of {count} cases for {', '.join(values) or 'nothing'}, and "
+                "must work case by case: write numpy in place of math (numpy.sqrt), numpy.where "
+                "in place of if (numpy.where(x > 0, x, -x)), and let refused cases be NaN: "
+                "on_failure='nan' where the solver has it (reconstruct.speeds gives NaN by "
+                f"itself){pair_hints(self.fixed)}"
             )
-            # Raised by Python and numpy where an array is used as a number, or a number as a Quantity.
-            if isinstance(error, (TypeError, ValueError, AttributeError)) and not isinstance(error, CollisionsError):
+            # Raised by Python and numpy where an array is used as a number, or a number as a
+            # Quantity.
+            if isinstance(error, (TypeError, ValueError, AttributeError)) and not isinstance(
+                error, CollisionsError
+            ):
                 raise _bad_model(f"model raised {described(error)}. It is {called}") from error
             error.add_note(f"The model is {called}.")
             raise
         if not isinstance(answered, Mapping) or not answered:
             got = "an empty one" if isinstance(answered, Mapping) else type(answered).__name__
-            raise _bad_model(f"model must return a dict of named outputs, such as {{'delta_v': impact.a.q.delta_v}}, got {got}")
-        units = {name: si_unit(value, per_angle=True) if is_quantity(value) else None for name, value in answered.items()}
+            raise _bad_model(
+                f"model must return a dict of named outputs, such as {{'delta_v': "
+                f"impact.a.q.delta_v}}, got {got}"
+            )
+        units = {
+            name: si_unit(value, per_angle=True) if is_quantity(value) else None
+            for name, value in answered.items()
+        }
         if self.units and units != self.units:
             raise _bad_model(
-                f"model returned {_listed(units)} now and {_listed(self.units)} before; it must always return the same outputs"
+                f"model returned {_listed(units)} now and {_listed(self.units)} before; it must "
+                "always return the same outputs"
             )
         self.units = units
-        return {name: self._read(name, value, units[name], count) for name, value in answered.items()}
+        return {
+            name: self._read(name, value, units[name], count) for name, value in answered.items()
+        }
 
     def _read(self, name: str, value: Any, unit: str | None, count: int) -> Any:
         if not isinstance(name, str):
@@ -101,8 +128,9 @@ class Model:
         reader.close()
         if np.shape(read) != (count,) and not np.size(read) == count == 1:
             raise ShapeError(
-                f"output {name!r} of the model has shape {np.shape(read)} for {count} cases; it must answer every case by "
-                f"itself, so an array of shape ({count},){pair_hints(self.fixed)}",
+                f"output {name!r} of the model has shape {np.shape(read)} for {count} cases; it "
+                "must answer every case by itself, so an array of shape "
+                f"({count},){pair_hints(self.fixed)}",
                 code="bad_shape",
                 argument=name,
             )
@@ -117,7 +145,8 @@ def count_failed(answers: Mapping[str, Any]) -> int:
 
 
 def read_input(name: str, value: Any) -> Any:
-    """The input for a model: a stated input or other object as it is, a number or a text as an SI float.
+    """The input for a model: a stated input or other object as it is, a number or a text as an SI
+    float.
 
     Raises
     ------
@@ -126,26 +155,39 @@ def read_input(name: str, value: Any) -> Any:
 
     Examples
     --------
-    >>> read_input("speed", "36 km/h"), read_input("restitution", 0.4), read_input("point", (2.1, 0.3))
+    >>> (
+    ...     read_input("speed", "36 km/h"),
+    ...     read_input("restitution", 0.4),
+    ...     read_input("point", (2.1, 0.3)),
+    ... )
     (10.0, 0.4, (2.1, 0.3))
     """
     if isinstance(value, (tuple, list)) and any(
         isinstance(part, (str, Distribution, Interval)) or is_quantity(part) for part in value
     ):
         raise InputError(
-            f"{name} is a {type(value).__name__} with a unit or a distribution in it; give each part as an input of its own, "
-            f"and put them together in the model{range_hint(value)}",
+            f"{name} is a {type(value).__name__} with a unit or a distribution in it; give each "
+            f"part as an input of its own, and put them together in the model{range_hint(value)}",
             code="bad_inputs",
             argument=name,
         )
-    if isinstance(value, list) and value and all(isinstance(part, (Number, np.generic)) for part in value):
+    if (
+        isinstance(value, list)
+        and value
+        and all(isinstance(part, (Number, np.generic)) for part in value)
+    ):
         raise ShapeError(
-            f"{name} is a list of {len(value)} number{'s' * (len(value) > 1)}; measured values are given as Samples(values), "
-            f"the parts of a point as a tuple, and what the model needs as an array is written into the model itself",
+            f"{name} is a list of {len(value)} number{'s' * (len(value) > 1)}; measured values "
+            "are given as Samples(values), the parts of a point as a tuple, and what the model "
+            "needs as an array is written into the model itself",
             code="bad_shape",
             argument=name,
         )
-    if not (isinstance(value, (str, Number, np.generic)) or is_quantity(value) or hasattr(value, "__array__")):
+    if not (
+        isinstance(value, (str, Number, np.generic))
+        or is_quantity(value)
+        or hasattr(value, "__array__")
+    ):
         return value
     try:
         unit = si_unit(value, name)
@@ -153,7 +195,8 @@ def read_input(name: str, value: Any) -> Any:
         if not isinstance(value, str):
             raise
         raise UnitsError(
-            f"{error}; a text that is no quantity, such as the name of a law, is written into the model itself",
+            f"{error}; a text that is no quantity, such as the name of a law, is written into "
+            "the model itself",
             code=error.code,
             **error.fields,
         ) from None
@@ -162,38 +205,60 @@ def read_input(name: str, value: Any) -> Any:
     reader.close()
     if isinstance(number, np.ndarray):
         raise ShapeError(
-            f"{name} is an array of shape {number.shape}; measured values are given as Samples(values), and what the model "
-            f"needs as an array is written into the model itself",
+            f"{name} is an array of shape {number.shape}; measured values are given as "
+            "Samples(values), and what the model needs as an array is written into the model "
+            "itself",
             code="bad_shape",
             argument=name,
         )
     if math.isnan(number):
         raise InputError(
-            f"{name} is NaN; give a number, or a distribution of what is not known", code="not_finite", argument=name
+            f"{name} is NaN; give a number, or a distribution of what is not known",
+            code="not_finite",
+            argument=name,
         )
     return number
 
 
 def pair_hints(fixed: Mapping[str, Any]) -> str:
-    """Hints for inputs that are pairs of numbers in order: they are read as points, but may be meant as ranges."""
+    """Hints for inputs that are pairs of numbers in order: they are read as points, but may be
+    meant as ranges.
+    """
     return "".join(
-        f". {name} is the pair {value!r} in every case{hint}" for name, value in fixed.items() if (hint := range_hint(value))
+        f". {name} is the pair {value!r} in every case{hint}"
+        for name, value in fixed.items()
+        if (hint := range_hint(value))
     )
 
 
 def range_hint(value: Any) -> str:
-    """A hint for a pair of numbers or texts in order that may be meant as a range; "" for others."""
-    kinds = {type(part) for part in value} if isinstance(value, (tuple, list)) and len(value) == 2 else {None}
+    """A hint for a pair of numbers or texts in order that may be meant as a range; ""
+    for others.
+    """
+    kinds = (
+        {type(part) for part in value}
+        if isinstance(value, (tuple, list)) and len(value) == 2
+        else {None}
+    )
     rising = kinds == {str} or (kinds <= {int, float} and value[0] < value[1])
-    return f"; if a range was meant, write Uniform{tuple(value)!r} or Interval{tuple(value)!r}" if rising else ""
+    return (
+        f"; if a range was meant, write Uniform{tuple(value)!r} or Interval{tuple(value)!r}"
+        if rising
+        else ""
+    )
 
 
 def check_names(function: Any, names: Collection[str], argument: str, code: str) -> None:
-    """Raise for inputs (or unknowns) that are not arguments of the model, and for arguments without an input."""
+    """Raise for inputs (or unknowns) that are not arguments of the model, and for arguments without
+    an input.
+    """
     if type(function) is FunctionType and not vars(function):
-        # Most models are plain functions: to find their signature can take longer than to call them.
+        # Most models are plain functions: to find their signature can take longer than to call
+        # them.
         made = function.__code__
-        if {*made.co_varnames[: made.co_argcount + made.co_kwonlyargcount]} == {*names} and not made.co_posonlyargcount:
+        if {*made.co_varnames[: made.co_argcount + made.co_kwonlyargcount]} == {
+            *names
+        } and not made.co_posonlyargcount:
             return
     try:
         signature = inspect.signature(function)
@@ -203,20 +268,23 @@ def check_names(function: Any, names: Collection[str], argument: str, code: str)
         signature.bind(**dict.fromkeys(names))
     except TypeError as error:
         raise InputError(
-            f"{argument} are {', '.join(names) or 'none'}, but the model takes {signature}: {error}; name the {argument} as "
-            f"the arguments of the model, and give one for each",
+            f"{argument} are {', '.join(names) or 'none'}, but the model takes {signature}: "
+            f"{error}; name the {argument} as the arguments of the model, and give one for each",
             code=code,
             argument=argument,
         ) from None
 
 
 def check_elementwise(
-    answer: Callable[[Mapping[str, Any], int], Mapping[str, Any]], values: Mapping[str, Any], answers: Mapping[str, Any]
+    answer: Callable[[Mapping[str, Any], int], Mapping[str, Any]],
+    values: Mapping[str, Any],
+    answers: Mapping[str, Any],
 ) -> bool:
-    """Raise if the model treats cases differently on their own than among others; False if these cases cannot show it.
+    """Raise if the model treats cases differently on their own than among others; False if these
+    cases cannot show it.
 
-    ``answer`` takes some cases and their number. Cases that are all the same show nothing, those without an answer little, and
-    those in rising order no sort.
+    ``answer`` takes some cases and their number. Cases that are all the same show nothing, those
+    without an answer little, and those in rising order no sort.
     """
     if not any(np.any(column != column[0]) for column in values.values()):
         return False
@@ -232,24 +300,31 @@ def check_elementwise(
             if not answered:
                 continue
             raise _bad_model(
-                f"model answers a case ({_numbers_of(cases)}) among others, but not {company}, as arrays of "
-                f"{'one number' if len(places) == 1 else f'{len(places)} numbers'}: {described(error.__cause__ or error)}. "
-                f"Every case must be worked out by itself, however many there are"
+                f"model answers a case ({_numbers_of(cases)}) among others, but not {company}, "
+                f"as arrays of {'one number' if len(places) == 1 else f'{len(places)} numbers'}: "
+                f"{described(error.__cause__ or error)}. Every case must be worked out by "
+                "itself, however many there are"
             ) from error
         compared |= answered
         for name, column in answers.items():
             for place, few in zip(places, found[name].tolist(), strict=True):
                 many = float(column[place])
-                if _agree(many, few, column) or _jumps(answer, values, place, name, (many, few), column):
+                if _agree(many, few, column) or _jumps(
+                    answer, values, place, name, (many, few), column
+                ):
                     continue
-                batched_text, single_text = ("no answer" if math.isnan(one) else f"{one:.9g}" for one in (many, few))
+                batched_text, single_text = (
+                    "no answer" if math.isnan(one) else f"{one:.9g}" for one in (many, few)
+                )
                 raise _bad_model(
-                    f"model mixes cases: among {total} cases it answers {name!r} with {batched_text} for "
-                    f"{_numbers_of(_cases(values, [place]))}, "
-                    f"and with {single_text} for that case {company}. Every case must be worked out by itself. In place of "
-                    f"what is taken over all cases, such as x.mean(), x.max(), x[0], a running sum, a sort or an if on the "
-                    f"whole array, write a number into the model, or numpy.where. Random numbers drawn in the model do this "
-                    f"too: give what is random as an argument of its own, with its distribution",
+                    f"model mixes cases: among {total} cases it answers {name!r} with "
+                    f"{batched_text} for {_numbers_of(_cases(values, [place]))}, and with "
+                    f"{single_text} for that case {company}. Every case must be worked out by "
+                    "itself. In place of what is taken over all cases, such as x.mean(), "
+                    "x.max(), x[0], a running sum, a sort or an if on the whole array, write a "
+                    "number into the model, or numpy.where. Random numbers drawn in the model "
+                    "do this too: give what is random as an argument of its own, with its "
+                    "distribution",
                     output=name,
                 )
     return compared and any(np.any(column[1:] < column[:-1]) for column in values.values())
@@ -258,10 +333,11 @@ def check_elementwise(
 def _revealing_cases(answers: Mapping[str, Any]) -> list[list[int]]:
     """Cases to ask again, those of each list in one call.
 
-    They are the greatest of the first output and two without an answer, each alone, and together a few of the least of the
-    first output and of the last. The ends differ most from all cases together, each in its own way: alone, a case is its own
-    mean and its own extreme; among the least, there is none of the great ones. A call costs as much as some hundred cases, so
-    there are few.
+    They are the greatest of the first output and two without an answer, each alone, and together a
+    few of the least of the first output and of the last. The ends differ most from all cases
+    together, each in its own way: alone, a case is its own mean and its own extreme; among the
+    least, there is none of the great ones. A call costs as much as some hundred cases, so there are
+    few.
     """
     found: list[list[int]] = []
     refused: list[int] = []
@@ -286,21 +362,29 @@ def _jumps(
     answers: tuple[float, float],
     column: Any,
 ) -> bool:
-    """Whether the model jumps at a case: alone, and a few roundings away, it has both answers, and the same when asked again.
+    """Whether the model jumps at a case: alone, and a few roundings away, it has both answers, and
+    the same when asked again.
 
-    For many cases numpy may take another path than for few, whose last bits differ; at a jump they decide.
+    For many cases numpy may take another path than for few, whose last bits differ; at a jump they
+    decide.
     """
     many, few = answers
     case = _cases(values, [place])
 
     def alone(**moved: Any) -> float:
-        return float(answer({**{key: value.copy() for key, value in case.items()}, **moved}, 1)[name][0])
+        return float(
+            answer({**{key: value.copy() for key, value in case.items()}, **moved}, 1)[name][0]
+        )
 
     try:
         if not all(_agree(few, alone(), column) for _ in range(2)):
             return False
         moves = {key: _ROUNDINGS * float(np.max(np.abs(value))) for key, value in values.items()}
-        return any(_agree(many, alone(**{key: case[key] + by}), column) for key in moves for by in (moves[key], -moves[key]))
+        return any(
+            _agree(many, alone(**{key: case[key] + by}), column)
+            for key in moves
+            for by in (moves[key], -moves[key])
+        )
     except Exception:
         return False
 
@@ -314,14 +398,18 @@ def _numbers_of(cases: Mapping[str, Any]) -> str:
 
 
 def _agree(batched: float, single: float, answers: Any) -> bool:
-    """Whether a case's value in a batch and by itself agree up to rounding or the convergence of an iteration."""
+    """Whether a case's value in a batch and by itself agree up to rounding or the convergence of an
+    iteration.
+    """
     if math.isnan(batched) or math.isnan(single):
         return math.isnan(batched) and math.isnan(single)
     away, roundings = abs(batched - single), _ROUNDINGS * max(abs(batched), abs(single))
     if away <= roundings:
         return True
     if turns.are_directions(np.array([batched, single])):
-        away = min(away, abs(away - 2.0 * math.pi))  # a direction may come out at either end of its turn
+        away = min(
+            away, abs(away - 2.0 * math.pi)
+        )  # a direction may come out at either end of its turn
     with np.errstate(all="ignore"):
         low, high = np.nanquantile(answers, (0.25, 0.75))
         return bool(away <= roundings + (_UNNOTICED * high - _UNNOTICED * low))

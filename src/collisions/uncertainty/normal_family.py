@@ -1,9 +1,10 @@
 """``Normal`` and ``LogNormal`` inputs, whole or truncated.
 
-What a truncation leaves is measured from an anchor, the most likely of the values left, in standard deviations of the whole.
-From there the density falls as exp(-t (t + 2 m) / 2), with m the score of the anchor. This neither underflows nor cancels,
-however far out in a tail or however narrow the range is. The moments are integrals of this density over the range by
-Gauss-Legendre quadrature, whose terms all have the same sign; the closed forms are differences of nearly equal numbers there.
+What a truncation leaves is measured from an anchor, the most likely of the values left, in standard
+deviations of the whole. From there the density falls as exp(-t (t + 2 m) / 2), with m the score of
+the anchor. This neither underflows nor cancels, however far out in a tail or however narrow the
+range is. The moments are integrals of this density over the range by Gauss-Legendre quadrature,
+whose terms all have the same sign; the closed forms are differences of nearly equal numbers there.
 """
 
 from __future__ import annotations
@@ -22,40 +23,50 @@ from ..quantities.units import Input, shown
 from .distribution import Distribution, check_order, from_numbers, read_alike, show
 from .normal import cdf, density, power_of_two, quantile, score_of_coverage, survival
 
-# Positive nodes of the Gauss-Legendre rule of 12 points and their weights: numpy's come from eigenvalues, which leaves the
-# weights 40 roundings off and the last digits to the machine.
+# Positive nodes of the Gauss-Legendre rule of 12 points and their weights: numpy's come from
+# eigenvalues, which leaves the weights 40 roundings off and the last digits to the machine.
 _POSITIVE = (
-    0.9815606342467192, 0.9041172563704749, 0.7699026741943047, 0.5873179542866175, 0.3678314989981802, 0.1252334085114689,
+    0.9815606342467192, 0.9041172563704749, 0.7699026741943047, 0.5873179542866175,
+    0.3678314989981802, 0.1252334085114689,
 )  # fmt: skip
 _WEIGHTS = (
-    0.04717533638651183, 0.10693932599531843, 0.16007832854334622, 0.20316742672306592, 0.2334925365383548, 0.24914704581340277,
+    0.04717533638651183, 0.10693932599531843, 0.16007832854334622, 0.20316742672306592,
+    0.2334925365383548, 0.24914704581340277,
 )  # fmt: skip
 _NODES = np.array((*_POSITIVE, *(-x for x in _POSITIVE)))
 _PANELS = 2.0  # to a standard deviation
 _NEGLIGIBLE = 55.0  # below exp(-55) of its peak an integrand is negligible relative to 1e-16
 _LEAST_SHARE = 1e-12  # of the probability, that a truncation must leave
 _FARTHEST = 8.0  # less than the least share is left beyond this many standard deviations
-_UNNOTICED = 1e-40  # probability cut off beyond 13 standard deviations shifts results by less than rounding
+_UNNOTICED = (
+    1e-40  # probability cut off beyond 13 standard deviations shifts results by less than rounding
+)
 
 Truncation = tuple[Input | None, Input | None]
 
 
 class NormalFamily(Distribution):
-    """Base of distributions that are normal on some scale; ``given_mean`` and ``given_sd`` are those before truncation."""
+    """Base of distributions that are normal on some scale; ``given_mean`` and ``given_sd`` are
+    those before truncation.
+    """
 
     __slots__ = ("_split", "given_mean", "given_sd", "truncate")
 
     given_mean: float
     given_sd: float
     truncate: tuple[float | None, float | None] | None
-    # Of the probability before truncation: below the lower bound, between both, and above the upper one.
+    # Of the probability before truncation: below the lower bound, between both, and above the upper
+    # one.
     _split: tuple[float, float, float] | None
-    # Derivative of the quantity's logarithm with respect to the score; 0 for Normal, which is linear in the score.
+    # Derivative of the quantity's logarithm with respect to the score; 0 for Normal, which is
+    # linear in the score.
     _steepness: float = 0.0
 
-    # Mean and standard deviation, before truncation, for which two values have the scores -score and +score.
+    # Mean and standard deviation, before truncation, for which two values have the scores -score
+    # and +score.
     _spanning: Callable[[float, float, float], tuple[float, float]]
-    # Moments and support before truncation, the value at a score there, and the difference of the scores of two values.
+    # Moments and support before truncation, the value at a score there, and the difference of the
+    # scores of two values.
     _whole: Callable[[], tuple[float, float, float, float, tuple[float, float]]]
     _value: Callable[[Any], Any]
     _between: Callable[[float, float], float]
@@ -70,21 +81,29 @@ class NormalFamily(Distribution):
     def __str__(self) -> str:
         if self._range is not None:
             low, high, share = self._range
-            text = self._written(f"{{low}} to {{high}} ({100.0 * share:.10g} percent)", {"low": low, "high": high})
+            text = self._written(
+                f"{{low}} to {{high}} ({100.0 * share:.10g} percent)", {"low": low, "high": high}
+            )
         else:
             mean, sd = (show(value, self.unit) for value in (self.given_mean, self.given_sd))
             _, apart, unit = mean.partition(" ")
             text = f"{mean.removesuffix(apart + unit)} ± {sd}"
         ends = zip(("at least", "at most"), self.truncate or (), strict=False)
-        parts = [text, *(f"{bound} {show(end, self.unit)}" for bound, end in ends if end is not None)]
+        parts = [
+            text,
+            *(f"{bound} {show(end, self.unit)}" for bound, end in ends if end is not None),
+        ]
         # A mean ± a deviation alone is taken to be of a normal distribution.
         if self._range is not None or self._steepness:
             parts.append(self._words)
         return typeset(", ".join(parts))
 
     @classmethod
-    def between(cls, low: Input, high: Input, coverage: Input, *, truncate: Truncation | None = None) -> Self:
-        """The distribution of this kind with a given share of its probability between two values, and as much below as above.
+    def between(
+        cls, low: Input, high: Input, coverage: Input, *, truncate: Truncation | None = None
+    ) -> Self:
+        """The distribution of this kind with a given share of its probability between two values,
+        and as much below as above.
 
         Parameters
         ----------
@@ -103,7 +122,8 @@ class NormalFamily(Distribution):
         Raises
         ------
         InputError
-            A coverage not between 0 and 1, or a range that is not in order or, for a lognormal distribution, not above 0.
+            A coverage not between 0 and 1, or a range that is not in order or, for a lognormal
+            distribution, not above 0.
 
         Examples
         --------
@@ -120,26 +140,35 @@ class NormalFamily(Distribution):
         reader.close()
         if not isinstance(share, float) or not 0.0 < share < 1.0:
             raise InputError(
-                f"coverage must be more than 0 and less than 1, such as 0.95, got {shown(coverage)}; a range that cannot be "
-                f"left is Uniform(low, high), or Interval(low, high) where nothing is known of likelihood",
+                "coverage must be more than 0 and less than 1, such as 0.95, got "
+                f"{shown(coverage)}; a range that cannot be left is Uniform(low, high), or "
+                "Interval(low, high) where nothing is known of likelihood",
                 code="bad_fraction",
                 argument="coverage",
             )
         check_order(start, end, unit=unit)
         mean, sd = cls._spanning(start, end, score_of_coverage(share))
-        return from_numbers(cls, unit, {"mean": mean, "sd": sd, "truncate": bounds}, (start, end, share))
+        return from_numbers(
+            cls, unit, {"mean": mean, "sd": sd, "truncate": bounds}, (start, end, share)
+        )
 
-    def _derive(self, mean: float, sd: float, truncate: tuple[float | None, float | None] | None) -> None:
+    def _derive(
+        self, mean: float, sd: float, truncate: tuple[float | None, float | None] | None
+    ) -> None:
         if not sd > 0.0:
             raise InputError(
-                f"sd must be > 0, got {show(sd, self.unit)}; of a quantity that is known exactly give the number itself",
+                f"sd must be > 0, got {show(sd, self.unit)}; of a quantity that is known exactly "
+                "give the number itself",
                 code="not_positive",
                 argument="sd",
             )
         self._set(given_mean=mean, given_sd=sd, truncate=truncate, _split=None)
         self._describe(*self._whole())
         if truncate is not None:
-            low, high = (-math.inf if truncate[0] is None else truncate[0]), (math.inf if truncate[1] is None else truncate[1])
+            low, high = (
+                (-math.inf if truncate[0] is None else truncate[0]),
+                (math.inf if truncate[1] is None else truncate[1]),
+            )
             check_order(low, high, "the bounds of truncate", self.unit)
             self._truncate(max(low, self.support[0]), min(high, self.support[1]))
 
@@ -154,9 +183,11 @@ class NormalFamily(Distribution):
                 left = moments(score, start, end, steepness)
         if left is None or left.share < _LEAST_SHARE:
             raise InputError(
-                f"truncate={show(self.truncate, self.unit)} leaves less than {_LEAST_SHARE:g} of the probability of "
-                f"{type(self).__name__}(mean={show(self.given_mean, self.unit)}, sd={show(self.given_sd, self.unit)}); "
-                f"look for a wrong bound, or state what is known otherwise, for example by Uniform(low, high)",
+                f"truncate={show(self.truncate, self.unit)} leaves less than {_LEAST_SHARE:g} of "
+                "the probability of "
+                f"{type(self).__name__}(mean={show(self.given_mean, self.unit)}, "
+                f"sd={show(self.given_sd, self.unit)}); look for a wrong bound, or state what is "
+                "known otherwise, for example by Uniform(low, high)",
                 code="truncated_away",
                 argument="truncate",
             )
@@ -169,7 +200,9 @@ class NormalFamily(Distribution):
         self._describe(*self._moved(anchor, left), left.skewness, left.kurtosis, (low, high))
 
     def _score(self, value: float) -> float:
-        """The score of a value in the distribution before truncation, where the mean scores half the steepness."""
+        """The score of a value in the distribution before truncation, where the mean scores half
+        the steepness.
+        """
         return self._between(self.given_mean, value) + 0.5 * self._steepness
 
     def _scored(self, z: Any) -> Any:
@@ -190,25 +223,30 @@ class NormalFamily(Distribution):
 
 
 def is_whole_normal(distribution: Distribution) -> bool:
-    """Whether the values of a distribution are worked out from normal scores, also where they are asked for by probability."""
+    """Whether the values of a distribution are worked out from normal scores, also where they are
+    asked for by probability.
+    """
     return isinstance(distribution, NormalFamily) and distribution._split is None
 
 
 class Normal(NormalFamily):
-    """A quantity whose error is the sum of many small, independent ones: a normal distribution, cut off at what is possible.
+    """A quantity whose error is the sum of many small, independent ones: a normal distribution, cut
+    off at what is possible.
 
     Parameters
     ----------
     mean, sd : float, str or Quantity
         Mean and standard deviation before truncation; ``sd`` > 0. SI, or all with a unit.
     truncate : tuple (low, high), optional
-        Bounds of what is physically possible; None leaves a side open. The attributes ``mean`` and ``sd`` are those of the
-        part that is kept, ``given_mean`` and ``given_sd`` those of the whole.
+        Bounds of what is physically possible; None leaves a side open. The attributes ``mean`` and
+        ``sd`` are those of the part that is kept, ``given_mean`` and ``given_sd`` those of the
+        whole.
 
     Raises
     ------
     InputError
-        ``sd`` not above 0, bounds not in order, or a truncation that keeps less than 1e-12 of the probability.
+        ``sd`` not above 0, bounds not in order, or a truncation that keeps less than 1e-12 of the
+        probability.
     UnitsError
         Some numbers with a unit and some without, or units of different kinds.
 
@@ -249,14 +287,16 @@ class LogNormal(NormalFamily):
     Parameters
     ----------
     mean, sd : float, str or Quantity
-        Mean and standard deviation of the quantity itself, not of its logarithm, before truncation; both > 0.
+        Mean and standard deviation of the quantity itself, not of its logarithm, before truncation;
+        both > 0.
     truncate : tuple (low, high), optional
         Bounds of what is physically possible; None leaves a side open.
 
     Raises
     ------
     InputError
-        ``mean`` or ``sd`` not above 0, bounds not in order, or a truncation that keeps less than 1e-12 of the probability.
+        ``mean`` or ``sd`` not above 0, bounds not in order, or a truncation that keeps less than
+        1e-12 of the probability.
     UnitsError
         Some numbers with a unit and some without, or units of different kinds.
 
@@ -289,7 +329,8 @@ class LogNormal(NormalFamily):
         relative = sd / mean
         if relative == 0.0:
             raise InputError(
-                f"sd = {sd:.6g} is nothing beside a mean of {mean:.6g}; of what is known exactly give the number itself",
+                f"sd = {sd:.6g} is nothing beside a mean of {mean:.6g}; of what is known exactly "
+                "give the number itself",
                 code="out_of_range",
                 argument="sd",
             )
@@ -307,7 +348,9 @@ class LogNormal(NormalFamily):
         if end <= 0.0:
             return -math.inf
         near = 0.5 * start <= end <= 2.0 * start
-        return (math.log1p((end - start) / start) if near else math.log(end) - math.log(start)) / self._steepness
+        return (
+            math.log1p((end - start) / start) if near else math.log(end) - math.log(start)
+        ) / self._steepness
 
     def _moved(self, anchor: float, left: Moments) -> tuple[float, float]:
         return anchor * (1.0 + left.mean), anchor * left.sd
@@ -324,7 +367,9 @@ class Moments(NamedTuple):
 
 
 def moments(anchor: float, low: float, high: float, steepness: float = 0.0) -> Moments:
-    """Moments of t between low <= 0 and high >= 0 from the anchor's score, or of exp(steepness t) - 1 if steepness > 0."""
+    """Moments of t between low <= 0 and high >= 0 from the anchor's score, or of exp(steepness t) -
+    1 if steepness > 0.
+    """
     # The fourth power of exp(steepness t) has its peak this much further up.
     tilt = 4.0 * steepness
     start = max(low, -_fall(anchor))
@@ -351,24 +396,32 @@ def _fall(score: float) -> float:
     return 2.0 * _NEGLIGIBLE / (math.sqrt(score * score + 2.0 * _NEGLIGIBLE) + abs(score))
 
 
-def _read(needed: dict[str, Any], truncate: Any) -> tuple[float, float, tuple[float | None, ...] | None, str]:
-    """Two numbers, the bounds of a truncation or None where both sides are open, and the unit of all."""
+def _read(
+    needed: dict[str, Any], truncate: Any
+) -> tuple[float, float, tuple[float | None, ...] | None, str]:
+    """Two numbers, the bounds of a truncation or None where both sides are open, and the unit of
+    all.
+    """
     if truncate is None:
         truncate = (None, None)
     if not isinstance(truncate, (tuple, list)) or len(truncate) != 2:
         raise ShapeError(
-            f"truncate must be a pair (low, high), where None leaves a side open, got {shown(truncate)}",
+            "truncate must be a pair (low, high), where None leaves a side open, got "
+            f"{shown(truncate)}",
             code="bad_shape",
             argument="truncate",
         )
-    (one, other, *bounds), unit = read_alike(needed, {f"truncate[{i}]": bound for i, bound in enumerate(truncate)})
+    (one, other, *bounds), unit = read_alike(
+        needed, {f"truncate[{i}]": bound for i, bound in enumerate(truncate)}
+    )
     return one, other, None if bounds == [None, None] else tuple(bounds), unit
 
 
 def _check_positive(name: str, value: float) -> None:
     if not value > 0.0:
         raise InputError(
-            f"{name} must be > 0 for a lognormal distribution, got {value:.6g}; for a quantity of either sign use Normal",
+            f"{name} must be > 0 for a lognormal distribution, got {value:.6g}; for a quantity "
+            "of either sign use Normal",
             code="not_positive",
             argument=name,
         )

@@ -1,4 +1,6 @@
-"""``propagate``: the distribution of a model's outputs from distributions and intervals of its inputs."""
+"""``propagate``: the distribution of a model's outputs from distributions and intervals of its
+inputs.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ from .model import Function, Model, check_names, count_failed, pair_hints, read_
 from .result import Output, Propagation, Sampled, Shares
 from .sampling import Correlation, Joint, Sample, sampled_shares
 
-Method: TypeAlias = Literal["first_order", "second_order", "latin_hypercube", "quasi_random", "monte_carlo", "interval"]
+Method: TypeAlias = Literal[
+    "first_order", "second_order", "latin_hypercube", "quasi_random", "monte_carlo", "interval"
+]
 Report: TypeAlias = Callable[[int, int], None]
 
 LOCAL = ("first_order", "second_order")
@@ -63,56 +67,66 @@ def propagate(
     threads: int = 1,
     progress: Callable[[int, int], None] | bool | None = None,
 ) -> Propagation:
-    """Propagate uncertain inputs through a model: mean, spread and range of every output, given the stated inputs.
+    """Propagate uncertain inputs through a model: mean, spread and range of every output, given the
+    stated inputs.
 
-    The model is any function of named inputs: a solver, a reconstruction, or a chain of them. It is called with arrays of cases
-    and answers each case on its own. ``"quasi_random"`` is right for any model; use it if in doubt. ``"latin_hypercube"``
-    and ``"monte_carlo"`` need more cases for the same standard error. ``"first_order"`` and ``"second_order"`` take derivatives
-    at the mean of the inputs: right where the model is nearly linear, or nearly quadratic, over their spread. They check
-    themselves against cases drawn from the inputs, and warn where they differ. ``"interval"`` finds the least and the greatest
-    value between bounds, and says nothing about likelihood. What the inputs leave out, the answer leaves out too.
+    The model is any function of named inputs: a solver, a reconstruction, or a chain of them. It is
+    called with arrays of cases and answers each case on its own. ``"quasi_random"`` is right for
+    any model; use it if in doubt. ``"latin_hypercube"`` and ``"monte_carlo"`` need more cases for
+    the same standard error. ``"first_order"`` and ``"second_order"`` take derivatives at the mean
+    of the inputs: right where the model is nearly linear, or nearly quadratic, over their spread.
+    They check themselves against cases drawn from the inputs, and warn where they differ.
+    ``"interval"`` finds the least and the greatest value between bounds, and says nothing about
+    likelihood. What the inputs leave out, the answer leaves out too.
 
     Parameters
     ----------
     model : function
-        ``model(**inputs)`` returns a dict of named outputs: arrays of one number per case, or Quantities. Each case is computed
-        on its own: a few are computed again without the others, and a model that then answers differently is refused. A case
-        without an answer is NaN; solvers return it with ``on_failure="nan"``. Booleans count as 0 and 1, so their mean is a
-        probability. Angles returned with a unit that all lie in [-pi, pi] are directions, counted round the circle about
-        their mean (see ``Output``); return a rotation as a plain number.
+        ``model(**inputs)`` returns a dict of named outputs: arrays of one number per case, or
+        Quantities. Each case is computed on its own: a few are computed again without the others,
+        and a model that then answers differently is refused. A case without an answer is NaN;
+        solvers return it with ``on_failure="nan"``. Booleans count as 0 and 1, so their mean is a
+        probability. Angles returned with a unit that all lie in [-pi, pi] are directions, counted
+        round the circle about their mean (see ``Output``); return a rotation as a plain number.
     inputs : dict
-        For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``, ``Interval`` or fixed value.
-        Numbers reach the model in SI, without their unit.
+        For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``,
+        ``Interval`` or fixed value. Numbers reach the model in SI, without their unit.
     method : str, optional
-        "first_order", "second_order", "latin_hypercube", "quasi_random", "monte_carlo" or "interval". By default
-        "quasi_random", or "interval" if all uncertain inputs are intervals.
+        "first_order", "second_order", "latin_hypercube", "quasi_random", "monte_carlo" or
+        "interval". By default "quasi_random", or "interval" if all uncertain inputs are intervals.
     samples : int, optional
-        Cases to draw, at least 64; 8192 if neither this nor ``tolerance`` is given. Powers of two suit "quasi_random" best.
+        Cases to draw, at least 64; 8192 if neither this nor ``tolerance`` is given. Powers of two
+        suit "quasi_random" best.
     tolerance : float, str, Quantity or dict of these by output, optional
-        Draw cases until the standard errors of the mean, of the standard deviation and of both ends of the 95 percent interval
-        are below this, in the unit of the output; at most 2**24.
+        Draw cases until the standard errors of the mean, of the standard deviation and of both ends
+        of the 95 percent interval are below this, in the unit of the output; at most 2**24.
     seed : int, optional
-        Makes the run reproducible to the bit, for any number of threads; without one, ``result.seed`` says which was used.
+        Makes the run reproducible to the bit, for any number of threads; without one,
+        ``result.seed`` says which was used.
     correlation : dict, optional
-        Correlation, -1 to 1, for pairs of input names, such as ``{("mass_a", "mass_b"): 1.0}`` for masses weighed on one scale:
-        between the values of normal inputs, or the normal scores of others. Pairs that are not listed are independent.
+        Correlation, -1 to 1, for pairs of input names, such as ``{("mass_a", "mass_b"): 1.0}`` for
+        masses weighed on one scale: between the values of normal inputs, or the normal scores of
+        others. Pairs that are not listed are independent.
     threads : int, optional
-        Number of blocks of cases computed at once. If more than 1, the model must be safe to call from several threads.
+        Number of blocks of cases computed at once. If more than 1, the model must be safe to call
+        from several threads.
     progress : function or bool, optional
-        For methods that draw: called with the numbers of cases done and in all (with ``tolerance``, as far as known); True
-        shows a bar, by tqdm if it is installed (extra ``progress``). An interrupt returns the blocks of cases that are done, of
-        which the first has 1,024 cases with progress and 8,192 without; during the first one it is a KeyboardInterrupt.
+        For methods that draw: called with the numbers of cases done and in all (with ``tolerance``,
+        as far as known); True shows a bar, by tqdm if it is installed (extra ``progress``). An
+        interrupt returns the blocks of cases that are done, of which the first has 1,024 cases with
+        progress and 8,192 without; during the first one it is a KeyboardInterrupt.
 
     Returns
     -------
     Propagation
-        Outputs by name, with mean, standard deviation, quantiles, standard errors and contributions; cases without an answer
-        are counted in ``failed``.
+        Outputs by name, with mean, standard deviation, quantiles, standard errors and
+        contributions; cases without an answer are counted in ``failed``.
 
     Raises
     ------
     InputError
-        An argument that cannot be used, or a model that does not answer case by case (code "bad_model").
+        An argument that cannot be used, or a model that does not answer case by case (code
+        "bad_model").
     NoSolutionError
         The model has no answer where one is needed.
 
@@ -137,27 +151,48 @@ def propagate(
     >>> [f"{name} {share:.0%}" for name, share in found.contributions.items()]
     ['speed 52%', 'restitution 48%']
     """
-    check_options("quasi_random" if method is None else method, samples, tolerance, seed, threads, progress)
+    check_options(
+        "quasi_random" if method is None else method, samples, tolerance, seed, threads, progress
+    )
     stated = _read_inputs(inputs)
     if method is None:
         kinds = {type(value) for value in stated.values() if isinstance(value, Stated)}
-        method = "interval" if kinds == {Interval} and samples is tolerance is None else "quasi_random"
+        method = (
+            "interval" if kinds == {Interval} and samples is tolerance is None else "quasi_random"
+        )
     drawn = {name: value for name, value in stated.items() if isinstance(value, Distribution)}
-    intervals = {name: (value.low, value.high) for name, value in stated.items() if isinstance(value, Interval)}
-    whole = Model(model, {name: value for name, value in stated.items() if name not in drawn and name not in intervals})
+    intervals = {
+        name: (value.low, value.high)
+        for name, value in stated.items()
+        if isinstance(value, Interval)
+    }
+    whole = Model(
+        model,
+        {
+            name: value
+            for name, value in stated.items()
+            if name not in drawn and name not in intervals
+        },
+    )
     check_names(model, stated, "inputs", "bad_inputs")
     if method == "interval":
         return _by_interval(whole, stated, correlation)
     if not drawn:
-        censored = [name for name, value in stated.items() if isinstance(value, Stated) and name in whole.fixed]
+        censored = [
+            name
+            for name, value in stated.items()
+            if isinstance(value, Stated) and name in whole.fixed
+        ]
         advice = "; of intervals alone take method='interval'"
         if censored:
             advice = (
-                f"; {censored[0]} is a reading with a bound, which is evidence for reconstruct.posterior: give a "
-                f"distribution of what is known, or Interval(low, high)"
+                f"; {censored[0]} is a reading with a bound, which is evidence for "
+                "reconstruct.posterior: give a distribution of what is known, or Interval(low, "
+                "high)"
             )
         raise InputError(
-            f"method={method!r} needs an input with a distribution, and there is none{advice}{pair_hints(whole.fixed)}",
+            f"method={method!r} needs an input with a distribution, and there is "
+            f"none{advice}{pair_hints(whole.fixed)}",
             code="nothing_uncertain",
             argument="inputs",
         )
@@ -169,27 +204,39 @@ def propagate(
             code="too_many_inputs",
             argument="inputs",
         )
-    # The points by which a local method is judged are always the same: its result is not random, and reports no seed.
+    # The points by which a local method is judged are always the same: its result is not random,
+    # and reports no seed.
     seed = 0 if method in LOCAL else secrets.randbits(64) if seed is None else int(seed)
     run: Callable[[Model, Report | None], Run] = (
         partial(_local, method, joint)
         if method in LOCAL
-        else partial(_sampled, method, joint, int(samples or _SAMPLES), tolerance, seed, int(threads))
+        else partial(
+            _sampled, method, joint, int(samples or _SAMPLES), tolerance, seed, int(threads)
+        )
     )
     places: list[dict[str, float]] = [{}]
     count, failed, cuts = 0, 0, {}
     if intervals:
         searched = extremes(whole, intervals, _evenly_drawn(joint, seed, COMMON_CASES))
-        places, count, failed, cuts = searched.places, searched.samples, searched.failed, searched.cuts
+        places, count, failed, cuts = (
+            searched.places,
+            searched.samples,
+            searched.failed,
+            searched.cuts,
+        )
     runs = _run_at(places, whole, run, reporter(progress))
     samples_run = sum(one.samples for one in runs)
     outputs: dict[str, Output] = {}
     for name, output in runs[0].outputs.items():
-        cases = [one.outputs[name] for one in runs if not (one.failed and math.isnan(one.outputs[name].mean))]
+        cases = [
+            one.outputs[name]
+            for one in runs
+            if not (one.failed and math.isnan(one.outputs[name].mean))
+        ]
         if not cases:
             raise NoSolutionError(
-                f"the model has no answer for {name!r} in any of {samples_run} cases; call it with the mean of the inputs "
-                f"to see why",
+                f"the model has no answer for {name!r} in any of {samples_run} cases; call it "
+                "with the mean of the inputs to see why",
                 code="all_failed",
                 output=name,
             )
@@ -198,15 +245,32 @@ def propagate(
     notes = _notes(method, runs, len(places), count, failed, whole)
     warn_of(notes)
     interrupted = len(runs) < len(places) or runs[-1].interrupted
-    return Propagation(method, stated, outputs, count, failed, None if method in LOCAL else seed, interrupted, notes)
+    return Propagation(
+        method,
+        stated,
+        outputs,
+        count,
+        failed,
+        None if method in LOCAL else seed,
+        interrupted,
+        notes,
+    )
 
 
 def check_options(
-    method: Any, samples: Any, tolerance: Any, seed: Any, threads: Any, progress: Any, least: int = _LEAST_SAMPLES
+    method: Any,
+    samples: Any,
+    tolerance: Any,
+    seed: Any,
+    threads: Any,
+    progress: Any,
+    least: int = _LEAST_SAMPLES,
 ) -> None:
     """Raise for an unknown option, or one that this method does not have."""
     if not isinstance(method, str) or method not in METHODS:
-        raise _bad_option("method", f"method must be one of {', '.join(METHODS)}, got {shown(method)}")
+        raise _bad_option(
+            "method", f"method must be one of {', '.join(METHODS)}, got {shown(method)}"
+        )
     if samples is not None and tolerance is not None:
         raise _bad_option("tolerance", "give samples= or tolerance=, not both")
     for name, value in (("samples", samples), ("tolerance", tolerance)):
@@ -216,7 +280,12 @@ def check_options(
     progress_fine = progress is None or isinstance(progress, bool) or callable(progress)
     for name, value, fine, allowed in (
         ("samples", samples, samples_fine, f"a whole number from {least} to {MOST_SAMPLES}"),
-        ("seed", seed, seed is None or (is_whole(seed) and seed >= 0), "a whole number from 0, or None"),
+        (
+            "seed",
+            seed,
+            seed is None or (is_whole(seed) and seed >= 0),
+            "a whole number from 0, or None",
+        ),
         ("threads", threads, is_whole(threads) and threads >= 1, "a whole number from 1"),
         ("progress", progress, progress_fine, "a function of (done, total), or True for a bar"),
     ):
@@ -232,8 +301,8 @@ def _read_inputs(inputs: Any) -> dict[str, Any]:
     """The inputs by name: distributions and intervals as they are, numbers in SI."""
     if not isinstance(inputs, Mapping) or not all(isinstance(name, str) for name in inputs):
         raise InputError(
-            f"inputs must be a dict of what is known by name, such as {{'speed': Normal(15.0, 0.5)}}, got "
-            f"{type(inputs).__name__}",
+            f"inputs must be a dict of what is known by name, such as {{'speed': Normal(15.0, "
+            f"0.5)}}, got {type(inputs).__name__}",
             code="bad_inputs",
             argument="inputs",
         )
@@ -245,11 +314,15 @@ def _read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[st
     given = tolerance if isinstance(tolerance, Mapping) else dict.fromkeys(units, tolerance)
     unknown = [f"{shown(name)}, which is no output" for name in given if name not in units]
     if unknown or not given:
-        text = f"tolerance names {(*unknown, 'no output')[0]}; the model returned {', '.join(units)}"
+        text = (
+            f"tolerance names {(*unknown, 'no output')[0]}; the model returned {', '.join(units)}"
+        )
         raise _bad_option("tolerance", text, "bad_tolerance")
     names = {name: f"tolerance[{shown(name)}]" for name in given}
     reader = ArgumentReader(trusted=tuple(names.values()))
-    found = {name: reader.number(value, units[name] or "", names[name]) for name, value in given.items()}
+    found = {
+        name: reader.number(value, units[name] or "", names[name]) for name, value in given.items()
+    }
     reader.close()
     for name, value in found.items():
         if not isinstance(value, float) or not value > 0.0:
@@ -259,9 +332,14 @@ def _read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[st
 
 
 def _run_at(
-    places: Sequence[Mapping[str, float]], whole: Model, run: Callable[[Model, Report | None], Run], report: Report | None
+    places: Sequence[Mapping[str, float]],
+    whole: Model,
+    run: Callable[[Model, Report | None], Run],
+    report: Report | None,
 ) -> list[Run]:
-    """One run at each point between the bounds of intervals; an interrupt returns the finished ones."""
+    """One run at each point between the bounds of intervals; an interrupt returns the finished
+    ones.
+    """
     runs: list[Run] = []
 
     def overall(done: int, total: int) -> None:
@@ -286,7 +364,10 @@ def _local(method: str, joint: Joint, model: Model, report: Report | None) -> Ru
     second = method == "second_order"
     with np.errstate(all="ignore"):
         found, count = slopes(model, joint, second)
-        outputs = {name: local_output(name, model.units[name], joint, slope, second) for name, slope in found.items()}
+        outputs = {
+            name: local_output(name, model.units[name], joint, slope, second)
+            for name, slope in found.items()
+        }
         differing, failed = differences(model, _evenly_drawn(joint, 0, PROBES), outputs)
     return Run(outputs, count + PROBES, failed, differing=differing)
 
@@ -299,7 +380,14 @@ def _evenly_drawn(joint: Joint, seed: int, count: int) -> dict[str, Any]:
 
 
 def _sampled(
-    method: str, joint: Joint, count: int, tolerance: Any, seed: int, threads: int, model: Model, report: Report | None
+    method: str,
+    joint: Joint,
+    count: int,
+    tolerance: Any,
+    seed: int,
+    threads: int,
+    model: Model,
+    report: Report | None,
 ) -> Run:
     """A run by drawn cases: this many, and with a tolerance as many more as it takes."""
 
@@ -309,7 +397,9 @@ def _sampled(
     sample = Sample(model, joint, design(joint.dimensions), threads)
     sample.extend(count, report)
     unreached = False
-    if tolerance is not None and not any(np.isnan(values).all() for values in sample.outputs.values()):
+    if tolerance is not None and not any(
+        np.isnan(values).all() for values in sample.outputs.values()
+    ):
         wanted = _read_tolerances(tolerance, model.units)
         try:
             while not sample.interrupted and not enough(sample, model.units, wanted):
@@ -319,16 +409,29 @@ def _sampled(
         except KeyboardInterrupt:
             sample.interrupted = True
     shares = cache(partial(sampled_shares, model, joint, design, min(count, _SHARE_SAMPLES)))
-    outputs = {name: Sampled(name, model.units[name], values, shares) for name, values in sample.outputs.items()}
+    outputs = {
+        name: Sampled(name, model.units[name], values, shares)
+        for name, values in sample.outputs.items()
+    }
     wrapped = tuple(name for name, output in outputs.items() if output.may_wrap())
-    return Run(outputs, sample.done, count_failed(sample.outputs), sample.interrupted, unreached, wrapped)
+    return Run(
+        outputs, sample.done, count_failed(sample.outputs), sample.interrupted, unreached, wrapped
+    )
 
 
-def enough(sample: Sample, units: Mapping[str, str | None], tolerances: Mapping[str, float]) -> bool:
-    """Whether the standard errors of mean, standard deviation and both 95 percent ends are all below the tolerance."""
+def enough(
+    sample: Sample, units: Mapping[str, str | None], tolerances: Mapping[str, float]
+) -> bool:
+    """Whether the standard errors of mean, standard deviation and both 95 percent ends are all
+    below the tolerance.
+    """
     for name, tolerance in tolerances.items():
         output = Sampled(name, units[name], sample.outputs[name], dict)
-        errors = [output.mean_standard_error, output.std_standard_error, *output.quantile_standard_error([0.025, 0.975])]
+        errors = [
+            output.mean_standard_error,
+            output.std_standard_error,
+            *output.quantile_standard_error([0.025, 0.975]),
+        ]
         if not max(errors) <= tolerance:
             return False
     return True
@@ -343,18 +446,22 @@ def _by_interval(model: Model, stated: dict[str, Any], correlation: Any) -> Prop
             argument="correlation",
         )
     uncertain = {name: value for name, value in stated.items() if name not in model.fixed}
-    bounds = {name: (one.low, one.high) if isinstance(one, Interval) else one.support for name, one in uncertain.items()}
+    bounds = {
+        name: (one.low, one.high) if isinstance(one, Interval) else one.support
+        for name, one in uncertain.items()
+    }
     for name, ends in bounds.items():
         if not all(map(math.isfinite, ends)):
             raise InputError(
-                f"{name} = {stated[name]!r} has no bounds for method='interval'; write Interval(low, high), or "
-                f"truncate=(low, high)",
+                f"{name} = {stated[name]!r} has no bounds for method='interval'; write "
+                "Interval(low, high), or truncate=(low, high)",
                 code="unbounded",
                 argument=name,
             )
     if not bounds:
         raise InputError(
-            f"method='interval' needs an input with bounds, such as Interval(low, high){pair_hints(model.fixed)}",
+            "method='interval' needs an input with bounds, such as Interval(low, "
+            f"high){pair_hints(model.fixed)}",
             code="nothing_uncertain",
             argument="inputs",
         )
@@ -363,38 +470,57 @@ def _by_interval(model: Model, stated: dict[str, Any], correlation: Any) -> Prop
     for name, values in found.values.items():
         unit = model.units[name]
         # Each end is an output with nothing uncertain about it.
-        outputs[name] = Bounds(name, unit, [Local(name, unit, value, 0.0, 0.0, Shares({}, {}, {}, {})) for value in values])
+        outputs[name] = Bounds(
+            name,
+            unit,
+            [Local(name, unit, value, 0.0, 0.0, Shares({}, {}, {}, {})) for value in values],
+        )
     run = Run(outputs, found.samples, found.failed, wrapped=found.wrapped)
     notes = _notes("interval", [run], 1, found.samples, found.failed, model)
     warn_of(notes)
     return Propagation("interval", stated, outputs, found.samples, found.failed, notes=notes)
 
 
-def _notes(method: str, runs: Sequence[Run], places: int, count: int, failed: int, model: Model) -> tuple[Note, ...]:
-    """What belongs with the figures: warnings of the model, cases left out, what a tolerance or a local method missed."""
+def _notes(
+    method: str, runs: Sequence[Run], places: int, count: int, failed: int, model: Model
+) -> tuple[Note, ...]:
+    """What belongs with the figures: warnings of the model, cases left out, what a tolerance or a
+    local method missed.
+    """
     notes = [*notes_of_samples(model.noted, count)]
     if method in LOCAL:
         notes += _not_local(method, runs, failed)
     elif failed:
-        # That cases have no answer is raised once; which solver refused them, and why, is stated beside it.
-        notes = [note._replace(warning=None) if note.code == "refused_cases" else note for note in notes]
+        # That cases have no answer is raised once; which solver refused them, and why, is stated
+        # beside it.
+        notes = [
+            note._replace(warning=None) if note.code == "refused_cases" else note for note in notes
+        ]
         notes.append(
             Note(
                 OutOfRangeWarning,
-                f"{failed} of {count} cases ({100.0 * failed / count:.2f} %) had no answer and are left out: the figures hold "
-                f"only where there is one",
-                ". Bound inputs that can be impossible, as by Normal(mean, sd, truncate=(low, high))",
+                f"{failed} of {count} cases ({100.0 * failed / count:.2f} %) had no answer and "
+                "are left out: the figures hold only where there is one",
+                ". Bound inputs that can be impossible, as by Normal(mean, sd, truncate=(low, "
+                "high))",
                 "failed_cases",
                 {"failed": failed},
             )
         )
     if any(run.unreached for run in runs):
         cases = max(run.samples for run in runs)
-        sentence = f"{cases} cases do not bring the standard errors below the tolerance; this is what they give"
+        sentence = (
+            f"{cases} cases do not bring the standard errors below the tolerance; this is what "
+            "they give"
+        )
         notes.append(Note(CollisionsWarning, sentence, code="tolerance_not_reached"))
     done = sum(not run.interrupted for run in runs)
     if done < places:
-        rest = f" at {done} of {places} places between the bounds: they say nothing of the rest" if places > 1 else ""
+        rest = (
+            f" at {done} of {places} places between the bounds: they say nothing of the rest"
+            if places > 1
+            else ""
+        )
         sentence = f"interrupted after {count} cases; the figures are theirs{rest}"
         notes.append(Note(CollisionsWarning, sentence, code="interrupted", fields={"done": count}))
     wrapped = dict.fromkeys(name for run in runs for name in run.wrapped)
@@ -408,13 +534,24 @@ def _notes(method: str, runs: Sequence[Run], places: int, count: int, failed: in
         ),
         (
             directions,
-            "has directions so far round the circle from one another that its mean tells little: the mean errs by more than "
-            "their spread shows, or another one far from it is about as good",
+            (
+                "has directions so far round the circle from one another that its mean tells "
+                "little: the mean errs by more than their spread shows, or another one far from "
+                "it is about as good"
+            ),
             "",
         ),
     ):
         if names:
-            notes.append(Note(OutOfRangeWarning, f"{', '.join(names)} {text}", cure, "may_wrap", {"outputs": names}))
+            notes.append(
+                Note(
+                    OutOfRangeWarning,
+                    f"{', '.join(names)} {text}",
+                    cure,
+                    "may_wrap",
+                    {"outputs": names},
+                )
+            )
     return tuple(notes)
 
 
@@ -427,7 +564,9 @@ def _not_local(method: str, runs: Sequence[Run], failed: int) -> Iterator[Note]:
     reasons = []
     if worst:
         listed = ", ".join(
-            f"{name} by {by:.2g} of its standard deviation" if math.isfinite(by) else f"{name} everywhere"
+            f"{name} by {by:.2g} of its standard deviation"
+            if math.isfinite(by)
+            else f"{name} everywhere"
             for name, by in worst.items()
         )
         reasons.append(f"differs from cases drawn from the inputs: {listed}")
@@ -436,8 +575,8 @@ def _not_local(method: str, runs: Sequence[Run], failed: int) -> Iterator[Note]:
     if reasons:
         yield Note(
             OutOfRangeWarning,
-            f"method={method!r} {' and '.join(reasons)}. A friction limit, a truncation or a bend lies within the spread of "
-            f"the inputs, or an input is far from normal",
+            f"method={method!r} {' and '.join(reasons)}. A friction limit, a truncation or a "
+            "bend lies within the spread of the inputs, or an input is far from normal",
             "; take method='quasi_random'",
             "not_local",
             {"differences": worst, "failed": failed},

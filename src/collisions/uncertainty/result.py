@@ -1,4 +1,6 @@
-"""``Propagation``: every output with mean, spread, quantiles, their standard errors, and shares of variance by input."""
+"""``Propagation``: every output with mean, spread, quantiles, their standard errors, and shares of
+variance by input.
+"""
 
 from __future__ import annotations
 
@@ -33,9 +35,11 @@ NO_SPREAD, NOTHING = 1e-10, {"impulse": 1e-8, "angular momentum": 1e-8, "energy"
 
 
 class Shares(NamedTuple):
-    """Each input's share of the variance of an output, by itself and with its interactions, and the standard errors of both.
+    """Each input's share of the variance of an output, by itself and with its interactions, and the
+    standard errors of both.
 
-    By input. Correlated inputs, and joint samples, cannot be told apart and share one entry: "mass_a & mass_b".
+    By input. Correlated inputs, and joint samples, cannot be told apart and share one entry:
+    "mass_a & mass_b".
     """
 
     first: dict[str, float]
@@ -61,14 +65,15 @@ class Histogram(NamedTuple):
 class Output(Summarized):
     """One named output of a propagation, given the stated inputs.
 
-    Values are bare numbers: SI where the model returned Quantities, otherwise in whatever unit the model returned. With an
-    ``Interval`` among the inputs, every figure is a pair: the least and the greatest value it may have, wherever in the
-    interval the truth lies.
+    Values are bare numbers: SI where the model returned Quantities, otherwise in whatever unit the
+    model returned. With an ``Interval`` among the inputs, every figure is a pair: the least and the
+    greatest value it may have, wherever in the interval the truth lies.
 
-    Directions, that is angles returned with a unit that all lie in [-pi, pi], are counted round the circle from the point
-    opposite their mean, and so may lie beyond pi or -pi. The mean, in (-pi, pi], is the direction for which the mean square
-    of the angular distances is least; the standard deviation is the root of this mean square; quantiles and intervals are
-    those of the directions so counted. For a direction with a normal error far smaller than half a turn, these are its
+    Directions, that is angles returned with a unit that all lie in [-pi, pi], are counted round the
+    circle from the point opposite their mean, and so may lie beyond pi or -pi. The mean, in (-pi,
+    pi], is the direction for which the mean square of the angular distances is least; the standard
+    deviation is the root of this mean square; quantiles and intervals are those of the directions
+    so counted. For a direction with a normal error far smaller than half a turn, these are its
     ordinary mean and standard deviation.
     """
 
@@ -93,7 +98,8 @@ class Output(Summarized):
         return Quantities(self)
 
     def to(self, unit: str) -> InUnit:
-        """The same attributes as plain numbers in this unit; only where the model returned Quantities.
+        """The same attributes as plain numbers in this unit; only where the model returned
+        Quantities.
 
         Parameters
         ----------
@@ -110,7 +116,9 @@ class Output(Summarized):
         >>> import collisions as col
         >>> from collisions.uncertainty import Normal, propagate
         >>> def struck(speed):
-        ...     impact = col.linear_central(col.Vehicle(mass="3400 lb", vx=speed), col.Vehicle(mass="2900 lb"), 0.1)
+        ...     impact = col.linear_central(
+        ...         col.Vehicle(mass="3400 lb", vx=speed), col.Vehicle(mass="2900 lb"), 0.1
+        ...     )
         ...     return {"delta_v": impact.b.q.delta_v}
         >>> delta_v = propagate(struck, {"speed": Normal("30 mph", "2 mph")}, seed=1)["delta_v"]
         >>> [round(end, 1) for end in delta_v.to("mph").interval(0.95)]
@@ -122,8 +130,8 @@ class Output(Summarized):
     def _check_unit(self) -> None:
         if self.unit is None:
             raise InputError(
-                f"{self.name!r} has no unit, because the model returned plain numbers; return a Quantity such as "
-                f"impact.a.q.delta_v",
+                f"{self.name!r} has no unit, because the model returned plain numbers; return a "
+                "Quantity such as impact.a.q.delta_v",
                 code="no_unit",
                 argument=self.name,
             )
@@ -150,7 +158,9 @@ class Output(Summarized):
 
     @derived(OWN)
     def mean_standard_error(self) -> Any:
-        """Standard error of the mean due to sampling; NaN for a local method, which does not sample or know its error."""
+        """Standard error of the mean due to sampling; NaN for a local method, which does not sample
+        or know its error.
+        """
         return math.nan
 
     @derived(OWN)
@@ -160,7 +170,8 @@ class Output(Summarized):
 
     @returns(OWN)
     def quantile(self, p: Any) -> Any:
-        """The value that is not exceeded with probability p, a number from 0 to 1 or an array of them.
+        """The value that is not exceeded with probability p, a number from 0 to 1 or an array of
+        them.
 
         Parameters
         ----------
@@ -192,7 +203,8 @@ class Output(Summarized):
 
     @returns(OWN)
     def interval(self, coverage: float = COVERAGE) -> tuple[float, float]:
-        """The range (low, high) that holds the value with this probability and leaves equal probabilities below and above.
+        """The range (low, high) that holds the value with this probability and leaves equal
+        probabilities below and above.
 
         Parameters
         ----------
@@ -217,28 +229,42 @@ class Output(Summarized):
         """
         share = probability(coverage, "coverage")
         if not isinstance(share, float):
-            raise InputError(f"coverage must be one number, got {shown(coverage)}", code="bad_fraction", argument="coverage")
+            raise InputError(
+                f"coverage must be one number, got {shown(coverage)}",
+                code="bad_fraction",
+                argument="coverage",
+            )
         low, high = self._quantile(np.array([0.5 - 0.5 * share, 0.5 + 0.5 * share]))
         return float(low), float(high)
 
     @property
     def contributions(self) -> dict[str, float]:
-        """By input, the share of the variance due to it alone, largest first; the rest, up to 1, is interaction."""
+        """By input, the share of the variance due to it alone, largest first; the rest, up to 1, is
+        interaction.
+        """
         return _ranked(self._shares().first)
 
     @property
     def total_contributions(self) -> dict[str, float]:
-        """By input, the share of the variance due to it with all its interactions: what is left when the others are known."""
+        """By input, the share of the variance due to it with all its interactions: what is left
+        when the others are known.
+        """
         return _ranked(self._shares().total)
 
     @property
     def contribution_standard_errors(self) -> dict[str, tuple[float, float]]:
-        """By input, the standard errors of its contribution and of its total contribution; NaN for a local method."""
+        """By input, the standard errors of its contribution and of its total contribution; NaN for
+        a local method.
+        """
         found = self._shares()
-        return {name: (found.first_error[name], found.total_error[name]) for name in _ranked(found.total)}
+        return {
+            name: (found.first_error[name], found.total_error[name])
+            for name in _ranked(found.total)
+        }
 
     def histogram(self, bins: int = 30) -> Histogram:
-        """Edges, the shares of the cases between them and their standard errors, for a chart; only after sampling.
+        """Edges, the shares of the cases between them and their standard errors, for a chart; only
+        after sampling.
 
         Parameters
         ----------
@@ -251,7 +277,8 @@ class Output(Summarized):
             Edges, shares and standard errors of the shares.
         """
         raise InputError(
-            f"{self.name!r} has no histogram, because nothing was sampled; take method='quasi_random'",
+            f"{self.name!r} has no histogram, because nothing was sampled; take "
+            "method='quasi_random'",
             code="not_sampled",
             argument="method",
         )
@@ -267,8 +294,20 @@ class Output(Summarized):
         low, high = self.interval()
         unit = f" {self.unit}" if self.unit else ""
         if math.isnan(self.std):
-            return self.name, f"{show(self.mean)}{unit} in the one case that has an answer, so no spread is known"
-        return self.name, f"{show(self.mean)} ± {show(self.std)}{unit}, 95 percent from {low:.6g} to {high:.6g}{unit}"
+            return (
+                self.name,
+                (
+                    f"{show(self.mean)}{unit} in the one case that has an answer, so no spread "
+                    "is known"
+                ),
+            )
+        return (
+            self.name,
+            (
+                f"{show(self.mean)} ± {show(self.std)}{unit}, 95 percent from {low:.6g} to "
+                f"{high:.6g}{unit}"
+            ),
+        )
 
     def record(self) -> dict[str, Any]:
         """The figures as plain values that strict JSON can hold.
@@ -278,7 +317,10 @@ class Output(Summarized):
         dict
             Plain values that ``json.dumps`` writes; infinity and NaN as texts.
         """
-        shares = {"contributions": self.contributions, "total_contributions": self.total_contributions}
+        shares = {
+            "contributions": self.contributions,
+            "total_contributions": self.total_contributions,
+        }
         found: dict[str, Any] = strict(self._basics() | shares)
         return found
 
@@ -308,7 +350,9 @@ class Output(Summarized):
 
 
 class InUnit(Quantities):
-    """An output's attributes and the results of its methods as plain numbers in a unit that was asked for."""
+    """An output's attributes and the results of its methods as plain numbers in a unit that was
+    asked for.
+    """
 
     __slots__ = ("_numbers",)
 
@@ -316,13 +360,19 @@ class InUnit(Quantities):
         super().__init__(owner)
         reader = ArgumentReader()
         # A text or a unit of pint; anything else is refused by how it is written.
-        name = f"{unit}" if isinstance(unit, str) or hasattr(unit, "dimensionality") else shown(unit)
+        name = (
+            f"{unit}" if isinstance(unit, str) or hasattr(unit, "dimensionality") else shown(unit)
+        )
         factor = reader.number(f"1 {name}", owner.unit or "", "unit")
         reader.close()
-        self._numbers = _OneUnit(unit_as_written(f"1 {unit}" if isinstance(unit, str) else unit), factor)
+        self._numbers = _OneUnit(
+            unit_as_written(f"1 {unit}" if isinstance(unit, str) else unit), factor
+        )
 
     def __repr__(self) -> str:
-        text = "; ".join(f"{what}: {figure}" for what, figure in figures(self._owner, self._numbers))
+        text = "; ".join(
+            f"{what}: {figure}" for what, figure in figures(self._owner, self._numbers)
+        )
         return f"<{self._owner.name}, given {self._owner.given}; {text}>"
 
     def _repr_html_(self) -> str:
@@ -331,7 +381,9 @@ class InUnit(Quantities):
 
     def _with_unit(self, value: Any, unit: str) -> Any:
         factor = self._numbers.factor
-        return tuple(part / factor for part in value) if isinstance(value, tuple) else value / factor
+        return (
+            tuple(part / factor for part in value) if isinstance(value, tuple) else value / factor
+        )
 
 
 class _OneUnit(Cells):
@@ -351,10 +403,17 @@ class _OneUnit(Cells):
 
 
 class Sampled(Output):
-    """An output that was sampled: one value for each case, in the order they were drawn, NaN where there was no answer."""
+    """An output that was sampled: one value for each case, in the order they were drawn, NaN where
+    there was no answer.
+    """
 
     def __init__(
-        self, name: str, unit: str | None, values: Any, shares: Callable[[], Mapping[str, Shares]], turns: float = 0.0
+        self,
+        name: str,
+        unit: str | None,
+        values: Any,
+        shares: Callable[[], Mapping[str, Shares]],
+        turns: float = 0.0,
     ) -> None:
         super().__init__(name, unit)
         self._all_shares = shares
@@ -385,7 +444,8 @@ class Sampled(Output):
         return Sampled(self.name, self.unit, values, self._all_shares, turns) if turns else self
 
     def may_wrap(self) -> bool:
-        """Whether it looks like an angle that jumps between pi and -pi, if without a unit, or has directions to all sides.
+        """Whether it looks like an angle that jumps between pi and -pi, if without a unit, or has
+        directions to all sides.
 
         Returns
         -------
@@ -399,10 +459,17 @@ class Sampled(Output):
 
     @derived(OWN)
     def mean_standard_error(self) -> Any:
-        """Standard error of the mean due to sampling; of a probability, at least one over the number of cases."""
+        """Standard error of the mean due to sampling; of a probability, at least one over the
+        number of cases.
+        """
         error = self._error(average)
         found = self._answered
-        seldom = found.size and found[0] >= 0.0 and found[-1] <= 1.0 and not np.any((found > 0.0) & (found < 1.0))
+        seldom = (
+            found.size
+            and found[0] >= 0.0
+            and found[-1] <= 1.0
+            and not np.any((found > 0.0) & (found < 1.0))
+        )
         return max(error, 1.0 / found.size) if seldom else error
 
     @derived(OWN)
@@ -412,10 +479,12 @@ class Sampled(Output):
 
     @returns(OWN)
     def quantile_standard_error(self, p: Any) -> Any:
-        """Standard error of a quantile due to sampling; NaN at 0 and 1, beyond which there is nothing to go by.
+        """Standard error of a quantile due to sampling; NaN at 0 and 1, beyond which there is
+        nothing to go by.
 
-        The standard error of the share of cases up to the quantile, times the slope of the quantiles there. How the quantiles
-        differ between the sequences would tell less, because each sequence is evenly spread in itself.
+        The standard error of the share of cases up to the quantile, times the slope of the
+        quantiles there. How the quantiles differ between the sequences would tell less, because
+        each sequence is evenly spread in itself.
 
         Parameters
         ----------
@@ -429,7 +498,9 @@ class Sampled(Output):
         """
         share = probability(p)
         with np.errstate(all="ignore"):
-            found = np.array([self._quantile_error(one) for one in np.ravel(share)]).reshape(np.shape(share))
+            found = np.array([self._quantile_error(one) for one in np.ravel(share)]).reshape(
+                np.shape(share)
+            )
         return found if found.ndim else float(found)
 
     def histogram(self, bins: int = 30) -> Histogram:
@@ -447,7 +518,9 @@ class Sampled(Output):
         """
         if not is_whole(bins) or not 1 <= bins <= _MOST_BINS:
             raise InputError(
-                f"bins must be a whole number from 1 to {_MOST_BINS}, got {shown(bins)}", code="bad_option", argument="bins"
+                f"bins must be a whole number from 1 to {_MOST_BINS}, got {shown(bins)}",
+                code="bad_option",
+                argument="bins",
             )
         try:
             with np.errstate(all="ignore"):
@@ -457,7 +530,8 @@ class Sampled(Output):
             apart = False
         if not apart:
             raise InputError(
-                f"{self.name!r} has no histogram of {bins} bins, because its values do not differ by more than rounding",
+                f"{self.name!r} has no histogram of {bins} bins, because its values do not "
+                "differ by more than rounding",
                 code="no_spread",
                 argument="bins",
             )
@@ -497,7 +571,8 @@ class Sampled(Output):
         if not 0.0 < share < 1.0 or found.size < 2:
             return math.nan
         at = np.quantile(found, share)
-        # Of points that lie evenly the shares can all be the same, and the quantile still lies anywhere between two of them.
+        # Of points that lie evenly the shares can all be the same, and the quantile still lies
+        # anywhere between two of them.
         error = math.hypot(self._error(lambda values: np.mean(values <= at)), 0.5 / found.size)
         width = max(error, math.sqrt(share * (1.0 - share) / found.size))
         low, high = max(0.0, share - width), min(1.0, share + width)
@@ -505,7 +580,9 @@ class Sampled(Output):
         return error * float(ends[1] - ends[0]) / (high - low)
 
     def _error(self, figure: Callable[[Any], Any]) -> Any:
-        """The standard error of a figure, from how it differs between the independent sequences of points."""
+        """The standard error of a figure, from how it differs between the independent sequences of
+        points.
+        """
         columns = [column[~np.isnan(column)] for column in self._sequences]
         found = [figure(column) for column in columns if column.size > 1]
         if len(found) < 2:
@@ -516,10 +593,14 @@ class Sampled(Output):
 
     @cached_property
     def _sequences(self) -> list[Any]:
-        """The cases of each independent sequence; directions unwrapped as each sequence alone would be."""
+        """The cases of each independent sequence; directions unwrapped as each sequence alone would
+        be.
+        """
         if self._directions is None:
             return [self.values[which::REPLICATES] for which in range(REPLICATES)]
-        counted = [angles.counted(self._directions[which::REPLICATES]) for which in range(REPLICATES)]
+        counted = [
+            angles.counted(self._directions[which::REPLICATES]) for which in range(REPLICATES)
+        ]
         middle, turn = average(self._answered), 2.0 * math.pi
         return [one + turn * np.rint((middle - np.nanmean(one)) / turn) for one in counted]
 
@@ -537,14 +618,15 @@ class Propagation(Summarized):
     samples : int
         Number of cases the model was called with.
     failed : int
-        Number of cases without an answer for at least one output, for example because there was no impact. The figures leave
-        them out, and hold given that there is an answer.
+        Number of cases without an answer for at least one output, for example because there was no
+        impact. The figures leave them out, and hold given that there is an answer.
     seed : int or None
         The seed that reproduces the result to the bit; None where nothing was drawn.
     interrupted : bool
         Whether the run was stopped before its end; the figures are then those of the cases done.
     notes : tuple
-        What ``statements`` say, each with the warning it is, if any, its ``code``, and the number and share of the cases.
+        What ``statements`` say, each with the warning it is, if any, its ``code``, and the number
+        and share of the cases.
     """
 
     method: str
@@ -577,16 +659,23 @@ class Propagation(Summarized):
 
     @property
     def correlation(self) -> dict[tuple[str, str], float]:
-        """Correlation of every pair of outputs, over the cases with an answer for both; only after sampling."""
-        return correlations({name: output for name, output in self.outputs.items() if isinstance(output, Sampled)})
+        """Correlation of every pair of outputs, over the cases with an answer for both; only after
+        sampling.
+        """
+        return correlations(
+            {name: output for name, output in self.outputs.items() if isinstance(output, Sampled)}
+        )
 
     @property
     def statements(self) -> tuple[str, ...]:
-        """What belongs with the figures, as sentences: every warning of the model, by how many cases, and of the method."""
+        """What belongs with the figures, as sentences: every warning of the model, by how many
+        cases, and of the method.
+        """
         return tuple(note.sentence for note in self.notes)
 
     def to_dict(self) -> dict[str, Any]:
-        """Figures of all outputs and the inputs they are given, as nested plain values that strict JSON can hold.
+        """Figures of all outputs and the inputs they are given, as nested plain values that strict
+        JSON can hold.
 
         Returns
         -------
@@ -613,10 +702,17 @@ class Propagation(Summarized):
         return str(self.summary())
 
     def _summary(self, numbers: Cells) -> Summary:
-        title = f"Given the stated inputs ({self.method}, {self.samples} cases, {self.failed} without an answer)"
-        stated = Part([(name, str(value)) for name, value in self.inputs.items()], "Inputs as stated")
+        title = (
+            f"Given the stated inputs ({self.method}, {self.samples} cases, {self.failed} "
+            "without an answer)"
+        )
+        stated = Part(
+            [(name, str(value)) for name, value in self.inputs.items()], "Inputs as stated"
+        )
         parts = [outputs_part(self.outputs, numbers), stated, all_numbers(self._rows())]
-        return Summary(title, parts, [*map(as_sentence, self.statements), *_notes(self.outputs.values())])
+        return Summary(
+            title, parts, [*map(as_sentence, self.statements), *_notes(self.outputs.values())]
+        )
 
     def _texts(self) -> Iterator[str]:
         return units_of(self.inputs)
@@ -626,7 +722,9 @@ class Propagation(Summarized):
 
 
 def figures(output: Output, numbers: Numbers, kind: str | None = None) -> list[tuple[str, str]]:
-    """What is known of an output, in words and numbers, for a table; ``kind`` is that of numbers without a unit."""
+    """What is known of an output, in words and numbers, for a table; ``kind`` is that of numbers
+    without a unit.
+    """
     kind = kind or KIND_OF.get(output.unit or "", numbers.unlisted)
     if kind is None:
         return [("figures", output.row()[1])]
@@ -640,7 +738,12 @@ def figures(output: Output, numbers: Numbers, kind: str | None = None) -> list[t
             ("range that holds 95 percent", ends),
         ]
     if math.isnan(std[0]):
-        return [("in the one case that has an answer, so no spread is known", numbers.answer(mean[0], kind))]
+        return [
+            (
+                "in the one case that has an answer, so no spread is known",
+                numbers.answer(mean[0], kind),
+            )
+        ]
     if not varies(output, kind):
         return [("the same in every case", numbers.answer(mean[0], kind))]
     return [
@@ -656,14 +759,18 @@ def varies(output: Output, kind: str = "") -> bool:
 
 
 def correlations(outputs: Mapping[str, Sampled]) -> dict[tuple[str, str], float]:
-    """Correlation of every pair, over the cases with an answer for both; NaN where one of them does not vary."""
+    """Correlation of every pair, over the cases with an answer for both; NaN where one of them does
+    not vary.
+    """
     found: dict[tuple[str, str], float] = {}
     for one, other in combinations(outputs, 2):
         columns = [outputs[name].values for name in (one, other)]
         both = ~np.isnan(columns[0]) & ~np.isnan(columns[1])
         pair = [values[both] / power_of_two(values[both]) for values in columns]
         with np.errstate(all="ignore"):
-            found[one, other] = float(np.corrcoef(*pair)[0, 1]) if np.count_nonzero(both) > 1 else math.nan
+            found[one, other] = (
+                float(np.corrcoef(*pair)[0, 1]) if np.count_nonzero(both) > 1 else math.nan
+            )
     return found
 
 
@@ -671,18 +778,26 @@ def outputs_part(outputs: Mapping[str, Output], numbers: Cells, heading: str = "
     """The figures of outputs as rows of a summary."""
     rows = [(name, dict(figures(output, numbers))) for name, output in outputs.items()]
     heads = tuple(dict.fromkeys(head for _, row in rows for head in row))
-    return Part([(name, *(row.get(head, "") for head in heads)) for name, row in rows], heading, heads)
+    return Part(
+        [(name, *(row.get(head, "") for head in heads)) for name, row in rows], heading, heads
+    )
 
 
 def _notes(outputs: Iterable[Output]) -> list[str]:
     """The sentence below the figures of outputs of which the model returned bare numbers."""
     bare = [output.name for output in outputs if output.unit is None]
-    return [f"Without a unit, as the model returned plain numbers: {', '.join(bare)}."] if bare else []
+    return (
+        [f"Without a unit, as the model returned plain numbers: {', '.join(bare)}."] if bare else []
+    )
 
 
 def units_of(stated: Mapping[str, Any]) -> Iterator[str]:
     """The units that inputs were given in, each as a text."""
-    return (f"1 {value.unit.written}" for value in stated.values() if hasattr(getattr(value, "unit", ""), "written"))
+    return (
+        f"1 {value.unit.written}"
+        for value in stated.values()
+        if hasattr(getattr(value, "unit", ""), "written")
+    )
 
 
 def ends_of(figure: Any) -> tuple[float, ...]:
@@ -697,10 +812,14 @@ def average(values: Any) -> float:
 
 
 def deviation(values: Any) -> float:
-    """The standard deviation, with one degree of freedom fewer than values; their squares may leave the range of floats."""
+    """The standard deviation, with one degree of freedom fewer than values; their squares may leave
+    the range of floats.
+    """
     scale = power_of_two(values)
     return float(np.std(values / scale, ddof=1)) * scale if len(values) > 1 else math.nan
 
 
 def _ranked(shares: Mapping[str, float]) -> dict[str, float]:
-    return dict(sorted(shares.items(), key=lambda item: -item[1] if item[1] == item[1] else math.inf))
+    return dict(
+        sorted(shares.items(), key=lambda item: -item[1] if item[1] == item[1] else math.inf)
+    )

@@ -1,4 +1,6 @@
-"""Draws cases from the inputs with their correlations, runs the model on them, and finds each input's share of the variance."""
+"""Draws cases from the inputs with their correlations, runs the model on them, and finds each
+input's share of the variance.
+"""
 
 from __future__ import annotations
 
@@ -28,19 +30,26 @@ Correlation: TypeAlias = Mapping[tuple[str, str], float]
 BLOCK = 16384
 _FIRST_BLOCK = 8192
 _FIRST_SHOWN = 1024  # with a progress report: a slow model soon has one, and can be stopped
-_NODES = 64  # of a Gauss-Hermite rule: exact for the scores of normals, 1e-12 for smooth quantile functions
+# of a Gauss-Hermite rule: exact for the scores of normals, 1e-12 for smooth quantile functions
+_NODES = 64
 _STEPS = 1024  # equal shares of probability instead, where a quantile function has steps
 _PIVOT_TOL = 1e-12  # of the correlation matrix, which has ones on its diagonal
 
 
 class Joint:
-    """The joint distribution of the uncertain inputs: ``rows`` maps each group to its rows of the unit cube."""
+    """The joint distribution of the uncertain inputs: ``rows`` maps each group to its rows of the
+    unit cube.
+    """
 
     def __init__(self, inputs: Mapping[str, Distribution], correlation: Correlation | None) -> None:
         self.inputs = inputs
         pairs = _read_correlation(inputs, {} if correlation is None else correlation)
         # The columns of joint samples, in the order in which they belong together.
-        self._columns = {name: d.rows for name, d in inputs.items() if isinstance(d, Samples) and d.group is not None}
+        self._columns = {
+            name: d.rows
+            for name, d in inputs.items()
+            if isinstance(d, Samples) and d.group is not None
+        }
         self.rows: dict[tuple[str, ...], list[int]] = {}
         self.dimensions = 0
         for group in _groups(inputs, pairs):
@@ -48,9 +57,16 @@ class Joint:
             self.rows[group] = list(range(self.dimensions, self.dimensions + count))
             self.dimensions += count
         self.labels = [" & ".join(group) for group in self.rows]
-        self._factors = {group: _factor(group, pairs) for group, rows in self.rows.items() if len(rows) > 1}
-        # Rows whose normal scores are needed: worked out together, they take two thirds of the time of one by one.
-        by_score = [rows for group, rows in self.rows.items() if group in self._factors or is_whole_normal(inputs[group[0]])]
+        self._factors = {
+            group: _factor(group, pairs) for group, rows in self.rows.items() if len(rows) > 1
+        }
+        # Rows whose normal scores are needed: worked out together, they take two thirds of the time
+        # of one by one.
+        by_score = [
+            rows
+            for group, rows in self.rows.items()
+            if group in self._factors or is_whole_normal(inputs[group[0]])
+        ]
         self._by_score = [row for rows in by_score for row in rows]
 
     def values(self, points: Any) -> dict[str, Any]:
@@ -60,11 +76,17 @@ class Joint:
 
     def scored(self, scores: Any) -> dict[str, Any]:
         """The inputs at independent normal scores (dimensions, cases)."""
-        points = {rows[0]: normal.cdf(scores[rows[0]]) for group, rows in self.rows.items() if group[0] in self._columns}
+        points = {
+            rows[0]: normal.cdf(scores[rows[0]])
+            for group, rows in self.rows.items()
+            if group[0] in self._columns
+        }
         return self._at(points, dict(enumerate(scores)))
 
     def _at(self, points: Any, scores: Mapping[int, Any]) -> dict[str, Any]:
-        """The inputs, by row of the cube: at normal scores where these are known, and at probabilities elsewhere."""
+        """The inputs, by row of the cube: at normal scores where these are known, and at
+        probabilities elsewhere.
+        """
         found: dict[str, Any] = {}
         for group, (row, *others) in self.rows.items():
             if group[0] in self._columns:
@@ -75,8 +97,13 @@ class Joint:
             elif group in self._factors:
                 independent = [scores[each] for each in (row, *others)]
                 for name, weights in zip(group, self._factors[group], strict=True):
-                    # Term by term: a matrix product adds in an order that depends on how many cases there are.
-                    mixed = sum(weight * score for weight, score in zip(weights, independent, strict=True) if weight)
+                    # Term by term: a matrix product adds in an order that depends on how many cases
+                    # there are.
+                    mixed = sum(
+                        weight * score
+                        for weight, score in zip(weights, independent, strict=True)
+                        if weight
+                    )
                     found[name] = at_scores(self.inputs[name], mixed)
             elif row in scores:
                 found[group[0]] = at_scores(self.inputs[group[0]], scores[row])
@@ -86,8 +113,12 @@ class Joint:
 
     @property
     def ordered(self) -> Any:
-        """For each row, whether its values rise with it; those of joint samples, which are in no order, do not."""
-        return np.array([group[0] not in self._columns for group, places in self.rows.items() for _ in places])
+        """For each row, whether its values rise with it; those of joint samples, which are in no
+        order, do not.
+        """
+        return np.array(
+            [group[0] not in self._columns for group, places in self.rows.items() for _ in places]
+        )
 
     def correlations(self) -> Any:
         """Pearson's correlations of the inputs themselves, in their order."""
@@ -102,24 +133,36 @@ class Joint:
     def _correlation(self, group: tuple[str, ...], one: str, other: str) -> float:
         a, b = self.inputs[one], self.inputs[other]
         if group[0] in self._columns:
-            return float(np.mean((self._columns[one] - a.mean) / a.sd * ((self._columns[other] - b.mean) / b.sd)))
+            return float(
+                np.mean(
+                    (self._columns[one] - a.mean) / a.sd * ((self._columns[other] - b.mean) / b.sd)
+                )
+            )
         factor = self._factors[group]
         rho = min(1.0, max(-1.0, float(factor[group.index(one)] @ factor[group.index(other)])))
         # Standard normal scores and their weights, for the mean of a function of them.
         if isinstance(a, Samples) or isinstance(b, Samples):
-            nodes, weights = normal.quantile((np.arange(_STEPS) + 0.5) / _STEPS), np.full(_STEPS, 1.0 / _STEPS)
+            nodes, weights = (
+                normal.quantile((np.arange(_STEPS) + 0.5) / _STEPS),
+                np.full(_STEPS, 1.0 / _STEPS),
+            )
         else:
             nodes, weights = np.polynomial.hermite_e.hermegauss(_NODES)
             weights = weights / weights.sum()
         x, y = nodes[:, None], rho * nodes[:, None] + math.sqrt(1.0 - rho * rho) * nodes
-        return float(weights @ ((a.scored(x) - a.mean) / a.sd * ((b.scored(y) - b.mean) / b.sd)) @ weights)
+        return float(
+            weights @ ((a.scored(x) - a.mean) / a.sd * ((b.scored(y) - b.mean) / b.sd)) @ weights
+        )
 
 
-def _read_correlation(inputs: Mapping[str, Distribution], correlation: Any) -> dict[frozenset[str], float]:
+def _read_correlation(
+    inputs: Mapping[str, Distribution], correlation: Any
+) -> dict[frozenset[str], float]:
     """The correlations by pair; invalid ones are refused."""
     if not isinstance(correlation, Mapping):
         raise InputError(
-            f"correlation must be a dict such as {{('mass_a', 'mass_b'): 0.8}}, got {type(correlation).__name__}",
+            f"correlation must be a dict such as {{('mass_a', 'mass_b'): 0.8}}, got "
+            f"{type(correlation).__name__}",
             code="bad_correlation",
             argument="correlation",
         )
@@ -129,14 +172,28 @@ def _read_correlation(inputs: Mapping[str, Distribution], correlation: Any) -> d
             raise _bad(f"its keys are pairs of two names, got {shown(pair)}")
         for name in pair:
             if name not in inputs:
-                raise _bad(f"{shown(name)} is not an input with a distribution; these are {', '.join(inputs) or 'none'}")
+                raise _bad(
+                    f"{shown(name)} is not an input with a distribution; these are "
+                    f"{', '.join(inputs) or 'none'}"
+                )
             if getattr(inputs[name], "group", None) is not None:
-                raise _bad(f"{name!r} belongs to joint samples, which already say how it goes with the others")
-        if not (is_whole(value) or isinstance(value, (float, np.floating))) or not -1.0 <= value <= 1.0:
-            raise _bad(f"the correlation of {pair[0]} and {pair[1]} must be a number from -1 to 1, got {shown(value)}")
+                raise _bad(
+                    f"{name!r} belongs to joint samples, which already say how it goes with the "
+                    "others"
+                )
+        if (
+            not (is_whole(value) or isinstance(value, (float, np.floating)))
+            or not -1.0 <= value <= 1.0
+        ):
+            raise _bad(
+                f"the correlation of {pair[0]} and {pair[1]} must be a number from -1 to 1, got "
+                f"{shown(value)}"
+            )
         key = frozenset(pair)
         if key in found and found[key] != float(value):
-            raise _bad(f"{pair[0]} and {pair[1]} are given twice, as {found[key]:g} and {float(value):g}")
+            raise _bad(
+                f"{pair[0]} and {pair[1]} are given twice, as {found[key]:g} and {float(value):g}"
+            )
         found[key] = float(value)
     return found
 
@@ -145,7 +202,9 @@ def _bad(reason: str) -> InputError:
     return InputError(f"correlation: {reason}", code="bad_correlation", argument="correlation")
 
 
-def _groups(inputs: Mapping[str, Distribution], pairs: Mapping[frozenset[str], float]) -> list[tuple[str, ...]]:
+def _groups(
+    inputs: Mapping[str, Distribution], pairs: Mapping[frozenset[str], float]
+) -> list[tuple[str, ...]]:
     """The inputs that go together, in order: correlated ones, and the columns of joint samples."""
     joint: dict[str, set[str]] = {}
     for name, distribution in inputs.items():
@@ -156,20 +215,29 @@ def _groups(inputs: Mapping[str, Distribution], pairs: Mapping[frozenset[str], f
         union = set().union(*(group_of[name] for name in linked))
         group_of |= dict.fromkeys(union, union)
     # As keys of a dict each group is kept once, where its first member stands.
-    return list(dict.fromkeys(tuple(other for other in inputs if other in group_of[name]) for name in inputs))
+    return list(
+        dict.fromkeys(
+            tuple(other for other in inputs if other in group_of[name]) for name in inputs
+        )
+    )
 
 
 def _factor(group: Sequence[str], pairs: Mapping[frozenset[str], float]) -> Any:
-    """The lower triangular matrix L of the group's correlation matrix L L^T; correlations of 1 are allowed."""
+    """The lower triangular matrix L of the group's correlation matrix L L^T; correlations of 1 are
+    allowed.
+    """
     count = len(group)
     factor = np.zeros((count, count))
     impossible = _bad(
-        f"these of {', '.join(group)} cannot hold together (the matrix has a negative eigenvalue); what goes with one input as "
-        f"closely as this must go with its companions too: give the missing pairs, or lower values"
+        f"these of {', '.join(group)} cannot hold together (the matrix has a negative "
+        "eigenvalue); what goes with one input as closely as this must go with its companions "
+        "too: give the missing pairs, or lower values"
     )
     for i in range(count):
         for j in range(i):
-            rest = pairs.get(frozenset((group[i], group[j])), 0.0) - float(factor[i, :j] @ factor[j, :j])
+            rest = pairs.get(frozenset((group[i], group[j])), 0.0) - float(
+                factor[i, :j] @ factor[j, :j]
+            )
             if factor[j, j] > 0.0:
                 factor[i, j] = rest / factor[j, j]
             elif abs(rest) > math.sqrt(_PIVOT_TOL):
@@ -183,7 +251,9 @@ def _factor(group: Sequence[str], pairs: Mapping[frozenset[str], float]) -> Any:
 
 @dataclass
 class Sample:
-    """The finished cases of a run: ``outputs`` by name, one value per case, NaN where there is no answer."""
+    """The finished cases of a run: ``outputs`` by name, one value per case, NaN where there is no
+    answer.
+    """
 
     model: Model
     joint: Joint
@@ -194,11 +264,15 @@ class Sample:
     outputs: dict[str, Any] = field(default_factory=dict)
 
     def extend(self, samples: int, progress: Callable[[int, int], None] | None = None) -> None:
-        """Go on to this many cases in all; on a KeyboardInterrupt keep the cases up to the first that is missing."""
+        """Go on to this many cases in all; on a KeyboardInterrupt keep the cases up to the first
+        that is missing.
+        """
         blocks = _blocks(self.done, samples, _FIRST_BLOCK if progress is None else _FIRST_SHOWN)
         parts = [self.outputs] if self.outputs else []
         try:
-            for (_, stop), answers in zip(blocks, in_order(self._answers, blocks, self.threads), strict=True):
+            for (_, stop), answers in zip(
+                blocks, in_order(self._answers, blocks, self.threads), strict=True
+            ):
                 parts.append(answers)
                 if progress is not None:
                     progress(stop, samples)
@@ -211,7 +285,8 @@ class Sample:
 
     def _answers(self, block: tuple[int, int]) -> dict[str, Any]:
         start, stop = block
-        # Case i is place i // REPLICATES of sequence i % REPLICATES, so that any beginning holds as much of each.
+        # Case i is place i // REPLICATES of sequence i % REPLICATES, so that any beginning holds as
+        # much of each.
         first, last = start // REPLICATES, -(-stop // REPLICATES)
         points = self.design(first, last).reshape(self.joint.dimensions, -1)
         offset = start - first * REPLICATES
@@ -229,17 +304,24 @@ def _blocks(start: int, stop: int, first: int) -> list[tuple[int, int]]:
     return found
 
 
-def sampled_shares(model: Model, joint: Joint, design: Callable[[int], Design], samples: int) -> dict[str, Shares]:
-    """Each input's share of the variance of every output, by redrawing that input while the others stay.
+def sampled_shares(
+    model: Model, joint: Joint, design: Callable[[int], Design], samples: int
+) -> dict[str, Shares]:
+    """Each input's share of the variance of every output, by redrawing that input while the others
+    stay.
 
-    It takes ``samples`` cases for each input, and twice as many besides. First-order shares by the estimator of A. Saltelli
-    et al., "Variance based sensitivity analysis of model output", Computer Physics Communications 181 (2010), total shares
-    by that of M. J. W. Jansen, "Analysis of variance designs for model output", Computer Physics Communications 117 (1999).
+    It takes ``samples`` cases for each input, and twice as many besides. First-order shares by the
+    estimator of A. Saltelli et al., "Variance based sensitivity analysis of model output", Computer
+    Physics Communications 181 (2010), total shares by that of M. J. W. Jansen, "Analysis of
+    variance designs for model output", Computer Physics Communications 117 (1999).
     """
     places = -(-samples // REPLICATES)
     points = design(2 * joint.dimensions)(0, places).reshape(2 * joint.dimensions, -1)
     with np.errstate(all="ignore"):
-        one, other = joint.values(points[: joint.dimensions]), joint.values(points[joint.dimensions :])
+        one, other = (
+            joint.values(points[: joint.dimensions]),
+            joint.values(points[joint.dimensions :]),
+        )
         draws = [one, other, *(one | {name: other[name] for name in group} for group in joint.rows)]
         answers = [model(drawn, points.shape[1]) for drawn in draws]
     found: dict[str, Shares] = {}
@@ -248,12 +330,19 @@ def sampled_shares(model: Model, joint: Joint, design: Callable[[int], Design], 
         if unit == "rad":
             values = turns.counted(values.reshape(-1)).reshape(values.shape)
         shares = [_shares(values[0], values[1], mixed) for mixed in values[2:]]
-        found[name] = Shares(*(dict(zip(joint.labels, figures, strict=True)) for figures in zip(*shares, strict=True)))
+        found[name] = Shares(
+            *(
+                dict(zip(joint.labels, figures, strict=True))
+                for figures in zip(*shares, strict=True)
+            )
+        )
     return found
 
 
 def _shares(one: Any, other: Any, mixed: Any) -> tuple[float, ...]:
-    """First-order and total share, and their standard errors, over the cases where all three have an answer."""
+    """First-order and total share, and their standard errors, over the cases where all three have
+    an answer.
+    """
     answered = ~(np.isnan(one) | np.isnan(other) | np.isnan(mixed))
 
     def figures(cases: slice) -> tuple[float, float]:

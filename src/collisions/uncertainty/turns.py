@@ -1,4 +1,6 @@
-"""Directions as numbers on a line: the circle is cut opposite their mean, so that directions near pi and -pi stay together."""
+"""Directions as numbers on a line: the circle is cut opposite their mean, so that directions near
+pi and -pi stay together.
+"""
 
 from __future__ import annotations
 
@@ -15,16 +17,20 @@ _NEAR_PI = 2.0
 
 
 def are_directions(angles: Any) -> bool:
-    """Whether all values lie within -pi to pi, as a course and a PDOF do; larger ones are rotations that count their turns."""
+    """Whether all values lie within -pi to pi, as a course and a PDOF do; larger ones are rotations
+    that count their turns.
+    """
     return not np.any(np.abs(angles) > math.pi * (1.0 + _ANGLE_TOL))
 
 
 def counted(angles: Any) -> Any:
-    """Unwrap directions about their mean, where their spread is least, for every row along the last axis.
+    """Unwrap directions about their mean, where their spread is least, for every row along the last
+    axis.
 
-    Their mean, in (-pi, pi], is then the direction with the least mean square of the angular distances: the intrinsic mean
-    (T. Hotz and S. Huckemann, "Intrinsic means on the circle", Annals of the Institute of Statistical Mathematics 67 (2015)).
-    Those that need no turn stay as they are to the bit, and so do values that are not directions.
+    Their mean, in (-pi, pi], is then the direction with the least mean square of the angular
+    distances: the intrinsic mean (T. Hotz and S. Huckemann, "Intrinsic means on the circle", Annals
+    of the Institute of Statistical Mathematics 67 (2015)). Those that need no turn stay as they are
+    to the bit, and so do values that are not directions.
     """
     if not are_directions(angles) or not angles.size:
         return angles
@@ -33,20 +39,27 @@ def counted(angles: Any) -> Any:
     count = np.maximum(np.count_nonzero(answered, axis=-1, keepdims=True), 1)
     summed = np.cumsum(np.where(answered, ordered, 0.0), axis=-1)
     mean = summed[..., -1:] / count
-    # The change of the variance if the first n values get one more turn, in units of 2 turns over the count.
+    # The change of the variance if the first n values get one more turn, in units of 2 turns over
+    # the count.
     first = np.arange(1, angles.shape[-1] + 1)
-    change = np.where(first < count, summed - mean * first + math.pi * first * (1.0 - first / count), 0.0)
+    change = np.where(
+        first < count, summed - mean * first + math.pi * first * (1.0 - first / count), 0.0
+    )
     best = np.argmin(change, axis=-1, keepdims=True)
     moved = np.take_along_axis(change, best, -1) < -_ANGLE_TOL * count
     last = np.where(moved, np.take_along_axis(ordered, best, -1), -math.inf)
     mean = mean + np.where(moved, (best + 1) * _TURN / count, 0.0)
-    down = np.where(mean > math.pi + _ANGLE_TOL, 1.0, np.where(mean <= -math.pi + _ANGLE_TOL, -1.0, 0.0))
+    down = np.where(
+        mean > math.pi + _ANGLE_TOL, 1.0, np.where(mean <= -math.pi + _ANGLE_TOL, -1.0, 0.0)
+    )
     turns = np.where(angles <= last, 1.0, 0.0) - down
     return np.where(turns == 0.0, angles, angles + _TURN * turns)
 
 
 def cut(angles: Any) -> float | None:
-    """The middle of the widest gap between directions; None for values that are not directions, or without a wide gap."""
+    """The middle of the widest gap between directions; None for values that are not directions, or
+    without a wide gap.
+    """
     found = np.sort(angles[~np.isnan(angles)])
     if not found.size or not are_directions(found):
         return None
@@ -60,12 +73,16 @@ def cut(angles: Any) -> float | None:
 
 
 def turns_to(angles: Any, where: float | None) -> Any:
-    """The turns by which directions are moved into the turn that ends at this cut; none without a cut."""
+    """The turns by which directions are moved into the turn that ends at this cut; none without a
+    cut.
+    """
     return 0.0 if where is None else -np.ceil((angles - where) / _TURN)
 
 
 def folded(angles: Any, where: float | None) -> Any:
-    """Directions moved into the turn that ends at this cut; those in it already stay bit for bit."""
+    """Directions moved into the turn that ends at this cut; those in it already stay
+    bit for bit.
+    """
     return angles if where is None else angles + _TURN * turns_to(angles, where)
 
 
@@ -75,24 +92,36 @@ def beside(angles: Any, middle: float) -> Any:
 
 
 def jump(values: Any) -> bool:
-    """Whether numbers without a unit look like directions around pi: within half a turn, many near both ends, few between."""
+    """Whether numbers without a unit look like directions around pi: within half a turn, many near
+    both ends, few between.
+    """
     found = values[~np.isnan(values)]
-    if not found.size or not are_directions(found) or not (found.min() <= -_NEAR_PI and found.max() >= _NEAR_PI):
+    if (
+        not found.size
+        or not are_directions(found)
+        or not (found.min() <= -_NEAR_PI and found.max() >= _NEAR_PI)
+    ):
         return False
     # Of directions to all sides a third lies within 1 of 0; of a quantity spread about 0, more.
     return bool(np.mean(np.abs(found) < 1.0) < 0.16)
 
 
 def point_everywhere(values: Any) -> bool:
-    """Whether so many unwrapped directions are opposite their mean that it loses its meaning: half as many as if evenly spread.
+    """Whether so many unwrapped directions are opposite their mean that it loses its meaning: half
+    as many as if evenly spread.
 
-    The error of the mean is then twice what their spread suggests (Hotz and Huckemann), and the mean soon has no meaning.
+    The error of the mean is then twice what their spread suggests (Hotz and Huckemann), and the
+    mean soon has no meaning.
     """
-    return float(np.mean(np.abs(values - np.mean(values)) > math.pi - _OPPOSITE)) > _OPPOSITE / _TURN
+    return (
+        float(np.mean(np.abs(values - np.mean(values)) > math.pi - _OPPOSITE)) > _OPPOSITE / _TURN
+    )
 
 
 def point_to_opposite_sides(values: Any) -> bool:
-    """Whether another mean of unwrapped directions, an eighth of a turn away or more, fits to a tenth of their variance."""
+    """Whether another mean of unwrapped directions, an eighth of a turn away or more, fits to a
+    tenth of their variance.
+    """
     count = values.size
     first = np.arange(1, count + 1)
     ahead = np.cumsum(np.sort(values - np.mean(values)))

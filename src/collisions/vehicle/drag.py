@@ -1,4 +1,6 @@
-"""Gravity, and the drag of tyres as a fraction of it: how it is read, and the time that a contact takes."""
+"""Gravity, and the drag of tyres as a fraction of it: how it is read, and the time that a contact
+takes.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ from ..quantities.settings import Default
 from ..quantities.units import is_quantity, shown
 
 GRAVITY = 9.80665
-"""Standard gravity [m/s**2]. It varies by 0.5 % between the equator and the poles, speeds by half of that."""
+"""Standard gravity [m/s**2]. It varies by 0.5 % between the equator and the poles, speeds by half
+of that.
+"""
 
 # No road tyre holds more than this on any road: beyond, a bare number is in another unit.
 HIGHEST_DRAG = 1.5
@@ -22,12 +26,15 @@ USUAL_DURATION = Default(0.1)
 """Of a contact [s], where none is given."""
 
 
-def one_value(reader: ArgumentReader, value: Any, unit: str, name: str, domain: Domain = FINITE) -> Any:
+def one_value(
+    reader: ArgumentReader, value: Any, unit: str, name: str, domain: Domain = FINITE
+) -> Any:
     """A float or an array; a list is refused, as it would be neither segments nor cases."""
     if isinstance(value, (list, tuple)):
         return reader.refuse(
             ShapeError(
-                f"{name} is a {type(value).__name__}, and takes one value; many cases go in a numpy array",
+                f"{name} is a {type(value).__name__}, and takes one value; many cases go in a "
+                "numpy array",
                 code="bad_shape",
                 argument=name,
             )
@@ -38,7 +45,11 @@ def one_value(reader: ArgumentReader, value: Any, unit: str, name: str, domain: 
 def read_drag(reader: ArgumentReader, value: Any, name: str) -> Any:
     """The drag factor, also from a deceleration."""
     either = isinstance(value, str) or is_quantity(value)
-    read = _factor_or_deceleration(reader, value, name) if either else one_value(reader, value, "", name)
+    read = (
+        _factor_or_deceleration(reader, value, name)
+        if either
+        else one_value(reader, value, "", name)
+    )
     why = "it says how much the ground slows the vehicle, whatever way it goes"
     read = at_least_zero(reader, read, value, name, "negative_drag", why)
     warn_if_large(value, read, HIGHEST_DRAG, name, "a fraction of gravity", "m/s**2", "%")
@@ -52,7 +63,11 @@ def read_friction(reader: ArgumentReader, value: Any, name: str) -> Any:
     if len(reader.problems) > wrong:
         return read
     if isinstance(read, float) and not math.isfinite(read):
-        return reader.refuse(InputError(f"{name} must be finite, got {shown(value)}", code="not_finite", argument=name))
+        return reader.refuse(
+            InputError(
+                f"{name} must be finite, got {shown(value)}", code="not_finite", argument=name
+            )
+        )
     read = at_least_zero(reader, read, value, name, "bad_friction", "its direction is worked out")
     warn_if_large(value, read, HIGHEST_DRAG, name, "a fraction of the load", "%")
     return read
@@ -66,18 +81,29 @@ def _factor_or_deceleration(reader: ArgumentReader, value: Any, name: str) -> An
     read = deceleration.number(value, "m/s**2", name)
     if not deceleration.problems:
         return read / GRAVITY
-    if isinstance(factor.problems[0], UnitsError) and isinstance(deceleration.problems[0], UnitsError):
+    if isinstance(factor.problems[0], UnitsError) and isinstance(
+        deceleration.problems[0], UnitsError
+    ):
         text = (
-            f"{name}: cannot read {shown(value)} as a drag factor or a deceleration; write 0.7, '70 %', '6.9 m/s**2' or "
-            f"'22.5 ft/s**2'"
+            f"{name}: cannot read {shown(value)} as a drag factor or a deceleration; write 0.7, "
+            "'70 %', '6.9 m/s**2' or '22.5 ft/s**2'"
         )
         return reader.refuse(UnitsError(text, code="bad_units", argument=name))
-    return reader.refuse(next(p for p in (*factor.problems, *deceleration.problems) if not isinstance(p, UnitsError)))
+    return reader.refuse(
+        next(p for p in (*factor.problems, *deceleration.problems) if not isinstance(p, UnitsError))
+    )
 
 
 def read_duration(reader: ArgumentReader, duration: Any) -> Any:
     """The duration of the contact, with a warning if a bare number is longer than any contact."""
     read = one_value(reader, duration, "s", "duration")
-    read = at_least_zero(reader, read, duration, "duration", "negative_duration", "it is the time from touching to parting")
+    read = at_least_zero(
+        reader,
+        read,
+        duration,
+        "duration",
+        "negative_duration",
+        "it is the time from touching to parting",
+    )
     warn_if_large(duration, read, LONGEST_CONTACT, "duration", "seconds", "ms")
     return read

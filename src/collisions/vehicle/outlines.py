@@ -1,4 +1,6 @@
-"""Outlines of vehicles: read as arguments, placed in the scene, and how deep two of them overlap."""
+"""Outlines of vehicles: read as arguments, placed in the scene, and how deep two of
+them overlap.
+"""
 
 from __future__ import annotations
 
@@ -24,14 +26,16 @@ _LARGEST = 1e306
 
 
 def read_outline(reader: ArgumentReader, given: Any, argument: str) -> Any:
-    """Corners (forward, left) from the centre of mass, counter-clockwise: from length and width, or from corners."""
+    """Corners (forward, left) from the centre of mass, counter-clockwise: from length and width, or
+    from corners.
+    """
     try:
         corners = _read(reader, given, argument)
         if corners is None or np.all(np.abs(corners) <= _LARGEST):
             return corners
         raise InputError(
-            f"{argument} has a corner {np.max(np.abs(corners)):.3g} m from the centre of mass, and may be {_LARGEST:g} m large "
-            f"at most; give metres, such as (4.5, 1.8)",
+            f"{argument} has a corner {np.max(np.abs(corners)):.3g} m from the centre of mass, "
+            f"and may be {_LARGEST:g} m large at most; give metres, such as (4.5, 1.8)",
             code="out_of_range",
             argument=argument,
         )
@@ -44,7 +48,9 @@ def _read(reader: ArgumentReader, given: Any, argument: str) -> Any:
     """The corners; None if the reader refused a number."""
     count = len(reader.problems)
     whole = given.magnitude if is_quantity(given) else given
-    pairs = isinstance(given, (tuple, list)) and all(isinstance(part, (tuple, list)) and len(part) == 2 for part in given)
+    pairs = isinstance(given, (tuple, list)) and all(
+        isinstance(part, (tuple, list)) and len(part) == 2 for part in given
+    )
     if isinstance(whole, np.ndarray) and whole.ndim == 2 and whole.shape[1] == 2:
         read = reader.number(given, "m", argument)
         parts = [] if is_quantity(given) else given.reshape(-1).tolist()
@@ -57,15 +63,18 @@ def _read(reader: ArgumentReader, given: Any, argument: str) -> Any:
         raise _bad_shape(given, argument)
     if len(reader.problems) > count:
         return None
-    if isinstance(read, list) and any(isinstance(number, np.ndarray) for corner in read for number in corner):
+    if isinstance(read, list) and any(
+        isinstance(number, np.ndarray) for corner in read for number in corner
+    ):
         raise _bad_shape(given, argument)
     return _polygon(np.array(read, dtype=np.float64), parts, argument)
 
 
 def _bad_shape(given: Any, argument: str) -> ShapeError:
     return ShapeError(
-        f"{argument} must be (length, width), (length, width, how far the centre of mass is ahead of the middle), or at "
-        f"least three corners (forward, left) from the centre of mass; got {shown(given)}",
+        f"{argument} must be (length, width), (length, width, how far the centre of mass is "
+        "ahead of the middle), or at least three corners (forward, left) from the centre of "
+        f"mass; got {shown(given)}",
         code="bad_shape",
         argument=argument,
     )
@@ -85,8 +94,9 @@ def _rectangle(reader: ArgumentReader, given: tuple[Any, ...], argument: str) ->
         raise _bad_shape(given, argument)
     if not abs(ahead) < 0.5 * length < math.inf or math.isinf(width):
         raise InputError(
-            f"{argument}: the centre of mass, {ahead:.6g} m ahead of the middle, is not within a length of {length:.6g} m "
-            f"and a width of {width:.6g} m; both must be finite, and the offset less than half the length",
+            f"{argument}: the centre of mass, {ahead:.6g} m ahead of the middle, is not within a "
+            f"length of {length:.6g} m and a width of {width:.6g} m; both must be finite, and "
+            "the offset less than half the length",
             code="bad_outline",
             argument=argument,
         )
@@ -97,13 +107,17 @@ def _rectangle(reader: ArgumentReader, given: tuple[Any, ...], argument: str) ->
 
 
 def _polygon(corners: Any, parts: Sequence[Any], argument: str) -> Any:
-    """The corners of a convex polygon, with a warning if their ``parts`` without a unit make a vehicle that is too large."""
+    """The corners of a convex polygon, with a warning if their ``parts`` without a unit make a
+    vehicle that is too large.
+    """
     if not np.any(np.abs(corners) > _LARGEST):  # refused for its size later
         corners = _convex(corners, argument)
     for axis, (name, limit) in enumerate(_LIKELY):
         bare = [float(part) for part in parts[axis::2] if not has_unit(part)]
         if bare:
-            warn_if_large(None, max(bare) - min(bare), limit, f"{argument} ({name})", "metres", "in", "mm")
+            warn_if_large(
+                None, max(bare) - min(bare), limit, f"{argument} ({name})", "metres", "in", "mm"
+            )
     return corners
 
 
@@ -127,8 +141,8 @@ def _convex(corners: Any, argument: str) -> Any:
             problem = "has a dent, a corner twice, or sides that cross"
     if problem:
         raise InputError(
-            f"{argument} {problem}; give corners (forward, left) one after another around a convex outline, such as "
-            f"[(2.2, 0.8), (-2.3, 0.9), (-2.3, -0.9), (2.2, -0.8)]",
+            f"{argument} {problem}; give corners (forward, left) one after another around a "
+            "convex outline, such as [(2.2, 0.8), (-2.3, 0.9), (-2.3, -0.9), (2.2, -0.8)]",
             code="bad_outline",
             argument=argument,
         )
@@ -136,7 +150,9 @@ def _convex(corners: Any, argument: str) -> Any:
 
 
 class Placed(NamedTuple):
-    """An outline in the scene: its centre of mass, and the corners relative to it, which a distant origin cannot round."""
+    """An outline in the scene: its centre of mass, and the corners relative to it, which a distant
+    origin cannot round.
+    """
 
     x: float
     y: float
@@ -145,7 +161,9 @@ class Placed(NamedTuple):
 
 def placed(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> Placed:
     """The outline at this time after the impact."""
-    x, y, heading = (needed(vehicle, name, f"outline_{label}", label) for name in ("x", "y", "heading"))
+    x, y, heading = (
+        needed(vehicle, name, f"outline_{label}", label) for name in ("x", "y", "heading")
+    )
     turn = vehicle.yaw_rate * after
     if vehicle.pivot is None:
         x, y = x + vehicle.vx * after, y + vehicle.vy * after
@@ -154,7 +172,13 @@ def placed(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> Pl
         c, s = from_radians(turn)
         x, y = px + c * (x - px) - s * (y - py), py + s * (x - px) + c * (y - py)
     c, s = from_radians(heading + turn)
-    return Placed(x, y, np.stack([c * outline[:, 0] - s * outline[:, 1], s * outline[:, 0] + c * outline[:, 1]], axis=1))
+    return Placed(
+        x,
+        y,
+        np.stack(
+            [c * outline[:, 0] - s * outline[:, 1], s * outline[:, 0] + c * outline[:, 1]], axis=1
+        ),
+    )
 
 
 def distance_outside(outline: Placed, point: tuple[float, float]) -> float:
@@ -168,14 +192,19 @@ def distance_outside(outline: Placed, point: tuple[float, float]) -> float:
 
 
 def overlap(one: Placed, other: Placed) -> float:
-    """Penetration depth of two convex polygons: the shortest shift that would separate them; negative for a gap."""
+    """Penetration depth of two convex polygons: the shortest shift that would separate them;
+    negative for a gap.
+    """
     least = math.inf
     apart = np.array([other.x - one.x, other.y - one.y])
     for outline in (one, other):
         for ex, ey in _edges(outline.corners)[0]:
             axis = np.array([ey, -ex])
             first, second, between = one.corners @ axis, other.corners @ axis, float(apart @ axis)
-            ahead, behind = float(first.max() - second.min()) - between, float(second.max() - first.min()) + between
+            ahead, behind = (
+                float(first.max() - second.min()) - between,
+                float(second.max() - first.min()) + between,
+            )
             least = min(least, ahead, behind)
     return least
 

@@ -1,4 +1,6 @@
-"""``Tyres``: the four wheels of a vehicle, how they are braked and steered, and the friction of the ground."""
+"""``Tyres``: the four wheels of a vehicle, how they are braked and steered, and the friction of the
+ground.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..kernels.elementwise import AT_LEAST_ZERO, FINITE, NOT_NEGATIVE, POSITIVE_FINITE, UNIT_INTERVAL
+from ..kernels.elementwise import (
+    AT_LEAST_ZERO,
+    FINITE,
+    NOT_NEGATIVE,
+    POSITIVE_FINITE,
+    UNIT_INTERVAL,
+)
 from ..kernels.tyre import Tyres as Numbers
 from ..messages.errors import InputError, ShapeError
 from ..messages.hints import no_argument, open_to_hints
@@ -28,40 +36,46 @@ _LIKELY = {"wheelbase": 12.0, "track": 3.5, "height": 3.5}
 
 @dataclass(frozen=True, slots=True, init=False, eq=False, repr=False)
 class Tyres(Shown):
-    """Four wheels on the ground, each with its friction, braking and side force: for ``simulate`` and contacts that last.
+    """Four wheels on the ground, each with its friction, braking and side force: for ``simulate``
+    and contacts that last.
 
-    A braked wheel rolls until its brake can hold it: with a slip angle a, the force along it is that of the brake, ``lock``
-    times that of a locked wheel, but at most the part cos(a) of the friction. Across it acts Fiala's side force for a, at most
-    what the friction circle leaves::
+    A braked wheel rolls until its brake can hold it: with a slip angle a, the force along it is
+    that of the brake, ``lock`` times that of a locked wheel, but at most the part cos(a) of the
+    friction. Across it acts Fiala's side force for a, at most what the friction circle leaves::
 
         along  = friction * load * min(lock, |cos(a)|)
         across = friction * load * min(sqrt(1 - (along / friction / load)**2), 1 - (1 - z)**3)
         z      = min(1, cornering * |tan(a)| / (3 * friction))
 
-    A brake holds a moment: on ground of another friction, or under another load, the force that it can hold stays, up to that
-    of a locked wheel. So a wheel of ``lock`` 0.4 is locked on ice. A wheel of ``lock`` 1 does not turn on any ground.
+    A brake holds a moment: on ground of another friction, or under another load, the force that it
+    can hold stays, up to that of a locked wheel. So a wheel of ``lock`` 0.4 is locked on ice. A
+    wheel of ``lock`` 1 does not turn on any ground.
 
     Parameters
     ----------
     friction : float, str, Quantity or array [-]
         Friction of locked tyres on the ground, >= 0.
     lock : float, str, Quantity or array [-], or a list of four
-        Braking of the wheels, from damage, brakes or an engaged gear, as a fraction of what locks them on this ground: 0 if a
-        wheel rolls freely, 1 if it is locked. One for all, or front left, front right, rear left, rear right.
+        Braking of the wheels, from damage, brakes or an engaged gear, as a fraction of what locks
+        them on this ground: 0 if a wheel rolls freely, 1 if it is locked. One for all, or front
+        left, front right, rear left, rear right.
     wheelbase, track : float, str, Quantity or array [m]
         Distances between the wheels, > 0. The centre of mass is midway.
     steer : float, str, Quantity or array [rad]
         Steer angle of both front wheels, positive to the left.
     cornering : float, str, Quantity or array [-]
-        Cornering stiffness of a tyre over its load, per radian, > 0. 16 to 17 % of the load per degree is typical of cars.
+        Cornering stiffness of a tyre over its load, per radian, > 0. 16 to 17 % of the load per
+        degree is typical of cars.
     height : float, str, Quantity or array, optional [m]
-        Height of the centre of mass above the ground. With it, the loads of the wheels follow the forces of the tyres, which
-        hold the vehicle upright; without it they stay as at rest, a quarter of the weight each.
+        Height of the centre of mass above the ground. With it, the loads of the wheels follow the
+        forces of the tyres, which hold the vehicle upright; without it they stay as at rest, a
+        quarter of the weight each.
 
     Raises
     ------
     InputError
-        Naming every argument that cannot be used; a ``height`` at which a wheel lifts off, so that the vehicle might tip over.
+        Naming every argument that cannot be used; a ``height`` at which a wheel lifts off, so that
+        the vehicle might tip over.
 
     Warns
     -----
@@ -73,8 +87,8 @@ class Tyres(Shown):
     A car whose left front wheel is jammed and whose others roll nearly freely:
 
     >>> from collisions.travel import Tyres
-    >>> Tyres(0.7, [1, 0.05, 0.05, 0.05], "2.7 m", "1.5 m")
-    Tyres(friction=0.7, lock=(1, 0.05, 0.05, 0.05), wheelbase=2.7 m, track=1.5 m, steer=0 rad, cornering=9.5)
+    >>> Tyres(0.7, [1, 0.05, 0.05, 0.05], "2.7 m", "1.5 m").locks
+    (1.0, 0.05, 0.05, 0.05)
     """
 
     _title = "Tyres"
@@ -108,15 +122,26 @@ class Tyres(Shown):
         if unknown:
             raise no_argument("Tyres", NAMES, unknown, _HINTS)
         reader = ArgumentReader()
-        given = {"friction": friction, "wheelbase": wheelbase, "track": track, "cornering": cornering, "steer": steer}
-        read: dict[str, Any] = {"friction": read_friction(reader, friction, "friction"), "lock": _read_lock(reader, lock)}
+        given = {
+            "friction": friction,
+            "wheelbase": wheelbase,
+            "track": track,
+            "cornering": cornering,
+            "steer": steer,
+        }
+        read: dict[str, Any] = {
+            "friction": read_friction(reader, friction, "friction"),
+            "lock": _read_lock(reader, lock),
+        }
         for name in ("wheelbase", "track", "cornering"):
             read[name] = one_value(reader, given[name], _UNITS[name], name, POSITIVE_FINITE)
         read["steer"] = one_value(reader, steer, "rad", "steer")
         read["height"] = None
         if height is not None:
             found = one_value(reader, height, "m", "height")
-            read["height"] = at_least_zero(reader, found, height, "height", "negative_length", "it is above the ground")
+            read["height"] = at_least_zero(
+                reader, found, height, "height", "negative_length", "it is above the ground"
+            )
         for name, value in (("wheelbase", wheelbase), ("track", track), ("height", height)):
             if value is not None:
                 warn_if_large(value, read[name], _LIKELY[name], name, "metres", "cm", "in")
@@ -174,7 +199,11 @@ class Tyres(Shown):
         several = isinstance(self.lock, tuple)
         locks = dict(zip(LOCKS, self.locks, strict=True)) if several else {"lock": self.lock}
         rest = {name: getattr(self, name) for name in NAMES if name not in ("friction", "lock")}
-        return {"friction": self.friction, **locks, **{name: value for name, value in rest.items() if value is not None}}
+        return {
+            "friction": self.friction,
+            **locks,
+            **{name: value for name, value in rest.items() if value is not None},
+        }
 
     @property
     def steered(self) -> bool:
@@ -190,7 +219,11 @@ class Tyres(Shown):
         return texts_of(_given(self))
 
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
-        yield from ((name, value, unit) for name, value, unit in Shown._values(self, prefix) if value is not None)
+        yield from (
+            (name, value, unit)
+            for name, value, unit in Shown._values(self, prefix)
+            if value is not None
+        )
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, ({name: getattr(self, name) for name in NAMES}, _given(self))
@@ -235,7 +268,9 @@ def _restored(values: Mapping[str, Any], texts: Texts) -> Tyres:
 
 
 def tyres_with(values: Mapping[str, Any], other: Tyres) -> Tyres:
-    """Tyres of these numbers, validated, with the texts of others: those of some cases of a batch, or of one."""
+    """Tyres of these numbers, validated, with the texts of others: those of some cases of a batch,
+    or of one.
+    """
     with in_si():
         found = Tyres(**values)
     _set(found, values, _given(other))
@@ -247,9 +282,15 @@ def _read_lock(reader: ArgumentReader, given: Any) -> Any:
     if not isinstance(given, (list, tuple)):
         return one_value(reader, given, "", "lock", UNIT_INTERVAL)
     if len(given) != len(WHEELS):
-        text = f"lock is a list of {len(given)}; give one value for all wheels, or four: {', '.join(WHEELS)}"
+        text = (
+            f"lock is a list of {len(given)}; give one value for all wheels, or four: "
+            f"{', '.join(WHEELS)}"
+        )
         return reader.refuse(ShapeError(text, code="bad_shape", argument="lock"))
-    return tuple(one_value(reader, value, "", name, UNIT_INTERVAL) for name, value in zip(LOCKS, given, strict=True))
+    return tuple(
+        one_value(reader, value, "", name, UNIT_INTERVAL)
+        for name, value in zip(LOCKS, given, strict=True)
+    )
 
 
 def lifts(tyres: Mapping[str, Any], friction: Any) -> Any:
@@ -262,26 +303,36 @@ def lifts(tyres: Mapping[str, Any], friction: Any) -> Any:
 def could_lift(friction: Any, height: Any, wheelbase: Any, track: Any) -> Any:
     """Whether the greatest force between the axes of the vehicle takes the load of a wheel."""
     with np.errstate(all="ignore"):
-        return 2.0 * friction * height * np.hypot(1.0 / np.asarray(wheelbase), 1.0 / np.asarray(track)) >= 1.0
+        return (
+            2.0 * friction * height * np.hypot(1.0 / np.asarray(wheelbase), 1.0 / np.asarray(track))
+            >= 1.0
+        )
 
 
 def refuse_lifting(tyres: Mapping[str, Any], friction: Any) -> None:
-    """Refuses a single height at which a wheel would lift off; of a batch that is said case by case where it is used."""
-    if any(isinstance(value, np.ndarray) for value in (friction, tyres["wheelbase"], tyres["track"], tyres.get("height"))):
+    """Refuses a single height at which a wheel would lift off; of a batch that is said case by case
+    where it is used.
+    """
+    if any(
+        isinstance(value, np.ndarray)
+        for value in (friction, tyres["wheelbase"], tyres["track"], tyres.get("height"))
+    ):
         return
     if lifts(tyres, friction):
         most = 0.5 / (friction * math.hypot(1.0 / tyres["wheelbase"], 1.0 / tyres["track"]))
         raise InputError(
-            f"height is {shown(tyres['height'])} m, and from {most:.3g} m on a wheel lifts off where a "
-            f"friction of {friction:g} is used between the axes of the vehicle, which might then tip over: that "
-            f"is not followed here; correct it, or leave height out",
+            f"height is {shown(tyres['height'])} m, and from {most:.3g} m on a wheel lifts off "
+            f"where a friction of {friction:g} is used between the axes of the vehicle, which "
+            "might then tip over: that is not followed here; correct it, or leave height out",
             code="wheel_lifts",
             argument="height",
         )
 
 
 def kernel_numbers(flat: Mapping[str, Any], xp: Any = math) -> Numbers:
-    """What the kernel takes, from the numbers by name (``Tyres.named``), floats or arrays; ``xp`` is math or numpy."""
+    """What the kernel takes, from the numbers by name (``Tyres.named``), floats or arrays; ``xp``
+    is math or numpy.
+    """
     height = flat.get("height", 0.0)
     locks = tuple(flat[name] if name in flat else flat["lock"] for name in LOCKS)
     return Numbers(
@@ -300,7 +351,8 @@ def kernel_numbers(flat: Mapping[str, Any], xp: Any = math) -> Numbers:
 def not_tyres(label: str, given: Any) -> InputError:
     """The error for an argument that is not Tyres."""
     return InputError(
-        f"{label} must be Tyres, got {type(given).__name__}; write collisions.travel.Tyres(friction, lock, wheelbase, track)",
+        f"{label} must be Tyres, got {type(given).__name__}; write "
+        "collisions.travel.Tyres(friction, lock, wheelbase, track)",
         code="not_tyres",
         argument=label,
     )

@@ -30,17 +30,20 @@ class _AsGiven(Summarized):
     __slots__ = ("given",)
 
     given: Texts | None
-    """By field, or "speed" and "course", the text of what was given with a unit; None if all numbers were plain floats."""
+    """By field, or "speed" and "course", the text of what was given with a unit; None if all
+    numbers were plain floats.
+    """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, init=False, eq=False, repr=False)
 class Vehicle(_AsGiven):
     """One body in the road plane at one instant: what it weighs, where it is and how it moves.
 
-    It describes the state before an impact as well as the state after it, so that the result of one impact can be the start of
-    the next. The scene axes x and y are right-handed as seen from above; angles are counter-clockwise from +x. Numbers without
-    a unit are SI; a Quantity or a text such as ``"80 km/h"`` is converted once, here. Any argument may be an array (a batch):
-    arrays are copied and locked, and the solver checks their values case by case.
+    It describes the state before an impact as well as the state after it, so that the result of one
+    impact can be the start of the next. The scene axes x and y are right-handed as seen from above;
+    angles are counter-clockwise from +x. Numbers without a unit are SI; a Quantity or a text such
+    as ``"80 km/h"`` is converted once, here. Any argument may be an array (a batch): arrays are
+    copied and locked, and the solver checks their values case by case.
 
     Parameters
     ----------
@@ -51,14 +54,15 @@ class Vehicle(_AsGiven):
     yaw_rate : float, str, Quantity or array [rad/s]
         Yaw rate, positive counter-clockwise.
     yaw_inertia : float, str, Quantity or array [kg*m**2], optional
-        Yaw moment of inertia about the centre of mass, > 0; ``inf`` for a body that keeps its yaw rate.
+        Yaw moment of inertia about the centre of mass, > 0; ``inf`` for a body that keeps its yaw
+        rate.
     x, y : float, str, Quantity or array [m], optional
         Position of the centre of mass. It is never taken as 0 when it was not given.
     heading : float, str, Quantity or array [rad], optional
         Direction in which the vehicle points, which need not be the direction in which it moves.
     pivot : pair [m], optional
-        Scene point about which the body can only turn. Its velocity is then the yaw rate times the arm: worked out where vx and
-        vy are 0; otherwise they must agree with it to 1e-9.
+        Scene point about which the body can only turn. Its velocity is then the yaw rate times the
+        arm: worked out where vx and vy are 0; otherwise they must agree with it to 1e-9.
     name : str, optional
         Name used in messages and tables.
 
@@ -101,7 +105,10 @@ class Vehicle(_AsGiven):
         **unknown: Never,
     ) -> None:
         if unnamed:
-            raise TypeError(f"Vehicle takes its arguments by name, as in mass={shown(unnamed[0])}: {', '.join(NAMES)}")
+            raise TypeError(
+                f"Vehicle takes its arguments by name, as in mass={shown(unnamed[0])}: "
+                f"{', '.join(NAMES)}"
+            )
         if unknown:
             raise no_argument("Vehicle", NAMES, unknown, _HINTS)
         if (
@@ -120,11 +127,14 @@ class Vehicle(_AsGiven):
             # Valid plain floats need no reader.
             _fill(self, mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, None, name, None)
         else:
-            _fill(self, *_read_fields(mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name))
+            _fill(
+                self, *_read_fields(mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name)
+            )
 
     @classmethod
     def barrier(cls, **rest: Any) -> Vehicle:
-        """A body that neither moves nor turns: a wall, a pillar, or anything else that does not give way.
+        """A body that neither moves nor turns: a wall, a pillar, or anything else that does not
+        give way.
 
         Parameters
         ----------
@@ -175,19 +185,25 @@ class Vehicle(_AsGiven):
         Vehicle(mass=900 kg, vy=16.6667 m/s)
         """
         if "vx" in rest or "vy" in rest:
-            raise InputError("give either speed and course or vx and vy, not both", code="speed_twice", argument="speed")
+            raise InputError(
+                "give either speed and course or vx and vy, not both",
+                code="speed_twice",
+                argument="speed",
+            )
         reader = ArgumentReader()
         magnitude = reader.number(speed, "m/s", "speed")
         if np.any(below := np.less(magnitude, 0.0)):
             given, cure = shown(speed), ""
             if np.size(magnitude) > 1:
                 given = (
-                    f"{np.min(magnitude, where=below, initial=0.0):g} m/s, below 0 in {np.sum(below)} of {np.size(below)} cases"
+                    f"{np.min(magnitude, where=below, initial=0.0):g} m/s, below 0 in "
+                    f"{np.sum(below)} of {np.size(below)} cases"
                 )
                 cure = ", or bound what is drawn, as by Normal(mean, sd, truncate=(low, high))"
             reader.refuse(
                 InputError(
-                    f"speed must be >= 0, got {given}; turn the course by 180 deg to go the other way{cure}",
+                    f"speed must be >= 0, got {given}; turn the course by 180 deg to go the "
+                    f"other way{cure}",
                     code="negative_speed",
                     argument="speed",
                 )
@@ -203,7 +219,9 @@ class Vehicle(_AsGiven):
             vehicle = cls(**{**rest, "vx": vx, "vy": vy})
         if getattr(vx, "dtype", None) == np.float32 and vehicle.pivot is None:
             # Where other fields are float64, so is the velocity.
-            cx, cy = direction(ArgumentReader(("course",)), course, "course", numbers_of(vehicle).values())
+            cx, cy = direction(
+                ArgumentReader(("course",)), course, "course", numbers_of(vehicle).values()
+            )
             (magnitude,) = widened((magnitude,), numbers_of(vehicle).values())
             with np.errstate(all="ignore"):
                 _set_vx(vehicle, lock(magnitude * cx + 0.0))
@@ -211,12 +229,17 @@ class Vehicle(_AsGiven):
         if reader.texts or reader.texts.units:
             # Both, so that a record can hold them in place of vx and vy.
             bare: Any = (("speed", speed, "m/s"), ("course", course, "rad"))
-            texts = {name: f"{float(value)!r} {unit}" for name, value, unit in bare if isinstance(value, (int, float))}
+            texts = {
+                name: f"{float(value)!r} {unit}"
+                for name, value, unit in bare
+                if isinstance(value, (int, float))
+            }
             _set_given(vehicle, Texts(vehicle.given, texts if reader.texts else None, reader.texts))
         return vehicle
 
     def replace(self, **changes: Any) -> Vehicle:
-        """The vehicle with some fields changed; the velocity of a pinned vehicle is worked out again.
+        """The vehicle with some fields changed; the velocity of a pinned vehicle is worked out
+        again.
 
         Parameters
         ----------
@@ -236,8 +259,8 @@ class Vehicle(_AsGiven):
         unknown = [name for name in changes if name not in NAMES]
         if unknown:
             raise TypeError(
-                f"replace() takes the fields of a Vehicle ({', '.join(NAMES)}), got {unknown[0]!r}; speed and course make a "
-                f"new one by Vehicle.from_speed"
+                f"replace() takes the fields of a Vehicle ({', '.join(NAMES)}), got "
+                f"{unknown[0]!r}; speed and course make a new one by Vehicle.from_speed"
             )
         numbers = {name: getattr(self, name) for name in NAMES}
         if self.pivot is not None and changes.get("pivot", self.pivot) is not None:
@@ -271,7 +294,8 @@ class Vehicle(_AsGiven):
 
     @derived("J")
     def kinetic_energy(self) -> Value:
-        """Kinetic energy of translation and rotation [J]; for an infinite mass 0 at rest, otherwise infinite.
+        """Kinetic energy of translation and rotation [J]; for an infinite mass 0 at rest, otherwise
+        infinite.
 
         Raises
         ------
@@ -294,14 +318,17 @@ class Vehicle(_AsGiven):
         distance: Input = _ABSENT,
         angle: Input = _ABSENT,
     ) -> tuple[Value, Value]:
-        """The scene point (x, y) [m] of a place on the vehicle, given as forward and left or as distance and angle.
+        """The scene point (x, y) [m] of a place on the vehicle, given as forward and left or as
+        distance and angle.
 
         Parameters
         ----------
         forward, left : [m]
-            Ahead of the centre of mass, and to the driver's left (negative: to the right). One that is not given is 0.
+            Ahead of the centre of mass, and to the driver's left (negative: to the right). One that
+            is not given is 0.
         distance, angle : [m], [rad]
-            Given together: distance from the centre of mass, and angle from the heading, counter-clockwise.
+            Given together: distance from the centre of mass, and angle from the heading,
+            counter-clockwise.
 
         Returns
         -------
@@ -320,8 +347,14 @@ class Vehicle(_AsGiven):
         """
         reader = ArgumentReader()
         polar = distance is not _ABSENT, angle is not _ABSENT
-        if (any(polar) and not all(polar)) or all(polar) != (forward is _ABSENT and left is _ABSENT):
-            raise InputError("give forward= and left=, or distance= and angle=", code="bad_point", argument="point")
+        if (any(polar) and not all(polar)) or all(polar) != (
+            forward is _ABSENT and left is _ABSENT
+        ):
+            raise InputError(
+                "give forward= and left=, or distance= and angle=",
+                code="bad_point",
+                argument="point",
+            )
         x, y, heading = (needed(self, name, "point") for name in ("x", "y", "heading"))
         if all(polar):
             length = reader.number(distance, "m", "distance")
@@ -373,7 +406,9 @@ class Vehicle(_AsGiven):
             # Among float32 arrays, a plain number beyond their range would become infinite.
             kind = precision([px, py, *own.values()])
         numbers = (px, py, *own.values())
-        px, py, vx, vy, yaw_rate, x, y = (v.astype(kind) if isinstance(v, np.ndarray) else v for v in numbers)
+        px, py, vx, vy, yaw_rate, x, y = (
+            v.astype(kind) if isinstance(v, np.ndarray) else v for v in numbers
+        )
         with np.errstate(all="ignore"):
             turn_x, turn_y = turn_at(self, yaw_rate, px, py, "velocity_at", x, y)
             return vx + turn_x, vy + turn_y
@@ -395,7 +430,9 @@ class Vehicle(_AsGiven):
         if without_turning(self.yaw_rate):
             del kept["yaw_rate"]
         units = {"speed": "m/s", "course": "rad", **UNITS}
-        rows = [(label_of(name), numbers.text(value, units[name], name)) for name, value in kept.items()]
+        rows = [
+            (label_of(name), numbers.text(value, units[name], name)) for name, value in kept.items()
+        ]
         return Summary(self.name or "Vehicle", [Part(rows), all_numbers(self._rows())])
 
     def _texts(self) -> Iterable[Any]:
@@ -404,7 +441,9 @@ class Vehicle(_AsGiven):
     def _rows(self) -> Any:
         for f in fields(self):
             value = getattr(self, f.name)
-            if value is None or (type(value) in (float, str) and value in (0.0, "") and f.name in _QUIET):
+            if value is None or (
+                type(value) in (float, str) and value in (0.0, "") and f.name in _QUIET
+            ):
                 continue
             yield f.name, repr(value) if f.name == "name" else show(value, f.metadata["unit"])
 
@@ -417,22 +456,39 @@ class Vehicle(_AsGiven):
 
 
 def _refuse_setting(vehicle: Vehicle, name: str, value: Any = None) -> None:
-    raise FrozenInstanceError(f"a Vehicle is frozen: {name} cannot be set; write vehicle.replace({name}=...)")
+    raise FrozenInstanceError(
+        f"a Vehicle is frozen: {name} cannot be set; write vehicle.replace({name}=...)"
+    )
 
 
-# Those that dataclass generates raise a TypeError for names that are not fields, because of the slots.
+# Those that dataclass generates raise a TypeError for names that are not fields, because of the
+# slots.
 for _name in ("__setattr__", "__delattr__"):
     setattr(Vehicle, _name, _refuse_setting)
 
 NAMES = tuple(f.name for f in fields(Vehicle))
 UNITS = {f.name: f.metadata["unit"] for f in fields(Vehicle) if f.metadata}
-DOMAINS = {f.name: f.metadata["domain"] for f in fields(Vehicle) if "domain" in f.metadata and f.name != "pivot"}
+DOMAINS = {
+    f.name: f.metadata["domain"]
+    for f in fields(Vehicle)
+    if "domain" in f.metadata and f.name != "pivot"
+}
 _QUIET = frozenset({"vx", "vy", "yaw_rate", "name"})
 # Slot descriptors set a field of a frozen object at a third of the cost of object.__setattr__.
 _SETTERS = [getattr(Vehicle, name).__set__ for name in (*NAMES, "given")]
 
 
-_set_mass, _set_vx, _set_vy, _set_yaw_rate, _set_yaw_inertia, _set_x, _set_y, _set_heading, *_set_rest = _SETTERS
+(
+    _set_mass,
+    _set_vx,
+    _set_vy,
+    _set_yaw_rate,
+    _set_yaw_inertia,
+    _set_x,
+    _set_y,
+    _set_heading,
+    *_set_rest,
+) = _SETTERS
 _set_pivot, _set_name, _set_given = _set_rest
 
 
@@ -465,9 +521,13 @@ def _fill(
 
 
 def vehicle_of(
-    numbers: dict[str, Any], changes: dict[str, Any] | None = None, given: Mapping[str, str] | None = None
+    numbers: dict[str, Any],
+    changes: dict[str, Any] | None = None,
+    given: Mapping[str, str] | None = None,
 ) -> Vehicle:
-    """A vehicle from SI numbers that were checked before, without unit warnings, and some new values."""
+    """A vehicle from SI numbers that were checked before, without unit warnings, and some new
+    values.
+    """
     vehicle: Vehicle = object.__new__(Vehicle)
     trusted = numbers.keys() - (changes or {}).keys()
     trusted |= {"pivot[0]", "pivot[1]"} if "pivot" in trusted else set()
@@ -477,10 +537,14 @@ def vehicle_of(
     return vehicle
 
 
-def moved(vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: Mapping[str, str] | None = None) -> Vehicle:
+def moved(
+    vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: Mapping[str, str] | None = None
+) -> Vehicle:
     """The same body in another motion, without validation: used for results."""
     if vehicle.pivot is not None:
-        vx, vy = turning_velocity(yaw_rate, vehicle.x, vehicle.y, vehicle.pivot[0], vehicle.pivot[1])
+        vx, vy = turning_velocity(
+            yaw_rate, vehicle.x, vehicle.y, vehicle.pivot[0], vehicle.pivot[1]
+        )
     if isinstance(vx, np.ndarray):
         lock((vx, vy, yaw_rate))
         texts: Texts | None = Texts(given)
@@ -488,7 +552,20 @@ def moved(vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: Mapping[str,
         texts = None if given is None else Texts(given)
     other: Vehicle = object.__new__(Vehicle)
     x, y, heading, pivot = vehicle.x, vehicle.y, vehicle.heading, vehicle.pivot
-    _fill(other, vehicle.mass, vx, vy, yaw_rate, vehicle.yaw_inertia, x, y, heading, pivot, vehicle.name, texts)
+    _fill(
+        other,
+        vehicle.mass,
+        vx,
+        vy,
+        yaw_rate,
+        vehicle.yaw_inertia,
+        x,
+        y,
+        heading,
+        pivot,
+        vehicle.name,
+        texts,
+    )
     return other
 
 
@@ -501,24 +578,38 @@ def with_given(vehicle: Vehicle, given: Mapping[str, str]) -> Vehicle:
 
 def numbers_of(vehicle: Vehicle) -> dict[str, Value]:
     """Every number of the vehicle by name, the coordinates of a pivot included."""
-    found: dict[str, Value] = {name: value for name in DOMAINS if (value := getattr(vehicle, name)) is not None}
+    found: dict[str, Value] = {
+        name: value for name in DOMAINS if (value := getattr(vehicle, name)) is not None
+    }
     return found | {f"pivot[{i}]": part for i, part in enumerate(vehicle.pivot or ())}
 
 
 def without_turning(yaw_rate: Any) -> bool:
-    """Whether no body turns, so that neither position nor inertia is needed; NaN of a refused case is ignored."""
+    """Whether no body turns, so that neither position nor inertia is needed; NaN of a refused case
+    is ignored.
+    """
     return bool(np.all((yaw_rate == 0.0) | (yaw_rate != yaw_rate)))
 
 
-def turn_at(vehicle: Vehicle, yaw_rate: Any, px: Any, py: Any, purpose: str, x: Any = None, y: Any = None) -> tuple[Any, Any]:
-    """The velocity at a scene point due to the yaw rate; ``x`` and ``y`` in place of the vehicle's own."""
+def turn_at(
+    vehicle: Vehicle, yaw_rate: Any, px: Any, py: Any, purpose: str, x: Any = None, y: Any = None
+) -> tuple[Any, Any]:
+    """The velocity at a scene point due to the yaw rate; ``x`` and ``y`` in place of the vehicle's
+    own.
+    """
     if without_turning(yaw_rate):
         return yaw_rate, yaw_rate
-    x, y = (needed(vehicle, name, purpose) if value is None else value for name, value in (("x", x), ("y", y)))
+    x, y = (
+        needed(vehicle, name, purpose) if value is None else value
+        for name, value in (("x", x), ("y", y))
+    )
     return turning_velocity(yaw_rate, px, py, x, y)
 
 
-_BY_SPEED = "write Vehicle.from_speed(speed='45 mph', course='0 deg', ...), or the velocity in scene axes as vx= and vy="
+_BY_SPEED = (
+    "write Vehicle.from_speed(speed='45 mph', course='0 deg', ...), or the velocity in scene "
+    "axes as vx= and vy="
+)
 _HINTS = {
     **dict.fromkeys(("speed", "velocity", "v", "course", "direction"), _BY_SPEED),
     "weight": "write mass=, such as mass='3400 lb' for a vehicle that weighs 3400 lb",
@@ -526,7 +617,9 @@ _HINTS = {
 
 
 def with_name(label: str, vehicle: Vehicle) -> str:
-    """A label that ends in the letter of a vehicle, and the name of the vehicle if that says more."""
+    """A label that ends in the letter of a vehicle, and the name of the vehicle if that
+    says more.
+    """
     name = " ".join(vehicle.name.split())
     return label if name.lower() in ("", label.rpartition(" ")[2].lower()) else f"{label} ({name})"
 
@@ -539,26 +632,40 @@ def needed(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle"
     return value
 
 
-def missing(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle") -> MissingInputError:
+def missing(
+    vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle"
+) -> MissingInputError:
     """The error for a vehicle without a field that is needed."""
     who = with_name(label, vehicle)
     example = {
         "yaw_inertia": "yaw_inertia='1800 kg*m**2', or inf for a body that does not rotate",
         "x": "x='2.5 m' (the centre of mass at the moment of impact)",
         "y": "y='0 m' (the centre of mass at the moment of impact)",
-        "heading": "heading='30 deg' (where it points, counter-clockwise from +x, whatever way it moves)",
+        "heading": (
+            "heading='30 deg' (where it points, counter-clockwise from +x, whatever way it moves)"
+        ),
     }[name]
-    code = {"yaw_inertia": "missing_inertia", "x": "missing_position", "y": "missing_position", "heading": "missing_heading"}[
-        name
-    ]
+    code = {
+        "yaw_inertia": "missing_inertia",
+        "x": "missing_position",
+        "y": "missing_position",
+        "heading": "missing_heading",
+    }[name]
     return MissingInputError(
-        f"{who} has no {name}, which {purpose} needs; give {example}", code=code, argument=name, vehicle=label
+        f"{who} has no {name}, which {purpose} needs; give {example}",
+        code=code,
+        argument=name,
+        vehicle=label,
     )
 
 
 def not_a_vehicle(label: str, given: Any) -> InputError:
     """The error for an argument that is not a Vehicle."""
-    write = "its .before or .after" if isinstance(getattr(given, "after", None), Vehicle) else "collisions.Vehicle(mass=...)"
+    write = (
+        "its .before or .after"
+        if isinstance(getattr(given, "after", None), Vehicle)
+        else "collisions.Vehicle(mass=...)"
+    )
     return InputError(
         f"{label} must be a Vehicle, got {type(given).__name__}; write {write}",
         code="not_a_vehicle",
@@ -586,7 +693,9 @@ def _read_fields(
     name: Any,
     trusted: Any = (),
 ) -> tuple[Any, ...]:
-    """Validate the fields: SI values, and the texts of those given with a unit; one error names all that cannot be used."""
+    """Validate the fields: SI values, and the texts of those given with a unit; one error names all
+    that cannot be used.
+    """
     reader = ArgumentReader(trusted)
     read: dict[str, Any] = {}
     raw = (mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading)
@@ -595,13 +704,27 @@ def _read_fields(
             value = reader.number(value, UNITS[label], label, domain)
         elif label == "mass":
             reader.refuse(
-                MissingInputError("mass is missing; give it in kg, or inf for a barrier", code="missing_mass", argument="mass")
+                MissingInputError(
+                    "mass is missing; give it in kg, or inf for a barrier",
+                    code="missing_mass",
+                    argument="mass",
+                )
             )
         elif label in ("vx", "vy", "yaw_rate"):
-            reader.refuse(InputError(f"{label} is None; leave it out for 0", code="not_a_number", argument=label))
+            reader.refuse(
+                InputError(
+                    f"{label} is None; leave it out for 0", code="not_a_number", argument=label
+                )
+            )
         read[label] = value
     if not isinstance(name, str):
-        reader.refuse(InputError(f"name must be a text, got {type(name).__name__}", code="not_a_text", argument="name"))
+        reader.refuse(
+            InputError(
+                f"name must be a text, got {type(name).__name__}",
+                code="not_a_text",
+                argument="name",
+            )
+        )
     pin = None if pivot is None else reader.pair(pivot, "m", "pivot")
     reader.close()
     broadcast(read if pin is None else {**read, "pivot[0]": pin[0], "pivot[1]": pin[1]})
@@ -612,13 +735,23 @@ def _read_fields(
 
 
 def _pinned_velocity(
-    pin: tuple[Any, Any], mass: Any, vx: Any, vy: Any, yaw_rate: Any, yaw_inertia: Any, x: Any, y: Any
+    pin: tuple[Any, Any],
+    mass: Any,
+    vx: Any,
+    vy: Any,
+    yaw_rate: Any,
+    yaw_inertia: Any,
+    x: Any,
+    y: Any,
 ) -> tuple[Any, Any]:
-    """Velocity (vx, vy) of a pinned body: computed if not given, else compared; arrays are compared by the solver."""
+    """Velocity (vx, vy) of a pinned body: computed if not given, else compared; arrays are compared
+    by the solver.
+    """
     for label, value in (("mass", mass), ("yaw_inertia", yaw_inertia)):
         if isinstance(value, float) and math.isinf(value):
             raise InputError(
-                f"{label} is inf and pivot is given; a pinned body turns, so give its {label}, or use Vehicle.barrier()",
+                f"{label} is inf and pivot is given; a pinned body turns, so give its {label}, "
+                "or use Vehicle.barrier()",
                 code="pinned_infinite",
                 argument=label,
             )
@@ -635,15 +768,16 @@ def _pinned_velocity(
         if all(isinstance(value, float) for value in (vx, vy, wanted_x, wanted_y)):
             if not math.isfinite(wanted_x + wanted_y):
                 raise InputError(
-                    "the velocity of this pinned body is too large for a float: check x, y, pivot and yaw_rate",
+                    "the velocity of this pinned body is too large for a float: check x, y, "
+                    "pivot and yaw_rate",
                     code="out_of_range",
                     argument="yaw_rate",
                 )
             if (vx != 0.0 or vy != 0.0) and not_about_pivot(vx, vy, yaw_rate, x, y, *pin):
                 raise InputError(
-                    f"vx, vy = ({vx:g}, {vy:g}) m/s cannot be the velocity of a body that turns about its pivot: yaw rate "
-                    f"times arm gives ({wanted_x + 0.0:.10g}, {wanted_y + 0.0:.10g}) m/s; leave vx and vy out, or correct "
-                    f"yaw_rate",
+                    f"vx, vy = ({vx:g}, {vy:g}) m/s cannot be the velocity of a body that turns "
+                    f"about its pivot: yaw rate times arm gives ({wanted_x + 0.0:.10g}, "
+                    f"{wanted_y + 0.0:.10g}) m/s; leave vx and vy out, or correct yaw_rate",
                     code="pinned_velocity",
                     argument="vx",
                 )
@@ -651,11 +785,18 @@ def _pinned_velocity(
         # Single cases never come here, and the import of the package need not wait for it.
         from ..quantities.precision import precision
 
-        # Both in the precision of the vehicle: a velocity that underflows in it counts as not given.
+        # Both in the precision of the vehicle: a velocity that underflows in it counts as not
+        # given.
         given = (part for part in (vx, vy) if isinstance(part, np.ndarray))
-        kind = precision(value for value in (mass, yaw_inertia, yaw_rate, x, y, *pin, *given) if value is not None)
+        kind = precision(
+            value
+            for value in (mass, yaw_inertia, yaw_rate, x, y, *pin, *given)
+            if value is not None
+        )
         vx, vy = (np.asarray(v, dtype=kind) for v in (vx, vy))
         resting = np.equal(vx, 0.0) & np.equal(vy, 0.0)
-        moved = np.broadcast_arrays(np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy))
+        moved = np.broadcast_arrays(
+            np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy)
+        )
     found: tuple[Any, Any] = lock(tuple(part.astype(kind) for part in moved))
     return found
