@@ -9,6 +9,7 @@ import random
 import statistics
 from dataclasses import FrozenInstanceError
 from itertools import pairwise
+from typing import ClassVar
 
 import mpmath as mp
 import numpy as np
@@ -1119,3 +1120,22 @@ def test_a_range_with_a_share_is_read_as_it_was_stated(given, read):
     assert plain == given
     assert (hash(plain), repr(plain)) == (hash(given), repr(given))
     assert str(plain) != read
+
+
+class Tailed(Distribution):
+    """A kind of input with a part that is a pure number, as one might add it."""
+
+    __slots__ = ()
+    _words = "location {location}, scale {scale}, shape {dof}"
+    _part_units: ClassVar[dict[str, str]] = {"dof": ""}
+
+    def _derive(self, **parts):
+        self._set(support=(-math.inf, math.inf), mean=parts["location"], sd=parts["scale"])
+
+
+def test_a_part_without_the_unit_of_the_quantity_is_written_without_it():
+    unit = Normal("50 km/h", "4 km/h").unit
+    one = Tailed.__new__(Tailed)
+    one._make(unit, location=50 / 3.6, scale=4 / 3.6, dof=4.0)
+    assert repr(one) == "Tailed(location=50 km/h, scale=4 km/h, dof=4)"
+    assert str(one) == "location 50 km/h, scale 4 km/h, shape 4"

@@ -51,6 +51,8 @@ class Stated:
 
     unit: str
     _words: ClassVar[str]
+    # Parts that are not in the unit of the quantity, and their own: of degrees of freedom, "".
+    _part_units: ClassVar[Mapping[str, str]] = {}
     _parts: dict[str, Any]
     _range: tuple[float, float, float] | None
     _derive: Callable[..., None]
@@ -88,7 +90,7 @@ class Stated:
 
     def __repr__(self) -> str:
         shown = (
-            f"{name}={show(part, self.unit)}"
+            f"{name}={show(part, self._part_units.get(name, self.unit))}"
             for name, part in self._parts.items()
             if part is not None
         )
@@ -99,7 +101,8 @@ class Stated:
 
     def _written(self, words: str, parts: Mapping[str, Any]) -> str:
         """The numbers in these words, with the unit of a range at its end."""
-        text = words.format(**{name: show(part, self.unit) for name, part in parts.items()})
+        units = {name: self._part_units.get(name, self.unit) for name in parts}
+        text = words.format(**{name: show(part, units[name]) for name, part in parts.items()})
         unit = (
             f" {self.unit.written}"
             if isinstance(self.unit, GivenUnit)
