@@ -11,6 +11,7 @@ import math
 import pickle
 import threading
 import warnings
+from typing import ClassVar
 
 import mpmath
 import numpy as np
@@ -19,7 +20,8 @@ import pytest
 
 import collisions as col
 from collisions import reconstruct
-from collisions.estimate.evidence import Observation
+from collisions.estimate import readings
+from collisions.estimate.readings import CensoredReading
 from collisions.reconstruct import posterior
 from collisions.uncertainty import (
     Censored,
@@ -31,6 +33,7 @@ from collisions.uncertainty import (
     Uniform,
     propagate,
 )
+from collisions.uncertainty.distribution import Stated
 from collisions.uncertainty.normal import log_survival
 
 SIGMAS = 5.0
@@ -204,10 +207,10 @@ def test_log_likelihoods_against_mpmath(angle):
     ):
         if angle and (low is None or high is None):
             with pytest.raises(col.InputError, match="one bound; give both"):
-                Observation("x", Censored(low, high, error)).log_likelihood(values, angle)
+                CensoredReading("x", Censored(low, high, error)).log_likelihood(values, angle)
             continue
         with np.errstate(all="ignore"):
-            found = Observation("x", Censored(low, high, error)).log_likelihood(values, angle)
+            found = CensoredReading("x", Censored(low, high, error)).log_likelihood(values, angle)
         with mpmath.workdps(60):
             for value, log in zip(values, found, strict=True):
                 at = mpmath.mpf(float(value))
@@ -833,3 +836,69 @@ def test_a_censored_reading_is_a_value():
 def test_the_least_number_of_samples_is_said_the_same_for_every_number(samples):
     with pytest.raises(col.InputError, match="samples must be a whole number from 512 to"):
         posterior(identity, {"x": Normal(0.0, 1.0)}, {"x": (1.0, 1.0)}, samples=samples)
+
+
+# --- another kind of evidence
+
+
+class StudentT(Stated):
+    """A value whose error has heavy tails, as one might add it."""
+
+    __slots__ = ("dof", "location", "scale")
+    _part_units: ClassVar[dict[str, str]] = {"dof": ""}
+
+    def _derive(self, location, scale, dof):
+        self._set(location=location, scale=scale, dof=dof)
+
+
+class StudentReading(readings.Reading):
+    __slots__ = ()
+
+    is_value = True
+
+    @property
+    def sigma(self):
+        return self.value.scale
+
+    def residual(self, computed, angle):
+        return self.value.location - computed
+
+    def log_likelihood(self, computed, angle):
+        dof, z = self.value.dof, self.residual(computed, angle) / self.sigma
+        ratio = math.lgamma((dof + 1.0) / 2.0) - math.lgamma(dof / 2.0)
+        return (
+            ratio
+            - 0.5 * math.log(dof * math.pi)
+            - math.log(self.sigma)
+            - 0.5 * (dof + 1.0) * np.log1p(z * z / dof)
+        )
+
+    def misfit(self, computed, angle):
+        z = self.residual(computed, angle) / self.sigma
+        return (self.value.dof + 1.0) * np.log1p(z * z / self.value.dof)
+
+
+def test_a_kind_of_evidence_is_one_class(monkeypatch):
+    """A speed known before and one reading with heavy tails: against quadrature; and evidence that
+    such tails allow for is not called contradictory.
+    """
+    monkeypatch.setitem(readings.KINDS, StudentT, StudentReading)
+    reading = StudentT.__new__(StudentT)
+    reading._make("m/s", location=13.0, scale=0.5, dof=3.0)
+    found, codes = sampled(
+        lambda v: {"read": v, "also": v},
+        {"v": Normal(10.0, 4.0)},
+        {"read": reading, "also": (10.5, 0.5)},
+    )
+    grid = np.linspace(0.0, 30.0, 60001)
+    log = (
+        -0.5 * ((grid - 10.0) / 4.0) ** 2
+        - 2.0 * np.log1p(((13.0 - grid) / 0.5) ** 2 / 3.0)
+        - 0.5 * ((grid - 10.5) / 0.5) ** 2
+    )
+    weight = np.exp(log - log.max())
+    mean = float(np.sum(weight * grid) / np.sum(weight))
+    close(found["v"].mean, found["v"].mean_standard_error, mean)
+    assert codes == []
+    assert found.residuals["read"].observed == pytest.approx(13.0)
+    assert "dof=3" in repr(found.observed["read"])

@@ -8,79 +8,33 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar
 
-import numpy as np
-
 from ..messages.errors import CollisionsError, InputError, NoSolutionError, UnitsError
 from ..quantities.reading import ArgumentReader
-from ..uncertainty.distribution import from_numbers, read_alike, show
+from ..uncertainty.distribution import Stated, from_numbers, read_alike, show
 from ..uncertainty.distributions import Censored, Interval, Normal
 from ..uncertainty.model import Model, check_names
-from ..uncertainty.normal import log_survival
-from ..uncertainty.turns import folded
+from .readings import KINDS, Reading
 
 T = TypeVar("T")
-
-_LOG_ROOT_TURN = 0.5 * math.log(math.tau)
 
 
 class Observation(NamedTuple):
     """One observed output of the model by name, or the prior stated for an unknown."""
 
     name: str
-    value: Normal | Censored
+    reading: Reading
     is_prior: bool = False
 
-    @property
-    def sigma(self) -> float:
-        """Standard deviation of the reading; 0 of sharp bounds."""
-        return self.value.given_sd if isinstance(self.value, Normal) else self.value.error or 0.0
-
-    def apart(self, computed: Any, angle: bool) -> Any:
-        """Observed minus computed values, by the short way round for angles; 0 within the bounds of
-        a censored reading.
-        """
-        if isinstance(self.value, Normal):
-            return folded(self.value.given_mean - computed, math.pi if angle else None)
-        below, above = self._beyond(computed, angle)
-        return np.maximum(below, 0.0) - np.maximum(above, 0.0)
-
-    def log_likelihood(self, computed: Any, angle: bool) -> Any:
-        """Logarithm of the density of the observed value, or of the probability of a censored
-        reading, given these values.
-        """
-        if isinstance(self.value, Normal):
-            # Round the circle the density is cut off at half a turn on both sides.
-            lost = math.log(math.erf(math.pi / (self.sigma * math.sqrt(2.0)))) if angle else 0.0
-            return (
-                -0.5 * (self.apart(computed, angle) / self.sigma) ** 2
-                - math.log(self.sigma)
-                - _LOG_ROOT_TURN
-                - lost
-            )
-        if not self.sigma:
-            return np.zeros(len(computed))
-        below, above = (part / self.sigma for part in self._beyond(computed, angle))
-        if self.value.high is None:
-            return log_survival(below)
-        if self.value.low is None:
-            return log_survival(above)
-        # The probability between two scores, of which the nearer tail keeps its digits.
-        near, far = np.maximum(below, above), np.minimum(below, above)
-        outside = log_survival(np.maximum(near, 0.0)) + np.log(
-            -np.expm1(log_survival(-far) - log_survival(near))
-        )
-        inside = np.log1p(-np.exp(log_survival(-far)) - np.exp(log_survival(-near)))
-        return np.where(near > 0.0, outside, inside)
-
-    def missed(self, computed: Any, angle: bool) -> Any:
-        """By how much sharp bounds are missed; 0 for readings with an error."""
-        return np.zeros(len(computed)) if self.sigma else abs(self.apart(computed, angle))
+    @classmethod
+    def of(cls, name: str, value: Any, is_prior: bool = False) -> Observation:
+        """An observation of what was stated, weighed as its kind is."""
+        return cls(name, KINDS[type(value)](name, value), is_prior)
 
     def is_angle(self, returned: str | None) -> bool:
         """Whether it is an angle, judged by its unit or that of what the model returns; other units
         must agree.
         """
-        observed = self.value.unit
+        observed = self.reading.value.unit
         if returned and observed and returned != observed:
             raise UnitsError(
                 f"observed {self.name} is in {observed}, but the model returns it in {returned}; "
@@ -89,27 +43,6 @@ class Observation(NamedTuple):
                 argument="observed",
             )
         return "rad" in (observed, returned)
-
-    def _beyond(self, computed: Any, angle: bool) -> tuple[Any, Any]:
-        """By how much values are below the low bound, and above the high one; -inf for a bound that
-        is not there.
-        """
-        assert isinstance(self.value, Censored)
-        low, high = self.value.low, self.value.high
-        if angle:
-            if low is None or high is None:
-                raise InputError(
-                    f"observed {self.name} is an angle, which goes round, with one bound; give "
-                    "both, Censored(low, high), or let the model return a plain number",
-                    code="bad_observation",
-                    argument="observed",
-                )
-            middle = 0.5 * (low + high)
-            computed = middle - folded(middle - computed, math.pi)
-        return (
-            computed * 0.0 - np.inf if low is None else low - computed,
-            -np.inf if high is None else computed - high,
-        )
 
 
 def observed_columns(names: Sequence[str], answered: Mapping[str, Any]) -> list[Any]:
@@ -131,7 +64,7 @@ def read_evidence(
     observed: Any,
     example: str,
     read_unknown: Callable[[str, Any], T],
-    read_observed: Callable[[str, Any], Normal | Censored],
+    read_observed: Callable[[str, Any], Stated],
 ) -> tuple[Model, dict[str, T], list[Observation]]:
     """The model, what is known before of each unknown, and the observations; one error names all
     that cannot be used.
@@ -144,7 +77,7 @@ def read_evidence(
     reader.close()
     called = Model(model, {})
     check_names(model, known, "unknowns", "bad_model")
-    return called, known, [Observation(name, value) for name, value in readings.items()]
+    return called, known, [Observation.of(name, value) for name, value in readings.items()]
 
 
 def _read_each(
@@ -175,13 +108,15 @@ def _read_each(
     return found
 
 
-def read_reading(label: str, given: Any) -> Normal | Censored:
+def read_reading(label: str, given: Any) -> Stated:
     """An observation of a posterior: a value with its error, an interval, or a censored reading."""
     if isinstance(given, Interval):
         return from_numbers(
             Censored, given.unit, {"low": given.low, "high": given.high, "error": None}
         )
-    return given if isinstance(given, Censored) else read_value(label, given)
+    if isinstance(given, Stated) and not isinstance(given, Normal) and type(given) in KINDS:
+        return given
+    return read_value(label, given)
 
 
 def read_value(label: str, given: Any) -> Normal:

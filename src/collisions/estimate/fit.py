@@ -219,7 +219,7 @@ def _read_inputs(function: Any, unknowns: Any, observed: Any) -> tuple[_Inputs, 
     units, priors, *numbers = zip(*known.values(), strict=True)
     start, scale, low, high = map(np.array, numbers)
     rows += [
-        Observation(name, prior, is_prior=True)
+        Observation.of(name, prior, is_prior=True)
         for name, prior in zip(known, priors, strict=True)
         if prior
     ]
@@ -227,11 +227,11 @@ def _read_inputs(function: Any, unknowns: Any, observed: Any) -> tuple[_Inputs, 
     inputs = _Inputs(model, rows, dict(zip(known, units, strict=True)), start, has_prior)
     # Two cases, because a model that takes numbers would answer an array of one.
     inputs.computed(np.tile(start, (2, 1)))
-    sigma = np.array([row.sigma for row in rows])
+    sigma = np.array([row.reading.sigma for row in rows])
     angles = [not row.is_prior and row.is_angle(model.units[row.name]) for row in rows]
     return inputs, Problem(
         evaluate=lambda points: inputs.computed(points) / sigma,
-        target=np.array([row.apart(0.0, False) for row in rows]) / sigma,
+        target=np.array([row.reading.residual(0.0, False) for row in rows]) / sigma,
         period=np.where(angles, math.tau / sigma, np.nan),
         low=low,
         high=high,
@@ -512,7 +512,7 @@ def _answer(found: _Candidate) -> Fit:
     computed = inputs.computed(point[np.newaxis])[0]
     residuals = {
         f"prior of {row.name}" if row.is_prior else row.name: residual_of(
-            row, inputs.model.units.get(row.name), value, sigmas * row.sigma
+            row, inputs.model.units.get(row.name), value, sigmas * row.reading.sigma
         )
         for row, value, sigmas in zip(
             inputs.rows, computed.tolist(), over_sigma.tolist(), strict=True

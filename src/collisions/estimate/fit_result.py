@@ -158,14 +158,15 @@ def residual_of(row: Observation, unit: str | None, computed: float, apart: floa
     """An observation or prior beside its computed value; for a censored reading, the bound that is
     missed, if any.
     """
+    sigma = row.reading.sigma
     return Residual(
         name=row.name,
-        unit=row.value.unit or unit or "",
-        observed=row.value.given_mean if isinstance(row.value, Normal) else computed + apart,
+        unit=row.reading.value.unit or unit or "",
+        observed=row.reading.observed(computed, apart),
         computed=computed,
         residual=apart,
-        sigma=row.sigma,
-        over_sigma=apart / row.sigma if row.sigma else 0.0,
+        sigma=sigma,
+        over_sigma=apart / sigma if sigma else 0.0,
         is_prior=row.is_prior,
     )
 

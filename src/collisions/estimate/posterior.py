@@ -17,7 +17,7 @@ from ..messages.hints import hinted
 from ..messages.progress import reporter
 from ..messages.warning import notes_of_samples, warn_of
 from ..quantities.attributes import lock
-from ..uncertainty.distributions import Distribution, Normal
+from ..uncertainty.distributions import Distribution
 from ..uncertainty.model import Model, range_hint
 from ..uncertainty.propagation import check_options
 from ..uncertainty.sampling import Correlation, Joint
@@ -185,8 +185,8 @@ class _Problem:
         answered = np.ones(len(scores), dtype=bool)
         for row, column, angle in self.columns(self.computed(scores, check)[1]):
             answered &= ~np.isnan(column)
-            likelihood += row.log_likelihood(column, angle)
-            missed += row.missed(column, angle)
+            likelihood += row.reading.log_likelihood(column, angle)
+            missed += row.reading.missed(column, angle)
         self.answered |= bool(np.any(answered))
         possible = np.isfinite(likelihood) & np.isfinite(missed)
         self.possible |= bool(np.any(possible))
@@ -240,7 +240,7 @@ class _Problem:
                 self.model, problem.draws, at, "priors within which the impact happens"
             )
         sharp = (
-            [row.name for row in self.rows if not row.sigma]
+            [row.name for row in self.rows if not row.reading.sigma]
             if math.isfinite(problem.missed)
             else []
         )
@@ -279,19 +279,14 @@ class _Problem:
         left_out = [_log_mean(np.delete(logs, k)) for k in range(len(logs))]
         squares, residuals = np.sum(scores[:, self.joint.ordered] ** 2, axis=1), {}
         for row, column, angle in self.columns(answers):
-            apart = row.apart(column, angle)
-            squares += (apart / row.sigma) ** 2 if row.sigma else 0.0
-            middle = float(np.mean(apart))
-            computed = (
-                row.value.given_mean - middle
-                if isinstance(row.value, Normal)
-                else float(np.mean(column))
-            )
-            residuals[row.name] = residual_of(row, self.model.units[row.name], computed, middle)
+            squares += row.reading.misfit(column, angle)
+            apart = float(np.mean(row.reading.residual(column, angle)))
+            middle = row.reading.middle(column, apart)
+            residuals[row.name] = residual_of(row, self.model.units[row.name], middle, apart)
         units = {name: prior.unit for name, prior in self.joint.inputs.items()}
         return Posterior(
             priors=dict(self.joint.inputs),
-            observed={row.name: row.value for row in self.rows},
+            observed={row.name: row.reading.value for row in self.rows},
             draws=lock(answers | values),
             unknowns={
                 name: PosteriorOutput(name, units[name] or None, column, labels)
@@ -305,7 +300,7 @@ class _Problem:
             log_evidence=_log_mean(logs),
             log_evidence_error=math.sqrt(float(np.var(left_out)) * (len(logs) - 1)),
             p_value=chi_squared_tail(
-                float(np.min(squares)), sum(row.sigma > 0.0 for row in self.rows)
+                float(np.min(squares)), sum(row.reading.sigma > 0.0 for row in self.rows)
             ),
             refused=float(np.mean([one.refused for one in islands])),
             moved=min(one.moved for one in islands),

@@ -9,12 +9,12 @@ from typing import Any, cast
 
 import numpy as np
 
+from ..estimate.readings import KINDS
 from ..messages.errors import InputError
 from ..messages.hints import hinted
 from ..quantities.formatting import UnitSystem
 from ..quantities.units import shown
 from ..reconstruct import Fit, Posterior
-from ..uncertainty import Normal
 from .canvas import (
     BARS,
     FORCE,
@@ -218,7 +218,7 @@ def residuals(found: Posterior | Fit, *, axes: Axes | None = None) -> Axes:
     reached = [*over]
     axes.plot(over, range(len(rows)), "o", color=INK, ms=7, ls="none", zorder=4, gid="residuals")
     for place, (name, one) in enumerate(rows.items()):
-        if isinstance(found, Posterior) and isinstance(found.observed[name], Normal):
+        if isinstance(found, Posterior) and KINDS[type(found.observed[name])].is_value:
             output = found.predicted[name]
             ends = [
                 one.over_sigma + (float(output.mean) - end) / one.sigma
