@@ -45,18 +45,18 @@ def nothing_published() -> list[dict[str, Any]]:
 
 
 def inputs_only() -> list[dict[str, Any]]:
-    """Records that are no cases: values of a formula and statements, used as inputs of table 3 or not at all."""
+    """Records that are no cases: values of a formula and statements, used as inputs of table 2 or not at all."""
     names = [name for name in record_names() if name.startswith(RESTITUTION)]
     fit = [name for name in names if "Cipriani" in name]
     return [
         {
             "records": fit,
-            "what": "values of a fit to low-speed in-line tests, all met by `reference.restitution`. Input of table 3.",
+            "what": "values of a fit to low-speed in-line tests, all met by `reference.restitution`. Input of table 2.",
             "values": cipriani_values(),
         },
         {
             "records": [name for name in names if "SAE 931842" in name],
-            "what": "a range in an abstract, and its 0.1 for medium and high speed. The 0.1 is an input of table 3.",
+            "what": "a range in an abstract, and its 0.1 for medium and high speed. The 0.1 is an input of table 2.",
         },
         {"records": [name for name in names if "forensicspot" in name], "what": "a range without closing speeds. Not used."},
     ]
@@ -112,7 +112,7 @@ def not_computed() -> list[dict[str, Any]]:
             "record": "nhtsa_oblique.csv: 4363 and 4474",
             "what": "the motions measured in the two crash tests",
             "given": "not in the data",
-            "why": "only the planar solutions fitted to them are published here, so the two are in table 1 and in no other.",
+            "why": "only the planar solutions fitted to them are published here, so the two are in table 3 and in no other.",
         },
         {
             "record": "inline_and_barrier_tests.csv: GBB low speed rear end impact",

@@ -69,6 +69,14 @@ def number(text: Any) -> Any:
     return text
 
 
+def middle(stated: Distribution | str) -> float:
+    """The mean of what is stated, in SI."""
+    if isinstance(stated, str):
+        unit = stated.partition(" ")[2]
+        stated = Normal(stated, f"1 {unit}")
+    return float(stated.mean)
+
+
 def flat(table: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     """Every number of nested tables and lists under its dotted name."""
     for name, value in table.items():

@@ -6,6 +6,7 @@ Each takes the numbers of a case (arrays, SI) and returns an impact; what is rea
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -53,11 +54,19 @@ def contact_in_time(numbers: Numbers) -> col.Impact:
     )
 
 
-LEVELS: dict[str, tuple[Callable[[Numbers], col.Impact], int]] = {
-    "impact": (impact, 4096),
-    "contact in time": (contact_in_time, 1024),
+@dataclass(frozen=True)
+class Level:
+    """How an impact is computed, of how many cases its ranges are made, and the tables of numbers that it takes."""
+
+    solve: Callable[[Numbers], col.Impact]
+    samples: int
+    tables: tuple[str, ...] = ("a", "b", "eccentric")
+
+
+LEVELS = {
+    "impact": Level(impact, 4096),
+    "contact in time": Level(contact_in_time, 1024, ("a", "b", "eccentric", "contact_in_time")),
 }
-"""By name: how an impact is computed, and of how many cases its ranges are made."""
 
 
 def kinetic_energy(vehicle: col.Vehicle) -> Any:

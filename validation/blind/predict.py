@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import warnings
+from collections.abc import Collection
 from typing import Any
 
 import collisions as col
@@ -18,34 +19,30 @@ SEED = 42
 FIRST = inputs.HERE / "first_predictions.json"
 
 
-def used_by(level: str, numbers: dict[str, Any]) -> dict[str, Any]:
-    """The numbers that a level takes: an input that it ignores would be an input in vain."""
-    extra = {"contact in time": "contact_in_time."}
-    return {
-        name: value
-        for name, value in numbers.items()
-        if name.partition(".")[0] in ("a", "b", "eccentric") or name.startswith(extra.get(level, "\0"))
-    }
-
-
 def predict(level: str, numbers: dict[str, Any]) -> dict[str, Any]:
     """One case at one level: the median and the 95 percent range of every output, in SI."""
-    solve, samples = levels.LEVELS[level]
+    how = levels.LEVELS[level]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.CollisionsWarning)  # kept, as statements of the answer
         found = propagate(
-            lambda **given: levels.outputs(solve(given)),
-            used_by(level, numbers),
+            lambda **given: levels.outputs(how.solve(given)),
+            {name: value for name, value in numbers.items() if name.partition(".")[0] in how.tables},
             method="quasi_random",
-            samples=samples,
+            samples=how.samples,
             seed=SEED,
         )
-    answer: dict[str, Any] = {"samples": found.samples, "without_answer": found.failed, "statements": list(found.statements)}
-    answer["outputs"] = {
-        name: {"median": significant(out.quantile(0.5)), "range": [significant(end) for end in out.interval(0.95)]}
-        for name, out in ((name, found[name]) for name in found)
+    return {
+        "samples": found.samples,
+        "without_answer": found.failed,
+        "statements": list(found.statements),
+        "outputs": {
+            name: {
+                "median": significant(found[name].quantile(0.5)),
+                "range": [significant(end) for end in found[name].interval(0.95)],
+            }
+            for name in found
+        },
     }
-    return answer
 
 
 def significant(value: float) -> float:
@@ -53,11 +50,11 @@ def significant(value: float) -> float:
     return float(f"{value:.6g}")
 
 
-def predictions() -> dict[str, Any]:
+def predictions(only: Collection[str] = tuple(levels.LEVELS)) -> dict[str, Any]:
     """Every case at every level; refused if an input has changed."""
     inputs.check()
     return {
-        key: {"title": title, "levels": {level: predict(level, numbers) for level in levels.LEVELS}}
+        key: {"title": title, "levels": {level: predict(level, numbers) for level in only}}
         for key, (title, numbers) in inputs.cases().items()
     }
 
