@@ -28,7 +28,7 @@ def blind():
     """The modules of the pack by name."""
     sys.path.insert(0, str(ROOT / "validation"))
     try:
-        names = ("axes", "causes", "compare", "inputs", "levels", "measured", "predict")
+        names = ("axes", "backwards", "causes", "compare", "inputs", "levels", "measured", "predict")
         found = {name: importlib.import_module(f"blind.{name}") for name in names}
         yield found | {name: importlib.import_module(name) for name in ("blind_tables", "commercial_program")}
     finally:
@@ -184,9 +184,9 @@ def same_table(ours, table):
 
 
 def test_the_impacts_of_the_page_are_predicted_again(blind, committed):
-    ours = blind["compare"].everything(blind["predict"].predictions(["impact"]))
-    same_table(ours["rows"], committed["blind"]["rows"])
-    for mine, check in zip(ours["self_checks"], committed["blind"]["self_checks"], strict=True):
+    compare, predicted = blind["compare"], blind["predict"].predictions(["impact"])
+    same_table(compare.entries(predicted), committed["blind"]["rows"])
+    for mine, check in zip(compare.self_checks(predicted), committed["blind"]["self_checks"], strict=True):
         assert list(mine) == list(check)
         assert {name: value for name, value in mine.items() if name != "test"} == pytest.approx(
             {name: value for name, value in check.items() if name != "test"}, rel=2e-3, abs=1e-4
@@ -195,8 +195,8 @@ def test_the_impacts_of_the_page_are_predicted_again(blind, committed):
 
 @pytest.mark.slow
 def test_the_contacts_in_time_of_the_page_are_predicted_again(blind, committed):
-    ours = blind["compare"].everything(blind["predict"].predictions())
-    same_table(ours["rows"], committed["blind"]["rows"])
+    predicted = blind["predict"].predictions(["contact in time"])
+    same_table(blind["compare"].entries(predicted), committed["blind"]["rows"])
 
 
 def test_a_table_that_is_not_that_of_the_cases_is_noticed(committed):
@@ -333,7 +333,18 @@ def test_the_page_has_the_blind_table_first(blind, committed):
     assert order == sorted(order)
     assert "blind predictions" in page[order[0] :].splitlines()[0]
     assert "fits" in page[order[3] :].splitlines()[0]
-    for call in ("headline", "summary", "predictions", "without_answer", "misses", "self_checks", "lever_words", "sources"):
+    for call in (
+        "headline",
+        "summary",
+        "predictions",
+        "without_answer",
+        "misses",
+        "self_checks",
+        "lever_words",
+        "backwards",
+        "backwards_summary",
+        "sources",
+    ):
         assert f"show(blind.{call}(found))" in page
     text = blind["blind_tables"].everything(committed)
     for row in committed["blind"]["rows"]:
@@ -359,3 +370,41 @@ def test_rows_of_the_commercial_program_are_its_answer(blind):
     row = next(row for row in blind["commercial_program"].path_of("pccrash_30mph_t.csv") if row["vx2_mph"] > 0)
     assert math.hypot(row["vx1_mph"], row["vy1_mph"]) == pytest.approx(24.16, abs=0.1)
     assert math.hypot(row["vx2_mph"], row["vy2_mph"]) == pytest.approx(6.31, abs=0.25)
+
+
+@pytest.mark.slow
+def test_speeds_before_are_found_again(blind, committed):
+    """Every reconstruction once more; statistics from the rows; a miss has its cause."""
+    rows, table = blind["backwards"].rows(), committed["blind"]["backwards"]
+    assert len(rows) == len(table["rows"]) == 28
+    for mine, row in zip(rows, table["rows"], strict=True):
+        for name in ("test", "route", "speed", "known", "held", "cause"):
+            assert mine[name] == row[name]
+        assert [mine["found"], *mine["range"]] == pytest.approx([row["found"], *row["range"]], abs=0.05)
+        assert bool(row["cause"]) is not row["held"]
+        assert row["held"] == (row["range"][0] <= row["known"] <= row["range"][1])
+    for entry, word in zip(table["summaries"], ("momentum", "delta-V"), strict=True):
+        errors = [100 * (row["found"] / row["known"] - 1) for row in table["rows"] if row["route"].startswith(word)]
+        assert [entry["mean"], entry["sd"]] == pytest.approx([np.mean(errors), np.std(errors, ddof=1)], abs=0.05)
+        assert entry["held"] == sum(row["held"] for row in table["rows"] if row["route"].startswith(word))
+
+
+@pytest.mark.parametrize("test", ["1", "6", "10"])
+def test_speeds_by_momentum_are_those_of_two_equations(blind, committed, test):
+    """Solved here in the axes of the source: m1 v1 + m2 v2 is the same before and after."""
+    row, read = source_row(test), blind["measured"].readings()[f"ricsac_{int(test):02d}"]
+    after = np.array(
+        [
+            row["m1_kg"] * read["velocity_after_forward_a"] + row["m2_kg"] * read["velocity_after_forward_b"],
+            -row["m1_kg"] * read["velocity_after_left_a"] - row["m2_kg"] * read["velocity_after_left_b"],
+        ]
+    )
+    course = math.atan2(row["v2_right1_mps"], row["v2_fwd1_mps"])
+    along = np.array([[row["m1_kg"], row["m2_kg"] * math.cos(course)], [0.0, row["m2_kg"] * math.sin(course)]])
+    speeds = 3.6 * np.linalg.solve(along, after)
+    found = [
+        entry["found"]
+        for entry in committed["blind"]["backwards"]["rows"]
+        if (entry["test"], entry["route"]) == (f"RICSAC {test}", "momentum")
+    ]
+    assert found == pytest.approx(speeds, rel=0.005)

@@ -134,6 +134,41 @@ def lever_words(found: dict[str, Any]) -> str:
     )
 
 
+def backwards(found: dict[str, Any]) -> str:
+    """The speeds before the impact, worked out from what was measured."""
+    rows = []
+    for row in found["blind"]["backwards"]["rows"]:
+        low, high = (plain(end, "km/h") for end in row["range"])
+        rows.append(
+            [
+                row["test"],
+                f"{row['speed']}, by {row['route']}",
+                "held" if row["held"] else f"**missed**, {row['cause']}",
+                plain(row["known"], "km/h"),
+                f"{plain(row['found'], 'km/h')} ({low} to {high})",
+                off(row["percent"], "%"),
+            ]
+        )
+    head = ["test", "speed before", "range", "known, km/h", "found (95 % range)", "error"]
+    return table(head, rows, left=3)
+
+
+def backwards_summary(found: dict[str, Any]) -> str:
+    """Errors and ranges of each route backwards."""
+    rows = [
+        [
+            entry["route"],
+            str(entry["speeds"]),
+            off(entry["mean"], "%"),
+            f"{entry['sd']:.0f} %",
+            f"{off(entry['worst'], '%')} ({entry['worst_of']})",
+            f"{entry['held']} of {entry['speeds']}",
+        ]
+        for entry in found["blind"]["backwards"]["summaries"]
+    ]
+    return table(["by", "speeds", "mean error", "standard deviation", "worst", "held"], rows)
+
+
 def without_answer(found: dict[str, Any]) -> str:
     """Where cases of a range had no answer, in words, and whether predictions are those first committed."""
     listed = [
@@ -220,6 +255,7 @@ def everything(found: dict[str, Any]) -> str:
     """All of these tables as text."""
     parts = [
         headline(found), summary(found), predictions(found), misses(found), self_checks(found), lever_words(found),
-        without_answer(found), "Two runs of a commercial program", commercial(found), commercial_words(found),
+        without_answer(found), "Backwards", backwards_summary(found), backwards(found),
+        "Two runs of a commercial program", commercial(found), commercial_words(found),
     ]  # fmt: skip
     return "\n\n".join(parts)

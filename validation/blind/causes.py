@@ -53,3 +53,19 @@ CAUSES: dict[tuple[str, str], tuple[str, str]] = {
         "read at the door sills in axes that turned with the car, 4 percent outside",
     ),
 }
+
+BACKWARDS: dict[tuple[str, str], tuple[str, str]] = {
+    ("RICSAC 1", "momentum"): (TYRES, "a fifth of the impulse is not between the cars: the tyres', or the measurement's"),
+    ("RICSAC 4", "delta-V of A"): (
+        MEASUREMENT,
+        "A lost a third more momentum than B gained: the truth lies between both answers",
+    ),
+    ("RICSAC 4", "delta-V of B"): (
+        MEASUREMENT,
+        "A lost a third more momentum than B gained: the truth lies between both answers",
+    ),
+    ("RICSAC 6", "delta-V of B"): (GEOMETRY, _NOT_ONE_POINT),
+    ("RICSAC 10", "momentum"): (SIDE_SLAP, f"{_SIDE_SLAP}; momentum misses by a third"),
+    ("RICSAC 10", "delta-V of A"): (SIDE_SLAP, f"{_SIDE_SLAP}; its delta-V is that of both blows"),
+}
+"""The same for what is worked out backwards, by test and route."""

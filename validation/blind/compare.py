@@ -7,7 +7,7 @@ import math
 import statistics
 from typing import Any
 
-from . import inputs, measured, predict
+from . import backwards, inputs, measured, predict
 from .causes import CAUSES
 
 QUANTITIES = {
@@ -142,20 +142,27 @@ def changed_since_first(predicted: dict[str, Any]) -> dict[str, int]:
     return found
 
 
+def entries(predicted: dict[str, Any]) -> list[dict[str, Any]]:
+    """Every reading beside its predictions."""
+    return [entry(row, predicted[row["case"]]) for row in measured.rows() if row["quantity"] in QUANTITIES]
+
+
 def everything(predicted: dict[str, Any] | None = None) -> dict[str, Any]:
     """All that the page shows of the blind cases."""
     predicted = predict.predictions() if predicted is None else predicted
-    rows = [entry(row, predicted[row["case"]]) for row in measured.rows() if row["quantity"] in QUANTITIES]
+    rows = entries(predicted)
     without = [
         {"test": case["title"], "level": level, "without_answer": answer["without_answer"], "samples": answer["samples"]}
         for case in predicted.values()
         for level, answer in case["levels"].items()
         if answer["without_answer"]
     ]
+    speeds = backwards.rows()
     return {
         "rows": rows,
         "summaries": summaries(rows),
         "self_checks": self_checks(predicted),
         "without_answer": without,
+        "backwards": {"rows": speeds, "summaries": backwards.summaries(speeds)},
         "changed_since_first": changed_since_first(predicted),
     }
