@@ -28,7 +28,7 @@ def blind():
     """The modules of the pack by name."""
     sys.path.insert(0, str(ROOT / "validation"))
     try:
-        names = ("axes", "backwards", "causes", "compare", "inputs", "levels", "measured", "predict")
+        names = ("afterwards", "axes", "backwards", "causes", "compare", "inputs", "levels", "measured", "predict")
         found = {name: importlib.import_module(f"blind.{name}") for name in names}
         yield found | {name: importlib.import_module(name) for name in ("blind_tables", "commercial_program")}
     finally:
@@ -408,3 +408,24 @@ def test_speeds_by_momentum_are_those_of_two_equations(blind, committed, test):
         if (entry["test"], entry["route"]) == (f"RICSAC {test}", "momentum")
     ]
     assert found == pytest.approx(speeds, rel=0.005)
+
+
+@pytest.mark.slow
+def test_what_was_tried_afterwards_is_found_again(blind, committed):
+    """And its first line is that of the predictions; a wider point holds no less and is no narrower."""
+    rows, table = blind["afterwards"].rows(), committed["blind"]["afterwards"]
+    for mine, row in zip(rows, table, strict=True):
+        assert mine == row | {"half_width": pytest.approx(row["half_width"], rel=2e-3)}
+    for entry in committed["blind"]["summaries"]:
+        if entry["level"] == "impact" and entry["group"] == blind["compare"].READ_FIRST:
+            (stated,) = (row for row in table if (row["tried"], row["kind"]) == ("as stated", entry["kind"]))
+            assert [stated["held"], stated["half_width"]] == [entry["held"], entry["half_width"]]
+    for kind in ("delta-V", "yaw rate", "energy lost"):
+        lines = [
+            row for row in table if row["kind"] == kind and row["tried"] in ("as stated", "point to 0.5 m", "point to 0.9 m")
+        ]
+        assert [row["half_width"] for row in lines] == sorted(row["half_width"] for row in lines)
+        assert [row["held"] for row in lines] == sorted(row["held"] for row in lines)
+    half_a_metre = {row["kind"]: row["held"] for row in table if row["tried"] == "point to 0.5 m"}  # what the page advises
+    assert half_a_metre["delta-V"] >= 12
+    assert half_a_metre["yaw rate"] == 14

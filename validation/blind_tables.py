@@ -134,6 +134,22 @@ def lever_words(found: dict[str, Any]) -> str:
     )
 
 
+def afterwards(found: dict[str, Any]) -> str:
+    """How often other stated ranges would have held, and how wide they are."""
+    entries = found["blind"]["afterwards"]
+    kinds = list(dict.fromkeys((entry["kind"], entry["measure"]) for entry in entries))
+    rows = [
+        [tried, *(text for entry in entries if entry["tried"] == tried for text in _held_and_half(entry))]
+        for tried in dict.fromkeys(entry["tried"] for entry in entries)
+    ]
+    head = ["tried afterwards", *(text for kind, unit in kinds for text in (f"{kind}: held", f"half of the range, {unit}"))]
+    return table(head, rows)
+
+
+def _held_and_half(entry: dict[str, Any]) -> tuple[str, str]:
+    return f"{entry['held']} of {entry['readings']}", f"{entry['half_width']:.0f}"
+
+
 def backwards(found: dict[str, Any]) -> str:
     """The speeds before the impact, worked out from what was measured."""
     rows = []
@@ -256,6 +272,6 @@ def everything(found: dict[str, Any]) -> str:
     parts = [
         headline(found), summary(found), predictions(found), misses(found), self_checks(found), lever_words(found),
         without_answer(found), "Backwards", backwards_summary(found), backwards(found),
-        "Two runs of a commercial program", commercial(found), commercial_words(found),
+        afterwards(found), "Two runs of a commercial program", commercial(found), commercial_words(found),
     ]  # fmt: skip
     return "\n\n".join(parts)

@@ -23,7 +23,7 @@ import other_lists
 import untuned_predictions
 import validation_figures
 import validation_tables as tables
-from blind import compare
+from blind import page
 from published_records import record_names, table_of
 
 DOCS = HERE.parent / "docs"
@@ -70,12 +70,12 @@ def published() -> dict[str, Any]:
 def main() -> None:
     """Write and print, or print the blind cases alone."""
     if sys.argv[1:] == ["--blind"]:
-        found = {"blind": compare.everything(), "commercial": commercial_program.everything()}
+        found = {"blind": page.everything(), "commercial": commercial_program.everything()}
         print(blind_tables.everything(found))
         return
     if sys.argv[1:]:
         sys.exit("python validation/run.py takes --blind or nothing")
-    found = {"blind": compare.everything(), **published()}
+    found = {"blind": page.everything(), **published()}
     (DOCS / "_generated" / "validation.json").write_text(
         json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8"
     )

@@ -7,7 +7,7 @@ import math
 import statistics
 from typing import Any
 
-from . import backwards, inputs, measured, predict
+from . import inputs, measured, predict
 from .causes import CAUSES
 
 QUANTITIES = {
@@ -33,7 +33,7 @@ def group(key: str) -> str:
     return READ_FIRST if key.startswith("ricsac") else KNOWN
 
 
-def entry(row: dict[str, str], predicted: dict[str, Any]) -> dict[str, Any]:
+def beside(row: dict[str, str], predicted: dict[str, Any]) -> dict[str, Any]:
     """One reading beside what every level predicts, in the unit of the page."""
     title, kind, unit = QUANTITIES[row["quantity"]]
     times = SHOWN[unit]
@@ -65,6 +65,12 @@ def entry(row: dict[str, str], predicted: dict[str, Any]) -> dict[str, Any]:
             "error": rounded(error),
             "percent": rounded(100 * error / abs(reading)) if kind != "yaw rate" else None,
         }
+    return found
+
+
+def entry(row: dict[str, str], predicted: dict[str, Any]) -> dict[str, Any]:
+    """A reading beside its predictions, with the cause of a miss; refused if a miss has none."""
+    found = beside(row, predicted)
     if not all(answer["held"] for answer in found["levels"].values()):
         if (row["case"], row["quantity"]) not in CAUSES:
             raise LookupError(f"{row['case']}: {row['quantity']} was missed, and causes.py does not say what by")
@@ -145,24 +151,3 @@ def changed_since_first(predicted: dict[str, Any]) -> dict[str, int]:
 def entries(predicted: dict[str, Any]) -> list[dict[str, Any]]:
     """Every reading beside its predictions."""
     return [entry(row, predicted[row["case"]]) for row in measured.rows() if row["quantity"] in QUANTITIES]
-
-
-def everything(predicted: dict[str, Any] | None = None) -> dict[str, Any]:
-    """All that the page shows of the blind cases."""
-    predicted = predict.predictions() if predicted is None else predicted
-    rows = entries(predicted)
-    without = [
-        {"test": case["title"], "level": level, "without_answer": answer["without_answer"], "samples": answer["samples"]}
-        for case in predicted.values()
-        for level, answer in case["levels"].items()
-        if answer["without_answer"]
-    ]
-    speeds = backwards.rows()
-    return {
-        "rows": rows,
-        "summaries": summaries(rows),
-        "self_checks": self_checks(predicted),
-        "without_answer": without,
-        "backwards": {"rows": speeds, "summaries": backwards.summaries(speeds)},
-        "changed_since_first": changed_since_first(predicted),
-    }
