@@ -1,4 +1,4 @@
-"""Table 1: what others computed, computed again."""
+"""Table 3: what others computed, computed again."""
 
 from __future__ import annotations
 

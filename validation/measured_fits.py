@@ -1,4 +1,4 @@
-"""Table 2: measured tests whose inputs were tuned to their own measurement. A good fit is no
+"""Table 4: measured tests whose inputs were tuned to their own measurement. A good fit is no
 prediction.
 """
 
@@ -110,7 +110,7 @@ def low_speed_test() -> Case:
 
 
 def cases() -> list[Case]:
-    """Every case of table 2."""
+    """Every case of table 4."""
     return [low_speed_test(), *(barrier_test(row) for row in rows_of(OVERLAP))]
 
 

@@ -49,7 +49,7 @@ def nothing_published() -> list[dict[str, Any]]:
 
 
 def inputs_only() -> list[dict[str, Any]]:
-    """Records that are no cases: values of a formula and statements, used as inputs of table 3 or
+    """Records that are no cases: values of a formula and statements, used as inputs of table 2 or
     not at all.
     """
     names = [name for name in record_names() if name.startswith(RESTITUTION)]
@@ -59,7 +59,7 @@ def inputs_only() -> list[dict[str, Any]]:
             "records": fit,
             "what": (
                 "values of a fit to low-speed in-line tests, all met by `reference.restitution`. "
-                "Input of table 3."
+                "Input of table 2."
             ),
             "values": cipriani_values(),
         },
@@ -67,7 +67,7 @@ def inputs_only() -> list[dict[str, Any]]:
             "records": [name for name in names if "SAE 931842" in name],
             "what": (
                 "a range in an abstract, and its 0.1 for medium and high speed. The 0.1 is an "
-                "input of table 3."
+                "input of table 2."
             ),
         },
         {
@@ -141,7 +141,7 @@ def not_computed() -> list[dict[str, Any]]:
             "given": "not in the data",
             "why": (
                 "only the planar solutions fitted to them are published here, so the two are in "
-                "table 1 and in no other."
+                "table 3 and in no other."
             ),
         },
         {

@@ -1,8 +1,9 @@
-"""Solves every published case, writes docs/_generated/validation.json and the figures of the page,
-and prints the tables.
+"""Predicts every blind case, solves every published one, writes docs/_generated/validation.json and
+the figures, and prints.
 
-Run with ``python validation/run.py``. It takes a few seconds and needs the library and, for the
-figures, matplotlib.
+Run with ``python validation/run.py``; ``--blind`` prints the blind cases alone and writes nothing.
+It takes half a minute, nearly all of it for the contacts in time, and needs the library and, for
+the figures, matplotlib.
 """
 
 from __future__ import annotations
@@ -17,11 +18,14 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
 import agreement
+import blind_tables
+import commercial_program
 import measured_fits
 import other_lists
 import untuned_predictions
 import validation_figures
 import validation_tables as tables
+from blind import page
 from published_records import record_names, table_of
 
 DOCS = HERE.parent / "docs"
@@ -54,8 +58,8 @@ def homes(found: dict[str, Any]) -> dict[str, str]:
     return dict(sorted(placed))
 
 
-def everything() -> dict[str, Any]:
-    """All that the page shows."""
+def published() -> dict[str, Any]:
+    """All that the page shows but the blind cases."""
     found: dict[str, Any] = {
         "agreement": table_of(agreement.cases()),
         "fits": {
@@ -69,20 +73,29 @@ def everything() -> dict[str, Any]:
         "inputs_only": other_lists.inputs_only(),
         "not_computed": other_lists.not_computed(),
         "slips": other_lists.slips(),
+        "commercial": commercial_program.everything(),
     }
     found["records"] = homes(found)
     return found
 
 
 def main() -> None:
-    """Write and print."""
-    found = everything()
+    """Write and print, or print the blind cases alone."""
+    if sys.argv[1:] == ["--blind"]:
+        found = {"blind": page.everything(), "commercial": commercial_program.everything()}
+        print(blind_tables.everything(found))
+        return
+    if sys.argv[1:]:
+        sys.exit("python validation/run.py takes --blind or nothing")
+    found = {"blind": page.everything(), **published()}
     (DOCS / "_generated" / "validation.json").write_text(
         json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8"
     )
     for name in ("agreement", "fits", "predictions"):
         validation_figures.draw(found, name, DOCS / "_static" / f"validation_{name}.svg")
-    print(tables.everything(found))
+    print(
+        tables.TITLES["blind"], blind_tables.everything(found), tables.everything(found), sep="\n\n"
+    )
 
 
 if __name__ == "__main__":

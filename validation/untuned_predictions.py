@@ -1,4 +1,4 @@
-"""Table 3: what was measured, predicted from inputs that nobody tuned to it.
+"""Table 2: what was measured, predicted from inputs that nobody tuned to it.
 
 The rule for the restitution takes nothing from the readings: the fit of Cipriani and others where
 its published values lie (2 to 15 mph), beyond them the 0.1 that the abstract of SAE 931842 gives
@@ -256,7 +256,7 @@ def taurus_in_line() -> tuple[float, float]:
 
 
 def cases() -> list[Case]:
-    """Every case of table 3."""
+    """Every case of table 2."""
     return [
         fiesta_into_polo(),
         citroen_into_bus(),

@@ -1,0 +1,1 @@
+"""Blind predictions of measured crashes: inputs fixed first, measurements read afterwards."""
