@@ -1,22 +1,27 @@
-"""Crashes of two cars whose contact lasts, integrated in time, by code that shares nothing with the package.
+"""Crashes of two cars whose contact lasts, integrated in time, sharing no code with the package.
 
-It is a world of its own to try the package's answers in: none of what the package assumes of an impact is assumed here.
+It is a world of its own to try the package's answers in: what the package assumes of an impact is
+not assumed here.
 
-*Contact.* Each body carries the point of first touch with it. The force acts midway between the two points; its normal has
-turned by the mean of what both bodies have turned. Along the normal a spring with a stiffer line of unloading gives back
-``restitution**2`` of the work that it took. Across it friction opposes the slip, with Coulomb's bound: ``friction`` times
-the normal force times slip / hypot(slip, ``CREEP``). With this point and this normal the rate of the penetration is exactly
-the closing velocity of the material at the point, so momentum, moment of momentum and energy balance to the error of the
+*Contact.* Each body carries the point of first touch with it. The force acts midway between the
+two points; its normal turns by the mean of what both bodies turn. Along the normal a spring with a
+stiffer line of unloading gives back ``restitution**2`` of the work that it took. Across it friction
+opposes the slip with ``friction`` times the normal force times slip / hypot(slip, ``CREEP``). With
+this point and this normal the rate of the penetration is exactly the closing velocity of the
+material at the point, so momentum, moment of momentum and energy balance to the error of the
 integration. The contact ends where the force has fallen to 0; a second one is not looked for.
 
-*Tyres.* Four wheels a car, each with a spin of its own. The force of a wheel opposes the slip of its tread over the ground
-and grows with slip over rolling speed as in the brush model (a cubic, then ``ground`` times load). A brake is a moment,
-``lock`` times what would hold the wheel under its load at rest: above 1 the wheel locks. The loads follow the tyres' forces
-through the height of the centre of mass with the lag of a suspension; the force of the contact is taken to act at that
-height. What a wheel slips at rest and how its brake lets go are smoothed (``SLOW``, ``STILL``).
+*Tyres.* Four wheels a car, each with a spin of its own. The force of a wheel opposes the slip of
+its tread over the ground and grows with slip over rolling speed as in the brush model (Fiala's
+cubic, then ``ground`` times load). A brake is a moment, ``lock`` times what would hold the wheel
+under its load at rest: above 1 the wheel locks. The loads follow the tyres' forces through the
+height of the centre of mass with the lag of a suspension; the force of the contact is taken to act
+at that height. Slip near rest and the moment of a brake near rest are smoothed (``SLOW``,
+``STILL``).
 
-All numbers are SI; scene axes are right-handed, angles counter-clockwise. The last axis of an array is the crash, the first
-the car (A, B), and of what belongs to wheels the second: front left, front right, rear left, rear right.
+All numbers are SI; scene axes are right-handed, angles counter-clockwise. The last axis of an array
+is the crash, the first the car (A, B), and of what belongs to wheels the second is the wheel: front
+left, front right, rear left, rear right.
 """
 
 from __future__ import annotations
@@ -32,15 +37,23 @@ LONGEST = 3.0  # nominal durations, after which a contact that has not ended cou
 EVERY = 8  # steps between the kept moments of a pulse
 CREEP = 0.01  # m/s, slip at which friction has 0.7 of its bound
 SLOW = 0.3  # m/s, added to the speed of rolling in the slip of a tyre
+OUT_OF_CONTACT = 1.0  # m/s, the same after separation, for the sake of longer steps
+RESTING = 0.05  # m/s, of the energy at which a car counts as at rest
 STILL = 0.5  # rad/s, spin at which a brake has 0.7 of its moment
 LAG = 0.05  # s, of the loads behind the forces
 RUN_IN = 0.3  # s, of the wheels before first touch
 LEAST = 0.01  # of the restitution: below, the line of unloading is too steep to follow
 
-# Rows of a state, of each car; the tyres' moment is about the origin. The last is of the contact, in A's
-# place: the heat of friction.
+# Rows of a state, of each car; the tyres' moment is about the origin. The last, the heat of
+# friction, is of the contact and stands in A's place.
 X, Y, HEADING, VX, VY, YAW_RATE, SPIN, TRANSFER = 0, 1, 2, 3, 4, 5, slice(6, 10), slice(10, 12)
-RECORDED, SQUARED_YAW, TYRE_IMPULSE, TYRE_MOMENT, TYRE_WORK = slice(12, 14), 14, slice(15, 17), 17, 18
+RECORDED, SQUARED_YAW, TYRE_IMPULSE, TYRE_MOMENT, TYRE_WORK = (
+    slice(12, 14),
+    14,
+    slice(15, 17),
+    17,
+    18,
+)
 HEAT = 19
 ROWS = 20
 
@@ -75,7 +88,8 @@ class Crashes:
 
     def take(self, which: Any) -> Crashes:
         """Some of the crashes."""
-        return replace(self, **{one.name: getattr(self, one.name)[..., which] for one in fields(self)})
+        names = [one.name for one in fields(self)]
+        return replace(self, **{name: getattr(self, name)[..., which] for name in names})
 
     def instant(self, duration: float = 0.002) -> Crashes:
         """The same crashes with contacts that last about so long, and without tyres."""
@@ -85,7 +99,8 @@ class Crashes:
 
     def mirrored(self) -> Crashes:
         """The same crashes seen in a mirror along the x axis."""
-        turned = {name: -getattr(self, name) for name in ("y", "heading", "vy", "yaw_rate", "normal")}
+        names = ("y", "heading", "vy", "yaw_rate", "normal")
+        turned = {name: -getattr(self, name) for name in names}
         point = self.point * np.array([[1.0], [-1.0]])
         return replace(self, point=point, lock=self.lock[:, [1, 0, 3, 2]], **turned)
 
@@ -98,7 +113,7 @@ class Contacts:
     duration: Any
     penetration: Any  # m, at maximum engagement
     slip: Any  # m/s, of A over B across the normal at separation
-    ratio: Any  # impulse across the normal over that along it, on B, in the axes at maximum engagement
+    ratio: Any  # impulse on B across the normal over that along it, that of maximum engagement
     peak_ratio: Any  # the largest ratio of the forces
     # At maximum engagement:
     engaged: Any  # s
@@ -129,32 +144,33 @@ class Contacts:
         return np.abs(self.slip) < 0.5
 
     def fixed(self, crashes: Crashes) -> tuple[Any, Any]:
-        """Delta-V forward and left, (2, crashes), in axes that keep the heading at maximum engagement."""
+        """Delta-V forward and left, (2, crashes), heading as at maximum engagement."""
         dvx, dvy = self.after[:, VX] - crashes.vx, self.after[:, VY] - crashes.vy
         c, s = np.cos(self.heading), np.sin(self.heading)
         return c * dvx + s * dvy, c * dvy - s * dvx
 
     def turning(self, forward: Any = 0.0, left: Any = 0.0) -> tuple[Any, Any]:
-        """Curves of delta-V forward and left, (moments, 2, crashes), as a recorder fixed to the car at this place has them.
+        """Curves of delta-V forward and left, (moments, 2, crashes), of a recorder at this place.
 
-        It integrates the acceleration of its own place along axes that turn with the car; the last moment is separation.
+        It integrates the acceleration of its own place along axes that turn with the car. The last
+        moment is separation.
         """
         along = self.recorded_forward - self.turned * left - self.squared_yaw * forward
         return along, self.recorded_left + self.turned * forward - self.squared_yaw * left
 
-    def sampled(self, i: int, forward: Any = 0.0, left: Any = 0.0, every: float = 0.01) -> tuple[Any, Any, Any]:
-        """Moments every 10 ms from first touch to separation, and the two curves of crash ``i`` there, (moments, 2)."""
-        at = np.append(np.arange(0.0, self.duration[i], every), self.duration[i])
-        curves = (curve[:, :, i] for curve in self.turning(forward, left))
-        along, across = (np.stack([np.interp(at, self.time[:, i], one) for one in curve.T], axis=-1) for curve in curves)
-        return at, along, across
+    def sampled(self, i: int, forward: Any = 0.0, left: Any = 0.0) -> tuple[Any, Any, Any]:
+        """Moments every 10 ms up to separation, and both curves of one crash, (moments, 2)."""
+        at = np.append(np.arange(0.0, self.duration[i], 0.01), self.duration[i])
+        curves = [curve[:, :, i].T for curve in self.turning(forward, left)]
+        read = [[np.interp(at, self.time[:, i], one) for one in curve] for curve in curves]
+        return at, np.stack(read[0], axis=-1), np.stack(read[1], axis=-1)
 
 
 class World:
     """Crashes as a system of differential equations."""
 
-    def __init__(self, crashes: Crashes, *, creep: float = CREEP) -> None:
-        self.crashes, self.creep = crashes, creep
+    def __init__(self, crashes: Crashes, *, creep: float = CREEP, slow: float = SLOW) -> None:
+        self.crashes, self.creep, self.slow = crashes, creep, slow
         k = crashes
         self.arm_x, self.arm_y = k.point[0] - k.x, k.point[1] - k.y
         front, rear = k.ahead * k.wheelbase, (1.0 - k.ahead) * k.wheelbase
@@ -168,13 +184,18 @@ class World:
         self.by_across = -level / (2.0 * k.track[:, None]) * np.sign(self.wheel_y)
         self.brake = k.lock * k.ground * self.static * k.radius[:, None]
         self.steeper = 1.0 / np.maximum(k.restitution, LEAST) ** 2
-        self.kept = 1.0 - 1.0 / self.steeper  # of the greatest penetration, what is left where the force is 0 again
+        # Of the greatest penetration, what is left where the force is 0 again.
+        self.kept = 1.0 - 1.0 / self.steeper
 
     def start(self) -> Any:
         """The state at first touch, after the wheels have run in."""
         k = self.crashes
         state = np.zeros((2, ROWS, k.normal.size))
-        for row, value in zip((X, Y, HEADING, VX, VY, YAW_RATE), (k.x, k.y, k.heading, k.vx, k.vy, k.yaw_rate), strict=True):
+        for row, value in zip(
+            (X, Y, HEADING, VX, VY, YAW_RATE),
+            (k.x, k.y, k.heading, k.vx, k.vy, k.yaw_rate),
+            strict=True,
+        ):
             state[:, row] = value
         along = np.cos(k.heading) * k.vx + np.sin(k.heading) * k.vy
         state[:, SPIN] = (along / k.radius)[:, None]
@@ -190,7 +211,7 @@ class World:
         return state
 
     def tyres(self, state: Any, rate: Any) -> tuple[Any, Any, Any]:
-        """Force along and across each car and moment of its tyres; fills in the rates of spin and load."""
+        """Tyres' force along and across a car and their moment; fills in rates of spin and load."""
         k = self.crashes
         c, s = np.cos(state[:, HEADING]), np.sin(state[:, HEADING])
         vx, vy, yaw = state[:, VX], state[:, VY], state[:, YAW_RATE]
@@ -199,10 +220,11 @@ class World:
         slip_x = (c * vx + s * vy)[:, None] - yaw[:, None] * self.wheel_y - rolling
         slip_y = (c * vy - s * vx)[:, None] + yaw[:, None] * self.wheel_x
         size = np.hypot(slip_x, slip_y) + 1e-12
-        load = self.static + self.by_along * transfer[:, None, 0] + self.by_across * transfer[:, None, 1]
+        load = self.static + self.by_along * transfer[:, None, 0]
+        load += self.by_across * transfer[:, None, 1]
         bound = k.ground * np.maximum(load, 0.0)
-        u = k.cornering[:, None] / (3.0 * np.maximum(k.ground, 1e-9)) * size / (np.abs(rolling) + SLOW)
-        u = np.minimum(u, 1.0)
+        steep = k.cornering[:, None] / (3.0 * np.maximum(k.ground, 1e-9))
+        u = np.minimum(1.0, steep * size / (np.abs(rolling) + self.slow))
         over = -bound * (u * (3.0 - u * (3.0 - u))) / size
         along, across = over * slip_x, over * slip_y
         held = self.brake * spin / np.sqrt(spin * spin + STILL * STILL)
@@ -213,7 +235,7 @@ class World:
         return force_x, force_y, (self.wheel_x * across - self.wheel_y * along).sum(axis=1)
 
     def place(self, state: Any) -> tuple[Any, ...]:
-        """The contact as it lies: normal (x, y), penetration, point (x, y), and that normal's angle."""
+        """The contact as it lies: normal (x, y), penetration, point (x, y), angle of the normal."""
         turned = state[:, HEADING] - self.crashes.heading
         c, s = np.cos(turned), np.sin(turned)
         px = state[:, X] + c * self.arm_x - s * self.arm_y
@@ -274,7 +296,7 @@ class World:
 
 
 def simulated(crashes: Crashes, *, steps: int = STEPS, creep: float = CREEP) -> Contacts:
-    """All crashes at once from first touch to separation, by Runge and Kutta's method of fourth order."""
+    """All crashes at once, first touch to separation, by Runge and Kutta's method of order 4."""
     world = World(crashes, creep=creep)
     before = state = world.start()
     n = crashes.normal.size
@@ -295,7 +317,8 @@ def simulated(crashes: Crashes, *, steps: int = STEPS, creep: float = CREEP) -> 
         deeper = running & (depth > deepest)
         deep = np.where(deeper, then, deep)
         engaged = np.where(deeper, time + step, engaged)
-        over = depth - world.kept * np.maximum(deepest, depth)  # penetration above that at which the force ends
+        # Penetration above that at which the force ends.
+        over = depth - world.kept * np.maximum(deepest, depth)
         ends = running & (over <= 0.0)
         if ends.any():
             earlier = world.place(state)[2] - world.kept * deepest
@@ -312,7 +335,16 @@ def simulated(crashes: Crashes, *, steps: int = STEPS, creep: float = CREEP) -> 
 
 
 def _read(
-    world: World, before: Any, after: Any, deep: Any, kept: Any, ended: Any, time: Any, engaged: Any, deepest: Any, peak: Any
+    world: World,
+    before: Any,
+    after: Any,
+    deep: Any,
+    kept: Any,
+    ended: Any,
+    time: Any,
+    engaged: Any,
+    deepest: Any,
+    peak: Any,
 ) -> Contacts:
     crashes = world.crashes
     _, _, _, x, y, normal = world.place(deep)
@@ -351,8 +383,34 @@ def _read(
     )
 
 
+def rests(crashes: Crashes, contacts: Contacts, *, longest: float = 10.0) -> tuple[Any, Any]:
+    """Where each car comes to rest, (2, 3, crashes): x, y and heading, and when after separation.
+
+    NaN of a car that still moves after ``longest`` [s], as one whose wheels roll does.
+    """
+    world = World(crashes, slow=OUT_OF_CONTACT)
+    load = crashes.mass * GRAVITY / 2.0  # of a wheel, at most, with what is shifted to it
+    stiff = crashes.radius**2 * crashes.cornering * load / (crashes.spin_inertia * OUT_OF_CONTACT)
+    step = 2.0 / float(stiff.max())  # the method is stable up to 2.8
+    state, none = contacts.after.copy(), np.zeros(crashes.normal.size)
+    found, when = np.full((2, 3, none.size), np.nan), np.full((2, none.size), np.nan)
+    for count in range(1, round(longest / step) + 1):
+        k1 = world.rate(state, none, touching=False)
+        k2 = world.rate(state + 0.5 * step * k1, none, touching=False)
+        k3 = world.rate(state + 0.5 * step * k2, none, touching=False)
+        k4 = world.rate(state + step * k3, none, touching=False)
+        state = state + step / 6.0 * (k1 + 2.0 * (k2 + k3) + k4)
+        still = world.energy(state) < 0.5 * crashes.mass * RESTING**2
+        new = still & np.isnan(when)
+        found = np.where(new[:, None], state[:, :3], found)
+        when = np.where(new, count * step, when)
+        if not np.isnan(when).any():
+            break
+    return found, when
+
+
 def by_scipy(crashes: Crashes, i: int, *, creep: float = CREEP) -> tuple[float, Any]:
-    """Duration and state after of one crash, by ``scipy.integrate.solve_ivp``: loading, then unloading, each to its event."""
+    """Duration and state after of one crash by scipy: loading, then unloading, with events."""
     from scipy.integrate import solve_ivp
 
     world = World(crashes.take([i]), creep=creep)

@@ -1,6 +1,7 @@
-"""The crashes that lasting_crashes.py is run on: cars of all sizes that meet at any angle, with wheels that roll or do not.
+"""The crashes that lasting_crashes.py is run on: cars of all sizes that meet at wide angles.
 
-The ranges below and the seed were fixed before any answer of the package was looked at on these crashes. Each is uniform.
+The ranges below and the seed were fixed before any answer of the package was looked at on these
+crashes. Each is uniform.
 """
 
 from __future__ import annotations
@@ -17,7 +18,10 @@ SPEED = (6.0, 24.0)  # m/s, each
 MASS = (900.0, 2300.0)
 GYRATION = (0.46, 0.54)  # radius of gyration in yaw over wheelbase
 WHEELBASE, AHEAD, TRACK, HEIGHT = (2.4, 3.0), (0.42, 0.54), (1.4, 1.65), (0.45, 0.70)
-NOSE, HALF_WIDTH = (1.8, 2.3), (0.80, 0.92)  # m from the centre of mass to the bumper and to the side, less some crush
+NOSE, HALF_WIDTH = (
+    (1.8, 2.3),
+    (0.80, 0.92),
+)  # m from the centre of mass to the bumper and to the side, less some crush
 CORNERING, RADIUS, SPIN_INERTIA = (8.0, 14.0), (0.28, 0.34), (0.8, 1.5)
 DURATION = (0.05, 0.16)  # s, of the contacts that are kept
 DEEPEST = 1.2  # m, that both cars give way together in those
@@ -27,9 +31,16 @@ TILT = 20.0  # degrees, to either side, of the normal from that of the two faces
 SWERVE = 0.15  # rad/s, to either side, of the yaw rate before
 CLOSING = 3.0  # m/s along the normal at first touch, at least
 REACH = 0.3  # m along the normal between each centre of mass and the point, at least
-BRAKED, LOCKED, RESISTING = (0.15, 0.9), 1.5, (0.0, 0.03)  # locks of wheels: braked, locked, and rolling
+BRAKED, LOCKED, RESISTING = (
+    (0.15, 0.9),
+    1.5,
+    (0.0, 0.03),
+)  # locks of wheels: braked, locked, and rolling
 ROLLING = 0.4  # of the crashes, the share in which all eight wheels roll
-ROUGH = {"steps": 1000, "creep": 0.05}  # the integration that sorts out contacts of the wrong length
+ROUGH = {
+    "steps": 1000,
+    "creep": 0.05,
+}  # the integration that sorts out contacts of the wrong length
 RECORDER = (0.5, 0.2)  # m, how far a recorder may lie from the centre of mass along and across
 
 
@@ -48,7 +59,7 @@ class Population:
 
 
 def _locks(generator: np.random.Generator, n: int) -> Any:
-    """Each car that is not one of a rolling pair is braked alike at all wheels, locked, or braked at each wheel apart."""
+    """All wheels of a car braked alike, locked, each braked by itself, or rolling."""
     rolling = generator.uniform(*RESISTING, (2, 1, n)) * np.ones((1, 4, 1))
     alike = generator.uniform(*BRAKED, (2, 1, n)) * np.ones((1, 4, 1))
     apart = generator.uniform(0.0, 1.2, (2, 4, n))  # above 1 a wheel is jammed
@@ -56,7 +67,8 @@ def _locks(generator: np.random.Generator, n: int) -> Any:
     first = generator.integers(0, 2, n)
     kind[first, 0, np.arange(n)] = generator.integers(0, 3, n)  # but not both
     kind[:, :, generator.uniform(size=n) < ROLLING] = 3
-    return np.select([kind == 0, kind == 1, kind == 2], [alike, np.full_like(apart, LOCKED), apart], rolling)
+    kinds = [alike, np.full_like(apart, LOCKED), apart, rolling]
+    return np.select([kind == which for which in range(4)], kinds)
 
 
 def drawn(n: int, seed: int) -> tuple[Crashes, Any]:
@@ -75,7 +87,7 @@ def drawn(n: int, seed: int) -> tuple[Crashes, Any]:
     across = draw(-0.85, 0.85, (2, m)) * half
     along = draw(-0.9, 0.9, m) * nose[1]
     side = draw(size=m) < 0.6
-    # Where the point lies on each car, forward and left: of B struck in the side, on the side that A comes from.
+    # Where the point lies on each car, forward and left: of a side, the one that A comes from.
     nearer = np.sign(np.sin(heading[1] - heading[0]))
     forward = np.stack([nose[0], np.where(side, along, nose[1])])
     left = np.stack([across[0], np.where(side, nearer * half[1], across[1])])
@@ -162,7 +174,8 @@ def _meet(crashes: Crashes) -> Any:
 def population(n: int, seed: int = SEED, *, instant: bool = False) -> Population:
     """The first so many crashes whose contact ends and lasts as long as it should.
 
-    With ``instant`` the same crashes with contacts of 2 ms and without tyres: a world in which an impulse is the truth.
+    With ``instant`` the same crashes with contacts of 2 ms and without tyres: a world in which an
+    impulse is the truth.
     """
     crashes, recorder = drawn(n, seed)
     contacts = simulated(crashes, **ROUGH)
@@ -170,7 +183,7 @@ def population(n: int, seed: int = SEED, *, instant: bool = False) -> Population
     good &= contacts.penetration <= DEEPEST
     which = np.flatnonzero(good)[:n]
     if which.size < n:
-        raise ValueError(f"{which.size} of the {n} crashes that were asked for have a contact of this length")
+        raise ValueError(f"only {which.size} of {n} crashes have a contact of this length")
     kept = crashes.take(which)
     kept = kept.instant() if instant else kept
     return Population(crashes=kept, contacts=simulated(kept), recorder=recorder[..., which])
