@@ -172,8 +172,9 @@ def readings(drawn: Population, seed: int, *, samples: int, axes: str) -> Iterat
 def lasting(reading: Reading, values: dict[str, Any] | None = None) -> dict[str, Any]:
     """What the solvers are told of the contact in time and of the tyres.
 
-    Without values: the inputs that this needs, by name. With their values: the arguments made of
-    them. Of an impulse without tyres there is nothing to tell.
+    Without values: the inputs that this needs, by name, as they stand in ``reading.contact``. With
+    their values: the arguments made of them, of ``reading.locks`` and of ``reading.cars``. Of an
+    impulse without tyres there is nothing to tell.
     """
     return {}
 
@@ -499,7 +500,7 @@ def main() -> None:
         drawn = population(options.crashes, instant=world == "instant")
         read = list(readings(drawn, SEED, samples=options.samples, axes=options.axes))
         if world == "instant":
-            print("\nContacts of 2 ms without tyres; stuck or slid as they do so\n")
+            print("\nContacts of 2 ms without tyres, and whether they stuck or slid")
         for name in options.route or ROUTES:
             tale = [told(ROUTES[name], reading) for reading in read]
             cells = {cell: counted([one for one in tale if of(one)]) for cell, of in CELLS.items()}

@@ -172,7 +172,7 @@ def _meet(crashes: Crashes) -> Any:
 
 
 def population(n: int, seed: int = SEED, *, instant: bool = False) -> Population:
-    """The first so many crashes whose contact ends and lasts as long as it should.
+    """So many crashes whose contact lasts as long as it should; another number draws others.
 
     With ``instant`` the same crashes with contacts of 2 ms and without tyres: a world in which an
     impulse is the truth.

@@ -20,20 +20,27 @@ SEED = 31
 
 @pytest.fixture(scope="module")
 def scripts():
-    """The simulator and its population."""
+    """The simulator, its population, and what is read of it."""
     sys.path.insert(0, str(ROOT / "benchmarks"))
     try:
+        import coverage_in_crashes
         import lasting_crashes
         import lasting_population
     finally:
         sys.path.remove(str(ROOT / "benchmarks"))
-    return lasting_crashes, lasting_population
+    return lasting_crashes, lasting_population, coverage_in_crashes
 
 
 @pytest.fixture(scope="module")
 def lasting(scripts):
     """Three dozen crashes that last, with tyres."""
     return scripts[1].population(36, SEED)
+
+
+@pytest.fixture(scope="module")
+def instant(scripts):
+    """The same crashes in 2 ms and without tyres."""
+    return scripts[1].population(36, SEED, instant=True)
 
 
 def after(contacts, crashes):
@@ -43,7 +50,7 @@ def after(contacts, crashes):
 
 
 def test_the_simulator_shares_no_code_with_the_package(scripts):
-    for script in scripts:
+    for script in scripts[:2]:
         assert "collisions" not in Path(script.__file__).read_text(encoding="utf-8")
 
 
@@ -101,9 +108,8 @@ def test_another_integrator_and_another_step_agree(scripts, lasting):
         assert np.all(np.abs(change[:, 2] - found[:, 2, i]) < 2e-3)
 
 
-def test_at_two_milliseconds_without_tyres_the_impulse_is_the_answer(scripts, lasting):
+def test_at_two_milliseconds_without_tyres_the_impulse_is_the_answer(scripts, instant, lasting):
     """Energetic restitution and Coulomb friction, to 0.5 % of delta-V; lasting, 5 % and more."""
-    instant = scripts[1].population(36, SEED, instant=True)
 
     def furthest(drawn):
         k, c = drawn.crashes, drawn.contacts
@@ -214,3 +220,21 @@ def test_a_recorder_integrates_what_its_place_feels(scripts, lasting):
     moments, curve, _ = c.sampled(0, forward, left)
     assert np.allclose(np.diff(moments)[:-1], 0.01, rtol=0.0, atol=1e-12)
     assert np.all(np.abs(curve[-1] - along[-1, :, 0]) < 1e-12)
+
+
+@pytest.mark.parametrize(("held", "n"), [(0, 12), (12, 12), (272, 300), (1, 2)])
+def test_the_binomial_interval_is_the_exact_one(scripts, held, n):
+    stats = pytest.importorskip("scipy.stats")
+    exact = stats.binomtest(held, n).proportion_ci(0.998, method="exact")
+    assert scripts[2].binomial(held, n) == pytest.approx((exact.low, exact.high), abs=1e-9)
+
+
+def test_ranges_of_momentum_hold_where_momentum_is_the_truth(scripts, instant):
+    """Contacts of 2 ms without tyres: readings and errors are those that are stated."""
+    coverage = scripts[2]
+    read = list(coverage.readings(instant, SEED, samples=256, axes="fixed"))
+    row = coverage.counted([coverage.told(coverage.by_momentum, one) for one in read])
+    assert row["refused"] == 0
+    assert row["warned"] < 8
+    low, high = row["interval"]
+    assert 0.75 < low < 0.95 < high
