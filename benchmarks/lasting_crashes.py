@@ -46,16 +46,13 @@ LEAST = 0.01  # of the restitution: below, the line of unloading is too steep to
 
 # Rows of a state, of each car; the tyres' moment is about the origin. The last, the heat of
 # friction, is of the contact and stands in A's place.
-X, Y, HEADING, VX, VY, YAW_RATE, SPIN, TRANSFER = 0, 1, 2, 3, 4, 5, slice(6, 10), slice(10, 12)
-RECORDED, SQUARED_YAW, TYRE_IMPULSE, TYRE_MOMENT, TYRE_WORK = (
-    slice(12, 14),
-    14,
-    slice(15, 17),
-    17,
-    18,
-)
-HEAT = 19
+X, Y, HEADING, VX, VY, YAW_RATE = range(6)
+SPIN = slice(6, 10)
+LAGGING_ALONG, LAGGING_ACROSS = 10, 11  # force of the tyres that the loads have followed so far
+FORWARD, LEFT, SQUARED_YAW = 12, 13, 14  # integrals of the acceleration in turning axes
+TYRE_X, TYRE_Y, TYRE_MOMENT, TYRE_WORK, HEAT = range(15, 20)
 ROWS = 20
+INNER = slice(6, 12)  # what runs in before first touch
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -205,9 +202,9 @@ class World:
                 rate = np.zeros_like(state)
                 self.tyres(state, rate)
                 ahead, then = state.copy(), np.zeros_like(state)
-                ahead[:, 6:12] += step * rate[:, 6:12]
+                ahead[:, INNER] += step * rate[:, INNER]
                 self.tyres(ahead, then)
-                state[:, 6:12] += 0.5 * step * (rate[:, 6:12] + then[:, 6:12])
+                state[:, INNER] += 0.5 * step * (rate[:, INNER] + then[:, INNER])
         return state
 
     def tyres(self, state: Any, rate: Any) -> tuple[Any, Any, Any]:
@@ -215,13 +212,13 @@ class World:
         k = self.crashes
         c, s = np.cos(state[:, HEADING]), np.sin(state[:, HEADING])
         vx, vy, yaw = state[:, VX], state[:, VY], state[:, YAW_RATE]
-        spin, transfer = state[:, SPIN], state[:, TRANSFER]
+        spin = state[:, SPIN]
+        shift_x, shift_y = state[:, None, LAGGING_ALONG], state[:, None, LAGGING_ACROSS]
         rolling = k.radius[:, None] * spin
         slip_x = (c * vx + s * vy)[:, None] - yaw[:, None] * self.wheel_y - rolling
         slip_y = (c * vy - s * vx)[:, None] + yaw[:, None] * self.wheel_x
         size = np.hypot(slip_x, slip_y) + 1e-12
-        load = self.static + self.by_along * transfer[:, None, 0]
-        load += self.by_across * transfer[:, None, 1]
+        load = self.static + self.by_along * shift_x + self.by_across * shift_y
         bound = k.ground * np.maximum(load, 0.0)
         steep = k.cornering[:, None] / (3.0 * np.maximum(k.ground, 1e-9))
         u = np.minimum(1.0, steep * size / (np.abs(rolling) + self.slow))
@@ -230,8 +227,8 @@ class World:
         held = self.brake * spin / np.sqrt(spin * spin + STILL * STILL)
         rate[:, SPIN] = (-k.radius[:, None] * along - held) / k.spin_inertia[:, None]
         force_x, force_y = along.sum(axis=1), across.sum(axis=1)
-        rate[:, 10] = (force_x - transfer[:, 0]) / LAG
-        rate[:, 11] = (force_y - transfer[:, 1]) / LAG
+        rate[:, LAGGING_ALONG] = (force_x - state[:, LAGGING_ALONG]) / LAG
+        rate[:, LAGGING_ACROSS] = (force_y - state[:, LAGGING_ACROSS]) / LAG
         return force_x, force_y, (self.wheel_x * across - self.wheel_y * along).sum(axis=1)
 
     def place(self, state: Any) -> tuple[Any, ...]:
@@ -282,8 +279,9 @@ class World:
         rate[:, X], rate[:, Y], rate[:, HEADING] = vx, vy, yaw
         rate[:, VX], rate[:, VY], rate[:, YAW_RATE] = ax, ay, twist / k.inertia
         c, s = np.cos(state[:, HEADING]), np.sin(state[:, HEADING])
-        rate[:, 12], rate[:, 13], rate[:, SQUARED_YAW] = c * ax + s * ay, c * ay - s * ax, yaw * yaw
-        rate[:, 15], rate[:, 16] = tyre_x, tyre_y
+        rate[:, FORWARD], rate[:, LEFT] = c * ax + s * ay, c * ay - s * ax
+        rate[:, SQUARED_YAW] = yaw * yaw
+        rate[:, TYRE_X], rate[:, TYRE_Y] = tyre_x, tyre_y
         rate[:, TYRE_MOMENT] = moment + state[:, X] * tyre_y - state[:, Y] * tyre_x
         rate[:, TYRE_WORK] = tyre_x * vx + tyre_y * vy + moment * yaw
         return rate
@@ -349,8 +347,8 @@ def _read(
     crashes = world.crashes
     _, _, _, x, y, normal = world.place(deep)
     own = after - before
-    on_x = crashes.mass * own[:, VX] - own[:, 15]
-    on_y = crashes.mass * own[:, VY] - own[:, 16]
+    on_x = crashes.mass * own[:, VX] - own[:, TYRE_X]
+    on_y = crashes.mass * own[:, VY] - own[:, TYRE_Y]
     nx, ny = np.cos(normal), np.sin(normal)
     _, _, _, slip, *_ = world.contact(after, deepest)
     moments = np.stack([moment for moment, _ in kept])
@@ -371,8 +369,8 @@ def _read(
         after=after,
         impulse=np.stack([on_x, on_y], axis=1),
         time=moments,
-        recorded_forward=curves[:, :, 12],
-        recorded_left=curves[:, :, 13],
+        recorded_forward=curves[:, :, FORWARD],
+        recorded_left=curves[:, :, LEFT],
         turned=curves[:, :, YAW_RATE] - before[:, YAW_RATE],
         squared_yaw=curves[:, :, SQUARED_YAW],
         energy_before=world.energy(before),

@@ -93,13 +93,14 @@ def test_both_cars_can_be_named_the_other_way_round(scripts, lasting):
 
 
 def test_another_integrator_and_another_step_agree(scripts, lasting):
-    """scipy's LSODA with events on 20 crashes, half the step on all: a thousandth of delta-V."""
+    """scipy's LSODA on 20 crashes, to 0.1 % of delta-V; half the step on 12, to 0.01 %."""
     pytest.importorskip("scipy")
     k = lasting.crashes
     found = after(lasting.contacts, k)
     delta_v = np.hypot(found[:, 0], found[:, 1])
-    halved = after(scripts[0].simulated(k, steps=2 * scripts[0].STEPS), k)
-    assert np.all(np.hypot(*(halved - found)[:, :2].swapaxes(0, 1)) < 1e-3 * delta_v)
+    few = k.take(slice(0, 12))
+    halved = after(scripts[0].simulated(few, steps=2 * scripts[0].STEPS), few) - found[..., :12]
+    assert np.all(np.hypot(*halved[:, :2].swapaxes(0, 1)) < 1e-4 * delta_v[:, :12])
     for i in range(20):
         duration, state = scripts[0].by_scipy(k, i)
         change = state[:, 3:6] - np.stack([k.vx[:, i], k.vy[:, i], k.yaw_rate[:, i]], axis=-1)
