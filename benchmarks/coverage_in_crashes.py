@@ -1,0 +1,518 @@
+"""How often stated 95 percent ranges hold the speeds before, in crashes not made by the package.
+
+Each crash of lasting_population.py is read as an analyst would have it, with the errors below, by
+each route of ``ROUTES``.
+
+    python benchmarks/coverage_in_crashes.py [--crashes 150] [--world lasting|instant|both]
+        [--route NAME] [--axes turning|fixed] [--samples 256] [--json PATH]
+
+The recorders lie at known places off the centres of mass, and their components are of axes that
+turn with the car; with ``--axes fixed`` they lie at the centres of mass and their axes do not turn.
+
+In the ``instant`` world the same crashes have contacts of 2 ms and no tyres, so that the models of
+the routes are right but for the law of restitution. How wide a route's ranges are there is the
+measure of how wide they are in the ``lasting`` world.
+
+A route takes a ``Reading`` and returns the range that it states of each speed. An error of the
+package is a refusal; so are more lost samples than ``LOST``. What the solvers are told of the
+length of the contact and of the tyres stands in ``lasting`` alone.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+import warnings
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from lasting_population import FRICTION, RESTITUTION, SEED, Population, population
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "src"))
+
+import collisions as col
+from collisions import reconstruct
+from collisions.uncertainty import Distribution, Normal, Uniform, propagate
+
+# Standard deviations of what is read, fixed before any route was tried.
+MASS_ERROR, INERTIA_ERROR = 0.02, 0.10  # shares
+COURSE_ERROR, NORMAL_ERROR = math.radians(2.0), math.radians(4.0)
+PLACE_ERROR = 0.1  # m, of each coordinate of the contact point
+SPEED_AFTER_ERROR = 0.05  # share
+YAW_RATE_ERROR = (0.1, 0.05)  # rad/s, and a share
+RECORDER_ERROR = 0.04  # of the delta-V of that car, each component
+RECORDED_SPEED = 1.0 / 3.6  # m/s to either side: half the range of a uniform error
+DURATION_ERROR, GROUND_ERROR, LOCK_ERROR = (
+    0.2,
+    0.05,
+    0.1,
+)  # share; of friction; of the locks of a car's braked wheels together
+FASTEST = 40.0  # m/s; before the evidence any speed up to this is as likely
+OF_TYRES = ("wheelbase", "track", "cornering", "height")
+LOST = 0.02  # of the samples: above, the range is of the others, and the route counts as refused
+COVERAGE = 0.998  # of the binomial interval of a share held
+
+Speeds = dict[str, tuple[float, float]]
+Model = Callable[..., dict[str, Any]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reading:
+    """One crash as an analyst has it, and its truth beside."""
+
+    truth: dict[str, float]  # speeds before
+    stuck: bool
+    rolling: bool
+    seed: int
+    samples: int
+    # x, y and heading of each car at maximum engagement.
+    place: dict[str, tuple[float, float, float]]
+    known: dict[str, Distribution]  # masses, inertias, courses before, normal and point
+    motion: dict[str, tuple[float, float]]  # speed, course and yaw rate after, each with its error
+    recorded: dict[str, tuple[float, float]]  # components of delta-V, each with its error
+    recorder: dict[str, tuple[float, ...]]  # forward and left of the centre of mass
+    recorded_speed: dict[str, float]
+    # Duration, friction of the ground and how far the locks below are off; of a contact of 2 ms
+    # without tyres, nothing.
+    contact: dict[str, Distribution]
+    locks: dict[str, Any]
+    # What the tyres need besides: wheelbase, track, cornering, height.
+    cars: dict[str, dict[str, float]]
+
+
+def readings(drawn: Population, seed: int, *, samples: int, axes: str) -> Iterator[Reading]:
+    """Every crash with the errors of its reading, the same for every route."""
+    k, c = drawn.crashes, drawn.contacts
+    speed = np.hypot(k.vx, k.vy)
+    of_tyres = np.stack([getattr(k, name) for name in OF_TYRES])
+    recorder = drawn.recorder if axes == "turning" else np.zeros_like(drawn.recorder)
+    if axes == "turning":
+        forward, left = (curve[-1] for curve in c.turning(recorder[:, 0], recorder[:, 1]))
+    else:
+        forward, left = c.fixed(k)
+    delta_v = np.hypot(*c.fixed(k))
+    for i in range(k.normal.size):
+        generator = np.random.default_rng([seed, i])
+
+        def read(truth: float, error: float, generator: Any = generator) -> Normal:
+            return Normal(truth + error * generator.normal(), error)
+
+        def share(truth: float, error: float, generator: Any = generator) -> tuple[float, float]:
+            value = truth * (1.0 + error * generator.normal())
+            return value, error * value
+
+        known: dict[str, Distribution] = {
+            "normal": read(c.normal[i], NORMAL_ERROR),
+            "x": read(c.point[0, i], PLACE_ERROR),
+            "y": read(c.point[1, i], PLACE_ERROR),
+        }
+        motion, recorded, recorded_speed = {}, {}, {}
+        for j, label in enumerate("ab"):
+            known[f"mass_{label}"] = Normal(*share(k.mass[j, i], MASS_ERROR))
+            known[f"inertia_{label}"] = Normal(*share(k.inertia[j, i], INERTIA_ERROR))
+            known[f"course_{label}"] = read(math.atan2(k.vy[j, i], k.vx[j, i]), COURSE_ERROR)
+            vx, vy, yaw_rate = c.after[j, 3:6, i]
+            motion[f"speed_{label}_after"] = share(math.hypot(vx, vy), SPEED_AFTER_ERROR)
+            motion[f"course_{label}_after"] = (
+                math.atan2(vy, vx) + COURSE_ERROR * generator.normal(),
+                COURSE_ERROR,
+            )
+            error = math.hypot(YAW_RATE_ERROR[0], YAW_RATE_ERROR[1] * yaw_rate)
+            motion[f"yaw_rate_{label}_after"] = yaw_rate + error * generator.normal(), error
+            error = RECORDER_ERROR * delta_v[j, i]
+            for name, value in (("forward", forward), ("left", left)):
+                recorded[f"delta_v_{name}_{label}"] = (
+                    value[j, i] + error * generator.normal(),
+                    error,
+                )
+            recorded_speed[label] = speed[j, i] + generator.uniform(-RECORDED_SPEED, RECORDED_SPEED)
+        off = LOCK_ERROR * generator.normal(size=2)
+        contact: dict[str, Distribution] = (
+            {}
+            if k.ground[i] == 0.0
+            else {
+                "duration": Normal(*share(c.duration[i], DURATION_ERROR), truncate=(0.0, None)),
+                "ground": Normal(
+                    k.ground[i] + GROUND_ERROR * generator.normal(),
+                    GROUND_ERROR,
+                    truncate=(0.05, 1.2),
+                ),
+                **{f"lock_{label}": Normal(0.0, LOCK_ERROR) for label in "ab"},
+            }
+        )
+        yield Reading(
+            truth={label: float(speed[j, i]) for j, label in enumerate("ab")},
+            stuck=bool(c.stuck[i]),
+            rolling=bool(drawn.rolling[i]),
+            seed=i + 1,
+            samples=samples,
+            place={label: (c.x[j, i], c.y[j, i], c.heading[j, i]) for j, label in enumerate("ab")},
+            known=known,
+            motion=motion,
+            recorded=recorded,
+            recorder={label: tuple(recorder[j, :, i]) for j, label in enumerate("ab")},
+            recorded_speed=recorded_speed,
+            contact=contact,
+            locks={
+                label: np.where(k.lock[j, :, i] > 0.03, k.lock[j, :, i] + off[j], k.lock[j, :, i])
+                for j, label in enumerate("ab")
+            },
+            cars={
+                "a": dict(zip(OF_TYRES, of_tyres[:, 0, i], strict=True)),
+                "b": dict(zip(OF_TYRES, of_tyres[:, 1, i], strict=True)),
+            },
+        )
+
+
+def lasting(reading: Reading, values: dict[str, Any] | None = None) -> dict[str, Any]:
+    """What the solvers are told of the contact in time and of the tyres.
+
+    Without values: the inputs that this needs, by name, as they stand in ``reading.contact``. With
+    their values: the arguments made of them, of ``reading.locks`` and of ``reading.cars``. Of an
+    impulse without tyres there is nothing to tell.
+    """
+    return {}
+
+
+def cars(reading: Reading, values: dict[str, Any], speeds: dict[str, Any]) -> list[col.Vehicle]:
+    """Both cars before, at maximum engagement."""
+    return [
+        col.Vehicle.from_speed(
+            mass=values[f"mass_{label}"],
+            yaw_inertia=values[f"inertia_{label}"],
+            x=x,
+            y=y,
+            heading=heading,
+            speed=speeds[label],
+            course=values[f"course_{label}"],
+        )
+        for label, (x, y, heading) in reading.place.items()
+    ]
+
+
+def ranges(model: Model, inputs: dict[str, Any], reading: Reading, sought: str = "ab") -> Speeds:
+    """By ``propagate``; refused where too many samples have no answer."""
+    inputs = inputs | lasting(reading)
+    settings: dict[str, Any] = {"samples": reading.samples, "seed": reading.seed}
+    found = propagate(model, inputs, method="quasi_random", **settings)
+    speeds = {label: found[label].interval(0.95) for label in sought}
+    if found.failed > LOST * reading.samples:
+        raise LostError(speeds)
+    return speeds
+
+
+class LostError(Exception):
+    """Too many samples have no answer; it carries the range of the others."""
+
+
+def by_momentum(reading: Reading) -> Speeds:
+    """Courses before, and courses and speeds after."""
+    known = {name: reading.known[name] for name in ("mass_a", "mass_b", "course_a", "course_b")}
+    after = {name: Normal(*read) for name, read in reading.motion.items() if "yaw" not in name}
+
+    def model(**values: Any) -> dict[str, Any]:
+        taken = {name: value for name, value in values.items() if name[0] in "cs"}
+        found = reconstruct.momentum(
+            values["mass_a"],
+            values["mass_b"],
+            **taken,
+            **lasting(reading, values),
+            on_failure="nan",
+        )
+        return {"a": found.speed_a, "b": found.speed_b}
+
+    return ranges(model, known | after, reading)
+
+
+def by_components(reading: Reading, recorders: str, friction: Any, speed: str = "") -> Speeds:
+    """Components of these recorders, and the speed that one of them tells."""
+    inputs = reading.known | {"restitution": Uniform(*RESTITUTION)}
+    parts = reading.recorded.items()
+    given: dict[str, Any] = {name: Normal(*read) for name, read in parts if name[-1] in recorders}
+    if speed:
+        told = reading.recorded_speed[speed]
+        given[f"speed_{speed}"] = Uniform(told - RECORDED_SPEED, told + RECORDED_SPEED)
+    if friction == math.inf:
+        fixed = {"friction": math.inf}
+    else:
+        fixed, inputs = {}, inputs | {"friction": friction}
+    contact = ("normal", "restitution", "friction", "course_a", "course_b")
+
+    def model(**values: Any) -> dict[str, Any]:
+        taken = {name: value for name, value in values.items() if name in given or name in contact}
+        found = reconstruct.speeds(
+            *cars(reading, values, {"a": 0.0, "b": 0.0}),
+            point=(values["x"], values["y"]),
+            **taken,
+            **fixed,
+            **lasting(reading, values),
+        )[0]
+        return {"a": found.a.before.speed, "b": found.b.before.speed}
+
+    return ranges(model, inputs | given, reading, "ab".replace(speed, "") if speed else "ab")
+
+
+def by_both_recorders(reading: Reading) -> Speeds:
+    """Components of both recorders, with the friction of the contact known as its distribution."""
+    return by_components(reading, "ab", Uniform(*FRICTION))
+
+
+def by_both_recorders_stuck(reading: Reading) -> Speeds:
+    """Components of both recorders, with the contact taken to stick."""
+    return by_components(reading, "ab", math.inf)
+
+
+def by_one_recorder(reading: Reading) -> Speeds:
+    """Components of A's recorder and the speed that it tells, friction as its distribution."""
+    return by_components(reading, "a", Uniform(*FRICTION), "a")
+
+
+def by_posterior(reading: Reading) -> Speeds:
+    """Size of both delta-V and motion after: speeds, courses and yaw rates; by ``eccentric``."""
+    priors: dict[str, Any] = reading.known | {
+        "speed_a": Uniform(0.0, FASTEST),
+        "speed_b": Uniform(0.0, FASTEST),
+        "restitution": Uniform(*RESTITUTION),
+        "friction": Uniform(*FRICTION),
+    }
+    observed: dict[str, Any] = {}
+    for name, (value, error) in reading.motion.items():
+        observed[name] = Normal(0.0 if "course" in name else value, error)
+    for label in "ab":
+        forward, left = (reading.recorded[f"delta_v_{way}_{label}"] for way in ("forward", "left"))
+        observed[f"delta_v_{label}"] = Normal(math.hypot(forward[0], left[0]), forward[1])
+
+    def model(**values: Any) -> dict[str, Any]:
+        both = cars(reading, values, {label: values[f"speed_{label}"] for label in "ab"})
+        impact = col.eccentric(
+            *both,
+            values["restitution"],
+            normal=values["normal"],
+            point=(values["x"], values["y"]),
+            friction=values["friction"],
+            **lasting(reading, values),
+            on_failure="nan",
+        )
+        found = {}
+        for label, side in (("a", impact.a), ("b", impact.b)):
+            # The course as an angle from the one that was read, which has no jump near it.
+            read = reading.motion[f"course_{label}_after"][0]
+            found[f"course_{label}_after"] = np.angle(np.exp(1j * (side.after.course - read)))
+            found[f"speed_{label}_after"] = side.after.speed
+            found[f"yaw_rate_{label}_after"] = side.after.yaw_rate
+            x, y, heading = reading.place[label]
+            forward, left = reading.recorder[label]
+            c, s = math.cos(heading), math.sin(heading)
+            at_recorder = side.delta_v_at((x + c * forward - s * left, y + s * forward + c * left))
+            found[f"delta_v_{label}"] = np.hypot(*at_recorder)
+        return found
+
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", col.CollisionsWarning)
+        found = reconstruct.posterior(
+            model,
+            priors | lasting(reading),
+            observed,
+            samples=max(512, 2 * reading.samples),
+            seed=reading.seed,
+        )
+    for one in caught:
+        # That restitution or friction rests on its prior, a true one, is nothing against a speed.
+        about_others = not {"speed_a", "speed_b"}.intersection(found.prior_only)
+        if not (getattr(one.message, "code", "") == "undetermined" and about_others):
+            warnings.warn(one.message, stacklevel=2)
+    return {label: found[f"speed_{label}"].interval(0.95) for label in "ab"}
+
+
+ROUTES: dict[str, Callable[[Reading], Speeds]] = {
+    "momentum": by_momentum,
+    "both recorders, friction known": by_both_recorders,
+    "both recorders, friction=inf": by_both_recorders_stuck,
+    "one recorder and its speed": by_one_recorder,
+    "posterior of delta-V and motion after": by_posterior,
+}
+
+
+class Told(NamedTuple):
+    """What a route told of one crash."""
+
+    stuck: bool
+    rolling: bool
+    refused: str  # why, or ""
+    warned: tuple[str, ...]  # codes
+    # Of each speed, also where samples were lost: width of the range in m/s, and whether the truth
+    # lies in it (0), above (1) or below (-1).
+    widths: tuple[float, ...] = ()
+    sides: tuple[int, ...] = ()
+
+    @property
+    def one_sided(self) -> bool:
+        """Whether a range has an end that is infinite."""
+        return any(math.isinf(width) for width in self.widths)
+
+
+def told(route: Callable[[Reading], Speeds], reading: Reading) -> Told:
+    """Ask one route about one crash."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", col.CollisionsWarning)
+        try:
+            found, refused = route(reading), ""
+        except LostError as lost:
+            found, refused = lost.args[0], "lost samples"
+        except col.CollisionsError as error:
+            found, refused = {}, str(error.code)
+    messages = [one.message for one in caught]
+    codes = {str(one.code) for one in messages if isinstance(one, col.CollisionsWarning)}
+    widths = tuple(high - low for low, high in found.values())
+    speed = reading.truth
+    sides = tuple(int(speed[x] > high) - int(speed[x] < low) for x, (low, high) in found.items())
+    return Told(reading.stuck, reading.rolling, refused, tuple(sorted(codes)), widths, sides)
+
+
+CELLS: dict[str, Callable[[Told], bool]] = {
+    "all": lambda one: True,
+    "stuck, rolling": lambda one: one.stuck and one.rolling,
+    "stuck, braked": lambda one: one.stuck and not one.rolling,
+    "slid, rolling": lambda one: not one.stuck and one.rolling,
+    "slid, braked": lambda one: not one.stuck and not one.rolling,
+}
+
+
+def binomial(held: int, n: int, coverage: float = COVERAGE) -> tuple[float, float]:
+    """Interval of a share by Clopper and Pearson (Biometrika 26, 1934)."""
+
+    def at_most(count: int, share: float) -> float:
+        """Probability of so many or fewer."""
+        logs = [
+            math.lgamma(n + 1)
+            - math.lgamma(j + 1)
+            - math.lgamma(n - j + 1)
+            + j * math.log(share)
+            + (n - j) * math.log1p(-share)
+            for j in range(count + 1)
+        ]
+        return math.fsum(math.exp(one) for one in logs)
+
+    def where(count: int, probability: float) -> float:
+        low, high = 1e-12, 1.0 - 1e-12
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if at_most(count, middle) > probability else (low, middle)
+        return 0.5 * (low + high)
+
+    tail = 0.5 * (1.0 - coverage)
+    return (where(held - 1, 1.0 - tail) if held else 0.0), (where(held, tail) if held < n else 1.0)
+
+
+def counted(tale: list[Told]) -> dict[str, Any]:
+    """Of one cell: refusals, warnings, and how often the ranges without either held."""
+    refused = [one for one in tale if one.refused]
+    warned = [one for one in tale if one.warned and not one.refused]
+    silent = [one for one in tale if not one.warned and not one.refused]
+    sides = [side for one in silent for side in one.sides]
+    widths = [width for one in silent for width in one.widths]
+    every = [width for one in tale for width in one.widths]
+    held = sides.count(0)
+    spoken = {
+        name: [side for one in tale if of(one) for side in one.sides]
+        for name, of in (
+            ("warned", lambda one: one.warned and not one.refused),
+            ("lost", lambda one: bool(one.refused)),
+            ("any", lambda one: True),
+        )
+    }
+    reasons: dict[str, int] = {}
+    for one in tale:
+        for code in (one.refused,) if one.refused else one.warned:
+            reasons[code] = reasons.get(code, 0) + 1
+    return {
+        "crashes": len(tale),
+        "refused": len(refused),
+        "warned": len(warned),
+        "one_sided": sum(one.one_sided for one in silent),
+        "ranges": len(sides),
+        "held": held,
+        "interval": binomial(held, len(sides)) if sides else (0.0, 1.0),
+        "above": sides.count(1),
+        "below": sides.count(-1),
+        "width": float(np.median(widths)) if widths else math.nan,
+        "any_width": float(np.median(every)) if every else math.nan,
+        "spoken": {name: (of.count(0), len(of)) for name, of in spoken.items()},
+        "reasons": dict(sorted(reasons.items(), key=lambda pair: -pair[1])),
+    }
+
+
+HEAD = (
+    "                   crashes  refused   warned |  silent  held, %  99.8 % interval"
+    "   too low  too high  one-sided  width, km/h |  all: ranges  held, %  width"
+)
+
+
+def percent(held: int, n: int) -> str:
+    """A share in percent, or a dash where there is none."""
+    return f"{100.0 * held / n:.1f}" if n else "-"
+
+
+def printed(name: str, cells: dict[str, dict[str, Any]]) -> str:
+    """One route's rows."""
+    lines = ["", name, HEAD]
+    for cell, row in cells.items():
+        low, high = row["interval"]
+        held, n = row["spoken"]["any"]
+        shares = percent(row["held"], row["ranges"]), percent(held, n)
+        lines.append(
+            f"  {cell:15} {row['crashes']:9d}{row['refused']:9d}{row['warned']:9d} |"
+            f"{row['ranges']:8d}{shares[0]:>9}{100 * low:10.1f} to {100 * high:5.1f}"
+            f"{row['above']:9d}{row['below']:10d}{row['one_sided']:11d}{3.6 * row['width']:13.1f} |"
+            f"{n:13d}{shares[1]:>9}{3.6 * row['any_width']:7.1f}"
+        )
+    parts = [
+        f"{percent(*cells['all']['spoken'][which])} % of {cells['all']['spoken'][which][1]} {what}"
+        for which, what in (
+            ("warned", "ranges with a warning"),
+            ("lost", "ranges that left samples out"),
+        )
+    ]
+    lines.append("  held: " + ", ".join(parts))
+    if reasons := cells["all"]["reasons"]:
+        lines.append("  why: " + ", ".join(f"{code} {count}" for code, count in reasons.items()))
+    return "\n".join(lines)
+
+
+def main() -> None:
+    """Print the table."""
+    as_written = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=as_written)
+    parser.add_argument("--crashes", type=int, default=150)
+    parser.add_argument("--world", choices=("lasting", "instant", "both"), default="lasting")
+    parser.add_argument("--route", action="append", choices=list(ROUTES))
+    parser.add_argument("--axes", choices=("turning", "fixed"), default="turning")
+    parser.add_argument("--samples", type=int, default=256, help="posterior takes twice as many")
+    parser.add_argument("--json", type=Path)
+    options = parser.parse_args()
+    found: dict[str, Any] = {}
+    for world in ("lasting", "instant") if options.world == "both" else (options.world,):
+        drawn = population(options.crashes, instant=world == "instant")
+        read = list(readings(drawn, SEED, samples=options.samples, axes=options.axes))
+        if world == "instant":
+            print("\nContacts of 2 ms without tyres, and whether they stuck or slid")
+        for name in options.route or ROUTES:
+            tale = [told(ROUTES[name], reading) for reading in read]
+            cells = {cell: counted([one for one in tale if of(one)]) for cell, of in CELLS.items()}
+            found.setdefault(world, {})[name] = cells
+            print(printed(name, cells), flush=True)
+    if options.world == "both":
+        print("\nWidth in the lasting world over that in the instant one")
+        for name, cells in found["lasting"].items():
+            print(f"  {name}: {cells['all']['width'] / found['instant'][name]['all']['width']:.2f}")
+    if options.json:
+        options.json.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
