@@ -1,4 +1,6 @@
-"""The test vectors for other programs: the library keeps to them, and they are what their script and schema say."""
+"""The test vectors for other programs: the library keeps to them, and they are what their script
+and schema say.
+"""
 
 import itertools
 import json
@@ -36,7 +38,8 @@ def number(value):
     return float(value) if isinstance(value, (str, int)) else value
 
 def body(given):
-    values = {name: tuple(value) if name == "pivot" else number(value) for name, value in given.items()}
+    values = {name: tuple(value) if name == "pivot" else number(value) for name, value in \
+given.items()}
     return col.Vehicle(**values)
 
 def solve(impact):
@@ -51,14 +54,17 @@ def solve(impact):
     sides = {
         name: {
             "delta_v": [side.delta_vx, side.delta_vy], "velocity": [side.after.vx, side.after.vy],
-            "delta_yaw_rate": side.delta_yaw_rate, "yaw_rate": side.after.yaw_rate, "pdof": side.pdof,
+            "delta_yaw_rate": side.delta_yaw_rate, "yaw_rate": side.after.yaw_rate, "pdof": \
+side.pdof,
             "pivot_impulse": [side.pivot_impulse_x, side.pivot_impulse_y],
         }
         for name, side in (("a", found.a), ("b", found.b))
     }
     return {
-        "regime": found.regime, "closing_speed": found.closing_speed, "slip_before": found.slip_before,
-        "impulse": [found.normal_impulse, found.tangential_impulse], "energy_loss": found.energy_loss, **sides,
+        "regime": found.regime, "closing_speed": found.closing_speed, "slip_before": \
+found.slip_before,
+        "impulse": [found.normal_impulse, found.tangential_impulse], "energy_loss": \
+found.energy_loss, **sides,
     }
 """
 
@@ -68,14 +74,16 @@ export function solve({ solver, a, b, restitution: e, normal }) {
   if (solver !== "linear_central") return null;
   const n = normal[0];
   const [massA, massB] = [a, b].map(({ mass }) => Number(mass));
-  const mass = massA === Infinity ? massB : massB === Infinity ? massA : massA * massB / (massA + massB);
+  const mass = massA === Infinity ? massB : massB === Infinity ? massA : massA * massB / (massA + \
+massB);
   const closing = n * (a.vx - b.vx), impulse = (1 + e) * mass * closing;
   const side = ({ vx, heading }, mass, force) => ({
     delta_v: [force / mass, 0], velocity: [vx + force / mass, 0],
     pdof: Math.atan2(-Math.sin(heading) * force, -Math.cos(heading) * force),
   });
   return {
-    regime: "frictionless", closing_speed: closing, impulse: [impulse, 0], energy_loss: (1 - e) * closing * impulse / 2,
+    regime: "frictionless", closing_speed: closing, impulse: [impulse, 0], energy_loss: (1 - e) * \
+closing * impulse / 2,
     a: side(a, massA, -n * impulse), b: side(b, massB, n * impulse),
   };
 }
@@ -118,7 +126,9 @@ def compared(found, answer, place=""):
 
 
 def test_the_library_keeps_to_every_vector(impacts):
-    """Each answer within what the file allows, which is what the page on numerical stability promises."""
+    """Each answer within what the file allows, which is what the page on numerical stability
+    promises.
+    """
     names = {}
     exec(LIBRARY, names)
     count = 0
@@ -134,7 +144,9 @@ def test_the_library_keeps_to_every_vector(impacts):
 
 
 def test_the_vectors_are_a_thousand_of_every_solver_law_and_rule(impacts):
-    """With barriers, pivots, outside impulses and incomplete impacts under every law, in less than a megabyte."""
+    """With barriers, pivots, outside impulses and incomplete impacts under every law, in less than
+    a megabyte.
+    """
     assert FILE.stat().st_size < 1_000_000
     assert [impact["id"] for impact in impacts] == list(range(1, 1001))
     pairs = [
@@ -252,7 +264,7 @@ def test_the_file_is_what_the_script_writes(tmp_path):
 @pytest.mark.slow
 def test_what_is_allowed_is_what_the_tests_of_the_library_hold_it_to(impacts):
     """By the functions of tests/kernels/test_reference.py, rounded up to two digits."""
-    import test_reference as held
+    from kernels import test_reference as held
 
     names = {"P": "impulse", **{f"{side}.after.v": f"{side}.velocity" for side in "ab"}}
     names |= {f"{side}.after.yaw_rate": f"{side}.yaw_rate" for side in "ab"}
@@ -307,14 +319,17 @@ def ran(command, **environment):
     return done.returncode, done.stdout.splitlines()
 
 
-# A reader with a program that is right, a mistake in that, a program that takes nothing, and how many impacts the first takes.
+# A reader with a program that is right, a mistake in that, a program that takes nothing, and how
+# many impacts the first takes.
 READERS = [
     pytest.param(
-        "read.py", LIBRARY, ("found.energy_loss", "found.energy_loss * 1.0000000001"), "def solve(impact): return None", 1000,
+        "read.py", LIBRARY, ("found.energy_loss", "found.energy_loss * 1.0000000001"),
+        "def solve(impact): return None", 1000,
         id="Python",
     ),
     pytest.param(
-        "read.mjs", IN_LINE, ("(1 + e) *", "(1.0000000001 + e) *"), "export const solve = () => null;", 125, id="JavaScript"
+        "read.mjs", IN_LINE, ("(1 + e) *", "(1.0000000001 + e) *"),
+        "export const solve = () => null;", 125, id="JavaScript"
     ),
 ]  # fmt: skip
 
@@ -322,7 +337,9 @@ READERS = [
 @pytest.mark.slow
 @pytest.mark.parametrize(("reader", "program", "mistake", "nothing", "count"), READERS)
 def test_a_reader_compares_a_program(reader, program, mistake, nothing, count, tmp_path):
-    """With one that is right it passes; one that is wrong in the tenth digit is told where and by how much."""
+    """With one that is right it passes; one that is wrong in the tenth digit is told where and by
+    how much.
+    """
     runs = {".py": sys.executable, ".mjs": shutil.which("node")}[Path(reader).suffix]
     if runs is None:
         pytest.skip("needs node")

@@ -1,4 +1,6 @@
-"""What differs between systems is said in the code: encodings and line ends of files, and nothing that follows the locale."""
+"""What differs between systems is said in the code: encodings and line ends of files, and nothing
+that follows the locale.
+"""
 
 import ast
 import os
@@ -164,7 +166,9 @@ def answered(folder, settings):
 
 @pytest.mark.slow
 def test_a_case_is_the_same_where_the_system_writes_ascii(tmp_path):
-    """As does Windows, or a server whose encoding is not UTF-8: the same bytes on screen and in the pages, LF at line ends."""
+    """As does Windows, or a server whose encoding is not UTF-8: the same bytes on screen and in the
+    pages, LF at line ends.
+    """
     found = answered(tmp_path / "ascii", ASCII)
     assert found == answered(tmp_path / "utf8", {"PYTHONUTF8": "1"})
     for content in found.values():

@@ -1,4 +1,6 @@
-"""The files around the package agree with one another: one address, one version, one pair of commands."""
+"""The files around the package agree with one another: one address, one version, one pair of
+commands.
+"""
 
 import itertools
 import re
