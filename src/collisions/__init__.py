@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from .reporting import report
     from .reporting.what_if import what_if
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "AmbiguousSolutionError",

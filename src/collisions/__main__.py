@@ -115,7 +115,7 @@ def _write(pages: dict[Path, str]) -> None:
             if target.is_dir():
                 raise IsADirectoryError(0, "Is a directory")
             if target.exists():
-                target.open("a").close()  # whether it may be written
+                target.open("ab").close()  # whether it may be written
             parts[target] = target.with_name(f"{target.name}.{getpid()}.part")
             parts[target].write_text(text, encoding="utf-8", newline="\n")
         for target, part in parts.items():

@@ -215,7 +215,12 @@ class NormalFamily(Distribution):
         lower, upper = lost_below + below * share, lost_above + above * share
         # The smaller side decides, so that nothing is lost near either end.
         score = quantile(np.asarray(np.minimum(lower, upper)))
-        return self._inside(self._value(np.where(lower <= upper, score, -score)))
+        value = self._inside(self._value(np.where(lower <= upper, score, -score)))
+        # The bounds themselves, whatever the last digit of the system's erfc makes of them.
+        low, high = self.support
+        return np.where(
+            np.asarray(below) == 0.0, low, np.where(np.asarray(above) == 0.0, high, value)
+        )
 
     def _inside(self, value: Any) -> Any:
         """The value, clipped to bounds that rounding may have crossed."""
