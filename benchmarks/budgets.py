@@ -446,7 +446,11 @@ def measure(
     wanted = keys or [row.key for row in BUDGETS]
     command = [sys.executable, __file__, "--once", "--rows", ",".join(wanted), *options]
     each = [
-        json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+        json.loads(
+            subprocess.run(
+                command, capture_output=True, text=True, encoding="utf-8", check=True
+            ).stdout
+        )
         for _ in range(runs)
     ]
     rows = []

@@ -74,6 +74,7 @@ def _imports(count: int, modules: tuple[str, ...], environment: dict[str, str]) 
                 env=environment,
                 capture_output=True,
                 text=True,
+                encoding="utf-8",
                 check=True,
             ).stdout.split()
             if turn:  # the first one may have to compile

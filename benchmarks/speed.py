@@ -555,7 +555,10 @@ def _in_imports(seconds: float) -> float:
     """A time as so many imports of numpy, each in a process of its own; the best of three."""
     printed = [
         subprocess.run(
-            [sys.executable, "-c", TIMED.format("numpy")], capture_output=True, text=True
+            [sys.executable, "-c", TIMED.format("numpy")],
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
         )
         for _ in range(3)
     ]

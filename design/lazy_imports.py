@@ -43,7 +43,11 @@ def seconds(code):
     code = TIMED.format(str(measuring.ROOT / "src"), code)
     return float(
         subprocess.run(
-            [sys.executable, "-c", code], capture_output=True, text=True, check=True
+            [sys.executable, "-c", code],
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            check=True,
         ).stdout
     )
 

@@ -121,7 +121,7 @@ def look(chromium: str, page: Path, width: int, folder: Path) -> list[str]:
         run = [*command, f"--user-data-dir={folder / profile}", frame.as_uri()]
         try:
             dump = subprocess.run(
-                run, capture_output=True, text=True, timeout=SECONDS, check=True
+                run, capture_output=True, text=True, encoding="utf-8", timeout=SECONDS, check=True
             ).stdout
             break
         except subprocess.TimeoutExpired:

@@ -63,7 +63,9 @@ def answers(printed, cases):
                 "--dump-dom",
                 file.as_uri(),
             ]
-        done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
+        done = subprocess.run(
+            command, capture_output=True, text=True, encoding="utf-8", check=True, timeout=120
+        )
     found = (
         done.stdout
         if engine() == "node"
@@ -153,6 +155,7 @@ def moved(page, *events):
             input=page,
             capture_output=True,
             text=True,
+            encoding="utf-8",
             check=False,
             timeout=120,
             encoding="utf-8",

@@ -1059,7 +1059,7 @@ def test_a_case_in_us_units_is_answered_in_them(tmp_path, capsys):
         '[a]\nmass = "3400 lb"\nvx = "30 mph"\n\n[b]\nmass = "2900 lb"\n\n[linear_central]\n'
         "restitution = 0.1\n"
     )
-    (tmp_path / "case.toml").write_text(text)
+    (tmp_path / "case.toml").write_text(text, encoding="utf-8")
     assert main([str(tmp_path / "case.toml")]) == 0
     assert "30.0 mph" in capsys.readouterr().out
 

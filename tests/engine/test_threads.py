@@ -105,6 +105,7 @@ def test_threads_of_a_fresh_process(name):
         [sys.executable, "-c", source],
         capture_output=True,
         text=True,
+        encoding="utf-8",
         check=True,
         env={**os.environ, "PYTHONPATH": paths},
     )

@@ -759,7 +759,9 @@ def test_what_solve_wrote_is_read_in_a_new_process():
         "print(impact.model, impact.choice.reason)"
     )
     given = json.dumps(impact.to_dict()), pickle.dumps(impact).hex()
-    done = subprocess.run([sys.executable, "-c", program, *given], capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-c", program, *given], capture_output=True, text=True, encoding="utf-8"
+    )
     assert done.stdout.strip() == f"{impact.model} {impact.choice.reason}", done.stderr
 
 

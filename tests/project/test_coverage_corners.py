@@ -96,7 +96,12 @@ def test_a_record_of_solve_is_read_before_solve_was_ever_used():
         "collisions;print(repr(collisions.Impact.from_dict(json.load(sys.stdin)).a.delta_v))"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code], input=record, capture_output=True, text=True, check=True
+        [sys.executable, "-c", code],
+        input=record,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=True,
     )
     assert (
         float(done.stdout) == col.solve(col.Vehicle(**A), col.Vehicle(**B), 0.1, **inputs).a.delta_v

@@ -19,7 +19,7 @@ def test_public_names():
     """Everything in __all__ is there, and the version is a literal."""
     for name in col.__all__:
         assert hasattr(col, name)
-    text = (ROOT / "src/collisions/__init__.py").read_text()
+    text = (ROOT / "src/collisions/__init__.py").read_text(encoding="utf-8")
     assert f'__version__ = "{col.__version__}"' in text
 
 
@@ -57,6 +57,7 @@ def test_runs_from_src_without_being_installed():
         check=True,
         capture_output=True,
         text=True,
+        encoding="utf-8",
     )
     assert str(ROOT / "src") in found.stdout
 

@@ -331,7 +331,7 @@ def test_a_registry_that_passes_over_upper_and_lower_case(seed):
     }
     done = subprocess.run(
         [sys.executable, "-c", IN_ANY_CASE],
-        input=json.dumps(texts), capture_output=True, text=True, check=True,
+        input=json.dumps(texts), capture_output=True, text=True, encoding="utf-8", check=True,
         env={**os.environ, "PYTHONHASHSEED": seed},
     )  # fmt: skip
     *numbers, joule, kilogram, speed, summary, capitals, pounds = json.loads(done.stdout)

@@ -645,7 +645,9 @@ KeyboardEvent("keydown", { key, bubbles: true, ...more }));
         "--dump-dom",
         file.as_uri(),
     ]
-    page = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120).stdout
+    page = subprocess.run(
+        command, capture_output=True, text=True, encoding="utf-8", check=True, timeout=120
+    ).stdout
     impact = col.eccentric(
         A.replace(vx="70 km/h"), B, 0.1, friction=0.09, normal="-20 deg", point=(0.0, 0.0)
     )

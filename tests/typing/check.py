@@ -19,6 +19,7 @@ def output_of(*command: str) -> str:
         cwd=HERE.parents[1],
         capture_output=True,
         text=True,
+        encoding="utf-8",
         check=False,
     )
     if run.returncode not in (0, 1):

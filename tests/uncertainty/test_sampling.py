@@ -24,7 +24,9 @@ from collisions.uncertainty import (
 from uncertain_scenes import SCENES
 
 REFERENCE = json.loads(
-    (Path(__file__).parent.parent / "data" / "uncertainty_reference.json").read_text()
+    (Path(__file__).parent.parent / "data" / "uncertainty_reference.json").read_text(
+        encoding="utf-8"
+    )
 )
 METHODS = ("quasi_random", "latin_hypercube", "monte_carlo")
 P = np.array([0.025, 0.5, 0.975])
