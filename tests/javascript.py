@@ -155,7 +155,6 @@ def moved(page, *events):
             input=page,
             capture_output=True,
             text=True,
-            encoding="utf-8",
             check=False,
             timeout=120,
             encoding="utf-8",
