@@ -22,6 +22,9 @@ from .areas import Areas
 RESTS, GOES_ON, NO_END = 0, 1, 2
 # Once the motion is down to this part of the first, by the way that is left, it goes on straight.
 _ENDING, _ENDING_ON_AREAS = 1e-2, 1e-3
+# The time that passes until rest is then at most this part of the whole, where the motion turns aside
+# as fast as it slows.
+_ENDING_TIME = 2.5e-4
 _FIRST_STEP, _LONGEST_STEP, _MOST_TURN = 0.05, 4.0, 0.5
 # Where the direction of the motion changes at less than this share of gravity, it comes to roll or
 # slide straight.
@@ -106,6 +109,14 @@ def _last(motion: Motion) -> float:
     )
 
 
+def _ends(time: Any, speed: Any, slowing: Any, aside: Any, tolerance: float) -> Any:
+    """Whether the time to rest is known well enough: what slows the motion changes as its direction
+    does.
+    """
+    part = _ENDING_TIME * max(1.0, math.sqrt(tolerance / 5e-7))
+    return speed * aside <= part * time * slowing * slowing
+
+
 def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int]:
     """The rows of one case, and what became of it, in plain floats; from the start, or ``going`` on
     from a state.
@@ -156,7 +167,7 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
             rows.append((time, x, y, heading, vx, vy, turn, *known, *known))
             known = None
             continue
-        if left <= last * last * way:
+        if left <= last * last * way and _ends(time, speed, slowing, aside, tolerance):
             found = RESTS
             break
         width = min(
@@ -283,7 +294,11 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
         goes_on = straight & ~stops & ~np.isfinite(edge)
         rests = usable & (
             (straight & stops & (left <= edge))
-            | (~straight & (left <= last * last * state[10]))
+            | (
+                ~straight
+                & (left <= last * last * state[10])
+                & _ends(state[0], speed, slowing, aside, tolerance)
+            )
             | (speed == 0.0)
         )
         moved = rests & (speed > 0.0)
