@@ -22,8 +22,8 @@ from .areas import Areas
 RESTS, GOES_ON, NO_END = 0, 1, 2
 # Once the motion is down to this part of the first, by the way that is left, it goes on straight.
 _ENDING, _ENDING_ON_AREAS = 1e-2, 1e-3
-# The time that passes until rest is then at most this part of the whole, where the motion turns aside
-# as fast as it slows.
+# The time until rest is then at most this part of the whole, where the motion turns aside as fast
+# as it slows.
 _ENDING_TIME = 2.5e-4
 _FIRST_STEP, _LONGEST_STEP, _MOST_TURN = 0.05, 4.0, 0.5
 # Where the direction of the motion changes at less than this share of gravity, it comes to roll or
