@@ -194,13 +194,14 @@ def _further(name: str) -> frozenset[str]:
 
 _RULED = ("friction", "impulse_ratio", "critical_fraction", "law", "incomplete")
 _BOTH = ("a", "b", "restitution", "normal")
+_HELD = ("duration", "tyres_a", "tyres_b")
 # What an impact of each solver can be solved again with.
 AGAIN = {
     "linear_central": (*_BOTH, "incomplete"),
     "oblique_central": (*_BOTH, *_RULED),
-    "eccentric": (*_BOTH, *_RULED, "point", "outside_a", "outside_b"),
-    "solve": (*_BOTH, *_RULED, "point", "outside_a", "outside_b", "tolerance", "duration", "drag"),
-    "time_resolved": (*_BOTH, "point", "friction", "duration", "stiffness", "crush_a", "crush_b",
+    "eccentric": (*_BOTH, *_RULED, "point", "outside_a", "outside_b", *_HELD),
+    "solve": (*_BOTH, *_RULED, "point", "outside_a", "outside_b", *_HELD, "tolerance", "drag"),
+    "time_resolved": (*_BOTH, *_HELD, "point", "friction", "stiffness", "crush_a", "crush_b",
     "drag", "geometry", "steps", "wheelbase", "track"),
 }  # fmt: skip
 

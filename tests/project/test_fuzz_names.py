@@ -148,7 +148,37 @@ def contact(case: Case, model: str = "eccentric") -> dict[str, Any]:
         found[case.choice(("outside_a", "outside_b"))] = push[: case.choice((2, 3))]
     if model in PLACED:
         found["point"] = case.pair("point")
+        found |= wheels(case)
+    if model == "eccentric" and found.keys() & {"tyres_a", "tyres_b"} and case.maybe(0.9):
+        found["duration"] = case.value("duration")
     return found
+
+
+def wheels(case: Case) -> dict[str, Any]:
+    """Tyres of one vehicle or of both, now and then."""
+    if case.maybe(0.8):
+        return {}
+    some = case.sample(("tyres_a", "tyres_b"), case.choice((1, 2)))
+    return {name: case.option(*[tyres_of(case)] * 9, None) for name in some}
+
+
+def tyres_of(case: Case) -> Any:
+    """Tyres that can be made."""
+    given: dict[str, Any] = {
+        "friction": case.value("drag"),
+        "lock": case.option(case.value("lock"), [case.value("lock") for _ in range(4)]),
+    }
+    size = case.choice(("wheelbase", "wheelbase", "distance"))
+    given |= {"wheelbase": case.value(size), "track": case.value(size)}
+    for name, draw in (
+        ("steer", lambda: case.value("heading")),
+        ("cornering", lambda: case.option(9.5, case.value("distance"))),
+        ("height", lambda: case.option(None, 0.4)),
+    ):
+        if case.maybe(0.2):
+            given[name] = draw()
+    made = case.call("travel.Tyres", travel.Tyres, **case.spoil(given))
+    return made if isinstance(made, travel.Tyres) else travel.Tyres(0.7, 0.1, 2.7, 1.5)
 
 
 def contact_time(case: Case) -> dict[str, Any]:
@@ -167,8 +197,9 @@ def contact_time(case: Case) -> dict[str, Any]:
         kind, (kind,) if kind.startswith("crush") else ()
     ):
         found[name] = tuple(case.value(part) for part in ("stiffness_a", "stiffness_b", "width"))
+    rough = case.maybe(0.7)
     for name, value in (("drag", "drag"), ("wheelbase", "length"), ("track", "width")):
-        if case.maybe(0.5):
+        if rough and case.maybe(0.5):
             found[name] = case.value(value)
     return found
 
@@ -511,6 +542,7 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
     impact = answer_of(case)
     asked = {name: case.value(name) for name in ("duration", "drag")}
     asked["geometry"] = case.option("maximum_engagement", "first_contact")
+    asked |= wheels(case)
     left = case.call("left_out", col.left_out, impact, **case.spoil(asked))
     if not isinstance(left, Exception):
         case.look(
@@ -734,7 +766,8 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         )
         solved(case, "central", **masses, **given, **failing, incomplete=case.option(True, False))
     else:
-        solved(case, "central", **masses, **given, **failing)
+        headings = {name: case.value("heading") for name in ("heading_a", "heading_b")}
+        solved(case, "central", **masses, **given, **failing, **headings)
     known = case.choice(
         (
             {"delta_v_a": "speed"},
@@ -1357,19 +1390,10 @@ def test_simulated_travel(case: Case) -> None:
     mass = case.number("mass")
     # A lorry with the yaw inertia of a wheelbarrow takes ten thousand steps.
     body = vehicle(case, mass=mass, yaw_inertia=mass * case.uniform(0.5, 4.0))
-    given: dict[str, Any] = {
-        "friction": case.value("drag"),
-        "lock": case.option(case.value("lock"), [case.value("lock")] * 4),
-    }
-    size = case.choice(("wheelbase", "wheelbase", "distance"))
-    given |= {"wheelbase": case.value(size), "track": case.value(size)}
-    if case.maybe(0.3):
-        given |= {"steer": case.value("heading"), "height": case.option(None, 0.4)}
-    tyres = case.call("travel.Tyres", travel.Tyres, **case.spoil(given))
-    if isinstance(tyres, travel.Tyres):
-        case.must("travel.Tyres.replace", tyres.replace)
-        assert str(case.must("travel.Tyres.summary", tyres.summary, case.choice(UNIT_SYSTEMS)))
-        case.look(tyres)
+    tyres = tyres_of(case)
+    case.must("travel.Tyres.replace", tyres.replace)
+    assert str(case.must("travel.Tyres.summary", tyres.summary, case.choice(UNIT_SYSTEMS)))
+    case.look(tyres)
     ground: dict[str, Any] = {}
     if case.maybe(0.2):
         corners = [case.pair("x") for _ in range(case.choice((2, 3, 3, 4, 5)))]

@@ -354,6 +354,8 @@ def refused() -> float | None:
         return error.closing_speed
     except (col.MissingInputError, col.UnitsError, col.ShapeError) as error:
         print(error.fields["argument"])
+    except col.InternalError as error:
+        return error.code
     except col.NoSolutionError as error:
         print(error.solutions)
     except col.CollisionsError as error:

@@ -55,6 +55,7 @@ _OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope va
 _LEAST_MOVE = 0.1  # standard errors: smaller moves and smaller rises are not compared
 _FLAT_SHARE = 1e-6  # of the greatest slope: directions of less are left alone
 _STEP_ROUNDS = 4
+_FOR_NOISE = 5  # points at which the noise of the model is measured, once for all
 _MOST_STEPS = 100.0  # standard errors over which slopes may be taken at most
 
 
@@ -69,11 +70,12 @@ def fit(
     Weighted least squares: the sum of the squares of (observed - computed)/sigma, over the
     observations and the priors, is minimised within the bounds (Levenberg-Marquardt from 64 starts
     spread over what was known before). The covariance follows from the slopes of the model at the
-    answer and the errors as stated; it is not scaled by the misfit. It holds where the errors of
-    the observations are normal and independent, the model is nearly linear within two standard
-    errors and no bound is near. Where one value with such an error does not describe what the
-    evidence says, ``fit`` refuses or warns; ``posterior`` then has the answer, whatever the priors
-    and however nonlinear the model.
+    answer and the errors as stated; it is not scaled by the misfit. Where the model scatters
+    between neighbours, as ``simulate`` does by its steps, the slopes are taken over a part of the
+    errors. All this holds where the errors of the observations are normal and independent, the
+    model is nearly linear within two standard errors and no bound is near. Where one value with
+    such an error does not describe what the evidence says, ``fit`` refuses or warns; ``posterior``
+    then has the answer, whatever the priors and however nonlinear the model.
 
     Parameters
     ----------
@@ -154,7 +156,9 @@ def fit(
     # A point at which numbers overflow counts as refused.
     with np.errstate(all="ignore"):
         inputs, problem = _read_inputs(model, unknowns, observed)
-        ends = minimise(problem, _starts(inputs, problem))
+        starts = _starts(inputs, problem)
+        problem = problem._replace(noise=problem.noise_near(starts[:_FOR_NOISE]))
+        ends = minimise(problem, starts)
         if np.all(np.isinf(ends.chi_squared)):
             advice = (
                 "bounds or starts within which the impact happens; reconstruct.posterior finds "
@@ -303,7 +307,9 @@ class _Candidate:
             np.array([row.is_prior for row in self.inputs.rows]),
             self.problem.steps(self.point)[chosen],
         )
-        return determination(self.slopes[:, chosen], is_prior, scale, self.outputs, steps)
+        return determination(
+            self.slopes[:, chosen], is_prior, scale, self.outputs, steps, self.problem.noise
+        )
 
     @property
     def only_a_start(self) -> Any:
@@ -425,9 +431,13 @@ def _examined(inputs: _Inputs, problem: Problem, ends: Ends, k: int) -> _Candida
         size = np.clip(
             abs(found.point), np.minimum(0.1 * problem.scale, _MOST_STEPS * found.errors), most
         )
-        if np.all(abs(np.log2(size / found.problem.sizes(found.point))) < 1.0):
+        reach = np.fmin(problem.scale, found.errors)
+        alike = abs(np.log2(size / found.problem.sizes(found.point))) < 1.0
+        if problem.noise:
+            alike &= abs(np.log2(reach / found.problem.reaches)) < 1.0
+        if np.all(alike):
             break
-        finer = problem._replace(size=size)
+        finer = problem._replace(size=size, reach=reach)
         again = minimise(finer, found.point[np.newaxis])
         if not again.chi_squared[0] <= found.chi_squared + _SAME_CHI_SQUARED:
             break
@@ -481,7 +491,7 @@ def _rivals(best: _Candidate, ends: Ends) -> list[_Candidate]:
     near = np.flatnonzero(ends.converged & (ends.chi_squared <= best.chi_squared + _TOO_CLOSE))
     for k in near[np.argsort(ends.chi_squared[near], kind="stable")].tolist():
         if all(one.is_apart(ends.points[k]) for one in found):
-            rival = _examined(best.inputs, best.problem._replace(size=None), ends, k)
+            rival = _examined(best.inputs, best.problem._replace(size=None, reach=None), ends, k)
             found += [] if rival.on_a_ridge else [rival]
     return found
 

@@ -27,6 +27,15 @@ FLAT = 1e-3
 _NEGLIGIBLE_SHARE = (
     1e-4  # of its scale: an unknown that moves less along a direction is not part of it
 )
+# Of the error of an unknown and the cube root of the noise: over that a noisy model is compared.
+_NOISY_STEP, _MOST_NOISY_STEP = 2.0, 0.5
+# of its scale, for the error of an unknown before that is known
+_REACH = 0.1
+# of a slope of a noisy model, whose longer steps change it by more than a smooth model's
+_NOISY_KINK = 0.25
+# Neighbours whose fourth differences are the noise, at so many steps of the slopes from each other;
+# less noise than this share of the outputs, or of sigma, is none.
+_NEIGHBOURS, _APART, _NO_NOISE = 9, (1.0, 10.0), 1e-9
 _DIFFERENCE_ERROR = 10.0  # eps of the model's outputs, in a difference
 _LARGEST = 1e100
 
@@ -37,7 +46,9 @@ class Problem(NamedTuple):
     ``evaluate`` takes points (k, n) and returns the outputs of the model there (k, m), NaN where it
     refuses; ``period`` is NaN for what does not go round a circle; ``scale`` is how far each
     unknown may be expected to move, and ``size`` the length over which the model changes, which
-    sets the steps of the slopes; without it, a guess from the scale.
+    sets the steps of the slopes; without it, a guess from the scale. ``noise`` is how far outputs
+    scatter from one neighbour to the next, as where a model integrates with steps of its own;
+    slopes are then taken over a part of ``reach``, the errors of the unknowns.
     """
 
     evaluate: Callable[[Any], Any]
@@ -47,6 +58,8 @@ class Problem(NamedTuple):
     high: Any
     scale: Any
     size: Any = None
+    noise: float = 0.0
+    reach: Any = None
 
     def wrapped(self, difference: Any) -> Any:
         """Differences of angles by the short way round, within half a turn."""
@@ -72,7 +85,37 @@ class Problem(NamedTuple):
         """
         size = self.sizes(points)
         step = np.maximum(_EPS ** (1 / 3) * size, np.sqrt(_EPS * abs(points) * size))
+        if self.noise:
+            part = min(_NOISY_STEP * self.noise ** (1 / 3), _MOST_NOISY_STEP)
+            step = np.maximum(step, part * self.reaches)
         return np.minimum(step, 0.25 * (self.high - self.low))
+
+    @property
+    def reaches(self) -> Any:
+        """How far, by unknown, a noisy model counts as nearly linear."""
+        return _REACH * self.scale if self.reach is None else self.reach
+
+    def noise_near(self, points: Any) -> float:
+        """How far the outputs scatter between neighbours at most of these points (k, n); 0 where
+        that is rounding.
+
+        Fourth differences of white noise have 70 times its variance, and a smooth model has none
+        over so short a way (Moré and Wild, SIAM J. Sci. Comput. 33 (2011) 1292).
+        """
+        steps = np.multiply.outer(_APART, self.steps(points))
+        ways = np.arange(_NEIGHBOURS)[:, np.newaxis] - 0.5 * (_NEIGHBOURS - 1)
+        most = ways[-1] * steps
+        middle = np.clip(points, self.low + most, np.maximum(self.low + most, self.high - most))
+        places = middle[..., np.newaxis, :] + ways * steps[..., np.newaxis, :]
+        found = self.evaluate(places.reshape(-1, points.shape[1]))
+        found = found.reshape(*places.shape[:-1], -1)
+        rises = self.wrapped(found - found[..., :1, :])
+        scatter = np.sqrt(np.mean(np.diff(rises, 4, axis=-2) ** 2, axis=-2) / 70.0)
+        sizes = np.maximum(1.0, np.max(abs(found), axis=-2))
+        scatter = np.where(scatter > _NO_NOISE * sizes, scatter, 0.0)
+        each = np.max(scatter, axis=(0, 2))
+        usable = each[np.isfinite(each)]
+        return float(np.median(usable)) if usable.size else 0.0
 
     def with_slopes(self, points: Any) -> tuple[Any, Any]:
         """Outputs (k, m) and their derivatives (k, m, n) by differences, NaN where the model
@@ -90,7 +133,11 @@ class Problem(NamedTuple):
         sizes = [
             np.linalg.norm(part[0], axis=1) * self.scale for part in (above, below, above - below)
         ]
-        return bool(np.any(sizes[2] > _KINK * np.maximum(1.0, np.fmax(sizes[0], sizes[1]))))
+        largest = np.maximum(1.0, np.fmax(sizes[0], sizes[1]))
+        if not self.noise:
+            return bool(np.any(sizes[2] > _KINK * largest))
+        scatter = 4.0 * self.noise * self.scale / self.steps(point)
+        return bool(np.any(sizes[2] > _NOISY_KINK * largest + scatter))
 
     def _differences(self, points: Any) -> tuple[Any, Any, Any]:
         """Outputs, by how much they change towards a neighbour above and below (2, k, n, m), and
@@ -180,7 +227,8 @@ def minimise(problem: Problem, starts: Any) -> Ends:
         growth[taken] = 2.0
         damping[other] *= growth[other]
         growth[other] *= 2.0
-    return Ends(points, outputs, slopes, cost, left <= _CLOSE_ENOUGH)
+    close = max(_CLOSE_ENOUGH, _NOISY_STEP * problem.noise ** (2 / 3))
+    return Ends(points, outputs, slopes, cost, left <= close)
 
 
 def _cost(problem: Problem, outputs: Any, slopes: Any) -> Any:
@@ -194,15 +242,12 @@ def _cost(problem: Problem, outputs: Any, slopes: Any) -> Any:
     )
 
 
-def _slope_error(outputs: Any, scale: Any, steps: Any) -> Any:
-    """Bound of the rounding error in finite-difference slopes, per scale of each unknown."""
-    return (
-        _DIFFERENCE_ERROR
-        * _EPS
-        * np.max(abs(outputs), axis=-1, initial=1.0)[..., np.newaxis]
-        * scale
-        / steps
-    )
+def _slope_error(outputs: Any, scale: Any, steps: Any, noise: float) -> Any:
+    """Bound of the error by rounding, or noise, in finite-difference slopes, per scale of each
+    unknown.
+    """
+    rounding = _DIFFERENCE_ERROR * _EPS * np.max(abs(outputs), axis=-1, initial=1.0)
+    return np.maximum(rounding, noise)[..., np.newaxis] * scale / steps
 
 
 def _step(
@@ -226,7 +271,7 @@ def _step(
     )
     across, size, direction = np.linalg.svd(scaled / weight[:, np.newaxis], full_matrices=False)
     along = np.einsum("kmi,km->ki", across, misfit)
-    error = _slope_error(outputs, problem.scale, problem.steps(points))
+    error = _slope_error(outputs, problem.scale, problem.steps(points), problem.noise)
     # Within bounds a slope that identifies nothing counts no more: at a turning point it never is
     # down to its rounding.
     error = np.where(np.isinf(problem.high - problem.low), error, np.maximum(error, FLAT))
@@ -260,7 +305,7 @@ class Determination(NamedTuple):
 
 
 def determination(
-    slopes: Any, is_prior: Any, scale: Any, outputs: Any, steps: Any
+    slopes: Any, is_prior: Any, scale: Any, outputs: Any, steps: Any, noise: float = 0.0
 ) -> Determination:
     """The determination from slopes (m, n) in standard deviations per unknown; some rows are
     priors.
@@ -270,7 +315,7 @@ def determination(
     slopes came from.
     """
     scaled = slopes * scale
-    error = _slope_error(outputs, scale, steps)
+    error = _slope_error(outputs, scale, steps, noise)
     size, direction = _directions(scaled)
     identified = size > np.maximum(FLAT, abs(direction) @ error)
     unidentified, axes = (

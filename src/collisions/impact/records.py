@@ -23,7 +23,7 @@ from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, cells
 from ..quantities.units import Texts, shown
 from ..vehicle.tyres import NAMES as TYRES
-from ..vehicle.tyres import Tyres
+from ..vehicle.tyres import Tyres, as_given
 from ..vehicle.vehicle import DOMAINS, NAMES, Vehicle, moved, vehicle_of, with_given
 from .choice import ModelChoice
 from .inputs import ARGUMENTS, OUTSIDE, UNITS, Inputs
@@ -98,7 +98,7 @@ def _vehicle_inputs(vehicle: Vehicle) -> dict[str, Any]:
 
 def tyres_record(tyres: Tyres | None) -> dict[str, Any] | None:
     """The arguments of tyres, each as the text it was given as or else in SI."""
-    return None if tyres is None else {name: strict(tyres.as_given(name)) for name in TYRES}
+    return None if tyres is None else {name: strict(as_given(tyres, name)) for name in TYRES}
 
 
 def tyres_of(found: Mapping[str, Any] | None) -> Tyres | None:

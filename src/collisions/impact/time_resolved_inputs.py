@@ -352,9 +352,11 @@ def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any
         body.yaw_rate,
         *changes,
     ]
-    numbers += [passed(inputs.restitution, 0.5), inputs.duration, GRAVITY]
-    own = tyres_numbers(inputs, label, lambda value: value)
-    numbers += [*own.locks, *own[1:]]
+    # Refused cases of a batch are looked at like all others.
+    with np.errstate(all="ignore"):
+        half = passed(inputs.restitution, 0.5)
+        own = tyres_numbers(inputs, label, lambda value: value)
+    numbers += [half, inputs.duration, GRAVITY, *own.locks, *own[1:]]
     settings = tyres.steered, tyres.transfers
     found = _held_function(*settings)(numbers) if inputs.shape is None else None
     if found is None:
@@ -388,7 +390,7 @@ def read_lasting(
         text = "tyres need a duration, over which they act; write duration='100 ms'"
         reader.refuse(MissingInputError(text, code="one_stiffness", argument="duration"))
         return found
-    if tyres == (None, None):
+    if all(one is None for one in tyres):
         text = (
             f"{model} takes a duration for tyres_a and tyres_b alone, and neither was given; "
             "give travel.Tyres, or use time_resolved"

@@ -46,6 +46,13 @@ def larger(one: Any, other: Any) -> Any:
     )
 
 
+def least(one: Any, other: Any) -> Any:
+    """The smaller of the two; of arrays of numpy in one step."""
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        return np.minimum(one, other)
+    return select(one < other, one, other)
+
+
 def safe_divisor(usable: Any, value: Any) -> Any:
     """``value``, or 1.0 where the quotient is discarded (Python floats raise on
     division by zero).

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .elementwise import select
+from .elementwise import least, select
 
 # Of the speed of the vehicle: a wheel that moves slower counts as standing. Its force grows from
 # none with its motion, so that it does not jump from side to side where a wheel is held while the
@@ -41,7 +41,7 @@ def circle(cosine: Any, brake: Any) -> tuple[Any, Any]:
     Both are over friction times load.
     """
     # Negative: against the motion.
-    forward = select(cosine > brake, -brake, select(cosine < -brake, brake, -cosine))
+    forward = -least(brake, -least(brake, -cosine))
     left = 1.0 - forward * forward
     return forward, select(left > 0.0, left, 0.0) ** 0.5
 
@@ -62,17 +62,16 @@ def tyre_force(
     # Fiala: 1 at and beyond the slip angle at which the whole contact slides.
     steep, whole = cornering * side, 3.0 * friction * abs(along)
     sticks = steep < whole
-    rest = 1.0 - steep / select(sticks, whole, 1.0)
-    fiala = select(sticks, 1.0 - rest * rest * rest, 1.0)
-    most = select(fiala < most, fiala, most)
-    slides = side / _not_standing(side, standing)
-    most = select(slides < most, slides, most)
+    rest = 1.0 - select(sticks, steep, 1.0) / select(sticks, whole, 1.0)
+    most = least(most, 1.0 - rest * rest * rest)
+    most = least(most, side / _not_standing(side, standing))
     return forward, select(across > 0.0, -most, most)
 
 
 def _not_standing(speed: Any, standing: Any) -> Any:
     """The speed, and below ``standing`` more than that, without a kink."""
-    return select(speed < standing, 0.5 * (standing + speed * speed / standing), speed)
+    curve = 0.5 * standing + (0.5 / standing) * (speed * speed)
+    return select(speed < standing, curve, speed)
 
 
 class Tyres(NamedTuple):
@@ -137,7 +136,8 @@ def tyre_forces(
     for (ahead, aside, _), mu, (along, across, load) in zip(
         _corners(tyres), here, wheels, strict=True
     ):
-        x, y = (load * mu) * along, (load * mu) * across
+        carried = load * mu if transfers else mu
+        x, y = carried * along, carried * across
         parts.append((x, y, (ahead * tyres.ahead) * y - (aside * tyres.left) * x))
     x, y, yaw = (0.25 * _sum([part[at] for part in parts]) for at in range(3))
     return x, y, yaw

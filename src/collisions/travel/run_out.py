@@ -233,8 +233,8 @@ def path(
     >>> run = path(places, ["0 deg", "55 deg", "110 deg", "160 deg"], friction=0.7, lock=0.2)
     >>> [round(drag, 2) for drag in run.drags]
     [0.57, 0.7, 0.57]
-    >>> speed, yaw_rate = run.q.speed.to("km/h"), run.q.yaw_rate.to("deg/s")
-    >>> print(f"{speed:.1f~P}, {yaw_rate:.0f~P}, {run.q.course_difference.to('deg'):.1f~P}")
+    >>> v, w = run.q.speed.to("km/h"), run.q.yaw_rate.to("deg/s")
+    >>> print(f"{v:.1f~P}, {w:.0f~P}, {run.q.course_difference.to('deg'):.1f~P}")
     56.0 km/h, 138 deg/s, -12.0 deg
     >>> round(speed(run.distance, drag=0.7) * 3.6, 1)
     60.0

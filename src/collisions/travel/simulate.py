@@ -233,8 +233,8 @@ def simulate(
     from the centre of mass is a part), its slip v counts as (s + v**2 / s) / 2, and across it acts
     at most the part of the friction that is its side slip over that side slip counted in the same
     way. At the default ``tolerance``, the place of rest is off by at most 1e-3 of the distance
-    travelled and the heading by 1e-3 rad, mostly by a hundredth of that; at 1e-5, in two thirds of
-    the time, by at most a few thousandths and mostly by 1e-4.
+    travelled, the heading by 1e-3 rad and the time by 1e-3 of it, mostly by a hundredth of that; at
+    1e-5, in two thirds of the time, by at most a few thousandths and mostly by 1e-4.
 
     Examples
     --------

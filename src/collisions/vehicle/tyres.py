@@ -163,25 +163,8 @@ class Tyres(Shown):
         """
         if unknown := changes.keys() - set(NAMES):
             raise no_argument("Tyres.replace", NAMES, unknown, _HINTS)
-        kept = {name: self.as_given(name) for name in NAMES if name not in changes}
+        kept = {name: as_given(self, name) for name in NAMES if name not in changes}
         return Tyres(**kept, **changes)
-
-    def as_given(self, name: str) -> Any:
-        """The text that an argument was given as, or its number; of four locks a list.
-
-        Parameters
-        ----------
-        name : str
-            An argument of ``Tyres``.
-
-        Returns
-        -------
-        str, float or array, or a list of four
-        """
-        value, texts = getattr(self, name), _given(self)
-        if isinstance(value, tuple):
-            return [texts.get(f"{name}[{i}]", part) for i, part in enumerate(value)]
-        return texts.get(name, value)
 
     @property
     def given(self) -> Texts:
@@ -252,6 +235,14 @@ def _given(tyres: Tyres) -> Texts:
     """The texts that the arguments were given as."""
     texts: Texts = getattr(tyres, "_inputs_as_texts")  # noqa: B009
     return texts
+
+
+def as_given(tyres: Tyres, name: str) -> Any:
+    """The text that an argument was given as, or its number; of four locks a list."""
+    value, texts = getattr(tyres, name), _given(tyres)
+    if isinstance(value, tuple):
+        return [texts.get(f"{name}[{i}]", part) for i, part in enumerate(value)]
+    return texts.get(name, value)
 
 
 def _set(tyres: Tyres, values: Mapping[str, Any], texts: Texts) -> None:
