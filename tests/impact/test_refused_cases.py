@@ -123,6 +123,16 @@ def forward(model: str) -> Callable[..., Any]:
     return call
 
 
+def on_tyres(**numbers: Any) -> Any:
+    """An impact during which A's tyres act."""
+    tyres = {
+        name.removeprefix("tyres_a."): numbers.pop(name)
+        for name in list(numbers)
+        if name.startswith("tyres_a.")
+    }
+    return forward("eccentric")(**numbers, tyres_a=travel.Tyres(**tyres))
+
+
 def left_out(**numbers: Any) -> Any:
     """What the impulse leaves out of such an impact."""
     own = {name: numbers.pop(name) for name in ("duration", "drag")}
@@ -366,6 +376,17 @@ def calls() -> Iterator[tuple[str, Call]]:
                 FORWARD,
             ),
         )
+    wheels = {"friction": 0.7, "lock": 0.3, "wheelbase": 2.7, "track": 1.5, "height": 0.5}
+    yield (
+        "eccentric, with tyres",
+        Call(
+            on_tyres,
+            {**free, "friction": 0.4, "duration": 0.1}
+            | {f"tyres_a.{name}": value for name, value in wheels.items()},
+            ({"tyres_a.height": 2.0},),
+            FORWARD,
+        ),
+    )
     held = {**STILL, "a.vx": 0.4, "duration": 0.3, "drag": 0.7, "restitution": 0.3}
     timed = {**free, "friction": 0.4, "duration": 0.1, "drag": 0.7}
     yield (

@@ -334,13 +334,20 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
         )
     add_arrays(FINITE, *(inputs.point or ()), *(inputs.outside_a or ()), *(inputs.outside_b or ()))
     add_arrays(RULES[inputs.rule].domain, inputs.rule_value)
-    found += _tyre_checks(inputs)
+    return [*found, *_lasting_checks(inputs)]
+
+
+def _lasting_checks(inputs: Inputs) -> list[Any]:
+    """The same of how the contact lasts, and of the tyres."""
+    from ..engine.batch import Check
+
+    found = _tyre_checks(inputs)
     for name, domains in TIME_DOMAINS.items():
         given = getattr(inputs, name)
-        for part, domain in zip(
-            given if isinstance(given, tuple) else (given,), domains, strict=False
-        ):
-            add_arrays(domain, part)
+        parts = given if isinstance(given, tuple) else (given,)
+        for part, domain in zip(parts, domains, strict=False):
+            if isinstance(part, np.ndarray):
+                found.append(Check(domain.faults, (part,), domain.holds))
     return found
 
 
@@ -371,7 +378,7 @@ def _where_tyres_hold(inputs: Inputs, raw: Any) -> Any:
     """
     with np.errstate(all="ignore"):
         status = raw.status.copy()
-        for check in reversed(_tyre_checks(inputs)):
+        for check in reversed(_lasting_checks(inputs)):
             fault = np.broadcast_to(check.fault(*check.values), status.shape)
             np.copyto(status, fault, where=np.not_equal(fault, Status.OK), casting="unsafe")
     refused = status > Status.ENERGY_GAIN
