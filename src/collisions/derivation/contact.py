@@ -105,11 +105,11 @@ def velocity_after(
 
 def impulses(page: Page, s: Symbols, k: Mobility) -> None:
     """Both components of the impulse on B, and its parts of both periods."""
-    if s.law.energetic and s.impact.inputs.rule_value != 0.0:
+    if s.law.followed and s.impact.inputs.rule_value != 0.0:
         compressed = _by_energy(page, s, k)
     else:
         _by_rule(page, s, k)
-        compressed = (s.closing + k.push[0]) / k.normal if s.law.energetic else None
+        compressed = (s.closing + k.push[0]) / k.normal if s.law.followed else None
     if not s.impact.complete:
         page.at_most(s.separation, ZERO)
         page.say(
@@ -345,7 +345,7 @@ def _sticks(page: Page, s: Symbols, normal: Symbol, tangential: Symbol) -> bool:
 def energy(page: Page, s: Symbols) -> None:
     """The loss along the normal and along the tangent."""
     page.heading("Energy")
-    if s.law.energetic and s.tangential.value != 0.0:
+    if s.law.followed and s.tangential.value != 0.0:
         # The sum needs no path, its parts do.
         whole = HALF * (s.closing - s.separation) * s.normal - HALF * s.tangential * (
             s.slip + s.slip_after

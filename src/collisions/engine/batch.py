@@ -20,6 +20,7 @@ from ..kernels.model_error import ECCENTRIC, least_model
 from ..kernels.status import Answer, Status
 from .blocks import BLOCK, Progress, block_length, each_block, flat
 from .buffers import Program, large_arrays
+from .flattening import flattened, form_of, numbers_of
 from .floats import compile_for_floats
 from .replay import input_kind, record, replay
 
@@ -74,6 +75,11 @@ class Work(NamedTuple):
     kernel: Callable[..., tuple[Any, ...]]
     settings: tuple[Any, ...]
     inputs: tuple[Any, ...]
+
+
+def work_of(kernel: Callable[..., Any], arguments: Any, settings: tuple[Any, ...]) -> Work:
+    """A kernel of named parts, its arguments and settings as numbers in a row."""
+    return Work(flattened(kernel, form_of(arguments)), settings, tuple(numbers_of(arguments)))
 
 
 class Cases(NamedTuple):
@@ -132,8 +138,8 @@ def _first_names(inputs: Iterable[Any], dtype: Any) -> Sequence[str]:
 
 
 def least_models(
+    arguments: tuple[Any, ...],
     settings: tuple[Any, ...],
-    inputs: tuple[Any, ...],
     cases: Cases,
     progress: Progress | None = None,
 ) -> tuple[Any, Any, Any]:
@@ -150,7 +156,7 @@ def least_models(
                 error[wrong] = np.nan
 
     kinds = np.dtype(np.uint8), np.dtype(cases.dtype), np.dtype(cases.dtype)
-    work = Work(least_model, settings, inputs)
+    work = work_of(least_model, arguments, settings)
     program, outputs = _program(work, kinds, cases), large_arrays(cases.size, kinds)
     for at, value in {} if program is None else program.outputs.items():
         outputs[at].fill(value)

@@ -527,7 +527,7 @@ class Impact(Frozen, Summarized):
     @property
     def _energetic(self) -> bool:
         """Whether restitution is of energy, so that the separation speed is an answer."""
-        return self._passed is not None or LAWS[self.inputs.law or BRACH].energetic
+        return self._passed is not None or LAWS[self.inputs.law or BRACH].followed
 
     def _until_compressed(self, name: str) -> Any:
         from .choice import until_compressed
@@ -539,7 +539,7 @@ class Impact(Frozen, Summarized):
             return False
         before, after = self.slip_before, self.slip_after
         turned = ((before < 0.0) & (after > 0.0)) | ((before > 0.0) & (after < 0.0))
-        return turned if LAWS[self.inputs.law or BRACH].energetic else turned & self._followed
+        return turned if LAWS[self.inputs.law or BRACH].followed else turned & self._followed
 
     def _output(self, name: str) -> Value:
         value: Value = getattr(self._answer, name)
