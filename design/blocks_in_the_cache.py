@@ -21,7 +21,7 @@ from functools import partial
 import numpy as np
 from measuring import QUICK, batch_speed, compare
 
-from collisions.engine.buffers import carved
+from collisions.engine.buffers import slice_memory
 from collisions.engine.flattening import flattened, form_of, numbers_of
 from collisions.engine.replay import record, replay
 from collisions.kernels.eccentric import eccentric
@@ -67,7 +67,7 @@ def run(given, outputs, length, one):
 
 if __name__ == "__main__":
     given = numbers_of(ARGUMENTS)
-    _, outputs = carved(CASES, KINDS)
+    _, outputs = slice_memory(CASES, KINDS)
     texts = tuple(value.hex() if isinstance(value, float) else None for value in given)
     program = record(KERNEL, SETTINGS, texts, np.dtype(float), KINDS)
     ways = {"whole arrays": partial(run, given, outputs, CASES, as_it_is)}

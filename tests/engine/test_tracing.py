@@ -12,7 +12,7 @@ import pytest
 
 import collisions as col
 from collisions.engine.blocks import BLOCK, block_length
-from collisions.engine.buffers import carved
+from collisions.engine.buffers import slice_memory
 from collisions.engine.flattening import flattened, form_of
 from collisions.engine.replay import input_kind, record, replay
 from collisions.kernels.central import (
@@ -366,14 +366,14 @@ def test_arrays_in_one_piece_of_memory(length):
     call on them.
     """
     dtypes = [np.dtype(one) for one in (np.uint8, np.float64, np.float32, np.float64)]
-    memory, arrays = carved(length, dtypes)
+    memory, arrays = slice_memory(length, dtypes)
     assert [(one.shape, one.dtype) for one in arrays] == [((length,), dtype) for dtype in dtypes]
     for at, one in enumerate(arrays):
         one.fill(at)
     assert all((one == at).all() for at, one in enumerate(arrays))
     assert all(one.ctypes.data % (4096 if length >= 1000 else 64) == 0 for one in arrays if length)
-    assert carved(length, dtypes[:2], memory)[0] is memory
-    assert carved(length + 4096, dtypes, memory)[0] is not memory
+    assert slice_memory(length, dtypes[:2], memory)[0] is memory
+    assert slice_memory(length + 4096, dtypes, memory)[0] is not memory
 
 
 def test_spare_memory_that_another_thread_has_just_taken(monkeypatch):
@@ -388,7 +388,7 @@ def test_spare_memory_that_another_thread_has_just_taken(monkeypatch):
         def __len__(self):
             return 1
 
-    monkeypatch.setattr("collisions.engine.replay._SPARE", Emptied())
+    monkeypatch.setattr("collisions.engine.replay._BUFFER_POOL", Emptied())
     program = record(
         lambda x, y: (x + y, x * y * x), (), (None, None), np.float64, (np.dtype(float),) * 2
     )

@@ -18,6 +18,7 @@ from ..kernels.contact_laws import BRACH, FRICTION, LAWS
 from ..kernels.elementwise import larger, select
 from ..kernels.model_error import ECCENTRIC, LACKING, Known, least_model
 from ..kernels.status import EPS, Passed, Status, WithTyres
+from ..messages.errors import InputError
 from ..messages.progress import halves, reporter
 from ..messages.warning import quietly
 from ..quantities.attributes import Shown, derived, lock, numeric, same
@@ -37,7 +38,7 @@ from .inputs import (
 )
 from .models import CANDIDATES, TIME_RESOLVED, model_of, paths_of, read_again, variant_of
 from .models import ECCENTRIC as FULL
-from .run import cases_of, check_options, say_of_cases, solve_cases, solve_inputs
+from .run import cases_of, check_options, raise_or_warn, solve_cases, solve_inputs
 from .time_resolved_inputs import timed
 
 _NAMES = (*(model.name for model in CANDIDATES), TIME_RESOLVED.name)
@@ -195,6 +196,10 @@ def choose(inputs: Inputs, threads: int = 1, progress: Any = None) -> tuple[Mode
     )
     missing = tuple(f"{label}.{name}" for label, name in lacking(a, b))
     missing += () if inputs.point is not None else ("point",)
+    if nobody := FULL.beyond(inputs):
+        text = f"no model that solve chooses from takes {' and '.join(nobody)}; leave it out"
+        raise InputError(text, code="bad_combination", argument=nobody[0])
+    # Both central models take the same forces and bodies.
     beyond = CANDIDATES[0].beyond(inputs)
     which, *predicted = _predicted(inputs, missing, not beyond, shape, threads, progress)
     lacks = which == LACKING
@@ -341,7 +346,7 @@ def solve_least(
         return solve_least(case, None, 1, None, part_of_choice(chosen, take))
 
     chosen = choice
-    say_of_cases(inputs, raw, on_failure, one)
+    raise_or_warn(inputs, raw, on_failure, one)
     return raw, choice
 
 

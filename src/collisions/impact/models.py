@@ -101,14 +101,20 @@ class Model:
         """What was given that the model does not take, so that it cannot stand for the impact; a
         pivot is named "pivot".
         """
-        taken = {*ARGUMENTS[self.name], *self.without}
         pivots = (inputs.a.pivot, inputs.b.pivot)
         pinned = self.name not in PINNED and pivots != (None, None)
         return ["pivot"] * pinned + [
             name
-            for name in ARGUMENTS["solve"]
-            if name not in taken and (name == inputs.rule or _is_given(getattr(inputs, name, None)))
+            for name in _not_taken(self)
+            if name == inputs.rule or _is_given(getattr(inputs, name, None))
         ]
+
+
+@cache
+def _not_taken(model: Model) -> tuple[str, ...]:
+    """The arguments of ``solve`` that the model neither takes nor may be left without."""
+    allowed = {*ARGUMENTS[model.name], *model.without}
+    return tuple(name for name in ARGUMENTS["solve"] if name not in allowed)
 
 
 def _is_given(value: Any) -> bool:

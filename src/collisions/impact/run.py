@@ -71,7 +71,7 @@ def solve_inputs(
             raw: Any = with_tyres(inputs, solve)
             if inputs.shape is not None:
                 raw = _where_tyres_hold(inputs, raw)
-                say_of_cases(inputs, raw, on_failure)
+                raise_or_warn(inputs, raw, on_failure)
             return raw
         if model is not TIME_RESOLVED:
             inputs = replace(inputs, tyres_a=None, tyres_b=None, duration=None)
@@ -82,7 +82,7 @@ def solve_inputs(
             )
         else:
             raw = solve_cases((model,), None, inputs, inputs.shape, threads, progress)
-        say_of_cases(inputs, raw, on_failure)
+        raise_or_warn(inputs, raw, on_failure)
         return raw
     if model is TIME_RESOLVED:
         raw = solve_case_in_time(inputs)
@@ -113,24 +113,24 @@ def solve_cases(
 ) -> Any:
     """Solve a batch; ``which`` has the number of each case's model, None if there is only one."""
     # Adds a twentieth to the import of the package, and single cases never come here.
-    from ..engine.batch import solve_cases, work_of
+    from ..engine.batch import call_of, solve_cases
 
     cases, eps = cases_of(inputs, shape, threads)
-    works = [
-        work_of(model.kernel, (model.problem(inputs),), (*model.settings(inputs), eps))
+    calls = [
+        call_of(model.kernel, (model.problem(inputs),), (*model.settings(inputs), eps))
         for model in models
     ]
-    return solve_cases(works, which, cases, reporter(progress))
+    return solve_cases(calls, which, cases, reporter(progress))
 
 
 def cases_of(inputs: Inputs, shape: tuple[int, ...], threads: int) -> tuple[Any, float]:
     """The batch as the kernels take it, and the rounding of its precision."""
-    from ..engine.batch import Cases
+    from ..engine.batch import Batch
     from ..quantities.precision import precision
 
     dtype = precision(named_numbers(inputs).values())
     eps = float(np.finfo(dtype).eps)
-    return Cases(_value_checks(inputs, eps), shape, dtype, threads), eps
+    return Batch(_value_checks(inputs, eps), shape, dtype, threads), eps
 
 
 def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> None:
@@ -232,7 +232,7 @@ def error_of(status: int, text: str, **fields: Any) -> CollisionsError:
     return kind(text, code=outcome.label, **fields)
 
 
-def say_of_cases(
+def raise_or_warn(
     inputs: Inputs,
     raw: Any,
     on_failure: Any,

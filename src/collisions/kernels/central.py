@@ -134,9 +134,9 @@ def _along_line(problem: Problem, eps: float, slip: Any, spins: Any, across: Any
         slip = 0.0
     else:
         total = total + slip
-    fine = (closing > 0.0) & (total - total == 0.0) & ((spins | across) ^ True)
+    ok = (closing > 0.0) & (total - total == 0.0) & ((spins | across) ^ True)
     status = select(
-        fine,
+        ok,
         Status.OK,
         first_status(
             (spins, Status.SPINNING),
@@ -240,9 +240,9 @@ def _oblique(problem: Problem, rule: str, law: str, eps: float, spins: Any) -> A
     total = total + (0.0 * impulse_x + 0.0 * impulse_y + 0.0 * no_slip_impulse)
     if struck.passage is not None:
         total = total + separation
-    fine = (closing > 0.0) & (total - total == 0.0) & ((gains | struck.pulls | spins) ^ True)
+    ok = (closing > 0.0) & (total - total == 0.0) & ((gains | struck.pulls | spins) ^ True)
     status = select(
-        fine,
+        ok,
         Status.OK,
         first_status(
             (spins, Status.SPINNING),
