@@ -63,8 +63,8 @@ class Approach(NamedTuple):
 class Struck(NamedTuple):
     """The impulse at the contact and what led to it, before energies and motions.
 
-    ``without_slip`` is the impulse that a sticking contact needs, and ``off_sticking`` what it was
-    divided from: its tangential part times the determinant.
+    ``without_slip`` is the impulse that a sticking contact needs, and ``no_slip_t_determinant`` its
+    tangential part times the determinant.
     """
 
     responses: tuple[Response, Response]
@@ -74,7 +74,7 @@ class Struck(NamedTuple):
     impulse: tuple[Any, Any]
     torques: tuple[Any, Any]
     without_slip: tuple[Any, Any]
-    off_sticking: Any
+    no_slip_t_determinant: Any
     sticks: Any
     singular: Any
     pulls: Any
@@ -223,10 +223,10 @@ def strike(problem: Problem, rule: str, law: str, eps: float) -> Struck:
     per_mass, change_n, change_t = k.per_mass, now.change_n, now.change_t
     q_a = b_a * (rn_a * change_n + rt_a * change_t)
     q_b = b_b * (rn_b * change_n + rt_b * change_t)
-    off_sticking = (per_mass * change_t + q_a * rt_a + q_b * rt_b) / k.trace
+    no_slip_t_determinant = (per_mass * change_t + q_a * rt_a + q_b * rt_b) / k.trace
     divided_by = select(k.regular, k.determinant, 1.0)
     no_slip_n = ((per_mass * change_n + q_a * rn_a + q_b * rn_b) / k.trace) / divided_by
-    no_slip_t = off_sticking / divided_by
+    no_slip_t = no_slip_t_determinant / divided_by
 
     value, follow = contact.rule_value, LAWS[law].passage
     passage: Passage | None = None
@@ -254,7 +254,7 @@ def strike(problem: Problem, rule: str, law: str, eps: float) -> Struck:
         impulse,
         torques(a, b, *impulse),
         (no_slip_n, no_slip_t),
-        off_sticking,
+        no_slip_t_determinant,
         sticks,
         singular,
         pulls,
@@ -299,7 +299,9 @@ def slip_and_losses(
         loss_t = passage.loss_t
         return passage.separation, passage.slip_after, loss - loss_t, loss_t, loss, gains
     beyond_sticking = select(
-        struck.sticks, 0.0, (k.determinant * tangential - struck.off_sticking) / (k.k_nn / k.trace)
+        struck.sticks,
+        0.0,
+        (k.determinant * tangential - struck.no_slip_t_determinant) / (k.k_nn / k.trace),
     )
     slip_after = LAWS[law].sticking_slip(restitution) * slip + beyond_sticking
     impulse_work: Any = None
