@@ -43,7 +43,7 @@ from import_times import MODULES, TIMED, Times, imports, ratio
 
 import collisions as col
 from collisions import reconstruct
-from collisions.engine.batch import FEW
+from collisions.engine.batch import SCALAR_LIMIT
 from collisions.impact import models
 from collisions.impact.impact import solved
 
@@ -203,8 +203,8 @@ def single_works() -> dict[str, Work]:
             lambda: nine(col.eccentric(a, b, np.array([0.1]), **contact)),
         ),
         "array_of_few": Work(
-            f"`eccentric`, an array of {FEW} cases, nine outputs read",
-            lambda: nine(col.eccentric(a, b, np.linspace(0.1, 0.2, FEW), **contact)),
+            f"`eccentric`, an array of {SCALAR_LIMIT} cases, nine outputs read",
+            lambda: nine(col.eccentric(a, b, np.linspace(0.1, 0.2, SCALAR_LIMIT), **contact)),
         ),
         "brach": Work(
             '`eccentric`, sticking, law "brach"', lambda: col.eccentric(a, b, 0.1, **sticking)

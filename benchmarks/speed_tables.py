@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from stability_tables import GREY, INK, OURS, TEXTBOOK, number, table
 
-from collisions.engine.batch import FEW
+from collisions.engine.batch import SCALAR_LIMIT
 
 DATA = Path(__file__).resolve().parent.parent / "docs" / "_generated"
 NOT_MEASURED = "not measured"
@@ -472,13 +472,13 @@ def break_even(found: dict[str, Any]) -> str:
         known[key]["median"] / known["eccentric_nine"]["median"]
         for key in ("array_of_one", "array_of_few")
     )
-    further = (few - one) / (FEW - 1)
+    further = (few - one) / (SCALAR_LIMIT - 1)
     return (
-        f"An array of one case costs as much as {number(one)} single cases. Up to {FEW} cases "
-        f"are answered one by one, and each further one costs {number(further)} of a single "
+        f"An array of one case costs as much as {number(one)} single cases. Up to {SCALAR_LIMIT} "
+        f"cases are answered one by one, and each further one costs {number(further)} of a single "
         "case; beyond that each costs hardly anything. From about "
-        f"{min(FEW + 1, math.ceil((one - further) / (1.0 - further)))} cases on, a batch is the "
-        "faster way."
+        f"{min(SCALAR_LIMIT + 1, math.ceil((one - further) / (1.0 - further)))} cases on, a batch "
+        "is the faster way."
     )
 
 

@@ -21,40 +21,36 @@ from functools import partial
 import numpy as np
 from measuring import QUICK, batch_speed, compare
 
-from collisions.engine.buffers import carved
+from collisions.engine.buffers import slice_memory
+from collisions.engine.flattening import flattened, form_of, numbers_of
 from collisions.engine.replay import record, replay
 from collisions.kernels.eccentric import eccentric
+from collisions.kernels.problem import Body, Contact, Problem
 from collisions.kernels.status import EPS, Answer
 
 CASES = 20_000 if QUICK else 1_000_000
-SETTINGS = ("friction", "brach", False, False, EPS)
+SETTINGS = ("friction", "brach", EPS)
 TYPES = {"status": np.dtype(np.uint8), "sticks": np.dtype(bool)}
 KINDS = tuple(TYPES.get(name, np.dtype(float)) for name in Answer._fields)
 
 
-def inputs():
-    """The cases of the benchmark in the order of the kernel's arguments; pivots are plain zeros, as
-    there are none.
-    """
+def problem():
+    """The cases of the benchmark."""
     scene = batch_speed.scenes(CASES)
     names = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y")
-    bodies = [
-        value for side in "ab" for value in (*(scene[side][name] for name in names), 0.0, 0.0)
-    ]
-    normal = scene["normal"]
-    return (
-        scene["restitution"],
-        np.cos(normal),
-        np.sin(normal),
-        scene["friction"],
-        *scene["point"],
-        *bodies,
-    )
+    a, b = (Body(*(scene[side][name] for name in names)) for side in "ab")
+    normal = np.cos(scene["normal"]), np.sin(scene["normal"])
+    contact = Contact(scene["restitution"], normal, scene["friction"], tuple(scene["point"]))
+    return Problem(contact, a, b)
+
+
+ARGUMENTS = (problem(),)
+KERNEL = flattened(eccentric, form_of(ARGUMENTS))
 
 
 def as_it_is(given, outputs):
     """The kernel itself on a block."""
-    for output, answer in zip(outputs, eccentric(*given, *SETTINGS), strict=True):
+    for output, answer in zip(outputs, KERNEL(*given, *SETTINGS), strict=True):
         output[...] = answer
 
 
@@ -70,10 +66,10 @@ def run(given, outputs, length, one):
 
 
 if __name__ == "__main__":
-    given = inputs()
-    _, outputs = carved(CASES, KINDS)
+    given = numbers_of(ARGUMENTS)
+    _, outputs = slice_memory(CASES, KINDS)
     texts = tuple(value.hex() if isinstance(value, float) else None for value in given)
-    program = record(eccentric, SETTINGS, texts, np.dtype(float), KINDS)
+    program = record(KERNEL, SETTINGS, texts, np.dtype(float), KINDS)
     ways = {"whole arrays": partial(run, given, outputs, CASES, as_it_is)}
     for length in (8192, 65536):
         ways[f"blocks of {length}"] = partial(run, given, outputs, length, as_it_is)

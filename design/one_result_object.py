@@ -20,9 +20,10 @@ from measuring import col, compare, speed
 from collisions.impact.impact import build
 from collisions.impact.inputs import Inputs
 from collisions.kernels.eccentric import eccentric
+from collisions.kernels.problem import Body, Contact, Problem
 
-NUMBERS = (0.1, 1.0, 0.0, 0.5, 0.0, 0.0)
-SETTINGS = ("friction", "brach", False, False)
+CONTACT = Contact(0.1, (1.0, 0.0), 0.5, (0.0, 0.0))
+SETTINGS = ("friction", "brach")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,31 +68,24 @@ class Whole:
     energy_loss: float
 
 
-def body(numbers: dict[str, float]) -> tuple[float, ...]:
-    """The numbers of a body as the kernel takes them."""
-    return (
-        *(numbers[name] for name in ("mass", "yaw_inertia", "vx", "vy")),
-        0.0,
-        numbers["x"],
-        numbers["y"],
-        0.0,
-        0.0,
-    )
+def body(numbers: dict[str, float]) -> Body:
+    """A body as the kernel takes it."""
+    return Body(yaw_rate=0.0, **numbers)
 
 
-INPUTS = (*NUMBERS, *body(speed.BODIES[0]), *body(speed.BODIES[1]), *SETTINGS)
+PROBLEM = Problem(CONTACT, *map(body, speed.BODIES))
 A, B = (col.Vehicle(**numbers) for numbers in speed.BODIES)
 CASE = Inputs("eccentric", A, B, 0.1, (1.0, 0.0), "friction", 0.5, "brach", (0.0, 0.0))
 
 
 def kernel() -> tuple[Any, ...]:
     """The formula alone."""
-    return eccentric(*INPUTS)
+    return eccentric(PROBLEM, *SETTINGS)
 
 
 def one_object() -> Any:
     """With the inputs beside it."""
-    return build(CASE, eccentric(*INPUTS))
+    return build(CASE, eccentric(PROBLEM, *SETTINGS))
 
 
 def half(
@@ -118,7 +112,7 @@ def half(
 
 def tree() -> Whole:
     """All records, filled at once."""
-    raw = eccentric(*INPUTS)
+    raw = eccentric(PROBLEM, *SETTINGS)
     ix, iy = raw[15:17]
     return Whole(
         a=half(speed.BODIES[0], -ix, -iy, *raw[17:20]),

@@ -13,15 +13,23 @@ stays an array.
 
 import numpy as np
 from measuring import compare
-from one_result_object import INPUTS
+from one_result_object import PROBLEM, SETTINGS
 
 from collisions.kernels.eccentric import eccentric
 
 
 def solved(kind):
     """A call of the kernel on numbers of a kind."""
-    given = tuple(kind(value) if isinstance(value, float) else value for value in INPUTS)
-    return lambda: eccentric(*given)
+
+    def made(part):
+        if isinstance(part, tuple):
+            return (
+                type(part)._make(map(made, part)) if hasattr(part, "_make") else (*map(made, part),)
+            )
+        return kind(part) if isinstance(part, float) else part
+
+    given = made(PROBLEM)
+    return lambda: eccentric(given, *SETTINGS)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import pint
 import pytest
 
 import collisions as col
-from collisions.engine.batch import FEW
+from collisions.engine.batch import SCALAR_LIMIT
 from collisions.engine.blocks import BLOCK
 from collisions.impact.impact import answer_of
 from collisions.kernels.status import Answer
@@ -154,7 +154,7 @@ def test_few_cases_and_many_have_the_same_bits(law, refusing):
     So many cases because a power of one half and a square root differ in one of a thousand.
     """
     rng = np.random.default_rng(20)
-    count = 200 * FEW
+    count = 200 * SCALAR_LIMIT
     vx, e = rng.uniform(-5.0 if refusing else 8.0, 25.0, count), rng.uniform(0.0, 1.0, count)
     friction = np.where(rng.random(count) < 0.2, 0.0, rng.uniform(0.0, 1.5, count))
 
@@ -169,7 +169,7 @@ def test_few_cases_and_many_have_the_same_bits(law, refusing):
         return {name: np.ascontiguousarray(values).tobytes() for name, values in answers.items()}
 
     whole = bits(slice(None))
-    for size, within in ((1, 50), (5, 100), (FEW, count)):
+    for size, within in ((1, 50), (5, 100), (SCALAR_LIMIT, count)):
         parts = [bits(slice(start, start + size)) for start in range(0, within, size)]
         for name, values in whole.items():
             joined = b"".join(part[name] for part in parts)

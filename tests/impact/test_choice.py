@@ -17,6 +17,8 @@ import pytest
 
 import collisions as col
 from collisions.engine.blocks import BLOCK
+from collisions.impact import models
+from collisions.impact.choice import choose
 from collisions.impact.impact import solved
 
 MODELS = ("linear_central", "oblique_central", "eccentric")
@@ -949,3 +951,41 @@ def test_a_tolerance_beyond_float32_accepts_everything(tolerance):
     assert choice.model[1] == (
         "eccentric" if isinstance(tolerance, np.ndarray) else "linear_central"
     )
+
+
+@pytest.fixture
+def moment(monkeypatch):
+    """A new input of ``solve``, given; which solvers take it is said by the caller."""
+
+    def given(*solvers):
+        arguments = {
+            name: (*takes, "moment") if name in ("solve", *solvers) else takes
+            for name, takes in models.ARGUMENTS.items()
+        }
+        monkeypatch.setattr(models, "ARGUMENTS", arguments)
+        models._not_taken.cache_clear()
+        a = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, vx=15.0, x=-2.0, y=0.0)
+        b = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=2.0, y=0.0)
+        place = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.4, "duration": 0.1}
+        inputs = col.solve(a, b, 0.2, **place, tolerance=5.0).inputs
+        vars(inputs)["moment"] = 300.0
+        return inputs
+
+    yield given
+    monkeypatch.undo()
+    models._not_taken.cache_clear()
+
+
+def test_a_model_that_does_not_take_what_was_given_is_out(moment):
+    """Whatever the tolerance, and without the input being known to the choice."""
+    found, lacks = choose(moment("eccentric"))
+    assert (found.model, lacks) == ("eccentric", False)
+    assert found.errors["linear_central"] == found.errors["oblique_central"] == math.inf
+    assert found.reason.startswith("eccentric: moment is beyond the central models")
+    assert found.reason.endswith("time_resolved takes no moment")
+
+
+def test_what_no_model_takes_is_refused(moment):
+    """In place of an answer without it."""
+    with pytest.raises(col.InputError, match="no model that solve chooses from takes moment"):
+        choose(moment())

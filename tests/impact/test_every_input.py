@@ -55,7 +55,7 @@ BODY = {
 }  # fmt: skip
 SOLVERS = sorted(ARGUMENTS)
 CONTACTS = [
-    (law, rule) for law in LAWS for rule in RULES if rule == "friction" or not LAWS[law].energetic
+    (law, rule) for law in LAWS for rule in RULES if rule == "friction" or not LAWS[law].followed
 ]
 
 

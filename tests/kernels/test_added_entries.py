@@ -135,4 +135,4 @@ def test_the_laws_of_today():
         KUDLICH_SLIBAR: True,
         STRONGE: False,
     }
-    assert [name for name, known in LAWS.items() if known.energetic] == [STRONGE]
+    assert [name for name, known in LAWS.items() if known.followed] == [STRONGE]

@@ -16,6 +16,7 @@ from collisions.derivation import explain
 from collisions.diagnostics import diagnose
 from collisions.impact import inputs
 from collisions.kernels import central, contact_laws, eccentric
+from collisions.kernels.elementwise import select
 from collisions.reporting import report
 
 A = col.Vehicle(
@@ -141,6 +142,70 @@ def test_speeds_go_back_and_planar_says_that_it_does_not():
     ) as refused:
         col.reconstruct.planar(impact.a.after, impact.b.after, restitution=0.3, **CONTACT)
     assert refused.value.code == "law_not_reversible"
+
+
+def slides_on(restitution, closing, slip, friction, respond, stuck):
+    """A contact that slides as it began, to its end."""
+    way = select(slip < 0.0, 1.0, -1.0)
+    yields, slows = respond(1.0, way * friction)
+    normal = (1.0 + restitution) * closing / yields
+    after = slip + slows * normal
+    return contact_laws.Passage(
+        normal=normal,
+        tangential=way * friction * normal,
+        separation=restitution * closing,
+        slip_after=after,
+        loss_n=0.5 * (1.0 - restitution) * (closing * normal),
+        loss_t=-0.5 * way * friction * normal * (slip + after),
+        sticks=False,
+    )
+
+
+@pytest.fixture
+def fifth_law(monkeypatch):
+    """One with a passage of its own."""
+    law = contact_laws.Law(
+        "slides on",
+        lambda restitution: 0.0,
+        no_slip="none",
+        derivation="it slides to the end",
+        assumption="the contact slides to the end, says the test",
+        passage=slides_on,
+    )
+    monkeypatch.setitem(contact_laws.LAWS, law.name, law)
+    return law.name
+
+
+@pytest.mark.parametrize("solver", [col.oblique_central, col.eccentric])
+@pytest.mark.parametrize("e", [0.0, 0.3])
+def test_a_passage_of_its_own_is_followed(fifth_law, solver, e):
+    """Against the impulse ratio that it has: one case, many, pages and records."""
+    a, b = (A, B) if solver is col.eccentric else (A.replace(yaw_rate=0.0), B)
+    place = {"normal": 0.3, "point": (0.1, 0.2)} if solver is col.eccentric else {"normal": 0.3}
+    impact = solver(a, b, e, friction=0.1, law=fifth_law, **place)
+    ratio = -math.copysign(0.1, impact.slip_before)
+    known = solver(a, b, e, impulse_ratio=ratio, **place)
+    names = ("normal_impulse", "tangential_impulse", "energy_loss", "slip_after")
+    for name in names:
+        assert getattr(impact, name) == pytest.approx(getattr(known, name), rel=1e-12)
+    assert impact.b.after.vx == pytest.approx(known.b.after.vx, rel=1e-12)
+    assert impact.separation_speed == pytest.approx(e * impact.closing_speed, rel=1e-12)
+    many = solver(a, b, np.full(40, e), friction=0.1, law=fifth_law, **place)
+    assert many.case(7) == solver(a, b, e, friction=0.1, law=fifth_law, **place)
+    assert col.Impact.from_dict(impact.to_dict()) == impact
+    with pytest.raises(col.InputError, match="works with friction= alone"):
+        solver(a, b, e, impulse_ratio=0.1, law=fifth_law, **place)
+
+
+@pytest.mark.slow
+def test_a_passage_of_its_own_is_explained_and_reported(fifth_law):
+    impact = col.eccentric(A, B, 0.3, **CONTACT | {"law": fifth_law, "friction": 0.1})
+    page = explain(impact, form="text")
+    assert "it slides to the end" in page
+    assert "numbers cancel" not in page
+    assert "says the test" in report(impact)
+    assert diagnose(impact) is not None
+    assert plot.impulse_plane(impact) is not None
 
 
 @pytest.mark.parametrize("kernel", [central, eccentric])

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from ..impact.impact import answer_of
 from ..impact.inputs import PLACED
-from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, RULES
+from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, RULES, STRONGE
 from .expressions import (
     HALF,
     ZERO,
@@ -105,11 +105,8 @@ def velocity_after(
 
 def impulses(page: Page, s: Symbols, k: Mobility) -> None:
     """Both components of the impulse on B, and its parts of both periods."""
-    if s.law.energetic and s.impact.inputs.rule_value != 0.0:
-        compressed = _by_energy(page, s, k)
-    else:
-        _by_rule(page, s, k)
-        compressed = (s.closing + k.push[0]) / k.normal if s.law.energetic else None
+    steps = STEPS.get(s.law.name, _as_found) if s.law.followed else _by_rule
+    compressed = steps(page, s, k)
     if not s.impact.complete:
         page.at_most(s.separation, ZERO)
         page.say(
@@ -117,18 +114,45 @@ def impulses(page: Page, s: Symbols, k: Mobility) -> None:
             "points still approach."
         )
         return
-    page.equation(
-        "Impulse of the period of deformation, area A1",
-        s.compression,
-        compressed or s.normal / (1.0 + s.e),
-    )
-    restored = s.e * s.compression if compressed is None else s.normal - s.compression
+    if compressed is s.compression:
+        page.say(f"Of that, {page.shown(compressed)} is of the period of deformation, area A1.")
+    else:
+        page.equation(
+            "Impulse of the period of deformation, area A1",
+            s.compression,
+            compressed or s.normal / (1.0 + s.e),
+        )
+    restored = s.normal - s.compression if s.law.followed else s.e * s.compression
     page.equation("Impulse of the period of restitution (10), area A2", s.restitution, restored)
 
 
+def _as_found(page: Page, s: Symbols, k: Mobility) -> Expression | None:
+    """The impulse under a law that follows the contact and whose steps are not written here: from
+    the separation speed and the impulse ratio that it came to.
+    """
+    page.say(
+        f"The contact was followed as its impulse builds up, and {s.law.derivation}. It came to "
+        f"{page.shown(s.separation)}, the speed at which the contact points part, and "
+        f"{page.shown(s.ratio)}, tangential over normal impulse."
+    )
+    resistance = k.normal if k.coupling is None else k.normal + s.ratio * k.coupling
+    parting = s.closing + k.push[0] + s.separation
+    page.equation("Normal impulse, by which they part so", s.normal, parting / resistance)
+    page.equation("Tangential impulse", s.tangential, s.ratio * s.normal)
+    return s.compression
+
+
 def _by_energy(page: Page, s: Symbols, k: Mobility) -> Expression | None:
-    """The impulse under the law "stronge"; gives its normal component until the end of
-    compression.
+    """The impulse under the law "stronge"; without friction it is that of any rule."""
+    if s.impact.inputs.rule_value != 0.0:
+        return _until_slip_stops(page, s, k)
+    _by_rule(page, s, k)
+    return (s.closing + k.push[0]) / k.normal
+
+
+def _until_slip_stops(page: Page, s: Symbols, k: Mobility) -> Expression | None:
+    """The impulse by the work of compression, with friction against the slip as it changes; gives
+    its normal component until the end of compression.
     """
     page.say(
         "Friction acts against the slip as it is at each moment, and the slip may stop before "
@@ -226,6 +250,10 @@ def _by_energy(page: Page, s: Symbols, k: Mobility) -> Expression | None:
     page.equation("Normal impulse", s.normal, first + (w + s.separation) / soft_2)
     page.equation("Tangential impulse", s.tangential, first_t + ratio * (s.normal - first))
     return before
+
+
+# What ``explain`` writes of the laws that follow the contact.
+STEPS = {STRONGE: _by_energy}
 
 
 def _by_rule(page: Page, s: Symbols, k: Mobility) -> None:
@@ -345,7 +373,7 @@ def _sticks(page: Page, s: Symbols, normal: Symbol, tangential: Symbol) -> bool:
 def energy(page: Page, s: Symbols) -> None:
     """The loss along the normal and along the tangent."""
     page.heading("Energy")
-    if s.law.energetic and s.tangential.value != 0.0:
+    if s.law.followed and s.tangential.value != 0.0:
         # The sum needs no path, its parts do.
         whole = HALF * (s.closing - s.separation) * s.normal - HALF * s.tangential * (
             s.slip + s.slip_after

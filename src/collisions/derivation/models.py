@@ -560,7 +560,7 @@ def _restitution(page: Page, s: Symbols, levers: tuple[Lever, Lever]) -> None:
     """Write the restitution at the contact, from both bodies and from one."""
     a, b = levers
     closing = a.along("n", contact=True) - b.along("n", contact=True)
-    if s.law.energetic:
+    if s.law.followed:
         page.equation("Separation speed", s.separation, s.relative("n", AFTER, True))
         return
     page.balance(

@@ -192,7 +192,7 @@ class ImpactCase(_Case):
         others = [
             name
             for name, law in LAWS.items()
-            if name != impact.law and (by_friction or not law.energetic)
+            if name != impact.law and (by_friction or not law.followed)
         ]
         return [
             (f"under the law {name!r} instead of {impact.law!r}", solve_changed(impact, law=name))

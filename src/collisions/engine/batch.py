@@ -1,8 +1,8 @@
 """Many cases at once: kernels run in blocks that stay in the cache, on one thread or several.
 
-Every case is worked out by itself. A refused one is NaN in every output and carries its status; it
-cannot touch its neighbours. Where the cases have models of their own, those of a part of the batch
-are gathered by model, worked out, and put back.
+Cases are independent. A refused one is NaN in every output and carries its status. Where the cases
+have models of their own, those of a part of the batch are gathered by model, computed, and put
+back.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from ..kernels.elementwise import first_status
 from ..kernels.model_error import ECCENTRIC, least_model
 from ..kernels.status import Answer, Status
 from .blocks import BLOCK, Progress, block_length, each_block, flat
-from .buffers import Program, large_arrays
+from .buffers import Program, aligned_arrays
+from .flattening import flattened, form_of, numbers_of
 from .floats import compile_for_floats
 from .replay import input_kind, record, replay
 
@@ -28,10 +29,10 @@ from .replay import input_kind, record, replay
 _PART = 3 * BLOCK
 # Up to so many cases in float64 are answered one by one, as single cases are: numpy's calls take
 # longer than their arithmetic.
-FEW = 24
+SCALAR_LIMIT = 24
 # Outputs that most callers read of a large batch; and the rest, with the status, which marks the
 # cases to set to NaN.
-FIRST = (
+EAGER = (
     "status",
     "closing_speed",
     "normal_impulse",
@@ -44,7 +45,7 @@ FIRST = (
     "delta_vy_b",
     "delta_yaw_rate_b",
 )
-LATER = ("status", *(name for name in Answer._fields if name not in FIRST))
+LAZY = ("status", *(name for name in Answer._fields if name not in EAGER))
 # With plain numbers in this range no output overflows float32: slip, coupling and impulse without
 # slip are at most 1e30.
 _SMALL, _LARGE = 1e-18, 1e6
@@ -54,7 +55,7 @@ class Check(NamedTuple):
     """Conditions for a fault, each with its status, and the values they look at.
 
     ``passes`` is a cheaper test of whole arrays; it may be False although there is no fault.
-    ``implied`` says that a case that a kernel finds fine has no such fault if the kernel reads the
+    ``implied`` says that a case that a kernel answers has no such fault if the kernel reads the
     values: a number that is not finite leaves no sum finite.
     """
 
@@ -68,7 +69,7 @@ class Check(NamedTuple):
         return first_status(*((fault(*values), code) for fault, code in self.faults))
 
 
-class Work(NamedTuple):
+class KernelCall(NamedTuple):
     """A kernel, its settings and its inputs."""
 
     kernel: Callable[..., tuple[Any, ...]]
@@ -76,7 +77,12 @@ class Work(NamedTuple):
     inputs: tuple[Any, ...]
 
 
-class Cases(NamedTuple):
+def call_of(kernel: Callable[..., Any], arguments: Any, settings: tuple[Any, ...]) -> KernelCall:
+    """A kernel of named parts, its arguments and settings as numbers in a row."""
+    return KernelCall(flattened(kernel, form_of(arguments)), settings, tuple(numbers_of(arguments)))
+
+
+class Batch(NamedTuple):
     """The cases of a batch: their checks, shape, precision, and the number of threads."""
 
     checks: Sequence[Check]
@@ -91,23 +97,23 @@ class Cases(NamedTuple):
 
 
 def solve_cases(
-    works: Sequence[Work], which: Any, cases: Cases, progress: Progress | None = None
+    calls: Sequence[KernelCall], which: Any, batch: Batch, progress: Progress | None = None
 ) -> Any:
     """The outputs of many cases as locked arrays; the first check that applies decides the status
     of a case.
 
-    ``which`` has the number of each case's work, None where there is but one. ``progress(done,
+    ``which`` has the number of each case's call, None where there is but one. ``progress(done,
     total)`` is called after every block, from the calling thread.
     """
     solve = (
-        partial(_solved, works[0], cases)
+        partial(_solved, calls[0], batch)
         if which is None
-        else partial(_by_model, works, which, cases)
+        else partial(_by_model, calls, which, batch)
     )
-    if cases.size > FEW:
+    if batch.size > SCALAR_LIMIT:
         return BatchAnswer(
             solve,
-            solve(_first_names(chain(*(work.inputs for work in works)), cases.dtype), progress),
+            solve(_first_names(chain(*(call.inputs for call in calls)), batch.dtype), progress),
         )
     return Answer(**solve(Answer._fields, progress))
 
@@ -125,16 +131,16 @@ def _first_names(inputs: Iterable[Any], dtype: Any) -> Sequence[str]:
         if isinstance(value, float) and math.isfinite(value) and value
     )
     return (
-        FIRST
+        EAGER
         if dtype == np.float64 or all(_SMALL <= value <= _LARGE for value in plain)
         else Answer._fields
     )
 
 
 def least_models(
+    arguments: tuple[Any, ...],
     settings: tuple[Any, ...],
-    inputs: tuple[Any, ...],
-    cases: Cases,
+    batch: Batch,
     progress: Progress | None = None,
 ) -> tuple[Any, Any, Any]:
     """``least_model`` for many cases; where a check applies, the result is the eccentric model with
@@ -149,13 +155,13 @@ def least_models(
             for error in errors:
                 error[wrong] = np.nan
 
-    kinds = np.dtype(np.uint8), np.dtype(cases.dtype), np.dtype(cases.dtype)
-    work = Work(least_model, settings, inputs)
-    program, outputs = _program(work, kinds, cases), large_arrays(cases.size, kinds)
+    kinds = np.dtype(np.uint8), np.dtype(batch.dtype), np.dtype(batch.dtype)
+    call = call_of(least_model, arguments, settings)
+    program, outputs = _program(call, kinds, batch), aligned_arrays(batch.size, kinds)
     for at, value in {} if program is None else program.outputs.items():
         outputs[at].fill(value)
-    _in_blocks(work, program, outputs, cases, refuse, progress)
-    which, linear, oblique = (output.reshape(cases.shape) for output in outputs)
+    _in_blocks(call, program, outputs, batch, refuse, progress)
+    which, linear, oblique = (output.reshape(batch.shape) for output in outputs)
     return which, linear, oblique
 
 
@@ -173,9 +179,9 @@ class BatchAnswer:
         vars(self).update(found, _solve=solve)
 
     def __getattr__(self, name: str) -> Any:
-        if name not in LATER:
+        if name not in LAZY:
             raise AttributeError(name)
-        later, refused = self._solve(LATER), self.status > Status.ENERGY_GAIN
+        later, refused = self._solve(LAZY), self.status > Status.ENERGY_GAIN
         if np.any(refused & (later["status"] <= Status.ENERGY_GAIN)):
             # Refused because of an output that is not among these.
             later = {
@@ -202,19 +208,19 @@ class BatchAnswer:
 
 
 def _by_model(
-    works: Sequence[Work],
+    calls: Sequence[KernelCall],
     which: Any,
-    cases: Cases,
+    batch: Batch,
     names: Sequence[str],
     progress: Progress | None = None,
 ) -> dict[str, Any]:
     """These outputs where cases have models of their own: in each part of the batch, those of one
     model are solved together.
     """
-    checks, shape, dtype, threads = cases
+    checks, shape, dtype, threads = batch
     values = {
         id(value): value
-        for value in chain(*(work.inputs for work in works), *(check.values for check in checks))
+        for value in chain(*(call.inputs for call in calls), *(check.values for check in checks))
     }
     columns = {
         key: value if isinstance(value, float) else flat(value, shape)
@@ -226,11 +232,11 @@ def _by_model(
         for name, kind in zip(Answer._fields, _kinds(tuple(names), np.dtype(dtype)), strict=True)
         if kind
     }
-    found = dict(zip(kinds, large_arrays(cases.size, list(kinds.values())), strict=True))
+    found = dict(zip(kinds, aligned_arrays(batch.size, list(kinds.values())), strict=True))
 
     def solve(start: int) -> int:
         part = numbers[start : start + _PART]
-        for number, (kernel, settings, inputs) in enumerate(works):
+        for number, (kernel, settings, inputs) in enumerate(calls):
             chosen = np.flatnonzero(part == number) + start
             if chosen.size:
                 taken = {
@@ -241,41 +247,43 @@ def _by_model(
                     check._replace(values=tuple(taken[id(value)] for value in check.values))
                     for check in checks
                 ]
-                work = Work(kernel, settings, tuple(taken[id(value)] for value in inputs))
-                for name, output in _solved(work, Cases(own, chosen.shape, dtype), names).items():
+                call = KernelCall(kernel, settings, tuple(taken[id(value)] for value in inputs))
+                for name, output in _solved(call, Batch(own, chosen.shape, dtype), names).items():
                     found[name][chosen] = output
         return len(part)
 
-    each_block(solve, range(0, cases.size, _PART), cases.size, threads, progress)
+    each_block(solve, range(0, batch.size, _PART), batch.size, threads, progress)
     return _shaped(found, shape)
 
 
 def _solved(
-    work: Work, cases: Cases, names: Sequence[str], progress: Progress | None = None
+    call: KernelCall, batch: Batch, names: Sequence[str], progress: Progress | None = None
 ) -> dict[str, Any]:
     """The outputs of these names, the status always included; locked."""
-    dtype, size = np.dtype(cases.dtype), cases.size
+    dtype, size = np.dtype(batch.dtype), batch.size
     kinds = _kinds(tuple(names), dtype)
-    program = _program(work, kinds, cases)
-    same = {} if program is None else program.outputs
+    program = _program(call, kinds, batch)
+    constant_outputs = {} if program is None else program.outputs
     outputs: list[Any] = [None] * len(kinds)
-    computed = {at: kind for at, kind in enumerate(kinds) if kind is not None and at not in same}
-    for at, output in zip(computed, large_arrays(size, list(computed.values())), strict=True):
+    computed = {
+        at: kind for at, kind in enumerate(kinds) if kind is not None and at not in constant_outputs
+    }
+    for at, output in zip(computed, aligned_arrays(size, list(computed.values())), strict=True):
         outputs[at] = output
-    _in_blocks(work, program, outputs, cases, blank, progress)
+    _in_blocks(call, program, outputs, batch, refuse_cases, progress)
     if dtype == np.float32:
         _refuse_beyond(outputs)
-    if same:
+    if constant_outputs:
         # The same number in every case takes no memory, unless some cases are refused.
         refused = outputs[0] > Status.ENERGY_GAIN
         some = refused.any()
-        for at, value in same.items():
+        for at, value in constant_outputs.items():
             number, none = (
                 np.array(one, kinds[at])
                 for one in (value, math.nan if kinds[at] == dtype else False)
             )
             outputs[at] = np.where(refused, none, number) if some else np.broadcast_to(number, size)
-    return _shaped(dict(zip(Answer._fields, outputs, strict=True)), cases.shape)
+    return _shaped(dict(zip(Answer._fields, outputs, strict=True)), batch.shape)
 
 
 def _shaped(outputs: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
@@ -309,10 +317,12 @@ def _refuse_beyond(outputs: Sequence[Any]) -> None:
             beyond |= np.isinf(closing * normal)
     beyond &= outputs[0] <= Status.ENERGY_GAIN
     if beyond.any():
-        blank([np.where(beyond, np.uint8(Status.OUT_OF_RANGE), np.uint8(Status.OK))], outputs)
+        refuse_cases(
+            [np.where(beyond, np.uint8(Status.OUT_OF_RANGE), np.uint8(Status.OK))], outputs
+        )
 
 
-def blank(faults: Sequence[Any], answers: Sequence[Any]) -> None:
+def refuse_cases(faults: Sequence[Any], answers: Sequence[Any]) -> None:
     """Set the status of each case to its first fault, and the outputs of refused cases to NaN."""
     status = answers[0]
     for fault in reversed(faults):
@@ -325,26 +335,26 @@ def blank(faults: Sequence[Any], answers: Sequence[Any]) -> None:
 
 
 def _in_blocks(
-    work: Work,
+    call: KernelCall,
     program: Program | None,
     outputs: Sequence[Any],
-    cases: Cases,
+    batch: Batch,
     refuse: Callable[[Sequence[Any], Sequence[Any]], None],
     progress: Progress | None,
 ) -> None:
     """Run the kernel over all cases into these arrays; ``refuse`` gets the faults and outputs of
     each block.
     """
-    checks, shape, dtype, threads = cases
-    size = cases.size
+    checks, shape, dtype, threads = batch
+    size = batch.size
     # By the id of a value, the flat view its blocks are cut from: an array that is read more than
     # once is cut once.
-    values = {id(value): value for value in chain(work.inputs, *(check.values for check in checks))}
+    values = {id(value): value for value in chain(call.inputs, *(check.values for check in checks))}
     plain = {key: value for key, value in values.items() if isinstance(value, float)}
     columns = {key: flat(value, shape) for key, value in values.items() if key not in plain}
     length = min(block_length(size, threads, 0 if program is None else program.scratch), size or 1)
-    # What the kernel reads to find out whether a case is fine.
-    judged = set() if program is None else {id(work.inputs[at]) for at in program.judged}
+    # What the kernel reads to find out whether a case has an answer.
+    judged = set() if program is None else {id(call.inputs[at]) for at in program.judged}
     open_checks = [
         check
         for check in checks
@@ -356,16 +366,16 @@ def _in_blocks(
         cut = plain | {
             key: column[block].astype(dtype, copy=False) for key, column in columns.items()
         }
-        inputs = [cut[id(value)] for value in work.inputs]
+        inputs = [cut[id(value)] for value in call.inputs]
         answers = [None if output is None else output[block] for output in outputs]
         with np.errstate(all="ignore"):
-            fine = (
-                run_one_by_one(work, inputs, answers)
+            ok = (
+                run_one_by_one(call, inputs, answers)
                 if program is None
                 else replay(program, inputs, answers)
             )
-            faults = _faults(open_checks if fine else checks, cut)
-        if faults or not fine:
+            faults = _faults(open_checks if ok else checks, cut)
+        if faults or not ok:
             refuse(faults, answers)
         return block.stop - block.start
 
@@ -382,25 +392,25 @@ def _faults(checks: Sequence[Check], cut: dict[int, Any]) -> list[Any]:
     return found
 
 
-def _program(work: Work, kinds: tuple[Any, ...], cases: Cases) -> Program | None:
+def _program(call: KernelCall, kinds: tuple[Any, ...], batch: Batch) -> Program | None:
     """The kernel recorded for inputs and outputs of these kinds; None for a few cases."""
-    dtype = np.dtype(cases.dtype)
-    few = cases.size <= FEW and dtype == np.float64
+    dtype = np.dtype(batch.dtype)
+    few = batch.size <= SCALAR_LIMIT and dtype == np.float64
     return (
         None
         if few
-        else record(work.kernel, work.settings, tuple(map(input_kind, work.inputs)), dtype, kinds)
+        else record(call.kernel, call.settings, tuple(map(input_kind, call.inputs)), dtype, kinds)
     )
 
 
-def run_one_by_one(work: Work, inputs: Sequence[Any], outputs: Sequence[Any]) -> bool:
+def run_one_by_one(call: KernelCall, inputs: Sequence[Any], outputs: Sequence[Any]) -> bool:
     """Answer each case by the kernel compiled for floats; all by the kernel itself if one of them
-    is not plainly fine.
+    has no plain answer.
     """
-    count, function = len(outputs[0]), _for_floats(work.kernel, work.settings, len(inputs))
+    count, function = len(outputs[0]), _for_floats(call.kernel, call.settings, len(inputs))
     columns = [[value] * count if isinstance(value, float) else value.tolist() for value in inputs]
     answers = [*map(function, zip(*columns, strict=True))]
-    found = work.kernel(*inputs, *work.settings) if None in answers else zip(*answers, strict=True)
+    found = call.kernel(*inputs, *call.settings) if None in answers else zip(*answers, strict=True)
     for output, answer in zip(outputs, found, strict=True):
         if output is not None:
             output[...] = answer

@@ -26,13 +26,13 @@ class Program(NamedTuple):
 
     The arrays are inputs, outputs, constants, results that are one number for all cases, and
     buffers. The late calls only serve to compute the status, and are skipped for a block in which
-    all cases are fine; ``judged`` has the inputs that are read to find out whether they are.
+    all cases have answers; ``judged`` has the inputs that are read to find out whether they are.
     ``outputs`` has those that are the same number in all cases, whatever the inputs.
     """
 
     calls: tuple[Call, ...]
     late: tuple[Call, ...]
-    fine: int | None
+    ok: int | None
     judged: frozenset[int]
     constants: tuple[Any, ...]
     numbers: tuple[Any, ...]
@@ -54,15 +54,15 @@ def _needs(steps: Sequence[Step], wanted: set[int]) -> set[int]:
     return {index for index in needed if steps[index].function is not None}
 
 
-def placed(
-    tape: Tape, written: dict[int, int], inputs: int, outputs: int, same: dict[int, Any]
+def allocate(
+    tape: Tape, written: dict[int, int], inputs: int, outputs: int, constant_outputs: dict[int, Any]
 ) -> Program:
     """Drop unused steps and assign buffers by last use."""
     steps = tape.steps
     (status,) = (index for index, which in written.items() if which == 0)
-    fine = tape.fine(status)
-    judging = set() if fine is None else _needs(steps, {fine})
-    early = _needs(steps, set(written) if fine is None else (written.keys() - {status}) | {fine})
+    ok = tape.ok(status)
+    judging = set() if ok is None else _needs(steps, {ok})
+    early = _needs(steps, set(written) if ok is None else (written.keys() - {status}) | {ok})
     needed = _needs(steps, set(written))
     numbers = [index for index in sorted(needed) if not steps[index].sample.ndim]
     early, needed = early.difference(numbers), needed.difference(numbers)
@@ -121,16 +121,16 @@ def placed(
     return Program(
         tuple(calls[:at_once]),
         tuple(calls[at_once:]),
-        None if fine is None else places[fine],
+        None if ok is None else places[ok],
         frozenset(step.operands[0] for step in read if step.function is None and step.operands),
         tuple(np.asarray(steps[index].sample) for index in constants),
         tuple(steps[index].sample.dtype for index in numbers),
         tuple(buffers),
-        same,
+        constant_outputs,
     )
 
 
-def carved(length: int, dtypes: Sequence[Any], memory: Any = None) -> tuple[Any, list[Any]]:
+def slice_memory(length: int, dtypes: Sequence[Any], memory: Any = None) -> tuple[Any, list[Any]]:
     """A piece of memory, and empty arrays of these types in it: ``memory`` where it is large
     enough, else a new one.
     """
@@ -147,14 +147,14 @@ def carved(length: int, dtypes: Sequence[Any], memory: Any = None) -> tuple[Any,
     ]
 
 
-def large_arrays(length: int, dtypes: Sequence[Any]) -> list[Any]:
+def aligned_arrays(length: int, dtypes: Sequence[Any]) -> list[Any]:
     """Empty arrays in memory that the system can hand out in large pages, at a fraction of the
     faults of small ones.
 
     Those shorter than a large page share one piece of memory, which stays as long as any of them.
     """
     if 8 * length < LARGE_PAGE:
-        return carved(length, dtypes)[1]
+        return slice_memory(length, dtypes)[1]
     return [_aligned(length * dtype.itemsize, LARGE_PAGE).view(dtype) for dtype in dtypes]
 
 

@@ -42,10 +42,12 @@ def compile_for_floats(
         numbers = [tape.input(which, np.float64) for which in range(len(takes))]
         given = kernel(*numbers, *settings)
         answers = [tape.operand(answer).index for answer in given]
-    fine = tape.fine(answers[0]) if isinstance(given, Answer) else tape.operand(True).index
-    if fine is None:
-        raise ValueError(f"{kernel.__name__} does not end by choosing whether its case is fine")
-    wanted = [fine, *(answers[1:] if isinstance(given, Answer) else answers)]
+    ok = tape.ok(answers[0]) if isinstance(given, Answer) else tape.operand(True).index
+    if ok is None:
+        raise ValueError(
+            f"{kernel.__name__} does not end by choosing whether its case has an answer"
+        )
+    wanted = [ok, *(answers[1:] if isinstance(given, Answer) else answers)]
     paths = [
         f"inputs[{path!r}]" if path.isidentifier() else f"inputs{path}" if path[0] == "[" else path
         for path in takes

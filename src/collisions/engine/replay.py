@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from .buffers import Program, carved, placed
+from .buffers import Program, allocate, slice_memory
 from .tracing import Step, Tape, Traced, cast
 
 # Buffers of blocks that are done, for the next ones: new pages would cost as much as some of the
 # calls.
-_SPARE: list[tuple[Any, int, Any, list[Any]]] = []
-_MOST_SPARE, _LARGEST_SPARE = 4, 4 * 2**20
+_BUFFER_POOL: list[tuple[Any, int, Any, list[Any]]] = []
+_MOST_POOLED, _LARGEST_POOLED = 4, 4 * 2**20
 
 
 def input_kind(value: Any) -> str | None:
@@ -69,34 +69,34 @@ def record(
                     index = len(tape.steps)
                     tape.steps.append(Step(cast, (value.index,), np.zeros(1, wanted)))
                 written[index] = which
-    return placed(tape, written, len(inputs), len(outputs), constants)
+    return allocate(tape, written, len(inputs), len(outputs), constants)
 
 
 def replay(program: Program, inputs: Sequence[Any], outputs: Sequence[Any]) -> bool:
     """Run one block: the inputs, with arrays cut to the block, and slices of the wanted outputs to
     write to, None for others.
 
-    Gives whether all its cases are fine.
+    Gives whether all its cases have answers.
     """
     # Taking from a list and putting back is safe between threads, and in a call within a call; to
     # look first would not be.
     try:
-        owner, length, memory, buffers = _SPARE.pop()
+        owner, length, memory, buffers = _BUFFER_POOL.pop()
     except IndexError:
         owner, length, memory, buffers = None, 0, None, []
     if owner is not program or length != len(outputs[0]):
         length = len(outputs[0])
-        memory, buffers = carved(length, program.buffers, memory)
+        memory, buffers = slice_memory(length, program.buffers, memory)
     numbers = [np.empty((), dtype) for dtype in program.numbers]
     arrays = [*map(np.asarray, inputs), *outputs, *program.constants, *numbers, *buffers]
     for function, chosen in program.calls:
         function(*chosen(arrays))
-    fine = program.fine is not None and bool(arrays[program.fine].all())
-    if fine:
+    ok = program.ok is not None and bool(arrays[program.ok].all())
+    if ok:
         outputs[0].fill(0)
     else:
         for function, chosen in program.late:
             function(*chosen(arrays))
-    if len(_SPARE) < _MOST_SPARE and memory.size <= _LARGEST_SPARE:
-        _SPARE.append((program, length, memory, buffers))
-    return fine
+    if len(_BUFFER_POOL) < _MOST_POOLED and memory.size <= _LARGEST_POOLED:
+        _BUFFER_POOL.append((program, length, memory, buffers))
+    return ok

@@ -141,8 +141,8 @@ class Tape:
             np.zeros(found.shape, dtype),
         )
 
-    def fine(self, status: int) -> int | None:
-        """The operand `fine` of the final select(fine, OK, ...); None if the kernel does not end
+    def ok(self, status: int) -> int | None:
+        """The operand `ok` of the final select(ok, OK, ...); None if the kernel does not end
         with that select.
         """
         function, operands, _ = self.steps[status]

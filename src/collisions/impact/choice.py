@@ -12,11 +12,13 @@ from typing import Any, cast
 
 import numpy as np
 
+from ..engine.flattening import flattened, form_of, numbers_of
 from ..engine.floats import compile_for_floats
 from ..kernels.contact_laws import BRACH, FRICTION, LAWS
 from ..kernels.elementwise import larger, select
 from ..kernels.model_error import ECCENTRIC, LACKING, Known, least_model
 from ..kernels.status import EPS, Passed, Status, WithTyres
+from ..messages.errors import InputError
 from ..messages.progress import halves, reporter
 from ..messages.warning import quietly
 from ..quantities.attributes import Shown, derived, lock, numeric, same
@@ -25,7 +27,6 @@ from ..quantities.reading import ArgumentReader, broadcast
 from ..quantities.tables import Cells, Summary, all_numbers, sided
 from ..quantities.units import Value, to_quantity
 from .inputs import (
-    NO_IMPULSE,
     Inputs,
     ModelName,
     first_case,
@@ -35,23 +36,25 @@ from .inputs import (
     part_of,
     part_of_inputs,
 )
-from .models import MODELS, TIME_RESOLVED, in_form, model_of, read_again
-from .run import cases_of, check_options, say_of_cases, solve_cases, solve_inputs
+from .models import CANDIDATES, TIME_RESOLVED, model_of, paths_of, read_again, variant_of
+from .models import ECCENTRIC as FULL
+from .run import cases_of, check_options, raise_or_warn, solve_cases, solve_inputs
 from .time_resolved_inputs import timed
 
-_NAMES = (*(model.name for model in MODELS), TIME_RESOLVED.name)
+_NAMES = (*(model.name for model in CANDIDATES), TIME_RESOLVED.name)
 _LINEAR, _OBLIQUE, _ECCENTRIC, _IN_TIME = _NAMES
 # The number of the model that takes time, and the steps in which it is followed to tell what the
 # others leave out.
-_LAST, _ROUGH = len(MODELS), 25
+_LAST, _ROUGH = len(CANDIDATES), 25
 # Safety factor on an error against that.
 _MARGIN = 1.15
 _SI = Numbers("si")
-_PIVOT, _OUTSIDE, _TYRES = (
-    "a body that turns about a pivot",
-    "an impulse from outside",
-    "what tyres do during the contact",
-)
+# How what a model does not take is said: as beyond it, and after "takes no".
+_SAID = {
+    "pivot": ("a body that turns about a pivot", "body with a pivot"),
+    "outside": ("an impulse from outside", "impulse from outside"),
+    "tyres": ("what tyres do during the contact", "tyres"),
+}
 
 
 class ByModel(Mapping[str, Any]):
@@ -193,7 +196,12 @@ def choose(inputs: Inputs, threads: int = 1, progress: Any = None) -> tuple[Mode
     )
     missing = tuple(f"{label}.{name}" for label, name in lacking(a, b))
     missing += () if inputs.point is not None else ("point",)
-    which, *predicted = _predicted(inputs, missing, shape, threads, progress)
+    if nobody := FULL.beyond(inputs):
+        text = f"no model that solve chooses from takes {' and '.join(nobody)}; leave it out"
+        raise InputError(text, code="bad_combination", argument=nobody[0])
+    # Both central models take the same forces and bodies.
+    beyond = CANDIDATES[0].beyond(inputs)
+    which, *predicted = _predicted(inputs, missing, not beyond, shape, threads, progress)
     lacks = which == LACKING
     choice = ModelChoice(
         tolerance=tolerance,
@@ -201,16 +209,14 @@ def choose(inputs: Inputs, threads: int = 1, progress: Any = None) -> tuple[Mode
         _predicted=(predicted[0], predicted[1]),
         _missing=missing,
         _lacks=bool(np.any(lacks)) if shape else lacks,
-        _beyond=_beyond_impulses(inputs),
+        _beyond=_said(beyond[0])[0] if beyond else "",
     )
     return (choice, lacks) if inputs.duration is None else _with_time(inputs, choice, lacks)
 
 
-def _beyond_impulses(inputs: Inputs) -> str:
-    """What of the inputs no central model can hold."""
-    if inputs.a.pivot is not None or inputs.b.pivot is not None:
-        return _PIVOT
-    return _OUTSIDE if inputs.outside_a is not None else _TYRES if inputs.tyres else ""
+def _said(name: str) -> tuple[str, str]:
+    """How an input that a model does not take is said."""
+    return _SAID.get(name.removesuffix("_a").removesuffix("_b"), (name, name))
 
 
 def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelChoice, Any]:
@@ -220,11 +226,8 @@ def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelCh
     why = ""
     if inputs.rule != FRICTION:
         why = f"{_IN_TIME} takes friction, and {inputs.rule} was given"
-    elif choice._beyond in (_PIVOT, _OUTSIDE):
-        why = (
-            f"{_IN_TIME} takes no "
-            f"{'body with a pivot' if choice._beyond == _PIVOT else 'impulse from outside'}"
-        )
+    elif too_much := TIME_RESOLVED.beyond(inputs):
+        why = f"{_IN_TIME} takes no {_said(too_much[0])[1]}"
     elif np.any(np.less(inputs.restitution, 0.0)):
         why = f"{_IN_TIME} takes no incomplete impact"
     elif np.all(lacks):
@@ -233,7 +236,7 @@ def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelCh
         return replace(choice, _untimed=why), lacks
     with quietly():
         rough = solve_inputs(TIME_RESOLVED, timed(inputs, _ROUGH), on_failure="nan")
-        answers = [solve_inputs(model, inputs, on_failure="nan", carrying=True) for model in MODELS]
+        answers = [solve_inputs(model, inputs, on_failure="nan") for model in CANDIDATES]
     with np.errstate(all="ignore"):
         errors = tuple(_apart(inputs, answer, rough) for answer in answers)
         # Followed roughly it may have no answer where in more steps it has one; then nothing is
@@ -325,13 +328,11 @@ def solve_least(
     if not isinstance(which, np.ndarray):
         if which == _LAST:
             return solve_inputs(TIME_RESOLVED, timed(inputs), on_failure, threads, report), choice
-        return solve_inputs(
-            in_form(MODELS[which], inputs), inputs, on_failure, threads, report, carrying=True
-        ), choice
+        return solve_inputs(CANDIDATES[which], inputs, on_failure, threads, report), choice
     shape = broadcast({"which": which, **named_numbers(inputs)}) or ()
     late, which = which == _LAST, np.minimum(which, ECCENTRIC)
-    used = [model for at, model in enumerate(MODELS) if np.any(which == at)] or [MODELS[ECCENTRIC]]
-    models, numbers = ([in_form(used[0], inputs)], None) if len(used) == 1 else (MODELS, which)
+    used = [model for at, model in enumerate(CANDIDATES) if np.any(which == at)] or [FULL]
+    models, numbers = (used, None) if len(used) == 1 else (CANDIDATES, which)
     raw = solve_cases(models, numbers, inputs, shape, threads, report)
     if inputs.tyres:
         raw = _held(inputs, raw, np.broadcast_to(which == ECCENTRIC, shape), threads)
@@ -345,7 +346,7 @@ def solve_least(
         return solve_least(case, None, 1, None, part_of_choice(chosen, take))
 
     chosen = choice
-    say_of_cases(inputs, raw, on_failure, one)
+    raise_or_warn(inputs, raw, on_failure, one)
     return raw, choice
 
 
@@ -361,7 +362,7 @@ def _held(inputs: Inputs, raw: Any, some: Any, threads: int) -> WithTyres:
         part = part_of_inputs(inputs, lambda value: np.broadcast_to(value, some.shape)[some])
         with quietly():
             held = solve_inputs(
-                MODELS[ECCENTRIC], replace(part, model=_ECCENTRIC, tolerance=None), "nan", threads
+                FULL, replace(part, model=_ECCENTRIC, tolerance=None), "nan", threads
             )
         for name, value in found.items():
             value[some] = getattr(held, name)
@@ -388,7 +389,7 @@ def _in_time(inputs: Inputs, raw: Any, choice: ModelChoice, late: Any, threads: 
     found |= {
         f"compression_{name}": value for name, value in zip(names, at_compression, strict=True)
     }
-    if LAWS[inputs.law or BRACH].energetic:
+    if LAWS[inputs.law or BRACH].followed:
         found["separation_speed"] = select(
             choice._which == 0, found["separation_speed"], raw.separation_speed
         )
@@ -421,7 +422,7 @@ def until_compressed(
     """
     e, found = inputs.restitution, [getattr(answer, name) for name in names]
     refused = answer.status > Status.ENERGY_GAIN
-    if LAWS[inputs.law or BRACH].energetic:
+    if LAWS[inputs.law or BRACH].followed:
         plastic = replace(inputs, restitution=0.0 * e, given=None)
         with quietly():
             if choice is None:
@@ -439,30 +440,29 @@ def until_compressed(
 
 
 @lru_cache(maxsize=64)
-def _float_function(
-    rule: str, law: str | None, pinned: tuple[bool, bool]
-) -> Callable[[dict[str, Any]], Any]:
+def _float_function(central: bool, *variant: Any) -> Callable[[dict[str, Any]], Any]:
     """``least_model`` compiled for plain floats of which none is missing."""
-    known = Known(places=(True, True), inertias=(True, True), all=True, pinned=pinned)
-    return compile_for_floats(
-        least_model, (*MODELS[ECCENTRIC].takes, "tolerance"), (rule, law, known, EPS)
-    )
+    known = Known((True, True), (True, True), complete=True, central=central)
+    arguments = paths_of(FULL, *variant), "tolerance"
+    kernel = flattened(least_model, form_of(arguments))
+    rule, law, *_ = variant
+    return compile_for_floats(kernel, tuple(numbers_of(arguments)), (rule, law, known, EPS))
 
 
 def _predicted(
     inputs: Inputs,
     missing: tuple[str, ...],
+    central: bool,
     shape: tuple[int, ...] | None,
     threads: int,
     progress: Any,
 ) -> Any:
-    """The model's number, and the errors of the central models; infinite with a pivot or an impulse
-    from outside.
+    """The model's number, and the errors of the central models; infinite where these do not take
+    all that was given.
     """
     a, b, placed, tolerance = inputs.a, inputs.b, inputs.point is not None, inputs.tolerance
-    pinned = a.pivot is not None, b.pivot is not None
-    if shape is None and not missing and not inputs.pushed:
-        found = _float_function(inputs.rule, inputs.law, pinned)(vars(inputs))
+    if shape is None and not missing:
+        found = _float_function(central, *variant_of(inputs))(vars(inputs))
         if found is not None:
             return found
     known = Known(
@@ -471,15 +471,12 @@ def _predicted(
             placed and b.x is not None and b.y is not None,
         ),
         inertias=(a.yaw_inertia is not None, b.yaw_inertia is not None),
-        all=not missing,
-        pinned=pinned,
-        outside=inputs.pushed,
+        complete=not missing,
+        central=central,
     )
-    numbers = MODELS[ECCENTRIC].numbers(inputs)
-    if inputs.pushed:
-        numbers = (*numbers, *(inputs.outside_a or NO_IMPULSE), *(inputs.outside_b or NO_IMPULSE))
+    problem = FULL.problem(inputs)
     if shape is None:
-        return least_model(*numbers, tolerance, inputs.rule, inputs.law, known, EPS)
+        return least_model(problem, tolerance, inputs.rule, cast(str, inputs.law), known, EPS)
     # Batches only, so the float precision is found as for batches of one model.
     from ..engine.batch import least_models
 
@@ -489,7 +486,8 @@ def _predicted(
         # A tolerance too large for float32 accepts any float32 error.
         most = float(np.finfo(cases.dtype).max)
         limit = np.minimum(limit, most) if isinstance(limit, np.ndarray) else min(limit, most)
-    return least_models((inputs.rule, inputs.law, known, eps), (*numbers, limit), cases, progress)
+    settings = inputs.rule, inputs.law, known, eps
+    return least_models((problem, limit), settings, cases, progress)
 
 
 def _reason(choice: ModelChoice, system: Numbers = _SI) -> str:

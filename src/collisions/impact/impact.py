@@ -192,7 +192,7 @@ class Impact(Frozen, Summarized):
         about.
         """
         by_ratio = self.restitution * self.closing_speed
-        if not self._energetic:
+        if not self._parts_by_law:
             return by_ratio
         found: Value = select(
             self.model == "linear_central", by_ratio, self._output("separation_speed")
@@ -224,7 +224,7 @@ class Impact(Frozen, Summarized):
         """Normal impulse of the compression period [N*s], the integral of P in eq 10; all of it in
         an incomplete impact.
         """
-        if self._passed is None and (self._energetic or self.inputs.incomplete):
+        if self._passed is None and (self._parts_by_law or self.inputs.incomplete):
             found = self._until_compressed("normal_impulse")
             value: Value = found
             return value
@@ -235,7 +235,7 @@ class Impact(Frozen, Summarized):
         """Normal impulse of the restitution period [N*s], the integral of R in eq 10; 0 in an
         incomplete impact.
         """
-        if self._passed is not None or self._energetic or self.inputs.incomplete:
+        if self._passed is not None or self._parts_by_law or self.inputs.incomplete:
             return self.normal_impulse - self.compression_impulse
         return self.restitution * self.compression_impulse
 
@@ -317,7 +317,7 @@ class Impact(Frozen, Summarized):
         """
         if self._passed is not None:
             found = self._output("energy_absorbed")
-        elif self._energetic:
+        elif self._parts_by_law:
             found = self._until_compressed("energy_loss_normal")
         else:
             found = 0.5 * (self.closing_speed * self.compression_impulse)
@@ -525,9 +525,9 @@ class Impact(Frozen, Summarized):
         return self._answer.duration == self._answer.duration
 
     @property
-    def _energetic(self) -> bool:
-        """Whether restitution is of energy, so that the separation speed is an answer."""
-        return self._passed is not None or LAWS[self.inputs.law or BRACH].energetic
+    def _parts_by_law(self) -> bool:
+        """Whether the separation speed is an answer of its own, not e times the closing speed."""
+        return self._passed is not None or LAWS[self.inputs.law or BRACH].followed
 
     def _until_compressed(self, name: str) -> Any:
         from .choice import until_compressed
@@ -535,11 +535,11 @@ class Impact(Frozen, Summarized):
         return until_compressed(self.inputs, self._answer, self.choice, [name])[0]
 
     def _reverses(self) -> Any:
-        if not self._energetic:
+        if not self._parts_by_law:
             return False
         before, after = self.slip_before, self.slip_after
         turned = ((before < 0.0) & (after > 0.0)) | ((before > 0.0) & (after < 0.0))
-        return turned if LAWS[self.inputs.law or BRACH].energetic else turned & self._followed
+        return turned if LAWS[self.inputs.law or BRACH].followed else turned & self._followed
 
     def _output(self, name: str) -> Value:
         value: Value = getattr(self._answer, name)

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..kernels.contact_laws import FRICTION, LAWS, RULES
 from ..kernels.elementwise import restitution_domain
+from ..kernels.problem import Body, Contact, Problem
 from ..messages.errors import InputError, MissingInputError, ShapeError
 from ..quantities.attributes import lock, same
 from ..quantities.directions import direction, from_radians
@@ -69,9 +70,9 @@ ARGUMENTS = {
     ),
 }
 # The models that need places, and the solvers that take pinned bodies.
-PLACED, _PINNED = ("eccentric", "time_resolved"), ("eccentric", "solve")
+PLACED, PINNED = ("eccentric", "time_resolved"), ("eccentric", "solve")
 _TAKES = {
-    name: ("law" in takes, name in PLACED, name in _PINNED) for name, takes in ARGUMENTS.items()
+    name: ("law" in takes, name in PLACED, name in PINNED) for name, takes in ARGUMENTS.items()
 }
 
 
@@ -213,6 +214,23 @@ def named_numbers(inputs: Inputs) -> dict[str, Any]:
     for label, tyres in inputs.tyres.items():
         found |= {f"tyres_{label}.{name}": value for name, value in tyres.named.items()}
     return found
+
+
+def problem_of(inputs: Inputs) -> Problem:
+    """The inputs as the kernels take them.
+
+    A contact velocity is that of the motions alone, and left out where something else acts.
+    """
+    contact = Contact(
+        inputs.restitution, inputs.normal, inputs.rule_value, inputs.point or (0.0, 0.0)
+    )
+    a, b = (
+        Body._make((*body_numbers(body, inputs.point)[:7], body.pivot))
+        for body in (inputs.a, inputs.b)
+    )
+    if inputs.outside_a is not None and inputs.outside_b is not None:
+        return Problem(contact, a, b, outside=(inputs.outside_a, inputs.outside_b))
+    return Problem(contact, a, b, contact_velocity=inputs.contact_velocity)
 
 
 def body_numbers(body: Vehicle, contact: tuple[Value, Value] | None) -> tuple[Any, ...]:
@@ -379,7 +397,7 @@ def read_inputs(
     reader.problems.extend(problems)
     if model in PLACED:
         reader.problems.extend(missing_numbers(a, b, point, model))
-    if model not in _PINNED:
+    if model not in PINNED:
         reader.problems.extend(_pinned(model, a, b))
     for label, vehicle in (("a", a), ("b", b)):
         if not isinstance(vehicle, Vehicle):
@@ -414,7 +432,7 @@ def read_inputs(
         reader.refuse(
             InputError(f"law must be {known}, got {shown(law)}", code="bad_law", argument="law")
         )
-    elif lawful and LAWS[law].energetic and rule != FRICTION:
+    elif lawful and LAWS[law].followed and rule != FRICTION:
         text = (
             f"law {law!r} works with friction= alone, got {rule}=: it finds the impulse ratio "
             "from the slip as it changes"

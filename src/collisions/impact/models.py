@@ -12,14 +12,31 @@ from typing import Any
 
 import numpy as np
 
-from ..kernels.central import from_closing_speed, linear_central, oblique_central
+from ..engine.flattening import flattened, form_of, numbers_of
+from ..kernels.central import (
+    linear_approximation,
+    linear_central,
+    oblique_approximation,
+    oblique_central,
+)
 from ..kernels.contact_laws import BRACH, RULES
-from ..kernels.eccentric import eccentric, from_contact_velocity, with_outside
+from ..kernels.eccentric import eccentric
+from ..kernels.problem import Body, Contact, Problem
 from ..kernels.status import Answer
 from ..messages.errors import InputError
 from ..quantities.reading import ArgumentReader, amount
 from ..quantities.settings import in_si
-from .inputs import OUTSIDE, TYRES, Arguments, Inputs, body_numbers, first_case, read_inputs
+from .inputs import (
+    ARGUMENTS,
+    OUTSIDE,
+    PINNED,
+    TYRES,
+    Arguments,
+    Inputs,
+    first_case,
+    problem_of,
+    read_inputs,
+)
 from .time_resolved_inputs import (
     DOMAINS,
     read_contact_time,
@@ -39,69 +56,127 @@ class Model:
         That of its solver.
     kernel : callable
         Its formulas.
-    takes : tuple of str
-        Paths into ``Inputs`` of the kernel's arguments, in their order, such as "restitution" or
-        "a.mass".
-    options : callable
-        The kernel's settings (rule, law, flags) from what ``kind_of`` gives.
+    takes : Problem, optional
+        What the kernel takes of a problem: in place of each number its path into ``Inputs``, such
+        as "restitution" or "a.mass"; None for what it does not take. None of a kernel that reads
+        the inputs itself.
+    ruled : bool
+        Whether rule and law are its settings.
+    without : frozenset of str
+        The arguments of ``solve`` that it does not take and that may be given all the same: what
+        comes of leaving them out is predicted, or they have no part in an answer.
     assumptions : str
         As a report says them.
     """
 
     name: str
     kernel: Callable[..., Any]
-    takes: tuple[str, ...]
-    options: Callable[..., tuple[Any, ...]]
+    takes: Problem | None
+    ruled: bool
+    without: frozenset[str]
     assumptions: str
 
-    def settings(self, inputs: Inputs, carrying: bool) -> tuple[Any, ...]:
-        """The kernel's settings; see ``kind_of``."""
-        return self.options(*kind_of(inputs, carrying))
+    @property
+    def paths(self) -> frozenset[str]:
+        """Those in ``takes``."""
+        return frozenset(numbers_of(self.takes))
 
-    def numbers(self, inputs: Inputs) -> tuple[Any, ...]:
-        """The kernel's arguments; an unknown position or inertia is filled in so that it makes no
+    def problem(self, inputs: Inputs) -> Problem:
+        """What the kernel is given; an unknown position or inertia is filled in so that it makes no
         torque.
         """
-        found = [
-            inputs.restitution,
-            *inputs.normal,
-            inputs.rule_value,
-            *(inputs.point or (0.0, 0.0)),
+        whole = problem_of(inputs)
+        found: Problem = whole if self.takes is _WHOLE else _taken(self.takes, whole)
+        return found
+
+    def settings(self, inputs: Inputs) -> tuple[Any, ...]:
+        """The kernel's settings."""
+        return (inputs.rule, inputs.law) if self.ruled else ()
+
+    def answer(self, inputs: Inputs) -> Any:
+        """What the kernel answers: of one case, or of all cases of a batch at once."""
+        return self.kernel(self.problem(inputs), *self.settings(inputs))
+
+    def beyond(self, inputs: Inputs) -> list[str]:
+        """What was given that the model does not take, so that it cannot stand for the impact; a
+        pivot is named "pivot".
+        """
+        pivots = (inputs.a.pivot, inputs.b.pivot)
+        pinned = self.name not in PINNED and pivots != (None, None)
+        return ["pivot"] * pinned + [
+            name
+            for name in _not_taken(self)
+            if name == inputs.rule or _is_given(getattr(inputs, name, None))
         ]
-        for body in (inputs.a, inputs.b):
-            found += body_numbers(body, inputs.point)
-        if inputs.outside_a is not None and inputs.outside_b is not None:
-            found += (math.nan, math.nan, *inputs.outside_a, *inputs.outside_b)
-        elif inputs.contact_velocity is not None:
-            found += inputs.contact_velocity
-        return tuple(map(found.__getitem__, map(_ALL.__getitem__, self.takes)))
 
 
-_BODY = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot[0]", "pivot[1]")
-_CONTACT = ("restitution", "normal[0]", "normal[1]", "rule_value", "point[0]", "point[1]")
-_VELOCITY = ("contact_velocity[0]", "contact_velocity[1]")
-_OUTSIDE = tuple(f"outside_{label}[{i}]" for label in "ab" for i in range(3))
-_OF_BODIES = (f"{label}.{name}" for label in "ab" for name in _BODY)
-_ALL = {name: index for index, name in enumerate((*_CONTACT, *_OF_BODIES, *_VELOCITY, *_OUTSIDE))}
-_POINT_MASS = ("mass", "vx", "vy", "yaw_rate")
+@cache
+def _not_taken(model: Model) -> tuple[str, ...]:
+    """The arguments of ``solve`` that the model neither takes nor may be left without."""
+    allowed = {*ARGUMENTS[model.name], *model.without}
+    return tuple(name for name in ARGUMENTS["solve"] if name not in allowed)
 
 
-def _takes(*contact: str, body: tuple[str, ...]) -> tuple[str, ...]:
-    return (
-        "restitution",
-        "normal[0]",
-        "normal[1]",
-        *contact,
-        *(f"{label}.{name}" for label in "ab" for name in body),
-    )
+def _is_given(value: Any) -> bool:
+    return value is not None and value is not False
 
+
+def _taken(takes: Any, parts: Any) -> Any:
+    """The parts of a problem that a model takes, of those that are given."""
+    found = [
+        None
+        if path is None or part is None
+        else _taken(path, part)
+        if isinstance(path, tuple)
+        else part
+        for path, part in zip(takes, parts, strict=True)
+    ]
+    return tuple(found) if type(takes) is tuple else type(takes)(*found)
+
+
+def _body(label: str) -> Body:
+    names = "mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y"
+    return Body._make([*(f"{label}.{name}" for name in names), _pair(f"{label}.pivot")])
+
+
+def _pair(path: str) -> tuple[str, str]:
+    return f"{path}[0]", f"{path}[1]"
+
+
+def _triple(path: str) -> tuple[str, ...]:
+    return tuple(f"{path}[{at}]" for at in range(3))
+
+
+_WHOLE = Problem(
+    Contact("restitution", _pair("normal"), "rule_value", _pair("point")),
+    _body("a"),
+    _body("b"),
+    outside=(_triple("outside_a"), _triple("outside_b")),
+    contact_velocity=_pair("contact_velocity"),
+)
+_POINT_MASSES = _WHOLE._replace(
+    **{
+        label: body._replace(yaw_inertia=None, x=None, y=None, pivot=None)
+        for label, body in (("a", _WHOLE.a), ("b", _WHOLE.b))
+    },
+    contact=_WHOLE.contact._replace(point=None),
+    outside=None,
+    contact_velocity=None,
+)
+_LEFT_TO_SOLVE = frozenset({"tolerance", "duration", "drag"})
+_PREDICTED = _LEFT_TO_SOLVE | {"point"}
 
 LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
     Model(
         "linear_central",
         linear_central,
-        _takes(body=_POINT_MASS),
-        lambda rule, law, pinned_a, pinned_b, carrying: (carrying,),
+        _POINT_MASSES._replace(
+            contact=_WHOLE.contact._replace(rule_value=None, point=None),
+            # A closing speed only: nothing slips.
+            contact_velocity=("contact_velocity[0]", None),
+        ),
+        False,
+        _PREDICTED | {*RULES, "law"},
         "Linear central: momentum along the normal, equation (2), with restitution, which gives "
         "(5) and (6). The vehicles are point masses that move along one line; rotation and "
         "forces along the tangent are left out.",
@@ -109,78 +184,97 @@ LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
     Model(
         "oblique_central",
         oblique_central,
-        _takes("rule_value", body=_POINT_MASS),
-        lambda rule, law, pinned_a, pinned_b, carrying: (rule, law, carrying),
+        _POINT_MASSES,
+        True,
+        _PREDICTED,
         "Oblique central: restitution along the normal, equation (9), friction along the "
         "tangent. The vehicles are point masses; rotation is left out.",
     ),
     Model(
         "eccentric",
         eccentric,
-        _takes("rule_value", "point[0]", "point[1]", body=_BODY),
-        lambda rule, law, pinned_a, pinned_b, carrying: (rule, law, pinned_a, pinned_b),
+        _WHOLE,
+        True,
+        _LEFT_TO_SOLVE,
         "Eccentric: momentum and angular momentum, equations (10) to (19), with restitution "
         "along the normal and friction along the tangent at one contact point; free, pinned and "
         "fixed bodies.",
     ),
 )
+# The models that ``solve`` chooses from: motion that one cannot represent it carries through
+# unchanged, as the error of that is predicted.
+CANDIDATES = (
+    replace(LINEAR, kernel=linear_approximation),
+    replace(OBLIQUE, kernel=oblique_approximation),
+    ECCENTRIC,
+)
 TIME_RESOLVED = Model(
     "time_resolved",
     solve_case_in_time,
-    (),
-    lambda *kind: (),
+    None,
+    False,
+    # It has its own law; an incomplete impact is one by its restitution.
+    frozenset({"tolerance", "law", "incomplete"}),
     "Time-resolved: the contact is followed in small steps. A spring along the normal takes up "
     "the approach and gives back the share of its work that the restitution squared says; "
     "Coulomb friction acts along the tangent, tyres act on the ground, and places and normal "
     "move with the vehicles.",
 )
 BY_NAME = {model.name: model for model in (*MODELS, TIME_RESOLVED)}
-# For reverse solvers, which find the closing speed and the slip to more digits than the rounded
-# motions hold.
-_FROM_CONTACT_VELOCITY = BY_NAME | {
-    LINEAR.name: replace(
-        LINEAR, kernel=from_closing_speed, takes=("contact_velocity[0]", *LINEAR.takes)
-    ),
-    ECCENTRIC.name: replace(
-        ECCENTRIC,
-        kernel=from_contact_velocity,
-        takes=(*_VELOCITY, *ECCENTRIC.takes),
-    ),
-}
-_WITH_OUTSIDE = replace(ECCENTRIC, kernel=with_outside, takes=(*_OUTSIDE, *ECCENTRIC.takes))
 
 
-def kind_of(inputs: Inputs, carrying: bool) -> tuple[str, str | None, bool, bool, bool]:
-    """Rule, law, whether A and B are pinned, and whether motion outside the model is carried
-    through, as ``solve`` does.
+def variant_of(inputs: Inputs) -> tuple[str, str | None, bool, bool, bool, bool]:
+    """What of the inputs decides which operations a kernel does: rule, law, and whether there is a
+    pivot of A, of B, an impulse from outside, and a contact velocity.
     """
-    return inputs.rule, inputs.law, inputs.a.pivot is not None, inputs.b.pivot is not None, carrying
+    outside = inputs.outside_a is not None
+    return (
+        inputs.rule,
+        inputs.law,
+        inputs.a.pivot is not None,
+        inputs.b.pivot is not None,
+        outside,
+        inputs.contact_velocity is not None and not outside,
+    )
+
+
+def paths_of(
+    model: Model,
+    rule: str,
+    law: str | None,
+    pinned_a: bool,
+    pinned_b: bool,
+    outside: bool,
+    contact_velocity: bool,
+) -> Any:
+    """What the kernel takes, as in ``Model.takes``, of what is given in this ``variant_of``."""
+    found: Any = model.takes
+    if not pinned_a:
+        found = found._replace(a=found.a._replace(pivot=None))
+    if not pinned_b:
+        found = found._replace(b=found.b._replace(pivot=None))
+    if not outside:
+        found = found._replace(outside=None)
+    return found if contact_velocity else found._replace(contact_velocity=None)
 
 
 @cache
-def float_function(model: Model, *kind: Any) -> Callable[[Mapping[str, Any]], Answer | None]:
+def float_function(model: Model, *variant: Any) -> Callable[[Mapping[str, Any]], Answer | None]:
     """The kernel of a model compiled for plain floats, of ``vars(inputs)``; None where the kernel
     itself has to decide.
     """
     # Like all that not every caller needs, loaded at its first use.
     from ..engine.floats import compile_for_floats
 
-    return compile_for_floats(model.kernel, model.takes, model.options(*kind))
+    arguments = (paths_of(model, *variant),)
+    kernel = flattened(model.kernel, form_of(arguments))
+    settings = variant[:2] if model.ruled else ()
+    return compile_for_floats(kernel, tuple(numbers_of(arguments)), settings)
 
 
 def model_of(inputs: Inputs) -> Model:
-    """The model that the inputs name; in the form that starts from the contact velocity where a
-    reverse solver found it.
-    """
-    table = BY_NAME if inputs.contact_velocity is None else _FROM_CONTACT_VELOCITY
-    return in_form(table[inputs.model], inputs)
-
-
-def in_form(model: Model, inputs: Inputs) -> Model:
-    """The model, in the form that takes impulses from outside where there are some; only the
-    eccentric one can hold them.
-    """
-    return model if inputs.outside_a is None else _WITH_OUTSIDE
+    """The model that the inputs name."""
+    return BY_NAME[inputs.model]
 
 
 def read_lasting_impulse(

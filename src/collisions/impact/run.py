@@ -42,7 +42,7 @@ from ..vehicle.tyres import DOMAINS as TYRE_DOMAINS
 from ..vehicle.tyres import could_lift
 from ..vehicle.vehicle import DOMAINS, with_name
 from .inputs import Inputs, first_case, named_numbers, part_of_inputs
-from .models import TIME_RESOLVED, Model, float_function, in_form, kind_of, model_of, read_again
+from .models import TIME_RESOLVED, Model, float_function, model_of, read_again, variant_of
 from .time_resolved_inputs import DOMAINS as TIME_DOMAINS
 from .time_resolved_inputs import solve_case_in_time, solve_cases_in_time, with_tyres
 
@@ -55,12 +55,8 @@ def solve_inputs(
     on_failure: Any = None,
     threads: Any = 1,
     progress: Any = None,
-    carrying: bool = False,
 ) -> Any:
-    """Run a model on one case or a batch, with its warnings and errors.
-
-    With ``carrying``, motion that the model cannot represent is passed on unchanged, not refused.
-    """
+    """Run a model on one case or a batch, with its warnings and errors."""
     if on_failure is not None or progress is not None or type(threads) is not int or threads != 1:
         check_options(on_failure, threads, progress)
     if inputs.tyres_a is not None or inputs.tyres_b is not None:
@@ -69,19 +65,13 @@ def solve_inputs(
             def solve(one: Inputs, quiet: bool) -> Any:
                 quiet = quiet or inputs.shape is not None
                 with quietly() if quiet else nullcontext():
-                    return solve_inputs(
-                        in_form(model, one),
-                        one,
-                        "nan" if quiet else on_failure,
-                        threads,
-                        progress,
-                        carrying,
-                    )
+                    failing = "nan" if quiet else on_failure
+                    return solve_inputs(model, one, failing, threads, progress)
 
             raw: Any = with_tyres(inputs, solve)
             if inputs.shape is not None:
                 raw = _where_tyres_hold(inputs, raw)
-                say_of_cases(inputs, raw, on_failure)
+                raise_or_warn(inputs, raw, on_failure)
             return raw
         if model is not TIME_RESOLVED:
             inputs = replace(inputs, tyres_a=None, tyres_b=None, duration=None)
@@ -91,16 +81,16 @@ def solve_inputs(
                 inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress)
             )
         else:
-            raw = solve_cases((model,), None, inputs, inputs.shape, threads, progress, carrying)
-        say_of_cases(inputs, raw, on_failure)
+            raw = solve_cases((model,), None, inputs, inputs.shape, threads, progress)
+        raise_or_warn(inputs, raw, on_failure)
         return raw
     if model is TIME_RESOLVED:
         raw = solve_case_in_time(inputs)
     else:
-        raw = float_function(model, *kind_of(inputs, carrying))(vars(inputs))
+        raw = float_function(model, *variant_of(inputs))(vars(inputs))
         if raw is not None:
             return raw
-        raw = model.kernel(*model.numbers(inputs), *model.settings(inputs, carrying))
+        raw = model.answer(inputs)
     if raw.status > Status.ENERGY_GAIN:
         if on_failure != "nan":
             raise refusal(inputs, raw)
@@ -120,28 +110,27 @@ def solve_cases(
     shape: tuple[int, ...],
     threads: int,
     progress: Any,
-    carrying: bool = True,
 ) -> Any:
     """Solve a batch; ``which`` has the number of each case's model, None if there is only one."""
     # Adds a twentieth to the import of the package, and single cases never come here.
-    from ..engine.batch import Work, solve_cases
+    from ..engine.batch import call_of, solve_cases
 
     cases, eps = cases_of(inputs, shape, threads)
-    works = [
-        Work(model.kernel, (*model.settings(inputs, carrying), eps), model.numbers(inputs))
+    calls = [
+        call_of(model.kernel, (model.problem(inputs),), (*model.settings(inputs), eps))
         for model in models
     ]
-    return solve_cases(works, which, cases, reporter(progress))
+    return solve_cases(calls, which, cases, reporter(progress))
 
 
 def cases_of(inputs: Inputs, shape: tuple[int, ...], threads: int) -> tuple[Any, float]:
     """The batch as the kernels take it, and the rounding of its precision."""
-    from ..engine.batch import Cases
+    from ..engine.batch import Batch
     from ..quantities.precision import precision
 
     dtype = precision(named_numbers(inputs).values())
     eps = float(np.finfo(dtype).eps)
-    return Cases(_value_checks(inputs, eps), shape, dtype, threads), eps
+    return Batch(_value_checks(inputs, eps), shape, dtype, threads), eps
 
 
 def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> None:
@@ -198,7 +187,7 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
                     f"{values['closing_speed']}"
                 )
                 check = "check the signs of outside_a and outside_b"
-                if LAWS[inputs.law or BRACH].energetic and inputs.restitution >= 0.0:
+                if LAWS[inputs.law or BRACH].followed and inputs.restitution >= 0.0:
                     why = (
                         f"so law={inputs.law!r} finds no compression that it could give back a "
                         "part of"
@@ -243,7 +232,7 @@ def error_of(status: int, text: str, **fields: Any) -> CollisionsError:
     return kind(text, code=outcome.label, **fields)
 
 
-def say_of_cases(
+def raise_or_warn(
     inputs: Inputs,
     raw: Any,
     on_failure: Any,

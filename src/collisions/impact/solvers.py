@@ -23,7 +23,6 @@ from .models import (
     TIME_RESOLVED,
     Model,
     float_function,
-    in_form,
     read_for_solve,
     read_lasting_impulse,
 )
@@ -742,12 +741,16 @@ def _solve(
         inputs = plain_inputs(model.name, a, b, restitution, normal, point, tangential, law)
         if inputs is not None:
             answer = float_function(
-                model, FRICTION, law, a.pivot is not None, b.pivot is not None, False
+                model,
+                FRICTION,
+                law,
+                a.pivot is not None,
+                b.pivot is not None,
+                False,
+                False,
             )(inputs.__dict__)
             if answer is not None:
                 return build(inputs, answer)
     arguments = a, b, restitution, normal, point, tangential, law
     inputs = read_inputs(model.name, arguments, (), (), incomplete, *(outside or (None, None)))
-    return build(
-        inputs, solve_inputs(in_form(model, inputs), inputs, on_failure, threads, progress)
-    )
+    return build(inputs, solve_inputs(model, inputs, on_failure, threads, progress))

@@ -6,10 +6,25 @@ reads it there.
 """
 
 from collections.abc import Callable
+from functools import cache
 from math import inf
 from typing import Any, NamedTuple
 
 from .elementwise import FINITE, NOT_NEGATIVE, UNIT_INTERVAL, Domain, safe_divisor, select
+
+
+class Passage(NamedTuple):
+    """How a contact passed that was followed: its impulse on B, the speeds after, the losses, and
+    whether it stuck.
+    """
+
+    normal: Any
+    tangential: Any
+    separation: Any
+    slip_after: Any
+    loss_n: Any
+    loss_t: Any
+    sticks: Any
 
 
 class Law(NamedTuple):
@@ -26,10 +41,10 @@ class Law(NamedTuple):
         What no slip means, in a few words for messages.
     derivation, assumption : str
         The same as ``explain`` and a report say it.
-    energetic : bool
-        Whether restitution gives back a part of the work of compression, as in
-        ``energetic_contact``, and not of the impulse or the closing speed. Such a law takes
-        friction only, and has its own separation speed.
+    passage : callable, optional
+        Of a law that follows the contact as the impulse builds up: its ``Passage``, from what
+        ``energetic_contact`` takes. Such a law takes friction only, and has its own separation
+        speed. Without one a rule of ``RULES`` decides.
     """
 
     name: str
@@ -37,7 +52,12 @@ class Law(NamedTuple):
     no_slip: str
     derivation: str
     assumption: str
-    energetic: bool = False
+    passage: Callable[..., Passage] | None = None
+
+    @property
+    def followed(self) -> bool:
+        """Whether the law follows the contact, instead of a rule that decides once."""
+        return self.passage is not None
 
     @property
     def compression_limit(self) -> bool:
@@ -46,7 +66,12 @@ class Law(NamedTuple):
 
         Then the energy lost with friction is a sum of terms that are >= 0.
         """
-        return all(self.sticking_slip(e) == -e for e in (0.0, 0.1, 0.3, 0.7, 1.0))
+        return _ends_compression_at_rest(self.sticking_slip)
+
+
+@cache
+def _ends_compression_at_rest(sticking_slip: Callable[[Any], Any]) -> bool:
+    return all(sticking_slip(e) == -e for e in (0.0, 0.1, 0.3, 0.7, 1.0))
 
 
 class Tangent(NamedTuple):
@@ -105,6 +130,130 @@ def _share_of_critical(share: Any, no_slip_n: Any, no_slip_t: Any) -> Tangent:
     return Tangent(pushes & (share == 1.0), ratio, matters, pulls=matters & (no_slip_n <= 0.0))
 
 
+def energetic_contact(
+    restitution: Any,
+    closing: Any,
+    slip: Any,
+    friction: Any,
+    respond: Callable[[Any, Any], tuple[Any, Any]],
+    stuck: Any,
+) -> Passage:
+    """A contact whose slip may stop or turn around while it lasts, with energetic restitution (law
+    "stronge").
+
+    Along the impulse the velocities at the contact change linearly until the slip stops; then,
+    after a corner, linearly again: without slip if friction can hold it, else sliding on, the way
+    that the coupling of normal and tangent pushes. Compression ends where the closing speed is 0,
+    restitution where e squared of its work has been given back. An incomplete impact (e < 0) ends
+    where e squared of that work was still to be done.
+
+    ``respond`` gives the change of velocity along n and t by an impulse along n and t, ``stuck``
+    that along n by a unit of normal impulse while the contact sticks. Losses are sums of terms that
+    are >= 0.
+
+    Stronge, Journal of Applied Mechanics 58 (1991); Wang and Mason, Journal of Applied Mechanics 59
+    (1992).
+    """
+    unit = select(closing > 0.0, closing + abs(slip), 1.0)
+    c = select(closing > 0.0, closing / unit, 1.0)
+    forward = select(slip < 0.0, -1.0, 1.0)
+    # Not abs(slip), whose derivative at 0 is not that of the answer; adding 0 turns a -0 into 0.
+    s = (forward * slip + 0.0) / unit
+    # Along n and t by a unit of the way on which friction slides: an infinite friction needs no
+    # case of its own.
+    moderate = friction <= 1.0
+    along = select(moderate, 1.0, 1.0 / select(moderate, 1.0, friction))
+    across = select(moderate, friction, 1.0)
+    yields, by_friction = respond(along, -forward * across)
+    slows = -forward * by_friction
+    # Here and below no branch that is not taken may hold an infinite number or the root of 0, which
+    # times the 0 of its share would make derivatives NaN. A slip that never stops therefore has a
+    # time of 0 where its condition decides.
+    ends = slows > 0.0
+    never = (ends | (s == 0.0)) ^ True
+    slip_stop_impulse = select(
+        ends, s / select(ends, slows, 1.0), select(never & (yields <= 0.0), inf, 0.0)
+    )
+    closing_at_stop = c - yields * slip_stop_impulse
+    through = closing_at_stop <= -select(restitution < 0.0, 0.0, restitution) * c
+    slides = (yields > 0.0) & (through | never | (friction == 0.0))
+    compressing = (closing_at_stop > 0.0) & (slides ^ True)
+    per_c = select(yields == 0.0, 1.0, yields)
+
+    # After the stop: what friction cannot hold of the coupling, and the change along n by a unit of
+    # normal impulse, a sum.
+    coupling, k_tt = respond(0.0, 1.0)
+    k_tt = select(k_tt == 0.0, 1.0, k_tt)
+    bounded = select(friction == inf, 0.0, friction)
+    excess_coupling = abs(coupling) - bounded * k_tt
+    reversing = (excess_coupling > 0.0) & (friction != inf)
+    excess_coupling = select(reversing, excess_coupling, 0.0)
+    back = select(coupling < 0.0, 1.0, -1.0)
+    ratio = select(reversing, back * bounded, -coupling / k_tt)
+    softer = stuck + excess_coupling * (abs(coupling) / k_tt)
+    softer = select(softer > 0.0, softer, 1.0)
+    first = along * slip_stop_impulse
+    work = select(compressing, 0.5 * first * (c + closing_at_stop), 0.0)
+    stored = select(
+        compressing | slides,
+        0.0,
+        along
+        * ((restitution * c - closing_at_stop) * ((restitution * c + closing_at_stop) / per_c)),
+    )
+    squared = select(
+        slides,
+        1.0,
+        closing_at_stop * closing_at_stop + softer * select(compressing, 2.0 * work, stored),
+    )
+    parting = select(compressing, restitution, 1.0) * squared**0.5
+    regained = safe_divisor(True, select(compressing | slides, 1.0, parting - closing_at_stop))
+    remaining_impulse = select(compressing, (closing_at_stop + parting) / softer, stored / regained)
+    absorbed = select(
+        compressing,
+        work + closing_at_stop * (closing_at_stop / (2.0 * softer)),
+        along * (c * (c / (2.0 * per_c))),
+    )
+    lost = (1.0 - restitution) * (1.0 + restitution) * absorbed
+
+    # An incomplete impact may end before the slip has stopped, but not where infinite friction
+    # stops it at once.
+    early = compressing & (remaining_impulse <= 0.0)
+    sliding = early & (along > 0.0)
+    per_way = select(sliding, along, 1.0)
+    squared = (
+        closing_at_stop * closing_at_stop
+        + yields * (remaining_impulse * (parting - closing_at_stop)) / per_way
+    )
+    # Where yields < 0 this is a difference, which rounding may bring below 0: then what the work
+    # lost leaves, a sum.
+    squared = select(squared <= 0.0, c * c - 2.0 * (yields * (lost / per_way)), squared)
+    still = select(early, squared, 1.0) ** 0.5
+    to_end = select(
+        early,
+        2.0 * lost / select(sliding, along * (c + still), 1.0),
+        (1.0 + restitution) * (c / per_c),
+    )
+    slides = slides | early
+    reversing = reversing & (slides ^ True)
+    to_stop = select(slides, to_end, slip_stop_impulse)
+    slip_left = select(slides, s - slows * to_end, 0.0)
+    remaining_impulse = select(slides, 0.0, remaining_impulse)
+    after = select(reversing, excess_coupling * remaining_impulse, 0.0)
+    by_friction = 0.5 * across * to_stop * (s + slip_left) + select(
+        reversing, 0.5 * bounded * (remaining_impulse * after), 0.0
+    )
+    return Passage(
+        normal=(along * to_stop + remaining_impulse) * unit,
+        tangential=(select(slides, 0.0, ratio * remaining_impulse) - forward * across * to_stop)
+        * unit,
+        separation=select(early, -still, select(slides, restitution * c, parting)) * unit,
+        slip_after=(forward * slip_left - back * after) * unit,
+        loss_n=lost * unit * unit,
+        loss_t=by_friction * unit * unit,
+        sticks=(slides | reversing) ^ True,
+    )
+
+
 FRICTION, IMPULSE_RATIO, CRITICAL_FRACTION = "friction", "impulse_ratio", "critical_fraction"
 BRACH, KUDLICH_SLIBAR, STRONGE = "brach", "kudlich-slibar", "stronge"
 
@@ -147,134 +296,10 @@ LAWS = {
             assumption="restitution gives back e squared of the work that compression took along "
             "the normal; friction acts against the slip as it changes during the "
             "contact, in which it may stop for good or turn around",
-            energetic=True,
+            passage=energetic_contact,
         ),
     )
 }
-
-
-class Passage(NamedTuple):
-    """How a contact passed under an energetic law: its impulse on B, the speeds after, the losses,
-    and whether it stuck.
-    """
-
-    normal: Any
-    tangential: Any
-    separation: Any
-    slip_after: Any
-    loss_n: Any
-    loss_t: Any
-    sticks: Any
-
-
-def energetic_contact(
-    restitution: Any,
-    closing: Any,
-    slip: Any,
-    friction: Any,
-    respond: Callable[[Any, Any], tuple[Any, Any]],
-    stuck: Any,
-) -> Passage:
-    """A contact whose slip may stop or turn around while it lasts, with energetic restitution (law
-    "stronge").
-
-    Along the impulse the velocities at the contact change linearly until the slip stops; then,
-    after a corner, linearly again: without slip if friction can hold it, else sliding on, the way
-    that the coupling of normal and tangent pushes. Compression ends where the closing speed is 0,
-    restitution where e squared of its work has been given back. An incomplete impact (e < 0) ends
-    where e squared of that work was still to be done.
-
-    ``respond`` gives the change of velocity along n and t by an impulse along n and t, ``stuck``
-    that along n by a unit of normal impulse while the contact sticks. Losses are sums of terms that
-    are >= 0.
-
-    Stronge, Journal of Applied Mechanics 58 (1991); Wang and Mason, Journal of Applied Mechanics 59
-    (1992).
-    """
-    unit = select(closing > 0.0, closing + abs(slip), 1.0)
-    c = select(closing > 0.0, closing / unit, 1.0)
-    forward = select(slip < 0.0, -1.0, 1.0)
-    # Not abs(slip), whose derivative at 0 is not that of the answer; adding 0 turns a -0 into 0.
-    s = (forward * slip + 0.0) / unit
-    # Along n and t by a unit of the way on which friction slides: an infinite friction needs no
-    # case of its own.
-    moderate = friction <= 1.0
-    along = select(moderate, 1.0, 1.0 / select(moderate, 1.0, friction))
-    across = select(moderate, friction, 1.0)
-    yields, by_friction = respond(along, -forward * across)
-    slows = -forward * by_friction
-    # Here and below no branch that is not taken may hold an infinite number or the root of 0, which
-    # times the 0 of its share would make derivatives NaN. A slip that never stops therefore has a
-    # time of 0 where its condition decides.
-    ends = slows > 0.0
-    never = (ends | (s == 0.0)) ^ True
-    stops = select(ends, s / select(ends, slows, 1.0), select(never & (yields <= 0.0), inf, 0.0))
-    # Closing speed when the slip stops.
-    w = c - yields * stops
-    through = w <= -select(restitution < 0.0, 0.0, restitution) * c
-    slides = (yields > 0.0) & (through | never | (friction == 0.0))
-    compressing = (w > 0.0) & (slides ^ True)
-    per_c = select(yields == 0.0, 1.0, yields)
-
-    # After the stop: what friction cannot hold of the coupling, and the change along n by a unit of
-    # normal impulse, a sum.
-    coupling, k_tt = respond(0.0, 1.0)
-    k_tt = select(k_tt == 0.0, 1.0, k_tt)
-    bounded = select(friction == inf, 0.0, friction)
-    beyond = abs(coupling) - bounded * k_tt
-    moves = (beyond > 0.0) & (friction != inf)
-    beyond = select(moves, beyond, 0.0)
-    back = select(coupling < 0.0, 1.0, -1.0)
-    ratio = select(moves, back * bounded, -coupling / k_tt)
-    softer = stuck + beyond * (abs(coupling) / k_tt)
-    softer = select(softer > 0.0, softer, 1.0)
-    first = along * stops
-    work = select(compressing, 0.5 * first * (c + w), 0.0)
-    stored = select(
-        compressing | slides, 0.0, along * ((restitution * c - w) * ((restitution * c + w) / per_c))
-    )
-    squared = select(slides, 1.0, w * w + softer * select(compressing, 2.0 * work, stored))
-    parting = select(compressing, restitution, 1.0) * squared**0.5
-    regained = safe_divisor(True, select(compressing | slides, 1.0, parting - w))
-    rest = select(compressing, (w + parting) / softer, stored / regained)
-    absorbed = select(
-        compressing, work + w * (w / (2.0 * softer)), along * (c * (c / (2.0 * per_c)))
-    )
-    lost = (1.0 - restitution) * (1.0 + restitution) * absorbed
-
-    # An incomplete impact may end before the slip has stopped, but not where infinite friction
-    # stops it at once.
-    early = compressing & (rest <= 0.0)
-    sliding = early & (along > 0.0)
-    per_way = select(sliding, along, 1.0)
-    squared = w * w + yields * (rest * (parting - w)) / per_way
-    # Where yields < 0 this is a difference, which rounding may bring below 0: then what the work
-    # lost leaves, a sum.
-    squared = select(squared <= 0.0, c * c - 2.0 * (yields * (lost / per_way)), squared)
-    still = select(early, squared, 1.0) ** 0.5
-    to_end = select(
-        early,
-        2.0 * lost / select(sliding, along * (c + still), 1.0),
-        (1.0 + restitution) * (c / per_c),
-    )
-    slides = slides | early
-    moves = moves & (slides ^ True)
-    to_stop = select(slides, to_end, stops)
-    slip_left = select(slides, s - slows * to_end, 0.0)
-    rest = select(slides, 0.0, rest)
-    after = select(moves, beyond * rest, 0.0)
-    by_friction = 0.5 * across * to_stop * (s + slip_left) + select(
-        moves, 0.5 * bounded * (rest * after), 0.0
-    )
-    return Passage(
-        normal=(along * to_stop + rest) * unit,
-        tangential=(select(slides, 0.0, ratio * rest) - forward * across * to_stop) * unit,
-        separation=select(early, -still, select(slides, restitution * c, parting)) * unit,
-        slip_after=(forward * slip_left - back * after) * unit,
-        loss_n=lost * unit * unit,
-        loss_t=by_friction * unit * unit,
-        sticks=(slides | moves) ^ True,
-    )
 
 
 def energy_losses(

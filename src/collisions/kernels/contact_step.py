@@ -127,6 +127,29 @@ class Passing(NamedTuple):
     active: Any = True
 
 
+class Compliance(NamedTuple):
+    """K of a moment: how much the contact velocities change by an impulse, along n, across, and
+    along t.
+    """
+
+    nn: Any
+    nt: Any
+    tt: Any
+
+
+class Pushed(NamedTuple):
+    """What the contact does in a step: impulse on B along n and t, closing speed after, whether it
+    sticks, the share of the step that it took, and whether the approach ends in it.
+    """
+
+    normal: Any
+    along: Any
+    after: Any
+    sticks: Any
+    part: Any
+    ends: Any
+
+
 class Place(NamedTuple):
     """The geometry of a moment: normal, and levers of both bodies."""
 
@@ -190,12 +213,12 @@ def approach(place: Place, on_a: Motion, on_b: Motion) -> tuple[Any, Any]:
     return -(nx * ux + ny * uy), nx * uy - ny * ux
 
 
-def compliance(place: Place, a: Body, b: Body) -> tuple[Any, Any, Any]:
-    """K: how much the contact velocities change by an impulse, along n, across, and along t."""
+def compliance(place: Place, a: Body, b: Body) -> Compliance:
+    """K of both bodies, from their masses, yaw inertias and levers."""
     nx, ny, ax, ay, bx, by = place
     n_a, t_a, n_b, t_b = nx * ax + ny * ay, nx * ay - ny * ax, nx * bx + ny * by, nx * by - ny * bx
     yields = a.per_mass + b.per_mass
-    return (
+    return Compliance(
         yields + (a.per_inertia * (t_a * t_a) + b.per_inertia * (t_b * t_b)),
         -(a.per_inertia * (t_a * n_a) + b.per_inertia * (t_b * n_b)),
         yields + (a.per_inertia * (n_a * n_a) + b.per_inertia * (n_b * n_b)),
@@ -315,6 +338,69 @@ def _pushed(
     )
 
 
+def step_length(contact: Contact, passing: Passing, engaging: bool) -> Any:
+    """How long the step is; on the way back the last one ends where the force does."""
+    step = contact.step
+    if not engaging:
+        closing = passing.closing
+        _, parting = force_back(contact, passing.crush, passing.deepest)
+        left = passing.crush - parting
+        last = (closing < 0.0) & (left < -closing * contact.step_back)
+        step = select(last, left / select(last, -closing, 1.0), contact.step_back)
+    return select(passing.active, step, 0.0)
+
+
+def turns_at(contact: Contact, k: Compliance, slip: Any) -> Any:
+    """The normal impulse at which friction that cannot hold turns with the slip, within the step;
+    infinite where it does not.
+    """
+    coupled, held = abs(k.nt), contact.friction * k.tt
+    opposes = (coupled > held) & (slip * k.nt < 0.0)
+    return select(opposes, abs(slip) / select(opposes, coupled + held, 1.0), inf)
+
+
+def friction_impulse(
+    contact: Contact, k: Compliance, slip: Any, turn: Any, normal: Any
+) -> tuple[Any, Any]:
+    """The tangential impulse beside a normal one: what stops the slip, within what Coulomb friction
+    allows; and whether it does.
+    """
+    wanted = -(slip + k.nt * normal) / select(k.tt > 0.0, k.tt, inf)
+    most = contact.friction * normal
+    limited = select(wanted > most, most, select(wanted < -most, -most, wanted))
+    turns = turn < normal
+    turning = contact.friction * (normal - 2.0 * select(turns, turn, 0.0))
+    turning = select(k.nt < 0.0, turning, -turning)
+    sticks = (wanted <= most) & (wanted >= -most) & (turns ^ True)
+    return select(turns, turning, limited), sticks
+
+
+def push_of(
+    contact: Contact,
+    k: Compliance,
+    closing: Any,
+    slip: Any,
+    normal: Any,
+    engaging: bool,
+    active: Any,
+) -> Pushed:
+    """What the contact does in a step whose force makes this normal impulse; the step in which the
+    bodies stop to approach is cut short there.
+    """
+    turn = turns_at(contact, k, slip)
+    along, sticks = friction_impulse(contact, k, slip, turn, normal)
+    after = closing - (k.nn * normal + k.nt * along)
+    if not engaging:
+        return Pushed(normal, along, after, sticks, 1.0, False)
+    ends = (after <= 0.0) & active
+    cut = ends & (closing > 0.0)
+    part = select(cut, closing / select(cut, closing - after, 1.0), select(ends, 0.0, 1.0))
+    normal = part * normal
+    along, sticks = friction_impulse(contact, k, slip, turn, normal)
+    after = closing - (k.nn * normal + k.nt * along)
+    return Pushed(normal, along, after, sticks, part, ends)
+
+
 def advance(
     contact: Contact,
     a: Body,
@@ -331,14 +417,8 @@ def advance(
     of the way back.
     """
     active, crush, deepest = passing.active, passing.crush, passing.deepest
-    step = contact.step if engaging else contact.step_back
-    if not engaging:
-        # The last step ends where the force does.
-        _, parting = force_back(contact, crush, deepest)
-        left = crush - parting
-        last = (passing.closing < 0.0) & (left < -passing.closing * step)
-        step = select(last, left / select(last, -passing.closing, 1.0), step)
-    step = select(active, step, 0.0)
+    step = step_length(contact, passing, engaging)
+    # The tyres are owed their impulse since half of the last step.
     pay = passing.owed + 0.5 * step
     pay = select(active & (pay > 0.0), pay, 0.0)
     per_tyres = select(pay > 0.0, 1.0, 0.0) / select(pay > 0.0, pay, 1.0)
@@ -346,44 +426,16 @@ def advance(
     on_a, on_b = braked(a, on_a, pay, wheels_a), braked(b, on_b, pay, wheels_b)
     if moves:
         on_a, on_b, passing = _drifted(contact, on_a, on_b, passing, 0.5 * step)
+
     place = place_of(contact, a, b, on_a, on_b, passing)
     closing, slip = approach(place, on_a, on_b)
-    k_nn, k_nt, k_tt = compliance(place, a, b)
+    k = compliance(place, a, b)
     depth = crush + 0.5 * step * closing
     force = contact.stiffness * depth if engaging else force_back(contact, depth, deepest)[0]
+    pushed = push_of(contact, k, closing, slip, force * step, engaging, active)
+    normal, along, after, sticks, part, ends = pushed
 
-    coupled, held = abs(k_nt), contact.friction * k_tt
-    opposes = (coupled > held) & (slip * k_nt < 0.0)
-    turn = select(opposes, abs(slip) / select(opposes, coupled + held, 1.0), inf)
-
-    def tangential(normal: Any) -> tuple[Any, Any]:
-        wanted, most = (
-            -(slip + k_nt * normal) / select(k_tt > 0.0, k_tt, inf),
-            contact.friction * normal,
-        )
-        limited = select(wanted > most, most, select(wanted < -most, -most, wanted))
-        # Friction that cannot hold turns with the slip, within the step.
-        turns = turn < normal
-        turning = contact.friction * (normal - 2.0 * select(turns, turn, 0.0))
-        turning = select(k_nt < 0.0, turning, -turning)
-        return select(turns, turning, limited), (wanted <= most) & (wanted >= -most) & (
-            turns ^ True
-        )
-
-    part: Any = 1.0
-    normal = force * step
-    along, sticks = tangential(normal)
-    after = closing - (k_nn * normal + k_nt * along)
-    ends: Any = False
-    if engaging:
-        # The step in which the bodies stop to approach is cut short there.
-        ends = (after <= 0.0) & active
-        cut = ends & (closing > 0.0)
-        part = select(cut, closing / select(cut, closing - after, 1.0), select(ends, 0.0, 1.0))
-        normal = part * normal
-        along, sticks = tangential(normal)
-        after = closing - (k_nn * normal + k_nt * along)
-    slip_after = slip + (k_nt * normal + k_tt * along)
+    slip_after = slip + (k.nt * normal + k.tt * along)
     px, py = place.nx * normal - place.ny * along, place.ny * normal + place.nx * along
     took = part * step
     per_time = select(took > 0.0, 1.0, 0.0) / select(took > 0.0, took, 1.0)

@@ -5,313 +5,390 @@ Every body answers an impulse at the contact through K_i = a_i 1 + b_i q q^T, wi
 turned by +90 degrees. Barriers, pivots and free bodies differ only in a_i and b_i.
 """
 
+from functools import partial
 from math import nan
 from operator import add
-from typing import Any
+from typing import Any, NamedTuple
 
-from .contact_laws import LAWS, RULES, dissipates, energetic_contact, energy_losses
+from .contact_laws import LAWS, RULES, Passage, dissipates, energy_losses
 from .elementwise import first_status, more_digits, safe_divisor, select, turning_velocity
+from .problem import Body, Contact, Problem
 from .status import EPS, Answer, Status
 
 
-def response(
-    mass: Any,
-    inertia: Any,
-    vx: Any,
-    vy: Any,
-    x: Any,
-    y: Any,
-    pivot_x: Any,
-    pivot_y: Any,
-    px: Any,
-    py: Any,
-    pinned: bool,
-) -> tuple[Any, Any, Any, Any, Any, Any]:
-    """The body's a and b, its lever (x, y), and the part of its velocity that is not spin.
+class Response(NamedTuple):
+    """How a body answers an impulse at the contact: a_i, b_i, and its lever along x, y, n and t."""
 
-    A pinned body turns about the pivot: its inertia is taken about it, it takes no share in a, and
-    all its velocity is spin.
+    per_mass: Any
+    per_inertia: Any
+    rx: Any
+    ry: Any
+    rn: Any
+    rt: Any
+
+
+class Mobility(NamedTuple):
+    """K = K_A + K_B: by how much an impulse changes the contact velocity.
+
+    ``per_mass`` is the part without turning, ``trace`` that of K less ``per_mass``, and
+    ``determinant`` that of K over ``trace``. ``bounded`` says that these are numbers, ``immovable``
+    that nothing can yield along the normal, ``regular`` that K has an inverse.
     """
-    if pinned:
-        arm_x = x - pivot_x
-        arm_y = y - pivot_y
-        return (
-            0.0,
-            1.0 / (inertia + mass * (arm_x * arm_x + arm_y * arm_y)),
-            px - pivot_x,
-            py - pivot_y,
-            0.0,
-            0.0,
-        )
-    return 1.0 / mass, 1.0 / inertia, px - x, py - y, vx, vy
+
+    per_mass: Any
+    k_nn: Any
+    k_nt: Any
+    trace: Any
+    determinant: Any
+    bounded: Any
+    immovable: Any
+    regular: Any
 
 
-def recoil(
-    a: Any,
-    b: Any,
-    torque: Any,
-    impulse_x: Any,
-    impulse_y: Any,
-    x: Any,
-    y: Any,
-    pivot_x: Any,
-    pivot_y: Any,
-    pinned: bool,
-) -> tuple[Any, Any, Any]:
-    """Change of velocity (x, y) and of yaw rate of a body under an impulse at the contact."""
-    spin = b * torque
-    if pinned:
-        return *turning_velocity(spin, x, y, pivot_x, pivot_y), spin
-    return a * impulse_x, a * impulse_y, spin
+class Approach(NamedTuple):
+    """Closing speed, slip and restitution when the contact acts, and the changes that an impulse
+    has to bring so that the contact sticks.
 
-
-def moment_about(
-    impulse: tuple[Any, ...], x: Any, y: Any, pivot_x: Any, pivot_y: Any, pinned: bool
-) -> Any:
-    """Moment of an impulse from outside, with components x, y, yaw at the centre of mass: about
-    that, or about the pivot.
+    ``acts`` is False where impulses from outside part the bodies before.
     """
-    jx, jy, yaw = impulse
-    return yaw + ((x - pivot_x) * jy - (y - pivot_y) * jx) if pinned else yaw
+
+    closing: Any
+    slip: Any
+    restitution: Any
+    change_n: Any
+    change_t: Any
+    acts: Any = True
 
 
-def eccentric(
-    restitution: Any,
-    nx: Any,
-    ny: Any,
-    tangential: Any,
-    px: Any,
-    py: Any,
-    mass_a: Any,
-    inertia_a: Any,
-    vx_a: Any,
-    vy_a: Any,
-    spin_a: Any,
-    x_a: Any,
-    y_a: Any,
-    pivot_x_a: Any,
-    pivot_y_a: Any,
-    mass_b: Any,
-    inertia_b: Any,
-    vx_b: Any,
-    vy_b: Any,
-    spin_b: Any,
-    x_b: Any,
-    y_b: Any,
-    pivot_x_b: Any,
-    pivot_y_b: Any,
-    rule: str,
-    law: str,
-    pinned_a: bool,
-    pinned_b: bool,
-    eps: float = EPS,
-    impulse_only: bool = False,
-    *,
-    contact_velocity: tuple[Any, Any] | None = None,
-    outside: tuple[Any, ...] | None = None,
-) -> Any:
-    """The ``Answer`` of the eccentric model.
+class Struck(NamedTuple):
+    """The impulse at the contact and what led to it, before energies and motions.
 
-    ``contact_velocity`` is the closing speed and the slip before, known to more digits than the
-    motions hold. It is used where it is that of the motions to their rounding. ``outside`` has
-    impulses on A and then on B from other things than the contact (x, y, yaw at the centre of
-    mass): they shift the velocities at the contact, which brings what is left to the separation.
-
-    With ``impulse_only``: whether there is an answer, the closing speed, the impulse along n and t,
-    that without slip, and of A and B a and b, the torque, and the torque of the impulse without
-    slip.
+    ``without_slip`` is the impulse that a sticking contact needs, and ``no_slip_t_determinant`` its
+    tangential part times the determinant.
     """
-    a_a, b_a, rx_a, ry_a, ux_a, uy_a = response(
-        mass_a, inertia_a, vx_a, vy_a, x_a, y_a, pivot_x_a, pivot_y_a, px, py, pinned_a
-    )
-    a_b, b_b, rx_b, ry_b, ux_b, uy_b = response(
-        mass_b, inertia_b, vx_b, vy_b, x_b, y_b, pivot_x_b, pivot_y_b, px, py, pinned_b
-    )
-    # Contact velocity of A relative to B: differences first, then the spins, and into (n, t) last.
-    ux = (ux_a - ux_b) + (spin_b * ry_b - spin_a * ry_a)
-    uy = (uy_a - uy_b) + (spin_a * rx_a - spin_b * rx_b)
-    closing = nx * ux + ny * uy
-    slip = ny * ux - nx * uy
-    if contact_velocity is not None:
-        turning = abs(spin_a) * (abs(rx_a) + abs(ry_a)) + abs(spin_b) * (abs(rx_b) + abs(ry_b))
-        speeds = abs(vx_a) + abs(vy_a) + abs(vx_b) + abs(vy_b) + turning
-        closing, slip = more_digits(contact_velocity, closing, slip, speeds, eps)
-    rn_a = nx * rx_a + ny * ry_a
-    rt_a = nx * ry_a - ny * rx_a
-    rn_b = nx * rx_b + ny * ry_b
-    rt_b = nx * ry_b - ny * rx_b
 
-    # K, its trace less a, and its determinant over that trace: sums of terms that are >= 0, so
-    # nothing cancels.
-    a = a_a + a_b
-    brt_a = b_a * rt_a
-    brt_b = b_b * rt_b
-    k_nn = a + brt_a * rt_a + brt_b * rt_b
+    responses: tuple[Response, Response]
+    mobility: Mobility
+    closing: Any
+    slip: Any
+    impulse: tuple[Any, Any]
+    torques: tuple[Any, Any]
+    without_slip: tuple[Any, Any]
+    no_slip_t_determinant: Any
+    sticks: Any
+    singular: Any
+    pulls: Any
+    jams: Any
+    acts: Any
+    passage: Passage | None
+    pushes: tuple[tuple[Any, Any, Any], ...] | None
+
+    @property
+    def answered(self) -> Any:
+        """Whether the impulse is a finite number that a contact can have."""
+        normal, tangential = self.impulse
+        finite = self.mobility.bounded & (0.0 * normal + 0.0 * tangential == 0.0)
+        refused = self.mobility.immovable | self.singular | self.pulls | self.jams
+        return (self.closing > 0.0) & self.acts & finite & (refused ^ True)
+
+
+def response(body: Body, contact: Contact) -> Response:
+    """How the body answers an impulse at the contact.
+
+    A pinned body turns about the pivot: its inertia is taken about it (Steiner), and it takes no
+    share in a.
+    """
+    (nx, ny), (px, py) = contact.normal, contact.point
+    if body.pivot is None:
+        per_mass, inertia, rx, ry = 1.0 / body.mass, body.yaw_inertia, px - body.x, py - body.y
+    else:
+        arm_x, arm_y = body.x - body.pivot[0], body.y - body.pivot[1]
+        per_mass = 0.0
+        inertia = body.yaw_inertia + body.mass * (arm_x * arm_x + arm_y * arm_y)
+        rx, ry = px - body.pivot[0], py - body.pivot[1]
+    return Response(per_mass, 1.0 / inertia, rx, ry, nx * rx + ny * ry, nx * ry - ny * rx)
+
+
+def without_spin(body: Body) -> tuple[Any, Any]:
+    """The part of the velocity that is not spin; a pinned body has none."""
+    return (body.vx, body.vy) if body.pivot is None else (0.0, 0.0)
+
+
+def closing_and_slip(problem: Problem, a: Response, b: Response, eps: float) -> tuple[Any, Any]:
+    """Velocity at the contact before, along n (eq 11) and t."""
+    nx, ny = problem.contact.normal
+    (ux_a, uy_a), (ux_b, uy_b) = without_spin(problem.a), without_spin(problem.b)
+    spin_a, spin_b = problem.a.yaw_rate, problem.b.yaw_rate
+    # Of A relative to B: differences first, then the spins, and into (n, t) last.
+    ux = (ux_a - ux_b) + (spin_b * b.ry - spin_a * a.ry)
+    uy = (uy_a - uy_b) + (spin_a * a.rx - spin_b * b.rx)
+    closing, slip = nx * ux + ny * uy, ny * ux - nx * uy
+    if problem.contact_velocity is None:
+        return closing, slip
+    turning = abs(spin_a) * (abs(a.rx) + abs(a.ry)) + abs(spin_b) * (abs(b.rx) + abs(b.ry))
+    speeds = abs(problem.a.vx) + abs(problem.a.vy) + abs(problem.b.vx) + abs(problem.b.vy) + turning
+    return more_digits(problem.contact_velocity, closing, slip, speeds, eps)
+
+
+def mobility(a: Response, b: Response, eps: float) -> Mobility:
+    """K in (n, t), from linear and angular momentum at the contact (eqs 12 to 15)."""
+    a_a, b_a, rx_a, ry_a, rn_a, rt_a = a
+    a_b, b_b, rx_b, ry_b, rn_b, rt_b = b
+    per_mass = a_a + a_b
+    brt_a, brt_b = b_a * rt_a, b_b * rt_b
+    # K_nn, the trace and the determinant are sums of terms that are >= 0, so nothing cancels.
+    k_nn = per_mass + brt_a * rt_a + brt_b * rt_b
     k_nt = -(brt_a * rn_a + brt_b * rn_b)
-    trace = a + b_a * (rx_a * rx_a + ry_a * ry_a) + b_b * (rx_b * rx_b + ry_b * ry_b)
+    trace = per_mass + b_a * (rx_a * rx_a + ry_a * ry_a) + b_b * (rx_b * rx_b + ry_b * ry_b)
+    # K is made of squares of levers, which are known to some eps.
     threshold = (64.0 * eps) * (64.0 * eps) * trace
     bounded = threshold - threshold == 0.0
     yields = (k_nn > threshold) & (trace > 0.0)
-    immovable = bounded & (yields ^ True)
-    k_nn = safe_divisor(yields, k_nn)
-    trace = safe_divisor(yields, trace)
+    k_nn, trace = safe_divisor(yields, k_nn), safe_divisor(yields, trace)
     cross = rx_a * ry_b - ry_a * rx_b
-    determinant = a + ((b_a / trace) * cross) * (b_b * cross)
-    regular = determinant > threshold
+    determinant = per_mass + ((b_a / trace) * cross) * (b_b * cross)
+    immovable, regular = bounded & (yields ^ True), determinant > threshold
+    return Mobility(per_mass, k_nn, k_nt, trace, determinant, bounded, immovable, regular)
 
-    # The impulse that leaves the slip of a sticking contact (0, or what the law leaves).
-    sticking_slip = LAWS[law].sticking_slip(restitution)
+
+def change_by(a: Response, b: Response, along_n: Any, along_t: Any) -> tuple[Any, Any]:
+    """K times an impulse: the change of the contact velocity along n and t."""
+    per_mass = a.per_mass + b.per_mass
+    turn_a = a.per_inertia * (a.rt * along_n - a.rn * along_t)
+    turn_b = b.per_inertia * (b.rt * along_n - b.rn * along_t)
+    return (
+        per_mass * along_n + a.rt * turn_a + b.rt * turn_b,
+        per_mass * along_t - a.rn * turn_a - b.rn * turn_b,
+    )
+
+
+def push(body: Body, outside: tuple[Any, ...]) -> tuple[Any, Any, Any]:
+    """An impulse from outside as moment, x and y: about the pivot of a pinned body."""
+    x, y, yaw = outside
+    if body.pivot is not None:
+        yaw = yaw + ((body.x - body.pivot[0]) * y - (body.y - body.pivot[1]) * x)
+    return yaw, x, y
+
+
+def approach(
+    contact: Contact,
+    law: str,
+    a: Response,
+    b: Response,
+    pushes: tuple[tuple[Any, Any, Any], ...] | None,
+    closing: Any,
+    slip: Any,
+) -> Approach:
+    """What the contact has to do, after what comes from outside.
+
+    Restitution ends the contact at e times the closing speed before (eqs 10 and 11); impulses from
+    outside shift the contact velocity, and the contact brings what is left.
+    """
+    restitution = contact.restitution
     change_n = (1.0 + restitution) * closing
-    change_t = 0.0 - (1.0 - sticking_slip) * slip
-    # What is closing, the slip and the restitution when the contact acts.
-    pushed, shifted, e = closing, slip, restitution
-    on_a: tuple[Any, ...] = ()
-    on_b: tuple[Any, ...] = ()
-    if outside is not None:
-        on_a = moment_about(outside[:3], x_a, y_a, pivot_x_a, pivot_y_a, pinned_a), *outside[:2]
-        on_b = moment_about(outside[3:], x_b, y_b, pivot_x_b, pivot_y_b, pinned_b), *outside[3:5]
-        turn_a, turn_b = b_a * on_a[0], b_b * on_b[0]
-        push_x = (a_a * on_a[1] - a_b * on_b[1]) + (turn_b * ry_b - turn_a * ry_a)
-        push_y = (a_a * on_a[2] - a_b * on_b[2]) + (turn_a * rx_a - turn_b * rx_b)
-        push_n = nx * push_x + ny * push_y
-        push_t = ny * push_x - nx * push_y
-        pushed, shifted = closing + push_n, slip + push_t
-        change_n, change_t = change_n + push_n, change_t - push_t
-        # Only where there is a compression to give back from; elsewhere it is refused below.
-        acts = (closing > 0.0) & (pushed > 0.0) & (change_n > 0.0)
-        e = restitution * select(acts, closing / select(acts, pushed, 1.0), 1.0)
+    change_t = 0.0 - (1.0 - LAWS[law].sticking_slip(restitution)) * slip
+    if pushes is None:
+        return Approach(closing, slip, restitution, change_n, change_t)
+    nx, ny = contact.normal
+    on_a, on_b = pushes
+    turn_a, turn_b = a.per_inertia * on_a[0], b.per_inertia * on_b[0]
+    push_x = (a.per_mass * on_a[1] - b.per_mass * on_b[1]) + (turn_b * b.ry - turn_a * a.ry)
+    push_y = (a.per_mass * on_a[2] - b.per_mass * on_b[2]) + (turn_a * a.rx - turn_b * b.rx)
+    push_n, push_t = nx * push_x + ny * push_y, ny * push_x - nx * push_y
+    pushed, shifted = closing + push_n, slip + push_t
+    change_n, change_t = change_n + push_n, change_t - push_t
+    # Only where there is a compression to give back from; elsewhere it is refused.
+    compresses = (closing > 0.0) & (pushed > 0.0) & (change_n > 0.0)
+    e = restitution * select(compresses, closing / select(compresses, pushed, 1.0), 1.0)
+    # A law that follows the contact begins with a compression, of which there is none if
+    # pushed <= 0.
+    follows = LAWS[law].passage is not None
+    parts = (change_n <= 0.0) | (pushed <= 0.0) if follows else change_n <= 0.0
+    return Approach(pushed, shifted, e, change_n, change_t, parts ^ True)
+
+
+def strike(problem: Problem, rule: str, law: str, eps: float) -> Struck:
+    """The impulse at the contact."""
+    contact, pushes = problem.contact, None
+    if problem.outside is not None:
+        pushes = push(problem.a, problem.outside[0]), push(problem.b, problem.outside[1])
+    a, b = response(problem.a, contact), response(problem.b, contact)
+    closing, slip = closing_and_slip(problem, a, b, eps)
+    k = mobility(a, b, eps)
+    now = approach(contact, law, a, b, pushes, closing, slip)
+
+    # K^-1 times the change: what a sticking contact needs.
+    _, b_a, _, _, rn_a, rt_a = a
+    _, b_b, _, _, rn_b, rt_b = b
+    per_mass, change_n, change_t = k.per_mass, now.change_n, now.change_t
     q_a = b_a * (rn_a * change_n + rt_a * change_t)
     q_b = b_b * (rn_b * change_n + rt_b * change_t)
-    no_slip_t_determinant = (a * change_t + q_a * rt_a + q_b * rt_b) / trace
-    divided_by = select(regular, determinant, 1.0)
-    no_slip_n = ((a * change_n + q_a * rn_a + q_b * rn_b) / trace) / divided_by
+    no_slip_t_determinant = (per_mass * change_t + q_a * rt_a + q_b * rt_b) / k.trace
+    divided_by = select(k.regular, k.determinant, 1.0)
+    no_slip_n = ((per_mass * change_n + q_a * rn_a + q_b * rn_b) / k.trace) / divided_by
     no_slip_t = no_slip_t_determinant / divided_by
 
-    energetic = LAWS[law].energetic
-    if energetic:
-
-        def respond(along_n: Any, along_t: Any) -> tuple[Any, Any]:
-            turn_a = b_a * (rt_a * along_n - rn_a * along_t)
-            turn_b = b_b * (rt_b * along_n - rn_b * along_t)
-            return (
-                a * along_n + rt_a * turn_a + rt_b * turn_b,
-                a * along_t - rn_a * turn_a - rn_b * turn_b,
-            )
-
+    value, follow = contact.rule_value, LAWS[law].passage
+    passage: Passage | None = None
+    jams: Any = False
+    if follow is not None:
+        respond = partial(change_by, a, b)
         k_tt = respond(0.0, 1.0)[1]
-        stuck_n = determinant * (trace / select(k_tt == 0.0, 1.0, k_tt))
-        passage = energetic_contact(e, pushed, shifted, tangential, respond, stuck_n)
-        normal, impulse_t, sticks = passage.normal, passage.tangential, passage.sticks
-        needs_no_slip, pulls, jams = tangential > 0.0, normal <= 0.0, False
+        stuck_n = k.determinant * (k.trace / select(k_tt == 0.0, 1.0, k_tt))
+        passage = follow(now.restitution, now.closing, now.slip, value, respond, stuck_n)
+        impulse, sticks = (passage.normal, passage.tangential), passage.sticks
+        needs_no_slip, pulls = value > 0.0, passage.normal <= 0.0
     else:
-        sticks, ratio, needs_no_slip, pulls = RULES[rule].decide(tangential, no_slip_n, no_slip_t)
-        resistance = a + brt_a * (rt_a - ratio * rn_a) + brt_b * (rt_b - ratio * rn_b)
+        sticks, ratio, needs_no_slip, pulls = RULES[rule].decide(value, no_slip_n, no_slip_t)
+        along_a, along_b = rt_a - ratio * rn_a, rt_b - ratio * rn_b
+        resistance = per_mass + b_a * rt_a * along_a + b_b * rt_b * along_b
         jams = (resistance <= 0.0) & (sticks ^ True)
         sliding_n = change_n / safe_divisor(resistance != 0.0, resistance)
-        normal = select(sticks, no_slip_n, sliding_n)
-        impulse_t = select(sticks, no_slip_t, ratio * sliding_n)
-    torque_a = rt_a * normal - rn_a * impulse_t
-    torque_b = rn_b * impulse_t - rt_b * normal
-    stuck = bounded & (regular ^ True) & needs_no_slip
-    closes = closing > 0.0
-    apart = closing < 0.0
-    if outside is not None:
-        # Under an energetic law restitution gives back work of compression, of which there is none
-        # if pushed <= 0.
-        parts = (change_n <= 0.0) | (pushed <= 0.0) if energetic else change_n <= 0.0
-        closes, apart = closes & (parts ^ True), apart | ((closing > 0.0) & parts)
-    if impulse_only:
-        bounded = bounded & (0.0 * normal + 0.0 * impulse_t == 0.0)
-        answered = closes & bounded & ((immovable | stuck | pulls | jams) ^ True)
-        for_a = a_a, b_a, torque_a, rt_a * no_slip_n - rn_a * no_slip_t
-        for_b = a_b, b_b, torque_b, rn_b * no_slip_t - rt_b * no_slip_n
-        return answered, closing, (normal, impulse_t), (no_slip_n, no_slip_t), for_a, for_b
+        impulse = select(sticks, no_slip_n, sliding_n), select(sticks, no_slip_t, ratio * sliding_n)
+    singular = k.bounded & (k.regular ^ True) & needs_no_slip
+    return Struck(
+        (a, b),
+        k,
+        closing,
+        slip,
+        impulse,
+        torques(a, b, *impulse),
+        (no_slip_n, no_slip_t),
+        no_slip_t_determinant,
+        sticks,
+        singular,
+        pulls,
+        jams,
+        now.acts,
+        passage,
+        pushes,
+    )
 
-    separation: Any = 0.0
-    if energetic:
-        separation, slip_after = passage.separation, passage.slip_after
-        loss_n, loss_t, gains = passage.loss_n, passage.loss_t, False
-        loss = loss_n + loss_t
-        if outside is not None:
-            # What the contact took, at the mean of the velocities before and after; the passage
-            # began with those shifted.
-            mean = separation / safe_divisor(closing != 0.0, closing)
-            of_mean = mean, closing, slip, slip_after, sticks, 0.0, normal, impulse_t, None
-            _, _, loss, gains = energy_losses(law, *of_mean, eps)
-            loss_n = loss - loss_t
-    else:
-        beyond_sticking = select(
-            sticks, 0.0, (determinant * impulse_t - no_slip_t_determinant) / (k_nn / trace)
-        )
-        slip_after = sticking_slip * slip + beyond_sticking
-        impulse_work: Any = None
-        if dissipates(rule, law) and outside is None:
-            work_a, work_b = b_a * torque_a * torque_a, b_b * torque_b * torque_b
-            impulse_work = a * (normal * normal + impulse_t * impulse_t) + work_a + work_b
-        loss_n, loss_t, loss, gains = energy_losses(
-            law,
-            restitution,
-            closing,
-            slip,
-            slip_after,
-            sticks,
-            beyond_sticking,
-            normal,
-            impulse_t,
-            impulse_work,
-            eps,
-        )
 
-    impulse_x = nx * normal - ny * impulse_t
-    impulse_y = ny * normal + nx * impulse_t
+def torques(a: Response, b: Response, normal: Any, tangential: Any) -> tuple[Any, Any]:
+    """Moments of the impulse on A and on B about what they turn about (eqs 13 and 15)."""
+    return a.rt * normal - a.rn * tangential, b.rn * tangential - b.rt * normal
+
+
+def recoil(body: Body, answer: Response, torque: Any, x: Any, y: Any) -> tuple[Any, Any, Any]:
+    """Change of velocity (x, y) and of yaw rate of a body under an impulse (eqs 12 to 15)."""
+    spin = answer.per_inertia * torque
+    if body.pivot is not None:
+        return *turning_velocity(spin, body.x, body.y, *body.pivot), spin
+    return answer.per_mass * x, answer.per_mass * y, spin
+
+
+def slip_and_losses(
+    problem: Problem, rule: str, law: str, struck: Struck, eps: float
+) -> tuple[Any, Any, Any, Any, Any, Any]:
+    """Separation speed of a law that has its own, slip after, and the losses as ``energy_losses``
+    has them (eq 8).
+    """
+    restitution, alone = problem.contact.restitution, problem.outside is None
+    closing, slip, (normal, tangential) = struck.closing, struck.slip, struck.impulse
+    passage, k = struck.passage, struck.mobility
+    if passage is not None and alone:
+        loss_n, loss_t = passage.loss_n, passage.loss_t
+        return passage.separation, passage.slip_after, loss_n, loss_t, loss_n + loss_t, False
+    if passage is not None:
+        # What the contact took, at the mean of the velocities before and after; the passage began
+        # with those shifted.
+        mean = passage.separation / safe_divisor(closing != 0.0, closing)
+        of_mean = mean, closing, slip, passage.slip_after, struck.sticks, 0.0, normal, tangential
+        _, _, loss, gains = energy_losses(law, *of_mean, None, eps)
+        loss_t = passage.loss_t
+        return passage.separation, passage.slip_after, loss - loss_t, loss_t, loss, gains
+    beyond_sticking = select(
+        struck.sticks,
+        0.0,
+        (k.determinant * tangential - struck.no_slip_t_determinant) / (k.k_nn / k.trace),
+    )
+    slip_after = LAWS[law].sticking_slip(restitution) * slip + beyond_sticking
+    impulse_work: Any = None
+    if dissipates(rule, law) and alone:
+        torque_a, torque_b = struck.torques
+        a, b = struck.responses
+        work_a = a.per_inertia * torque_a * torque_a
+        work_b = b.per_inertia * torque_b * torque_b
+        square = normal * normal + tangential * tangential
+        impulse_work = k.per_mass * square + work_a + work_b
+    losses = energy_losses(
+        law,
+        restitution,
+        closing,
+        slip,
+        slip_after,
+        struck.sticks,
+        beyond_sticking,
+        normal,
+        tangential,
+        impulse_work,
+        eps,
+    )
+    return 0.0, slip_after, *losses
+
+
+def eccentric(problem: Problem, rule: str, law: str, eps: float = EPS) -> Answer:
+    """The ``Answer`` of the eccentric model."""
+    struck = strike(problem, rule, law, eps)
+    k, closing, (normal, tangential) = struck.mobility, struck.closing, struck.impulse
+    no_slip_n, no_slip_t = struck.without_slip
+    separation, slip_after, loss_n, loss_t, loss, gains = slip_and_losses(
+        problem, rule, law, struck, eps
+    )
+
+    nx, ny = problem.contact.normal
+    torque_a, torque_b = struck.torques
+    impulse_x, impulse_y = nx * normal - ny * tangential, ny * normal + nx * tangential
     by_a: Any = torque_a, -impulse_x, -impulse_y
     by_b: Any = torque_b, impulse_x, impulse_y
-    if outside is not None:
-        by_a, by_b = tuple(map(add, by_a, on_a)), tuple(map(add, by_b, on_b))
-    dvx_a, dvy_a, spin_change_a = recoil(
-        a_a, b_a, by_a[0], by_a[1], by_a[2], x_a, y_a, pivot_x_a, pivot_y_a, pinned_a
-    )
-    dvx_b, dvy_b, spin_change_b = recoil(
-        a_b, b_b, by_b[0], by_b[1], by_b[2], x_b, y_b, pivot_x_b, pivot_y_b, pinned_b
-    )
+    if struck.pushes is not None:
+        by_a = tuple(map(add, by_a, struck.pushes[0]))
+        by_b = tuple(map(add, by_b, struck.pushes[1]))
+    dvx_a, dvy_a, spin_change_a = recoil(problem.a, struck.responses[0], *by_a)
+    dvx_b, dvy_b, spin_change_b = recoil(problem.b, struck.responses[1], *by_b)
+
     # 0.0 * value is 0 if finite, else NaN: adding the values themselves could overflow.
     total = loss + slip_after + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
     total = total + (0.0 * impulse_x + 0.0 * impulse_y + 0.0 * no_slip_n + 0.0 * no_slip_t)
     if LAWS[law].compression_limit:
         total = total + loss_n + loss_t
-    if energetic:
+    if struck.passage is not None:
         total = total + separation
-    finite = bounded & (total - total == 0.0)
-    fine = closes & finite & (loss >= 0.0) & ((immovable | stuck | pulls | jams) ^ True)
+    finite = k.bounded & (total - total == 0.0)
+    refused = k.immovable | struck.singular | struck.pulls | struck.jams
+    closes, apart = closing > 0.0, closing < 0.0
+    if struck.pushes is not None:
+        apart = apart | (closes & (struck.acts ^ True))
+        closes = closes & struck.acts
     status = select(
-        fine,
+        closes & finite & (loss >= 0.0) & (refused ^ True),
         Status.OK,
         first_status(
-            (immovable, Status.IMMOVABLE),
+            (k.immovable, Status.IMMOVABLE),
             (apart, Status.SEPARATING),
             (closing == 0.0, Status.GRAZING),
-            (stuck, Status.SINGULAR_CONTACT),
-            (pulls, Status.NO_SLIP_PULLS),
-            (jams, Status.RATIO_JAMS),
+            (struck.singular, Status.SINGULAR_CONTACT),
+            (struck.pulls, Status.NO_SLIP_PULLS),
+            (struck.jams, Status.RATIO_JAMS),
             (finite ^ True, Status.OUT_OF_RANGE),
             (gains, Status.ENERGY_GAIN),
         ),
     )
-    # A contact with one degree of freedom has no impulse without slip.
-    no_slip_n = select(regular, no_slip_n, nan)
     return Answer(
         status=status,
         closing_speed=closing,
-        slip_before=slip,
+        slip_before=struck.slip,
         slip_after=slip_after,
         normal_impulse=normal,
-        tangential_impulse=impulse_t,
-        compression_impulse=normal / (1.0 + restitution),
-        no_slip_normal=no_slip_n,
+        tangential_impulse=tangential,
+        compression_impulse=normal / (1.0 + problem.contact.restitution),
+        # A contact with one degree of freedom has no impulse without slip.
+        no_slip_normal=select(k.regular, no_slip_n, nan),
         no_slip_tangential=no_slip_t,
-        sticks=sticks,
-        effective_mass=1.0 / k_nn,
-        coupling=k_nt,
+        sticks=struck.sticks,
+        effective_mass=1.0 / k.k_nn,
+        coupling=k.k_nt,
         energy_loss_normal=loss_n,
         energy_loss_tangential=loss_t,
         energy_loss=loss,
@@ -325,17 +402,3 @@ def eccentric(
         delta_yaw_rate_b=spin_change_b,
         separation_speed=separation,
     )
-
-
-def from_contact_velocity(closing: Any, slip: Any, *inputs: Any) -> Any:
-    """``eccentric`` with the closing speed and the slip before, which stand before its other
-    inputs.
-    """
-    return eccentric(*inputs, contact_velocity=(closing, slip))
-
-
-def with_outside(*inputs: Any) -> Any:
-    """``eccentric`` with the impulses from outside on A and on B, which stand before its other
-    inputs.
-    """
-    return eccentric(*inputs[6:], outside=inputs[:6])

@@ -4,18 +4,14 @@ Only the impulse at the contact is needed. The error, in m/s, is the hypot of th
 delta-V vector and of the radius of gyration times the error of the change of yaw rate.
 """
 
-from collections.abc import Callable
 from math import inf, nan
 from typing import Any, NamedTuple
 
-from .central import oblique_central
+from . import central, eccentric
 from .contact_laws import CRITICAL_FRACTION
-from .eccentric import eccentric
 from .elementwise import larger, select
+from .problem import Body, Contact, Problem
 
-# With ``impulse_only`` they return other values than an ``Answer``.
-_eccentric: Callable[..., tuple[Any, ...]] = eccentric
-_oblique: Callable[..., tuple[Any, ...]] = oblique_central
 # Safety factor on a predicted error, so that the true error stays within the tolerance where the
 # prediction is too small.
 _MARGIN = 1.15
@@ -27,78 +23,39 @@ LINEAR, OBLIQUE, ECCENTRIC, LACKING = range(4)
 
 
 class Known(NamedTuple):
-    """What is known: positions of A and B relative to the contact, their yaw inertias, everything
-    needed; and who is pinned.
+    """What is known of A and of B: the position relative to the contact, and the yaw inertia.
 
-    ``outside`` says whether there are impulses from outside, whose numbers then stand before the
-    tolerance.
+    ``complete`` says whether everything that the eccentric model needs is known, ``central``
+    whether the central models take all that was given.
     """
 
     places: tuple[bool, bool]
     inertias: tuple[bool, bool]
-    all: bool
-    pinned: tuple[bool, bool]
-    outside: bool = False
+    complete: bool
+    central: bool = True
 
 
-def least_model(*given: Any) -> tuple[Any, Any, Any]:
+def least_model(
+    problem: Problem, tolerance: Any, rule: str, law: str, known: Known, eps: float
+) -> tuple[Any, Any, Any]:
     """Number of the cheapest model within the tolerance, and the errors of the linear and the
     oblique model.
 
-    The arguments are six numbers of the contact, nine of each body (unknown ones filled in so that
-    they make no torque), the tolerance, rule, law, ``Known``, and eps. LACKING is the eccentric
-    model where it lacks something, unless it is known that the bodies do not approach; with a pivot
-    or an impulse from outside every input is needed.
+    What is unknown of the problem is filled in so that it makes no torque. LACKING is the eccentric
+    model where it lacks something, unless it is known that the bodies do not approach; where the
+    central models do not take what was given, every input is needed.
     """
-    contact, bodies, outside = given[:6], (given[6:15], given[15:24]), given[24:-5]
-    tolerance, rule, law, known, eps = given[-5:]
-    answered, closing, impulse, no_slip, *of_bodies = _eccentric(
-        *contact,
-        *bodies[0],
-        *bodies[1],
-        rule,
-        law,
-        *known.pinned,
-        eps,
-        impulse_only=True,
-        outside=outside or None,
-    )
-    beyond_central = any(known.pinned) or known.outside
+    struck = eccentric.strike(problem, rule, law, eps)
+    answered = struck.answered
     linear = oblique = select(answered, inf, nan)
-    if not beyond_central:
-        linear, oblique = _errors(contact, bodies, rule, law, eps, answered, impulse, of_bodies)
+    if known.central:
+        linear, oblique = _errors(problem, rule, law, struck, answered)
     lacking: Any = False
-    if not known.all:
-        approach: Any = True
-        # Where the impulse without slip decides the ratio, it counts too.
-        counts = contact[3] > 0.0 if rule == CRITICAL_FRACTION else False
-        size = (
-            abs(impulse[0])
-            + abs(impulse[1])
-            + select(counts, abs(no_slip[0]) + abs(no_slip[1]), 0.0)
-        )
-        bodies_known = zip(bodies, of_bodies, known.places, known.inertias, strict=True)
-        for (_, inertia, _, _, spin, x, y, *_), (
-            _,
-            _,
-            torque,
-            no_slip_torque,
-        ), placed, weighed in bodies_known:
-            if not placed:
-                # Without a position the lever arm is unknown, which matters for a body that can
-                # turn or is turning.
-                approach = approach & (spin == 0.0)
-                lacking = lacking | ((inertia < inf) | (spin != 0.0) if weighed else True)
-            elif not weighed:
-                # Solved with infinite inertia: if there is no torque then, the true inertia does
-                # not matter.
-                lever = _LEVER * eps * (abs(x) + abs(y) + abs(contact[4]) + abs(contact[5]))
-                lever = select(lever < _LONGEST, lever, _LONGEST)
-                turning = abs(torque) + select(counts, abs(no_slip_torque), 0.0)
-                lacking = lacking | ((turning <= lever * size) ^ True)
-        apart = approach & ((closing > 0.0) ^ True)
-        lacking = (True if beyond_central else lacking) & (apart ^ True)
-        unknown = inf if beyond_central else nan
+    if not known.complete:
+        matters, approach = _needed(problem, rule, known, struck, eps)
+        apart = approach & ((struck.closing > 0.0) ^ True)
+        lacking = (matters if known.central else True) & (apart ^ True)
+        unknown = nan if known.central else inf
         linear, oblique = select(lacking, unknown, linear), select(lacking, unknown, oblique)
         lacking = apart ^ True
     within = tolerance > 0.0
@@ -107,15 +64,47 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
     return select(within & (_MARGIN * linear <= tolerance), LINEAR, which), linear, oblique
 
 
+def _needed(
+    problem: Problem, rule: str, known: Known, struck: eccentric.Struck, eps: float
+) -> tuple[Any, Any]:
+    """Whether what is not known could matter, and whether the closing speed is known without it."""
+    contact, approach, matters = problem.contact, True, False
+    # Where the impulse without slip decides the ratio, it counts too.
+    counts = contact.rule_value > 0.0 if rule == CRITICAL_FRACTION else False
+    (normal, tangential), no_slip = struck.impulse, struck.without_slip
+    size = abs(normal) + abs(tangential) + select(counts, abs(no_slip[0]) + abs(no_slip[1]), 0.0)
+    each = zip(
+        (problem.a, problem.b),
+        struck.torques,
+        eccentric.torques(*struck.responses, *no_slip),
+        known.places,
+        known.inertias,
+        strict=True,
+    )
+    for body, torque, no_slip_torque, placed, weighed in each:
+        if not placed:
+            # Without a position the lever arm is unknown, which matters for a body that can turn or
+            # is turning.
+            approach = approach & (body.yaw_rate == 0.0)
+            turns = (body.yaw_inertia < inf) | (body.yaw_rate != 0.0)
+            matters = matters | (turns if weighed else True)
+        elif not weighed:
+            # Solved with infinite inertia: if there is no torque then, the true inertia does not
+            # matter.
+            turning = abs(torque) + select(counts, abs(no_slip_torque), 0.0)
+            matters = matters | ((turning <= _rounding_of_lever(contact, body, eps) * size) ^ True)
+    return matters, approach
+
+
+def _rounding_of_lever(contact: Contact, body: Body, eps: float) -> Any:
+    """A lever that may be nothing but rounding."""
+    px, py = contact.point
+    lever = _LEVER * eps * (abs(body.x) + abs(body.y) + abs(px) + abs(py))
+    return select(lever < _LONGEST, lever, _LONGEST)
+
+
 def _errors(
-    contact: Any,
-    bodies: tuple[Any, Any],
-    rule: str,
-    law: str,
-    eps: float,
-    answered: Any,
-    impulse: Any,
-    of_bodies: Any,
+    problem: Problem, rule: str, law: str, struck: eccentric.Struck, answered: Any
 ) -> tuple[Any, Any]:
     """Errors of the linear and the oblique model for the worse of both bodies, from what the
     eccentric model answered.
@@ -123,24 +112,23 @@ def _errors(
     The errors are NaN where the eccentric model has no answer, infinite where the cheaper one has
     none.
     """
-    # Mass, velocity and yaw rate of each body.
-    point_masses = *bodies[0][:1], *bodies[0][2:5], *bodies[1][:1], *bodies[1][2:5]
-    central, pulls, normal, tangential = _oblique(
-        *contact[:4], *point_masses, rule, law, True, eps, impulse_only=True
-    )
-    off_normal = impulse[0] - normal
-    worst = []
+    oblique = central.strike(problem, rule, law)
+    normal, tangential = oblique.impulse
+    off_normal = struck.impulse[0] - normal
+    torques, worst = struck.torques, []
     # Both central models have the same normal impulse, and the linear one no other.
-    for off_tangential in (impulse[1], impulse[1] - tangential):
+    for off_tangential in (struck.impulse[1], struck.impulse[1] - tangential):
         squared = [
             # The last term is (radius of gyration times change of yaw rate) squared.
-            _square(a * off_normal) + _square(a * off_tangential) + (a * torque) * (b * torque)
-            for a, b, torque, _ in of_bodies
+            _square(body.per_mass * off_normal)
+            + _square(body.per_mass * off_tangential)
+            + (body.per_mass * torque) * (body.per_inertia * torque)
+            for body, torque in zip(struck.responses, torques, strict=True)
         ]
         worst.append(larger(*squared) ** 0.5)
     beyond = select(answered, inf, nan)
-    return select(answered & central, worst[0], beyond), select(
-        answered & central & (pulls ^ True), worst[1], beyond
+    return select(answered & oblique.answered, worst[0], beyond), select(
+        answered & oblique.answered & (oblique.pulls ^ True), worst[1], beyond
     )
 
 

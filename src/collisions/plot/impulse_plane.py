@@ -107,7 +107,7 @@ def impulse_plane(
     raw = answer_of(impact)
     no_slip = raw.no_slip_normal * factor, raw.no_slip_tangential * factor
     plain = impact.model == "linear_central"
-    energetic = LAWS[impact.law or BRACH].energetic
+    energetic = LAWS[impact.law or BRACH].followed
     shows_no_slip = (
         not plain
         and not energetic

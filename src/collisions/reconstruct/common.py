@@ -18,6 +18,8 @@ from ..impact.run import check_options, error_of, warn_of_refusals
 from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
 from ..kernels.elementwise import FINITE, POSITIVE, restitution_domain
+from ..kernels.problem import Body, Contact, Problem
+from ..kernels.status import Answer
 from ..messages.errors import CollisionsError, IllConditionedWarning, InputError, Status
 from ..messages.warning import quietly, warn_of_cases
 from ..quantities.attributes import lock
@@ -26,8 +28,7 @@ from ..quantities.reading import ArgumentReader, amount, broadcast
 from ..quantities.units import Texts
 from ..vehicle.vehicle import Vehicle
 
-# The forward kernel, called with the numbers of two bodies in this order.
-forward: Callable[..., Any] = eccentric
+# The numbers of a body, in the order in which ``forward`` takes them.
 NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
 # Prefixes of the names of numbers that cannot be below 0.
 _AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_a", "delta_v_b", "ees_", "max_crush")
@@ -39,6 +40,25 @@ NEARLY_COLLINEAR = math.radians(10.0)
 _ILL_CONDITIONED = 1e6
 # For functions whose result has no status.
 ASK_ALONE = "asked alone, each says why"
+
+
+def body_of(numbers: Iterable[Any], pinned: bool) -> Body:
+    """A body as the kernels take it, from its ``NUMBERS``."""
+    *motion, pivot_x, pivot_y = numbers
+    return Body._make((*motion, (pivot_x, pivot_y) if pinned else None))
+
+
+def forward(
+    contact: Contact,
+    bodies: Iterable[Iterable[Any]],
+    rule: str,
+    law: str,
+    pinned: Iterable[bool] = (False, False),
+    contact_velocity: tuple[Any, Any] | None = None,
+) -> Answer:
+    """What the eccentric kernel answers for two bodies, each as its ``NUMBERS``."""
+    a, b = (body_of(numbers, turns) for numbers, turns in zip(bodies, pinned, strict=True))
+    return eccentric(Problem(contact, a, b, contact_velocity=contact_velocity), rule, law)
 
 
 def counted(given: Iterable[str]) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from ..impact.inputs import Inputs, body_numbers, read_inputs
 from ..impact.run import error_of, warn_of_refusals
 from ..kernels.contact_laws import BRACH, FRICTION
 from ..kernels.elementwise import either_infinite, not_about_pivot, rounding
+from ..kernels.problem import Contact
 from ..messages.errors import (
     IllConditionedWarning,
     InputError,
@@ -305,9 +306,8 @@ def _moment(read: Inputs, *bodies: Vehicle) -> _Moment:
         for body, turns in zip(bodies, turning, strict=True)
     )
     pinned = (turns and body.pivot is not None for body, turns in zip(bodies, turning, strict=True))
-    raw = forward(
-        np.zeros(()), *n, np.zeros(()), px, py, *a.values(), *b.values(), FRICTION, BRACH, *pinned
-    )
+    contact = Contact(np.zeros(()), n, np.zeros(()), (px, py))
+    raw = forward(contact, (a.values(), b.values()), FRICTION, BRACH, pinned)
     speeds: Any = 0.0
     for body in (a, b):
         lever = abs(px - body["x"]) + abs(py - body["y"])

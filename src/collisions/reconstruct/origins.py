@@ -18,9 +18,10 @@ from ..kernels.contact_laws import (
     LAWS,
 )
 from ..kernels.eccentric import recoil, response
+from ..kernels.problem import Contact
 from ..kernels.status import EPS, Status
 from ..quantities.tables import Sentences
-from .common import NUMBERS, forward
+from .common import NUMBERS, body_of, forward
 
 _NEARLY_PLASTIC = (
     0.01  # of the closing speed: what measured motions may still approach after a plastic impact
@@ -175,17 +176,13 @@ class End:
         """Whether K has an inverse, and by how much the rounding of a contact that sticks is
         magnified in the motion after.
         """
-        nx, ny = self.n
-        self.levers = []
-        for (mass, inertia, vx, vy, _, cx, cy, ox, oy), pinned in zip(
-            self.bodies, self.pinned, strict=True
-        ):
-            a, b, rx, ry, _, _ = response(mass, inertia, vx, vy, cx, cy, ox, oy, *self.p, pinned)
-            self.levers.append((a, b, rx, ry))
-        # The same with the lever along n and t.
-        self.responses = [
-            (a, b, nx * rx + ny * ry, nx * ry - ny * rx) for a, b, rx, ry in self.levers
+        contact = Contact(0.0, self.n, point=self.p)
+        self.levers = [
+            response(body_of(numbers, pinned), contact)
+            for numbers, pinned in zip(self.bodies, self.pinned, strict=True)
         ]
+        # The levers along n and t.
+        self.responses = [(a, b, rn, rt) for a, b, _, _, rn, rt in self.levers]
         (a_a, b_a, rn_a, rt_a), (a_b, b_b, rn_b, rt_b) = self.responses
         a, cross = a_a + a_b, rn_a * rt_b - rt_a * rn_b
         self.trace = a + b_a * (rn_a * rn_a + rt_a * rt_a) + b_b * (rn_b * rn_b + rt_b * rt_b)
@@ -209,8 +206,8 @@ class End:
         **known: Any,
     ) -> Any:
         law = self.law if rule == self.rule else BRACH
-        inputs = (e, *(n or self.n), bound, *self.p, *bodies[0], *bodies[1])
-        return forward(*inputs, rule, law, *self.pinned, **known)
+        contact = Contact(e, n or self.n, bound, self.p)
+        return forward(contact, bodies, rule, law, self.pinned, **known)
 
     def _struck(self, normal: Any, tangential: Any) -> Any:
         """The motions of A and B when an impulse with these parts on B, and its opposite on A, is
@@ -219,13 +216,11 @@ class End:
         nx, ny = self.n
         x, y = nx * normal - ny * tangential, ny * normal + nx * tangential
         motions = []
-        for body, (a, b, rx, ry), pinned, sign in zip(
+        for body, lever, pinned, sign in zip(
             self.bodies, self.levers, self.pinned, (-1.0, 1.0), strict=True
         ):
-            cx, cy, ox, oy = body[5:]
-            changes = recoil(
-                a, b, sign * (rx * y - ry * x), sign * x, sign * y, cx, cy, ox, oy, pinned
-            )
+            torque = sign * (lever.rx * y - lever.ry * x)
+            changes = recoil(body_of(body, pinned), lever, torque, sign * x, sign * y)
             motions.append(
                 tuple(part + change for part, change in zip(body[2:5], changes, strict=True))
             )

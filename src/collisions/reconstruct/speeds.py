@@ -332,7 +332,7 @@ def _refuse_combinations(
     inputs: Inputs, known: dict[str, Any], components: bool, function: bool
 ) -> None:
     """Refuse what gives the same information twice, and what cannot be solved together."""
-    if LAWS[inputs.law or BRACH].energetic:
+    if LAWS[inputs.law or BRACH].followed:
         raise InputError(
             f"reconstruct.speeds cannot go back under law {inputs.law!r}, whose impulse is not "
             "linear in the speeds; give another law, or fit a model with this one to what is "

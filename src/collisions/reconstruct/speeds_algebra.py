@@ -22,6 +22,7 @@ import numpy as np
 from ..engine.floats import compile_for_floats
 from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, energy_losses
 from ..kernels.elementwise import larger, select
+from ..kernels.problem import Contact
 from ..kernels.reverse import PLACES, energy_of_speeds, parabola_roots, quartic_roots
 from ..kernels.status import EPS, Status
 from .common import NUMBERS, PAIRS, forward
@@ -113,7 +114,7 @@ def _observed(speed_a: Any, speed_b: Any, e: Any, bound: Any, *fixed: Any) -> Se
     mass_b, inertia_b, *place_b = numbers[16:]
     body_a = mass_a, inertia_a, speed_a * courses[0], speed_a * courses[1], *place_a
     body_b = mass_b, inertia_b, speed_b * courses[2], speed_b * courses[3], *place_b
-    raw = forward(e, nx, ny, bound, px, py, *body_a, *body_b, rule, law, False, False)
+    raw = forward(Contact(e, (nx, ny), bound, (px, py)), (body_a, body_b), rule, law)
     closing, slip = raw.closing_speed, raw.slip_before
     normal, tangential, loss = raw.normal_impulse, raw.tangential_impulse, raw.energy_loss
     if sticks:

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from ..engine.javascript import javascript
 from ..impact.impact import Impact, build
-from ..impact.models import BY_NAME, MODELS, model_of
+from ..impact.models import BY_NAME, CANDIDATES, MODELS
 from ..kernels.contact_laws import RULES
 from ..kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, restitution_domain
 from ..messages.errors import InputError, Status
@@ -185,8 +185,9 @@ def results(impact: Impact, given: Mapping[str, Any]) -> dict[str, Any]:
         "tolerance": None,
     }
     inputs = replace(was, model=impact.model, a=a, b=b, **contact)
-    model = model_of(inputs)
-    raw = model.kernel(*model.numbers(inputs), *model.settings(inputs, impact.choice is not None))
+    models = MODELS if impact.choice is None else CANDIDATES
+    (model,) = (one for one in models if one.name == inputs.model)
+    raw = model.answer(inputs)
     answer = build(inputs, raw)
     found = {"status": raw.status, "nx": normal[0], "ny": normal[1]} | {
         path: attrgetter(path)(answer) for path in _PATHS
@@ -219,7 +220,7 @@ def starts(impact: Impact) -> dict[str, Any]:
     """The value of each input that may have a slider, angles in degrees; NaN where only its range
     is known.
     """
-    inputs, takes = impact.inputs, BY_NAME[impact.model].takes
+    inputs, takes = impact.inputs, BY_NAME[impact.model].paths
     found = {"restitution": inputs.restitution, "normal": impact.normal_angle}
     if "rule_value" in takes:
         found[inputs.rule] = inputs.rule_value
