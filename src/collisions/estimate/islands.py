@@ -48,7 +48,8 @@ class UnreachableError(Exception):
 
 class Island(NamedTuple):
     """Equally likely points, the logarithm of their evidence, the share of the prior that was
-    refused, and of moved points; and the cases that the model, and a finer one, were called with.
+    refused, and of moved points; the cases that the model, and a finer one, were called with; and
+    the share of points that only the finer one answers.
     """
 
     points: Any
@@ -57,6 +58,7 @@ class Island(NamedTuple):
     moved: float
     calls: int
     finer_calls: int
+    beyond: float
 
 
 class Islands:
@@ -74,6 +76,8 @@ class Islands:
 
     # What goes with each point when points are resampled.
     carried: ClassVar[tuple[str, ...]] = ("points", "likelihood", "missed")
+    # Where the powers end.
+    end: ClassVar[float] = 1.0
     points: Any
     likelihood: Any
     missed: Any
@@ -86,6 +90,7 @@ class Islands:
         self.log_evidence, self.refused, self.moved = (
             np.full(shape[0], start) for start in (0.0, 0.0, 1.0)
         )
+        self.beyond = np.zeros(shape[0])
         self.calls, self.finer_calls = (np.zeros(shape[0], dtype=np.intp) for _ in range(2))
 
     def found(self, report: Callable[[float], None]) -> list[Island]:
@@ -100,6 +105,7 @@ class Islands:
                 self.moved.tolist(),
                 self.calls.tolist(),
                 self.finer_calls.tolist(),
+                self.beyond.tolist(),
             )
         )
 
@@ -108,11 +114,11 @@ class Islands:
         self._draw()
         self._meet_bounds()
         for _ in range(_MOST_STAGES):
-            if self.power == 1.0:
+            if self.power == self.end:
                 break
             self._raise_power()
             report(self.power)
-        if self.power < 1.0 or np.max(self.likelihood) < -_MOST_MISFIT:
+        if self.power < self.end or np.max(self.likelihood) < -_MOST_MISFIT:
             raise UnreachableError(0, 0.0)
 
     def _evaluated(self, points: Any) -> tuple[Any, Any, Any]:
@@ -157,9 +163,9 @@ class Islands:
 
     def _raise_power(self) -> None:
         """The next power, at which half of the effective sample size is left, or 1."""
-        rest = 1.0 - self.power
+        rest = self.end - self.power
         more, best, behind = step_of(self.likelihood, rest)
-        self.power = 1.0 if more == rest else self.power + more
+        self.power = self.end if more == rest else self.power + more
         self.log_evidence += more * best[:, 0]
         self._select(np.exp(more * behind))
 
@@ -207,7 +213,7 @@ class Islands:
             self.missed[better] = missed[better]
             accepted += better
             self.scale *= math.exp(np.mean(better) - _ACCEPTED)
-            if np.mean(accepted) >= (_MOVES if self.power < 1.0 else _MOVES_LAST):
+            if np.mean(accepted) >= (_MOVES if self.power < self.end else _MOVES_LAST):
                 break
         self.moved = np.mean(accepted > 0, axis=1)
 

@@ -27,6 +27,7 @@ _ROUGH = 0.1  # of a standard deviation: the error of a mean
 _ROUGH_EVIDENCE = 0.5  # of its logarithm
 _FEW_MOVED = 0.5  # of the points
 _MOSTLY_REFUSED = 0.05  # of the prior
+_MOST_BEYOND = 0.01  # of the samples
 
 
 class PosteriorOutput(Sampled):
@@ -116,6 +117,8 @@ class Posterior(Summarized):
     calls : dict
         How many cases were asked of each model: "model", and "finer" if one was given, of which
         the figures then are.
+    beyond : float
+        With a finer model, the share of the samples that lie where the other model has no answer.
     model_notes : tuple
         The warnings of the model at the samples, each with the number and share of those it is of;
         ``statements`` has them.
@@ -136,6 +139,7 @@ class Posterior(Summarized):
     seed: int
     interrupted: bool
     calls: dict[str, int] = field(default_factory=dict)
+    beyond: float = 0.0
     model_notes: tuple[Note, ...] = ()
 
     def __getitem__(self, name: str) -> PosteriorOutput:
@@ -281,6 +285,7 @@ class Posterior(Summarized):
             "seed",
             "interrupted",
             "calls",
+            "beyond",
         )
         written: dict[str, Any] = strict(record | {name: getattr(self, name) for name in plain})
         return written
@@ -360,6 +365,14 @@ def notes_of(found: Posterior) -> Iterator[Note]:
             f"the figures are those of the finer model, called {a_sample:.3g} times a sample; the "
             f"other model was called {found.calls['model'] / max(found.samples, 1):.3g} times a "
             "sample",
+        )
+    if found.beyond > _MOST_BEYOND:
+        yield Note(
+            IllConditionedWarning,
+            f"{found.beyond:.0%} of the samples lie where only the finer model has an answer, which "
+            "the other model did not lead to: the evidence is perhaps too low, and errors too small",
+            "; run the finer model alone: posterior(finer, unknowns, observed)",
+            "beyond_model",
         )
     if found.interrupted:
         sentence = f"interrupted; the figures are those of {found.samples} samples"

@@ -13,6 +13,9 @@ import numpy as np
 from .islands import Evaluate, Islands, UnreachableError, step_of
 
 _MOVES, _MOVES_LAST, _MOST_SWEEPS = 2.0, 5.0, 80  # accepted moves a point, and tries at most
+# the last of them, where more than so many points lie where the first model has no answer: these
+# are reached from beside
+_MOVES_BEYOND, _BEYOND = 10.0, 0.01
 _PASSED = 0.3  # share of the moves, judged by the first model, that the finer one is asked about
 # Points without an answer of the first model get this share of its posterior, so that none that
 # the finer model answers is out of reach.
@@ -27,11 +30,14 @@ class FinerUnreachableError(Exception):
 
 
 class FinerIslands(Islands):
-    """Islands at the posterior of ``evaluate``, then at that of ``finer``.
+    """Islands on the way to the posterior of ``evaluate``, then on to that of ``finer``.
 
-    The target rises along likelihood**(1 - share) * finer_likelihood**share, in steps that leave
-    half of the effective sample size: a path between two posteriors as between prior and posterior
-    (P. Del Moral, A. Doucet, A. Jasra, 2006). A move is judged first by the model that costs less,
+    The first model's likelihood is raised to the power ``end`` only, so that its posterior is wide
+    enough to cover that of the finer model, and tails that only the finer one has are seen (from
+    the full power they were missed without a sign). From there the target rises along
+    likelihood**(end * (1 - share)) * finer_likelihood**share, in steps that leave half of the
+    effective sample size: a path between two posteriors as between prior and posterior (P. Del
+    Moral, A. Doucet, A. Jasra, 2006). A move is judged first by the model that costs less,
     and only one that passes by the finer model, so that the two together keep the target exactly:
     J. A. Christen and C. Fox, "Markov chain Monte Carlo using an approximation", J. Comput. Graph.
     Statist. 14 (2005). ``evaluate`` must have softened sharp bounds, which the finer model may
@@ -39,6 +45,7 @@ class FinerIslands(Islands):
     """
 
     carried: ClassVar[tuple[str, ...]] = ("points", "likelihood", "missed", "finer")
+    end: ClassVar[float] = 0.15
     finer: Any
     _draws: Any
     _known: Any
@@ -56,9 +63,11 @@ class FinerIslands(Islands):
         self.floor = -math.inf
 
     def _reach_posterior(self, report: Callable[[float], None]) -> None:
-        """From the prior to the posterior of the first model, and on to that of the finer one."""
+        """From the prior towards the posterior of the first model, and on to that of the finer."""
         self.finer = np.zeros((self.shape[0], 0))
         super()._reach_posterior(lambda part: report(0.5 * part))
+        # From here on that to the power reached.
+        self.likelihood = self.end * self.likelihood
         self._open_unanswered()
         everywhere = np.ones(self.shape[:2], dtype=bool)
         self.finer, self.missed = self._finer_of(self.points, everywhere)
@@ -84,7 +93,7 @@ class FinerIslands(Islands):
         """Points with their log-likelihoods by the first model, and by how much they miss."""
         points, likelihood, missed = super()._evaluated(points)
         if self.share is not None:
-            likelihood = np.where(np.isfinite(likelihood), likelihood, self.floor)
+            likelihood = np.where(np.isfinite(likelihood), self.end * likelihood, self.floor)
         return points, likelihood, missed
 
     def _finer_of(self, points: Any, chosen: Any) -> tuple[Any, Any]:
@@ -139,6 +148,7 @@ class FinerIslands(Islands):
         guide = self._guide(self.share)
         here = guide(self.points, self.likelihood)
         last = self.share == 1.0 and (self.limit == 0.0 or not np.any(self.missed > 0.0))
+        wanted = _MOVES
         for _ in range(_MOST_SWEEPS):
             points, likelihood, _ = self._evaluated(self._proposed(others, noise))
             prior = 0.5 * np.sum((self.points - points) * (self.points + points), axis=2)
@@ -162,20 +172,24 @@ class FinerIslands(Islands):
             here[better] = there[better]
             accepted += better
             self.scale *= math.exp(np.mean(passed) - _PASSED)
-            if np.mean(accepted) >= (_MOVES_LAST if last else _MOVES):
+            self.beyond = np.mean(self.likelihood == self.floor, axis=1)
+            if last:
+                wanted = _MOVES_BEYOND if np.max(self.beyond) > _BEYOND else _MOVES_LAST
+            if np.mean(accepted) >= wanted:
                 break
         self.moved = np.mean(accepted > 0, axis=1)
 
     def _guide(self, share: float) -> Callable[[Any, Any], Any]:
         """What moves are judged by first, of points and the first model's log-likelihoods there.
 
-        This is that log-likelihood and, times the share, a quadratic in the scores for how much
-        higher the finer one is, by least squares over the points of the other islands. Any guide
-        keeps the target; a good one asks the finer model seldom in vain.
+        This is that log-likelihood, to the power that suits the share, and, times the share, a
+        quadratic in the scores for how much higher the finer one is, by least squares over the
+        points of the other islands. Any guide keeps the target; a good one asks the finer model
+        seldom in vain.
         """
-        above = self.finer - self.likelihood
+        above = self.finer - self.likelihood / self.end
         known = self.likelihood != self.floor
-        level = float(np.median(self.likelihood))
+        power = (1.0 - share) + share / self.end
         fitted = []
         for k in range(self.shape[0]):
             others = (np.arange(self.shape[0]) != k)[:, np.newaxis] & known
@@ -191,6 +205,10 @@ class FinerIslands(Islands):
                 ends = (2.0 * low - high, 2.0 * high - low)
             fitted.append((by, ends, len(values)))
 
+        # Where the first model does not know, as likely as most points are.
+        target = (1.0 - share) * self.likelihood + share * self.finer
+        level = float(np.median(target))
+
         def guide(points: Any, likelihood: Any) -> Any:
             more = np.stack(
                 [
@@ -198,7 +216,8 @@ class FinerIslands(Islands):
                     for each, (by, ends, count) in zip(points, fitted, strict=True)
                 ]
             )
-            return np.where(likelihood == self.floor, level, likelihood + share * more)
+            found = power * likelihood + share * more
+            return np.where(likelihood == self.floor, level, found)
 
         return guide
 
