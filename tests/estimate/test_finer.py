@@ -303,9 +303,7 @@ def evidence(rng):
     }
     exact = crash(True)(**{name: np.array([value]) for name, value in truth.items()})
     return {
-        name: Normal(
-            f"{exact[name].magnitude[0] + error * rng.normal()} {unit}", f"{error} {unit}"
-        )
+        name: Normal(f"{exact[name].magnitude[0] + error * rng.normal()} {unit}", f"{error} {unit}")
         for name, (error, unit) in ERRORS.items()
     }
 
@@ -381,12 +379,16 @@ def test_the_same_answer_as_the_finer_model_alone_on_twelve_problems():
 UNKNOWNS = PRIORS | {"restitution": Normal(0.1, 0.05), "friction": Normal(0.5, 0.15)}
 
 
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seed", [4, *(pytest.param(k, marks=pytest.mark.slow) for k in (6, 7))])
 def test_a_fit_is_that_of_the_finer_model(seed):
     """Value by value the same as from 64 starts of the finer model, for a tenth of its calls."""
     observed = evidence(np.random.default_rng(seed))
-    near = fit(crash(False), UNKNOWNS, observed, finer=crash(True))
-    alone = fit(crash(True), UNKNOWNS, observed)
+    with warnings.catch_warnings(record=True) as given:
+        warnings.simplefilter("always")
+        near = fit(crash(False), UNKNOWNS, observed, finer=crash(True))
+        alone = fit(crash(True), UNKNOWNS, observed)
+    codes = [one.message.code for one in given]
+    assert codes[: len(codes) // 2] == codes[len(codes) // 2 :]
     for name in UNKNOWNS:
         error = alone[name].standard_error
         assert near[name].value == pytest.approx(alone[name].value, abs=1e-3 * error)
@@ -400,16 +402,17 @@ def test_a_fit_is_that_of_the_finer_model(seed):
 def test_a_fit_by_a_line_has_a_closed_form():
     """y = 2 x + 1 read as 7 +/- 0.5 gives 3 +/- 0.25, whatever the first model says."""
     found = fit(
-        lambda x: {"y": 1.5 * x}, {"x": Uniform(0, 10)}, {"y": (7.0, 0.5)}, finer=lambda x: {
-            "y": 2.0 * x + 1.0
-        }
+        lambda x: {"y": 1.5 * x},
+        {"x": Uniform(0, 10)},
+        {"y": (7.0, 0.5)},
+        finer=lambda x: {"y": 2.0 * x + 1.0},
     )
     assert found["x"].value == pytest.approx(3.0, rel=1e-9)
     assert found["x"].standard_error == pytest.approx(0.25, rel=1e-6)
 
 
 def test_two_answers_of_the_finer_model_are_refused_with_the_call_to_write():
-    """x^2 = 4 of the first model has one answer above -1; (x - 1)^2 = 4 of the finer one has two."""
+    """Of (x - 1)^2 = 4: both are found from both answers of x^2 = 4."""
     with pytest.raises(col.AmbiguousSolutionError) as refused:
         fit(
             lambda x: {"y": x * x},

@@ -110,9 +110,9 @@ def posterior(
         case; or a finer model with other outputs (code "different_outputs").
     NoSolutionError
         The model refuses everywhere (code "refused"); or no sample meets the sharp bounds that were
-        observed, or the errors are too small for any to fit (code "contradictory"). Or the finer model has no answer at the
-        posterior of ``model``, or is so far from it that the way there was not found (code
-        "too_far").
+        observed, or the errors are too small for any to fit (code "contradictory"); or the finer
+        model has no answer at the posterior of ``model``, or is so far from it that the way there
+        was not found (code "too_far").
 
     Warns
     -----

@@ -369,8 +369,8 @@ def notes_of(found: Posterior) -> Iterator[Note]:
     if found.beyond > _MOST_BEYOND:
         yield Note(
             IllConditionedWarning,
-            f"{found.beyond:.0%} of the samples lie where only the finer model has an answer, which "
-            "the other model did not lead to: the evidence is perhaps too low, and errors too small",
+            f"{found.beyond:.0%} of the samples lie where only the finer model has an answer, to "
+            "which the other one did not lead: the evidence may be too low, and errors too small",
             "; run the finer model alone: posterior(finer, unknowns, observed)",
             "beyond_model",
         )

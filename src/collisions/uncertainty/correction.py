@@ -57,9 +57,7 @@ class CorrectedModel(Model):
         """The outputs of the cases."""
         answers = super().__call__(values, count, check)
         changes = self.correction.changes(_columns(values, answers, self.names))
-        return {
-            name: _moved(answers[name], changes[name][0], self.units[name]) for name in answers
-        }
+        return {name: _moved(answers[name], changes[name][0], self.units[name]) for name in answers}
 
 
 class CorrectedOutput(Sampled):
@@ -131,8 +129,8 @@ def corrected(
     share = float(np.mean(unlike))
     if share > _MOST_UNLIKE and count < total:
         raise NoSolutionError(
-            f"of {count} cases asked of both, model and finer differ in {np.sum(unlike)} on whether "
-            f"there is an answer, so that the others cannot be corrected; {_ALONE}",
+            f"of {count} cases asked of both, model and finer differ in {np.sum(unlike)} on "
+            f"whether there is an answer, so that the others cannot be corrected; {_ALONE}",
             code="too_different",
             cases=int(np.sum(unlike)),
         )
@@ -176,9 +174,7 @@ def _regressed(
     apart = {}
     for name, column in first.items():
         difference = exact[name] - column
-        turning = model.units[name] == "rad" and turns.are_directions(
-            column[~np.isnan(column)]
-        )
+        turning = model.units[name] == "rad" and turns.are_directions(column[~np.isnan(column)])
         apart[name] = turns.folded(difference, math.pi if turning else None)
     answered = np.all(np.isfinite(columns), axis=1) & np.all(
         [np.isfinite(one) for one in apart.values()], axis=0
@@ -291,7 +287,9 @@ def _notes(
 ) -> Iterator[Note]:
     """What the correction rests on, and what both models warned of."""
     if count == total:
-        yield Note(None, f"all {total} cases were asked of the finer model, whose answers these are")
+        yield Note(
+            None, f"all {total} cases were asked of the finer model, whose answers these are"
+        )
     else:
         listed = ", ".join(
             f"{name} {show(size, model.units[name] or '')} "
