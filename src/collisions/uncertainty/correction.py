@@ -14,7 +14,7 @@ from . import turns
 from .distribution import show
 from .finer import FinerModel
 from .model import Model
-from .result import NO_SPREAD, Sampled, Shares
+from .result import NO_SPREAD, Sampled, Shares, deviation
 
 _FOLDS = 8
 _PER_TERM = 4  # cases for each term of a regression
@@ -189,12 +189,12 @@ def _regressed(
     known = columns[answered]
     middles, sizes = np.mean(known, axis=0), np.std(known, axis=0)
     sizes = np.where(sizes > NO_SPREAD * np.maximum(abs(middles), NO_SPREAD), sizes, math.inf)
-    scaled = (known - middles) / sizes
+    scaled = np.nan_to_num((known - middles) / sizes)
     targets = np.stack([one[answered] for one in apart.values()], axis=1)
     fold = np.arange(len(scaled)) % _FOLDS
     best: tuple[float, int, Any, Any] | None = None
     # In units of the differences themselves, for one choice of powers for all outputs.
-    unit = np.std(targets, axis=0)
+    unit = np.max(abs(targets), axis=0)
     unit = np.where(unit > 0.0, unit, 1.0)
     for powers in range(4):
         terms = _terms(scaled, powers)
@@ -210,6 +210,7 @@ def _regressed(
     assert best is not None
     _, powers, by_all, left = best
     left = left - np.mean(left, axis=0)
+    sizes_left = unit * np.sqrt(np.mean((left / unit) ** 2, axis=0))
     # As many as the cases, so that each can be drawn.
     places = np.flatnonzero(answered)[np.arange(len(columns)) % len(known)]
     rows = np.searchsorted(np.flatnonzero(answered), places)
@@ -218,7 +219,7 @@ def _regressed(
         middles,
         sizes,
         {name: by_all[:, :, k].T for k, name in enumerate(apart)},
-        {name: float(np.sqrt(np.mean(left[:, k] ** 2))) for k, name in enumerate(apart)},
+        dict(zip(apart, sizes_left.tolist(), strict=True)),
         {name: left[rows, k] for k, name in enumerate(apart)},
     )
 
@@ -264,7 +265,7 @@ def _check_scatter(model: Model, correction: Correction, exact: Mapping[str, Any
         column = exact[name][~np.isnan(exact[name])]
         if model.units[name] == "rad" and turns.are_directions(column):
             column = turns.counted(column)
-        spread, size = float(np.std(column)), float(np.max(abs(column), initial=0.0))
+        spread, size = deviation(column), float(np.max(abs(column), initial=0.0))
         if scatter > _MOST_SCATTER * spread and scatter > NO_SPREAD * size:
             raise NoSolutionError(
                 f"{name} of the finer model cannot be foreseen from the inputs and the model: what "
@@ -317,4 +318,4 @@ def _notes(
 def _spread(values: Any) -> float:
     """Standard deviation of what has an answer, for a share of it."""
     known = values[~np.isnan(values)]
-    return max(float(np.std(known)) if known.size else 0.0, 1e-300)
+    return max(deviation(known) if known.size > 1 else 0.0, 1e-300)

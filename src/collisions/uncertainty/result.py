@@ -697,7 +697,7 @@ class Propagation(Summarized):
             "seed": self.seed,
             "interrupted": self.interrupted,
             "calls": dict(self.calls),
-            "scatter": dict(self.scatter),
+            "scatter": strict(self.scatter),
             "statements": list(self.statements),
             "outputs": {name: output.record() for name, output in self.outputs.items()},
         }
