@@ -1025,6 +1025,17 @@ def angled(x: Any, y: Any) -> dict[str, Any]:
     return {"s": registries()[0].Quantity(np.arctan2(y, x), "rad"), "d": np.hypot(x, y)}
 
 
+def nearly(case: Case, model: Any) -> Any:
+    """A finer model beside one: near it, another one, or none."""
+    more = case.uniform(0.95, 1.1)
+
+    def found(x: Any, y: Any) -> dict[str, Any]:
+        computed: dict[str, Any] = model(more * x, y)
+        return computed
+
+    return case.option(found, found, found, straight, bent, unlawful(case))
+
+
 def unlawful(case: Case) -> Any:
     """A model that is none."""
     value = case.garbage()
@@ -1093,7 +1104,8 @@ def test_fit(case: Case) -> None:
             unknowns = case.option({"x": case.garbage(), "y": 1.0}, case.garbage())
         if case.maybe(0.2):
             observed = case.option({"s": case.garbage()}, case.garbage())
-    found = solved(case, "fit", model=model, unknowns=unknowns, observed=observed)
+    finer = nearly(case, model) if case.maybe(0.2) else None
+    found = solved(case, "fit", model=model, unknowns=unknowns, observed=observed, finer=finer)
     if not isinstance(found, reconstruct.Fit):
         found = known_fit()
     assert json.dumps(case.must("reconstruct.Fit.to_dict", found.to_dict), allow_nan=False)
@@ -1163,6 +1175,8 @@ def posterior_of(case: Case, observed: Any = None) -> Any:
     }
     if case.maybe(0.1):
         options |= run_options(case)
+    if case.maybe(0.15):
+        options["finer"] = nearly(case, model)
     # Islands are followed four at a time: the other four cost as much again, and go the same way.
     with mock.patch.object(posterior, "ISLANDS", 8 if case.maybe(0.1) else 4):
         return case.call(
@@ -1560,6 +1574,11 @@ def rear_end(speed: Any, restitution: Any, mass: Any) -> dict[str, Any]:
     return {"delta_v": impact.b.q.delta_v, "energy_loss": impact.energy_loss, "hit": impact.ok}
 
 
+def slower(speed: Any, restitution: Any, mass: Any) -> dict[str, Any]:
+    """The same impact at a lower speed."""
+    return rear_end(0.97 * speed, restitution, mass)
+
+
 def scaled(speed: Any, restitution: Any, mass: Any) -> dict[str, Any]:
     """Numbers of any size, with and without a unit; whatever it is called with."""
     count = next(
@@ -1618,6 +1637,10 @@ def propagation(case: Case) -> Any:
         options |= run_options(case)
     if case.maybe(0.2):
         options["correlation"] = {("speed", "mass"): case.uniform(-1.0, 1.0)}
+    if case.maybe(0.3):
+        options["finer"] = case.option(rear_end, slower, slower, scaled)
+        if case.maybe(0.5):
+            options["finer_samples"] = case.option(64, 100, 512)
     model: Any = rear_end if case.maybe(0.7) else scaled
     if case.mood == "extreme":
         inputs[case.choice(sorted(inputs))] = case.extreme()

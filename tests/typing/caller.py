@@ -214,14 +214,24 @@ def backwards() -> float:
         dict[str, Any], {"speed": Interval(5, "90 km/h")}, {"after": Normal(8, 0.5)}
     )
     assert_type(fitted, reconstruct.Fit)
+    refitted = reconstruct.fit(
+        dict[str, Any], {"speed": 20.0}, {"after": (8, 0.5)}, finer=dict[str, Any]
+    )
+    calls: dict[str, int] = refitted.calls
     seen: dict[str, Any] = {
         "after": Censored(low="8 m/s", error="0.5 m/s"),
         "before": (9.0, 0.5),
         "rest": Interval(1, 2),
     }
     sampled = reconstruct.posterior(
-        dict[str, Any], {"speed": Uniform(5, "90 km/h")}, seen, samples=1024, seed=1
+        dict[str, Any],
+        {"speed": Uniform(5, "90 km/h")},
+        seen,
+        finer=dict[str, Any],
+        samples=1024,
+        seed=1,
     )
+    calls |= sampled.calls
     assert_type(sampled, reconstruct.Posterior)
     chance, _ = sampled.probability(lambda at: at["speed"] > 13.9)
     compared: reconstruct.Comparison = reconstruct.compare(
@@ -233,6 +243,7 @@ def backwards() -> float:
     e += both[0] + reconstruct.crush_share("60 kN/m", 7e4)
     print(
         ranges_of,
+        calls,
         list(sampled.inputs()),
         recorded.summary(),
         fitted.summary(),
@@ -296,8 +307,16 @@ def ranges() -> tuple[float, float]:
         return {"speed": travel.speed(given["slide"], drag=given["drag"])}
 
     found: uncertainty.Propagation = uncertainty.propagate(
-        model, inputs, method="quasi_random", samples=256, seed=1
+        model,
+        inputs,
+        finer=model,
+        finer_samples=64,
+        method="quasi_random",
+        samples=256,
+        seed=1,
     )
+    asked: int = found.calls["finer"]
+    left: float = found.scatter["speed"]
     low, high = found["speed"].interval(0.95)
     mean: float = found["speed"].mean
     joint: dict[str, Samples] = Samples.joint(speed=[10.0, 12.0], mass=[1500.0, 1490.0])
@@ -310,7 +329,7 @@ def ranges() -> tuple[float, float]:
         output.quantile(0.5),
         output.quantile_standard_error(0.5),
     )
-    return low + mean + score, high
+    return low + mean + score + asked + left, high
 
 
 def published() -> float:

@@ -14,11 +14,12 @@ import numpy as np
 
 from ..messages.errors import AmbiguousSolutionError, InputError, NoSolutionError
 from ..messages.hints import hinted
-from ..messages.warning import notes_of_samples, warn_of
+from ..messages.warning import Note, notes_of_samples, warn_of
 from ..quantities.attributes import lock
 from ..quantities.units import is_quantity
 from ..uncertainty.distribution import read_alike
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform
+from ..uncertainty.finer import FinerModel
 from ..uncertainty.model import Model, range_hint
 from ..uncertainty.turns import folded
 from .evidence import (
@@ -54,6 +55,11 @@ _TWO_ERRORS = 2.0
 _OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope vanishes nearby
 _LEAST_MOVE = 0.1  # standard errors: smaller moves and smaller rises are not compared
 _FLAT_SHARE = 1e-6  # of the greatest slope: directions of less are left alone
+_TO_REFINE, _MOST_REFINED = 25.0, 6  # of chi-squared, and places, for a finer model to start from
+_POSTERIOR = (
+    "posterior(model, unknowns, observed, seed=1), with Uniform(low, high) of each unknown that "
+    "has no prior"
+)
 _STEP_ROUNDS = 4
 _FOR_NOISE = 5  # points at which the noise of the model is measured, once for all
 _MOST_STEPS = 100.0  # standard errors over which slopes may be taken at most
@@ -64,6 +70,8 @@ def fit(
     model: Callable[..., Mapping[str, Any]],
     unknowns: Mapping[str, Any],
     observed: Mapping[str, Any],
+    *,
+    finer: Callable[..., Mapping[str, Any]] | None = None,
 ) -> Fit:
     """Estimate the unknowns of a scene from measurements, each given with its error.
 
@@ -95,6 +103,11 @@ def fit(
         both with a unit; the error is a standard deviation. What is observed, or returned by the
         model, with a unit of angle is taken round the circle: its residual is within half a turn. A
         bare number in radians cannot be told from any other number and is not.
+    finer : function, optional
+        A model that takes the same unknowns and returns the same outputs, and costs more. The
+        searches all over the bounds are those of ``model``; from where they end the misfit of the
+        finer model is minimised, whose fit this then is. An answer of it that is far from every one
+        of ``model`` is not found.
 
     Returns
     -------
@@ -152,12 +165,24 @@ def fit(
     ... )
     >>> round(3.6 * found["speed_golf"].value, 1), round(3.6 * found["speed_pinto"].value, 1)
     (63.2, 55.6)
+
+    Tyres that take 300 N s of each during the contact, as a finer model of the same scene:
+
+    >>> def with_tyres(**speeds):
+    ...     return {name: left - 300.0 for name, left in momentum(**speeds).items()}
+    >>> measured = {"east": (east, 1300.0), "south": (south, 1300.0)}
+    >>> finer = col.reconstruct.fit(momentum, speeds, measured, finer=with_tyres)
+    >>> round(3.6 * finer["speed_golf"].value, 1), round(3.6 * finer["speed_pinto"].value, 1)
+    (64.1, 56.2)
+    >>> finer.calls["finer"] < 0.2 * finer.calls["model"]
+    True
     """
     # A point at which numbers overflow counts as refused.
     with np.errstate(all="ignore"):
         inputs, problem = _read_inputs(model, unknowns, observed)
         starts = _starts(inputs, problem)
         problem = problem._replace(noise=problem.noise_near(starts[:_FOR_NOISE]))
+        dearer = None if finer is None else _with_finer(inputs, problem, finer)
         ends = minimise(problem, starts)
         if np.all(np.isinf(ends.chi_squared)):
             advice = (
@@ -165,6 +190,19 @@ def fit(
                 "rare ones too"
             )
             raise refused_everywhere(inputs.model, _STARTS, inputs.named(inputs.start), advice)
+        searched = inputs.model
+        if dearer is not None:
+            starts = _ends_to_refine(inputs, problem, ends)
+            inputs, problem = dearer
+            problem = problem._replace(noise=problem.noise_near(starts[:_FOR_NOISE]))
+            ends = minimise(problem, starts)
+            if np.all(np.isinf(ends.chi_squared)):
+                raise NoSolutionError(
+                    "the finer model has no answer where the searches of model ended, among them "
+                    f"{listed(inputs.named(starts[0]))}; fit the finer model alone: "
+                    "fit(finer, unknowns, observed)",
+                    code="refused",
+                )
         # The least misfit, or one that is as good where a search converged.
         best = _examined(
             inputs,
@@ -172,7 +210,7 @@ def fit(
             ends,
             int(np.argmin(ends.chi_squared + _SAME_CHI_SQUARED * ~ends.converged)),
         )
-        _check_minimum(best, ends)
+        _check_minimum(best, ends, few=dearer is None)
         fits = [_answer(one) for one in _rivals(best, ends)]
         if len(fits) > 1:
             raise _ambiguous(fits)
@@ -184,8 +222,53 @@ def fit(
                 {name: np.array([value]) for name, value in found.values.items()}, 1, check=False
             )
             found = replace(found, model_notes=notes_of_samples(inputs.model.noted, 1))
+            if dearer is not None:
+                found = replace(found, model_notes=found.model_notes + _notes_of(searched, found))
+        calls = {"model": searched.cases}
+        if dearer is not None:
+            calls["finer"] = inputs.model.cases
+        found = replace(found, calls=calls)
     warn_of(notes_of(found))
     return found
+
+
+def _with_finer(inputs: _Inputs, problem: Problem, finer: Any) -> tuple[_Inputs, Problem]:
+    """The same inputs and problem with a finer model, whose outputs must be the same."""
+    dearer = FinerModel(finer, {})
+    dearer.check_inputs(list(inputs.units), "unknowns", "bad_model")
+    found = inputs._replace(model=dearer)
+    found.computed(np.tile(inputs.start, (2, 1)))
+    dearer.check_outputs(inputs.model)
+    sigma = np.array([row.reading.sigma for row in inputs.rows])
+    return found, problem._replace(evaluate=lambda points: found.computed(points) / sigma)
+
+
+def _ends_to_refine(inputs: _Inputs, problem: Problem, ends: Ends) -> Any:
+    """Where searches ended, apart from one another: the best, others nearly as good that another
+    model may prefer, and what differs only in what nothing determines.
+    """
+    order = np.argsort(ends.chi_squared + _SAME_CHI_SQUARED * ~ends.converged, kind="stable")
+    least = float(ends.chi_squared[order[0]])
+    near = [k for k in order.tolist() if ends.chi_squared[k] <= least + _TO_REFINE]
+    chosen: list[int] = []
+    for k in near:
+        apart = (
+            np.any(abs(ends.points[k] - ends.points[other]) > _AGREEMENT * problem.scale)
+            for other in chosen
+        )
+        if len(chosen) < _MOST_REFINED and all(apart):
+            chosen.append(k)
+    return ends.points[chosen]
+
+
+def _notes_of(model: Model, found: Fit) -> tuple[Note, ...]:
+    """What the first model warns of at the answer of the finer one; no figure rests on it."""
+    model.noted.clear()
+    model({name: np.array([value]) for name, value in found.values.items()}, 1, check=False)
+    return tuple(
+        note._replace(warning=None, sentence=f"model, not finer: {note.sentence}")
+        for note in notes_of_samples(model.noted, 1)
+    )
 
 
 class _Inputs(NamedTuple):
@@ -450,8 +533,10 @@ def _ended_at(ends: Ends, chi_squared: float) -> Any:
     return ends.converged & (abs(ends.chi_squared - chi_squared) <= _SAME_CHI_SQUARED)
 
 
-def _check_minimum(best: _Candidate, ends: Ends) -> None:
-    """Raise if one value and its error do not describe the least misfit that was found."""
+def _check_minimum(best: _Candidate, ends: Ends, few: bool = True) -> None:
+    """Raise if one value and its error do not describe the least misfit that was found, with
+    ``few`` also if few of many searches ended there.
+    """
     if (
         not best.converged
         or best.problem.has_kink(best.point)
@@ -461,7 +546,7 @@ def _check_minimum(best: _Candidate, ends: Ends) -> None:
         why = (
             "where the model jumps, bends, turns round or refuses, so that its slopes give no error"
         )
-    elif (
+    elif few and (
         np.count_nonzero(_ended_at(ends, best.chi_squared))
         <= _FEW
         < np.count_nonzero(np.isfinite(ends.chi_squared))
@@ -475,8 +560,8 @@ def _check_minimum(best: _Candidate, ends: Ends) -> None:
     at = best.inputs.named(best.point)
     raise NoSolutionError(
         f"the least misfit found is chi-squared {best.chi_squared:.6g} at {listed(at)}, {why}. "
-        "reconstruct.posterior answers there too, with a range; or narrow the bounds to one "
-        "side of it, or give a prior (a Normal)",
+        f"reconstruct.posterior answers there too, with a range: write {_POSTERIOR}; or narrow "
+        "the bounds to one side of it, or give a prior (a Normal)",
         code="no_convergence",
         chi_squared=float(best.chi_squared),
         at=at,
@@ -501,8 +586,9 @@ def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
         f"chi-squared {one.chi_squared:.4g} at {listed(one.values)}" for one in fits
     )
     return AmbiguousSolutionError(
-        f"{len(fits)} answers fit the evidence about as well: {answers}. All are in .solutions; "
-        "reconstruct.posterior says how probable each is; or narrow the bounds of an unknown to "
+        f"{len(fits)} answers fit the evidence about as well: {answers}. All are in .solutions. "
+        f"How probable each is, with one range over all of them, says reconstruct.posterior: write "
+        f"{_POSTERIOR}; or narrow the bounds of an unknown to "
         "one, or add an observation that tells them apart",
         code="ambiguous",
         solutions=tuple(fits),

@@ -217,7 +217,8 @@ class Fit(Shown):
     amount by which a 95 percent interval is too narrow or too wide, judged by the rise of
     chi-squared when an unknown is moved by two standard errors (or to its bound) and the others
     follow the slopes; NaN if the model refuses there. ``model_notes`` are the warnings of the model
-    at the answer, which ``statements`` have too.
+    at the answer, which ``statements`` have too. ``calls`` says how many cases were asked of each
+    model: "model", and "finer" if one was given, whose fit this then is.
     """
 
     values: Values
@@ -233,6 +234,7 @@ class Fit(Shown):
     undetermined: tuple[Direction, ...]
     at_bounds: dict[str, str]
     nonlinearity: float = field(metadata={"unit": ""})
+    calls: dict[str, int] = field(default_factory=dict)
     model_notes: tuple[Note, ...] = ()
 
     _title = "Fit to evidence"
@@ -331,6 +333,7 @@ class Fit(Shown):
             "degrees_of_freedom",
             "p_value",
             "nonlinearity",
+            "calls",
         )
         written: dict[str, Any] = strict(record | {name: getattr(self, name) for name in plain})
         return written
@@ -465,6 +468,12 @@ def notes_of(found: Fit) -> Iterator[Note]:
                 "",
                 "bare_angle",
             )
+    if "finer" in found.calls:
+        yield Note(
+            None,
+            f"the answer is that of the finer model, which was asked {found.calls['finer']} times, "
+            f"and the other model {found.calls['model']} times",
+        )
     yield from found.model_notes
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -48,13 +48,17 @@ class UnreachableError(Exception):
 
 class Island(NamedTuple):
     """Equally likely points, the logarithm of their evidence, the share of the prior that was
-    refused, and of moved points.
+    refused, and of moved points; the cases that the model, and a finer one, were called with; and
+    the share of points that only the finer one answers.
     """
 
     points: Any
     log_evidence: float
     refused: float
     moved: float
+    calls: int
+    finer_calls: int
+    beyond: float
 
 
 class Islands:
@@ -70,6 +74,10 @@ class Islands:
     Probabilistic Engineering Mechanics 16 (2001).
     """
 
+    # What goes with each point when points are resampled.
+    carried: ClassVar[tuple[str, ...]] = ("points", "likelihood", "missed")
+    # Where the powers end.
+    end: ClassVar[float] = 1.0
     points: Any
     likelihood: Any
     missed: Any
@@ -82,18 +90,12 @@ class Islands:
         self.log_evidence, self.refused, self.moved = (
             np.full(shape[0], start) for start in (0.0, 0.0, 1.0)
         )
+        self.beyond = np.zeros(shape[0])
+        self.calls, self.finer_calls = (np.zeros(shape[0], dtype=np.intp) for _ in range(2))
 
     def found(self, report: Callable[[float], None]) -> list[Island]:
         """The islands, taken from the prior to the posterior."""
-        self._draw()
-        self._meet_bounds()
-        for _ in range(_MOST_STAGES):
-            if self.power == 1.0:
-                break
-            self._raise_power()
-            report(self.power)
-        if self.power < 1.0 or np.max(self.likelihood) < -_MOST_MISFIT:
-            raise UnreachableError(0, 0.0)
+        self._reach_posterior(report)
         return list(
             map(
                 Island,
@@ -101,12 +103,28 @@ class Islands:
                 self.log_evidence.tolist(),
                 self.refused.tolist(),
                 self.moved.tolist(),
+                self.calls.tolist(),
+                self.finer_calls.tolist(),
+                self.beyond.tolist(),
             )
         )
+
+    def _reach_posterior(self, report: Callable[[float], None]) -> None:
+        """From the prior to the posterior."""
+        self._draw()
+        self._meet_bounds()
+        for _ in range(_MOST_STAGES):
+            if self.power == self.end:
+                break
+            self._raise_power()
+            report(self.power)
+        if self.power < self.end or np.max(self.likelihood) < -_MOST_MISFIT:
+            raise UnreachableError(0, 0.0)
 
     def _evaluated(self, points: Any) -> tuple[Any, Any, Any]:
         """Points with their log-likelihoods and by how much they miss."""
         likelihood, missed = self.evaluate(points.reshape(-1, points.shape[2]))
+        self.calls += points.shape[1]
         return points, likelihood.reshape(points.shape[:2]), missed.reshape(points.shape[:2])
 
     def _draw(self) -> None:
@@ -123,8 +141,12 @@ class Islands:
             np.concatenate(part, axis=1) for part in zip(*drawn, strict=True)
         )
         self.refused = np.mean(~known, axis=1)
+        self._drawn(known)
         if not np.all(known):
             self._select(known.astype(np.float64))
+
+    def _drawn(self, known: Any) -> None:
+        """What is to be kept of all points drawn, those without an answer among them."""
 
     def _meet_bounds(self) -> None:
         """Narrow the limit until the sharp bounds are met."""
@@ -141,26 +163,22 @@ class Islands:
 
     def _raise_power(self) -> None:
         """The next power, at which half of the effective sample size is left, or 1."""
-        best = np.max(self.likelihood, axis=1, keepdims=True)
-        behind = self.likelihood - best
-
-        def effective(more: float) -> float:
-            weights = np.exp(more * behind)
-            return float(np.mean(np.mean(weights, axis=1) ** 2 / np.mean(weights**2, axis=1)))
-
-        more = high = 1.0 - self.power
-        if effective(high) < 0.5:
-            low = min(high, 0.1 / max(-float(np.min(behind)), 1e-300))
-            for _ in range(_BISECTIONS):
-                more = math.sqrt(low) * math.sqrt(high)
-                low, high = (more, high) if effective(more) >= 0.5 else (low, more)
-        self.power = 1.0 if more == 1.0 - self.power else self.power + more
+        rest = self.end - self.power
+        more, best, behind = step_of(self.likelihood, rest)
+        self.power = self.end if more == rest else self.power + more
         self.log_evidence += more * best[:, 0]
         self._select(np.exp(more * behind))
 
     def _select(self, weights: Any) -> None:
         """Systematic resampling by weight, whose mean goes into the evidence; then moves that keep
         the distribution.
+        """
+        spread = self._resample(weights)
+        self._move(np.roll(self.points, 1, axis=0), _NOISE * np.roll(spread, 1, axis=0))
+
+    def _resample(self, weights: Any) -> Any:
+        """Systematic resampling by weight, whose mean goes into the evidence; the weighted
+        deviations of the points.
         """
         self.log_evidence += np.log(np.mean(weights, axis=1))
         sums = np.cumsum(weights, axis=1)
@@ -173,27 +191,19 @@ class Islands:
             [np.searchsorted(row, place) for row, place in zip(sums, places, strict=True)]
         )
         chosen = np.minimum(chosen, weights.shape[1] - 1)
-        self.points = np.take_along_axis(self.points, chosen[..., np.newaxis], axis=1)
-        self.likelihood, self.missed = (
-            np.take_along_axis(part, chosen, axis=1) for part in (self.likelihood, self.missed)
-        )
-        self._move(np.roll(self.points, 1, axis=0), _NOISE * np.roll(spread, 1, axis=0))
+        for name in self.carried:
+            part = getattr(self, name)
+            index = chosen[..., np.newaxis] if part.ndim == 3 else chosen
+            setattr(self, name, np.take_along_axis(part, index, axis=1))
+        return spread
 
     def _move(self, others: Any, noise: Any) -> None:
         """Metropolis steps along differences between the points of the other islands, with some
         noise in all directions.
         """
-        count, accepted = self.shape[1], np.zeros(self.shape[:2], dtype=np.intp)
-        which = np.arange(self.shape[0])[:, np.newaxis]
+        accepted = np.zeros(self.shape[:2], dtype=np.intp)
         for _ in range(_MOST_SWEEPS):
-            one = self.random.integers(count, size=accepted.shape)
-            other = (one + self.random.integers(1, count, size=accepted.shape)) % count
-            step = (
-                others[which, one]
-                - others[which, other]
-                + noise * self.random.standard_normal(self.shape)
-            )
-            points, likelihood, missed = self._evaluated(self.points + self.scale * step)
+            points, likelihood, missed = self._evaluated(self._proposed(others, noise))
             prior = 0.5 * np.sum((self.points - points) * (self.points + points), axis=2)
             gain = prior + self.power * (likelihood - self.likelihood)
             better = (missed <= self.limit) & (
@@ -203,6 +213,39 @@ class Islands:
             self.missed[better] = missed[better]
             accepted += better
             self.scale *= math.exp(np.mean(better) - _ACCEPTED)
-            if np.mean(accepted) >= (_MOVES if self.power < 1.0 else _MOVES_LAST):
+            if np.mean(accepted) >= (_MOVES if self.power < self.end else _MOVES_LAST):
                 break
         self.moved = np.mean(accepted > 0, axis=1)
+
+    def _proposed(self, others: Any, noise: Any) -> Any:
+        """A point to go to from each point."""
+        count, which = self.shape[1], np.arange(self.shape[0])[:, np.newaxis]
+        one = self.random.integers(count, size=self.shape[:2])
+        other = (one + self.random.integers(1, count, size=self.shape[:2])) % count
+        step = (
+            others[which, one]
+            - others[which, other]
+            + noise * self.random.standard_normal(self.shape)
+        )
+        return self.points + self.scale * step
+
+
+def step_of(ratios: Any, most: float) -> tuple[float, Any, Any]:
+    """The power of these likelihood ratios, by their logarithms (islands, points), that leaves half
+    of the effective sample size, or ``most``; the greatest logarithm of each island, and by how
+    much the others are below it.
+    """
+    best = np.max(ratios, axis=1, keepdims=True)
+    behind = ratios - best
+
+    def effective(more: float) -> float:
+        weights = np.exp(more * behind)
+        return float(np.mean(np.mean(weights, axis=1) ** 2 / np.mean(weights**2, axis=1)))
+
+    more = high = most
+    if effective(high) < 0.5:
+        low = min(high, 0.1 / max(-float(np.min(behind)), 1e-300))
+        for _ in range(_BISECTIONS):
+            more = math.sqrt(low) * math.sqrt(high)
+            low, high = (more, high) if effective(more) >= 0.5 else (low, more)
+    return more, best, behind

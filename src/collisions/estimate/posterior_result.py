@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,7 @@ _ROUGH = 0.1  # of a standard deviation: the error of a mean
 _ROUGH_EVIDENCE = 0.5  # of its logarithm
 _FEW_MOVED = 0.5  # of the points
 _MOSTLY_REFUSED = 0.05  # of the prior
+_MOST_BEYOND = 0.01  # of the samples
 
 
 class PosteriorOutput(Sampled):
@@ -113,6 +114,11 @@ class Posterior(Summarized):
         The seed that reproduces the result to the bit, for any number of threads.
     interrupted : bool
         Whether it was stopped early; the figures are those of the finished islands.
+    calls : dict
+        How many cases were asked of each model: "model", and "finer" if one was given, of which
+        the figures then are.
+    beyond : float
+        With a finer model, the share of the samples that lie where the other model has no answer.
     model_notes : tuple
         The warnings of the model at the samples, each with the number and share of those it is of;
         ``statements`` has them.
@@ -132,6 +138,8 @@ class Posterior(Summarized):
     samples: int
     seed: int
     interrupted: bool
+    calls: dict[str, int] = field(default_factory=dict)
+    beyond: float = 0.0
     model_notes: tuple[Note, ...] = ()
 
     def __getitem__(self, name: str) -> PosteriorOutput:
@@ -276,6 +284,8 @@ class Posterior(Summarized):
             "samples",
             "seed",
             "interrupted",
+            "calls",
+            "beyond",
         )
         written: dict[str, Any] = strict(record | {name: getattr(self, name) for name in plain})
         return written
@@ -341,10 +351,28 @@ def notes_of(found: Posterior) -> Iterator[Note]:
             "collapsed",
         )
     if found.refused > _MOSTLY_REFUSED:
+        there = "where the evidence is impossible"
+        if "finer" in found.calls:
+            there = "where a few points were tried with the finer model"
         yield Note(
             None,
-            f"the model has no answer for {found.refused:.0%} of the prior, where the evidence "
-            "is impossible",
+            f"the model has no answer for {found.refused:.0%} of the prior, {there}",
+        )
+    if "finer" in found.calls:
+        a_sample = found.calls["finer"] / max(found.samples, 1)
+        yield Note(
+            None,
+            f"the figures are those of the finer model, called {a_sample:.3g} times a sample; the "
+            f"other model was called {found.calls['model'] / max(found.samples, 1):.3g} times a "
+            "sample",
+        )
+    if found.beyond > _MOST_BEYOND:
+        yield Note(
+            IllConditionedWarning,
+            f"{found.beyond:.0%} of the samples lie where only the finer model has an answer, to "
+            "which the other one did not lead: the evidence may be too low, and errors too small",
+            "; run the finer model alone: posterior(finer, unknowns, observed)",
+            "beyond_model",
         )
     if found.interrupted:
         sentence = f"interrupted; the figures are those of {found.samples} samples"

@@ -9,7 +9,6 @@ import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from .errors import CollisionsWarning
@@ -37,7 +36,7 @@ class Note(NamedTuple):
     sentence: str
     rest: str = ""
     code: str = ""
-    fields: Mapping[str, Any] = MappingProxyType({})
+    fields: Mapping[str, Any] = {}  # never changed; a read-only view could not be pickled
 
 
 # A warning of fewer samples than this share is stated with the result, but not raised.

@@ -49,6 +49,7 @@ class Model:
         self.fixed = dict(fixed)
         self.units: dict[str, str | None] = {}
         self.noted: list[Noted] = []
+        self.cases = 0  # asked so far, but for those asked again as a check
         self._checked = False
 
     def at(self, place: Mapping[str, float]) -> Model:
@@ -65,6 +66,7 @@ class Model:
         Warnings about cases are kept in ``noted``.
         """
         found = self._answers(values, count, self.noted)
+        self.cases += count
         if check and not self._checked:
             self._checked = check_elementwise(
                 lambda cases, count: self._answers(cases, count, []), values, found

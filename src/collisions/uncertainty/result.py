@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from itertools import combinations
 from typing import Any, NamedTuple
@@ -627,6 +627,11 @@ class Propagation(Summarized):
     notes : tuple
         What ``statements`` say, each with the warning it is, if any, its ``code``, and the number
         and share of the cases.
+    calls : dict
+        With a finer model, how many cases were asked of "model" and of "finer"; empty without.
+    scatter : dict
+        With a finer model, by output, the standard deviation of what its correction does not
+        foresee, in cross-validation.
     """
 
     method: str
@@ -637,6 +642,8 @@ class Propagation(Summarized):
     seed: int | None = None
     interrupted: bool = False
     notes: tuple[Note, ...] = ()
+    calls: dict[str, int] = field(default_factory=dict)
+    scatter: dict[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for output in self.outputs.values():
@@ -689,6 +696,8 @@ class Propagation(Summarized):
             "failed": self.failed,
             "seed": self.seed,
             "interrupted": self.interrupted,
+            "calls": dict(self.calls),
+            "scatter": strict(self.scatter),
             "statements": list(self.statements),
             "outputs": {name: output.record() for name, output in self.outputs.items()},
         }

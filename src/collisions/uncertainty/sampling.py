@@ -283,16 +283,19 @@ class Sample:
         self.outputs = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
         self.done = len(next(iter(self.outputs.values())))
 
-    def _answers(self, block: tuple[int, int]) -> dict[str, Any]:
-        start, stop = block
+    def inputs(self, start: int, stop: int) -> dict[str, Any]:
+        """The inputs of these cases."""
         # Case i is place i // REPLICATES of sequence i % REPLICATES, so that any beginning holds as
         # much of each.
         first, last = start // REPLICATES, -(-stop // REPLICATES)
         points = self.design(first, last).reshape(self.joint.dimensions, -1)
         offset = start - first * REPLICATES
         with np.errstate(all="ignore"):
-            values = self.joint.values(points[:, offset : offset + stop - start])
-        return self.model(values, stop - start, check=start == 0)
+            return self.joint.values(points[:, offset : offset + stop - start])
+
+    def _answers(self, block: tuple[int, int]) -> dict[str, Any]:
+        start, stop = block
+        return self.model(self.inputs(start, stop), stop - start, check=start == 0)
 
 
 def _blocks(start: int, stop: int, first: int) -> list[tuple[int, int]]:

@@ -1,0 +1,321 @@
+"""Samples of a model corrected towards a finer one, which was asked about a few hundred of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..messages.errors import NoSolutionError, OutOfRangeWarning
+from ..messages.warning import Note, notes_of_samples
+from . import turns
+from .distribution import show
+from .finer import FinerModel
+from .model import Model
+from .result import NO_SPREAD, Sampled, Shares, deviation
+
+_FOLDS = 8
+_PER_TERM = 4  # cases for each term of a regression
+_FLAT = 1e-9  # directions of the terms that the cases do not determine
+_MOST_SCATTER = 1.0 / 3.0  # of the spread of an output
+_MOST_UNLIKE = 0.01  # of the cases: one model answers them, the other does not
+
+
+class Correction(NamedTuple):
+    """How the difference of two models follows from the inputs and the outputs of the first.
+
+    ``by`` are the coefficients by output of all cases and then of all but each fold; ``scatter``
+    the standard deviation of what is left in cross-validation, and ``left`` that by case.
+    """
+
+    powers: int
+    middles: Any
+    sizes: Any
+    by: dict[str, Any]
+    scatter: dict[str, float]
+    left: dict[str, Any]
+
+    def changes(self, columns: Any) -> dict[str, Any]:
+        """What is to be added to each output (1 + folds, cases) at these inputs and outputs."""
+        # An output without an answer says nothing of the others.
+        scaled = np.nan_to_num((columns - self.middles) / self.sizes)
+        terms = _terms(scaled, self.powers)
+        return {name: (terms @ by).T for name, by in self.by.items()}
+
+
+class CorrectedModel(Model):
+    """A model with the mean correction, without the scatter that remains."""
+
+    def __init__(self, model: Model, correction: Correction, names: tuple[str, ...]) -> None:
+        super().__init__(model.function, model.fixed)
+        self.units, self._checked = model.units, True
+        self.correction, self.names = correction, names
+
+    def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> dict[str, Any]:
+        """The outputs of the cases."""
+        answers = super().__call__(values, count, check)
+        changes = self.correction.changes(_columns(values, answers, self.names))
+        return {name: _moved(answers[name], changes[name][0], self.units[name]) for name in answers}
+
+
+class CorrectedOutput(Sampled):
+    """A sampled output corrected towards a finer model; its standard errors also count how well the
+    correction is known, by leaving out one eighth of the finer model's cases after another.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        unit: str | None,
+        values: Any,
+        shares: Callable[[], Mapping[str, Shares]],
+        changes: Any,
+    ) -> None:
+        super().__init__(name, unit, values, shares)
+        self._changes = changes
+
+    def _error(self, figure: Callable[[Any], Any]) -> Any:
+        drawn = super()._error(figure)
+        known = ~np.isnan(self.values)
+        found = np.array([figure(self.values[known] + change[known]) for change in self._changes])
+        learnt = np.sqrt(np.var(found, axis=0) * (len(found) - 1))
+        error = np.hypot(drawn, learnt)
+        return error if np.ndim(error) else float(error)
+
+
+class Corrected(NamedTuple):
+    """Corrected outputs, the notes on them, the scatter by output, and the cases that the finer
+    model was asked.
+    """
+
+    values: dict[str, Any]
+    changes: dict[str, Any]
+    model: Model
+    scatter: dict[str, float]
+    calls: int
+    notes: tuple[Note, ...]
+
+
+def corrected(
+    model: Model,
+    finer: FinerModel,
+    inputs: Mapping[str, Any],
+    answers: Mapping[str, Any],
+    wanted: int,
+    seed: int,
+) -> Corrected:
+    """The answers of a model at sampled inputs, corrected towards the finer model.
+
+    The first ``wanted`` cases, which any beginning of the samples spreads as evenly as all, are
+    asked of the finer model. Its difference from the model is regressed on the inputs and the
+    outputs, by as many powers as cross-validation finds best; what is left is drawn again from the
+    differences that the regression did not foresee in cases it had not seen.
+
+    Raises
+    ------
+    NoSolutionError
+        The scatter that remains is more than a third of the spread of an output (code
+        "too_different"), or the two models answer different cases.
+    """
+    total = len(next(iter(answers.values())))
+    count = min(wanted, total)
+    asked = {name: np.array(column[:count]) for name, column in inputs.items()}
+    exact = finer(asked, count)
+    finer.check_outputs(model)
+    first = {name: answers[name][:count] for name in answers}
+    unlike = np.any([np.isnan(first[name]) != np.isnan(exact[name]) for name in answers], axis=0)
+    share = float(np.mean(unlike))
+    if share > _MOST_UNLIKE and count < total:
+        raise NoSolutionError(
+            f"of {count} cases asked of both, model and finer differ in {np.sum(unlike)} on "
+            f"whether there is an answer, so that the others cannot be corrected; {_ALONE}",
+            code="too_different",
+            cases=int(np.sum(unlike)),
+        )
+    values = {name: np.array(column) for name, column in answers.items()}
+    changes = {name: np.zeros((_FOLDS, total)) for name in answers}
+    surrogate, scatter = model, dict.fromkeys(answers, 0.0)
+    if count < total:
+        names = tuple(name for name, column in inputs.items() if np.ptp(column) > 0.0)
+        columns = _columns(inputs, answers, names)
+        correction = _regressed(model, columns[:count], first, exact)
+        _check_scatter(model, correction, exact)
+        surrogate, scatter = CorrectedModel(model, correction, names), correction.scatter
+        # The same case's differences for all outputs, so that these stay together.
+        random = np.random.Generator(
+            np.random.PCG64DXSM(np.random.SeedSequence(seed, spawn_key=(5,)))
+        )
+        drawn = random.integers(count, size=total)
+        for name, by in correction.changes(columns).items():
+            unit, left = model.units[name], correction.left[name]
+            values[name] = _moved(answers[name], by[0] + left[drawn], unit)
+            changes[name] = by[1:] - by[0]
+    for name in answers:
+        values[name][:count] = exact[name]
+        changes[name][:, :count] = 0.0
+    notes = tuple(_notes(model, finer, scatter, values, count, total, int(np.sum(unlike))))
+    return Corrected(values, changes, surrogate, scatter, count, notes)
+
+
+_ALONE = "run the finer model alone: propagate(finer, inputs)"
+
+
+def _columns(inputs: Mapping[str, Any], answers: Mapping[str, Any], names: tuple[str, ...]) -> Any:
+    """What the difference is regressed on: the inputs that vary, and the outputs (cases, both)."""
+    return np.stack([*(inputs[name] for name in names), *answers.values()], axis=1)
+
+
+def _regressed(
+    model: Model, columns: Any, first: Mapping[str, Any], exact: Mapping[str, Any]
+) -> Correction:
+    """The regression with the powers that foresee best what it has not seen."""
+    apart = {}
+    for name, column in first.items():
+        difference = exact[name] - column
+        turning = model.units[name] == "rad" and turns.are_directions(column[~np.isnan(column)])
+        apart[name] = turns.folded(difference, math.pi if turning else None)
+    answered = np.all(np.isfinite(columns), axis=1) & np.all(
+        [np.isfinite(one) for one in apart.values()], axis=0
+    )
+    if np.count_nonzero(answered) < _FOLDS:
+        raise NoSolutionError(
+            f"only {np.count_nonzero(answered)} of {len(columns)} cases are answered by both "
+            f"models, too few to correct the others by; {_ALONE}",
+            code="too_different",
+            cases=int(np.count_nonzero(answered)),
+        )
+    known = columns[answered]
+    middles, sizes = np.mean(known, axis=0), np.std(known, axis=0)
+    sizes = np.where(sizes > NO_SPREAD * np.maximum(abs(middles), NO_SPREAD), sizes, math.inf)
+    scaled = np.nan_to_num((known - middles) / sizes)
+    targets = np.stack([one[answered] for one in apart.values()], axis=1)
+    fold = np.arange(len(scaled)) % _FOLDS
+    best: tuple[float, int, Any, Any] | None = None
+    # In units of the differences themselves, for one choice of powers for all outputs.
+    unit = np.max(abs(targets), axis=0)
+    unit = np.where(unit > 0.0, unit, 1.0)
+    for powers in range(4):
+        terms = _terms(scaled, powers)
+        if powers and len(terms) < _PER_TERM * terms.shape[1]:
+            break
+        by, left = [_solved(terms, targets)], np.zeros(targets.shape)
+        for k in range(_FOLDS):
+            by.append(_solved(terms[fold != k], targets[fold != k]))
+            left[fold == k] = targets[fold == k] - terms[fold == k] @ by[-1]
+        size = float(np.mean((left / unit) ** 2))
+        if best is None or size < best[0]:
+            best = size, powers, np.stack(by), left
+    assert best is not None
+    _, powers, by_all, left = best
+    left = left - np.mean(left, axis=0)
+    sizes_left = unit * np.sqrt(np.mean((left / unit) ** 2, axis=0))
+    # As many as the cases, so that each can be drawn.
+    places = np.flatnonzero(answered)[np.arange(len(columns)) % len(known)]
+    rows = np.searchsorted(np.flatnonzero(answered), places)
+    return Correction(
+        powers,
+        middles,
+        sizes,
+        {name: by_all[:, :, k].T for k, name in enumerate(apart)},
+        dict(zip(apart, sizes_left.tolist(), strict=True)),
+        {name: left[rows, k] for k, name in enumerate(apart)},
+    )
+
+
+def _solved(terms: Any, targets: Any) -> Any:
+    """Least squares, without directions that nothing determines."""
+    return np.linalg.lstsq(terms, targets, rcond=_FLAT)[0]
+
+
+def _terms(columns: Any, powers: int) -> Any:
+    """Terms of a regression (cases, terms): a constant; the columns; their squares; their products
+    too.
+    """
+    parts = [np.ones((len(columns), 1))]
+    if powers >= 1:
+        parts.append(columns)
+    if powers >= 2:
+        parts.append(columns**2)
+    if powers >= 3:
+        one, other = np.triu_indices(columns.shape[1], 1)
+        parts.append(columns[:, one] * columns[:, other])
+    return np.concatenate(parts, axis=1)
+
+
+def _moved(values: Any, by: Any, unit: str | None) -> Any:
+    """Values with a change; directions stay in half a turn either way."""
+    found = values + by
+    if unit == "rad" and turns.are_directions(values[~np.isnan(values)]):
+        found = turns.folded(found, math.pi)
+    return found
+
+
+def _check_scatter(model: Model, correction: Correction, exact: Mapping[str, Any]) -> None:
+    """Refuse a correction that leaves too much."""
+    for name, scatter in correction.scatter.items():
+        if scatter > 0.0 and np.all(np.isin(exact[name], (0.0, 1.0))):
+            raise NoSolutionError(
+                f"{name} is either 0 or 1, and the two models differ on it, so that it cannot be "
+                f"corrected; return what decides it, or {_ALONE}",
+                code="too_different",
+                output=name,
+            )
+        column = exact[name][~np.isnan(exact[name])]
+        if model.units[name] == "rad" and turns.are_directions(column):
+            column = turns.counted(column)
+        spread, size = deviation(column), float(np.max(abs(column), initial=0.0))
+        if scatter > _MOST_SCATTER * spread and scatter > NO_SPREAD * size:
+            raise NoSolutionError(
+                f"{name} of the finer model cannot be foreseen from the inputs and the model: what "
+                f"is left has a standard deviation of {show(scatter, model.units[name] or '')}, "
+                f"more than a third of its spread, {show(spread, model.units[name] or '')}; "
+                f"{_ALONE}",
+                code="too_different",
+                output=name,
+            )
+
+
+def _notes(
+    model: Model,
+    finer: FinerModel,
+    scatter: Mapping[str, float],
+    values: Mapping[str, Any],
+    count: int,
+    total: int,
+    unlike: int,
+) -> Iterator[Note]:
+    """What the correction rests on, and what both models warned of."""
+    if count == total:
+        yield Note(
+            None, f"all {total} cases were asked of the finer model, whose answers these are"
+        )
+    else:
+        listed = ", ".join(
+            f"{name} {show(size, model.units[name] or '')} "
+            f"({100.0 * size / _spread(values[name]):.2g} %)"
+            for name, size in scatter.items()
+        )
+        yield Note(
+            None,
+            f"corrected towards the finer model, which was asked about {count} of {total} cases: "
+            "what the correction does not foresee has, in cross-validation, a standard deviation "
+            f"(and share of that of the output) of {listed}, and is contained in the figures",
+        )
+    if unlike:
+        yield Note(
+            OutOfRangeWarning,
+            f"in {unlike} of {count} cases asked of both, model and finer differ on whether there "
+            "is an answer; the other cases are answered where model answers",
+            code="finer_differs",
+            fields={"cases": unlike},
+        )
+    for note in notes_of_samples(finer.noted, count):
+        yield note._replace(sentence=f"finer: {note.sentence}")
+
+
+def _spread(values: Any) -> float:
+    """Standard deviation of what has an answer, for a share of it."""
+    known = values[~np.isnan(values)]
+    return max(deviation(known) if known.size > 1 else 0.0, 1e-300)

@@ -1,0 +1,603 @@
+"""finer= of posterior and fit: the answer is that of the finer model, against closed forms,
+quadrature over a grid, and the finer model alone.
+
+Errors of sampling are from eight islands, so of Student's t with 7 degrees of freedom: beyond five
+of them lies a chance of 0.0016. Seeds are fixed.
+"""
+
+import json
+import math
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions import reconstruct
+from collisions.estimate import tempering
+from collisions.reconstruct import fit, posterior
+from collisions.travel import Tyres
+from collisions.uncertainty import Censored, Interval, Normal, Uniform
+
+SIGMAS = 5.0
+
+
+def sampled(*arguments, **options):
+    """The posterior, and the codes of the warnings it gave."""
+    with warnings.catch_warnings(record=True) as given:
+        warnings.simplefilter("always")
+        found = posterior(*arguments, **{"samples": 4096, "seed": 1} | options)
+    return found, [one.message.code for one in given]
+
+
+def close(value, error, exact, least=0.0):
+    """Within the stated errors of sampling."""
+    assert abs(value - exact) <= SIGMAS * error + least, (value, error, exact)
+
+
+def normal_log(x, mean, sd):
+    return -0.5 * ((x - mean) / sd) ** 2 - math.log(sd) - 0.5 * math.log(2.0 * math.pi)
+
+
+def by_grid(model, log_prior, axes, observed):
+    """Log evidence, and mean and standard deviation of each unknown, by sums over a grid."""
+    points = np.meshgrid(*axes, indexing="ij")
+    log = log_prior(*points)
+    for name, column in model(*points).items():
+        reading = observed[name]
+        if isinstance(reading, Interval):
+            inside = (column >= reading.low) & (column <= reading.high)
+            log = log + np.where(inside, 0.0, -np.inf)
+        else:
+            log = log + normal_log(column, *reading)
+    log = np.where(np.isnan(log), -np.inf, log)
+    weight = np.exp(log - log.max())
+    cell = math.prod(float(axis[1] - axis[0]) for axis in axes)
+    total = float(np.sum(weight))
+    means = [float(np.sum(weight * one)) / total for one in points]
+    stds = [
+        math.sqrt(float(np.sum(weight * (one - mean) ** 2)) / total)
+        for one, mean in zip(points, means, strict=True)
+    ]
+    return float(log.max()) + math.log(total * cell), means, stds
+
+
+def check_by_grid(found, exact):
+    log_evidence, means, stds = exact
+    close(found.log_evidence, found.log_evidence_error, log_evidence, 0.01)
+    for name, mean, std in zip(found, means, stds, strict=True):
+        one = found[name]
+        close(one.mean, one.mean_standard_error, mean)
+        close(one.std, one.std_standard_error, std)
+
+
+# --- closed forms and quadrature
+
+
+def test_one_reading_through_two_lines():
+    """Prior N(20, 2); the finer model reads 1.1 v: mean, deviation and evidence in closed form."""
+    found, codes = sampled(
+        lambda v: {"read": v},
+        {"v": Normal(20.0, 2.0)},
+        {"read": (23.0, 1.0)},
+        finer=lambda v: {"read": 1.1 * v},
+    )
+    precision = 0.25 + 1.1**2
+    close(found["v"].mean, found["v"].mean_standard_error, (5.0 + 1.1 * 23.0) / precision)
+    close(found["v"].std, found["v"].std_standard_error, precision**-0.5)
+    exact = normal_log(23.0, 22.0, math.hypot(1.0, 2.2))
+    close(found.log_evidence, found.log_evidence_error, exact)
+    # What it predicts is what the finer model computes.
+    assert np.array_equal(found["read"].values, 1.1 * found["v"].values)
+    assert found.calls["finer"] < 20 * found.samples < found.calls["model"]
+    assert not codes
+
+
+def side(speed, offset):
+    return {"v": speed * np.cos(offset), "w": speed * np.sin(offset)}
+
+
+def finer_side(speed, offset):
+    return {
+        "v": 1.1 * speed * np.cos(offset) + 0.02 * speed**2 * np.sin(offset),
+        "w": speed * np.sin(1.1 * offset) - 0.3,
+    }
+
+
+def answered(model, where):
+    """A model that answers only where it is told to."""
+
+    def found(speed, offset):
+        there = where(speed, offset)
+        return {name: np.where(there, one, np.nan) for name, one in model(speed, offset).items()}
+
+    return found
+
+
+SIDE = {"speed": Uniform(0, 30), "offset": Normal(0.3, 0.2)}
+AXES = (np.linspace(0.0, 30.0, 1201)[1:], np.linspace(-0.9, 1.5, 1201))
+READINGS = {"v": (20.0, 1.0), "w": (4.5, 0.5)}
+
+
+def log_side(speed, offset):
+    return normal_log(offset, 0.3, 0.2) - math.log(30.0) + 0.0 * speed
+
+
+TWO = {
+    "readings": (side, finer_side, READINGS),
+    "a sharp bound": (side, finer_side, {"v": (20.0, 1.0), "w": Interval(4.6, 4.8)}),
+    "sharp bounds that the first model meets elsewhere": (
+        side,
+        lambda speed, offset: {"v": speed * np.cos(offset), "w": 2.0 * speed * np.sin(offset)},
+        {"v": Interval(14.0, 15.0), "w": Interval(4.0, 4.3)},
+    ),
+    "the finer model has fewer answers": (
+        side,
+        answered(finer_side, lambda speed, offset: speed < 17.3),
+        READINGS,
+    ),
+    "the finer model has a few more answers": (
+        answered(side, lambda speed, offset: speed < 19.2),
+        finer_side,
+        READINGS,
+    ),
+}
+
+
+@pytest.mark.parametrize("case", TWO)
+def test_two_unknowns_by_quadrature(case):
+    model, finer, observed = TWO[case]
+    found, codes = sampled(model, SIDE, observed, finer=finer)
+    check_by_grid(found, by_grid(finer, log_side, AXES, observed))
+    assert "islands_disagree" not in codes
+    assert "collapsed" not in codes
+    for name, one in observed.items():
+        if isinstance(one, Interval):
+            assert one.low <= found[name].values.min() <= found[name].values.max() <= one.high
+
+
+@pytest.mark.parametrize(
+    ("model", "finer"),
+    [
+        (answered(side, lambda speed, offset: speed < 18.0), finer_side),
+        (
+            answered(side, lambda speed, offset: offset < 0.27),
+            answered(finer_side, lambda speed, offset: offset > 0.2),
+        ),
+    ],
+)
+def test_samples_where_only_the_finer_model_answers_are_said(model, finer):
+    """A sixth of them and more: near what is right, with a warning that the way was not sure."""
+    found, codes = sampled(model, SIDE, READINGS, finer=finer)
+    log_evidence, means, stds = by_grid(finer, log_side, AXES, READINGS)
+    for name, mean, std in zip(SIDE, means, stds, strict=True):
+        assert found[name].mean == pytest.approx(mean, abs=0.1 * std)
+        assert found[name].std == pytest.approx(std, rel=0.1)
+    assert found.log_evidence == pytest.approx(log_evidence, abs=0.3)
+    speed, offset = (found[name].values for name in SIDE)
+    beyond = float(np.mean(np.isnan(model(speed, offset)["v"])))
+    assert found.beyond == pytest.approx(beyond, abs=0.03)
+    assert "beyond_model" in codes
+    assert any("where only the finer model has an answer" in one for one in found.statements)
+
+
+def test_a_posterior_far_from_the_first_one():
+    """Eight deviations between the two, and only some way there: what is found is right, or said
+    not to be.
+    """
+    observed = {"v": (24.0, 0.3), "w": (4.5, 0.2)}
+    model = answered(side, lambda speed, offset: speed < 22.0)
+    found, codes = sampled(model, SIDE, observed, finer=finer_side)
+    log_evidence, means, _ = by_grid(finer_side, log_side, AXES, observed)
+    assert found["speed"].mean == pytest.approx(means[0], abs=0.1)
+    assert found["offset"].mean == pytest.approx(means[1], abs=0.004)
+    assert "islands_disagree" in codes or abs(found.log_evidence - log_evidence) < 0.5
+
+
+def test_three_unknowns_by_brute_force():
+    """Speeds before an inline impact and its restitution; the finer model loses 8 % to the tyres,
+    more at low speeds.
+    """
+
+    def central(speed_a, speed_b, restitution):
+        change = (1.0 + restitution) * (speed_a - speed_b)
+        return {
+            "delta_v_a": 1250.0 / 2750.0 * change,
+            "after_b": speed_b + 1500.0 / 2750.0 * change,
+        }
+
+    def with_tyres(speed_a, speed_b, restitution):
+        found = central(speed_a, speed_b, restitution)
+        return {
+            "delta_v_a": 1.08 * found["delta_v_a"] + 0.4,
+            "after_b": found["after_b"] - 0.6 - 0.5 / (1.0 + speed_b**2),
+        }
+
+    def log_prior(speed_a, speed_b, restitution):
+        return (
+            normal_log(speed_a, 18.0, 4.0)
+            + normal_log(speed_b, 6.0, 2.0)
+            + normal_log(restitution, 0.2, 0.08)
+        )
+
+    priors = {
+        "speed_a": Normal(18.0, 4.0),
+        "speed_b": Normal(6.0, 2.0),
+        "restitution": Normal(0.2, 0.08),
+    }
+    observed = {"delta_v_a": (7.0, 0.5), "after_b": (13.5, 0.8)}
+    axes = (np.linspace(4, 32, 141), np.linspace(-2, 14, 129), np.linspace(-0.2, 0.6, 101))
+    found, codes = sampled(central, priors, observed, finer=with_tyres)
+    check_by_grid(found, by_grid(with_tyres, log_prior, axes, observed))
+    assert not codes
+
+
+# --- the finer model alone
+
+
+def crash(lasting):
+    """A side impact, of an instant or of 0.12 s with the wheels of A locked."""
+    more = (
+        {
+            "duration": 0.12,
+            "tyres_a": Tyres(0.75, 1.0, 2.7, 1.5),
+            "tyres_b": Tyres(0.75, 0.0, 2.6, 1.5),
+        }
+        if lasting
+        else {}
+    )
+
+    def model(speed_a, speed_b, restitution, friction, contact, turn):
+        a = col.Vehicle(mass=1500, vx=speed_a, yaw_inertia=2500, x=-2.1, y=0.0, heading=0.0)
+        b = col.Vehicle(
+            mass=1250, vy=speed_b, yaw_inertia=1900, x=0.9, y=-0.4, heading=0.5 * math.pi
+        )
+        impact = col.eccentric(
+            a,
+            b,
+            restitution,
+            normal=turn,
+            point=(0.0, contact),
+            friction=friction,
+            on_failure="nan",
+            **more,
+        )
+        return {
+            "delta_v_a": impact.a.q.delta_v,
+            "speed_a_after": impact.a.after.q.speed,
+            "course_a_after": impact.a.after.q.course,
+            "course_b_after": impact.b.after.q.course,
+            "yaw_rate_b_after": impact.b.after.q.yaw_rate,
+        }
+
+    return model
+
+
+PRIORS = {
+    "speed_a": Uniform(3, 35),
+    "speed_b": Uniform(0, 30),
+    "restitution": Normal(0.1, 0.05, truncate=(0, 1)),
+    "friction": Normal(0.5, 0.15, truncate=(0, None)),
+    "contact": Normal(0.2, 0.1),
+    "turn": Normal(0.0, 0.07),
+}
+ERRORS = {
+    "delta_v_a": (0.4, "m/s"),
+    "speed_a_after": (0.8, "m/s"),
+    "course_a_after": (0.035, "rad"),
+    "course_b_after": (0.035, "rad"),
+    "yaw_rate_b_after": (0.2, "rad/s"),
+}
+
+
+def evidence(rng):
+    """Readings with errors of a crash that lasts."""
+    truth = {
+        "speed_a": rng.uniform(10, 22),
+        "speed_b": rng.uniform(6, 18),
+        "restitution": rng.uniform(0.05, 0.15),
+        "friction": rng.uniform(0.3, 0.8),
+        "contact": rng.normal(0.2, 0.1),
+        "turn": rng.normal(0.0, 0.07),
+    }
+    exact = crash(True)(**{name: np.array([value]) for name, value in truth.items()})
+    return {
+        name: Normal(f"{exact[name].magnitude[0] + error * rng.normal()} {unit}", f"{error} {unit}")
+        for name, (error, unit) in ERRORS.items()
+    }
+
+
+def inline(tyres):
+    """Speeds before an inline impact and its restitution, from recorder and run-out."""
+
+    def model(speed_a, speed_b, restitution):
+        change = (1.0 + restitution) * (speed_a - speed_b)
+        lost = tyres * (0.5 + 0.1 * speed_b)
+        return {
+            "delta_v_a": 1250.0 / 2750.0 * change + lost,
+            "after_b": speed_b + 1500.0 / 2750.0 * change - lost,
+        }
+
+    return model
+
+
+def problems(count):
+    """So many problems: cheap and finer model, priors, and readings drawn with the finer model."""
+    rng = np.random.default_rng(20261125)
+    for k in range(count):
+        if k % 3 == 0:
+            yield crash(False), crash(True), PRIORS, evidence(rng)
+            continue
+        models = (inline(0.0), inline(rng.uniform(0.3, 1.2)))
+        priors = {
+            "speed_a": Normal(18.0, 4.0),
+            "speed_b": Normal(6.0, 2.0),
+            "restitution": Uniform(0.0, 0.5),
+        }
+        errors = {"delta_v_a": 0.5, "after_b": 0.8}
+        truth = {"speed_a": rng.normal(18, 4), "speed_b": 6.0, "restitution": rng.uniform(0, 0.5)}
+        if k % 3 == 2:
+            models, priors, errors = (side, finer_side), SIDE, {"v": 1.0, "w": 0.5}
+            truth = {"speed": rng.uniform(8, 25), "offset": rng.normal(0.3, 0.2)}
+        exact = models[1](**truth)
+        observed = {
+            name: (exact[name] + error * rng.normal(), error) for name, error in errors.items()
+        }
+        yield *models, priors, observed
+
+
+@pytest.mark.slow
+def test_the_same_answer_as_the_finer_model_alone_on_twelve_problems():
+    """Means, deviations and evidence differ by their sampling errors: the scores have the spread of
+    a difference of two Student's t, for a fraction of the calls.
+    """
+    scores, calls = [], []
+    for k, (model, finer, priors, observed) in enumerate(problems(12)):
+        near, _ = sampled(model, priors, observed, finer=finer, samples=1024, seed=k)
+        alone, _ = sampled(finer, priors, observed, samples=1024, seed=k + 100)
+        for name in priors:
+            one, other = near[name], alone[name]
+            for figure in ("mean", "std"):
+                errors = (getattr(each, f"{figure}_standard_error") for each in (one, other))
+                scores.append((getattr(one, figure) - getattr(other, figure)) / math.hypot(*errors))
+        scores.append(
+            (near.log_evidence - alone.log_evidence)
+            / math.hypot(near.log_evidence_error, alone.log_evidence_error)
+        )
+        calls.append(near.calls["finer"] / alone.calls["model"])
+    # Of t with 7 degrees of freedom or more: deviation 1.18, one in 500 beyond 5.
+    assert np.sqrt(np.mean(np.square(scores))) < 1.5
+    assert np.max(np.abs(scores)) < 5.0
+    assert abs(np.mean(scores)) < 0.4
+    assert np.mean(calls) < 0.25
+
+
+# --- fit
+
+
+UNKNOWNS = PRIORS | {"restitution": Normal(0.1, 0.05), "friction": Normal(0.5, 0.15)}
+
+
+@pytest.mark.parametrize("seed", [4, *(pytest.param(k, marks=pytest.mark.slow) for k in (6, 7))])
+def test_a_fit_is_that_of_the_finer_model(seed):
+    """Value by value the same as from 64 starts of the finer model, for a tenth of its calls."""
+    observed = evidence(np.random.default_rng(seed))
+    with warnings.catch_warnings(record=True) as given:
+        warnings.simplefilter("always")
+        near = fit(crash(False), UNKNOWNS, observed, finer=crash(True))
+        alone = fit(crash(True), UNKNOWNS, observed)
+    codes = [one.message.code for one in given]
+    assert codes[: len(codes) // 2] == codes[len(codes) // 2 :]
+    for name in UNKNOWNS:
+        error = alone[name].standard_error
+        assert near[name].value == pytest.approx(alone[name].value, abs=1e-3 * error)
+        assert near[name].standard_error == pytest.approx(error, rel=1e-3)
+    assert near.chi_squared == pytest.approx(alone.chi_squared, abs=1e-6)
+    assert near.calls["finer"] < 0.2 * alone.calls["model"]
+    assert near.to_dict()["calls"] == near.calls
+    assert "that of the finer model" in " ".join(near.statements)
+
+
+def test_a_fit_by_a_line_has_a_closed_form():
+    """y = 2 x + 1 read as 7 +/- 0.5 gives 3 +/- 0.25, whatever the first model says."""
+    found = fit(
+        lambda x: {"y": 1.5 * x},
+        {"x": Uniform(0, 10)},
+        {"y": (7.0, 0.5)},
+        finer=lambda x: {"y": 2.0 * x + 1.0},
+    )
+    assert found["x"].value == pytest.approx(3.0, rel=1e-9)
+    assert found["x"].standard_error == pytest.approx(0.25, rel=1e-6)
+
+
+def test_two_answers_of_the_finer_model_are_refused_with_the_call_to_write():
+    """Of (x - 1)^2 = 4: both are found from both answers of x^2 = 4."""
+    with pytest.raises(col.AmbiguousSolutionError) as refused:
+        fit(
+            lambda x: {"y": x * x},
+            {"x": Uniform(-3.5, 3.5)},
+            {"y": (4.0, 0.5)},
+            finer=lambda x: {"y": (x - 1.0) ** 2},
+        )
+    found = sorted(one["x"].value for one in refused.value.solutions)
+    assert found == pytest.approx([-1.0, 3.0], abs=1e-6)
+    assert "write posterior(model, unknowns, observed, seed=1)" in str(refused.value)
+
+
+def test_what_nothing_determines_is_said_of_the_finer_model_too():
+    def model(x, y):
+        return {"s": x + 0.0 * y}
+
+    with pytest.warns(col.IllConditionedWarning, match="y is not determined"):
+        found = fit(
+            model,
+            {"x": Uniform(0, 10), "y": Uniform(0, 1)},
+            {"s": (4.0, 0.5)},
+            finer=lambda x, y: {"s": 1.1 * x + 0.0 * y},
+        )
+    assert found["x"].value == pytest.approx(4.0 / 1.1, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("finer", "kind", "code", "text"),
+    [
+        ("x", col.InputError, "bad_model", "finer: model must be a function"),
+        (lambda y: {"s": y}, col.InputError, "bad_model", "finer: unknowns are x, but"),
+        (lambda x: {"t": x}, col.InputError, "unknown_output", "the model does not return"),
+        (lambda x: {"s": x, "t": x}, col.InputError, "different_outputs", "t is a plain number"),
+        (lambda x: {"s": np.where(x > 5.0, x, np.nan)}, col.NoSolutionError, "refused",
+            r"fit\(finer, unknowns, observed\)"),
+    ],
+)  # fmt: skip
+def test_finer_models_of_a_fit_that_are_none(finer, kind, code, text):
+    with pytest.raises(kind, match=text) as refused:
+        fit(lambda x: {"s": x}, {"x": Uniform(0, 10)}, {"s": (2.0, 0.1)}, finer=finer)
+    assert refused.value.code == code
+
+
+# --- the run
+
+
+def test_a_seed_makes_it_reproducible_for_any_number_of_threads():
+    options = {"samples": 1024, "seed": 7, "finer": finer_side}
+    one, _ = sampled(side, SIDE, READINGS, **options)
+    other, _ = sampled(side, SIDE, READINGS, threads=2, **options)
+    assert other.to_dict() == one.to_dict()
+    assert np.array_equal(other["speed"].values, one["speed"].values)
+    assert pickle.loads(pickle.dumps(one)).to_dict() == one.to_dict()
+    assert json.loads(json.dumps(one.to_dict(), allow_nan=False))["calls"] == one.calls
+    said = " ".join(str(one.summary()).split())
+    assert "The figures are those of the finer model, called" in said
+
+
+def test_calls_are_all_cases_that_either_model_was_asked():
+    """But for those that are asked again, to see whether the model answers case by case."""
+    asked = {"model": 0, "finer": 0}
+
+    def counted(name, model):
+        def found(speed, offset):
+            asked[name] += len(speed)
+            return model(speed, offset)
+
+        return found
+
+    found, _ = sampled(
+        counted("model", side),
+        SIDE,
+        READINGS,
+        finer=counted("finer", finer_side),
+        samples=1024,
+    )
+    for name in asked:
+        assert found.calls[name] <= asked[name] <= found.calls[name] + 40
+    asked["model"] = 0
+    alone, _ = sampled(counted("model", side), SIDE, READINGS, samples=512)
+    assert set(alone.calls) == {"model"}
+    assert alone.calls["model"] <= asked["model"] <= alone.calls["model"] + 40
+
+
+def test_progress_rises_to_the_end():
+    seen = []
+    sampled(
+        side,
+        SIDE,
+        READINGS,
+        finer=finer_side,
+        samples=1024,
+        progress=lambda done, total: seen.append(done),
+    )
+    assert seen == sorted(seen)
+    assert seen[-1] == 1024
+
+
+def test_both_models_warn_and_only_the_finer_one_of_the_answer():
+    def warning(model, slowest):
+        def found(speed, offset):
+            # Speed B comes out below 0 where B goes off fast.
+            reconstruct.momentum(
+                1500.0,
+                1200.0,
+                course_a=0.0,
+                course_b=math.pi / 2,
+                course_a_after=0.1,
+                course_b_after=-0.3,
+                speed_a_after=5.0,
+                speed_b_after=np.where(speed > slowest, 4.0, 0.1),
+            )
+            return model(speed, offset)
+
+        return found
+
+    found, codes = sampled(
+        warning(side, 0.0), SIDE, READINGS, finer=warning(finer_side, 17.5), samples=512
+    )
+    fast = int(np.sum(found["speed"].values > 17.5))
+    assert 0 < fast < 512
+    said = [one for one in found.statements if "speed_b is below 0" in one]
+    assert len(said) == 2
+    assert said[0].startswith(f"{fast} of 512 cases")
+    assert said[1].startswith("model, not finer: 512 of 512 cases")
+    assert len(codes) == len(set(codes))
+    by_code = [note for note in found.model_notes if "speed_b is below 0" in note.sentence]
+    assert [note.warning is None for note in by_code] == [False, True]
+
+
+@pytest.mark.parametrize(
+    ("finer", "kind", "code", "text"),
+    [
+        (3.0, col.InputError, "bad_model", "finer: model must be a function"),
+        (lambda speed: side(speed, 0.0), col.InputError, "bad_model",
+            "finer: unknowns are speed, offset, but the model takes"),
+        (lambda speed, offset: {"v": speed}, col.InputError, "different_outputs",
+            "w is no output of finer and a plain number of model"),
+        (lambda speed, offset: {**side(speed, offset), "x": speed}, col.InputError,
+            "different_outputs", "x is a plain number of finer and no output of model"),
+        (lambda speed, offset: {name: col.Vehicle(mass=1.0, vx=one).q.vx
+            for name, one in side(speed, offset).items()}, col.InputError, "different_outputs",
+            "v is in m/s of finer and a plain number of model"),
+        (lambda speed, offset: {"v": math.cos(speed), "w": speed}, col.InputError, "bad_model",
+            "finer: model raised"),
+        (lambda speed, offset: {"v": speed - speed.mean(), "w": offset}, col.InputError,
+            "bad_model", "finer: model mixes cases"),
+        (lambda speed, offset: {"v": np.nan * speed, "w": offset}, col.NoSolutionError, "too_far",
+            r"run the finer model alone: posterior\(finer, unknowns, observed\)"),
+    ],
+)  # fmt: skip
+def test_finer_models_that_are_none(finer, kind, code, text):
+    with pytest.raises(kind, match=text) as refused:
+        posterior(side, SIDE, READINGS, finer=finer, samples=512, seed=1)
+    assert refused.value.code == code
+    assert refused.value.fields.get("argument") in ("finer", "unknowns", None)
+
+
+def test_sharp_bounds_that_only_the_first_model_meets_are_refused():
+    with pytest.raises(col.NoSolutionError, match="run the finer model alone") as refused:
+        posterior(
+            lambda x: {"y": x},
+            {"x": Uniform(0.0, 1.0)},
+            {"y": Interval(0.2, 0.4)},
+            finer=lambda x: {"y": x + 5.0},
+            samples=512,
+            seed=1,
+        )
+    assert refused.value.code == "too_far"
+
+
+def test_a_way_that_does_not_end_is_refused(monkeypatch):
+    monkeypatch.setattr(tempering, "_MOST_STEPS", 1)
+    with pytest.raises(col.NoSolutionError, match="too far from") as refused:
+        posterior(side, SIDE, READINGS, finer=finer_side, samples=512, seed=1)
+    assert refused.value.code == "too_far"
+
+
+def test_a_censored_reading_with_an_error():
+    """Against the finer model alone: nothing of it is softened."""
+    observed = {"v": Censored(low=18.0, error=0.5), "w": (4.5, 0.5)}
+    near, _ = sampled(side, SIDE, observed, finer=finer_side)
+    alone, _ = sampled(finer_side, SIDE, observed, seed=2)
+    for name in SIDE:
+        error = math.hypot(near[name].mean_standard_error, alone[name].mean_standard_error)
+        close(near[name].mean, error, alone[name].mean)
+    error = math.hypot(near.log_evidence_error, alone.log_evidence_error)
+    close(near.log_evidence, error, alone.log_evidence)

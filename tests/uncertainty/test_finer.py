@@ -1,0 +1,264 @@
+"""finer= of propagate: against closed forms of the finer model, and the finer model alone."""
+
+import json
+import math
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions import uncertainty
+from collisions.travel import Tyres
+from collisions.uncertainty import Interval, Normal, Uniform, propagate
+
+INPUTS = {"x": Normal(10.0, 1.0), "y": Uniform(0.0, 2.0)}
+
+
+def line(x, y):
+    return {"z": x + y}
+
+
+def test_a_difference_that_is_a_polynomial_is_corrected_exactly():
+    """z = x + y + 0.3 x y: mean 11 + 3, and the variance of products of independent inputs."""
+    found = propagate(line, INPUTS, finer=lambda x, y: {"z": x + y + 0.3 * x * y}, seed=1)["z"]
+    assert found.mean == pytest.approx(14.0, abs=3.0 * found.mean_standard_error)
+    # var(x + y + a x y) by the moments of x and y: E x = 10, var 1; E y = 1, var 1/3.
+    a, mean_x, mean_y, var_x, var_y = 0.3, 10.0, 1.0, 1.0, 1.0 / 3.0
+    variance = (1 + a * mean_y) ** 2 * var_x + (1 + a * mean_x) ** 2 * var_y + a**2 * var_x * var_y
+    assert found.std == pytest.approx(math.sqrt(variance), abs=4.0 * found.std_standard_error)
+    assert found.mean_standard_error < 1e-3
+    shares = {
+        "x": (1 + a * mean_y) ** 2 * var_x / variance,
+        "y": (1 + a * mean_x) ** 2 * var_y / variance,
+    }
+    for name, share in shares.items():
+        assert found.contributions[name] == pytest.approx(share, abs=0.01)
+
+
+def test_scatter_that_cannot_be_foreseen_is_added():
+    """A ripple far finer than the regression can follow: its variance, 0.3^2 / 2, is kept."""
+    ripple = {"x": Normal(0.0, 1.0)}
+    near = propagate(
+        lambda x: {"z": x},
+        ripple,
+        finer=lambda x: {"z": x + 0.3 * np.sin(1e4 * x)},
+        seed=1,
+        finer_samples=1024,
+        method="monte_carlo",
+    )
+    assert near.scatter["z"] == pytest.approx(0.3 / math.sqrt(2.0), rel=0.1)
+    assert near["z"].std == pytest.approx(math.hypot(1.0, 0.3 / math.sqrt(2.0)), abs=0.02)
+    # The correction is known to what 1,024 cases tell of its mean, and the error says so.
+    assert near["z"].mean_standard_error > 0.5 * near.scatter["z"] / 32.0
+    assert abs(near["z"].mean) < 4.0 * near["z"].mean_standard_error
+    said = next(one for one in near.statements if "asked about 1024 of 8192 cases" in one)
+    assert "in cross-validation" in said
+
+
+@pytest.mark.slow
+def test_standard_errors_hold_over_many_seeds():
+    """Means of 60 runs about the exact mean, in their own standard errors."""
+    scores = []
+    for seed in range(60):
+        found = propagate(
+            lambda x: {"z": x},
+            {"x": Normal(0.0, 1.0)},
+            finer=lambda x: {"z": x + 0.3 * np.sin(1e4 * x) + 0.1 * x**2},
+            seed=seed,
+            samples=1024,
+            finer_samples=128,
+        )["z"]
+        scores.append((found.mean - 0.1) / found.mean_standard_error)
+    assert 0.6 < np.sqrt(np.mean(np.square(scores))) < 1.4
+
+
+def crash(lasting):
+    """A side impact, of an instant or of 0.12 s with the wheels of A locked."""
+    more = (
+        {
+            "duration": 0.12,
+            "tyres_a": Tyres(0.75, 1.0, 2.7, 1.5),
+            "tyres_b": Tyres(0.75, 0.0, 2.6, 1.5),
+        }
+        if lasting
+        else {}
+    )
+
+    def model(speed_a, speed_b, restitution, friction, contact):
+        a = col.Vehicle(mass=1500, vx=speed_a, yaw_inertia=2500, x=-2.1, y=0.0, heading=0.0)
+        b = col.Vehicle(
+            mass=1250, vy=speed_b, yaw_inertia=1900, x=0.9, y=-0.4, heading=0.5 * math.pi
+        )
+        impact = col.eccentric(
+            a,
+            b,
+            restitution,
+            normal=0.0,
+            point=(0.0, contact),
+            friction=friction,
+            on_failure="nan",
+            **more,
+        )
+        return {
+            "delta_v_a": impact.a.q.delta_v,
+            "course_b": impact.b.after.q.course,
+            "yaw_rate_b": impact.b.after.q.yaw_rate,
+        }
+
+    return model
+
+
+CRASH = {
+    "speed_a": Normal(16, 1.5),
+    "speed_b": Normal(12, 1.5),
+    "restitution": Normal(0.1, 0.05, truncate=(0, 1)),
+    "friction": Normal(0.5, 0.1, truncate=(0, None)),
+    "contact": Normal(0.2, 0.1),
+}
+
+
+def test_a_crash_with_tyres_as_the_finer_model_alone():
+    """Means, deviations and the ends of the 95 % range, within their standard errors and far closer
+    than the model without tyres.
+    """
+    near = propagate(crash(False), CRASH, finer=crash(True), seed=1)
+    alone = propagate(crash(True), CRASH, seed=2)
+    rough = propagate(crash(False), CRASH, seed=1)
+    for name in alone:
+        one, other = near[name], alone[name]
+        for figure in ("mean", "std"):
+            error = math.hypot(
+                *(getattr(each, f"{figure}_standard_error") for each in (one, other))
+            )
+            assert abs(getattr(one, figure) - getattr(other, figure)) < 5.0 * error
+        for p in (0.025, 0.975):
+            error = math.hypot(*(each.quantile_standard_error(p) for each in (one, other)))
+            assert abs(one.quantile(p) - other.quantile(p)) < 5.0 * error
+    for name in ("delta_v_a", "course_b"):
+        gap = abs(rough[name].mean - alone[name].mean)
+        assert abs(near[name].mean - alone[name].mean) < 0.02 * gap
+    assert near.calls == {"model": 8192, "finer": 512}
+    assert near["delta_v_a"].to("mph").mean == pytest.approx(near["delta_v_a"].mean / 0.44704)
+
+
+def test_directions_are_corrected_round_the_circle():
+    """About pi: 0.1 rad more take half of them past it."""
+
+    def direction(turn):
+        def model(x):
+            angle = math.pi + 0.05 * x + turn
+            return {"course": col.Vehicle(mass=1.0, vx=np.cos(angle), vy=np.sin(angle)).q.course}
+
+        return model
+
+    found = propagate(direction(-0.1), {"x": Normal(0.0, 1.0)}, finer=direction(0.02), seed=1)[
+        "course"
+    ]
+    assert abs(math.remainder(found.mean - math.pi - 0.02, math.tau)) < 1e-3
+    assert found.std == pytest.approx(0.05, rel=0.01)
+
+
+def test_all_samples_may_be_asked():
+    """Then the answer is that of the finer model, to the bit."""
+    near = propagate(line, INPUTS, finer=lambda x, y: {"z": x * y}, seed=1, samples=256)
+    alone = propagate(lambda x, y: {"z": x * y}, INPUTS, seed=1, samples=256)
+    assert np.array_equal(near["z"].values, alone["z"].values)
+    assert near.calls == {"model": 256, "finer": 256}
+    assert near["z"].mean_standard_error == alone["z"].mean_standard_error
+
+
+@pytest.mark.parametrize("method", ["quasi_random", "latin_hypercube", "monte_carlo"])
+def test_a_seed_makes_it_reproducible(method):
+    options = {"seed": 3, "samples": 1024, "finer_samples": 100, "method": method}
+    runs = [
+        propagate(line, INPUTS, finer=lambda x, y: {"z": x * y}, threads=threads, **options)
+        for threads in (1, 2)
+    ]
+    assert runs[0].to_dict() == runs[1].to_dict()
+    again = pickle.loads(pickle.dumps(runs[0]))
+    assert again.to_dict() == runs[0].to_dict()
+    found = json.loads(json.dumps(again.to_dict(), allow_nan=False))
+    assert found["calls"] == {"model": 1024, "finer": 100}
+    assert set(found["scatter"]) == {"z"}
+
+
+def test_both_models_warnings_are_stated():
+    def warning(limit):
+        def model(speed):
+            found = col.reconstruct.momentum(
+                1500.0,
+                1200.0,
+                course_a=0.0,
+                course_b=math.pi / 2,
+                course_a_after=0.1,
+                course_b_after=-0.3,
+                speed_a_after=5.0,
+                speed_b_after=np.where(speed > limit, 4.0, 0.1),
+            )
+            return {"z": speed + 0.0 * found.speed_b}
+
+        return model
+
+    with pytest.warns(col.OutOfRangeWarning, match="finer: .*speed_b is below 0"):
+        found = propagate(warning(10.0), {"speed": Normal(10.0, 1.0)}, finer=warning(9.0), seed=1)
+    said = [one for one in found.statements if "speed_b is below 0" in one]
+    assert sorted(one.partition(" ")[0] for one in said) == ["4096", "finer:"]
+
+
+def test_a_few_cases_that_only_one_model_answers_are_said():
+    def finer(x, y):
+        return {"z": np.where(x < 12.4, x + y, np.nan)}
+
+    with warnings.catch_warnings(record=True) as given:
+        warnings.simplefilter("always")
+        found = propagate(line, INPUTS, finer=finer, seed=1)
+    assert [one.message.code for one in given] == ["finer_differs", "failed_cases"]
+    assert "differ on whether there is an answer" in str(given[0].message)
+    assert found.failed == int(np.sum(np.isnan(found["z"].values)))
+
+
+def jump(x, y):
+    return {"z": np.where(np.sin(97.0 * x) > 0.0, 5.0, -5.0)}
+
+
+@pytest.mark.parametrize(
+    ("finer", "options", "kind", "code", "text"),
+    [
+        (jump, {}, col.NoSolutionError, "too_different",
+            r"z of the finer model cannot be foreseen.*propagate\(finer, inputs\)"),
+        (lambda x, y: {"z": np.where(x < 11.0, x, np.nan)}, {}, col.NoSolutionError,
+            "too_different", "differ in .* on whether there is an answer"),
+        (lambda x, y: {"w": x}, {}, col.InputError, "different_outputs",
+            "z is no output of finer and a plain number of model; w is a plain number"),
+        (lambda x: {"z": x}, {}, col.InputError, "bad_inputs", "finer: inputs are x, y"),
+        (lambda x, y: {"z": math.sqrt(x)}, {}, col.InputError, "bad_model", "finer: model raised"),
+        (3.0, {}, col.InputError, "bad_model", "finer: model must be a function"),
+        (line, {"method": "first_order"}, col.InputError, "no_finer", "'first_order' draws none"),
+        (line, {"method": "second_order"}, col.InputError, "no_finer", "draws none"),
+        (line, {"method": "interval"}, col.InputError, "no_finer", "draws none"),
+        (line, {"tolerance": 0.1}, col.InputError, "no_finer", "tolerance= asks for as many"),
+        (line, {"finer_samples": 63}, col.InputError, "bad_option", "from 64 to"),
+        (line, {"finer_samples": 1.5}, col.InputError, "bad_option", "finer_samples must be"),
+        (None, {"finer_samples": 100}, col.InputError, "bad_option", "finer= is not given"),
+    ],
+)  # fmt: skip
+def test_refusals(finer, options, kind, code, text):
+    with pytest.raises(kind, match=f"(?s){text}") as refused:
+        propagate(line, INPUTS, finer=finer, seed=1, **options)
+    assert refused.value.code == code
+
+
+def test_intervals_and_outputs_of_yes_or_no_are_refused():
+    with pytest.raises(col.InputError, match="y is an Interval") as refused:
+        propagate(line, INPUTS | {"y": Interval(0.0, 1.0)}, finer=line, seed=1)
+    assert refused.value.code == "no_finer"
+    with pytest.raises(col.NoSolutionError, match="z is either 0 or 1") as refused:
+        propagate(lambda x, y: {"z": x > 10.0}, INPUTS, finer=lambda x, y: {"z": x > 10.02}, seed=1)
+    assert refused.value.code == "too_different"
+    same = propagate(
+        lambda x, y: {"z": x > 10.0}, INPUTS, finer=lambda x, y: {"z": x > 10.0}, seed=1
+    )
+    assert same["z"].mean == pytest.approx(0.5, abs=0.01)
+    assert isinstance(same["z"], uncertainty.Output)
