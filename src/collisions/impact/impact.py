@@ -744,6 +744,7 @@ class Impact(Frozen, Summarized):
                     self.reconstruction.condition,
                     self.reconstruction.answers,
                     self.reconstruction.contact_velocity,
+                    self.reconstruction.one_sided,
                 )
             )
 

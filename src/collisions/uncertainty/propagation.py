@@ -25,6 +25,7 @@ from .distribution import Stated
 from .distributions import Distribution, Interval
 from .intervals import COMMON_CASES, Bounds, extremes
 from .model import Function, Model, check_names, count_failed, pair_hints, read_input
+from .one_sided_output import OneSidedOutput, one_sided_notes
 from .result import Output, Propagation, Sampled, Shares
 from .sampling import Correlation, Joint, Sample, sampled_shares
 
@@ -85,9 +86,10 @@ def propagate(
         ``model(**inputs)`` returns a dict of named outputs: arrays of one number per case, or
         Quantities. Each case is computed on its own: a few are computed again without the others,
         and a model that then answers differently is refused. A case without an answer is NaN;
-        solvers return it with ``on_failure="nan"``. Booleans count as 0 and 1, so their mean is a
-        probability. Angles returned with a unit that all lie in [-pi, pi] are directions, counted
-        round the circle about their mean (see ``Output``); return a rotation as a plain number.
+        solvers return it with ``on_failure="nan"``. An output of which some cases say "at least" or
+        "at most" is a ``OneSided``. Booleans count as 0 and 1, so their mean is a probability.
+        Angles returned with a unit that all lie in [-pi, pi] are directions, counted round the
+        circle about their mean (see ``Output``); return a rotation as a plain number.
     inputs : dict
         For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``,
         ``Interval`` or fixed value. Numbers reach the model in SI, without their unit.
@@ -173,6 +175,7 @@ def propagate(
             for name, value in stated.items()
             if name not in drawn and name not in intervals
         },
+        one_sided=method in DESIGNS and not intervals and tolerance is None,
     )
     check_names(model, stated, "inputs", "bad_inputs")
     if method == "interval":
@@ -236,7 +239,7 @@ def propagate(
         if not cases:
             raise NoSolutionError(
                 f"the model has no answer for {name!r} in any of {samples_run} cases; call it "
-                "with the mean of the inputs to see why",
+                f"with the mean of the inputs to see why{_said_of_all(whole, samples_run)}",
                 code="all_failed",
                 output=name,
             )
@@ -409,8 +412,11 @@ def _sampled(
         except KeyboardInterrupt:
             sample.interrupted = True
     shares = cache(partial(sampled_shares, model, joint, design, min(count, _SHARE_SAMPLES)))
+    sides = sample.outputs.sides
     outputs = {
-        name: Sampled(name, model.units[name], values, shares)
+        name: OneSidedOutput(name, model.units[name], values, sides[name], shares)
+        if name in sides
+        else Sampled(name, model.units[name], values, shares)
         for name, values in sample.outputs.items()
     }
     wrapped = tuple(name for name, output in outputs.items() if output.may_wrap())
@@ -487,7 +493,10 @@ def _notes(
     """What belongs with the figures: warnings of the model, cases left out, what a tolerance or a
     local method missed.
     """
-    notes = [*notes_of_samples(model.noted, count)]
+    notes = [
+        *notes_of_samples(model.noted, count),
+        *(note for run in runs for note in one_sided_notes(run.outputs)),
+    ]
     if method in LOCAL:
         notes += _not_local(method, runs, failed)
     elif failed:
@@ -501,7 +510,9 @@ def _notes(
                 OutOfRangeWarning,
                 f"{failed} of {count} cases ({100.0 * failed / count:.2f} %) had no answer and "
                 "are left out: the figures hold only where there is one",
-                ". Bound inputs that can be impossible, as by Normal(mean, sd, truncate=(low, "
+                ""
+                if any(note.code == "stuck_or_slid" for note in notes)
+                else ". Bound inputs that can be impossible, as by Normal(mean, sd, truncate=(low, "
                 "high))",
                 "failed_cases",
                 {"failed": failed},
@@ -553,6 +564,12 @@ def _notes(
                 )
             )
     return tuple(notes)
+
+
+def _said_of_all(model: Model, count: int) -> str:
+    """What the model said of its cases, to follow the message that none has an answer."""
+    said = [note.sentence for note in notes_of_samples(model.noted, count)]
+    return f". It said: {'; '.join(said)}" if said else ""
 
 
 def _not_local(method: str, runs: Sequence[Run], failed: int) -> Iterator[Note]:
