@@ -7,13 +7,14 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 from itertools import chain
+from operator import attrgetter
 from typing import Any, Literal
 
 import numpy as np
 
 from ..impact.impact import Impact
 from ..impact.inputs import Inputs, Law, check_flag, read_inputs
-from ..impact.provenance import bounds_of
+from ..impact.provenance import KNOWN, bounds_of
 from ..impact.run import error_of, warn_of_refusals
 from ..kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from ..kernels.status import EPS, Status
@@ -312,6 +313,41 @@ def speeds(
         return _answers(cases, scene, found, inputs, known, function, forward_only, again)
 
 
+def taken_to_stick(impact: Impact) -> bool:
+    """Whether components of delta-V told the speeds of an impact only because it was stated, or
+    taken, to have stuck.
+    """
+    origin = impact.reconstruction
+    return (
+        origin is not None
+        and impact.inputs.rule == FRICTION
+        and any(name in _COMPONENTS for name in origin.known)
+        and (origin.regime == "sticking" or not any(name[:5] == "speed" for name in origin.known))
+        and not any((origin.one_sided or {}).values())
+    )
+
+
+def if_it_slid(impact: Impact) -> Impact | None:
+    """The end of the family of impacts in which the contact slid at the ratio that it had in this
+    one, which was taken to stick; None where components of delta-V did not tell its speeds.
+    """
+    origin, inputs = impact.reconstruction, impact.inputs
+    if origin is None or not taken_to_stick(impact):
+        return None
+    given: dict[str, Any] = {name: attrgetter(KNOWN[name].path)(impact) for name in origin.known}
+    given |= {f"course_{label}": getattr(inputs, label).course for label in "ab"}
+    given |= {name: getattr(inputs, name) for name in ("restitution", "normal", "point")}
+    given |= {"law": inputs.law or BRACH, "incomplete": inputs.incomplete}
+    ratio = abs(impact.impulse_ratio)
+    try:
+        with quietly():
+            return speeds(
+                inputs.a, inputs.b, friction=ratio, regime="sliding", slid="bound", **given
+            )[0]
+    except CollisionsError:
+        return None
+
+
 def _check_branch(given: dict[str, Any]) -> None:
     """Refuse ``regime`` and ``slid`` that are none, or that do not go with what was given."""
     regime, slid = given["regime"], given["slid"]
@@ -600,6 +636,11 @@ def _answers(
         )
         for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
+            if isinstance(scene, ComponentScene) and scene.sides:
+                # A family that begins backwards goes on forwards.
+                speed = np.where(
+                    scene.sides["AB".index(label)] > 0.0, np.maximum(speed, 0.0), speed
+                )
             backward, whose = min(
                 (backward, whose), (float(np.fmin.reduce(speed, axis=None, initial=0.0)), label)
             )

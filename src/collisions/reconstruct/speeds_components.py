@@ -69,6 +69,8 @@ class ComponentScene(Scene):
         self.known = [self.targets.get(f"speed_{label}", np.zeros(())) for label in "ab"]
         self.misfit: Any = np.full((), np.nan)
         self.near_sliding: Any = np.zeros((), dtype=bool)
+        # Where the answer is the end of the family of contacts that slid.
+        self.ended: Any = np.zeros((), dtype=bool)
         # Ratio of the impulse of the answer, and where it is said to stick but may have slid.
         self.ratio: Any = np.full((), np.nan)
         self.may_slide: Any = np.zeros((), dtype=bool)
@@ -98,8 +100,10 @@ class ComponentScene(Scene):
         if self.slid:
             ends = [self._end(regime) for regime in regimes if not isinstance(regime, str)]
             ends = [(root, np.where(sticks, np.inf, misfit), left) for root, misfit, left in ends]
-            ended = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
-            edges = [(root, np.where(ended, np.inf, misfit), left) for root, misfit, left in edges]
+            self.ended = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
+            edges = [
+                (root, np.where(self.ended, np.inf, misfit), left) for root, misfit, left in edges
+            ]
             tried += ends
         found, misfits, _ = zip(*tried, *edges, strict=True)
         self.misfit = np.minimum.reduce(np.broadcast_arrays(*misfits))
@@ -206,10 +210,27 @@ class ComponentScene(Scene):
         _, effects, inverse, _ = self._linear_in(STICK)
         momenta = self._seen_momenta(self.observe(ratio, *speeds))
         moved = self._moved(inverse, effects, momenta)
-        usable = (misfit <= _CONTRADICTION * ACCURACY) & (abs(ratio) > 0.0)
+        # However far the friction is from the ratio, the case has a bound; recorders must agree.
+        agree = self._own_misfit() <= _CONTRADICTION * ACCURACY
+        usable = agree & np.isfinite(misfit) & (abs(ratio) > 0.0)
         usable = usable & pushed(self.observe(LAW, *speeds))
         root = Root(*speeds, self.e, moved / abs(closing), np.where(usable, closing, np.nan))
         return root, np.where(usable, misfit, np.inf), np.full((), np.inf)
+
+    def _own_misfit(self) -> Any:
+        """The misfit of the components to the impulse that fits them best, whatever the friction.
+
+        It is 0 for those of one vehicle.
+        """
+        root, _, _ = self._solved(STICK)
+        here = self.observe(STICK, *root[:2])
+        return self._misfit(here)
+
+    def _misfit(self, here: Seen) -> Any:
+        """What the components differ by from those seen, relative to the impulse."""
+        left = self._left(here)
+        size = np.hypot(here.normal, here.tangential)
+        return np.maximum(*(self._of(label, left) for label in "ab")) / size
 
     def shown_ratio(self) -> Any:
         """The impulse ratio that the components show by themselves; NaN if they do not."""
@@ -300,10 +321,7 @@ class ComponentScene(Scene):
         Last comes the misfit of a regime that may have been and leaves a speed open, else infinity.
         """
         here, seen = (self.observe(which, *speeds) for which in (regime, LAW))
-        left = self._left(here)
-        misfit = np.maximum(*(self._of(label, left) for label in "ab")) / np.hypot(
-            here.normal, here.tangential
-        )
+        misfit = self._misfit(here)
         apart = abs(seen.normal - here.normal) + abs(seen.tangential - here.tangential)
         fits = pushed(seen) & (apart <= ROOT_TOL * abs(here.normal))
         usable = fits & np.logical_not(stays_open) & (misfit <= _CONTRADICTION * ACCURACY)
@@ -343,10 +361,11 @@ class ComponentScene(Scene):
         """Warn of known values that differ beyond their accuracy, of courses near one line, of a
         contact that may have slid.
         """
-        differ = answered & (self.misfit > ACCURACY)
+        misfit = np.where(self.ended, self._own_misfit(), self.misfit) if self.slid else self.misfit
+        differ = answered & (misfit > ACCURACY)
         if np.any(differ):
-            worst = float(np.max(np.where(answered, self.misfit, 0.0), initial=0.0))
-            who = " and ".join((*self.names, FRICTION) if np.any(self.sides) else self.names)
+            worst = float(np.max(np.where(answered, misfit, 0.0), initial=0.0))
+            who = " and ".join(self.names)
             why = (
                 f"the stated accuracy of recorders is {ACCURACY:.0%}: one of them, a course or "
                 "the geometry is wrong"
@@ -358,6 +377,15 @@ class ComponentScene(Scene):
             sentence = f"{who} differ from their best common answer by more than they may, as {why}"
             warning = IllConditionedWarning(text, code="recorders_differ", value=worst)
             warn_of_cases(warning, {sentence: cases.number(differ)})
+        elif cases.shape is None and np.any(answered & self.ended & (self.misfit > ACCURACY)):
+            text = (
+                f"a contact that slides with friction={float(self.bound):.4g} differs from "
+                f"{' and '.join(self.names)} by {float(self.misfit):.0%} of the impulse, where the "
+                f"stated accuracy of recorders is {ACCURACY:.0%}: the friction, one of them or the "
+                "geometry is wrong"
+            )
+            warning = IllConditionedWarning(text, code="friction_differs", value=float(self.misfit))
+            warn_of_cases(warning, {text: None})
         (ax, ay), (bx, by) = (
             [self.given[f"course_{label}[{i}]"] for i in range(2)] for label in "ab"
         )

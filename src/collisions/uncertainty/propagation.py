@@ -234,7 +234,7 @@ def propagate(
         cases = [
             one.outputs[name]
             for one in runs
-            if not (one.failed and math.isnan(one.outputs[name].mean))
+            if not (one.failed and _without_answer(one.outputs[name]))
         ]
         if not cases:
             raise NoSolutionError(
@@ -564,6 +564,13 @@ def _notes(
                 )
             )
     return tuple(notes)
+
+
+def _without_answer(output: Output) -> bool:
+    """Whether no case has an answer; the mean is NaN also where some are known from one side."""
+    if isinstance(output, OneSidedOutput):
+        return bool(np.isnan(output.values).all())
+    return math.isnan(output.mean)
 
 
 def _said_of_all(model: Model, count: int) -> str:
