@@ -85,7 +85,9 @@ def test_neither_is_assumed(labels, friction):
 
 def test_a_stated_contact_is_taken_at_its_word_and_the_doubt_is_said():
     """From a ratio of 0.3 on, the least friction published between vehicles."""
-    with pytest.warns(col.IllConditionedWarning, match=r"needs an impulse ratio of 0\.45") as caught:
+    with pytest.warns(
+        col.IllConditionedWarning, match=r"needs an impulse ratio of 0\.45"
+    ) as caught:
         (stuck,) = back(friction=math.inf, regime="sticking")
     assert codes(caught) == ["may_slide"]
     assert "If it slid, the speed of B is at least 10.8359 mph" in str(caught[0].message)
@@ -105,15 +107,13 @@ def test_a_stated_contact_is_taken_at_its_word_and_the_doubt_is_said():
 @pytest.mark.parametrize("friction", [math.inf, 1.0, 0.6, 0.5, 0.45, 0.3])
 def test_no_friction_says_10_8_mph_in_silence(friction):
     """Whatever friction is given: refused, or a warning, or a bound that the truth keeps."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        try:
-            (found,) = back(friction=friction)
-        except col.NoSolutionError as error:
-            assert error.code in ("ambiguous", "undetermined")
-        else:
-            assert codes(caught) == ["may_slide"]
-            assert friction >= 2.0 * abs(found.impulse_ratio)
+    if friction == 1.0:  # more than twice the ratio
+        with pytest.warns(col.IllConditionedWarning, match="If it slid, the speed of B is"):
+            back(friction=friction)
+    else:
+        with pytest.raises(col.NoSolutionError) as refused:
+            back(friction=friction)
+        assert refused.value.code in ("ambiguous", "undetermined")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         (bound,) = back(friction=friction, slid="bound")
@@ -302,9 +302,8 @@ def test_records_reports_and_explanations(known):
     one_sided = "slid" in known
     columns = found.to_columns()
     assert ("reconstruction.one_sided.speed_b" in columns) == one_sided
-    assert ("known from one side" in str(found.summary()) or "at least" in str(found.summary())) == (
-        one_sided
-    )
+    table = str(found.summary())
+    assert ("known from one side" in table or "at least" in table) == one_sided
     if np.ndim(known["friction"]):
         return
     page = col.report(found, form="markdown")
@@ -415,9 +414,7 @@ def test_silent_ranges_hold_whether_it_stuck_or_slid(route):
             warned[regime] += 1
             assert route != "stated" or "may_slide" in codes(caught)
             continue
-        held[regime] += [
-            low <= true <= high for (low, high), true in zip(ends, both, strict=True)
-        ]
+        held[regime] += [low <= true <= high for (low, high), true in zip(ends, both, strict=True)]
     assert ranged == count
     if route == "stated":
         # Said of every contact that slid, and of no more than two in three that stuck.

@@ -46,7 +46,8 @@ def test_the_share_decides_an_end():
     # 30 % from one side: an interval of a half still has two ends.
     some = propagate(beyond(0.9, 1), UNIT, **OPTIONS)["sided"]
     assert some.interval(0.5) == pytest.approx((0.25, 0.75), abs=2e-3)
-    assert some.quantile(np.array([0.1, 0.5, 0.95])) == pytest.approx([0.1, 0.5, math.inf], abs=2e-3)
+    found = some.quantile(np.array([0.1, 0.5, 0.95]))
+    assert found == pytest.approx([0.1, 0.5, math.inf], abs=2e-3)
     both = propagate(
         lambda x: {"x": OneSided(x, np.where(x > 0.6, 1, np.where(x < 0.4, -1, 0)))},
         UNIT,
@@ -123,8 +124,7 @@ def test_a_report_has_the_range():
 
     known = {"speed_a": Normal(15.0, 0.5)}
     page = col.report(impact, uncertainty=propagate(model, known, **OPTIONS), form="markdown")
-    assert "at least 14.0 m/s, 97.5 %" in page
-    assert "97.5 %" in page
+    assert "at least 14.04 m/s, 97.5 %" in page
     assert "is known from one side only in 100 %" in page
 
 

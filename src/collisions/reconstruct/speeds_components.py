@@ -68,7 +68,6 @@ class ComponentScene(Scene):
         # 0 in place of unknown ones.
         self.known = [self.targets.get(f"speed_{label}", np.zeros(())) for label in "ab"]
         self.misfit: Any = np.full((), np.nan)
-        self.near_sliding: Any = np.zeros((), dtype=bool)
         # Where the answer is the end of the family of contacts that slid.
         self.ended: Any = np.zeros((), dtype=bool)
         # Ratio of the impulse of the answer, and where it is said to stick but may have slid.
@@ -111,10 +110,9 @@ class ComponentScene(Scene):
         self.undetermined = none & (open_slip <= _CONTRADICTION * ACCURACY)
         if not self.slid:
             self.undetermined = self.undetermined | (open_slip <= REDUNDANT)
-            self.near_sliding = ~none & ~self.undetermined & (open_slip <= ACCURACY)
         best = [misfit <= np.maximum(ROOT_TOL, self.misfit) for misfit in misfits]
         if self.rule == FRICTION:
-            self._weigh(sticks, found, best)
+            self._weigh(sticks, open_slip <= ACCURACY, found, best)
         return [
             root._replace(closing=np.where(here, root.closing, np.nan))
             for root, here in zip(found, best, strict=True)
@@ -132,8 +130,11 @@ class ComponentScene(Scene):
         of = [misfit for one, (_, misfit, _) in zip(regimes, tried, strict=False) if one is STICK]
         return np.isfinite(of[0]) if of else np.zeros((), dtype=bool)
 
-    def _weigh(self, sticks: Any, found: Sequence[Root], best: Sequence[Any]) -> None:
-        """Find where the contact may as well have slid, and to which side each speed then lies."""
+    def _weigh(self, sticks: Any, near: Any, found: Sequence[Root], best: Sequence[Any]) -> None:
+        """Find where the contact may as well have slid, and to which side each speed then lies.
+
+        A ratio that is within the accuracy of recorders ``near`` to the friction is not below it.
+        """
         here = [at & (root.closing > 0.0) for at, root in zip(best, found, strict=True)]
         one, other = (
             sum(np.where(at, part, 0.0) for at, part in zip(here, parts, strict=True))
@@ -147,13 +148,13 @@ class ComponentScene(Scene):
             self.leaves_slip = self.leaves_slip | self._slip_stays_open()
         size = abs(self.ratio)
         bound = np.where(np.isinf(self.bound), MAY_SLIDE, self.bound)
-        decided = (size <= _CLEARLY_BELOW * bound) | np.logical_not(self.leaves_slip)
+        below = (size <= _CLEARLY_BELOW * bound) & np.logical_not(near)
+        decided = below | np.logical_not(self.leaves_slip)
         if self.slid:
             # Asked for a bound, what friction can decide is not enough where contacts slide.
             decided = decided & ((size < MAY_SLIDE) | np.logical_not(self.leaves_slip))
         elif self.stated is None:
             self.ambiguous = sticks & ~self.undetermined & ~decided
-            self.near_sliding = self.near_sliding & decided
         told = (self.stated is not None) | decided
         self.may_slide = sticks & (size >= MAY_SLIDE) & told & self.leaves_slip
         if self.slid:
@@ -406,16 +407,6 @@ class ComponentScene(Scene):
             )
             warning = IllConditionedWarning(text, code="nearly_collinear", sine=sine)
             warn_of_cases(warning, {sentence: cases.number(near)})
-        slides = self.near_sliding & answered & ~self.may_slide
-        if np.any(slides):
-            text = (
-                "the direction of the delta-Vs is that of a contact that slides to the end, "
-                "within the stated accuracy of recorders; it was taken to stick, as they lie "
-                "within the friction. If it slid the slip is open: give one of the speeds"
-            )
-            warn_of_cases(
-                IllConditionedWarning(text, code="may_slide"), {text: cases.number(slides)}
-            )
 
 
 def friction_shown(

@@ -113,21 +113,8 @@ class OneSidedOutput(Sampled):
         unit = f" {self.unit}" if self.unit else ""
         return self.name, self._range(lambda value: f"{value:.6g}{unit}", "percent")
 
-    def own_figures(self, numbers: Numbers, kind: str) -> list[tuple[str, str]] | None:
-        """The range, in words and numbers, for a table.
-
-        Parameters
-        ----------
-        numbers : Numbers
-            Writes numbers in the units of the table.
-        kind : str
-            Kind of quantity.
-
-        Returns
-        -------
-        list of tuple of two texts
-            What it is, and the range.
-        """
+    def _own_figures(self, numbers: Numbers, kind: str) -> list[tuple[str, str]] | None:
+        """The range, in words and numbers, for a table."""
         text = self._range(lambda value: numbers.answer(value, kind), "%")
         return [("range, known from one side in some cases", text)]
 

@@ -146,7 +146,7 @@ class Output(Summarized):
         """Whether nothing but bounds is known of it."""
         return False
 
-    def own_figures(self, numbers: Numbers, kind: str) -> list[tuple[str, str]] | None:
+    def _own_figures(self, numbers: Numbers, kind: str) -> list[tuple[str, str]] | None:
         """What a table says of an output whose figures are of another kind; None for others."""
         return None
 
@@ -736,7 +736,7 @@ def figures(output: Output, numbers: Numbers, kind: str | None = None) -> list[t
     ends = numbers.span(low, high, kind)
     if output.bounds_only:
         return [("range, wherever in the intervals the truth is", ends)]
-    if (own := output.own_figures(numbers, kind)) is not None:
+    if (own := output._own_figures(numbers, kind)) is not None:
         return own
     if len(mean) > 1:
         return [
