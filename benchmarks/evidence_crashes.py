@@ -102,10 +102,12 @@ def crashes(count: int, seed: int) -> list[Crash]:
 
 def _one(way: SimulatedPath, i: int) -> SimulatedPath:
     rest = way.rest
+    curves = ("time", "x", "y", "heading", "vx", "vy", "yaw_rate")
     return SimulatedPath(
-        time=way.time[:, i], x=way.x[:, i], y=way.y[:, i], heading=way.heading[:, i], marks=(),
+        **{name: getattr(way, name)[:, i] for name in curves},
+        marks=(),
         rest=col.Vehicle(mass=float(rest.mass[i]), x=float(rest.x[i]), y=float(rest.y[i])),
-    )  # fmt: skip
+    )
 
 
 def surveyed(

@@ -297,7 +297,8 @@ def friction_low(case: ImpactCase) -> Iterator[Measured]:
 )
 def may_slide(case: ImpactCase) -> Iterator[Measured]:
     impact, origin = case.answer, case.answer.reconstruction
-    stated = impact.friction == math.inf or taken_to_stick(impact)
+    movable = math.isfinite(impact.a.before.mass) and math.isfinite(impact.b.before.mass)
+    stated = (impact.friction == math.inf and movable) or taken_to_stick(impact)
     one_sided = origin is not None and any((origin.one_sided or {}).values())
     if impact.regime != "sticking" or one_sided or not stated:
         return

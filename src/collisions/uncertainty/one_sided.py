@@ -23,7 +23,7 @@ class OneSided:
 
     Parameters
     ----------
-    values : float, Quantity or array
+    values : float, Quantity or array [SI]
         The values or bounds, one for each case, as a model returns an output: SI where a Quantity.
     sides : int or array of int [-]
         For each case +1 (at least), -1 (at most) or 0 (known both ways), such as
