@@ -298,10 +298,9 @@ def measured(route: Route, drawn: list[Crash], seed: int) -> dict[str, Any]:
             low, high = found[f"speed_{label}"]
             truth = side.before.speed
             missed[bool(caught)].append(int(truth > high) - int(truth < low))
-            if not caught:
-                ends = math.isfinite(low) + math.isfinite(high)
-                one_sided, open_ = one_sided + (ends == 1), open_ + (ends == 0)
-                widths += [0.5 * (high - low) * KMH] if ends == 2 else []
+            ends = math.isfinite(low) + math.isfinite(high)
+            one_sided, open_ = one_sided + (ends == 1), open_ + (ends == 0)
+            widths += [0.5 * (high - low) * KMH] if ends == 2 and not caught else []
     counts = {
         key: {
             "intervals": len(found),

@@ -48,10 +48,10 @@ def test_every_route_holds_the_truth_as_often_as_it_states(committed, scripts):
         assert answered >= 300, name
         assert row["plain"]["intervals"] + row["warned"]["intervals"] == 2 * answered, name
         share = row["plain"]["held"] / row["plain"]["intervals"]
-        assert 0.93 <= share, name
+        assert share >= 0.93, name
         assert share <= 0.97 or row["one_sided"] + row["open"] > 0, name
-        # Most of them say something.
-        assert row["open"] <= 0.2 * row["plain"]["intervals"], name
+        # Four in five have an end at least.
+        assert row["open"] <= 0.2 * 2 * answered, name
         # A recorder with its own speed knows more than there are unknowns: near the edge of sliding
         # its readings contradict it. Otherwise only a path that its spin leaves no drag is refused.
         assert (

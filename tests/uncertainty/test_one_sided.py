@@ -43,7 +43,7 @@ def test_the_share_decides_an_end():
         assert found.quantile(1.0) == math.inf
     below = propagate(beyond(0.5, -1), UNIT, **OPTIONS)["sided"]
     assert below.interval() == (-math.inf, pytest.approx(0.975, abs=2e-3))
-    # 30 % from one side: an interval of a half still has two ends.
+    # 10 % from one side: an interval of a half still has two ends.
     some = propagate(beyond(0.9, 1), UNIT, **OPTIONS)["sided"]
     assert some.interval(0.5) == pytest.approx((0.25, 0.75), abs=2e-3)
     found = some.quantile(np.array([0.1, 0.5, 0.95]))
