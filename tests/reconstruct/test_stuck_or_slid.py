@@ -162,6 +162,57 @@ def test_what_settles_it():
         assert found.reconstruction.one_sided == {"speed_a": 0, "speed_b": 0}
 
 
+def test_an_energy_settles_it():
+    """What sliding costs beyond the loss of a contact that stuck tells how far it slid: from
+    energies of the forward solver, and of both EES.
+    """
+    stuck = crossing(10.0, math.inf)
+    for friction in (math.inf, 0.45):
+        for true in (11.0, 15.0, 25.0, 40.0):
+            slid = crossing(true)
+            assert slid.regime == "sliding"
+            ees_a, ees_b = slid.ees(0.4)
+            for known in ({"energy_loss": slid.energy_loss}, {"ees_a": ees_a, "ees_b": ees_b}):
+                (found,) = back(friction=friction, **known)
+                assert mph(found) == pytest.approx([30.0, true], rel=1e-9)
+                assert found.friction == pytest.approx(0.45, rel=1e-12)
+                assert found.regime == "sliding"
+        # A contact that stuck, which would be in doubt: its energy is less than that of any slide.
+        (found,) = back(impact=stuck, friction=math.inf, energy_loss=0.95 * stuck.energy_loss)
+        assert mph(found) == pytest.approx([30.0, 10.0], rel=1e-12)
+        assert "may_slide" not in {one.code for one in diagnose(found)}
+    (found,) = back(friction=math.inf, energy_loss=crossing().energy_loss, slid="bound")
+    assert found.reconstruction.one_sided == {"speed_a": 0, "speed_b": 0}
+    with pytest.raises(col.NoSolutionError, match="fit energy_loss = 1") as caught:
+        back(friction=math.inf, energy_loss=0.2 * stuck.energy_loss)
+    assert caught.value.code == "contradictory"
+    with pytest.warns(col.IllConditionedWarning, match="energy_loss and delta_v_forward_a"):
+        back(friction=math.inf, energy_loss=crossing().energy_loss, regime="sticking")
+    losses = np.array([crossing().energy_loss, crossing(15.0).energy_loss, 1.0])
+    with pytest.warns(col.CollisionsWarning, match="1 of 3"):
+        (many,) = back(friction=math.inf, energy_loss=losses)
+    assert many.b.before.speed[:2] / MPH == pytest.approx([25.0, 15.0], rel=1e-9)
+    assert many.refused.tolist() == [False, False, True]
+    # One percent of the energy moves the speeds by as much as the condition has it.
+    (more,) = back(friction=math.inf, energy_loss=1.01 * slid.energy_loss)
+    (true,) = back(friction=math.inf, energy_loss=slid.energy_loss)
+    moved = max(abs(a - b) for a, b in zip(mph(more), mph(true), strict=True)) * MPH
+    assert moved < 0.01 * true.reconstruction.condition * true.closing_speed
+
+
+def test_sides_are_those_of_what_is_open():
+    """With a speed that settles it, asked for a bound or not: nothing is one-sided."""
+    rng = np.random.default_rng(9)
+    for _ in range(10):
+        cars, both, known, friction, impact = slid_at_random(rng)
+        given = {**known, **recorded(impact), "speed_b": both[1], "friction": friction}
+        bodies = [col.Vehicle(**car) for car in cars]
+        (found,) = speeds(*bodies, **given, slid="bound")
+        (same,) = speeds(*bodies, **given)
+        assert found == same
+        assert found.reconstruction.one_sided == {"speed_a": 0, "speed_b": 0}
+
+
 def test_a_friction_far_from_the_ratio_has_a_bound_and_is_warned_of():
     """Projected on the friction, the impulse is shorter: least squares by hand."""
     with pytest.warns(col.IllConditionedWarning, match=r"friction=0\.3 differs") as caught:
@@ -279,6 +330,7 @@ def test_a_batch_is_its_cases():
         {"friction": math.inf, "slid": "bound", "regime": "sliding"},
         {"friction": math.inf, "regime": "sticking"},
         {"friction": math.inf, "speed_b": "25 mph"},
+        {"friction": math.inf, "energy_loss": "60 kJ"},
         {"friction": np.array([0.3, 0.45]), "slid": "bound"},
     ],
     ids=str,

@@ -298,7 +298,11 @@ def friction_low(case: ImpactCase) -> Iterator[Measured]:
 def may_slide(case: ImpactCase) -> Iterator[Measured]:
     impact, origin = case.answer, case.answer.reconstruction
     movable = math.isfinite(impact.a.before.mass) and math.isfinite(impact.b.before.mass)
-    stated = (impact.friction == math.inf and movable) or taken_to_stick(impact)
+    known = () if origin is None else origin.known
+    if any(name.startswith(("delta_v_forward", "delta_v_left")) for name in known):
+        stated = taken_to_stick(impact)
+    else:
+        stated = impact.friction == math.inf and movable
     one_sided = origin is not None and any((origin.one_sided or {}).values())
     if impact.regime != "sticking" or one_sided or not stated:
         return

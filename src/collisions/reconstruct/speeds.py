@@ -145,14 +145,14 @@ def speeds(
     delta_v_forward_a, delta_v_left_a : float, str, Quantity or array [m/s], optional
         Components of delta-V in the axes of a vehicle, which then needs its heading, as from an
         event data recorder (whose lateral delta-V is positive to the right, the opposite sign).
-        With the known speeds they must be two or more in all, and none of the other kinds may be
-        given beside them. Both components of one vehicle give the impulse and its ratio. Both
-        speeds follow from it if the contact stuck. If it slid at that ratio, it only repeats the
-        friction: the answers are a family, which begins at the answer of the contact that stuck,
-        and one speed must be known. Components do not tell which it was: see ``regime`` and
-        ``slid``.
-    delta_v_forward_b, delta_v_left_b : float, str, Quantity or array [m/s], optional
-        The same of B.
+        With a known speed they must be two or more in all. Beside them one thing may be given that
+        settles whether the contact stuck or slid: a speed, ``energy_loss`` or both EES. Both
+        components of one vehicle give the impulse and its ratio. Both speeds follow from it if the
+        contact stuck. If it slid at that ratio, it only repeats the friction: the answers are a
+        family, which begins at the answer of the contact that stuck, and one speed must be known.
+        Components do not tell which it was: see ``regime`` and ``slid``. An energy greater than a
+        contact that stuck loses was lost by sliding. delta_v_forward_b, delta_v_left_b : float,
+        str, Quantity or array [m/s], optional The same of B.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
@@ -322,7 +322,10 @@ def taken_to_stick(impact: Impact) -> bool:
         origin is not None
         and impact.inputs.rule == FRICTION
         and any(name in _COMPONENTS for name in origin.known)
-        and (origin.regime == "sticking" or not any(name[:5] == "speed" for name in origin.known))
+        and (
+            origin.regime == "sticking"
+            or not any(name.startswith(("speed", "energy", "ees")) for name in origin.known)
+        )
         and not any((origin.one_sided or {}).values())
     )
 
@@ -334,7 +337,11 @@ def if_it_slid(impact: Impact) -> Impact | None:
     origin, inputs = impact.reconstruction, impact.inputs
     if origin is None or not taken_to_stick(impact):
         return None
-    given: dict[str, Any] = {name: attrgetter(KNOWN[name].path)(impact) for name in origin.known}
+    given: dict[str, Any] = {
+        name: attrgetter(KNOWN[name].path)(impact)
+        for name in origin.known
+        if name.startswith(("speed", "delta_v"))
+    }
     given |= {f"course_{label}": getattr(inputs, label).course for label in "ab"}
     given |= {name: getattr(inputs, name) for name in ("restitution", "normal", "point")}
     given |= {"law": inputs.law or BRACH, "incomplete": inputs.incomplete}
@@ -400,15 +407,16 @@ def _known_beside(components: dict[str, Any], known: dict[str, Any]) -> dict[str
             "speed_a and speed_b are both known: that is the forward problem, use eccentric",
             code="too_many_knowns",
         )
-    stray = [name for name in others if components and not name.startswith("speed")]
+    taken = [("speed_a",), ("speed_b",), ("energy_loss",), ("ees_a", "ees_b"), ()]
+    stray = [name for name in others if components and tuple(others) not in taken]
     if stray:
         raise InputError(
             f"{', '.join(components)} and {', '.join(stray)} are not taken together: beside "
-            "components of delta-V give a speed",
+            "components of delta-V give a speed, energy_loss or both EES",
             code="bad_combination",
             argument=stray[0],
         )
-    if len(components) + len(others) < 2:
+    if components and len(components) + sum(name[:5] == "speed" for name in others) < 2:
         raise InputError(
             f"{next(iter(components))} alone leaves the speeds open; give another component, or "
             "one of the speeds",

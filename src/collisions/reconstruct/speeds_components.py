@@ -74,7 +74,8 @@ class ComponentScene(Scene):
         self.ratio: Any = np.full((), np.nan)
         self.may_slide: Any = np.zeros((), dtype=bool)
         # Where a contact that slid leaves the slip open, as with no speed known, or fits too.
-        self.leaves_slip: Any = len(self.unknown) > 1
+        self.energy = self.targets.get("energy_loss")
+        self.leaves_slip: Any = len(self.unknown) > 1 and self.energy is None
         self.answer: tuple[Any, Any] = (math.nan, math.nan)
         # Which way the truth may lie from each speed, where it may be another member of the family.
         self.sides: tuple[Any, Any] | None = None
@@ -96,7 +97,11 @@ class ComponentScene(Scene):
         tried, edges = [*map(self._solved, regimes)], self._edges()
         open_slip = np.fmin.reduce(np.broadcast_arrays(*(left for *_, left in tried + edges)))
         sticks = self._sticks(regimes, tried)
-        if self.slid:
+        if self.energy is not None:
+            sliding = [self._end(regime) for regime in regimes if not isinstance(regime, str)]
+            tried = [self._losing(*one) for one in tried] + sliding
+            open_slip = np.full((), np.inf)
+        elif self.slid:
             ends = [self._end(regime) for regime in regimes if not isinstance(regime, str)]
             ends = [(root, np.where(sticks, np.inf, misfit), left) for root, misfit, left in ends]
             self.ended = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
@@ -159,7 +164,7 @@ class ComponentScene(Scene):
         self.may_slide = sticks & (size >= MAY_SLIDE) & told & self.leaves_slip
         if self.slid:
             first, second = self._ways(self.ratio)
-            known = sticks & decided
+            known = (sticks & decided) | np.logical_not(self.leaves_slip)
             self.sides = np.where(known, 0.0, first), np.where(known, 0.0, second)
 
     def _slip_stays_open(self) -> Any:
@@ -177,8 +182,7 @@ class ComponentScene(Scene):
         return self._ways(self.ratio)
 
     def _ways(self, ratio: Any) -> tuple[Any, Any]:
-        ones = np.ones(())
-        here, ahead = (self.speeds_at(ones, slip * ones) for slip in (0.0, 1.0))
+        here, ahead = map(self._one_slip, (0.0, 1.0))
         moved = [after - before for before, after in zip(here, ahead, strict=True)]
         grows = self._beyond(ratio, ahead) - self._beyond(ratio, here)
         way = np.sign(ratio * grows)
@@ -196,10 +200,11 @@ class ComponentScene(Scene):
         return stuck.tangential - ratio * stuck.normal
 
     def _end(self, ratio: Any) -> tuple[Root, Any, Any]:
-        """The end of the family of contacts that slid at this ratio: where sticking just takes it.
+        """The end of the family of contacts that slid at this ratio: where sticking just takes it;
+        or, with an energy known, the member that loses it.
 
         The components give the closing speed, and the end is the slip at which both regimes give
-        the same impulse.
+        the same impulse. From there on the loss grows linearly with the slip.
         """
         somewhere, _, misfit = self._solved(ratio)
         closing = self.observe(ratio, *somewhere[:2]).closing
@@ -207,16 +212,49 @@ class ComponentScene(Scene):
         slip = short / (short - ahead)
         # A hair inside the family, or rounding decides whether the impact solved forwards slides.
         slip = slip + np.sign(ratio * (ahead - short)) * _INSIDE * (abs(slip) + closing)
+        within: Any = None
+        if self.energy is not None:
+            way = np.sign(ratio * (ahead - short)) * closing
+            loss, more = (
+                self.observe(ratio, *self.speeds_at(closing, one)).energy_loss
+                for one in (slip, slip + way)
+            )
+            within = (self.energy - loss) / (more - loss)
+            slip, by_energy = slip + way * within, abs(way * self.energy / (more - loss))
         speeds = self.speeds_at(closing, slip)
         _, effects, inverse, _ = self._linear_in(STICK)
         momenta = self._seen_momenta(self.observe(ratio, *speeds))
         moved = self._moved(inverse, effects, momenta)
+        if within is not None:
+            per_slip = [b - a for a, b in zip(*map(self._one_slip, (0.0, 1.0)), strict=True)]
+            moved = moved + np.maximum(*map(abs, per_slip)) * by_energy
         # However far the friction is from the ratio, the case has a bound; recorders must agree.
         agree = self._own_misfit() <= _CONTRADICTION * ACCURACY
         usable = agree & np.isfinite(misfit) & (abs(ratio) > 0.0)
         usable = usable & pushed(self.observe(LAW, *speeds))
+        if within is not None:
+            usable = usable & (within >= 0.0) & (misfit <= _CONTRADICTION * ACCURACY)
         root = Root(*speeds, self.e, moved / abs(closing), np.where(usable, closing, np.nan))
         return root, np.where(usable, misfit, np.inf), np.full((), np.inf)
+
+    def _one_slip(self, slip: float) -> tuple[Any, Any]:
+        return self.speeds_at(np.ones(()), slip * np.ones(()))
+
+    def _losing(self, root: Root, misfit: Any, left: Any) -> tuple[Root, Any, Any]:
+        """A contact that sticks, with what the known energy differs from its loss.
+
+        An energy goes as the square of the impulse, of which all misfits are shares.
+        """
+        loss = self.observe(STICK, *root[:2]).energy_loss
+        whole = np.maximum(misfit, 0.5 * abs(self.energy / loss - 1.0))
+        fits = whole <= _CONTRADICTION * ACCURACY
+        root = root._replace(closing=np.where(fits, root.closing, np.nan))
+        return root, np.where(fits, whole, np.inf), left
+
+    def loses_more(self) -> Any:
+        """Whether the known energy is more than a contact that stuck loses."""
+        root, _, _ = self._solved(STICK)
+        return self.energy > self.observe(STICK, *root[:2]).energy_loss
 
     def _own_misfit(self) -> Any:
         """The misfit of the components to the impulse that fits them best, whatever the friction.
@@ -420,13 +458,15 @@ def friction_shown(
     contact slid; None if it did nowhere. And where a contact that slid fits as well as one that
     stuck, with other speeds.
 
-    It slid where the caller stated that, or where a known speed goes with a contact that slid and
-    differs by more than recorders may from one that stuck.
+    It slid where the caller stated that, where a known speed goes with a contact that slid and
+    differs by more than recorders may from one that stuck, or where more energy was lost than
+    sticking loses.
     """
     friction = given[FRICTION]
     speeds = [name for name in names if name.startswith("speed")]
-    components = tuple(name for name in names if name not in speeds)
-    if regime == "sticking" or len(components) < 2 or not (speeds or regime):
+    components = tuple(name for name in names if name.startswith("delta_v"))
+    settles = speeds or len(components) < len(names)
+    if regime == "sticking" or len(components) < 2 or not (settles or regime):
         return None, False
     shown = abs(ComponentScene(given, FRICTION, law, components, shape).shown_ratio())
     usable = np.isinf(friction) & np.isfinite(shown)
@@ -434,6 +474,8 @@ def friction_shown(
     if regime == "sliding":
         return ratio, False
     stuck = ComponentScene(given, FRICTION, law, names, shape)
+    if not speeds:
+        return np.where(usable & stuck.loses_more(), shown, friction), False
     slid = ComponentScene({**given, FRICTION: ratio}, FRICTION, law, names, shape, False, "sliding")
     closing = sum(np.nan_to_num(root.closing) for root in stuck.roots())
     one, other, *_ = slid.roots()
