@@ -758,7 +758,8 @@ def _stuck_or_slid(
         f"impulse ratio of {ratio:.2f}, and {allowed}. If it stuck, the speed of A is "
         f"{speeds['speed_a']} and that of B {speeds['speed_b']}; if it slid at that ratio, "
         f"{bounds}. Write regime='sticking' or regime='sliding' if you know which, the latter "
-        "with one of the speeds; or slid='bound' for this end of the speeds that it may have had. "
+        "with one of the speeds or the energy lost; or slid='bound' for this end of the speeds "
+        "that it may have had. "
         "Both answers are in .solutions",
         code=Status.AMBIGUOUS.label,
         ratio=ratio,
