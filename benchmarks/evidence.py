@@ -19,7 +19,7 @@ import math
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from evidence_crashes import (
@@ -41,7 +41,7 @@ from evidence_crashes import (
 
 import collisions as col
 from collisions import reconstruct, travel
-from collisions.uncertainty import Normal, Uniform, propagate
+from collisions.uncertainty import Normal, OneSided, Uniform, propagate
 
 SEED = 20261122
 CRASHES, OF_EVERYTHING, QUICK = 1200, 480, 12
@@ -102,8 +102,15 @@ class Smoothed:
 
 
 def by_components_of_both(crash: Crash, generator: np.random.Generator) -> Speeds:
-    """The components of both recorders, and no speed."""
-    return _by_components(crash, generator, ("a", "b"), friction=math.inf)
+    """The components of both recorders, and no speed: whether the contact stuck or slid is not
+    known, and where it may have slid the answer is the end of its family, known from one side.
+    """
+    return _by_components(crash, generator, ("a", "b"), slid="bound", friction=FRICTION)
+
+
+def by_components_alone(crash: Crash, generator: np.random.Generator) -> Speeds:
+    """The same of the recorder of A alone."""
+    return _by_components(crash, generator, ("a",), slid="bound", friction=FRICTION)
 
 
 def by_components_of_one(crash: Crash, generator: np.random.Generator) -> Speeds:
@@ -116,7 +123,11 @@ def by_components_of_one(crash: Crash, generator: np.random.Generator) -> Speeds
 
 
 def _by_components(
-    crash: Crash, generator: np.random.Generator, recorders: tuple[str, ...], **known: Any
+    crash: Crash,
+    generator: np.random.Generator,
+    recorders: tuple[str, ...],
+    slid: Literal["bound"] | None = None,
+    **known: Any,
 ) -> Speeds:
     inputs: dict[str, Any] = {"restitution": RESTITUTION, **known}
     for label in recorders:
@@ -130,8 +141,11 @@ def _by_components(
             for name, value in values.items()
             if not name.startswith(("mass", "inertia")) and len(name) > 1
         }
-        found = reconstruct.speeds(*both, point=(values["x"], values["y"]), **taken)[0]
-        return {"speed_a": found.a.before.speed, "speed_b": found.b.before.speed}
+        found = reconstruct.speeds(*both, point=(values["x"], values["y"]), slid=slid, **taken)[0]
+        speeds = {"speed_a": found.a.before.speed, "speed_b": found.b.before.speed}
+        assert found.reconstruction is not None
+        sides = found.reconstruction.one_sided or dict.fromkeys(speeds, 0)
+        return {name: OneSided(speed, sides[name]) for name, speed in speeds.items()}
 
     return _ranges(model, inputs, generator)
 
@@ -246,13 +260,15 @@ class Route(NamedTuple):
 
     intervals: Callable[[Crash, np.random.Generator], Speeds]
     crashes: int = 900
-    stuck: bool = False
+    regime: str | None = None
 
 
 ROUTES = {
     "components of both recorders, contact stuck": Route(
-        by_components_of_both, CRASHES, stuck=True
+        by_components_of_both, CRASHES, "sticking"
     ),
+    "components of one recorder, contact stuck": Route(by_components_alone, CRASHES, "sticking"),
+    "components of one recorder, contact slid": Route(by_components_alone, regime="sliding"),
     "components and speed of one recorder": Route(by_components_of_one),
     "momentum from smoothed paths": Route(by_momentum),
     "everything: delta-V of one recorder, both surveys, damage": Route(
@@ -266,10 +282,10 @@ def measured(route: Route, drawn: list[Crash], seed: int) -> dict[str, Any]:
     those it does.
     """
     missed: dict[bool, list[int]] = {False: [], True: []}
-    widths, refused = [], 0
-    fit = [
-        i for i, crash in enumerate(drawn) if not route.stuck or crash.impact.regime == "sticking"
-    ][: route.crashes]
+    widths, refused, one_sided, open_ = [], 0, 0, 0
+    fit = [i for i, crash in enumerate(drawn) if route.regime in (None, crash.impact.regime)][
+        : route.crashes
+    ]
     for i in fit:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", col.CollisionsWarning)
@@ -282,8 +298,9 @@ def measured(route: Route, drawn: list[Crash], seed: int) -> dict[str, Any]:
             low, high = found[f"speed_{label}"]
             truth = side.before.speed
             missed[bool(caught)].append(int(truth > high) - int(truth < low))
-            if not caught:
-                widths.append(0.5 * (high - low) * KMH)
+            ends = math.isfinite(low) + math.isfinite(high)
+            one_sided, open_ = one_sided + (ends == 1), open_ + (ends == 0)
+            widths += [0.5 * (high - low) * KMH] if ends == 2 and not caught else []
     counts = {
         key: {
             "intervals": len(found),
@@ -294,7 +311,8 @@ def measured(route: Route, drawn: list[Crash], seed: int) -> dict[str, Any]:
         for key, found in (("plain", missed[False]), ("warned", missed[True]))
     }
     halves = [round(float(np.percentile(widths, p)), 2) for p in (10, 50, 90)] if widths else []
-    return {"crashes": len(fit), "refused": refused, **counts, "half_width": halves}
+    sides = {"one_sided": one_sided, "open": open_}
+    return {"crashes": len(fit), "refused": refused, **counts, **sides, "half_width": halves}
 
 
 def model_error(drawn: list[Crash]) -> dict[str, float]:

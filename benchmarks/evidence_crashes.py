@@ -102,9 +102,9 @@ def crashes(count: int, seed: int) -> list[Crash]:
 
 def _one(way: SimulatedPath, i: int) -> SimulatedPath:
     rest = way.rest
-    over_time = ("time", "x", "y", "heading", "vx", "vy", "yaw_rate")
+    curves = ("time", "x", "y", "heading", "vx", "vy", "yaw_rate")
     return SimulatedPath(
-        **{name: getattr(way, name)[:, i] for name in over_time},
+        **{name: getattr(way, name)[:, i] for name in curves},
         marks=(),
         rest=col.Vehicle(mass=float(rest.mass[i]), x=float(rest.x[i]), y=float(rest.y[i])),
     )

@@ -37,6 +37,8 @@ def routes(found: dict[str, Any]) -> str:
         "held the truth, %",
         "above",
         "below",
+        "one-sided",
+        "open",
         "half width, km/h",
         "warned: held, %",
         "refused",
@@ -50,6 +52,8 @@ def routes(found: dict[str, Any]) -> str:
             held(plain),
             str(plain["above"]),
             str(plain["below"]),
+            str(row["one_sided"]),
+            str(row["open"]),
         ]
         widths = (
             "{1:.1f} ({0:.1f} to {2:.1f})".format(*row["half_width"])

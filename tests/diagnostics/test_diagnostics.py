@@ -258,6 +258,10 @@ CASES = {
         lambda: (square(b=SLIDING, friction=0.29), {}),
         lambda: (square(friction=0.1), {}),
     ),
+    "may_slide": (
+        lambda: (square(b={"vy": -60.0}, friction=math.inf), {}),
+        lambda: (square(b={"vy": -60.0}, friction=0.3), {}),
+    ),
     "ratio_high": (
         lambda: (square(b={"vy": -60.0}, friction=2.0), {}),
         lambda: (square(b={"vy": -60.0}, friction=0.8), {}),

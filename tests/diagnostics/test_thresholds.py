@@ -375,6 +375,7 @@ ROWS = [
     Row("normal", 0.2, MESSAGES, turned_normal),
     Row("normal_yaw", 0.5, OWN, turned_normal_yaw),
     Row("friction_low", 0.3, "SAE 970947", lambda x: aslant(vy=60.0, friction=x), below=True),
+    Row("may_slide", 0.3, "SAE 970947", lambda x: aslant(vy=20.0 * x, friction=math.inf)),
     Row("ratio_high", 1.0, "SAE 970947", lambda x: aslant(vy=60.0, friction=x)),
     Row("suspect_mass", 150.0, OWN, lambda x: in_line(b={"mass": x}), below=True),
     Row("suspect_mass", 150.0, OWN, lambda x: by_momentum(mass=(1500.0, x)), below=True),
@@ -718,7 +719,7 @@ def recorders(friction, **components):
 
 def two_recorders(off):
     """The components of B longer than those of A: each is off the mean by this share of it."""
-    forward, left = -8.0, 3.0
+    forward, left = -8.0, 1.0
     of_b = (1.0 + off) / (1.0 - off)
     return recorders(
         math.inf,
@@ -729,14 +730,17 @@ def two_recorders(off):
     )
 
 
-def beside_a_slide(tangent):
-    """The components of an impulse within the friction of 0.5, at an angle of this tangent to its
-    edge.
-    """
-    angle = math.atan(0.5) - math.atan(tangent)
+def stated_to_stick(ratio):
+    """The components of an impulse of this ratio, of a contact that is stated to have stuck."""
     return recorders(
-        0.5, delta_v_forward_a=-8.0 * math.cos(angle), delta_v_left_a=8.0 * math.sin(angle)
+        math.inf, delta_v_forward_a=-8.0, delta_v_left_a=8.0 * ratio, regime="sticking"
     )
+
+
+def less_than_its_ratio(tangent):
+    """The components of an impulse at an angle of this tangent beyond the friction given."""
+    friction = math.tan(math.atan(0.5) - math.atan(tangent))
+    return recorders(friction, delta_v_forward_a=-8.0, delta_v_left_a=4.0, slid="bound")
 
 
 def by_courses_apart(angle):
@@ -867,8 +871,8 @@ WARNINGS = [
     Warned("separation after, of rounding", 1e6, CONDITION, "ill_conditioned", separating_slowly),
     Warned("impulses of A and B", 0.1, CONDITION, "momentum_mismatch", unequal_impulses),
     Warned("slip after of a slide", 0.05, CONDITION, "nearly_sticking", nearly_stuck, below=True),
-    Warned("impulse beside the edge of the friction", 0.1, CONDITION, "may_slide", beside_a_slide,
-        below=True),
+    Warned("ratio of a contact stated to stick", 0.3, CONDITION, "may_slide", stated_to_stick),
+    Warned("friction beside the ratio", 0.1, CONDITION, "friction_differs", less_than_its_ratio),
     Warned("two recorders", 0.1, CONDITION, "recorders_differ", two_recorders),
     Warned("change at the end of a record", 0.8 / 3.6, RANGE, "pulse_cut", a_record_that_stops),
     Warned("fit that bends", 0.2, CONDITION, "not_linear", a_bent_reading),
@@ -918,6 +922,7 @@ def test_every_warning_has_its_rows():
                 words = [part.value for part in call.args if isinstance(part, ast.Constant)]
                 found |= set([word for word in words if re.fullmatch("[a-z_]+", word)][:1])
     elsewhere = {"nearly_plastic", "undetermined", "fold", "islands_disagree", "collapsed"}
+    elsewhere |= {"stuck_or_slid"}
     assert found == {row.code for row in WARNINGS if row.code != "contradictory"} | elsewhere
 
 

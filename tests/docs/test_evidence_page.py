@@ -39,13 +39,19 @@ def scripts():
 
 
 def test_every_route_holds_the_truth_as_often_as_it_states(committed, scripts):
-    """Of 300 answered crashes or more, 93 to 97 % of the intervals that nothing was warned of."""
+    """Of 300 answered crashes or more, 93 to 97 % of the intervals that nothing was warned of; of
+    those known from one side more, as they may be no wider.
+    """
     assert set(committed["routes"]) == set(scripts[0].ROUTES)
     for name, row in committed["routes"].items():
         answered = row["crashes"] - row["refused"]
         assert answered >= 300, name
         assert row["plain"]["intervals"] + row["warned"]["intervals"] == 2 * answered, name
-        assert 0.93 <= row["plain"]["held"] / row["plain"]["intervals"] <= 0.97, name
+        share = row["plain"]["held"] / row["plain"]["intervals"]
+        assert share >= 0.93, name
+        assert share <= 0.97 or row["one_sided"] + row["open"] > 0, name
+        # Four in five have an end at least.
+        assert row["open"] <= 0.2 * 2 * answered, name
         # A recorder with its own speed knows more than there are unknowns: near the edge of sliding
         # its readings contradict it. Otherwise only a path that its spin leaves no drag is refused.
         assert (
@@ -53,7 +59,7 @@ def test_every_route_holds_the_truth_as_often_as_it_states(committed, scripts):
             or name == "components and speed of one recorder"
         ), name
     momentum, everything = (
-        committed["routes"][name]["half_width"][1] for name in list(scripts[0].ROUTES)[2:]
+        committed["routes"][name]["half_width"][1] for name in list(scripts[0].ROUTES)[4:]
     )
     assert everything < 0.6 * momentum
 

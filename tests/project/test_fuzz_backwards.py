@@ -38,6 +38,7 @@ COURSES = dict.fromkeys(("course_a", "course_b", "course_a_after", "course_b_aft
 SPEEDS = dict.fromkeys(("speed_a", "speed_b", "speed_a_after", "speed_b_after"), "speed")
 IN_LINE = {"delta_v_a": "speed", "delta_v_b": "speed", "energy_loss": "energy_loss"}
 KNOWN = {"speed_a": "speed", "speed_b": "speed", **IN_LINE}
+PARTS = ("forward", "left")
 RULES = ("friction", "impulse_ratio", "critical_fraction")
 FUNCTIONS = [0.0, 1.0, -1.0, math.nan, 1e400, "0.5", None]
 
@@ -237,6 +238,15 @@ def test_speeds_of_anything(data: Any, a: col.Vehicle, b: col.Vehicle, oddity: f
         given_to |= {"ees_a": data.draw(numbers("speed")), "ees_b": data.draw(numbers("speed"))}
         for name in sorted(given_to.keys() & KNOWN.keys())[1:]:
             del given_to[name]
+    if data.draw(st.integers(0, 2)) == 0:
+        side = data.draw(st.sampled_from("ab"))
+        for name in KNOWN:
+            given_to.pop(name, None)
+        given_to |= {f"delta_v_{part}_{side}": data.draw(numbers("vx")) for part in PARTS}
+        given_to |= {
+            "regime": data.draw(st.sampled_from((None, "sticking", "sliding", "bad"))),
+            "slid": data.draw(st.sampled_from((None, "bound", "bad"))),
+        }
     answer_of("speeds", lambda: reconstruct.speeds(a, b, **given_to))
 
 

@@ -972,6 +972,9 @@ def test_speeds(case: Case) -> None:
         )
     if case.maybe(0.1):
         known["forward_only"] = case.option(True, False)
+    if case.maybe(0.2 + 0.5 * all(name.startswith("delta_v_") for name in names)):
+        known["regime"] = case.option(None, None, "sticking", "sliding")
+        known["slid"] = case.option(None, "bound", "bound")
     solved(case, "speeds", a, b, restitution=e, **keywords, **courses, **known)
 
 
@@ -1666,6 +1669,46 @@ def propagation(case: Case) -> Any:
     return case.call(
         "uncertainty.propagate", uncertainty.propagate, model, inputs, **case.spoil(options)
     )
+
+
+def sided(case: Case, made: list[Any]) -> Any:
+    """A model whose output is known from one side only in some cases."""
+    sides = case.option(0, 1, -1, np.array([1, 0, -1, 1] * 16))
+
+    def model(**inputs: Any) -> Any:
+        (name,) = inputs
+        answered = case.call(
+            "uncertainty.OneSided", uncertainty.OneSided, case.option(inputs[name], 3.0), sides
+        )
+        made.append(answered)
+        return {"known": inputs[name], "sided": answered}
+
+    return model
+
+
+@fuzzes("uncertainty.OneSided")
+def test_one_sided(case: Case) -> None:
+    """Any values and sides, alone and as the output of a model; figures of an answer are numbers,
+    infinities or NaN, and every text can be written.
+    """
+    given = {
+        "values": case.option(3.0, "3 m/s", np.array([1.0, 2.0]), np.array([1.0, math.nan])),
+        "sides": case.option(0, 1, -1, [1, -1], np.array([0, 1])),
+    }
+    case.call("uncertainty.OneSided", uncertainty.OneSided, **case.spoil(given))
+    made: list[Any] = []
+    inputs = {"x": uncertainty.Uniform(0.0, case.uniform(1.0, 20.0))}
+    options = {"samples": 64, "seed": case.randrange(2**64)}
+    found = case.call(
+        "uncertainty.propagate", uncertainty.propagate, sided(case, made), inputs, **options
+    )
+    if not isinstance(found, uncertainty.Propagation):
+        return
+    output = found["sided"]
+    low, high = output.interval()
+    assert low <= high or math.isnan(low + high)
+    assert json.dumps(found.to_dict(), allow_nan=False)
+    assert str(found) + repr(output) + str(output.summary())
 
 
 @fuzzes(

@@ -156,6 +156,7 @@ def test_it_goes_into_speeds():
         "normal": 0.0,
         "point": (0.0, 0.4),
         "friction": math.inf,
+        "regime": "sticking",
     }
     (found,) = speeds(a, b, **contact, **{name: one.mean for name, one in inputs.items()})
     assert found.a.delta_v_left == pytest.approx(1.0, rel=1e-12)

@@ -119,7 +119,10 @@ def test_round_trips(kind):
                 solve_back(impact, courses, contact, **known)
             assert caught.value.code == "undetermined"
             continue
+        if "speed_b" not in known and "friction" in contact:
+            known["regime"] = "sticking"
         found = solve_back(impact, courses, contact, **known)
+        known.pop("regime", None)
         nearest = min(found, key=lambda root: off(root, impact))
         # Some tens of eps of what was given, as much larger as the condition says; the ratio a root
         # may hang on is not in it.
@@ -168,9 +171,12 @@ def test_a_batch_is_its_cases():
         "course_a": np.array([c[0] for c in courses]),
         "course_b": np.array([c[1] for c in courses]),
     }
-    (found,) = speeds(a, b, **contact, **known)
+    contact["regime"] = "sticking"
+    with pytest.warns(col.IllConditionedWarning, match="3 of 4 cases: to stick"):
+        (found,) = speeds(a, b, **contact, **known)
     for i, (impact, _, ways, one) in enumerate(sticks):
-        (alone,) = solve_back(impact, ways, one, **recorded(impact, "a", "b"))
+        known_here = recorded(impact, "a", "b") | {"regime": "sticking"}
+        (alone,) = solve_back(impact, ways, one, **known_here)
         assert found.a.before.speed[i] == pytest.approx(alone.a.before.speed, rel=1e-13)
         assert found.reconstruction.condition[i] == pytest.approx(
             alone.reconstruction.condition, rel=1e-9
@@ -178,7 +184,7 @@ def test_a_batch_is_its_cases():
     # A third of them contradictory, NaN, or of nothing.
     spoilt = known | {"delta_v_left_a": known["delta_v_left_a"] * [1.0, math.nan, 1.0, 1.0]}
     spoilt["delta_v_forward_b"] = known["delta_v_forward_b"] * [1.0, 1.0, -9.0, 1.0]
-    with pytest.warns(col.CollisionsWarning, match="2 of 4"):
+    with pytest.warns(col.CollisionsWarning, match=r"2 of 4|of 4 cases: to stick"):
         (mixed,) = speeds(a, b, **contact, **spoilt)
     assert mixed.refused.tolist() == [False, True, True, False]
     assert mixed.a.before.vx[[0, 3]].tolist() == found.a.before.vx[[0, 3]].tolist()
@@ -204,7 +210,7 @@ def test_a_batch_is_its_cases():
     assert rough.a.before.vx.dtype == np.float32
     np.testing.assert_allclose(rough.a.before.speed, found.a.before.speed, rtol=1e-4)
     empty = {name: np.zeros(0) for name in ("delta_v_forward_a", "delta_v_left_a")}
-    (none,) = speeds(A, B, **COURSES, **CONTACT, restitution=0.1, friction=math.inf, **empty)
+    (none,) = speeds(A, B, **GIVEN, **empty)
     assert none.a.before.vx.shape == (0,)
 
 
@@ -227,6 +233,7 @@ def points(**changes):
             "normal": 0.5,
             "point": (0.0, 0.0),
             "friction": math.inf,
+            "regime": "sticking",
         },
     )
 
@@ -237,7 +244,8 @@ def test_closed_form_and_condition_of_point_masses():
     """
     a, b, contact = points()
     known = {"delta_v_forward_a": -7.0, "delta_v_left_a": 4.0}
-    (found,) = speeds(a, b, **contact, **known)
+    with pytest.warns(col.IllConditionedWarning, match=r"an impulse ratio of 0\.88"):
+        (found,) = speeds(a, b, **contact, **known)
     with mpmath.workdps(40):
         share = mpmath.mpf(1200) / 2700
         ways = mpmath.matrix(
@@ -286,7 +294,7 @@ def test_two_recorders_give_the_mean_of_their_impulses():
         "delta_v_forward_b": hit.b.delta_v_forward * 0.96,
         "delta_v_left_b": hit.b.delta_v_left * 1.02,
     }
-    given = {**COURSES, **CONTACT, "restitution": 0.1, "friction": math.inf}
+    given = GIVEN
     (by_a,), (by_b,), (by_both,) = (
         speeds(a, b, **given, **known) for known in (of_a, of_b, of_a | of_b)
     )
@@ -343,14 +351,15 @@ def test_a_sliding_contact_takes_the_impulse_along_its_friction():
     with pytest.raises(col.NoSolutionError, match="direction only repeats the friction") as caught:
         speeds(a, b, **given, **known)
     assert caught.value.code == "undetermined"
-    # Within the friction but within the accuracy of its edge, sticking is taken and the doubt said.
+    # Within the friction but within the accuracy of its edge, that it stuck has to be stated; a
+    # ratio of 0.1 is far below any that slides between vehicles, so nothing is said then.
     inside = {
         "delta_v_forward_a": 1.05 * hit.a.delta_v_forward,
         "delta_v_left_a": hit.a.delta_v_left,
     }
-    with pytest.warns(col.IllConditionedWarning, match="it was taken to stick") as caught:
+    with pytest.raises(col.AmbiguousSolutionError, match="whether the contact stuck or slid"):
         speeds(a, b, **given, **inside)
-    assert [w.message.code for w in caught] == ["may_slide"]
+    speeds(a, b, **given, **inside, regime="sticking")
 
 
 def test_no_speed_fits_the_components_better():
@@ -507,8 +516,7 @@ def test_components_have_no_fold():
             ].b.before.speed
         }
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
+    with pytest.warns(col.IllConditionedWarning, match="taken to stick") as caught:
         spread = uncertainty.propagate(
             model,
             {"forward": uncertainty.Normal(-7.0, 0.3)},
@@ -516,25 +524,38 @@ def test_components_have_no_fold():
             samples=256,
             seed=1,
         )
-    slope = (model(-6.0)["speed_b"] - model(-8.0)["speed_b"]) / 2
+    assert {warning.message.code for warning in caught} == {"may_slide"}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.IllConditionedWarning)
+        slope = (model(-6.0)["speed_b"] - model(-8.0)["speed_b"]) / 2
     # The sampling error of a standard deviation of a linear model by a lattice of 256.
     assert spread["speed_b"].std == pytest.approx(abs(slope) * 0.3, rel=0.01)
 
 
-GIVEN = {**COURSES, **CONTACT, "restitution": 0.1, "friction": math.inf}
+GIVEN = {
+    **COURSES,
+    **CONTACT,
+    "restitution": 0.1,
+    "friction": math.inf,
+    "regime": "sticking",
+}
 PAIR = {"delta_v_forward_a": -5.0, "delta_v_left_a": 1.0}
 REFUSALS = [
     ("missing_heading", col.MissingInputError, {}, {"a": A.replace(heading=None)},
         "a has no heading"),
     ("bad_combination", col.InputError, {"delta_v_b": 3.0}, {}, "delta_v_b are not taken together"),
-    ("bad_combination", col.InputError, {"energy_loss": 3.0}, {},
-        "beside components of delta-V give a speed"),
+    ("bad_combination", col.InputError, {"energy_loss": 3.0, "speed_a": 9.0}, {},
+        "beside components of delta-V give a speed, energy_loss or both EES"),
+    ("bad_combination", col.InputError, {"ees_a": 3.0}, {}, "energy_loss or both EES"),
+    ("too_few_knowns", col.InputError, {"delta_v_left_a": None, "energy_loss": 3e4}, {},
+        "delta_v_forward_a alone leaves the speeds open"),
     ("too_many_knowns", col.InputError, {"speed_a": 9.0, "speed_b": 3.0}, {}, "forward problem"),
     ("too_few_knowns", col.InputError, {"delta_v_left_a": None}, {},
         "delta_v_forward_a alone leaves the speeds open"),
     ("bad_combination", col.InputError, {"restitution": lambda g: 0.1}, {},
         "take a number for the restitution"),
-    ("bad_combination", col.InputError, {"friction": None, "critical_fraction": 0.5}, {},
+    ("bad_combination", col.InputError,
+        {"friction": None, "critical_fraction": 0.5, "regime": None}, {},
         "no critical_fraction between"),
     ("infinite_mass", col.NoSolutionError, {}, {"a": A.replace(mass=math.inf)},
         "that of an infinite mass"),

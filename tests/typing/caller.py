@@ -206,6 +206,25 @@ def backwards() -> float:
         point=(0, 0),
         friction=0.5,
     )
+    stuck_or_slid = reconstruct.speeds(
+        a,
+        b,
+        course_a=0,
+        course_b="90 deg",
+        delta_v_forward_a="-11 mph",
+        delta_v_left_a="5 mph",
+        restitution=0.1,
+        normal=0,
+        point=(0, 0),
+        friction=np.inf,
+        regime="sliding",
+        slid="bound",
+    )
+    origin = stuck_or_slid[0].reconstruction
+    assert origin is not None
+    sides: Any = (origin.one_sided or {}).get("speed_b", 0)
+    bound = uncertainty.OneSided(stuck_or_slid[0].b.before.speed, sides)
+    print(origin.regime, bound.values, bound.sides)
     closing: float = reconstruct.inline_closing_speed(1500, 1200, 0.1, delta_v_b=speed)
     energy: float = reconstruct.crush_energy(["1.5 m"], [[0.1, 0.2]], 35000.0, 450000.0)
     e: float = reconstruct.restitution(a, b, a, b, normal=0)

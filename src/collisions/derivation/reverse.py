@@ -7,8 +7,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..impact.impact import Impact
-from ..impact.provenance import KNOWN, Reconstruction, how_many
+from ..impact.provenance import KNOWN, bounds_of, how_many
 from ..kernels.central import shares
+from ..quantities.tables import as_sentence
 from .expressions import HALF, ONE, ZERO, Expression, root
 from .models import Lever, impulse_in_scene_axes
 from .page import Page
@@ -53,7 +54,7 @@ def state_before(page: Page, s: Symbols) -> None:
     origin = s.impact.reconstruction
     if origin is None:
         return
-    what_was_known(page, origin)
+    what_was_known(page, s.impact)
     if origin.method == "central":
         _central(page, s, origin.known)
     elif origin.method == "planar":
@@ -63,10 +64,13 @@ def state_before(page: Page, s: Symbols) -> None:
     page.say("What follows is the same impact solved forwards; it must reproduce what was known.")
 
 
-def what_was_known(page: Page, origin: Reconstruction) -> None:
+def what_was_known(page: Page, impact: Impact) -> None:
     """Write which reverse solver found the state before, from what, its condition, and whether it
     is the only solution.
     """
+    origin = impact.reconstruction
+    if origin is None:
+        return
     page.heading("How the rest was found")
     words = {name: known.what for name, known in KNOWN.items()} | _OF_BOTH
     known = ", ".join(words.get(name, name.replace("_", " ")) for name in origin.known)
@@ -84,6 +88,20 @@ def what_was_known(page: Page, origin: Reconstruction) -> None:
             f"Not the only answer: {how_many(origin.answers)} fit what was known, and this is "
             "one of them. Nothing here tells which of them happened; look at the others too, "
             "and rule them out by other evidence."
+        )
+    if origin.regime is not None:
+        ended = {"sticking": "stuck", "sliding": "slid to its end"}[origin.regime]
+        page.say(f"That the contact {ended} was stated; what was known does not tell.")
+    speeds = {
+        f"speed_{label}": page.system.answer(getattr(impact, label).before.speed, "speed")
+        for label in "ab"
+    }
+    bounds = bounds_of(origin.one_sided or {}, speeds)
+    if bounds:
+        page.stress(
+            "Known from one side only: the contact slid, or may have, and what was known leaves "
+            f"open how fast. {as_sentence(' and '.join(bounds))} The numbers of this impact are "
+            "those of the least slip."
         )
 
 

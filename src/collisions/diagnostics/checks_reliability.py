@@ -10,8 +10,9 @@ from typing import Any
 
 from ..impact.impact import Impact
 from ..impact.inputs import PLACED
-from ..impact.provenance import how_many
+from ..impact.provenance import bounds_of, how_many
 from ..impact.side import Side
+from ..reconstruct.speeds import if_it_slid, taken_to_stick
 from ..reference import INTER_VEHICLE_FRICTION
 from ..vehicle.drag import GRAVITY
 from .case import Case, ImpactCase, MomentumCase, off_by, percent, plain, share
@@ -287,6 +288,38 @@ def friction_low(case: ImpactCase) -> Iterator[Measured]:
             "between vehicles, 0.55 usual"
         )
         yield Measured(friction, sentence)
+
+
+@finding(
+    "magnitude of the impulse ratio of a contact that was stated, or taken, to stick",
+    above(INTER_VEHICLE_FRICTION.low),
+    "reference.INTER_VEHICLE_FRICTION",
+)
+def may_slide(case: ImpactCase) -> Iterator[Measured]:
+    impact, origin = case.answer, case.answer.reconstruction
+    movable = math.isfinite(impact.a.before.mass) and math.isfinite(impact.b.before.mass)
+    known = () if origin is None else origin.known
+    if any(name.startswith(("delta_v_forward", "delta_v_left")) for name in known):
+        stated = taken_to_stick(impact)
+    else:
+        stated = impact.friction == math.inf and movable
+    one_sided = origin is not None and any((origin.one_sided or {}).values())
+    if impact.regime != "sticking" or one_sided or not stated:
+        return
+    ratio = abs(impact.impulse_ratio)
+    slid = if_it_slid(impact)
+    then = "friction was less than that, and this is not the impact"
+    if slid is not None and slid.reconstruction is not None:
+        speeds = {
+            f"speed_{label}": case.text(getattr(slid, label).before.speed, "speed")
+            for label in "ab"
+        }
+        then = " and ".join(bounds_of(slid.reconstruction.one_sided or {}, speeds))
+    sentence = (
+        f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and contacts between "
+        f"vehicles slide from {INTER_VEHICLE_FRICTION.low:g} on; if it slid, {then}"
+    )
+    yield Measured(ratio, sentence)
 
 
 @finding(

@@ -744,6 +744,7 @@ class Impact(Frozen, Summarized):
                     self.reconstruction.condition,
                     self.reconstruction.answers,
                     self.reconstruction.contact_velocity,
+                    self.reconstruction.one_sided,
                 )
             )
 
@@ -789,9 +790,29 @@ class Impact(Frozen, Summarized):
                 f"Refused: {self.status.sentence}." if isinstance(self.status, Status) else many,
                 *notes,
             )
+        notes = (*self._bounds(numbers), *notes)
         title = f"Impact of {title_of(a)} and {title_of(b)}"
         everything = all_numbers(self._rows())
         return Summary(title, [*beside((a, b), numbers), Part(rows, "Contact"), everything], notes)
+
+    def _bounds(self, numbers: Cells) -> tuple[str, ...]:
+        """That speeds of a contact that may have slid are known from one side only."""
+        origin = self.reconstruction
+        if origin is None or not any(map(np.any, (origin.one_sided or {}).values())):
+            return ()
+        if not isinstance(self.status, Status):
+            return (
+                "Speeds before are known from one side only, as the contact slid, or may have: see "
+                "reconstruction.one_sided.",
+            )
+        from .provenance import bounds_of
+
+        speeds = {
+            f"speed_{label}": numbers.answer(side.before.speed, "speed")
+            for label, side in (("a", self.a), ("b", self.b))
+        }
+        bounds = " and ".join(bounds_of(origin.one_sided or {}, speeds))
+        return (f"The contact slid, or may have: {bounds}.",)
 
     def _texts(self) -> Iterable[Any]:
         return self.inputs.texts

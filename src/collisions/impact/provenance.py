@@ -5,6 +5,7 @@ that was.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -38,6 +39,12 @@ class Reconstruction:
     contact_velocity : tuple of float or array [m/s], optional
         Closing speed and slip before, as found. The motions before are rounded to their own size,
         so their small differences would hold fewer digits.
+    regime : str, optional
+        Of ``speeds``: "sticking" or "sliding" if the caller stated how the contact ended.
+    one_sided : dict of str to int or array of int, optional
+        Of ``speeds(..., slid="bound")``: for "speed_a" and "speed_b" which way the truth may lie
+        from the speed found, if the contact slid: +1 at least that speed, -1 at most, 0 where it is
+        known both ways.
     """
 
     method: str
@@ -45,6 +52,8 @@ class Reconstruction:
     condition: Value
     answers: Any = 1
     contact_velocity: tuple[Value, Value] | None = None
+    regime: str | None = None
+    one_sided: Mapping[str, Any] | None = None
 
     def __eq__(self, other: object) -> bool:
         return same_fields(self, other) if isinstance(other, Reconstruction) else NotImplemented
@@ -116,11 +125,30 @@ def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction
     velocity = origin.contact_velocity and lock(
         tuple(select(refused, math.nan, part) for part in origin.contact_velocity)
     )
+    sides = origin.one_sided and {
+        name: lock(select(refused, 0, side)) for name, side in origin.one_sided.items()
+    }
     return replace(
-        origin, condition=lock(condition), answers=lock(answers), contact_velocity=velocity
+        origin,
+        condition=lock(condition),
+        answers=lock(answers),
+        contact_velocity=velocity,
+        one_sided=sides,
     )
 
 
 def how_many(answers: float) -> str:
     """How many impacts fit: "3 impacts" or "a whole range of impacts"."""
     return "a whole range of impacts" if answers == math.inf else f"{answers} impacts"
+
+
+def bounds_of(sides: Mapping[str, int], speeds: Mapping[str, str]) -> list[str]:
+    """What is known of each speed of a single case in which the contact may have slid: "the speed
+    of B is at least 4.8 m/s". ``speeds`` has their numbers as texts.
+    """
+    words = {1: "at least", -1: "at most"}
+    return [
+        f"the speed of {name[-1].upper()} is {words[side]} {speeds[name]}"
+        for name, side in sides.items()
+        if side
+    ]

@@ -252,7 +252,27 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
         condition=condition,
         answers=answers,
         contact_velocity=velocity,
+        regime=_stated(found.get("regime")),
+        one_sided=_sides(found.get("one_sided")),
     )
+
+
+def _stated(found: Any) -> str | None:
+    if found not in (None, "sticking", "sliding"):
+        raise bad_record(f"a contact is stated to be sticking or sliding, not {shown(found)}")
+    return None if found is None else str(found)
+
+
+def _sides(found: Any) -> dict[str, Any] | None:
+    """Which way the truth may lie from each speed: 1, -1 or 0, or a batch of these."""
+    if found is None:
+        return None
+    if not isinstance(found, Mapping) or {*found} != {"speed_a", "speed_b"}:
+        raise bad_record(f"{shown(found)} does not say on which side each speed may lie")
+    sides = {name: _count(value) for name, value in found.items()}
+    if not all(np.isin(side, (-1, 0, 1)).all() for side in sides.values()):
+        raise bad_record(f"{shown(found)} has a side that is neither 1, -1 nor 0")
+    return sides
 
 
 def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
@@ -381,6 +401,8 @@ def _add(found: dict[str, tuple[Any, str | None]], name: str, value: Any, unit: 
     elif isinstance(value, Reconstruction):
         found[f"{name}.condition"] = value.condition, ""
         found[f"{name}.answers"] = value.answers, None
+        sides = value.one_sided or {}
+        found |= {f"{name}.one_sided.{speed}": (side, None) for speed, side in sides.items()}
     elif isinstance(value, Pulse):
         numbers = {f.name: getattr(value, f.name) for f in fields(value) if f.name not in CURVES}
         found |= {

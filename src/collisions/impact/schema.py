@@ -302,4 +302,11 @@ _RECONSTRUCTION = {
     "condition": _VALUE,
     "answers": _each({"anyOf": [{"type": "integer", "minimum": 0}, {"const": "inf"}]}),
     "contact_velocity": {"anyOf": [_PAIR, _NULL]},
+    "regime": {"enum": ["sticking", "sliding", None]},
+    "one_sided": {
+        "anyOf": [
+            _closed({name: _each({"enum": [1, -1, 0]}) for name in ("speed_a", "speed_b")}),
+            _NULL,
+        ]
+    },
 }

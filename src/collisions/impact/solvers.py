@@ -27,6 +27,7 @@ from .models import (
     read_lasting_impulse,
 )
 from .run import solve_inputs
+from .sticking import noted
 from .time_resolved_inputs import Geometry, read_contact_time
 
 if TYPE_CHECKING:
@@ -713,7 +714,7 @@ def solve(
     arguments = a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
     inputs = read_for_solve(arguments, tolerance, duration, drag, (tyres_a, tyres_b), **more)
-    return solved(inputs, on_failure, threads, progress)
+    return noted(solved(inputs, on_failure, threads, progress))
 
 
 def _solve(
@@ -750,7 +751,7 @@ def _solve(
                 False,
             )(inputs.__dict__)
             if answer is not None:
-                return build(inputs, answer)
+                return noted(build(inputs, answer))
     arguments = a, b, restitution, normal, point, tangential, law
     inputs = read_inputs(model.name, arguments, (), (), incomplete, *(outside or (None, None)))
-    return build(inputs, solve_inputs(model, inputs, on_failure, threads, progress))
+    return noted(build(inputs, solve_inputs(model, inputs, on_failure, threads, progress)))

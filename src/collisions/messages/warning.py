@@ -76,6 +76,11 @@ def warn_of_cases(warning: CollisionsWarning, parts: Mapping[str, int | None]) -
         warn(warning)
 
 
+def in_study() -> bool:
+    """Whether a model is called for the samples of a study, whose warnings are noted."""
+    return _sampling.get() is not None
+
+
 def warn_of_samples(warning: CollisionsWarning) -> None:
     """Note what matters only where the cases are samples of one case: within a study."""
     if _sampling.get() is not None:

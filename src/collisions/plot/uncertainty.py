@@ -206,8 +206,8 @@ def contributions(
     figures = np.array([(own[name], total[name], *errors[name]) for name in names])
     if not names or not np.all(np.isfinite(figures[:, :2])):
         raise InputError(
-            f"{found.name!r} has no variance to share: it does not differ from case to case, or "
-            "has too few answers",
+            f"{found.name!r} has no variance to share: it does not differ from case to case, has "
+            "too few answers, or is known from one side only in some cases",
             code="no_variance",
             argument="result",
         )

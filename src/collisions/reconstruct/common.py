@@ -188,6 +188,11 @@ class Cases(NamedTuple):
             status = np.where(condition, np.uint8(code), status)
         return int(status) if self.shape is None else status
 
+    def sides(self, found: Any) -> Any:
+        """A side for a single case, 1, -1 or 0, a locked array of them for a batch."""
+        with np.errstate(invalid="ignore"):
+            return self.counts(np.nan_to_num(found).astype(np.int64))
+
     def how_many(self, where: Any) -> str:
         """The number of these cases, to begin a message; "" for a single case."""
         if self.shape is None:

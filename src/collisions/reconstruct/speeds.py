@@ -7,22 +7,31 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 from itertools import chain
-from typing import Any
+from operator import attrgetter
+from typing import Any, Literal
 
 import numpy as np
 
 from ..impact.impact import Impact
 from ..impact.inputs import Inputs, Law, check_flag, read_inputs
+from ..impact.provenance import KNOWN, bounds_of
 from ..impact.run import error_of, warn_of_refusals
-from ..kernels.contact_laws import BRACH, LAWS
+from ..kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from ..kernels.status import EPS, Status
-from ..messages.errors import CollisionsError, InputError, MissingInputError, OutOfRangeWarning
+from ..messages.errors import (
+    AmbiguousSolutionError,
+    CollisionsError,
+    IllConditionedWarning,
+    InputError,
+    MissingInputError,
+    OutOfRangeWarning,
+)
 from ..messages.hints import hinted
-from ..messages.warning import warn_of_cases, warn_of_samples
+from ..messages.warning import quietly, warn_of_cases, warn_of_samples
 from ..quantities.directions import Angle, course
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Sentences, said
-from ..quantities.units import Input, Pair
+from ..quantities.units import Input, Pair, shown
 from ..vehicle.vehicle import Vehicle, missing, moved
 from .common import (
     ASK_ALONE,
@@ -38,7 +47,7 @@ from .common import (
 )
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
-from .speeds_components import ComponentScene
+from .speeds_components import MAY_SLIDE, ComponentScene, friction_shown
 
 # What may be known: any two, or else components of delta-V, with speeds or without.
 _TWO_OF = (
@@ -86,6 +95,8 @@ def speeds(
     delta_v_forward_b: Input | None = None,
     delta_v_left_b: Input | None = None,
     forward_only: bool = False,
+    regime: Literal["sticking", "sliding"] | None = None,
+    slid: Literal["bound"] | None = None,
 ) -> tuple[Impact, ...]:
     """Impact speeds of both vehicles from the geometry of the impact and two known quantities.
 
@@ -134,14 +145,27 @@ def speeds(
     delta_v_forward_a, delta_v_left_a : float, str, Quantity or array [m/s], optional
         Components of delta-V in the axes of a vehicle, which then needs its heading, as from an
         event data recorder (whose lateral delta-V is positive to the right, the opposite sign).
-        With the known speeds they must be two or more in all, and none of the other kinds may be
-        given beside them. Where the contact sticks, both components of one vehicle are enough, and
-        with ``friction=inf`` no value of friction is needed. Where it slides, they only repeat the
-        friction, and one speed must be known.
-    delta_v_forward_b, delta_v_left_b : float, str, Quantity or array [m/s], optional
-        The same of B.
+        With a known speed they must be two or more in all. Beside them one thing may be given that
+        settles whether the contact stuck or slid: a speed, ``energy_loss`` or both EES. Both
+        components of one vehicle give the impulse and its ratio. Both speeds follow from it if the
+        contact stuck. If it slid at that ratio, it only repeats the friction: the answers are a
+        family, which begins at the answer of the contact that stuck, and one speed must be known.
+        Components do not tell which it was: see ``regime`` and ``slid``. An energy greater than a
+        contact that stuck loses was lost by sliding. delta_v_forward_b, delta_v_left_b : float,
+        str, Quantity or array [m/s], optional The same of B.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
+    regime : {"sticking", "sliding"}, optional
+        Whether the contact stuck or slid to its end, for components of delta-V with ``friction``.
+        With ``friction=inf`` no value of friction is needed: a contact that slid did so at the
+        ratio that the components show. Without it and without a known speed, the friction decides
+        only where the ratio is less than half of it (with ``friction=inf``, of the least in
+        ``reference.INTER_VEHICLE_FRICTION``).
+    slid : {"bound"}, optional
+        What to answer, for components of delta-V with ``friction``, where the contact must have
+        slid, or may have, and no speed is known: "bound" gives the end of the family, where its
+        slip is least. ``reconstruction.one_sided`` says which way the truth may lie from each
+        speed.
 
     Returns
     -------
@@ -158,6 +182,10 @@ def speeds(
     NoSolutionError
         No speeds fit; or the known quantities leave the speeds open, or include the delta-V of an
         infinite mass.
+    AmbiguousSolutionError
+        Components do not tell whether the contact stuck or slid. Both answers are in ``solutions``,
+        first the one that stuck. They have the same numbers, but those of the other are the end of
+        its family.
 
     Warns
     -----
@@ -167,9 +195,11 @@ def speeds(
         answer.
     IllConditionedWarning
         Components disagree with one another, or with a known speed, by more than
-        ``reference.RECORDER_ACCURACY``; beyond three times that they are refused. Or they leave
-        open whether the contact stuck, as assumed, or slid; or, with no speed known, the courses
-        are near one line.
+        ``reference.RECORDER_ACCURACY``; beyond three times that they are refused. Or the contact
+        was stated to have stuck, or was taken to, and may have slid (code "may_slide"): sticking
+        needs an impulse ratio at which contacts between vehicles slide, from
+        ``reference.INTER_VEHICLE_FRICTION.low`` on. Or, with no speed known, the courses are near
+        one line.
     CollisionsWarning
         Some cases of a batch have no answer; they are NaN, and ``status`` of the first impact says
         why.
@@ -197,6 +227,7 @@ def speeds(
     (11.96, 6.0)
 
     With both components, and a contact that stuck, neither a speed nor the friction need be known.
+    Here it takes an impulse ratio of 0.07 to stick, far below any friction between vehicles.
 
     >>> a, b = (v.replace(heading=heading) for v, heading in ((a, "10 deg"), (b, "80 deg")))
     >>> (found,) = col.reconstruct.speeds(
@@ -215,6 +246,7 @@ def speeds(
     [49.9, 39.8]
     """
     given = dict(locals())
+    _check_branch(given)
     components = {name: given[name] for name in _COMPONENTS if given[name] is not None}
     others = _known_beside(components, {name: given[name] for name in _TWO_OF})
     reader = ArgumentReader()
@@ -248,11 +280,23 @@ def speeds(
             if callable(restitution)
             else None
         )
-        kind = ComponentScene if components else Scene
-        known_of = numbers, inputs.rule, inputs.law or BRACH, counted(known), cases.shape or ()
+        names, used_law = counted(known), inputs.law or BRACH
+        kind = (
+            partial(ComponentScene, shape=cases.shape or (), regime=regime, slid=slid)
+            if components
+            else partial(Scene, shape=cases.shape or ())
+        )
+        fits_both: Any = False
+        if components and inputs.rule == FRICTION and np.any(np.isinf(inputs.rule_value)):
+            ratio, fits_both = friction_shown(numbers, used_law, names, cases.shape or (), regime)
+            if ratio is not None:
+                numbers[FRICTION] = cases.values(ratio)
+                inputs = _with_friction(inputs, numbers[FRICTION])
 
         def roots_of(plain: bool) -> tuple[Scene, list[tuple[Root, Any]]]:
-            scene = kind(*known_of, plain)
+            scene = kind(numbers, inputs.rule, used_law, names, plain=plain)
+            if isinstance(scene, ComponentScene):
+                scene.leaves_slip = scene.leaves_slip | fits_both
             roots = scene.roots() if function is None else _with_function(scene, function)
             return scene, _in_order(scene, roots, forward_only)
 
@@ -261,7 +305,92 @@ def speeds(
         except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
             scene, found = roots_of(False)
         inputs = replace(inputs, given={**reader.texts, **(inputs.given or {})} or None)
-        return _answers(cases, scene, found, inputs, known, function, forward_only)
+
+        def again(**changes: Any) -> Impact:
+            with quietly():
+                return speeds(**{**given, **changes})[0]
+
+        return _answers(cases, scene, found, inputs, known, function, forward_only, again)
+
+
+def taken_to_stick(impact: Impact) -> bool:
+    """Whether components of delta-V told the speeds of an impact only because it was stated, or
+    taken, to have stuck.
+    """
+    origin = impact.reconstruction
+    return (
+        origin is not None
+        and impact.inputs.rule == FRICTION
+        and any(name in _COMPONENTS for name in origin.known)
+        and (
+            origin.regime == "sticking"
+            or not any(name.startswith(("speed", "energy", "ees")) for name in origin.known)
+        )
+        and not any((origin.one_sided or {}).values())
+    )
+
+
+def if_it_slid(impact: Impact) -> Impact | None:
+    """The end of the family of impacts in which the contact slid at the ratio that it had in this
+    one, which was taken to stick; None where components of delta-V did not tell its speeds.
+    """
+    origin, inputs = impact.reconstruction, impact.inputs
+    if origin is None or not taken_to_stick(impact):
+        return None
+    given: dict[str, Any] = {
+        name: attrgetter(KNOWN[name].path)(impact)
+        for name in origin.known
+        if name.startswith(("speed", "delta_v"))
+    }
+    given |= {f"course_{label}": getattr(inputs, label).course for label in "ab"}
+    given |= {name: getattr(inputs, name) for name in ("restitution", "normal", "point")}
+    given |= {"law": inputs.law or BRACH, "incomplete": inputs.incomplete}
+    ratio = abs(impact.impulse_ratio)
+    try:
+        with quietly():
+            return speeds(
+                inputs.a, inputs.b, friction=ratio, regime="sliding", slid="bound", **given
+            )[0]
+    except CollisionsError:
+        return None
+
+
+def _check_branch(given: dict[str, Any]) -> None:
+    """Refuse ``regime`` and ``slid`` that are none, or that do not go with what was given."""
+    regime, slid = given["regime"], given["slid"]
+    for name, value, allowed in (
+        ("regime", regime, ("sticking", "sliding")),
+        ("slid", slid, ("bound",)),
+    ):
+        if value is None:
+            continue
+        if not isinstance(value, str) or value not in allowed:
+            raise InputError(
+                f"{name} must be {' or '.join(map(repr, allowed))}, or None, got {shown(value)}",
+                code="bad_option",
+                argument=name,
+            )
+        by_ratio = any(given[rule] is not None for rule in RULES if rule != FRICTION)
+        if by_ratio or all(given[one] is None for one in _COMPONENTS):
+            raise InputError(
+                f"{name}={value!r} is for components of delta-V with friction=, which do not tell "
+                "whether the contact stuck or slid; leave it out, or give these",
+                code="bad_combination",
+                argument=name,
+            )
+    if regime == "sticking" and slid:
+        raise InputError(
+            "regime='sticking' says that the contact did not slide, so slid='bound' is about "
+            "nothing; leave out one of them",
+            code="bad_combination",
+            argument="slid",
+        )
+
+
+def _with_friction(inputs: Inputs, friction: Any) -> Inputs:
+    """The inputs with the friction that was found in place of an infinite one."""
+    texts = {name: text for name, text in (inputs.given or {}).items() if name != FRICTION}
+    return replace(inputs, rule_value=friction, given=texts or None)
 
 
 def _known_beside(components: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
@@ -278,15 +407,16 @@ def _known_beside(components: dict[str, Any], known: dict[str, Any]) -> dict[str
             "speed_a and speed_b are both known: that is the forward problem, use eccentric",
             code="too_many_knowns",
         )
-    stray = [name for name in others if components and not name.startswith("speed")]
+    taken = [("speed_a",), ("speed_b",), ("energy_loss",), ("ees_a", "ees_b"), ()]
+    stray = [name for name in others if components and tuple(others) not in taken]
     if stray:
         raise InputError(
             f"{', '.join(components)} and {', '.join(stray)} are not taken together: beside "
-            "components of delta-V give a speed",
+            "components of delta-V give a speed, energy_loss or both EES",
             code="bad_combination",
             argument=stray[0],
         )
-    if len(components) + len(others) < 2:
+    if components and len(components) + sum(name[:5] == "speed" for name in others) < 2:
         raise InputError(
             f"{next(iter(components))} alone leaves the speeds open; give another component, or "
             "one of the speeds",
@@ -427,7 +557,7 @@ def _in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple
     fitting = [root for root in roots if root is not NO_ROOT and np.any(root.closing > 0.0)]
     for root in fitting:
         scene.undetermined = scene.undetermined | ((root.closing > 0.0) & (root.one_of_many > 0.0))
-    if not fitting or np.all(scene.undetermined):
+    if not fitting or np.all(scene.undetermined | scene.ambiguous):
         return []
     if len(fitting) == 1 and scene.plain and not forward_only:
         return [(fitting[0], np.True_)]
@@ -439,7 +569,7 @@ def _in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple
         order = np.argsort(closing, axis=0, kind="stable")
         whole[:] = np.take_along_axis(whole, order[:, np.newaxis], axis=0)
 
-    closing[np.broadcast_to(scene.undetermined, closing.shape)] = np.nan
+    closing[np.broadcast_to(scene.undetermined | scene.ambiguous, closing.shape)] = np.nan
     if forward_only:
         closing[np.minimum(speeds_a, speeds_b) < -ROOT_TOL * closing] = np.nan
     sort()
@@ -461,8 +591,11 @@ def _answers(
     known: dict[str, Any],
     function: RestitutionOf | None,
     forward_only: bool,
+    again: Callable[..., Impact],
 ) -> tuple[Impact, ...]:
-    """The impact of each root; raises for a single case without one."""
+    """The impact of each root; raises for a single case without one. ``again`` solves it with
+    other arguments.
+    """
     faults = input_faults(scene.numbers, inputs.incomplete)
     of_walls = [
         np.isinf(scene.numbers[f"{name[-1]}.mass"])
@@ -471,6 +604,7 @@ def _answers(
     ]
     faults += [(of_wall, Status.INFINITE_MASS) for of_wall in of_walls]
     faults.append((scene.undetermined, Status.UNDETERMINED))
+    faults.append((scene.ambiguous, Status.AMBIGUOUS))
     staying = [
         split_texts(body, ("vx", "vy", "speed", "course"))[0] for body in (inputs.a, inputs.b)
     ]
@@ -491,18 +625,30 @@ def _answers(
 
     nowhere = np.zeros(scene.shape, dtype=bool)
     count = sum((there.astype(np.int64) for _, there in found), nowhere.astype(np.int64))
+    # Stuck and slid.
+    count = np.where(scene.ambiguous, 2, count) if np.any(scene.ambiguous) else count
     impacts: list[Impact] = []
     backward, whose, turned = 0.0, "", nowhere
     for root, there in found or [(NO_ROOT, nowhere)]:
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
-            raise _refusal(scene, status, known, function, forward_only, Sentences(inputs.texts))
+            say = Sentences(inputs.texts)
+            if status == Status.AMBIGUOUS and isinstance(scene, ComponentScene):
+                raise _stuck_or_slid(scene, known, say, again)
+            raise _refusal(scene, status, known, function, forward_only, say)
         origin = cases.provenance("speeds", scene.names, root.condition, count)
+        if isinstance(scene, ComponentScene):
+            origin = replace(origin, regime=scene.stated, one_sided=_sides(scene, cases, there))
         impact = run_forward(
             partial(inputs_of, root), status, origin, None if cases.shape is None else "nan"
         )
         for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
+            if isinstance(scene, ComponentScene) and scene.sides:
+                # A family that begins backwards goes on forwards.
+                speed = np.where(
+                    scene.sides["AB".index(label)] > 0.0, np.maximum(speed, 0.0), speed
+                )
             backward, whose = min(
                 (backward, whose), (float(np.fmin.reduce(speed, axis=None, initial=0.0)), label)
             )
@@ -513,6 +659,7 @@ def _answers(
     _warn_of_folds(scene, found, count)
     if isinstance(scene, ComponentScene):
         scene.warn(np.logical_not(impacts[0].refused), cases)
+        _warn_of_slip(scene, impacts[0], cases)
     if backward < 0.0:
         cure = (
             "backwards along its course; check the courses, and the normal, which must point "
@@ -527,6 +674,102 @@ def _answers(
         )
         warn_of_cases(warning, {f"a speed comes out below 0, {cure}": cases.number(turned)})
     return tuple(impacts)
+
+
+def _sides(scene: ComponentScene, cases: Cases, there: Any) -> dict[str, Any] | None:
+    """Which way the truth may lie from each speed; None unless ``slid`` asked for it."""
+    if not scene.slid:
+        return None
+    sides = scene.sides or (0.0, 0.0)
+    return {
+        f"speed_{label}": cases.sides(np.where(there, side, 0.0))
+        for label, side in zip("ab", sides, strict=True)
+    }
+
+
+def _if_it_slid(scene: ComponentScene, impact: Impact, say: Sentences) -> str:
+    """What follows for the speeds of a single case if its contact slid."""
+    sides = {
+        f"speed_{label}": int(np.nan_to_num(side))
+        for label, side in zip("ab", scene.ways(), strict=True)
+    }
+    speeds = {f"speed_{one}": say(_along(impact, one), "speed") for one in "ab"}
+    return " and ".join(bounds_of(sides, speeds))
+
+
+def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
+    """Warn of a contact that was stated or taken to stick and may have slid, and of cases of a
+    batch for which that has to be said.
+    """
+    answered = np.logical_not(impact.refused)
+    slides = scene.may_slide & answered
+    if np.any(slides):
+        why = (
+            f"contacts between vehicles slide from {MAY_SLIDE:g} on "
+            "(reference.INTER_VEHICLE_FRICTION)"
+        )
+        ratio = float(np.max(np.where(slides, abs(scene.ratio), 0.0)))
+        single = cases.shape is None
+        then = (
+            f"If it slid, {_if_it_slid(scene, impact, Sentences(impact.inputs.texts))}"
+            if single
+            else "If it slid, what was found is one end of the speeds that it may have had"
+        )
+        text = f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and {why}. {then}"
+        sentence = (
+            f"the contact was taken to stick at an impulse ratio of {MAY_SLIDE:g} or more, and "
+            f"{why}. If it slid, the speeds are those of one end of a family; slid='bound' says "
+            "which"
+        )
+        warning = IllConditionedWarning(
+            cases.how_many(slides) + text, code="may_slide", ratio=ratio
+        )
+        warn_of_cases(warning, {sentence: cases.number(slides)})
+    if cases.shape is not None and scene.rule == FRICTION and not scene.slid:
+        left = (scene.ambiguous | scene.undetermined) & np.logical_not(answered)
+        if np.any(left & scene.leaves_slip):
+            text = (
+                "components of delta-V do not tell whether the contact stuck or slid, or it slid "
+                "and leaves the slip open: write regime='sticking' if it stuck, give one of the "
+                "speeds, or write slid='bound' for the end of the speeds that it may have had"
+            )
+            warning = IllConditionedWarning(cases.how_many(left) + text, code="stuck_or_slid")
+            warn_of_cases(warning, {text: cases.number(left)})
+
+
+def _stuck_or_slid(
+    scene: ComponentScene, known: dict[str, Any], say: Sentences, again: Callable[..., Impact]
+) -> AmbiguousSolutionError:
+    """The error for a single case in which the contact either stuck or slid."""
+    ratio = float(abs(scene.ratio))
+    friction = float(scene.bound)
+    stuck = again(regime="sticking")
+    slid = again(regime="sliding", slid="bound", friction=ratio)
+    speeds = {f"speed_{label}": say(_along(stuck, label), "speed") for label in "ab"}
+    assert slid.reconstruction is not None
+    bounds = " and ".join(bounds_of(slid.reconstruction.one_sided or {}, speeds))
+    allowed = (
+        "friction=inf does not say that it stuck"
+        if math.isinf(friction)
+        else f"friction={friction:.4g} is not clearly above that"
+    )
+    return AmbiguousSolutionError(
+        f"{' and '.join(known)} do not tell whether the contact stuck or slid: they have an "
+        f"impulse ratio of {ratio:.2f}, and {allowed}. If it stuck, the speed of A is "
+        f"{speeds['speed_a']} and that of B {speeds['speed_b']}; if it slid at that ratio, "
+        f"{bounds}. Write regime='sticking' or regime='sliding' if you know which, the latter "
+        "with one of the speeds or the energy lost; or slid='bound' for this end of the speeds "
+        "that it may have had. "
+        "Both answers are in .solutions",
+        code=Status.AMBIGUOUS.label,
+        ratio=ratio,
+        solutions=(stuck, slid),
+    )
+
+
+def _along(impact: Impact, label: str) -> float:
+    """The speed of a vehicle before, below 0 where it goes backwards along its course."""
+    return float(getattr(impact, label).before.speed)
 
 
 def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> None:
@@ -577,7 +820,20 @@ def _refusal(
     elif isinstance(scene, ComponentScene) and status == Status.UNDETERMINED:
         text = (
             f"the contact slides, or its speeds do not show in {names}: their direction only "
-            "repeats the friction, which leaves the slip undetermined; give one of the speeds"
+            "repeats the friction, which leaves the slip undetermined; give "
+            + ("the speed of the other vehicle" if speed_is_known else "one of the speeds")
+        )
+        if scene.rule == FRICTION and not scene.slid:
+            text += ", or write slid='bound' for the end of the speeds that it may have had"
+    elif isinstance(scene, ComponentScene) and (
+        scene.stated == "sticking" and abs(scene.shown_ratio()) > scene.bound
+    ):
+        status = Status.CONTRADICTORY
+        text = (
+            f"to stick, the contact needs an impulse ratio of "
+            f"{float(abs(scene.shown_ratio())):.2f}, and friction={float(scene.bound):.4g} allows "
+            "no more than that; give the friction that held it (or inf), or leave out "
+            "regime='sticking'"
         )
     elif (
         not isinstance(scene, ComponentScene)

@@ -196,8 +196,9 @@ class Scene:
         self.targets = {
             kind: number(self._target(name)) for kind, name in zip(self.kinds, names, strict=True)
         }
-        # Set where any slip, or any speed, fits in a regime.
+        # Set where any slip, or any speed, fits in a regime; and where two regimes fit.
         self.undetermined: Any = np.zeros((), dtype=bool)
+        self.ambiguous: Any = np.zeros((), dtype=bool)
 
     def of(self, cases: Any, e: Any = None) -> Scene:
         """The scene of some cases, by their places in the flattened batch, perhaps with another

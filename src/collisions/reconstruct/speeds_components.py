@@ -6,6 +6,10 @@ is one linear problem, of as many equations as components were given. Its answer
 leads from these speeds to that regime; where none does, the best lies on the edge between two.
 Components are known relative to the impulse, so all weigh alike as momenta; a speed that is given
 is taken as exact.
+
+With no speed known, both speeds follow only if the contact stuck. If it slid, the impulse has the
+same direction at every slip above the one at which it would just have stuck: the answers are a
+family that begins there (``_end``), in which each speed rises, falls or stays (``sides``).
 """
 
 from __future__ import annotations
@@ -20,7 +24,7 @@ from ..kernels.contact_laws import FRICTION
 from ..messages.errors import IllConditionedWarning
 from ..messages.warning import warn_of_cases
 from ..quantities.directions import Angle
-from ..reference import RECORDER_ACCURACY
+from ..reference import INTER_VEHICLE_FRICTION, RECORDER_ACCURACY
 from .common import NEARLY_COLLINEAR, Cases
 from .restitution_roots import RestitutionOf
 from .speeds_algebra import LAW, REDUNDANT, ROOT_TOL, STICK, Root, Scene, Seen, pushed
@@ -28,8 +32,16 @@ from .speeds_algebra import LAW, REDUNDANT, ROOT_TOL, STICK, Root, Scene, Seen, 
 ACCURACY = RECORDER_ACCURACY.high
 # Beyond so many times the stated accuracy the known values contradict each other.
 _CONTRADICTION = 3.0
+# A ratio up to this share of the friction is clearly below it: the contact stuck.
+_CLEARLY_BELOW = 0.5
+# Between vehicles a contact may slide from this ratio on.
+MAY_SLIDE = INTER_VEHICLE_FRICTION.low
 # Relative size below which the effect of a speed is rounding.
 _NO_EFFECT = 1e-12
+# The same of a change of slip on one speed beside the other.
+_STAYS = 1e-9
+# Of the closing speed and the slip.
+_INSIDE = 1e-12
 _REFINEMENTS = 3
 
 
@@ -46,14 +58,27 @@ class ComponentScene(Scene):
         names: tuple[str, ...],
         shape: tuple[int, ...],
         plain: bool = False,
+        regime: str | None = None,
+        slid: str | None = None,
     ) -> None:
         super().__init__(given, rule, law, names, shape)
+        self.stated, self.slid = regime, slid
         self.components = [name for name in names if name.startswith("delta_v")]
         self.unknown = [at for at, label in enumerate("ab") if f"speed_{label}" not in names]
         # 0 in place of unknown ones.
         self.known = [self.targets.get(f"speed_{label}", np.zeros(())) for label in "ab"]
         self.misfit: Any = np.full((), np.nan)
-        self.near_sliding: Any = np.zeros((), dtype=bool)
+        # Where the answer is the end of the family of contacts that slid.
+        self.ended: Any = np.zeros((), dtype=bool)
+        # Ratio of the impulse of the answer, and where it is said to stick but may have slid.
+        self.ratio: Any = np.full((), np.nan)
+        self.may_slide: Any = np.zeros((), dtype=bool)
+        # Where a contact that slid leaves the slip open, as with no speed known, or fits too.
+        self.energy = self.targets.get("energy_loss")
+        self.leaves_slip: Any = len(self.unknown) > 1 and self.energy is None
+        self.answer: tuple[Any, Any] = (math.nan, math.nan)
+        # Which way the truth may lie from each speed, where it may be another member of the family.
+        self.sides: tuple[Any, Any] | None = None
         nx, ny = self.given["normal[0]"], self.given["normal[1]"]
         self._axes, self._momenta = [], []
         for kind in self.components:
@@ -68,23 +93,222 @@ class ComponentScene(Scene):
         """The answer with the least misfit that the law leads to, or all that fit exactly; no
         others have a closing speed.
         """
-        tried = [*map(self._solved, self.regimes()), *self._edges()]
-        found, misfits, of_open_slip = zip(*tried, strict=True)
+        regimes = self._stated_regimes()
+        tried, edges = [*map(self._solved, regimes)], self._edges()
+        open_slip = np.fmin.reduce(np.broadcast_arrays(*(left for *_, left in tried + edges)))
+        sticks = self._sticks(regimes, tried)
+        if self.energy is not None:
+            sliding = [self._end(regime) for regime in regimes if not isinstance(regime, str)]
+            tried = [self._losing(*one) for one in tried] + sliding
+            open_slip = np.full((), np.inf)
+        elif self.slid:
+            ends = [self._end(regime) for regime in regimes if not isinstance(regime, str)]
+            ends = [(root, np.where(sticks, np.inf, misfit), left) for root, misfit, left in ends]
+            self.ended = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
+            edges = [
+                (root, np.where(self.ended, np.inf, misfit), left) for root, misfit, left in edges
+            ]
+            tried += ends
+        found, misfits, _ = zip(*tried, *edges, strict=True)
         self.misfit = np.minimum.reduce(np.broadcast_arrays(*misfits))
-        open_slip = np.fmin.reduce(np.broadcast_arrays(*of_open_slip))
         none = np.isinf(self.misfit)
-        self.undetermined = (open_slip <= REDUNDANT) | (
-            none & (open_slip <= _CONTRADICTION * ACCURACY)
-        )
-        self.near_sliding = ~none & ~self.undetermined & (open_slip <= ACCURACY)
+        self.undetermined = none & (open_slip <= _CONTRADICTION * ACCURACY)
+        if not self.slid:
+            self.undetermined = self.undetermined | (open_slip <= REDUNDANT)
         best = [misfit <= np.maximum(ROOT_TOL, self.misfit) for misfit in misfits]
+        if self.rule == FRICTION:
+            self._weigh(sticks, open_slip <= ACCURACY, found, best)
         return [
             root._replace(closing=np.where(here, root.closing, np.nan))
             for root, here in zip(found, best, strict=True)
         ]
 
+    def _stated_regimes(self) -> list[Any]:
+        """The regimes to be tried: of what the caller stated, or all."""
+        regimes = self.regimes()
+        if self.stated is None or self.rule != FRICTION:
+            return regimes
+        return [one for one in regimes if (one is STICK) == (self.stated == "sticking")]
+
+    def _sticks(self, regimes: Sequence[Any], tried: Sequence[tuple[Root, Any, Any]]) -> Any:
+        """Where a contact that sticks fits."""
+        of = [misfit for one, (_, misfit, _) in zip(regimes, tried, strict=False) if one is STICK]
+        return np.isfinite(of[0]) if of else np.zeros((), dtype=bool)
+
+    def _weigh(self, sticks: Any, near: Any, found: Sequence[Root], best: Sequence[Any]) -> None:
+        """Find where the contact may as well have slid, and to which side each speed then lies.
+
+        A ratio that is within the accuracy of recorders ``near`` to the friction is not below it.
+        """
+        here = [at & (root.closing > 0.0) for at, root in zip(best, found, strict=True)]
+        one, other = (
+            sum(np.where(at, part, 0.0) for at, part in zip(here, parts, strict=True))
+            / sum(np.where(at, 1.0, 0.0) for at in here)
+            for parts in zip(*(root[:2] for root in found), strict=True)
+        )
+        self.answer = one, other
+        stuck = self.observe(STICK, one, other)
+        self.ratio = stuck.tangential / stuck.normal
+        if len(self.unknown) == 1:
+            self.leaves_slip = self.leaves_slip | self._slip_stays_open()
+        size = abs(self.ratio)
+        bound = np.where(np.isinf(self.bound), MAY_SLIDE, self.bound)
+        below = (size <= _CLEARLY_BELOW * bound) & np.logical_not(near)
+        decided = below | np.logical_not(self.leaves_slip)
+        if self.slid:
+            # Asked for a bound, what friction can decide is not enough where contacts slide.
+            decided = decided & ((size < MAY_SLIDE) | np.logical_not(self.leaves_slip))
+        elif self.stated is None:
+            self.ambiguous = sticks & ~self.undetermined & ~decided
+        told = (self.stated is not None) | decided
+        self.may_slide = sticks & (size >= MAY_SLIDE) & told & self.leaves_slip
+        if self.slid:
+            first, second = self._ways(self.ratio)
+            known = (sticks & decided) | np.logical_not(self.leaves_slip)
+            self.sides = np.where(known, 0.0, first), np.where(known, 0.0, second)
+
+    def _slip_stays_open(self) -> Any:
+        """With one speed known: whether the other does not show in the closing speed, so that a
+        contact that slid leaves it open.
+        """
+        rest, *moving = self.at_unit_speeds(STICK)
+        effects = [abs(one.closing - rest.closing) for one in moving]
+        return effects[self.unknown[0]] <= _NO_EFFECT * np.maximum(*effects)
+
+    def ways(self) -> tuple[Any, Any]:
+        """To which side of the answer each speed lies if the contact slid at the ratio of the
+        answer: 1 above, -1 below, 0 where it stays.
+        """
+        return self._ways(self.ratio)
+
+    def _ways(self, ratio: Any) -> tuple[Any, Any]:
+        here, ahead = map(self._one_slip, (0.0, 1.0))
+        moved = [after - before for before, after in zip(here, ahead, strict=True)]
+        grows = self._beyond(ratio, ahead) - self._beyond(ratio, here)
+        way = np.sign(ratio * grows)
+        least = _STAYS * np.maximum(*map(abs, moved))
+        least = [least if at in self.unknown else np.inf for at in range(2)]
+        first, second = (
+            np.where(abs(one) > limit, way * np.sign(one), 0.0)
+            for one, limit in zip(moved, least, strict=True)
+        )
+        return first, second
+
+    def _beyond(self, ratio: Any, speeds: Sequence[Any]) -> Any:
+        """By how much the tangential impulse that sticking takes passes this ratio, signed."""
+        stuck = self.observe(STICK, *speeds)
+        return stuck.tangential - ratio * stuck.normal
+
+    def _end(self, ratio: Any) -> tuple[Root, Any, Any]:
+        """The end of the family of contacts that slid at this ratio: where sticking just takes it;
+        or, with an energy known, the member that loses it.
+
+        The components give the closing speed, and the end is the slip at which both regimes give
+        the same impulse. From there on the loss grows linearly with the slip.
+        """
+        somewhere, _, misfit = self._solved(ratio)
+        closing = self.observe(ratio, *somewhere[:2]).closing
+        short, ahead = (self._beyond(ratio, self.speeds_at(closing, one)) for one in (0.0, 1.0))
+        slip = short / (short - ahead)
+        # A hair inside the family, or rounding decides whether the impact solved forwards slides.
+        slip = slip + np.sign(ratio * (ahead - short)) * _INSIDE * (abs(slip) + closing)
+        within: Any = None
+        if self.energy is not None:
+            way = np.sign(ratio * (ahead - short)) * closing
+            loss, more = (
+                self.observe(ratio, *self.speeds_at(closing, one)).energy_loss
+                for one in (slip, slip + way)
+            )
+            within = (self.energy - loss) / (more - loss)
+            slip, by_energy = slip + way * within, abs(way * self.energy / (more - loss))
+        speeds = self.speeds_at(closing, slip)
+        _, effects, inverse, _ = self._linear_in(STICK)
+        momenta = self._seen_momenta(self.observe(ratio, *speeds))
+        moved = self._moved(inverse, effects, momenta)
+        if within is not None:
+            per_slip = [b - a for a, b in zip(*map(self._one_slip, (0.0, 1.0)), strict=True)]
+            moved = moved + np.maximum(*map(abs, per_slip)) * by_energy
+        # However far the friction is from the ratio, the case has a bound; recorders must agree.
+        agree = self._own_misfit() <= _CONTRADICTION * ACCURACY
+        usable = agree & np.isfinite(misfit) & (abs(ratio) > 0.0)
+        usable = usable & pushed(self.observe(LAW, *speeds))
+        if within is not None:
+            usable = usable & (within >= 0.0) & (misfit <= _CONTRADICTION * ACCURACY)
+        root = Root(*speeds, self.e, moved / abs(closing), np.where(usable, closing, np.nan))
+        return root, np.where(usable, misfit, np.inf), np.full((), np.inf)
+
+    def _one_slip(self, slip: float) -> tuple[Any, Any]:
+        return self.speeds_at(np.ones(()), slip * np.ones(()))
+
+    def _losing(self, root: Root, misfit: Any, left: Any) -> tuple[Root, Any, Any]:
+        """A contact that sticks, with what the known energy differs from its loss.
+
+        An energy goes as the square of the impulse, of which all misfits are shares.
+        """
+        loss = self.observe(STICK, *root[:2]).energy_loss
+        whole = np.maximum(misfit, 0.5 * abs(self.energy / loss - 1.0))
+        fits = whole <= _CONTRADICTION * ACCURACY
+        root = root._replace(closing=np.where(fits, root.closing, np.nan))
+        return root, np.where(fits, whole, np.inf), left
+
+    def loses_more(self) -> Any:
+        """Whether the known energy is more than a contact that stuck loses."""
+        root, _, _ = self._solved(STICK)
+        return self.energy > self.observe(STICK, *root[:2]).energy_loss
+
+    def _own_misfit(self) -> Any:
+        """The misfit of the components to the impulse that fits them best, whatever the friction.
+
+        It is 0 for those of one vehicle.
+        """
+        root, _, _ = self._solved(STICK)
+        here = self.observe(STICK, *root[:2])
+        return self._misfit(here)
+
+    def _misfit(self, here: Seen) -> Any:
+        """What the components differ by from those seen, relative to the impulse."""
+        left = self._left(here)
+        size = np.hypot(here.normal, here.tangential)
+        return np.maximum(*(self._of(label, left) for label in "ab")) / size
+
+    def shown_ratio(self) -> Any:
+        """The impulse ratio that the components show by themselves; NaN if they do not."""
+        root, _, _ = self._solved(STICK)
+        stuck = self.observe(STICK, *root[:2])
+        flat = self._linear_in(STICK)[3]
+        return np.where(flat, np.nan, stuck.tangential / stuck.normal)
+
     def _solved(self, regime: Any) -> tuple[Root, Any, Any]:
         """The least squares of a regime."""
+        rest, effects, inverse, stays_open = self._linear_in(regime)
+        speeds = [speed + 0.0 * rest[0] for speed in self.known]
+        for _ in range(_REFINEMENTS):
+            left = self._left(self.observe(regime, *speeds))
+            for at, row in zip(self.unknown, inverse, strict=True):
+                step = _dot(row, left)
+                speeds[at] = speeds[at] + np.where(np.isfinite(step), step, 0.0)
+        moved = self._moved(inverse, effects, self._momenta)
+        return self._judged(regime, speeds, moved, stays_open)
+
+    def _moved(self, inverse: Sequence[Any], effects: Sequence[Any], momenta: Sequence[Any]) -> Any:
+        """By how much relative errors of the momenta and of a known speed may move the speeds."""
+        moved: Any = 0.0
+        for row in inverse:
+            by_momenta = sum(
+                abs(part * momentum) for part, momentum in zip(row, momenta, strict=True)
+            )
+            # A known speed enters by what it takes off the momenta.
+            by_speeds = sum(
+                abs(_dot(row, effect) * speed)
+                for effect, speed in zip(effects, self.known, strict=True)
+            )
+            moved = np.maximum(moved, by_momenta + by_speeds)
+        return moved
+
+    def _linear_in(self, regime: Any) -> tuple[list[Any], list[list[Any]], list[list[Any]], Any]:
+        """What the components are at rest, the effect of each speed on them, the inverse for the
+        unknown speeds, and where it leaves one open.
+        """
         rest, *moving = map(self._seen_momenta, self.at_unit_speeds(regime))
         effects = [
             [at - still for at, still in zip(momenta, rest, strict=True)] for momenta in moving
@@ -93,24 +317,7 @@ class ComponentScene(Scene):
         inverse, stays_open = _inverse(
             columns, [abs(part) for effect in effects for part in effect]
         )
-        speeds = [speed + 0.0 * rest[0] for speed in self.known]
-        for _ in range(_REFINEMENTS):
-            left = self._left(self.observe(regime, *speeds))
-            for at, row in zip(self.unknown, inverse, strict=True):
-                step = _dot(row, left)
-                speeds[at] = speeds[at] + np.where(np.isfinite(step), step, 0.0)
-        moved: Any = 0.0
-        for row in inverse:
-            by_momenta = sum(
-                abs(part * momentum) for part, momentum in zip(row, self._momenta, strict=True)
-            )
-            # A known speed enters by what it takes off the momenta.
-            by_speeds = sum(
-                abs(_dot(row, effect) * speed)
-                for effect, speed in zip(effects, self.known, strict=True)
-            )
-            moved = np.maximum(moved, by_momenta + by_speeds)
-        return self._judged(regime, speeds, moved, stays_open)
+        return rest, effects, inverse, stays_open
 
     def _edges(self) -> list[tuple[Root, Any, Any]]:
         """With one speed known: where sticking just uses up the friction, one way or the other.
@@ -153,10 +360,7 @@ class ComponentScene(Scene):
         Last comes the misfit of a regime that may have been and leaves a speed open, else infinity.
         """
         here, seen = (self.observe(which, *speeds) for which in (regime, LAW))
-        left = self._left(here)
-        misfit = np.maximum(*(self._of(label, left) for label in "ab")) / np.hypot(
-            here.normal, here.tangential
-        )
+        misfit = self._misfit(here)
         apart = abs(seen.normal - here.normal) + abs(seen.tangential - here.tangential)
         fits = pushed(seen) & (apart <= ROOT_TOL * abs(here.normal))
         usable = fits & np.logical_not(stays_open) & (misfit <= _CONTRADICTION * ACCURACY)
@@ -196,9 +400,10 @@ class ComponentScene(Scene):
         """Warn of known values that differ beyond their accuracy, of courses near one line, of a
         contact that may have slid.
         """
-        differ = answered & (self.misfit > ACCURACY)
+        misfit = np.where(self.ended, self._own_misfit(), self.misfit) if self.slid else self.misfit
+        differ = answered & (misfit > ACCURACY)
         if np.any(differ):
-            worst = float(np.max(np.where(answered, self.misfit, 0.0), initial=0.0))
+            worst = float(np.max(np.where(answered, misfit, 0.0), initial=0.0))
             who = " and ".join(self.names)
             why = (
                 f"the stated accuracy of recorders is {ACCURACY:.0%}: one of them, a course or "
@@ -211,6 +416,15 @@ class ComponentScene(Scene):
             sentence = f"{who} differ from their best common answer by more than they may, as {why}"
             warning = IllConditionedWarning(text, code="recorders_differ", value=worst)
             warn_of_cases(warning, {sentence: cases.number(differ)})
+        elif cases.shape is None and np.any(answered & self.ended & (self.misfit > ACCURACY)):
+            text = (
+                f"a contact that slides with friction={float(self.bound):.4g} differs from "
+                f"{' and '.join(self.names)} by {float(self.misfit):.0%} of the impulse, where the "
+                f"stated accuracy of recorders is {ACCURACY:.0%}: the friction, one of them or the "
+                "geometry is wrong"
+            )
+            warning = IllConditionedWarning(text, code="friction_differs", value=float(self.misfit))
+            warn_of_cases(warning, {text: None})
         (ax, ay), (bx, by) = (
             [self.given[f"course_{label}[{i}]"] for i in range(2)] for label in "ab"
         )
@@ -231,16 +445,45 @@ class ComponentScene(Scene):
             )
             warning = IllConditionedWarning(text, code="nearly_collinear", sine=sine)
             warn_of_cases(warning, {sentence: cases.number(near)})
-        slides = self.near_sliding & answered
-        if np.any(slides):
-            text = (
-                "the direction of the delta-Vs is that of a contact that slides to the end, "
-                "within the stated accuracy of recorders; it was taken to stick, as they lie "
-                "within the friction. If it slid the slip is open: give one of the speeds"
-            )
-            warn_of_cases(
-                IllConditionedWarning(text, code="may_slide"), {text: cases.number(slides)}
-            )
+
+
+def friction_shown(
+    given: dict[str, Any],
+    law: str,
+    names: tuple[str, ...],
+    shape: tuple[int, ...],
+    regime: str | None,
+) -> tuple[Any, Any]:
+    """The friction with the ratio that the components show in place of an infinite one, where the
+    contact slid; None if it did nowhere. And where a contact that slid fits as well as one that
+    stuck, with other speeds.
+
+    It slid where the caller stated that, where a known speed goes with a contact that slid and
+    differs by more than recorders may from one that stuck, or where more energy was lost than
+    sticking loses.
+    """
+    friction = given[FRICTION]
+    speeds = [name for name in names if name.startswith("speed")]
+    components = tuple(name for name in names if name.startswith("delta_v"))
+    settles = speeds or len(components) < len(names)
+    if regime == "sticking" or len(components) < 2 or not (settles or regime):
+        return None, False
+    shown = abs(ComponentScene(given, FRICTION, law, components, shape).shown_ratio())
+    usable = np.isinf(friction) & np.isfinite(shown)
+    ratio = np.where(usable, shown, friction)
+    if regime == "sliding":
+        return ratio, False
+    stuck = ComponentScene(given, FRICTION, law, names, shape)
+    if not speeds:
+        return np.where(usable & stuck.loses_more(), shown, friction), False
+    slid = ComponentScene({**given, FRICTION: ratio}, FRICTION, law, names, shape, False, "sliding")
+    closing = sum(np.nan_to_num(root.closing) for root in stuck.roots())
+    one, other, *_ = slid.roots()
+    slides = usable & ((one.closing > 0.0) | (other.closing > 0.0)) & (slid.misfit < stuck.misfit)
+    settled = slides & (stuck.misfit > ACCURACY)
+    apart = sum(abs(a - b) for a, b in zip(stuck.answer, slid.answer, strict=True))
+    open_ = usable & slid.undetermined | slides & (apart > ACCURACY * closing)
+    return (np.where(settled, shown, friction) if np.any(settled) else None), open_ & ~settled
 
 
 def _dot(one: Sequence[Any], other: Sequence[Any]) -> Any:

@@ -61,6 +61,11 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
         )
     if again.answers != origin.answers:
         yield f"its inputs have {again.answers} answers, and it says {origin.answers}"
+    if again.one_sided != origin.one_sided:
+        yield (
+            f"its inputs leave the speeds known by {again.one_sided or 'both sides'}, and it says "
+            f"{origin.one_sided or 'both sides'}"
+        )
 
 
 def _taken(method: str) -> set[str]:
@@ -111,6 +116,9 @@ def _solved_again(impact: Impact, origin: Reconstruction) -> tuple[Any, ...]:
         return (central(inputs.a.mass, inputs.b.mass, **known, incomplete=inputs.incomplete),)
     if origin.method == "planar":
         return (planar(impact.a.after, impact.b.after, **known, **contact),)
+    if any(name.startswith(("delta_v_forward", "delta_v_left")) for name in known):
+        slid = None if origin.one_sided is None else "bound"
+        contact |= {"regime": origin.regime, "slid": slid}
     courses = {f"course_{label}": getattr(inputs, label).course for label in "ab"}
     more: dict[str, Any] = {**courses, **contact, **known, inputs.rule: inputs.rule_value}
     return speeds(inputs.a, inputs.b, restitution=inputs.restitution, **more)

@@ -152,7 +152,7 @@ def inputs(
     sheet.say("The record at the end has every digit.")
     reverse.why_this_model(sheet, impact)
     if impact.reconstruction is not None:
-        reverse.what_was_known(sheet, impact.reconstruction)
+        reverse.what_was_known(sheet, impact)
         if known:
             sheet.table(known)
 

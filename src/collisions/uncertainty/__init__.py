@@ -12,6 +12,7 @@ from .distributions import (
     Triangular,
     Uniform,
 )
+from .one_sided import OneSided
 from .propagation import propagate
 from .result import Histogram, Output, Propagation, Shares
 
@@ -22,6 +23,7 @@ __all__ = [
     "Interval",
     "LogNormal",
     "Normal",
+    "OneSided",
     "Output",
     "Propagation",
     "Samples",

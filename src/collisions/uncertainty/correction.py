@@ -14,6 +14,7 @@ from . import turns
 from .distribution import show
 from .finer import FinerModel
 from .model import Model
+from .one_sided import Answers
 from .result import NO_SPREAD, Sampled, Shares, deviation
 
 _FOLDS = 8
@@ -53,11 +54,14 @@ class CorrectedModel(Model):
         self.units, self._checked = model.units, True
         self.correction, self.names = correction, names
 
-    def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> dict[str, Any]:
+    def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> Answers:
         """The outputs of the cases."""
         answers = super().__call__(values, count, check)
         changes = self.correction.changes(_columns(values, answers, self.names))
-        return {name: _moved(answers[name], changes[name][0], self.units[name]) for name in answers}
+        return Answers(
+            {name: _moved(answers[name], changes[name][0], self.units[name]) for name in answers},
+            answers.sides,
+        )
 
 
 class CorrectedOutput(Sampled):

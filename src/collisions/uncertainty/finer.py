@@ -9,6 +9,7 @@ from typing import Any
 
 from ..messages.errors import CollisionsError, InputError
 from .model import Model, check_names
+from .one_sided import Answers
 
 
 class FinerModel(Model):
@@ -20,7 +21,7 @@ class FinerModel(Model):
         except InputError as error:
             raise _of_finer(error) from None
 
-    def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> dict[str, Any]:
+    def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> Answers:
         """The outputs of the cases, as those of any model."""
         try:
             return super().__call__(values, count, check)

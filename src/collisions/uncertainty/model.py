@@ -21,6 +21,7 @@ from ..quantities.settings import in_si
 from ..quantities.units import is_quantity, shown, si_unit
 from . import turns
 from .distributions import Distribution, Interval
+from .one_sided import Answers, OneSided
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
 
@@ -39,7 +40,7 @@ class Model:
     first call on.
     """
 
-    def __init__(self, function: Any, fixed: Mapping[str, Any]) -> None:
+    def __init__(self, function: Any, fixed: Mapping[str, Any], one_sided: bool = False) -> None:
         if not callable(function):
             raise _bad_model(
                 "model must be a function of the named inputs that returns a dict of outputs, "
@@ -50,15 +51,17 @@ class Model:
         self.units: dict[str, str | None] = {}
         self.noted: list[Noted] = []
         self.cases = 0  # asked so far, but for those asked again as a check
+        # Whether its outputs may be OneSided.
+        self.one_sided = one_sided
         self._checked = False
 
     def at(self, place: Mapping[str, float]) -> Model:
         """The model with more inputs fixed."""
-        found = Model(self.function, {**self.fixed, **place})
+        found = Model(self.function, {**self.fixed, **place}, self.one_sided)
         found._checked, found.noted = self._checked, self.noted
         return found
 
-    def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> dict[str, Any]:
+    def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> Answers:
         """The outputs of the cases as new float arrays; NaN where the model's value is not finite.
 
         The first time, a few cases are computed again on their own. ``check=False`` leaves that to
@@ -73,7 +76,7 @@ class Model:
             )
         return found
 
-    def _answers(self, values: Mapping[str, Any], count: int, noted: list[Noted]) -> dict[str, Any]:
+    def _answers(self, values: Mapping[str, Any], count: int, noted: list[Noted]) -> Answers:
         for value in values.values():
             value.setflags(write=False)
         here: list[Noted] = []
@@ -106,6 +109,13 @@ class Model:
                 f"model must return a dict of named outputs, such as {{'delta_v': "
                 f"impact.a.q.delta_v}}, got {got}"
             )
+        sides = {
+            name: value.sides for name, value in answered.items() if isinstance(value, OneSided)
+        }
+        answered = {
+            name: value.values if isinstance(value, OneSided) else value
+            for name, value in answered.items()
+        }
         units = {
             name: si_unit(value, per_angle=True) if is_quantity(value) else None
             for name, value in answered.items()
@@ -116,9 +126,24 @@ class Model:
                 "always return the same outputs"
             )
         self.units = units
-        return {
+        outputs = {
             name: self._read(name, value, units[name], count) for name, value in answered.items()
         }
+        return Answers(
+            outputs,
+            {name: self._sides(name, one, count) for name, one in sides.items() if np.any(one)},
+        )
+
+    def _sides(self, name: str, sides: Any, count: int) -> Any:
+        if not self.one_sided:
+            raise InputError(
+                f"output {name!r} of the model is OneSided, which is for uncertainty.propagate "
+                "with a method that draws, without Interval inputs, tolerance and finer; return "
+                "a number for every case here",
+                code="one_sided",
+                argument=name,
+            )
+        return np.array(np.broadcast_to(sides, (count,)), dtype=np.int8)
 
     def _read(self, name: str, value: Any, unit: str | None, count: int) -> Any:
         if not isinstance(name, str):

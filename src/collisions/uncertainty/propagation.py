@@ -27,6 +27,8 @@ from .distributions import Distribution, Interval
 from .finer import FinerModel
 from .intervals import COMMON_CASES, Bounds, extremes
 from .model import Function, Model, check_names, count_failed, pair_hints, read_input
+from .one_sided import Answers
+from .one_sided_output import OneSidedOutput, one_sided_notes
 from .result import Output, Propagation, Sampled, Shares
 from .sampling import Correlation, Joint, Sample, sampled_shares
 
@@ -91,9 +93,10 @@ def propagate(
         ``model(**inputs)`` returns a dict of named outputs: arrays of one number per case, or
         Quantities. Each case is computed on its own: a few are computed again without the others,
         and a model that then answers differently is refused. A case without an answer is NaN;
-        solvers return it with ``on_failure="nan"``. Booleans count as 0 and 1, so their mean is a
-        probability. Angles returned with a unit that all lie in [-pi, pi] are directions, counted
-        round the circle about their mean (see ``Output``); return a rotation as a plain number.
+        solvers return it with ``on_failure="nan"``. An output of which some cases say "at least" or
+        "at most" is a ``OneSided``. Booleans count as 0 and 1, so their mean is a probability.
+        Angles returned with a unit that all lie in [-pi, pi] are directions, counted round the
+        circle about their mean (see ``Output``); return a rotation as a plain number.
     inputs : dict
         For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``,
         ``Interval`` or fixed value. Numbers reach the model in SI, without their unit.
@@ -201,6 +204,7 @@ def propagate(
             for name, value in stated.items()
             if name not in drawn and name not in intervals
         },
+        one_sided=method in DESIGNS and not intervals and tolerance is None and finer is None,
     )
     check_names(model, stated, "inputs", "bad_inputs")
     dearer = None if finer is None else FinerModel(finer, whole.fixed)
@@ -269,12 +273,12 @@ def propagate(
         cases = [
             one.outputs[name]
             for one in runs
-            if not (one.failed and math.isnan(one.outputs[name].mean))
+            if not (one.failed and _without_answer(one.outputs[name]))
         ]
         if not cases:
             raise NoSolutionError(
                 f"the model has no answer for {name!r} in any of {samples_run} cases; call it "
-                "with the mean of the inputs to see why",
+                f"with the mean of the inputs to see why{_said_of_all(whole, samples_run)}",
                 code="all_failed",
                 output=name,
             )
@@ -497,10 +501,13 @@ def _sampled(
         inputs = sample.inputs(0, sample.done)
         with np.errstate(all="ignore"):
             better = corrected(model, dearer, inputs, sample.outputs, wanted_finer, seed)
-        sample.outputs, model = better.values, better.model
+        sample.outputs, model = Answers(better.values, {}), better.model
     shares = cache(partial(sampled_shares, model, joint, design, min(count, _SHARE_SAMPLES)))
+    sides = sample.outputs.sides
     outputs: dict[str, Any] = {
-        name: Sampled(name, model.units[name], values, shares)
+        name: OneSidedOutput(name, model.units[name], values, sides[name], shares)
+        if name in sides
+        else Sampled(name, model.units[name], values, shares)
         if better is None
         else CorrectedOutput(name, model.units[name], values, shares, better.changes[name])
         for name, values in sample.outputs.items()
@@ -585,7 +592,10 @@ def _notes(
     """What belongs with the figures: warnings of the model, cases left out, what a tolerance or a
     local method missed.
     """
-    notes = [*notes_of_samples(model.noted, count)]
+    notes = [
+        *notes_of_samples(model.noted, count),
+        *(note for run in runs for note in one_sided_notes(run.outputs)),
+    ]
     if method in LOCAL:
         notes += _not_local(method, runs, failed)
     elif failed:
@@ -599,7 +609,9 @@ def _notes(
                 OutOfRangeWarning,
                 f"{failed} of {count} cases ({100.0 * failed / count:.2f} %) had no answer and "
                 "are left out: the figures hold only where there is one",
-                ". Bound inputs that can be impossible, as by Normal(mean, sd, truncate=(low, "
+                ""
+                if any(note.code == "stuck_or_slid" for note in notes)
+                else ". Bound inputs that can be impossible, as by Normal(mean, sd, truncate=(low, "
                 "high))",
                 "failed_cases",
                 {"failed": failed},
@@ -651,6 +663,19 @@ def _notes(
                 )
             )
     return tuple(notes)
+
+
+def _without_answer(output: Output) -> bool:
+    """Whether no case has an answer; the mean is NaN also where some are known from one side."""
+    if isinstance(output, OneSidedOutput):
+        return bool(np.isnan(output.values).all())
+    return math.isnan(output.mean)
+
+
+def _said_of_all(model: Model, count: int) -> str:
+    """What the model said of its cases, to follow the message that none has an answer."""
+    said = [note.sentence for note in notes_of_samples(model.noted, count)]
+    return f". It said: {'; '.join(said)}" if said else ""
 
 
 def _not_local(method: str, runs: Sequence[Run], failed: int) -> Iterator[Note]:

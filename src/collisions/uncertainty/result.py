@@ -146,6 +146,10 @@ class Output(Summarized):
         """Whether nothing but bounds is known of it."""
         return False
 
+    def _own_figures(self, numbers: Numbers, kind: str) -> list[tuple[str, str]] | None:
+        """What a table says of an output whose figures are of another kind; None for others."""
+        return None
+
     @derived(OWN)
     def mean(self) -> Any:
         """Expected value."""
@@ -741,6 +745,8 @@ def figures(output: Output, numbers: Numbers, kind: str | None = None) -> list[t
     ends = numbers.span(low, high, kind)
     if output.bounds_only:
         return [("range, wherever in the intervals the truth is", ends)]
+    if (own := output._own_figures(numbers, kind)) is not None:
+        return own
     if len(mean) > 1:
         return [
             ("mean, wherever in the intervals the truth is", numbers.span(mean[0], mean[1], kind)),

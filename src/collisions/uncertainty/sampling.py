@@ -22,6 +22,7 @@ from .distribution import at_probabilities, at_scores
 from .distributions import Distribution, Samples
 from .model import Model
 from .normal_family import is_whole_normal
+from .one_sided import Answers, joined
 from .result import Shares, average, deviation
 
 # Correlation of the normal scores of two inputs, by the pair of their names.
@@ -261,7 +262,7 @@ class Sample:
     threads: int
     done: int = 0
     interrupted: bool = False
-    outputs: dict[str, Any] = field(default_factory=dict)
+    outputs: Answers = field(default_factory=lambda: Answers({}, {}))
 
     def extend(self, samples: int, progress: Callable[[int, int], None] | None = None) -> None:
         """Go on to this many cases in all; on a KeyboardInterrupt keep the cases up to the first
@@ -280,7 +281,7 @@ class Sample:
             if not parts:
                 raise
             self.interrupted = True
-        self.outputs = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+        self.outputs = joined(parts)
         self.done = len(next(iter(self.outputs.values())))
 
     def inputs(self, start: int, stop: int) -> dict[str, Any]:
@@ -293,7 +294,7 @@ class Sample:
         with np.errstate(all="ignore"):
             return self.joint.values(points[:, offset : offset + stop - start])
 
-    def _answers(self, block: tuple[int, int]) -> dict[str, Any]:
+    def _answers(self, block: tuple[int, int]) -> Answers:
         start, stop = block
         return self.model(self.inputs(start, stop), stop - start, check=start == 0)
 

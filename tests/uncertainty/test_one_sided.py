@@ -1,0 +1,199 @@
+"""Outputs known from one side in some cases: ends that are infinite where these decide them, and
+figures that then do not exist.
+"""
+
+import json
+import math
+import pickle
+import warnings
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions import plot
+from collisions.quantities.units import to_quantity
+from collisions.reconstruct import fit, posterior
+from collisions.uncertainty import Interval, Normal, OneSided, Uniform, propagate
+
+UNIT = {"x": Uniform(0.0, 1.0)}
+OPTIONS = {"samples": 1024, "seed": 1}
+
+
+def beyond(least, side):
+    """A number from 0 to 1, known from one side only above ``least``; and the same both ways."""
+
+    def model(x):
+        found = to_quantity(x, "m/s")
+        sided = OneSided(found, np.where(x > least, side, 0))
+        return {"sided": sided, "known": found}
+
+    return model
+
+
+def test_the_share_decides_an_end():
+    """Of uniform numbers: the low end of a contact known from below is that of the bounds; the high
+    end is finite as long as fewer than 2.5 % are unbounded.
+    """
+    for least, high in ((0.99, 0.975), (0.9, math.inf), (-1.0, math.inf)):
+        found = propagate(beyond(least, 1), UNIT, **OPTIONS)["sided"]
+        assert found.interval() == pytest.approx((0.025, high), abs=2e-3)
+        assert found.quantile(0.0) == pytest.approx(0.0, abs=2e-3)
+        assert found.quantile(1.0) == math.inf
+    below = propagate(beyond(0.5, -1), UNIT, **OPTIONS)["sided"]
+    assert below.interval() == (-math.inf, pytest.approx(0.975, abs=2e-3))
+    # 10 % from one side: an interval of a half still has two ends.
+    some = propagate(beyond(0.9, 1), UNIT, **OPTIONS)["sided"]
+    assert some.interval(0.5) == pytest.approx((0.25, 0.75), abs=2e-3)
+    found = some.quantile(np.array([0.1, 0.5, 0.95]))
+    assert found == pytest.approx([0.1, 0.5, math.inf], abs=2e-3)
+    both = propagate(
+        lambda x: {"x": OneSided(x, np.where(x > 0.6, 1, np.where(x < 0.4, -1, 0)))},
+        UNIT,
+        **OPTIONS,
+    )["x"]
+    assert both.interval() == (-math.inf, math.inf)
+    assert "open on both sides at 95 percent" in repr(both)
+    middle = propagate(lambda x: {"x": OneSided(x, 1)}, UNIT, **OPTIONS)["x"]
+    assert math.isnan(middle.quantile(0.5))
+    assert middle.shares_of_sides() == (1.0, 0.0)
+    assert math.isnan(middle.quantile_standard_error(0.975))
+    assert 0.0 < middle.quantile_standard_error(0.025) < 0.01
+
+
+def test_without_a_side_it_is_what_it_was():
+    """Sides of 0 change no bit; nor do those of one output change another."""
+    plain = propagate(lambda x: {"x": x}, UNIT, **OPTIONS)["x"]
+    sided = propagate(lambda x: {"x": OneSided(x, 0 * (x > 0.5))}, UNIT, **OPTIONS)["x"]
+    assert type(sided) is type(plain)
+    for name in ("mean", "std", "mean_standard_error", "contributions"):
+        assert getattr(sided, name) == getattr(plain, name)
+    other = propagate(beyond(0.5, 1), UNIT, **OPTIONS)["known"]
+    assert (other.mean, other.interval()) == (plain.mean, plain.interval())
+    assert other.contributions == plain.contributions
+
+
+def test_what_does_not_exist_is_not_given():
+    """Mean and deviation are NaN, there are no shares and no histogram; texts, tables, records and
+    pickles say the range.
+    """
+    result = propagate(beyond(0.5, 1), UNIT, **OPTIONS)
+    found = result["sided"]
+    for name in ("mean", "std", "mean_standard_error", "std_standard_error"):
+        assert math.isnan(getattr(found, name))
+        assert math.isnan(getattr(found.q, name).magnitude)
+    assert found.contributions == found.total_contributions == {}
+    assert found.row()[1].startswith("at least 0.02")
+    assert found.row()[1].endswith("m/s, 97.5 percent")
+    assert "at least 0.1 mph, 97.5 %" in str(found.summary("us"))
+    assert "at least 0.1 km/h, 97.5 %" in str(result.summary("metric"))
+    assert found.to("mph").interval()[1] == math.inf
+    record = json.loads(json.dumps(result.to_dict()))["outputs"]["sided"]
+    assert record["interval_95"][1] == "inf"
+    assert record["at_least"] == pytest.approx(0.5, abs=2e-3)
+    assert record["at_most"] == 0.0
+    (statement,) = result.statements
+    assert "sided is known from one side only in 50 % of the cases, as at least" in statement
+    assert "reconstruct.posterior with a prior for it has two sides" in statement
+    again = pickle.loads(pickle.dumps(result))["sided"]
+    assert again.interval() == found.interval()
+    assert math.isfinite(result.correlation["sided", "known"])
+    for call in (
+        lambda: found.histogram(),
+        lambda: plot.distribution(found),
+        lambda: plot.contributions(result, "sided"),
+    ):
+        with pytest.raises(col.InputError, match="sided' has no"):
+            call()
+    plt.close("all")
+
+
+def test_a_report_has_the_range():
+    """Beside the figures of other outputs."""
+    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=15.0), col.Vehicle(mass=1200.0), 0.1)
+
+    def model(speed_a):
+        hit = col.linear_central(
+            col.Vehicle(mass=1500.0, vx=speed_a), col.Vehicle(mass=1200.0), 0.1, on_failure="nan"
+        )
+        return {
+            "a.before.speed": OneSided(hit.a.before.q.speed, 1),
+            "b.delta_v": hit.b.q.delta_v,
+        }
+
+    known = {"speed_a": Normal(15.0, 0.5)}
+    page = col.report(impact, uncertainty=propagate(model, known, **OPTIONS), form="markdown")
+    assert "at least 14.04 m/s, 97.5 %" in page
+    assert "is known from one side only in 100 %" in page
+
+
+def test_cases_without_an_answer_are_left_out():
+    """As of any output; with none, there is nothing to give."""
+
+    def model(x):
+        return {"x": OneSided(np.where(x < 0.25, np.nan, x), 1)}
+
+    with pytest.warns(col.OutOfRangeWarning, match="256 of 1024"):
+        found = propagate(model, UNIT, **OPTIONS)["x"]
+    assert found.interval() == (pytest.approx(0.25 + 0.75 * 0.025, abs=2e-3), math.inf)
+    with pytest.raises(col.NoSolutionError, match="no answer for 'x'"):
+        propagate(lambda x: {"x": OneSided(x * math.nan, 1)}, UNIT, **OPTIONS)
+
+
+def test_blocks_and_threads_keep_the_sides():
+    """Sides that begin in a later block, and in blocks done at once."""
+    for threads in (1, 2):
+        found = propagate(
+            lambda x: {"x": OneSided(x, (x > 0.999).astype(int))},
+            UNIT,
+            samples=40000,
+            seed=2,
+            threads=threads,
+        )["x"]
+        assert found.shares_of_sides()[0] == pytest.approx(0.001, abs=2e-4)
+        assert found.sides.shape == (40000,)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda model: propagate(model, UNIT, method="first_order"),
+        lambda model: propagate(model, UNIT, method="interval"),
+        lambda model: propagate(model, UNIT, tolerance=0.1),
+        lambda model: propagate(
+            lambda x, y: model(x), {**UNIT, "y": Interval(0.0, 1.0)}, samples=64
+        ),
+        lambda model: posterior(model, UNIT, {"known": Normal(0.5, 0.1)}, samples=512, seed=1),
+        lambda model: fit(model, UNIT, {"known": Normal(0.5, 0.1)}),
+    ],
+    ids=["first_order", "interval", "tolerance", "beside an interval", "posterior", "fit"],
+)
+def test_where_it_has_no_meaning(call):
+    """Derivatives, searches and likelihoods know no bounds."""
+    with pytest.raises(col.InputError, match="is OneSided, which is for") as caught:
+        call(beyond(0.2, 1))
+    assert caught.value.code == "one_sided"
+
+
+@pytest.mark.parametrize(
+    ("code", "values", "sides"),
+    [
+        ("bad_option", 1.0, 2),
+        ("bad_option", 1.0, 0.5),
+        ("bad_option", 1.0, math.nan),
+        ("bad_option", 1.0, "up"),
+        ("bad_option", 1.0, None),
+        ("bad_option", np.ones(3), [1, 0, 3]),
+        ("bad_shape", np.ones(3), [1, 0]),
+        ("bad_shape", 1.0, [1, 0]),
+        ("not_a_number", None, 1),
+    ],
+)
+def test_refusals(code, values, sides):
+    """Sides that are none, or not one for each value."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(col.InputError) as caught:
+            OneSided(values, sides)
+    assert caught.value.code == code
