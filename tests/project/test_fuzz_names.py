@@ -1155,7 +1155,7 @@ def known_posterior(mean: float = 4.0) -> reconstruct.Posterior:
     *(f"reconstruct.Posterior.{name}" for name in ("inputs", "probability", "to_dict")),
     "reconstruct.Comparison.to_dict", "reconstruct.Posterior.summary",
     "reconstruct.Comparison.summary", "PosteriorOutput.summary",
-    *(f"PosteriorOutput{name}" for name in ("", ".record", ".histogram",
+    *(f"PosteriorOutput{name}" for name in ("", ".record", ".histogram", ".probability",
     ".quantile_standard_error", ".may_wrap", ".turned")),
     "plot.corner", "plot.residuals",
     share=0.25,
@@ -1177,6 +1177,8 @@ def test_posterior(case: Case) -> None:
         assert str(case.must("PosteriorOutput.summary", output.summary, case.choice(UNIT_SYSTEMS)))
         assert json.dumps(case.must("PosteriorOutput.record", output.record), allow_nan=False)
         case.call("PosteriorOutput.histogram", output.histogram, case.option(40, 5, case.garbage()))
+        asked = case.option(lambda values: values > 1.0)
+        case.call("PosteriorOutput.probability", output.probability, asked)
         case.call(
             "PosteriorOutput.quantile_standard_error",
             output.quantile_standard_error,
@@ -1525,6 +1527,7 @@ OUTPUT_OPEN = INPUT_OPEN | {
         "Output.total_contributions", "Output.mean", "Output.std", "Output.values", "Output.unit",
         "Shares.first_error", "Shares.total_error", "Shares.total",
         "Shares.first", "Histogram.standard_errors", "Propagation.correlation",
+        "Halved.now", "Halved.widths", "Halved.units", "Halved.coverage",
     )
 }  # fmt: skip
 
@@ -1695,6 +1698,42 @@ def known_shares(case: Case) -> None:
     output = known[case.choice(list(known))]
     case.must("uncertainty.Output.record", output.record)
     case._look_at(output._shares(), uncertainty.Shares, OUTPUT_OPEN, False)
+
+
+@fuzzes(
+    "uncertainty.Output.probability",
+    "uncertainty.Propagation.probability",
+    "uncertainty.Propagation.if_halved",
+    "uncertainty.Halved",
+    "uncertainty.Halved.to_dict",
+    "uncertainty.Halved.summary",
+)
+def test_questions_to_a_propagation(case: Case) -> None:
+    """Any condition, of one output and of all; what half an error leaves of every range."""
+    found = propagation(case)
+    if not isinstance(found, uncertainty.Propagation):
+        found = known_propagation()
+    limit = case.number("vx")
+    name = case.choice(list(found))
+    for label, ask, condition in (
+        ("Output", found[name].probability, lambda values: values > limit),
+        ("Propagation", found.probability, lambda at: (at[name] > limit) & ~(at[name] > 9.0)),
+    ):
+        asked = case.call(f"uncertainty.{label}.probability", ask, case.option(condition))
+        if not isinstance(asked, Exception):
+            chance, error = asked
+            assert 0.0 <= chance <= 1.0
+            assert not error < 0.0
+    widths = case.call("uncertainty.Propagation.if_halved", found.if_halved)
+    if isinstance(widths, uncertainty.Halved):
+        case.look(widths, OUTPUT_OPEN)
+        assert all(width >= 0.0 or math.isnan(width) for width in widths.now.values())
+        assert json.dumps(case.must("uncertainty.Halved.to_dict", widths.to_dict), allow_nan=False)
+        case.call("uncertainty.Halved", widths.__getitem__, case.option(*widths))
+        table = case.must(
+            "uncertainty.Halved.summary", widths.summary, units=case.choice((None, *UNIT_SYSTEMS))
+        )
+        assert isinstance(str(table) + table._repr_html_(), str)
 
 
 # --- summaries ------------------------------------------------------------------------------------

@@ -299,6 +299,10 @@ def ranges() -> tuple[float, float]:
         model, inputs, method="quasi_random", samples=256, seed=1
     )
     low, high = found["speed"].interval(0.95)
+    chance: tuple[float, float] = found["speed"].probability(lambda v: v > 13.9)
+    chance = found.probability(lambda at: at["speed"] > chance[0])
+    left: uncertainty.Halved = found.if_halved()
+    print(left["drag"]["speed"], left.now, left.q, left.to_dict(), left.summary("us"))
     mean: float = found["speed"].mean
     joint: dict[str, Samples] = Samples.joint(speed=[10.0, 12.0], mass=[1500.0, 1490.0])
     score = joint["speed"].scored(0.5) + Normal.between("20 m/s", 25, 0.9).quantile(0.5)

@@ -12,12 +12,14 @@ from .distributions import (
     Triangular,
     Uniform,
 )
+from .halved import Halved
 from .propagation import propagate
 from .result import Histogram, Output, Propagation, Shares
 
 __all__ = [
     "Censored",
     "Distribution",
+    "Halved",
     "Histogram",
     "Interval",
     "LogNormal",
