@@ -836,8 +836,17 @@ def test_recorded_pulses(case: Case) -> None:
     given = [times, case.option(-8.0 * shape, case.value("vx"))]
     given += [case.option(2.0 * shape, case.value("vx"))] if case.maybe(0.6) else []
     polarity = case.option("49 CFR 563", "ISO 8855")
+    place = (
+        {name: case.option(0.5, case.value("x")) for name in ("forward", "left")}
+        if case.maybe(0.4)
+        else {}
+    )
     pulse = case.call(
-        "reconstruct.recorded_pulse", reconstruct.recorded_pulse, *given, polarity=polarity
+        "reconstruct.recorded_pulse",
+        reconstruct.recorded_pulse,
+        *given,
+        polarity=polarity,
+        **case.spoil(place),
     )
     if not isinstance(pulse, Exception):
         case.look(pulse, None)

@@ -228,7 +228,7 @@ def backwards() -> float:
         {"one": sampled, "other": sampled}, prior={"one": 0.5, "other": 0.5}
     )
     recorded = reconstruct.recorded_pulse([0.0, 0.01], [0.0, -2.0], [0, 1.0], polarity="ISO 8855")
-    ranges_of: dict[str, Uniform] = recorded.inputs("a")
+    ranges_of: dict[str, Any] = recorded.inputs("a")
     both = reconstruct.crush_delta_v("40 kJ", 1500, "1200 kg", gamma_a=0.9)
     e += both[0] + reconstruct.crush_share("60 kN/m", 7e4)
     print(
