@@ -299,7 +299,7 @@ def test_vehicles(case: Case) -> None:
 @fuzzes(
     *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Pulse", "Inputs", "Side",
     "Impact.again", "Impact.case", "Impact.ees", "Impact.max_crush_speeds", "Impact.to_dict",
-    "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at",
+    "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at", "Side.recorded",
 )  # fmt: skip
 def test_impacts(case: Case) -> None:
     """Any two bodies, any contact; of what is answered everything is read, written down and read
@@ -314,6 +314,15 @@ def test_impacts(case: Case) -> None:
     case.call("Impact.ees", impact.ees, case.value("share_a"))
     case.call("Impact.max_crush_speeds", impact.max_crush_speeds, case.value("share_a"))
     case.call("Side.delta_v_at", case.choice((impact.a, impact.b)).delta_v_at, case.pair("point"))
+    followed = impact if impact.pulse is not None or case.maybe(0.1) else known_impact(6)
+    place = {name: case.option(0.5, case.value("x")) for name in ("forward", "left")}
+    shown = case.call(
+        "Side.recorded",
+        case.choice((followed.a, followed.b)).recorded,
+        case.option(0.05, [0.0, 0.03, 1.0], np.array([0.02, 0.2]), case.value("duration")),
+        **case.spoil(place | {"axes": case.option("turning", "fixed")}),
+    )
+    assert isinstance(shown, Exception) or np.shape(shown[0]) == np.shape(shown[1])
     index = case.option(0, 0, -1, 2, (0,), (0, 1), (), case.randint(-9, 9))
     one = case.call("Impact.case", impact.case, index)
     if isinstance(one, col.Impact):

@@ -133,6 +133,7 @@ def around(impact: col.Impact) -> str:
     known: dict[str, Any] = reporting.options(str(col.report(impact)))
     one: col.Impact = impact.case(0).again(restitution=0.2, friction="0.4")
     vx, vy = one.a.delta_v_at((1, "2 m"))
+    print(one.a.recorded(["30 ms", 0.06], forward="50 cm", left=0.1, axes="fixed"))
     own, other = one.max_crush_speeds("50 %")
     print(
         known,

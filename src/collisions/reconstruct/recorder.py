@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ..kernels.elementwise import FINITE
+from ..impact.recorded import read_place
 from ..messages.errors import InputError, MissingInputError, OutOfRangeWarning, ShapeError
 from ..messages.hints import hinted
 from ..messages.warning import warn
@@ -30,7 +30,6 @@ _LEFTWARD = {"49 CFR 563": -1.0, "ISO 8855": 1.0}
 # ms.
 _QUIET_CHANGE, _QUIET_TIME = 0.8 / 3.6, 0.020
 _LONGEST = 3.0  # s; no contact of vehicles lasts longer
-FARTHEST = 20.0  # m; no recorder is farther from the centre of mass
 _NAMES = {"time": "s", "delta_v_forward": "m/s", "delta_v_left": "m/s"}
 
 
@@ -317,7 +316,6 @@ def _read_place(reader: ArgumentReader, forward: Any, left: Any) -> tuple[float,
     given = {"forward": forward, "left": left}
     if forward is left is None:
         return None
-    found = {}
     for name, value in given.items():
         if value is None:
             text = (
@@ -325,20 +323,13 @@ def _read_place(reader: ArgumentReader, forward: Any, left: Any) -> tuple[float,
                 "in line with the centre of mass"
             )
             reader.refuse(MissingInputError(text, code="missing_place", argument=name))
-            continue
-        found[name] = reader.number(value, "m", name, FINITE)
-        if reader.problems:
-            continue
-        if np.ndim(found[name]):
-            text = f"{name} is that of one recorder, so one number, got {shown(value)}"
+            return None
+    place = read_place(reader, (forward, left))
+    for name, part in zip(given, place, strict=True):
+        if np.ndim(part):
+            text = f"{name} is that of one recorder, so one number, got {shown(given[name])}"
             reader.refuse(ShapeError(text, code="bad_shape", argument=name))
-        elif abs(found[name]) > FARTHEST:
-            text = (
-                f"{name} must be within {FARTHEST:g} m of the centre of mass, got {shown(value)} "
-                "(were millimetres meant?)"
-            )
-            reader.refuse(InputError(text, code="out_of_range", argument=name))
-    return None if reader.problems else (found["forward"], found["left"])
+    return place
 
 
 def _error(value: float) -> float:
