@@ -957,6 +957,11 @@ def test_speeds(case: Case) -> None:
         )
     if case.maybe(0.1):
         known["forward_only"] = case.option(True, False)
+    sides = {name[-1] for name in known if name.startswith(("delta_v_forward", "delta_v_left"))}
+    if case.maybe(0.5 if sides else 0.05):
+        known |= {f"recorder_{side}": case.option((0.5, 0.1), case.pair("x")) for side in sides}
+        known |= {"duration": case.option(0.1, case.value("duration"))}
+        known |= {"axes": case.option("turning", "fixed")} if case.maybe(0.5) else {}
     solved(case, "speeds", a, b, restitution=e, **keywords, **courses, **known)
 
 

@@ -228,6 +228,22 @@ def backwards() -> float:
     compared: reconstruct.Comparison = reconstruct.compare(
         {"one": sampled, "other": sampled}, prior={"one": 0.5, "other": 0.5}
     )
+    carried = reconstruct.speeds(
+        a,
+        b,
+        course_a=0,
+        course_b="80 deg",
+        restitution=0.1,
+        normal=0.0,
+        point=(0, 0.4),
+        friction=float("inf"),
+        delta_v_forward_a="-18.5 km/h",
+        delta_v_left_a="4.6 km/h",
+        recorder_a=("50 cm", 0),
+        axes="turning",
+        duration="100 ms",
+    )
+    print(carried[0].summary())
     recorded = reconstruct.recorded_pulse([0.0, 0.01], [0.0, -2.0], [0, 1.0], polarity="ISO 8855")
     ranges_of: dict[str, Any] = recorded.inputs("a")
     both = reconstruct.crush_delta_v("40 kJ", 1500, "1200 kg", gamma_a=0.9)

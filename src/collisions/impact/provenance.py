@@ -96,6 +96,12 @@ for _label in "ab":
         f"delta_v_left_{_label}": Known(
             f"delta-V to the left{_of}", "speed", f"{_label}.delta_v_left", _speeds
         ),
+        f"recorder_{_label}": Known(
+            f"place of the recorder{_of}, whose readings are carried over to the centre of mass",
+            "length",
+            "",
+            _speeds,
+        ),
         f"ees_{_label}": Known(f"EES{_of} (ISO 12353)", "speed", "", _speeds),
         f"max_crush_speed_{_label}": Known(f"speed of maximum crush{_of}", "speed", "", _speeds),
     }

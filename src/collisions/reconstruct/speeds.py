@@ -13,6 +13,7 @@ import numpy as np
 
 from ..impact.impact import Impact
 from ..impact.inputs import Inputs, Law, check_flag, read_inputs
+from ..impact.recorded import Axes
 from ..impact.run import error_of, warn_of_refusals
 from ..kernels.contact_laws import BRACH, LAWS
 from ..kernels.status import EPS, Status
@@ -36,6 +37,7 @@ from .common import (
     run_forward,
     split_texts,
 )
+from .recorder_place import RecorderScene, read_recorders, without_readings
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import ComponentScene
@@ -85,6 +87,10 @@ def speeds(
     delta_v_left_a: Input | None = None,
     delta_v_forward_b: Input | None = None,
     delta_v_left_b: Input | None = None,
+    recorder_a: Pair | None = None,
+    recorder_b: Pair | None = None,
+    axes: Axes | None = None,
+    duration: Input | None = None,
     forward_only: bool = False,
 ) -> tuple[Impact, ...]:
     """Impact speeds of both vehicles from the geometry of the impact and two known quantities.
@@ -140,6 +146,20 @@ def speeds(
         friction, and one speed must be known.
     delta_v_forward_b, delta_v_left_b : float, str, Quantity or array [m/s], optional
         The same of B.
+    recorder_a, recorder_b : pair [m], optional
+        Where the recorder sits that the components of A, or of B, were read from: how far ahead of
+        the centre of mass, and how far to its left (``recorded_pulse(...).place``). The components
+        are then the readings at that place, and carried over to the centre of mass by the yaw of
+        the vehicle, which is part of the solution (Marine and Werner, SAE 980219).
+    axes : {"turning", "fixed"}, optional
+        Axes of the components: those of the car, which turn with it, as the accelerometers of a
+        recorder sum up, or those of its heading at maximum engagement, which stay. By default
+        turning where a recorder is given; otherwise the contact is an instant, in which both are
+        the same.
+    duration : float, str, Quantity or array [s], optional
+        How long the contact lasts, during which the axes turn; needed with a recorder or axes, and
+        0 for a contact in which nothing turns. The force has a constant direction and rises and
+        falls as that of ``left_out``: half a sine, with restitution shorter by it.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
 
@@ -220,6 +240,8 @@ def speeds(
     reader = ArgumentReader()
     known = read_amounts(reader, others)
     known |= {name: reader.number(value, "m/s", name) for name, value in components.items()}
+    places = {"a": recorder_a, "b": recorder_b}
+    recorders = read_recorders(reader, places, axes, duration, tuple(components))
     courses = {
         label: _course(reader, label, body, angle, known.get(f"speed_{label}", np.nan), components)
         for label, body, angle in (("a", a, course_a), ("b", b, course_b))
@@ -233,6 +255,7 @@ def speeds(
         **known,
         "restitution": inputs.restitution,
         **numbers_by_name(inputs, without=("vx", "vy")),
+        **(recorders.numbers if recorders else {}),
     }
     # Both courses are widened to the precision of all other inputs.
     beside = (*numbers.values(), *(angle.value for angle in courses.values()))
@@ -248,7 +271,9 @@ def speeds(
             if callable(restitution)
             else None
         )
-        kind = ComponentScene if components else Scene
+        kind: Callable[..., Scene] = ComponentScene if components else Scene
+        if recorders is not None:
+            kind = partial(RecorderScene, recorders)
         known_of = numbers, inputs.rule, inputs.law or BRACH, counted(known), cases.shape or ()
 
         def roots_of(plain: bool) -> tuple[Scene, list[tuple[Root, Any]]]:
@@ -260,7 +285,8 @@ def speeds(
             scene, found = roots_of(cases.shape is None and function is None)
         except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
             scene, found = roots_of(False)
-        inputs = replace(inputs, given={**reader.texts, **(inputs.given or {})} or None)
+        texts = without_readings(reader.texts, recorders)
+        inputs = replace(inputs, given={**texts, **(inputs.given or {})} or None)
         return _answers(cases, scene, found, inputs, known, function, forward_only)
 
 
@@ -497,7 +523,8 @@ def _answers(
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
             raise _refusal(scene, status, known, function, forward_only, Sentences(inputs.texts))
-        origin = cases.provenance("speeds", scene.names, root.condition, count)
+        names = (*scene.names, *getattr(scene, "recorders", ()))
+        origin = cases.provenance("speeds", names, root.condition, count)
         impact = run_forward(
             partial(inputs_of, root), status, origin, None if cases.shape is None else "nan"
         )
