@@ -791,6 +791,21 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         more["normal"] = case.value("normal")
     if case.maybe(0.1):
         more["outside_impulse"] = case.pair("outside_impulse")
+    if case.maybe(0.15):
+        # One velocity whole: three speeds, or both before of vehicles that stay together.
+        lost = case.choice(("a", "b", "a_after", "b_after"))
+        speeds = {name: case.value("speed") for name in ("speed_a", "speed_b")}
+        more["together"] = lost.endswith("after") and case.maybe(0.5)
+        if not more["together"]:
+            speeds = {
+                name: case.value("speed")
+                for name in ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
+                if name != f"speed_{lost}"
+            }
+        gone = ("a_after", "b_after") if more["together"] else (lost,)
+        courses = {
+            name: value for name, value in courses.items() if name[len("course_") :] not in gone
+        }
     momentum = solved(case, "momentum", **masses, **courses, **speeds, **more)
     if isinstance(momentum, reconstruct.MomentumSolution) and case.maybe(0.2):
         explained(case, momentum)
