@@ -4,13 +4,14 @@ place and in axes that turn, lead back to its speeds.
 
 import json
 import math
+import re
 import warnings
 
 import numpy as np
 import pytest
 
 import collisions as col
-from collisions import reconstruct
+from collisions import reconstruct, reporting
 from collisions.uncertainty import Normal, Uniform, propagate
 
 MPH = 0.44704
@@ -113,7 +114,8 @@ def test_what_a_recorder_shows_of_a_crash_leads_back_to_it(axes, place, e, spins
         )
         assert mph(found) == pytest.approx([30.0, 25.0], abs=2e-4)
         assert found.a.delta_v_left == pytest.approx(impact.a.delta_v_left, abs=1e-4)
-        assert found.reconstruction.known[-len(labels) :] == tuple(places)
+        told = (*places, f"recorder_axes_{axes}")
+        assert found.reconstruction.known[-len(told) :] == told
 
 
 def test_an_incomplete_impact_is_engaged_the_most_at_its_end():
@@ -220,9 +222,22 @@ def test_pages_and_records_say_that_readings_were_carried_over():
     """
     reading = [f"{part / MPH:.6f} mph" for part in read(crash().a, (0.5, 0.0), 0.1)]
     (found,) = found_from(names("a", reading), recorder_a=("50 cm", 0), duration="100 ms")
-    assert found.reconstruction.known == ("delta_v_forward_a", "delta_v_left_a", "recorder_a")
+    assert found.reconstruction.known == (
+        "delta_v_forward_a",
+        "delta_v_left_a",
+        "recorder_a",
+        "recorder_axes_turning",
+    )
     page = str(col.report(found))
     assert "carried over to the centre of mass" in page
+    rows = re.sub("<[^>]+>", " ", page)
+    for what, text in (
+        ("delta-V forward of A, as its recorder reads it", reading[0].partition(".")[0]),
+        ("recorder of A, ahead of the centre of mass", r"1\.640 ft, given as 50 cm"),
+        ("duration of the contact, in which recorders turn", "0\\.1 s, given as 100 ms"),
+    ):
+        assert re.search(rf"{what}\s+{text}", rows), (what, rows[:6000])
+    assert reporting.replay(page).reconstruction == found.reconstruction
     assert "carried over to the centre of mass" in str(col.explain(found))
     again = col.Impact.from_dict(json.loads(json.dumps(found.to_dict())))
     assert again.reconstruction == found.reconstruction

@@ -49,7 +49,8 @@ class Recorders(NamedTuple):
     @property
     def names(self) -> tuple[str, ...]:
         """Their names among what was known."""
-        return tuple(f"recorder_{label}" for label in self.labels)
+        places = [f"recorder_{label}" for label in self.labels]
+        return (*places, "recorder_axes_turning" if self.turning else "recorder_axes_fixed")
 
 
 def read_recorders(
@@ -276,15 +277,17 @@ class RecorderScene(ComponentScene):
         return super()._judged(regime, speeds, moved, stays_open)
 
 
-def without_readings(texts: Any, recorders: Recorders | None) -> dict[str, Any]:
-    """The texts without those of recorders: the result has the delta-V of the centre of mass, which
-    the readings are not, and an instant for a contact.
+def texts_of(texts: Any, recorders: Recorders | None) -> dict[str, Any]:
+    """The texts with those of recorders by names of their own: the result has the delta-V of the
+    centre of mass, which the readings are not, and an instant for a contact.
     """
-    if recorders is None:
-        return {**texts}
-    own = tuple(
-        f"{part}_{label}"
-        for part in ("delta_v_forward", "delta_v_left", "recorder")
-        for label in recorders.labels
-    )
-    return {name: text for name, text in texts.items() if not name.startswith((*own, "duration"))}
+    own: dict[str, str] = {}
+    for label in "" if recorders is None else recorders.labels:
+        own |= {
+            f"delta_v_forward_{label}": f"reading_forward_{label}",
+            f"delta_v_left_{label}": f"reading_left_{label}",
+            f"recorder_{label}[0]": f"recorder_forward_{label}",
+            f"recorder_{label}[1]": f"recorder_left_{label}",
+            "duration": "recorder_duration",
+        }
+    return {own.get(name, name): text for name, text in texts.items()}

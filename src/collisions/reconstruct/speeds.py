@@ -37,7 +37,7 @@ from .common import (
     run_forward,
     split_texts,
 )
-from .recorder_place import RecorderScene, read_recorders, without_readings
+from .recorder_place import RecorderScene, read_recorders, texts_of
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import ComponentScene
@@ -285,7 +285,7 @@ def speeds(
             scene, found = roots_of(cases.shape is None and function is None)
         except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
             scene, found = roots_of(False)
-        texts = without_readings(reader.texts, recorders)
+        texts = texts_of(reader.texts, recorders)
         inputs = replace(inputs, given={**texts, **(inputs.given or {})} or None)
         return _answers(cases, scene, found, inputs, known, function, forward_only)
 
