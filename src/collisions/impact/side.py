@@ -332,8 +332,8 @@ class Side(Frozen, Summarized):
     def delta_v_at(self, point: Pair) -> tuple[Value, Value]:
         """Change of velocity (x, y) [m/s] of the point of the vehicle that lies at a scene point.
 
-        It is what an accelerometer there would have recorded, not the delta-V of the centre of
-        mass.
+        It is what an accelerometer there would have recorded in an instant, not the delta-V of the
+        centre of mass. While a contact lasts its axes turn, too: see ``recorded``.
 
         Parameters
         ----------

@@ -158,8 +158,9 @@ def speeds(
         the same.
     duration : float, str, Quantity or array [s], optional
         How long the contact lasts, during which the axes turn; needed with a recorder or axes, and
-        0 for a contact in which nothing turns. The force has a constant direction and rises and
-        falls as that of ``left_out``: half a sine, with restitution shorter by it.
+        0 for a contact in which nothing turns. The force is taken to keep one direction and to
+        rise and fall like that of a spring, as in ``left_out``; headings are those of maximum
+        engagement, as everywhere in an impulse.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
 
