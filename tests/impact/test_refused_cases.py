@@ -720,6 +720,7 @@ CALLS = dict(calls())
 
 # ---- what comes back ----
 ARGUMENTS = {"share_a": 0.5, "point": (1.0, 2.0)}
+ARGUMENTS |= {"time": 0.03, "forward": 0.4, "left": -0.1, "axes": "turning"}
 # Of the whole call, not of a case of it.
 WHOLE = (
     "model",
@@ -771,6 +772,8 @@ def outputs(found: Any, name: str = "") -> Iterator[tuple[str, Any]]:
                 arguments = {
                     part: ARGUMENTS[part] for part in list(inspect.signature(member).parameters)[1:]
                 }
+                if key == "recorded" and found._inputs.model != "time_resolved":
+                    continue  # an impulse takes no time
                 yield from outputs(getattr(found, key)(**arguments), f"{dot}{key}()")
     else:
         yield name, found

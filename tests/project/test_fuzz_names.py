@@ -330,7 +330,7 @@ def test_vehicles(case: Case) -> None:
 @fuzzes(
     *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Pulse", "Inputs", "Side",
     "Impact.again", "Impact.case", "Impact.ees", "Impact.max_crush_speeds", "Impact.to_dict",
-    "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at",
+    "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at", "Side.recorded",
 )  # fmt: skip
 def test_impacts(case: Case) -> None:
     """Any two bodies, any contact; of what is answered everything is read, written down and read
@@ -345,6 +345,15 @@ def test_impacts(case: Case) -> None:
     case.call("Impact.ees", impact.ees, case.value("share_a"))
     case.call("Impact.max_crush_speeds", impact.max_crush_speeds, case.value("share_a"))
     case.call("Side.delta_v_at", case.choice((impact.a, impact.b)).delta_v_at, case.pair("point"))
+    followed = impact if impact.pulse is not None or case.maybe(0.1) else known_impact(6)
+    place = {name: case.option(0.5, case.value("x")) for name in ("forward", "left")}
+    shown = case.call(
+        "Side.recorded",
+        case.choice((followed.a, followed.b)).recorded,
+        case.option(0.05, [0.0, 0.03, 1.0], np.array([0.02, 0.2]), case.value("duration")),
+        **case.spoil(place | {"axes": case.option("turning", "fixed")}),
+    )
+    assert isinstance(shown, Exception) or np.shape(shown[0]) == np.shape(shown[1])
     index = case.option(0, 0, -1, 2, (0,), (0, 1), (), case.randint(-9, 9))
     one = case.call("Impact.case", impact.case, index)
     if isinstance(one, col.Impact):
@@ -815,6 +824,21 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         more["normal"] = case.value("normal")
     if case.maybe(0.1):
         more["outside_impulse"] = case.pair("outside_impulse")
+    if case.maybe(0.15):
+        # One velocity whole: three speeds, or both before of vehicles that stay together.
+        lost = case.choice(("a", "b", "a_after", "b_after"))
+        speeds = {name: case.value("speed") for name in ("speed_a", "speed_b")}
+        more["together"] = lost.endswith("after") and case.maybe(0.5)
+        if not more["together"]:
+            speeds = {
+                name: case.value("speed")
+                for name in ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
+                if name != f"speed_{lost}"
+            }
+        gone = ("a_after", "b_after") if more["together"] else (lost,)
+        courses = {
+            name: value for name, value in courses.items() if name[len("course_") :] not in gone
+        }
     momentum = solved(case, "momentum", **masses, **courses, **speeds, **more)
     if isinstance(momentum, reconstruct.MomentumSolution) and case.maybe(0.2):
         explained(case, momentum)
@@ -869,8 +893,17 @@ def test_recorded_pulses(case: Case) -> None:
     given = [times, case.option(-8.0 * shape, case.value("vx"))]
     given += [case.option(2.0 * shape, case.value("vx"))] if case.maybe(0.6) else []
     polarity = case.option("49 CFR 563", "ISO 8855")
+    place = (
+        {name: case.option(0.5, case.value("x")) for name in ("forward", "left")}
+        if case.maybe(0.4)
+        else {}
+    )
     pulse = case.call(
-        "reconstruct.recorded_pulse", reconstruct.recorded_pulse, *given, polarity=polarity
+        "reconstruct.recorded_pulse",
+        reconstruct.recorded_pulse,
+        *given,
+        polarity=polarity,
+        **case.spoil(place),
     )
     if not isinstance(pulse, Exception):
         case.look(pulse, None)
@@ -975,6 +1008,11 @@ def test_speeds(case: Case) -> None:
     if case.maybe(0.2 + 0.5 * all(name.startswith("delta_v_") for name in names)):
         known["regime"] = case.option(None, None, "sticking", "sliding")
         known["slid"] = case.option(None, "bound", "bound")
+    sides = {name[-1] for name in known if name.startswith(("delta_v_forward", "delta_v_left"))}
+    if case.maybe(0.5 if sides else 0.05):
+        known |= {f"recorder_{side}": case.option((0.5, 0.1), case.pair("x")) for side in sides}
+        known |= {"duration": case.option(0.1, case.value("duration"))}
+        known |= {"axes": case.option("turning", "fixed")} if case.maybe(0.5) else {}
     solved(case, "speeds", a, b, restitution=e, **keywords, **courses, **known)
 
 
@@ -1205,7 +1243,7 @@ def known_posterior(mean: float = 4.0) -> reconstruct.Posterior:
     *(f"reconstruct.Posterior.{name}" for name in ("inputs", "probability", "to_dict")),
     "reconstruct.Comparison.to_dict", "reconstruct.Posterior.summary",
     "reconstruct.Comparison.summary", "PosteriorOutput.summary",
-    *(f"PosteriorOutput{name}" for name in ("", ".record", ".histogram",
+    *(f"PosteriorOutput{name}" for name in ("", ".record", ".histogram", ".probability",
     ".quantile_standard_error", ".may_wrap", ".turned")),
     "plot.corner", "plot.residuals",
     share=0.25,
@@ -1227,6 +1265,8 @@ def test_posterior(case: Case) -> None:
         assert str(case.must("PosteriorOutput.summary", output.summary, case.choice(UNIT_SYSTEMS)))
         assert json.dumps(case.must("PosteriorOutput.record", output.record), allow_nan=False)
         case.call("PosteriorOutput.histogram", output.histogram, case.option(40, 5, case.garbage()))
+        asked = case.option(lambda values: values > 1.0)
+        case.call("PosteriorOutput.probability", output.probability, asked)
         case.call(
             "PosteriorOutput.quantile_standard_error",
             output.quantile_standard_error,
@@ -1566,6 +1606,7 @@ OUTPUT_OPEN = INPUT_OPEN | {
         "Output.total_contributions", "Output.mean", "Output.std", "Output.values", "Output.unit",
         "Shares.first_error", "Shares.total_error", "Shares.total",
         "Shares.first", "Histogram.standard_errors", "Propagation.correlation",
+        "Halved.now", "Halved.widths", "Halved.units", "Halved.coverage",
     )
 }  # fmt: skip
 
@@ -1785,6 +1826,42 @@ def known_shares(case: Case) -> None:
     output = known[case.choice(list(known))]
     case.must("uncertainty.Output.record", output.record)
     case._look_at(output._shares(), uncertainty.Shares, OUTPUT_OPEN, False)
+
+
+@fuzzes(
+    "uncertainty.Output.probability",
+    "uncertainty.Propagation.probability",
+    "uncertainty.Propagation.if_halved",
+    "uncertainty.Halved",
+    "uncertainty.Halved.to_dict",
+    "uncertainty.Halved.summary",
+)
+def test_questions_to_a_propagation(case: Case) -> None:
+    """Any condition, of one output and of all; what half an error leaves of every range."""
+    found = propagation(case)
+    if not isinstance(found, uncertainty.Propagation):
+        found = known_propagation()
+    limit = case.number("vx")
+    name = case.choice(list(found))
+    for label, ask, condition in (
+        ("Output", found[name].probability, lambda values: values > limit),
+        ("Propagation", found.probability, lambda at: (at[name] > limit) & ~(at[name] > 9.0)),
+    ):
+        asked = case.call(f"uncertainty.{label}.probability", ask, case.option(condition))
+        if not isinstance(asked, Exception):
+            chance, error = asked
+            assert 0.0 <= chance <= 1.0
+            assert not error < 0.0
+    widths = case.call("uncertainty.Propagation.if_halved", found.if_halved)
+    if isinstance(widths, uncertainty.Halved):
+        case.look(widths, OUTPUT_OPEN)
+        assert all(width >= 0.0 or math.isnan(width) for width in widths.now.values())
+        assert json.dumps(case.must("uncertainty.Halved.to_dict", widths.to_dict), allow_nan=False)
+        case.call("uncertainty.Halved", widths.__getitem__, case.option(*widths))
+        table = case.must(
+            "uncertainty.Halved.summary", widths.summary, units=case.choice((None, *UNIT_SYSTEMS))
+        )
+        assert isinstance(str(table) + table._repr_html_(), str)
 
 
 # --- summaries ------------------------------------------------------------------------------------

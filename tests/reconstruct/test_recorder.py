@@ -467,3 +467,37 @@ def test_no_polarity_is_assumed():
         recorded_pulse(TIME, SHAPE)
     with pytest.raises(col.InputError, match="label must be 'a' or 'b'"):
         recorded_pulse(TIME, SHAPE, polarity="49 CFR 563").inputs("c")
+
+
+def test_the_place_of_the_recorder_is_kept():
+    """With the readings, and handed on with them; the readings stay those of that place."""
+    given = (TIME, -6.0 * haversine(TIME), 1.0 * haversine(TIME))
+    pulse = recorded_pulse(*given, polarity="ISO 8855", forward="50 cm", left=-0.1)
+    assert pulse.place == (0.5, -0.1)
+    assert pulse.delta_v_forward == -6.0
+    assert pulse.inputs("b")["recorder_b"] == (0.5, -0.1)
+    assert re.search(r"recorder ahead +0\.50 m\n", str(pulse.summary("metric")))
+    assert [part.m_as("cm") for part in pulse.q.place] == pytest.approx([50.0, -10.0])
+    assert pickle.loads(pickle.dumps(pulse)).place == pulse.place
+    plain = recorded_pulse(*given, polarity="ISO 8855")
+    assert plain.place is None
+    assert "recorder_b" not in plain.inputs("b")
+    assert "recorder" not in str(plain)
+    assert recorded_pulse(*given, polarity="ISO 8855", forward=0, left=0).place == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("place", "code", "said"),
+    [
+        ({"forward": 0.5}, "missing_place", "write left=0"),
+        ({"left": "20 cm"}, "missing_place", "write forward=0"),
+        ({"forward": 500.0, "left": 0.0}, "out_of_range", "were millimetres meant"),
+        ({"forward": math.nan, "left": 0.0}, "not_finite", "forward"),
+        ({"forward": "0.5 s", "left": 0.0}, "bad_units", "forward"),
+        ({"forward": np.array([0.5, 0.6]), "left": 0.0}, "bad_shape", "one number"),
+    ],
+)
+def test_a_place_that_is_none_is_refused(place, code, said):
+    with pytest.raises(col.InputError, match=said) as caught:
+        recorded_pulse(TIME, SHAPE, polarity="49 CFR 563", **place)
+    assert caught.value.code == code

@@ -133,6 +133,7 @@ def around(impact: col.Impact) -> str:
     known: dict[str, Any] = reporting.options(str(col.report(impact)))
     one: col.Impact = impact.case(0).again(restitution=0.2, friction="0.4")
     vx, vy = one.a.delta_v_at((1, "2 m"))
+    print(one.a.recorded(["30 ms", 0.06], forward="50 cm", left=0.1, axes="fixed"))
     own, other = one.max_crush_speeds("50 %")
     print(
         known,
@@ -256,8 +257,24 @@ def backwards() -> float:
     compared: reconstruct.Comparison = reconstruct.compare(
         {"one": sampled, "other": sampled}, prior={"one": 0.5, "other": 0.5}
     )
+    carried = reconstruct.speeds(
+        a,
+        b,
+        course_a=0,
+        course_b="80 deg",
+        restitution=0.1,
+        normal=0.0,
+        point=(0, 0.4),
+        friction=float("inf"),
+        delta_v_forward_a="-18.5 km/h",
+        delta_v_left_a="4.6 km/h",
+        recorder_a=("50 cm", 0),
+        axes="turning",
+        duration="100 ms",
+    )
+    print(carried[0].summary())
     recorded = reconstruct.recorded_pulse([0.0, 0.01], [0.0, -2.0], [0, 1.0], polarity="ISO 8855")
-    ranges_of: dict[str, Uniform] = recorded.inputs("a")
+    ranges_of: dict[str, Any] = recorded.inputs("a")
     both = reconstruct.crush_delta_v("40 kJ", 1500, "1200 kg", gamma_a=0.9)
     e += both[0] + reconstruct.crush_share("60 kN/m", 7e4)
     print(
@@ -337,6 +354,10 @@ def ranges() -> tuple[float, float]:
     asked: int = found.calls["finer"]
     left: float = found.scatter["speed"]
     low, high = found["speed"].interval(0.95)
+    chance: tuple[float, float] = found["speed"].probability(lambda v: v > 13.9)
+    chance = found.probability(lambda at: at["speed"] > chance[0])
+    left: uncertainty.Halved = found.if_halved()
+    print(left["drag"]["speed"], left.now, left.q, left.to_dict(), left.summary("us"))
     mean: float = found["speed"].mean
     joint: dict[str, Samples] = Samples.joint(speed=[10.0, 12.0], mass=[1500.0, 1490.0])
     score = joint["speed"].scored(0.5) + Normal.between("20 m/s", 25, 0.9).quantile(0.5)

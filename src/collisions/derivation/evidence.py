@@ -20,6 +20,10 @@ MOMENTUM_ANSWERS = {
     "speed_b": ("B", "speed before", "speed"),
     "speed_a_after": ("A", "speed after", "speed"),
     "speed_b_after": ("B", "speed after", "speed"),
+    "course_a": ("A", "course before", "angle"),
+    "course_b": ("B", "course before", "angle"),
+    "course_a_after": ("A", "course after", "angle"),
+    "course_b_after": ("B", "course after", "angle"),
     "delta_v_a": ("A", "delta-V", "speed"),
     "pdof_a": ("A", "PDOF (0 from ahead, positive clockwise)", "angle"),
     "delta_v_b": ("B", "delta-V", "speed"),
@@ -28,7 +32,7 @@ MOMENTUM_ANSWERS = {
     "restitution": ("centres", "restitution along the normal", "number"),
     "translational_energy_loss": ("both", "energy of translation lost", "energy"),
 }
-_SPEEDS = tuple(MOMENTUM_ANSWERS)[:4]
+_SPEEDS, _COURSES = tuple(MOMENTUM_ANSWERS)[:4], tuple(MOMENTUM_ANSWERS)[4:8]
 _ANGLE_TOL = (
     1e-9 * math.tau
 )  # rounding of a difference of angles; the short way round differs by a whole turn
@@ -73,7 +77,10 @@ def momentum_inputs(solution: MomentumSolution) -> Iterator[tuple[str, str, str,
     for name in _SPEEDS:
         label, when = name[6].upper(), _when(name)
         course = name.replace("speed", "course")
-        if getattr(solution, course) is not None:
+        found = course in solution.unknowns or (
+            course == "course_b_after" and shared and "course_a_after" in solution.unknowns
+        )
+        if getattr(solution, course) is not None and not found:
             yield label, f"course {when}", course, getattr(solution, course), "angle"
         if name not in solution.unknowns and not (name == "speed_b_after" and shared):
             yield label, f"speed {when}", name, getattr(solution, name), "speed"
@@ -105,28 +112,18 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
     page.heading("Given")
     page.table(rows)
     page.heading("Planar momentum")
+    whole = any(name.startswith("course") for name in solution.unknowns)
+    sought = (
+        "one velocity, its speed and its course" if whole else "the two speeds along their courses"
+    )
     page.say(
         "The momentum of both vehicles together is the same before and after, along x and along "
-        "y (1), (2). Nothing is assumed of restitution, friction or rotation. Unknown are the "
-        "two speeds along their courses."
+        "y (1), (2). Nothing is assumed of restitution, friction or rotation. Unknown "
+        f"{'is' if whole else 'are'} {sought}."
     )
     for axis, function in (("x", "cos"), ("y", "sin")):
         _balance(page, m, axis, function)
-    first, second = solution.unknowns
-    page.say(
-        "Counted across the course of one unknown speed, the balance holds the other one alone. "
-        f"This gives {page.symbol(m.speed[first])} and {page.symbol(m.speed[second])}."
-    )
-    for name, across in ((first, second), (second, first)):
-        _solved(page, m, name, m.course[across])
-    angle = m.course[first] - m.course[second]
-    cosine, sine = (Function("abs", Function(function, angle)) for function in ("cos", "sin"))
-    condition = Symbol(r"\kappa", solution.condition, "number")
-    page.equation(
-        "Condition, from the angle between both courses (1 at right angles)",
-        condition,
-        (1.0 + cosine) / sine,
-    )
+    (_whole_velocity if whole else _two_speeds)(page, m)
     page.heading("Changes of velocity and energy")
     for label in "ab":
         _delta_v(page, m, label)
@@ -141,6 +138,67 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
     )
     page.heading("Answers")
     page.table(momentum_answers(page, solution))
+
+
+def _two_speeds(page: Page, m: _Momenta) -> None:
+    """The two unknown speeds, each across the course of the other, and their condition."""
+    first, second = m.solution.unknowns
+    page.say(
+        "Counted across the course of one unknown speed, the balance holds the other one alone. "
+        f"This gives {page.symbol(m.speed[first])} and {page.symbol(m.speed[second])}."
+    )
+    for name, across in ((first, second), (second, first)):
+        _solved(page, m, name, m.course[across])
+    angle = m.course[first] - m.course[second]
+    cosine, sine = (Function("abs", Function(function, angle)) for function in ("cos", "sin"))
+    condition = Symbol(r"\kappa", m.solution.condition, "number")
+    page.equation(
+        "Condition, from the angle between both courses (1 at right angles)",
+        condition,
+        (1.0 + cosine) / sine,
+    )
+
+
+def _whole_velocity(page: Page, m: _Momenta) -> None:
+    """The velocity that the other momenta leave, and their sum over it."""
+    name = m.solution.unknowns[0]
+    shared = name == "speed_a_after" and _together(m.solution)
+    own = ("speed_a_after", "speed_b_after") if shared else (name,)
+    mass: Expression = m.mass["a"] + m.mass["b"] if shared else m.mass[name[6]]
+    when, label = _when(name), name[6].upper()
+    parts = []
+    for axis, function in (("x", "cos"), ("y", "sin")):
+        terms: list[tuple[float, Expression]] = [
+            (
+                -1.0 if _when(other) == when else 1.0,
+                m.mass[other[6]] * m.speed[other] * Function(function, course),
+            )
+            for other, course in m.course.items()
+            if other not in own and m.speed[other].value
+        ]
+        if axis in m.outside:
+            terms.append((1.0 if when == "after" else -1.0, m.outside[axis]))
+        left = signed_total(sorted(terms, key=lambda term: -term[0]))
+        value = m.speed[name].value * getattr(math, function)(m.course[name].value)
+        part = Symbol(f"v_{{{label}{axis}}}", value, "speed")
+        page.equation(f"Velocity of {label} {when} along {axis}", part, left / mass)
+        parts.append(part)
+    x, y = parts
+    page.equation(f"Speed of {label} {when}", m.speed[name], magnitude(x, y))
+    page.equation(f"Course of {label} {when}", m.course[name], Direction(x, y))
+    others = [
+        m.mass[other[6]] * m.speed[other]
+        for other in m.course
+        if other not in own and m.speed[other].value
+    ]
+    if m.outside:
+        others.append(magnitude(m.outside["x"], m.outside["y"]))
+    condition = Symbol(r"\kappa", m.solution.condition, "number")
+    page.equation(
+        "Condition, the sum of the other momenta over what they leave",
+        condition,
+        total(*others) / (mass * m.speed[name]),
+    )
 
 
 def _balance(page: Page, m: _Momenta, axis: str, function: str) -> None:
@@ -247,7 +305,7 @@ def momentum_answers(page: Page, solution: MomentumSolution) -> Iterator[tuple[s
     """The rows of results."""
     for name, (of, what, kind) in MOMENTUM_ANSWERS.items():
         value = getattr(solution, name)
-        if _is_known(value) and (name in solution.unknowns or name not in _SPEEDS):
+        if _is_known(value) and (name in solution.unknowns or name not in (*_SPEEDS, *_COURSES)):
             yield of, what, page.answer(name, value, kind)
 
 

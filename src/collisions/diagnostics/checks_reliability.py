@@ -30,6 +30,8 @@ _YAW_RATE_SEEN = 0.1
 )
 def near_collinear(case: MomentumCase) -> Iterator[Measured]:
     names = case.answer.unknowns
+    if any(name.startswith("course") for name in names):
+        return  # of one vehicle, whose course is an answer
     one, other = (getattr(case.answer, name.replace("speed", "course")) for name in names)
     # Exactly ten degrees still count, even where rounding makes them more.
     angle = max(abs(math.remainder(one - other, math.pi)) - off_by(one, other, math.pi), 0.0)
@@ -52,8 +54,9 @@ def ill_conditioned(case: Case) -> Iterator[Measured]:
             course = max(
                 (name for name in row if name.startswith("course")), key=lambda name: abs(row[name])
             )
+            kind = "angle" if speed.startswith("course") else "speed"
             moves.append(
-                f"{speed} changes by {case.text(abs(row[course]) * math.pi / 180.0, 'speed')} "
+                f"{speed} changes by {case.text(abs(row[course]) * math.pi / 180.0, kind)} "
                 f"per degree of {course}"
             )
         condition = case.answer.condition
@@ -92,6 +95,8 @@ def not_unique(case: ImpactCase) -> Iterator[Measured]:
 )
 def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
     for name in case.answer.unknowns:
+        if name.startswith("course"):
+            continue
         speed = getattr(case.answer, name)
         sentence = (
             f"{name} is {case.text(speed, 'speed')}, backwards along its course: check the courses"

@@ -17,8 +17,8 @@ from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence
 from ..quantities.units import shown
 from ..uncertainty.distributions import Censored, Distribution, Normal, Samples, Uniform
-from ..uncertainty.model import described
 from ..uncertainty.normal import power_of_two
+from ..uncertainty.probability import holds
 from ..uncertainty.result import Sampled, Shares, correlations, outputs_part, units_of
 from .fit_result import CONTRADICTION, Residual, agreement, with_unit
 
@@ -62,6 +62,9 @@ class PosteriorOutput(Sampled):
             code="no_shares",
             argument="name",
         )
+
+    def _like(self, name: str, values: Any) -> Sampled:
+        return PosteriorOutput(name, None, values, self._islands)
 
     def _error(self, figure: Callable[[Any], Any]) -> Any:
         known = ~np.isnan(self.values)
@@ -167,8 +170,8 @@ class Posterior(Summarized):
         ----------
         condition : function
             Called with a dict of arrays [SI], one number per sample: the unknowns and the outputs
-            of the model by name. Returns one boolean per sample. Where an output is NaN,
-            comparisons are False.
+            of the model by name. Returns one boolean per sample. Samples without an answer to an
+            output that it reads are left out.
 
         Returns
         -------
@@ -181,30 +184,11 @@ class Posterior(Summarized):
         ------
         InputError
             A condition that does not return a boolean for every sample.
+        NoSolutionError
+            No sample has an answer to all outputs that the condition reads.
         """
-        raised: Exception | None = None
-        try:
-            found = condition(dict(self.draws)) if callable(condition) else condition
-        except (TypeError, ValueError, AttributeError, LookupError) as error:
-            # What 'and' between arrays, and a name that is not there, come to.
-            found, raised = None, error
-        if (
-            not isinstance(found, np.ndarray)
-            or found.shape != (self.samples,)
-            or found.dtype != np.bool_
-        ):
-            raise InputError(
-                "condition must be a function that takes a dict of arrays "
-                f"({', '.join(self.draws)}) and returns {self.samples} booleans, such as lambda "
-                f"at: at['{next(iter(self.unknowns))}'] > 13.9; join two of them by & or |, not "
-                f"by 'and'{f'. It raised {described(raised)}' if raised else ''}",
-                code="bad_condition",
-                argument="condition",
-            ) from raised
-        holds = PosteriorOutput(
-            "condition", None, found.astype(np.float64), next(iter(self.unknowns.values()))._islands
-        )
-        return float(holds.mean), float(holds.mean_standard_error)
+        held = holds(condition, self.draws)
+        return next(iter(self.unknowns.values()))._share(held)
 
     def inputs(self) -> dict[str, Samples]:
         """The joint samples of the unknowns, as ``uncertainty.propagate`` takes them, or

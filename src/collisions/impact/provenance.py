@@ -76,6 +76,11 @@ class Known(NamedTuple):
 KNOWN = {
     "energy_loss": Known("energy lost", "energy", "energy_loss", ("central", "planar", "speeds")),
     "closing_speed": Known("closing speed", "speed", "closing_speed", ("planar",)),
+    "recorder_axes_turning": Known("in axes that turn with the car", "angle", "", ("speeds",)),
+    "recorder_axes_fixed": Known("in axes of the heading, which stay", "angle", "", ("speeds",)),
+    "recorder_duration": Known(
+        "duration of the contact, in which recorders turn", "time", "", ("speeds",)
+    ),
 }
 for _label in "ab":
     _of, _planar, _speeds = f" of {_label.upper()}", ("planar",), ("speeds",)
@@ -104,6 +109,25 @@ for _label in "ab":
         ),
         f"delta_v_left_{_label}": Known(
             f"delta-V to the left{_of}", "speed", f"{_label}.delta_v_left", _speeds
+        ),
+        f"recorder_{_label}": Known(
+            f"place of the recorder{_of}, from which they are carried over to the centre of mass",
+            "length",
+            "",
+            _speeds,
+        ),
+        # Beside the result, whose delta-V is that of the centre of mass, as they were given.
+        f"recorder_forward_{_label}": Known(
+            f"recorder{_of}, ahead of the centre of mass", "length", "", _speeds
+        ),
+        f"recorder_left_{_label}": Known(
+            f"recorder{_of}, left of the centre of mass", "length", "", _speeds
+        ),
+        f"reading_forward_{_label}": Known(
+            f"delta-V forward{_of}, as its recorder reads it", "speed", "", _speeds
+        ),
+        f"reading_left_{_label}": Known(
+            f"delta-V to the left{_of}, as its recorder reads it", "speed", "", _speeds
         ),
         f"ees_{_label}": Known(f"EES{_of} (ISO 12353)", "speed", "", _speeds),
         f"max_crush_speed_{_label}": Known(f"speed of maximum crush{_of}", "speed", "", _speeds),

@@ -51,6 +51,11 @@ class Pulse(Shown):
         Magnitude of the change of velocity up to each of these times.
     yaw_rate_a, yaw_rate_b : array [rad/s]
         Yaw rate at each of these times.
+    delta_v_forward_a, delta_v_left_a, delta_v_forward_b, delta_v_left_b : array [m/s], optional
+        The change of velocity of the centre of mass up to each of these times along the vehicle's
+        heading as given, and to its left, as ``impact.a.delta_v_forward`` has the whole of it; None
+        without a heading. What a recorder shows, in axes that turn with the car and at its own
+        place, and of the cases of a batch, is ``impact.a.recorded(times)``.
     """
 
     _title = "Pulse"
@@ -70,6 +75,10 @@ class Pulse(Shown):
     delta_v_b: Any = field(default=None, metadata={"unit": "m/s"})
     yaw_rate_a: Any = field(default=None, metadata={"unit": "rad/s"})
     yaw_rate_b: Any = field(default=None, metadata={"unit": "rad/s"})
+    delta_v_forward_a: Any = field(default=None, metadata={"unit": "m/s"})
+    delta_v_left_a: Any = field(default=None, metadata={"unit": "m/s"})
+    delta_v_forward_b: Any = field(default=None, metadata={"unit": "m/s"})
+    delta_v_left_b: Any = field(default=None, metadata={"unit": "m/s"})
 
 
 CURVES = tuple(f.name for f in fields(Pulse) if f.type == "Any")

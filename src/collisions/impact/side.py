@@ -13,7 +13,7 @@ import numpy as np
 
 from ..kernels.elementwise import select
 from ..kernels.status import Passed
-from ..messages.errors import MissingInputError, Status
+from ..messages.errors import InputError, MissingInputError, Status
 from ..quantities.attribute_stubs import SideQuantities
 from ..quantities.attributes import (
     Frozen,
@@ -30,9 +30,10 @@ from ..quantities.directions import Angle, angle_of
 from ..quantities.formatting import clock_hour
 from ..quantities.reading import ArgumentReader, broadcast, widened
 from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers
-from ..quantities.units import Pair, Texts, Value
+from ..quantities.units import Input, Pair, Texts, Value
 from ..vehicle.vehicle import Vehicle, missing, moved, turn_at, with_name, without_turning
 from .inputs import Inputs
+from .recorded import Axes, read_axes, read_place, recorded
 
 if TYPE_CHECKING:
     from .choice import ModelChoice
@@ -331,8 +332,8 @@ class Side(Frozen, Summarized):
     def delta_v_at(self, point: Pair) -> tuple[Value, Value]:
         """Change of velocity (x, y) [m/s] of the point of the vehicle that lies at a scene point.
 
-        It is what an accelerometer there would have recorded, not the delta-V of the centre of
-        mass.
+        It is what an accelerometer there would have recorded in an instant, not the delta-V of the
+        centre of mass. While a contact lasts its axes turn, too: see ``recorded``.
 
         Parameters
         ----------
@@ -352,6 +353,73 @@ class Side(Frozen, Summarized):
         with np.errstate(all="ignore"):
             turn_x, turn_y = turn_at(self.before, self.delta_yaw_rate, px, py, "delta_v_at", x, y)
             return self.delta_vx + turn_x, self.delta_vy + turn_y
+
+    @returns("m/s")
+    def recorded(
+        self, time: Any, *, forward: Input = 0.0, left: Input = 0.0, axes: Axes = "turning"
+    ) -> tuple[Any, Any]:
+        """What an event data recorder in the vehicle shows while the contact lasts: delta-V forward
+        and to the left, up to these times.
+
+        A recorder sums up the acceleration of its own place in the axes of the car, which turn with
+        it: it reads more or less than the centre of mass gains, by the turn and by the place (A.
+        Marine and S. Werner, SAE 980219, 1998). The contact is that of ``time_resolved``, force and
+        tyres as there; the recorder has no error and no filter. So the samples of a curve can be
+        evidence for ``reconstruct.posterior``. The heading given is that of the positions: at
+        maximum engagement, or at first contact where ``geometry="first_contact"``. Each case is
+        followed once more.
+
+        Parameters
+        ----------
+        time : float, str, Quantity or array [s]
+            Times after first contact, one or a row of them; of a batch also an array with the cases
+            in the further axes, if every case has its own. Before the contact the reading is 0, and
+            after its end the last one: what tyres do then is not followed.
+        forward, left : float, str, Quantity or array [m]
+            Where the recorder sits: how far ahead of the centre of mass, and to its left.
+        axes : {"turning", "fixed"}
+            Whether the axes turn with the car, or are those of its heading as given.
+
+        Returns
+        -------
+        forward, left : float or array [m/s]
+            Times first, then cases. Recorders count lateral delta-V as positive to the right: the
+            opposite sign.
+
+        Raises
+        ------
+        InputError
+            The impact was not followed in time, or the vehicle has no heading.
+
+        Examples
+        --------
+        >>> import collisions as col
+        >>> a = col.Vehicle(mass=1500, vx=15, yaw_inertia=2500, x=-2.1, y=0, heading=0)
+        >>> b = col.Vehicle(mass=1250, vy=11, yaw_inertia=1900, x=0.9, y=-0.4, heading="90 deg")
+        >>> impact = col.time_resolved(
+        ...     a, b, 0.1, normal=0, point=(0, 0.3), friction=0.5, duration="100 ms"
+        ... )
+        >>> ahead, left = impact.a.recorded(["30 ms", "60 ms", "90 ms"], forward=0.5, left=0)
+        >>> [round(3.6 * float(speed), 1) for speed in ahead]
+        [-2.9, -11.0, -22.3]
+        """
+        if self._inputs.model != "time_resolved" or not isinstance(self._answer, Passed):
+            raise InputError(
+                f"{title_of(self)} has no curve over time: an impulse takes no time; solve the "
+                "impact by time_resolved(..., duration='100 ms')",
+                code="no_pulse",
+            )
+        if self.before.heading is None:
+            raise missing(self.before, "heading", "what its recorder shows", "ab"[self._index])
+        reader = ArgumentReader()
+        if isinstance(time, (list, tuple)):
+            time = [reader.number(one, "s", "time") for one in time]
+        else:
+            time = reader.number(time, "s", "time")
+        place = read_place(reader, (forward, left))
+        axes = read_axes(reader, axes)
+        reader.close()
+        return recorded(self._inputs, self._answer, "ab"[self._index], time, place, axes)
 
     def _passed(self, name: str) -> Value:
         """What a time-resolved impact answers for this vehicle; 0 for an impulse."""

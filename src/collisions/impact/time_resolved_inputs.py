@@ -403,21 +403,44 @@ def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) 
     """Step through one case of plain numbers, every step kept; or through one of a batch, which
     ``cut`` takes from arrays.
     """
+    if cut is not None:
+        return follow_case(inputs, cut, None)
+    from .recorded import curve_of, motions_of, own_axes, start_of
+
+    rows: list[tuple[float, ...]] = []
+    found = follow_case(inputs, lambda value: value, rows)
+    if found.history is not None:
+        motions = motions_of(rows, found, start_of(inputs, lambda value: value))
+        own = [
+            part
+            for label, body in (("a", inputs.a), ("b", inputs.b))
+            for part in (
+                (None, None)
+                if body.heading is None
+                else own_axes(curve_of(motions, label), body.heading)
+            )
+        ]
+        found = found._replace(history=(*found.history, *own))
+    lock(found.history)
+    return found
+
+
+def follow_case(
+    inputs: Inputs, cut: Callable[[Any], Any], rows: list[tuple[float, ...]] | None
+) -> Passed:
+    """Step through one case; ``rows`` keeps what moved in every step."""
     # A twentieth of the import of the package, and impulses need none of it.
     from ..engine.floats import compile_loop
     from ..kernels import time_resolved as kernel
 
-    note: list[tuple[float, ...]] | None = [] if cut is None else None
     try:
-        found = kernel.time_resolved(
-            **_arguments(inputs, cut or (lambda value: value)),
+        return kernel.time_resolved(
+            **kernel_arguments(inputs, cut),
             run=partial(kernel.float_run, compiled=compile_loop),
-            note=note,
+            note=rows,
         )
     except ArithmeticError:
         return Passed(Status.OUT_OF_RANGE)
-    lock(found.history)
-    return found
 
 
 def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
@@ -450,7 +473,8 @@ def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
             faults = [check.fault(*map(cut, check.values)) for check in reversed(cases.checks)]
             if length > 1:
                 found = kernel.time_resolved(
-                    **_arguments(inputs, cut), run=partial(kernel.block_run, compiled=compile_loop)
+                    **kernel_arguments(inputs, cut),
+                    run=partial(kernel.block_run, compiled=compile_loop),
                 )
             elif any(faults):
                 found = Passed(Status.OK)
@@ -475,7 +499,7 @@ def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
     return Passed(**{name: lock(output.reshape(shape)) for name, output in outputs.items()})
 
 
-def _arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
+def kernel_arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
     """The arguments of the kernel; ``cut`` takes those of a block from every array."""
     from ..kernels import time_resolved as kernel
 

@@ -34,7 +34,7 @@ class SideQuantities:
     pdof_clock = pivot_impulse_x = pivot_impulse_y = tyre_impulse_x = tyre_impulse_y = tyre_loss = (
         tyre_moment
     ) = _QUANTITY
-    outside_x = outside_y = outside_yaw = outside_work = _QUANTITY
+    outside_x = outside_y = outside_yaw = outside_work = recorded = _QUANTITY
 
 
 class ImpactQuantities:

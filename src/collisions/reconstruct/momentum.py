@@ -33,6 +33,7 @@ from ..quantities.tables import said
 from ..quantities.units import Input, Pair, is_quantity, magnitude, shown, texts_of
 from .common import NEARLY_COLLINEAR, Cases, exactly, input_faults, raise_or_warn, read_masses
 from .momentum_solution import MomentumSolution, Sensitivity
+from .momentum_vector import NEARLY_CANCELLING, Whole, sought_whole
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
 _COURSES = ("course_a", "course_b", "course_a_after", "course_b_after")
@@ -61,7 +62,8 @@ def momentum(
     outside_impulse: Pair | None = None,
     on_failure: OnFailure | None = None,
 ) -> MomentumSolution:
-    """Two unknown speeds of an impact from planar momentum, with all courses known.
+    """Two unknown speeds of an impact from planar momentum, with all courses known; or one velocity
+    with its course.
 
     The linear momentum of two bodies in the road plane is conserved (eqs 1 and 2 of "Application of
     Impulse Momentum Theory to Vehicle Collisions"), apart from a stated outside impulse. Nothing is
@@ -75,12 +77,14 @@ def momentum(
     course_a, course_b, course_a_after, course_b_after : float, str, Quantity or array [rad]
         Directions of motion, counter-clockwise from +x; a vehicle at rest (speed 0) needs none.
     speed_a, speed_b, speed_a_after, speed_b_after : float, str, Quantity or array [m/s]
-        The known speeds, >= 0; leave out the two that are sought.
+        The known speeds, >= 0; leave out the two that are sought. Or leave out one speed with its
+        course: both are then what the other momenta leave.
     heading_a, heading_b : float, str, Quantity or array [rad], optional
         Directions in which the vehicles pointed, for the PDOF.
     together : bool, optional
         Whether the vehicles leave as one: give the common course, and the common speed if it is
-        known, for either or both.
+        known, for either or both. With both speeds and courses before, neither: the common speed
+        and course after are then found.
     normal : angle [rad] or tuple (nx, ny), optional
         Direction from A into B for the closing speed and restitution, which are those of the
         centres of mass.
@@ -94,7 +98,8 @@ def momentum(
     MomentumSolution
         All eight courses and speeds, delta-V, PDOF, ``condition`` = (1 + abs(cos)) / abs(sin) of
         the angle between the courses of the unknown speeds (1 at right angles), and the
-        ``sensitivity`` of each answer to each input.
+        ``sensitivity`` of each answer to each input. With an unknown course the condition is the
+        sum of the other momenta over what they leave.
 
     Raises
     ------
@@ -103,12 +108,14 @@ def momentum(
     MissingInputError
         The course of a moving vehicle was not given.
     NoSolutionError
-        The courses of the two unknown speeds are parallel.
+        The courses of the two unknown speeds are parallel, or the momenta cancel that an unknown
+        course is to be found from.
 
     Warns
     -----
     IllConditionedWarning
-        The courses of the two unknown speeds are within 10 degrees of one line.
+        The courses of the two unknown speeds are within 10 degrees of one line, or the momenta
+        nearly cancel that an unknown course is to be found from.
     OutOfRangeWarning
         A speed came out negative: backwards along its course. Or, along ``normal``, the restitution
         is outside 0 to 1, or the vehicles did not approach and it is NaN.
@@ -135,6 +142,20 @@ def momentum(
     (63.21, 55.62)
     >>> round(found.q.sensitivity["speed_a"]["course_b_after"].m_as("km/h/deg"), 2)
     -1.0
+
+    The same cars, had they stayed together: where to, and how fast.
+
+    >>> found = reconstruct.momentum(
+    ...     1200,
+    ...     1800,
+    ...     course_a="270 deg",
+    ...     course_b="0 deg",
+    ...     speed_a="63.2 km/h",
+    ...     speed_b="55.6 km/h",
+    ...     together=True,
+    ... )
+    >>> round(found.q.speed_a_after.m_as("km/h"), 1), round(found.q.course_a_after.m_as("deg"), 1)
+    (41.9, -37.2)
     """
     if not isinstance(together, bool):
         raise InputError(
@@ -186,8 +207,13 @@ def momentum(
             np.logical_or(_share(numbers, "speed"), _share(angles, "course")) if together else False
         )
         terms = _terms(numbers, angles, together)
-        exactly({name: term.speed for name, term in terms.items()}, len(terms) - 2, "momentum")
-        _need_courses(terms)
+        whole = sought_whole(terms)
+        if whole is None:
+            if sum(term.speed is None for term in terms.values()) == 1:
+                # A course that is missing elsewhere is what is wrong, not one speed too many.
+                _need_courses(terms)
+            exactly({name: term.speed for name, term in terms.items()}, len(terms) - 2, "momentum")
+        _need_courses({name: term for name, term in terms.items() if name != whole})
         impulse, normal = (
             (numbers[f"{name}[0]"], numbers[f"{name}[1]"]) if f"{name}[0]" in numbers else None
             for name in ("outside_impulse", "normal")
@@ -296,20 +322,31 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     """Solve one case or many; raises for a refused single case."""
     cases, impulse, normal = known.cases, known.impulse, known.normal
     masses = known.numbers["mass_a"], known.numbers["mass_b"]
-    (first, one), (second, other) = unknown = [
-        (name, term) for name, term in known.terms.items() if term.speed is None
-    ]
-    cosine, sine = one.course.to(other.course)
     speeds = {name: term.speed for name, term in known.terms.items()}
-    speeds[first] = unknown_speed(known.terms.values(), impulse, one, other)
-    speeds[second] = unknown_speed(known.terms.values(), impulse, other, one)
+    whole: Whole | None = None
+    if name := sought_whole(known.terms):
+        whole = Whole(known.terms, name, impulse)
+        first, second = whole.name, whole.course
+        speeds[first], condition = whole.speed, whole.condition
+        turned = Angle(whole.angle, False)
+        # Vehicles that leave together have one course.
+        shared = len(known.terms) == 3 and first == "speed_a_after"
+        courses = ["course_a_after", "course_b_after"] if shared else [second]
+        known = known._replace(angles=known.angles | dict.fromkeys(courses, turned))
+    else:
+        (first, one), (second, other) = (
+            (name, term) for name, term in known.terms.items() if term.speed is None
+        )
+        cosine, sine = one.course.to(other.course)
+        speeds[first] = unknown_speed(known.terms.values(), impulse, one, other)
+        speeds[second] = unknown_speed(known.terms.values(), impulse, other, one)
+        condition = np.divide(1.0 + abs(cosine), abs(sine))
     speeds.setdefault("speed_b_after", speeds["speed_a_after"])
     outcome = _outcome(known, speeds)
-    condition = np.divide(1.0 + abs(cosine), abs(sine))
     # Rounding error of the results, as a speed of the lighter vehicle.
     flow = sum(known.numbers[f"mass_{name[6]}"] * abs(speeds[name]) for name in _SPEEDS)
     lighter = np.minimum(*masses)
-    rounding = 16.0 * cases.eps * condition * (flow / lighter)
+    rounding = 16.0 * cases.eps * (condition if whole is None else 1.0) * (flow / lighter)
     loss = outcome["translational_energy_loss"]
     gains = -loss > 4.0 * rounding * lighter * sum(abs(speeds[name]) for name in _SPEEDS)
     status = cases.first_status(
@@ -318,11 +355,13 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
             (normal is not None and (normal[0] == 0.0) & (normal[1] == 0.0), Status.ZERO_NORMAL),
             *input_faults(known.numbers),
             (known.unlike, Status.CONTRADICTORY),
-            (
+            (whole.speed <= rounding, Status.UNDETERMINED)
+            if whole is not None
+            else (
                 abs(sine) <= _angle_rounding(one.course, other.course, cases.eps),
                 Status.PARALLEL_HEADINGS,
             ),
-            (cases.beyond(speeds[first] + speeds[second] + loss), Status.OUT_OF_RANGE),
+            (cases.beyond(sum(speeds[name] for name in _SPEEDS) + loss), Status.OUT_OF_RANGE),
             (gains & (impulse is None), Status.ENERGY_GAIN),
         )
     )
@@ -340,10 +379,20 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     if impulse is not None:
         found["outside_impulse_x"], found["outside_impulse_y"] = impulse
     answers = {**speeds, **outcome, "condition": condition}
+    if whole is not None:
+        answers |= dict.fromkeys(courses, whole.angle)
+        by_input = whole.sensitivity()
+    else:
+        by_input = _sensitivity(known, answers)
     found |= {name: np.where(sure, value, np.nan) for name, value in answers.items()}
     solution = MomentumSolution(
         **{name: cases.values(value) for name, value in found.items()},
-        sensitivity=_sensitivity(known, found, unknown, sure),
+        sensitivity=Sensitivity(
+            {
+                name: {label: cases.where(sure, moved) for label, moved in row.items()}
+                for name, row in by_input.items()
+            }
+        ),
         unknowns=(first, second),
         status=Status(status) if isinstance(status, int) else status,
         given=given,
@@ -360,6 +409,12 @@ def _refusal(status: Status, first: str, second: str) -> CollisionsError:
             "apart; for an in-line impact use reconstruct.central or "
             "reconstruct.inline_closing_speed, for one with known geometry reconstruct.speeds",
             code="parallel_headings",
+        )
+    if status is Status.UNDETERMINED:
+        return NoSolutionError(
+            f"the other momenta cancel, so {first} is 0 and there is no {second}; give {first}=0 "
+            "and leave two other speeds open",
+            code="undetermined",
         )
     if status is Status.INFINITE_MASS:
         return NoSolutionError(
@@ -404,12 +459,11 @@ def _outcome(known: _Known, speeds: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
-def _sensitivity(
-    known: _Known, speeds: dict[str, Any], unknown: list[tuple[str, Term]], sure: Any
-) -> Sensitivity:
+def _sensitivity(known: _Known, speeds: dict[str, Any]) -> dict[str, dict[str, Any]]:
     """Derivatives of both unknown speeds by every input, from the momentum balance itself."""
-    found = Sensitivity()
+    found: dict[str, dict[str, Any]] = {}
     moving = {name: term for name, term in known.terms.items() if term.course is not None}
+    unknown = [(name, term) for name, term in known.terms.items() if term.speed is None]
     for (name, wanted), (_, other) in (unknown, unknown[::-1]):
         # Cosine and sine from each course to that of the other unknown, with which the balance is
         # crossed.
@@ -441,10 +495,9 @@ def _sensitivity(
             # What the cosine of a right angle leaves is rounding, and no sensitivity.
             course = label.replace("speed", "course")
             row[course] = np.where(abs(row[course]) <= _NO_COSINE * most, 0.0, row[course])
-        by_input = {
+        found[name] = {
             label: np.divide(-wanted.sign * cross, across) + 0.0 for label, cross in row.items()
         }
-        found[name] = {label: known.cases.where(sure, moved) for label, moved in by_input.items()}
     return found
 
 
@@ -478,9 +531,25 @@ def _warn(
             )
             warn_of_cases(warning, {sentence: known.cases.number(where)})
 
-    one, other = (known.terms[name].course for name in solution.unknowns)
-    sine = abs(one.to(other)[1])
-    near = sure & (sine < math.sin(NEARLY_COLLINEAR))
+    near: Any = False
+    if whole := sought_whole(known.terms):
+        sentence = (
+            f"the momenta that leave {whole} and its course nearly cancel, and small errors of "
+            "them move both far"
+        )
+        say(
+            IllConditionedWarning,
+            sure & (found["condition"] > NEARLY_CANCELLING),
+            f"{sentence} (condition {{:.3g}})",
+            "momenta_cancel",
+            "",
+            sentence,
+            condition=found["condition"],
+        )
+    else:
+        one, other = (known.terms[name].course for name in solution.unknowns)
+        sine = abs(one.to(other)[1])
+        near = sure & (sine < math.sin(NEARLY_COLLINEAR))
     if np.any(near):
         degrees = math.degrees(math.asin(float(np.min(np.where(near, sine, 1.0)))))
         numbers = "; ".join(
@@ -504,7 +573,7 @@ def _warn(
             sentence,
             condition=found["condition"],
         )
-    for name in solution.unknowns:
+    for name in solution.unknowns if whole is None else ():
         cure = "backwards along its course; check the courses, or turn its course by 180 deg"
         text, sentence = f"{name} = {{}}: {cure}", f"{name} is below 0, {cure}"
         # A negative speed within rounding of 0 is not a backward motion.

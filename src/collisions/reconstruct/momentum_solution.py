@@ -25,12 +25,7 @@ _NEEDED = {
     "closing_speed": "normal",
     "restitution": "normal",
 }
-_SENSITIVITY_UNITS = {
-    "mass": "m/s/kg",
-    "speed": "m/s/(m/s)",
-    "course": "m/s/deg",
-    "outside": "m/s/(N*s)",
-}
+_SENSITIVITY_UNITS = {"mass": "kg", "speed": "(m/s)", "course": "deg", "outside": "(N*s)"}
 
 
 class Sensitivity(dict[str, dict[str, Value]]):
@@ -42,7 +37,7 @@ class Sensitivity(dict[str, dict[str, Value]]):
     def q(self) -> dict[str, dict[str, Any]]:
         """The same with units, per degree where the input is an angle."""
         return {
-            answer: {name: self._quantity(name, value) for name, value in row.items()}
+            answer: {name: self._quantity(answer, name, value) for name, value in row.items()}
             for answer, row in self.items()
         }
 
@@ -53,11 +48,12 @@ class Sensitivity(dict[str, dict[str, Value]]):
         return not self == other
 
     @staticmethod
-    def _quantity(name: str, value: Any) -> Any:
-        kind = name.partition("_")[0]
-        return to_quantity(
-            value * math.pi / 180.0 if kind == "course" else value, _SENSITIVITY_UNITS[kind]
-        )
+    def _quantity(answer: str, name: str, value: Any) -> Any:
+        kind, degree = name.partition("_")[0], math.pi / 180.0
+        value = value * degree if kind == "course" else value
+        if answer.startswith("course"):
+            return to_quantity(value / degree, f"deg/{_SENSITIVITY_UNITS[kind]}")
+        return to_quantity(value, f"m/s/{_SENSITIVITY_UNITS[kind]}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -124,7 +120,14 @@ class MomentumSolution(Shown):
         rows = [
             (
                 _of_vehicle(name),
-                *(numbers.text(degree * row[name], "m/s") for row in speeds.values()),
+                *(
+                    numbers.text(
+                        # Of a course they are degrees per degree.
+                        row[name] if of.startswith("course") else degree * row[name],
+                        "°" if of.startswith("course") else "m/s",
+                    )
+                    for of, row in speeds.items()
+                ),
             )
             for name in courses
         ]

@@ -11,7 +11,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ..messages.errors import InputError, OutOfRangeWarning, ShapeError
+from ..impact.recorded import read_place
+from ..messages.errors import InputError, MissingInputError, OutOfRangeWarning, ShapeError
 from ..messages.hints import hinted
 from ..messages.warning import warn
 from ..quantities.attributes import Shown, derived, in_units_of, lock
@@ -41,6 +42,9 @@ class RecordedPulse(Shown):
     (``reference.RECORDER_ACCURACY``): a tenth of each component, and at least half the step in
     which it is reported. A record that stops before the pulse has ended is a lower bound: its
     components say how far delta-V had come. ``time``, ``forward`` and ``left`` are the samples.
+    ``place`` is where the recorder sits, ahead of the centre of mass and to its left, if that was
+    given; all numbers are the readings there, which ``speeds(..., recorder_a=pulse.place)``
+    carries over to the centre of mass.
     """
 
     _title = "Recorded pulse"
@@ -53,6 +57,7 @@ class RecordedPulse(Shown):
     time: Any = field(metadata={"unit": "s"})
     forward: Any = field(metadata={"unit": "m/s"})
     left: Any = field(metadata={"unit": "m/s"})
+    place: tuple[float, float] | None = field(default=None, metadata={"unit": "m"})
 
     @derived("m/s")
     def delta_v(self) -> float:
@@ -102,6 +107,12 @@ class RecordedPulse(Shown):
             "recorded forward": (self.forward, "m/s"),
             "recorded left": (self.left, "m/s"),
         }
+        if self.place is not None:
+            # Of the centre of mass.
+            values |= {
+                "recorder ahead": (self.place[0], "m"),
+                "recorder to the left": (self.place[1], "m"),
+            }
         rows = {
             name: numbers.text(value, unit)
             for name, (value, unit) in values.items()
@@ -115,7 +126,7 @@ class RecordedPulse(Shown):
                 rows[name] += f", within {numbers.text(error, 'm/s')}"
         return Summary(self._title, [Part(list(rows.items())), all_numbers(self._rows())])
 
-    def inputs(self, label: Literal["a", "b"]) -> dict[str, Uniform]:
+    def inputs(self, label: Literal["a", "b"]) -> dict[str, Any]:
         """The components with their errors, named as the arguments of ``reconstruct.speeds``, as
         inputs for ``propagate``.
 
@@ -126,8 +137,9 @@ class RecordedPulse(Shown):
 
         Returns
         -------
-        dict of Uniform
-            By argument, such as ``delta_v_forward_a``.
+        dict
+            By argument, such as ``delta_v_forward_a``, a ``Uniform``; and ``recorder_a``, the place
+            of the recorder, if it was given.
 
         Raises
         ------
@@ -150,10 +162,11 @@ class RecordedPulse(Shown):
         values = {
             f"delta_v_{part}_{label}": value for part, value in parts.items() if value is not None
         }
-        return {
+        found: dict[str, Any] = {
             name: Uniform(value - _error(value), value + _error(value))
             for name, value in values.items()
         }
+        return found if self.place is None else found | {f"recorder_{label}": self.place}
 
 
 @hinted
@@ -163,14 +176,16 @@ def recorded_pulse(
     delta_v_left: Input | None = None,
     *,
     polarity: Polarity,
+    forward: Input | None = None,
+    left: Input | None = None,
 ) -> RecordedPulse:
     """Total delta-V of a recorder's pulse, when it was reached, its direction, and whether the
     pulse had ended.
 
     The total is the largest resultant (maximum delta-V of 49 CFR 563.5). The pulse has ended if
     there are 20 ms, up to that maximum or later, in which the resultant changes by no more than 0.8
-    km/h (end of event time, ibid.). The recorder is taken to sit at the centre of mass: in a car
-    that turns, one mounted elsewhere reads a different delta-V (``Side.delta_v_at``).
+    km/h (end of event time, ibid.). In a car that turns, a recorder away from the centre of mass
+    reads another delta-V than that of the centre: give its place, which is kept with the readings.
 
     Parameters
     ----------
@@ -188,6 +203,9 @@ def recorded_pulse(
         Whether lateral readings are positive from left to right, as in US recorders, or to the
         left, as in this library. Forward is positive in both. There is no default: the wrong sign
         puts the other car on the other side.
+    forward, left : float, str or Quantity [m], optional
+        Where the recorder sits: how far ahead of the centre of mass (negative behind it), and how
+        far to its left. Both or neither; without them nothing is known of its place.
 
     Returns
     -------
@@ -245,6 +263,7 @@ def recorded_pulse(
             for name, value in given.items()
             if value is not None
         }
+    place = _read_place(reader, forward, left)
     reader.close()
     shapes = {name: np.shape(value) for name, value in read.items()}
     if (
@@ -260,9 +279,9 @@ def recorded_pulse(
             code="bad_shape",
             argument="time",
         )
-    times, forward, *rest = (np.array(value, dtype=np.float64) + 0.0 for value in read.values())
-    left = _LEFTWARD[polarity] * rest[0] + 0.0 if rest else None
-    size = np.hypot(forward, 0.0 if left is None else left)
+    times, ahead, *rest = (np.array(value, dtype=np.float64) + 0.0 for value in read.values())
+    aside = _LEFTWARD[polarity] * rest[0] + 0.0 if rest else None
+    size = np.hypot(ahead, 0.0 if aside is None else aside)
     if not (
         np.isfinite(size).all()
         and np.all(np.diff(times) > 0.0)
@@ -279,16 +298,38 @@ def recorded_pulse(
     if not ended:
         warn(OutOfRangeWarning(_cut(times, size[at]), code="pulse_cut"))
     found = RecordedPulse(
-        delta_v_forward=float(forward[at]),
-        delta_v_left=None if left is None else float(left[at]),
+        delta_v_forward=float(ahead[at]),
+        delta_v_left=None if aside is None else float(aside[at]),
         duration=float(times[at] - times[0]),
         ended=ended,
         polarity=polarity,
         time=lock(times),
-        forward=lock(forward),
-        left=lock(left),
+        forward=lock(ahead),
+        left=lock(aside),
+        place=place,
     )
     return in_units_of(found, texts_of(reader.texts))
+
+
+def _read_place(reader: ArgumentReader, forward: Any, left: Any) -> tuple[float, float] | None:
+    """Where the recorder sits relative to the centre of mass; None where that was not given."""
+    given = {"forward": forward, "left": left}
+    if forward is left is None:
+        return None
+    for name, value in given.items():
+        if value is None:
+            text = (
+                f"{name} is None, and the place of a recorder needs both; write {name}=0 for one "
+                "in line with the centre of mass"
+            )
+            reader.refuse(MissingInputError(text, code="missing_place", argument=name))
+            return None
+    place = read_place(reader, (forward, left))
+    for name, part in zip(given, place, strict=True):
+        if np.ndim(part):
+            text = f"{name} is that of one recorder, so one number, got {shown(given[name])}"
+            reader.refuse(ShapeError(text, code="bad_shape", argument=name))
+    return place
 
 
 def _error(value: float) -> float:

@@ -15,6 +15,7 @@ import numpy as np
 from ..impact.impact import Impact
 from ..impact.inputs import Inputs, Law, check_flag, read_inputs
 from ..impact.provenance import KNOWN, bounds_of
+from ..impact.recorded import Axes
 from ..impact.run import error_of, warn_of_refusals
 from ..kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from ..kernels.status import EPS, Status
@@ -45,6 +46,7 @@ from .common import (
     run_forward,
     split_texts,
 )
+from .recorder_place import RecorderScene, read_recorders, texts_of
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import MAY_SLIDE, ComponentScene, friction_shown
@@ -94,6 +96,10 @@ def speeds(
     delta_v_left_a: Input | None = None,
     delta_v_forward_b: Input | None = None,
     delta_v_left_b: Input | None = None,
+    recorder_a: Pair | None = None,
+    recorder_b: Pair | None = None,
+    axes: Axes | None = None,
+    duration: Input | None = None,
     forward_only: bool = False,
     regime: Literal["sticking", "sliding"] | None = None,
     slid: Literal["bound"] | None = None,
@@ -151,8 +157,24 @@ def speeds(
         contact stuck. If it slid at that ratio, it only repeats the friction: the answers are a
         family, which begins at the answer of the contact that stuck, and one speed must be known.
         Components do not tell which it was: see ``regime`` and ``slid``. An energy greater than a
-        contact that stuck loses was lost by sliding. delta_v_forward_b, delta_v_left_b : float,
-        str, Quantity or array [m/s], optional The same of B.
+        contact that stuck loses was lost by sliding.
+    delta_v_forward_b, delta_v_left_b : float, str, Quantity or array [m/s], optional
+        The same of B.
+    recorder_a, recorder_b : pair [m], optional
+        Where the recorder sits that the components of A, or of B, were read from: how far ahead of
+        the centre of mass, and how far to its left (``recorded_pulse(...).place``). The components
+        are then the readings at that place, and carried over to the centre of mass by the yaw of
+        the vehicle, which is part of the solution (Marine and Werner, SAE 980219).
+    axes : {"turning", "fixed"}, optional
+        Axes of the components: those of the car, which turn with it, as the accelerometers of a
+        recorder sum up, or those of its heading at maximum engagement, which stay. By default
+        turning where a recorder is given; otherwise the contact is an instant, in which both are
+        the same.
+    duration : float, str, Quantity or array [s], optional
+        How long the contact lasts, during which the axes turn; needed with a recorder or axes, and
+        0 for a contact in which nothing turns. The force is taken to keep one direction and to
+        rise and fall like that of a spring, as in ``left_out``; headings are those of maximum
+        engagement, as everywhere in an impulse.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
@@ -252,6 +274,8 @@ def speeds(
     reader = ArgumentReader()
     known = read_amounts(reader, others)
     known |= {name: reader.number(value, "m/s", name) for name, value in components.items()}
+    places = {"a": recorder_a, "b": recorder_b}
+    recorders = read_recorders(reader, places, axes, duration, tuple(components))
     courses = {
         label: _course(reader, label, body, angle, known.get(f"speed_{label}", np.nan), components)
         for label, body, angle in (("a", a, course_a), ("b", b, course_b))
@@ -265,6 +289,7 @@ def speeds(
         **known,
         "restitution": inputs.restitution,
         **numbers_by_name(inputs, without=("vx", "vy")),
+        **(recorders.numbers if recorders else {}),
     }
     # Both courses are widened to the precision of all other inputs.
     beside = (*numbers.values(), *(angle.value for angle in courses.values()))
@@ -280,15 +305,18 @@ def speeds(
             if callable(restitution)
             else None
         )
-        names, used_law = counted(known), inputs.law or BRACH
-        kind = (
-            partial(ComponentScene, shape=cases.shape or (), regime=regime, slid=slid)
+        names, used_law, shape = counted(known), inputs.law or BRACH, cases.shape or ()
+        of_components = ComponentScene if recorders is None else partial(RecorderScene, recorders)
+        kind: Callable[..., Scene] = (
+            partial(of_components, shape=shape, regime=regime, slid=slid)
             if components
-            else partial(Scene, shape=cases.shape or ())
+            else partial(Scene, shape=shape)
         )
         fits_both: Any = False
         if components and inputs.rule == FRICTION and np.any(np.isinf(inputs.rule_value)):
-            ratio, fits_both = friction_shown(numbers, used_law, names, cases.shape or (), regime)
+            ratio, fits_both = friction_shown(
+                of_components, numbers, used_law, names, shape, regime
+            )
             if ratio is not None:
                 numbers[FRICTION] = cases.values(ratio)
                 inputs = _with_friction(inputs, numbers[FRICTION])
@@ -304,7 +332,8 @@ def speeds(
             scene, found = roots_of(cases.shape is None and function is None)
         except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
             scene, found = roots_of(False)
-        inputs = replace(inputs, given={**reader.texts, **(inputs.given or {})} or None)
+        texts = texts_of(reader.texts, recorders)
+        inputs = replace(inputs, given={**texts, **(inputs.given or {})} or None)
 
         def again(**changes: Any) -> Impact:
             with quietly():
@@ -636,7 +665,8 @@ def _answers(
             if status == Status.AMBIGUOUS and isinstance(scene, ComponentScene):
                 raise _stuck_or_slid(scene, known, say, again)
             raise _refusal(scene, status, known, function, forward_only, say)
-        origin = cases.provenance("speeds", scene.names, root.condition, count)
+        names = (*scene.names, *getattr(scene, "recorders", ()))
+        origin = cases.provenance("speeds", names, root.condition, count)
         if isinstance(scene, ComponentScene):
             origin = replace(origin, regime=scene.stated, one_sided=_sides(scene, cases, there))
         impact = run_forward(

@@ -15,7 +15,7 @@ family that begins there (``_end``), in which each speed rises, falls or stays (
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -448,6 +448,7 @@ class ComponentScene(Scene):
 
 
 def friction_shown(
+    kind: Callable[..., ComponentScene],
     given: dict[str, Any],
     law: str,
     names: tuple[str, ...],
@@ -468,15 +469,15 @@ def friction_shown(
     settles = speeds or len(components) < len(names)
     if regime == "sticking" or len(components) < 2 or not (settles or regime):
         return None, False
-    shown = abs(ComponentScene(given, FRICTION, law, components, shape).shown_ratio())
+    shown = abs(kind(given, FRICTION, law, components, shape).shown_ratio())
     usable = np.isinf(friction) & np.isfinite(shown)
     ratio = np.where(usable, shown, friction)
     if regime == "sliding":
         return ratio, False
-    stuck = ComponentScene(given, FRICTION, law, names, shape)
+    stuck = kind(given, FRICTION, law, names, shape)
     if not speeds:
         return np.where(usable & stuck.loses_more(), shown, friction), False
-    slid = ComponentScene({**given, FRICTION: ratio}, FRICTION, law, names, shape, False, "sliding")
+    slid = kind({**given, FRICTION: ratio}, FRICTION, law, names, shape, False, "sliding")
     closing = sum(np.nan_to_num(root.closing) for root in stuck.roots())
     one, other, *_ = slid.roots()
     slides = usable & ((one.closing > 0.0) | (other.closing > 0.0)) & (slid.misfit < stuck.misfit)

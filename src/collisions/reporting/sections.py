@@ -334,15 +334,18 @@ def momentum(
     )
     sheet.heading("Results")
     sheet.table(momentum_answers(sheet, solution))
-    system, of_speed = sheet.system, sheet.system.scale("speed")
-    rows = [
-        (
-            "both",
-            "condition, from the angle between the courses of the unknown speeds",
-            f"{solution.condition:.3g}",
-        )
-    ]
+    system = sheet.system
+    whole = any(name.startswith("course") for name in solution.unknowns)
+    what = (
+        "the sum of the other momenta over what they leave"
+        if whole
+        else "from the angle between the courses of the unknown speeds"
+    )
+    rows = [("both", f"condition, {what}", f"{solution.condition:.3g}")]
     for answer, row in solution.sensitivity.items():
+        turns = answer.startswith("course")
+        of_answer = _DEGREE if turns else system.scale("speed")
+        label = "°" if turns else f" {system.label('speed')}"
         for name, value in row.items():
             kind = {"mass": "mass", "speed": "speed", "course": "angle", "outside": "impulse"}[
                 name.partition("_")[0]
@@ -353,8 +356,8 @@ def momentum(
                 if kind == "angle"
                 else (system.scale(kind), typeset(system.label(kind)))
             )
-            by = value * of_speed / scale
-            moved = f"{f'{by:+.3g}' if by else '0'} {system.label('speed')} per {unit}"
+            by = value * of_answer / scale
+            moved = f"{f'{by:+.3g}' if by else '0'}{label} per {unit}"
             rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
     sheet.table(rows)
 

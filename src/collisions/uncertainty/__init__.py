@@ -12,6 +12,7 @@ from .distributions import (
     Triangular,
     Uniform,
 )
+from .halved import Halved
 from .one_sided import OneSided
 from .propagation import propagate
 from .result import Histogram, Output, Propagation, Shares
@@ -19,6 +20,7 @@ from .result import Histogram, Output, Propagation, Shares
 __all__ = [
     "Censored",
     "Distribution",
+    "Halved",
     "Histogram",
     "Interval",
     "LogNormal",

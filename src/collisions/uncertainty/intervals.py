@@ -24,6 +24,7 @@ from .derivatives import Local
 from .designs import REPLICATES
 from .model import Model, count_failed
 from .normal import power_of_two
+from .probability import Condition
 from .result import COVERAGE, Output, Sampled, Shares
 
 COMMON_CASES = 16 * REPLICATES  # drawn cases, the same at every point
@@ -339,6 +340,16 @@ class Bounds(Output):
         """
         ends = [case.interval(coverage) for case in self.cases]
         return min(low for low, _ in ends), max(high for _, high in ends)
+
+    def probability(self, condition: Condition) -> tuple[float, float]:
+        """Refused, as an interval says nothing of likelihood."""
+        raise InputError(
+            f"{self.name!r} has no one probability, because an Interval among the inputs says "
+            "nothing of likelihood; give it a distribution, or ask with a number at each of its "
+            "ends in its place",
+            code="not_sampled",
+            argument="inputs",
+        )
 
     def row(self) -> tuple[str, str]:
         """Name and figures as a text."""

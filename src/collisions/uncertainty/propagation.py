@@ -25,6 +25,7 @@ from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
 from .distribution import Stated
 from .distributions import Distribution, Interval
 from .finer import FinerModel
+from .halved import Halved, widths_if_halved
 from .intervals import COMMON_CASES, Bounds, extremes
 from .model import Function, Model, check_names, count_failed, pair_hints, read_input
 from .one_sided import Answers
@@ -191,6 +192,62 @@ def propagate(
         method = (
             "interval" if kinds == {Interval} and samples is tolerance is None else "quasi_random"
         )
+    if seed is None and method in DESIGNS:
+        seed = secrets.randbits(64)
+
+    def run(
+        stated: dict[str, Any], samples: int | None, tolerance: Any, progress: Any
+    ) -> Propagation:
+        return _propagated(
+            model,
+            stated,
+            method,
+            samples,
+            tolerance,
+            seed,
+            correlation,
+            threads,
+            progress,
+            (finer, wanted),
+        )
+
+    found = run(stated, samples, tolerance, progress)
+    warn_of(found.notes)
+    found._run_halved = partial(_if_halved, run, found)
+    return found
+
+
+def _if_halved(run: Callable[..., Propagation], found: Propagation) -> Halved:
+    """The widths of the ranges with half an error, from as many cases as there are, or fewer."""
+    first = next(iter(found.outputs.values()))
+    case = first.cases[0] if isinstance(first, Bounds) else first
+    drawn = len(case.values) if isinstance(case, Sampled) else None
+    samples = drawn and min(drawn, _SHARE_SAMPLES)
+
+    def again(stated: Mapping[str, Any]) -> Propagation:
+        other = run(dict(stated), samples, None, None)
+        if other.interrupted:
+            raise KeyboardInterrupt
+        return other
+
+    now = found if samples == drawn else again(found.inputs)
+    return widths_if_halved(again, now, samples or found.samples)
+
+
+def _propagated(
+    model: Function,
+    stated: dict[str, Any],
+    method: Method,
+    samples: int | None,
+    tolerance: Any,
+    seed: int | None,
+    correlation: Correlation | None,
+    threads: int,
+    progress: Any,
+    refined: tuple[Function | None, int],
+) -> Propagation:
+    """What ``propagate`` answers for inputs that are read, with the warnings it gives as notes."""
+    finer, wanted = refined
     drawn = {name: value for name, value in stated.items() if isinstance(value, Distribution)}
     intervals = {
         name: (value.low, value.high)
@@ -241,7 +298,7 @@ def propagate(
         )
     # The points by which a local method is judged are always the same: its result is not random,
     # and reports no seed.
-    seed = 0 if method in LOCAL else secrets.randbits(64) if seed is None else int(seed)
+    seed = 0 if method in LOCAL or seed is None else int(seed)
     run: Callable[[Model, Report | None], Run] = (
         partial(_local, method, joint)
         if method in LOCAL
@@ -288,7 +345,6 @@ def propagate(
     found = runs[0].corrected
     if found:
         notes = (*found.notes, *notes)
-    warn_of(notes)
     interrupted = len(runs) < len(places) or runs[-1].interrupted
     return Propagation(
         method,
@@ -582,7 +638,6 @@ def _by_interval(model: Model, stated: dict[str, Any], correlation: Any) -> Prop
         )
     run = Run(outputs, found.samples, found.failed, wrapped=found.wrapped)
     notes = _notes("interval", [run], 1, found.samples, found.failed, model)
-    warn_of(notes)
     return Propagation("interval", stated, outputs, found.samples, found.failed, notes=notes)
 
 

@@ -1,0 +1,295 @@
+"""Readings of recorders as they are built, away from the centre of mass and in axes that turn, as
+what is known to ``speeds`` (``RecorderScene``).
+
+A recorder at f ahead of the centre of mass and l to its left sums up the acceleration of its own
+place in the axes of the car. While the contact lasts the car turns by psi, at the yaw rate w. With
+the part P(t) of the impulse that has passed, the reading is
+
+    forward:   C dv_f + S dv_l - dw l - W f
+    left:     -S dv_f + C dv_l + dw f - W l
+
+where dv is the delta-V of the centre of mass in the axes of the heading, dw the change of yaw rate,
+C and S the means of cos psi and sin psi over the impulse, and W the integral of w^2 over time (A.
+Marine, S. Werner, "Delta-V analysis from crash test data for vehicles with post-impact yaw motion",
+SAE 980219, 1998). In each regime dv and dw are linear in both speeds, and C, S and W follow from dw
+and the pulse: the readings are linear about the dw found last (Newton), until it stays.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..impact.pulse import QUARTER
+from ..impact.recorded import read_axes, read_place
+from ..messages.errors import InputError, MissingInputError, ShapeError
+from ..quantities.directions import Angle
+from ..quantities.reading import ArgumentReader
+from ..quantities.units import shown
+from ..vehicle.drag import read_duration
+from .speeds_algebra import Root, Seen
+from .speeds_components import ComponentScene
+
+# Nodes of a Gauss-Legendre rule over each part of the pulse: turns of half a radian to 1e-12.
+_NODES = 8
+# Until two rounds differ by less than this turn, in radians; far more rounds than any crash needs.
+_SETTLED, _ROUNDS = 1e-12, 60
+
+
+class Recorders(NamedTuple):
+    """Numbers of the recorders by name, the vehicles they are of, and whether their axes turn."""
+
+    numbers: dict[str, Any]
+    labels: str
+    turning: bool
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Their names among what was known."""
+        places = [f"recorder_{label}" for label in self.labels]
+        return (*places, "recorder_axes_turning" if self.turning else "recorder_axes_fixed")
+
+
+def read_recorders(
+    reader: ArgumentReader,
+    places: dict[str, Any],
+    axes: Any,
+    duration: Any,
+    components: Sequence[str],
+) -> Recorders | None:
+    """Places, axes and duration of the contact; None where none of them was given, and the
+    components are those of the centre of mass in the axes of the heading.
+    """
+    given = {label: place for label, place in places.items() if place is not None}
+    if not given and axes is None:
+        if duration is not None:
+            text = (
+                f"duration = {shown(duration)} is that over which recorders turn; write "
+                "axes='turning' (or 'fixed'), and recorder_a=(forward, left) for the place"
+            )
+            reader.refuse(InputError(text, code="bad_combination", argument="duration"))
+        return None
+    with_components = "".join(label for label in "ab" if any(n[-1] == label for n in components))
+    stray = [label for label in given if label not in with_components]
+    if stray or not with_components:
+        name = f"recorder_{stray[0]}" if stray else "axes"
+        side = stray[0] if stray else "a"
+        text = (
+            f"{name} is for components of delta-V, which it carries over to the centre of mass, "
+            f"and none was given; give delta_v_forward_{side} and delta_v_left_{side}, or leave "
+            "it out"
+        )
+        reader.refuse(InputError(text, code="bad_combination", argument=name))
+    turning = axes is None or read_axes(reader, axes) == "turning"
+    if duration is None:
+        text = (
+            "duration is None, and a recorder turns with its car while the contact lasts; write "
+            "duration='100 ms', such as that of the recorded pulse, or 0 for a contact in which "
+            "nothing turns"
+        )
+        reader.refuse(MissingInputError(text, code="missing_duration", argument="duration"))
+        duration = 0.0
+    numbers = {"duration": read_duration(reader, duration)}
+    for label in with_components:
+        name = f"recorder_{label}"
+        place = given.get(label, (0.0, 0.0))
+        if not isinstance(place, (tuple, list)) or len(place) != 2:
+            text = (
+                f"{name} must be (forward, left), how far ahead of the centre of mass the recorder "
+                f"sits and how far to its left, such as ('0.5 m', 0), got {shown(place)}"
+            )
+            reader.refuse(ShapeError(text, code="bad_shape", argument=name))
+            continue
+        names = f"{name}[0]", f"{name}[1]"
+        numbers |= zip(names, read_place(reader, (place[0], place[1]), names), strict=True)
+    return Recorders(numbers, with_components, turning)
+
+
+class Turning(NamedTuple):
+    """How a car turns during the contact, and how each of it changes with the change of yaw rate.
+
+    They are the means of cosine and sine of its turn over the impulse, the integral of the square
+    of its yaw rate, and its turn at the start and the end.
+    """
+
+    cos: Any
+    sin: Any
+    square: Any
+    before: Any
+    after: Any
+
+
+def turning(e: Any, duration: Any, spin: Any, change: Any) -> tuple[Turning, Turning]:
+    """The turn of a car from the position of maximum engagement, by the yaw rate before and its
+    change, and its slopes by that change; the impulse passes as that of the spring pulse.
+    """
+    # Compression up to a quarter of a sine, or in an incomplete impact up to its end.
+    cut = np.where(e < 0.0, np.arccos(np.clip(-e, 0.0, 1.0)), QUARTER)
+    back = np.where(e < 0.0, 0.0, e)
+    length = duration / (1.0 + back)
+    whole = 1.0 + e
+    at, weights = np.polynomial.legendre.leggauss(_NODES)
+    shape = (-1, *[1] * np.ndim(cut + length + spin + change))
+    share, weight = 0.5 * (at + 1.0).reshape(shape), 0.5 * weights.reshape(shape)
+    # Of each part of the pulse: time since first contact, what has passed, its sum over time, its
+    # rate by the share of the part, and how long the part lasts.
+    until = length / cut * (cut - np.sin(cut)) / whole
+    phase, later = share * cut, share * QUARTER
+    compressing = (
+        length * share,
+        (1.0 - np.cos(phase)) / whole,
+        length / cut * (phase - np.sin(phase)) / whole,
+        cut * np.sin(phase) / whole,
+        length,
+    )
+    restoring = (
+        length * (1.0 + back * share),
+        (1.0 + back * np.sin(later)) / whole,
+        until + length * back / QUARTER * (later + back * (1.0 - np.cos(later))) / whole,
+        QUARTER * back * np.cos(later) / whole,
+        length * back,
+    )
+    found: Any = (0.0,) * 6
+    for time, passed, summed, rate, lasts in (compressing, restoring):
+        grows = summed - until
+        turned = spin * (time - length) + change * grows
+        rates = spin + change * passed
+        parts = (
+            rate * np.cos(turned),
+            rate * np.sin(turned),
+            lasts * rates * rates,
+            -rate * np.sin(turned) * grows,
+            rate * np.cos(turned) * grows,
+            2.0 * lasts * rates * passed,
+        )
+        found = [
+            one + np.sum(weight * part, axis=0) for one, part in zip(found, parts, strict=True)
+        ]
+    end = length * back / QUARTER * (QUARTER + back) / whole
+    cos, sin, square, cos_slope, sin_slope, square_slope = found
+    before, after = -spin * length - change * until, spin * length * back + change * end
+    return (
+        Turning(cos, sin, square, before, after),
+        Turning(cos_slope, sin_slope, square_slope, -until, end),
+    )
+
+
+class RecorderScene(ComponentScene):
+    """Two vehicles whose speeds are unknown, and components of delta-V as recorders show them."""
+
+    def __init__(
+        self,
+        recorders: Recorders,
+        given: dict[str, Any],
+        rule: str,
+        law: str,
+        names: tuple[str, ...],
+        shape: tuple[int, ...],
+        plain: bool = False,
+        regime: str | None = None,
+        slid: str | None = None,
+    ) -> None:
+        self._recorders, self.recorders = recorders, recorders.names
+        super().__init__(given, rule, law, names, shape, plain, regime, slid)
+        self._duration = self.given["duration"] * self.speed_unit
+        self._readings = list(self._momenta)
+        nx, ny = self.given["normal[0]"], self.given["normal[1]"]
+        self._own: dict[str, tuple[Any, ...]] = {}
+        for label in recorders.labels:
+            sign = 1.0 if label == "b" else -1.0
+            fx, fy = Angle(self.given[f"{label}.heading"], False).direction
+            rx, ry = (self.given[f"point[{i}]"] - self.given[f"{label}.{x}"]
+                for i, x in enumerate("xy"))  # fmt: skip
+            per_inertia = sign / self.numbers[f"{label}.yaw_inertia"]
+            # Of the impulse along n and along t: forward, left, and the change of yaw rate.
+            self._own[label] = (
+                (sign * (nx * fx + ny * fy), sign * (nx * fy - ny * fx)),
+                (sign * (ny * fx - nx * fy), sign * (nx * fx + ny * fy)),
+                (per_inertia * (rx * ny - ry * nx), per_inertia * (rx * nx + ry * ny)),
+            )
+        self._changes: dict[str, Any] = {}
+        self._linear_about(dict.fromkeys(recorders.labels, (0.0, 0.0)))
+
+    def _linear_about(self, impulses: dict[str, tuple[Any, Any]]) -> None:
+        """Set what the components say of the impulse, linear about these impulses along n and t."""
+        rows: dict[str, Any] = {}
+        for label, own in self._own.items():
+            mass, spin = self.numbers[f"{label}.mass"], self.numbers[f"{label}.yaw_rate"]
+            normal, tangential = impulses[label]
+            ahead, aside, change = (n * normal + t * tangential for n, t in own)
+            self._changes[label] = change
+            turn, slope = turning(self.e, self._duration, spin, change)
+            f, left = (self.given[f"recorder_{label}[{i}]"] for i in range(2))
+            if self._recorders.turning:
+                c, s = turn.cos, turn.sin
+                by_place = -change * left - turn.square * f, change * f - turn.square * left
+                slopes = (
+                    (slope.cos * ahead + slope.sin * aside) / mass - left - slope.square * f,
+                    (slope.cos * aside - slope.sin * ahead) / mass + f - slope.square * left,
+                )
+            else:
+                c, s = 1.0, 0.0
+                (x0, y0), (x1, y1) = (
+                    (np.cos(psi) * f - np.sin(psi) * left, np.sin(psi) * f + np.cos(psi) * left)
+                    for psi in (turn.before, turn.after)
+                )
+                after = spin + change
+                by_place = spin * y0 - after * y1, after * x1 - spin * x0
+                slopes = (
+                    spin * x0 * slope.before - y1 - after * x1 * slope.after,
+                    x1 - after * y1 * slope.after + spin * y0 * slope.before,
+                )
+            for part, (one, other), extra, by in (
+                ("forward", ((c, own[0]), (s, own[1])), by_place[0], slopes[0]),
+                ("left", ((c, own[1]), (-s, own[0])), by_place[1], slopes[1]),
+            ):
+                row = tuple(
+                    one[0] * one[1][i] + other[0] * other[1][i] + mass * by * own[2][i]
+                    for i in range(2)
+                )
+                rows[f"delta_v_{part}_{label}"] = row, mass * (by * change - extra)
+        self._axes = [rows[kind][0] for kind in self.components]
+        self._momenta = [
+            reading + rows[kind][1]
+            for kind, reading in zip(self.components, self._readings, strict=True)
+        ]
+
+    def _solved(self, regime: Any) -> tuple[Root, Any, Any]:
+        """The least squares of a regime, with the turn of the cars that its own answer leads to."""
+        self._linear_about(dict.fromkeys(self._own, (0.0, 0.0)))
+        moved: Any = math.inf
+        for _ in range(_ROUNDS):
+            before = dict(self._changes)
+            found = super()._solved(regime)
+            moved = sum(abs(self._changes[label] - before[label]) for label in self._own)
+            moved = moved * self._duration
+            if not np.any(moved > _SETTLED):
+                break
+        root, misfit, open_slip = found
+        return root, np.where(moved > _SETTLED, np.inf, misfit), open_slip
+
+    def _judged(
+        self, regime: Any, speeds: Sequence[Any], moved: Any, stays_open: Any
+    ) -> tuple[Root, Any, Any]:
+        here: Seen = self.observe(regime, *speeds)
+        self._linear_about(dict.fromkeys(self._own, (here.normal, here.tangential)))
+        return super()._judged(regime, speeds, moved, stays_open)
+
+
+def texts_of(texts: Any, recorders: Recorders | None) -> dict[str, Any]:
+    """The texts with those of recorders by names of their own: the result has the delta-V of the
+    centre of mass, which the readings are not, and an instant for a contact.
+    """
+    own: dict[str, str] = {}
+    for label in "" if recorders is None else recorders.labels:
+        own |= {
+            f"delta_v_forward_{label}": f"reading_forward_{label}",
+            f"delta_v_left_{label}": f"reading_left_{label}",
+            f"recorder_{label}[0]": f"recorder_forward_{label}",
+            f"recorder_{label}[1]": f"recorder_left_{label}",
+            "duration": "recorder_duration",
+        }
+    return {own.get(name, name): text for name, text in texts.items()}

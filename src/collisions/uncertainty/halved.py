@@ -1,0 +1,199 @@
+"""``Halved``: what to measure next, by how much narrower each range were with half the error of one
+input.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from ..messages.errors import InputError
+from ..quantities.strict_json import strict
+from ..quantities.tables import Cells, Part, Summarized, Summary
+from ..quantities.units import shown, to_quantity
+from .distribution import Distribution, from_numbers
+from .distributions import Interval, Samples
+
+if TYPE_CHECKING:
+    from .result import Propagation
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Halved(Summarized):
+    """The width of every output's range now, and if the error of one input were halved;
+    ``halved["drag"]["speed"]`` is one of them.
+
+    Inputs come in the order of what they gain: first the one whose half error makes some range
+    narrower by the largest share.
+
+    Attributes
+    ----------
+    now : dict
+        By output, the width of its range as the inputs are stated [unit of the output].
+    widths : dict
+        By input, then by output: the width with half the error of that input [unit of the output].
+    units : dict
+        By output, its SI unit; None where the model returned plain numbers.
+    coverage : float or None
+        Probability that a range holds [-]; None for the whole range, by ``method="interval"``.
+    samples : int
+        Cases drawn for each range; by a method that does not draw, cases it took.
+    """
+
+    now: dict[str, float]
+    widths: dict[str, dict[str, float]]
+    units: dict[str, str | None]
+    coverage: float | None
+    samples: int
+    given: tuple[str, ...] = ()
+
+    def __getitem__(self, name: str) -> dict[str, float]:
+        if not isinstance(name, str) or name not in self.widths:
+            raise InputError(
+                f"{shown(name)} is none of the uncertain inputs, which are "
+                f"{', '.join(self.widths)}",
+                code="unknown_name",
+                argument="name",
+            )
+        return self.widths[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.widths)
+
+    def __len__(self) -> int:
+        return len(self.widths)
+
+    @property
+    def q(self) -> dict[str, dict[str, Any]]:
+        """By input and output, the widths as Quantities; plain numbers where the model returned
+        them.
+        """
+        return {
+            name: {output: self._with_unit(output, width) for output, width in row.items()}
+            for name, row in self.widths.items()
+        }
+
+    def to_dict(self) -> dict[str, Any]:
+        """All widths as strict JSON.
+
+        Returns
+        -------
+        dict
+            Plain values that ``json.dumps`` writes; infinity and NaN as texts.
+        """
+        names = ("coverage", "samples", "units", "now", "widths")
+        found: dict[str, Any] = strict({name: getattr(self, name) for name in names})
+        return found
+
+    def _with_unit(self, output: str, width: float) -> Any:
+        unit = self.units[output]
+        return width if unit is None else to_quantity(width, unit)
+
+    def _summary(self, numbers: Cells) -> Summary:
+        def written(output: str, width: float) -> str:
+            unit = self.units[output]
+            return f"{width:.4g}" if unit is None else numbers.text(width, unit)
+
+        rows = [("now", *(written(output, width) for output, width in self.now.items()))]
+        for name, row in self.widths.items():
+            cells = [
+                f"{written(output, width)} ({_change(width, self.now[output])})"
+                for output, width in row.items()
+            ]
+            rows.append((name, *cells))
+        what = "whole range" if self.coverage is None else f"{self.coverage:.0%} range"
+        note = (
+            "Each row has the error of that input halved, as if better measurements had the same "
+            "mean. The first row gains the most."
+        )
+        return Summary(
+            f"Width of the {what} if the error of one input were halved",
+            [Part(rows, columns=tuple(self.now))],
+            [note],
+        )
+
+    def _texts(self) -> tuple[str, ...]:
+        return self.given
+
+
+def widths_if_halved(
+    run: Callable[[Mapping[str, Any]], Propagation], now: Propagation, samples: int
+) -> Halved:
+    """What ``Propagation.if_halved`` answers; ``run`` propagates other statements of the inputs in
+    the same way, with so many cases.
+    """
+    widths = {}
+    for name, one in now.inputs.items():
+        if isinstance(one, (Distribution, Interval)):
+            found = run({**now.inputs, name: with_half_the_error(one)})
+            widths[name] = _widths(found)
+    at_present = _widths(now)
+    order = sorted(widths, key=lambda name: _least_share(widths[name], at_present))
+    return Halved(
+        now=at_present,
+        widths={name: widths[name] for name in order},
+        units={name: output.unit for name, output in now.outputs.items()},
+        coverage=None if now.method == "interval" else 0.95,
+        samples=samples,
+        given=tuple(now._texts()),
+    )
+
+
+def with_half_the_error(stated: Distribution | Interval) -> Distribution | Interval:
+    """The same statement with every value moved halfway to the mean, or to the middle of an
+    interval.
+    """
+    if isinstance(stated, Interval):
+        middle, quarter = 0.5 * stated.low + 0.5 * stated.high, 0.25 * (stated.high - stated.low)
+        ends = {"low": middle - quarter, "high": middle + quarter}
+        return from_numbers(Interval, stated.unit, ends)
+    if isinstance(stated, Samples):
+        # Rows in their order, so that joint samples are drawn together as before.
+        rows = stated.mean + 0.5 * (stated.rows - stated.mean)
+        return from_numbers(Samples, stated.unit, {"rows": rows, "group": stated.group})
+    return from_numbers(_Halfway, stated.unit, {"whole": stated})
+
+
+class _Halfway(Distribution):
+    """A distribution with every value moved halfway to its mean."""
+
+    __slots__ = ("_whole",)
+
+    _words = "{whole}, with half the error"
+    _whole: Distribution
+
+    def _derive(self, whole: Distribution) -> None:
+        self._set(_whole=whole)
+        low, high = (self._moved(end) for end in whole.support)
+        self._describe(whole.mean, 0.5 * whole.sd, whole.skewness, whole.kurtosis, (low, high))
+
+    def _moved(self, value: Any) -> Any:
+        return self._whole.mean + 0.5 * (value - self._whole.mean)
+
+    def _scored(self, z: Any) -> Any:
+        return self._moved(self._whole._scored(z))
+
+    def _at(self, below: Any, above: Any) -> Any:
+        return self._moved(self._whole._at(below, above))
+
+
+def _widths(found: Propagation) -> dict[str, float]:
+    """By output, the width of its range."""
+    ends = {name: output.interval() for name, output in found.outputs.items()}
+    return {name: high - low for name, (low, high) in ends.items()}
+
+
+def _least_share(widths: Mapping[str, float], now: Mapping[str, float]) -> float:
+    """The smallest share of the present widths that is left of any."""
+    shares = [width / now[name] for name, width in widths.items() if 0.0 < now[name] < math.inf]
+    return min((share for share in shares if not math.isnan(share)), default=1.0)
+
+
+def _change(width: float, now: float) -> str:
+    """By how much a range is narrower or wider than now, in percent."""
+    if not 0.0 < now < math.inf or math.isnan(width):
+        return "no change known"
+    percent = round(100.0 * (width / now - 1.0))
+    return f"{percent:+d} %" if percent else "same"

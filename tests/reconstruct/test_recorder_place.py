@@ -1,0 +1,275 @@
+"""speeds from recorders as they are built: readings made by stepping a crash through time, at a
+place and in axes that turn, lead back to its speeds.
+"""
+
+import json
+import math
+import re
+import warnings
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions import reconstruct, reporting
+from collisions.uncertainty import Normal, Uniform, propagate
+
+MPH = 0.44704
+A = col.Vehicle(
+    mass="3400 lb", vx="30 mph", yaw_inertia="1770 slug*ft**2", x="-6.5 ft", y="1.3 ft",
+    heading="0 deg",
+)  # fmt: skip
+B = col.Vehicle(
+    mass="2900 lb", vx=0, vy="25 mph", yaw_inertia="1250 slug*ft**2", x="2.6 ft", y="-4 ft",
+    heading="90 deg",
+)  # fmt: skip
+CONTACT = {"normal": 0.0, "point": (0.0, 0.0)}
+COURSES = {"course_a": 0.0, "course_b": "90 deg"}
+
+
+def crash(e=0.1, friction=2.0, spin_a=0.0, spin_b=0.0):
+    a, b = A.replace(yaw_rate=spin_a), B.replace(yaw_rate=spin_b)
+    return col.eccentric(a, b, e, **CONTACT, friction=friction)
+
+
+def read(side, place, duration, axes="turning", steps=20000):
+    """What a recorder shows, by the velocity of its place from step to step.
+
+    The force has the direction of the impulse and rises as a quarter of a sine, and falls as one
+    that takes e times as long. The heading is that of the end of compression.
+    """
+    e = side._inputs.restitution
+    peak = duration / (1.0 + max(e, 0.0))
+    time = np.linspace(0.0, duration, steps + 1)
+    middle = 0.5 * (time[1:] + time[:-1])
+    force = np.where(
+        middle < peak,
+        np.sin(0.5 * math.pi * middle / peak),
+        np.cos(0.5 * math.pi * (middle - peak) / (max(e, 1e-9) * peak)),
+    )
+    passed = np.concatenate(([0.0], np.cumsum(force)))
+    passed /= passed[-1]
+    spin = side.before.yaw_rate + side.delta_yaw_rate * passed
+    turn = np.concatenate(([0.0], np.cumsum(0.5 * (spin[1:] + spin[:-1]) * np.diff(time))))
+    heading = side.before.heading + turn - np.interp(peak, time, turn)
+    rx = np.cos(heading) * place[0] - np.sin(heading) * place[1]
+    ry = np.sin(heading) * place[0] + np.cos(heading) * place[1]
+    vx, vy = side.delta_vx * passed - spin * ry, side.delta_vy * passed + spin * rx
+    facing = 0.5 * (heading[1:] + heading[:-1])
+    if axes == "fixed":
+        facing = np.full(steps, side.before.heading)
+    dx, dy = np.diff(vx), np.diff(vy)
+    return (
+        float(np.sum(np.cos(facing) * dx + np.sin(facing) * dy)),
+        float(np.sum(np.cos(facing) * dy - np.sin(facing) * dx)),
+    )
+
+
+def names(label, reading):
+    return {
+        f"delta_v_{part}_{label}": v for part, v in zip(("forward", "left"), reading, strict=True)
+    }
+
+
+def found_from(known, e=0.1, friction=math.inf, spin_a=0.0, spin_b=0.0, **options):
+    bodies = A.replace(yaw_rate=spin_a), B.replace(yaw_rate=spin_b)
+    return reconstruct.speeds(
+        *bodies, **COURSES, restitution=e, **CONTACT, friction=friction, **known, **options
+    )
+
+
+def mph(impact):
+    return [impact.a.before.speed / MPH, impact.b.before.speed / MPH]
+
+
+def test_a_recorder_half_a_metre_ahead_was_taken_for_the_centre_of_mass():
+    """The case of the record: in a contact without duration the place alone turns 30 and 25 mph
+    into 25.6 and 43.5; with it they come back.
+    """
+    side = crash().a
+    reading = side.delta_v_forward, side.delta_v_left + 0.5 * side.delta_yaw_rate
+    (wrong,) = found_from(names("a", reading))
+    assert [round(speed, 1) for speed in mph(wrong)] == [25.6, 43.5]
+    (found,) = found_from(names("a", reading), recorder_a=("50 cm", 0), duration=0)
+    assert mph(found) == pytest.approx([30.0, 25.0], rel=1e-9)
+
+
+@pytest.mark.parametrize("axes", ["turning", "fixed"])
+@pytest.mark.parametrize("place", [(0.0, 0.0), (0.5, 0.0), (-0.9, 0.4), (1.5, -0.6)])
+@pytest.mark.parametrize(
+    ("e", "spins", "duration"),
+    [(0.1, (0.0, 0.0), 0.1), (0.0, (1.2, -2.0), 0.15), (0.7, (-0.8, 0.5), 0.08)],
+)
+def test_what_a_recorder_shows_of_a_crash_leads_back_to_it(axes, place, e, spins, duration):
+    """Of either car, and of both."""
+    impact = crash(e, spin_a=spins[0], spin_b=spins[1])
+    readings = {
+        label: names(label, read(getattr(impact, label), place, duration, axes)) for label in "ab"
+    }
+    for labels in ("a", "b", "ab"):
+        known = {name: value for label in labels for name, value in readings[label].items()}
+        places = {f"recorder_{label}": place for label in labels}
+        (found,) = found_from(
+            known, e, spin_a=spins[0], spin_b=spins[1], **places, axes=axes, duration=duration
+        )
+        assert mph(found) == pytest.approx([30.0, 25.0], abs=2e-4)
+        assert found.a.delta_v_left == pytest.approx(impact.a.delta_v_left, abs=1e-4)
+        told = (*places, f"recorder_axes_{axes}")
+        assert found.reconstruction.known[-len(told) :] == told
+
+
+def test_an_incomplete_impact_is_engaged_the_most_at_its_end():
+    """Cut short at cos phase = -e of the quarter wave."""
+    impact = col.eccentric(A, B, -0.3, **CONTACT, friction=2.0, incomplete=True)
+    side, steps, duration, place = impact.a, 20000, 0.1, (0.6, 0.2)
+    time = np.linspace(0.0, duration, steps + 1)
+    passed = (1.0 - np.cos(time / duration * math.acos(0.3))) / 0.7
+    spin = side.delta_yaw_rate * passed
+    turn = np.concatenate(([0.0], np.cumsum(0.5 * (spin[1:] + spin[:-1]) * np.diff(time))))
+    heading = turn - turn[-1]
+    vx = side.delta_vx * passed - spin * (np.sin(heading) * place[0] + np.cos(heading) * place[1])
+    vy = side.delta_vy * passed + spin * (np.cos(heading) * place[0] - np.sin(heading) * place[1])
+    facing = 0.5 * (heading[1:] + heading[:-1])
+    dx, dy = np.diff(vx), np.diff(vy)
+    reading = (
+        float(np.sum(np.cos(facing) * dx + np.sin(facing) * dy)),
+        float(np.sum(np.cos(facing) * dy - np.sin(facing) * dx)),
+    )
+    (found,) = found_from(
+        names("a", reading), -0.3, recorder_a=place, duration=duration, incomplete=True
+    )
+    assert mph(found) == pytest.approx([30.0, 25.0], abs=2e-4)
+
+
+@pytest.mark.parametrize("friction", [0.3, 0.5])
+def test_of_a_contact_that_slid_one_speed_and_readings_give_the_other(friction):
+    """The readings of B, and its speed, give that of A."""
+    impact = crash(friction=friction)
+    assert impact.regime == "sliding"
+    known = names("b", read(impact.b, (0.7, 0.1), 0.12))
+    options = {"recorder_b": (0.7, 0.1), "duration": "120 ms", "friction": friction}
+    (found,) = found_from(known | {"speed_b": "25 mph"}, **options)
+    assert mph(found) == pytest.approx([30.0, 25.0], abs=2e-4)
+
+
+def test_both_recorders_far_from_the_centre_seemed_to_contradict():
+    """Of cars that turn fast their readings disagree if taken for the centres."""
+    impact = crash()
+    known = names("a", read(impact.a, (1.6, 0.0), 0.1)) | names(
+        "b", read(impact.b, (1.6, 0.0), 0.1)
+    )
+    with pytest.warns(col.IllConditionedWarning, match="28%") as caught:
+        found_from(known)
+    assert caught[0].message.code == "recorders_differ"
+    (found,) = found_from(known, recorder_a=(1.6, 0), recorder_b=(1.6, 0), duration=0.1)
+    assert mph(found) == pytest.approx([30.0, 25.0], abs=2e-4)
+
+
+def test_batches_are_their_cases():
+    count = 7
+    ahead, lasts = np.linspace(-1.0, 1.0, count), np.linspace(0.05, 0.15, count)
+    readings = np.array(
+        [read(crash().a, (float(x), 0.1), float(t)) for x, t in zip(ahead, lasts, strict=True)]
+    ).T
+    (found,) = found_from(names("a", readings), recorder_a=(ahead, 0.1), duration=lasts)
+    assert found.a.before.speed / MPH == pytest.approx(np.full(count, 30.0), abs=2e-4)
+    for at in (0, 3, 6):
+        (alone,) = found_from(
+            names("a", readings[:, at]),
+            recorder_a=(float(ahead[at]), 0.1),
+            duration=float(lasts[at]),
+        )
+        assert alone.b.before.speed == pytest.approx(found.b.before.speed[at], rel=1e-9)
+
+
+def test_in_a_study_with_an_uncertain_place():
+    reading = read(crash().a, (0.5, 0.0), 0.1)
+
+    def model(forward, left, place, duration):
+        (found,) = found_from(
+            names("a", (forward, left)), recorder_a=(place, 0.0), duration=duration
+        )
+        return {"speed_a": found.a.before.speed, "speed_b": found.b.before.speed}
+
+    inputs = {
+        "forward": Normal(reading[0], 0.1),
+        "left": Normal(reading[1], 0.1),
+        "place": Normal("50 cm", "10 cm"),
+        "duration": Uniform("80 ms", "120 ms"),
+    }
+    found = propagate(model, inputs, samples=256, seed=1)
+    assert found.failed == 0
+    assert found["speed_b"].mean / MPH == pytest.approx(25.0, abs=1.0)
+    assert found["speed_b"].contributions["place"] > 0.3
+
+
+def test_from_a_record_to_the_speeds():
+    """Polarity, place and duration are those of the pulse."""
+    reading = read(crash().a, (0.5, -0.2), 0.1)
+    time = np.arange(0.0, 0.2501, 0.01)
+    share = np.clip(time / 0.1, 0.0, 1.0)
+    pulse = reconstruct.recorded_pulse(
+        time, reading[0] * share, -reading[1] * share, polarity="49 CFR 563", forward=0.5, left=-0.2
+    )
+    means = {name: one.mean for name, one in pulse.inputs("a").items() if name != "recorder_a"}
+    (found,) = found_from(means, recorder_a=pulse.place, duration=pulse.duration)
+    assert mph(found) == pytest.approx([30.0, 25.0], abs=2e-4)
+
+
+def test_pages_and_records_say_that_readings_were_carried_over():
+    """The result has the delta-V of the centre of mass, so the texts of the readings, which are
+    other numbers, are not held against it.
+    """
+    reading = [f"{part / MPH:.6f} mph" for part in read(crash().a, (0.5, 0.0), 0.1)]
+    (found,) = found_from(names("a", reading), recorder_a=("50 cm", 0), duration="100 ms")
+    assert found.reconstruction.known == (
+        "delta_v_forward_a",
+        "delta_v_left_a",
+        "recorder_a",
+        "recorder_axes_turning",
+    )
+    page = str(col.report(found))
+    assert "carried over to the centre of mass" in page
+    rows = re.sub("<[^>]+>", " ", page)
+    for what, text in (
+        ("delta-V forward of A, as its recorder reads it", reading[0].partition(".")[0]),
+        ("recorder of A, ahead of the centre of mass", r"1\.640 ft, given as 50 cm"),
+        ("duration of the contact, in which recorders turn", "0\\.1 s, given as 100 ms"),
+    ):
+        assert re.search(rf"{what}\s+{text}", rows), (what, rows[:6000])
+    assert reporting.replay(page).reconstruction == found.reconstruction
+    assert "carried over to the centre of mass" in str(col.explain(found))
+    again = col.Impact.from_dict(json.loads(json.dumps(found.to_dict())))
+    assert again.reconstruction == found.reconstruction
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        col.diagnose(found)
+
+
+READING = names("a", (-5.0, 3.0))
+
+
+@pytest.mark.parametrize(
+    ("known", "options", "code", "text"),
+    [
+        (READING, {"recorder_a": (0.5, 0)}, "missing_duration", "write duration='100 ms'"),
+        (READING, {"axes": "turning"}, "missing_duration", "or 0 for"),
+        (READING, {"duration": 0.1}, "bad_combination", "write axes='turning'"),
+        (READING, {"recorder_a": 0.5, "duration": 0.1}, "bad_shape", r"\(forward, left\)"),
+        (READING, {"recorder_a": (500, 0), "duration": 0.1}, "out_of_range", "millimetres"),
+        (READING, {"recorder_a": ("1 kg", 0), "duration": 0.1}, "bad_units", "recorder_a"),
+        (READING, {"recorder_b": (0.5, 0), "duration": 0.1}, "bad_combination", "recorder_b is"),
+        (READING, {"axes": "car", "duration": 0.1}, "bad_option", "'turning'"),
+        (READING, {"axes": "fixed", "duration": -0.1}, "negative_duration", "duration"),
+        (
+            {"delta_v_a": 6.0, "speed_b": 3.0},
+            {"axes": "turning", "duration": 0.1},
+            "bad_combination",
+            "axes is for components",
+        ),
+    ],
+)
+def test_refusals(known, options, code, text):
+    with pytest.raises(col.InputError, match=text) as caught:
+        found_from(known, **options)
+    assert caught.value.code == code

@@ -1,0 +1,194 @@
+"""if_halved: against the law of propagation for a sum, runs with inputs stated anew, and bounds."""
+
+import json
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions.uncertainty import (
+    Halved,
+    Interval,
+    LogNormal,
+    Normal,
+    Samples,
+    Triangular,
+    Uniform,
+    propagate,
+)
+
+Z = 1.9599639845400545
+SD = {"x": 0.4, "y": 0.3, "z": 1.2}
+FACTOR = {"x": 1.0, "y": -2.0, "z": 0.5}
+INPUTS = {name: Normal(3.0, sd) for name, sd in SD.items()}
+
+
+def total(x, y, z):
+    return {"sum": x - 2.0 * y + 0.5 * z, "first": x}
+
+
+def width(**sd):
+    return 2.0 * Z * math.sqrt(sum((FACTOR[name] * one) ** 2 for name, one in (SD | sd).items()))
+
+
+@pytest.mark.parametrize("method", ["first_order", "second_order", "quasi_random"])
+def test_of_a_sum_of_normals_by_the_law_of_propagation(method):
+    propagated = propagate(total, INPUTS, method=method, seed=1)
+    found = propagated.if_halved()
+    tolerance = 1e-9
+    if method == "quasi_random":
+        # The stated standard errors of both ends, 6.5 times.
+        ends = [
+            [one.quantile_standard_error([0.025, 0.975]), one.interval()]
+            for one in propagated.outputs.values()
+        ]
+        tolerance = 6.5 * max(math.hypot(*errors) / (high - low) for errors, (low, high) in ends)
+        assert tolerance < 0.05
+    assert found.now["sum"] == pytest.approx(width(), rel=tolerance)
+    for name, sd in SD.items():
+        halved = width(**{name: 0.5 * sd})
+        assert found[name]["sum"] == pytest.approx(halved, rel=tolerance), name
+    assert list(found) == ["x", "y", "z"]  # of "first", x leaves half; then by what is left
+    assert found["x"]["first"] == pytest.approx(Z * 0.4, rel=tolerance)
+    # An input without effect leaves the very same samples.
+    assert found["y"]["first"] == found.now["first"]
+    assert len(found) == 3
+    assert found.coverage == 0.95
+
+
+@pytest.mark.parametrize(
+    ("stated", "again"),
+    [
+        (Normal(3.0, 0.4), Normal(3.0, 0.2)),
+        (Uniform(1.0, 5.0), Uniform(2.0, 4.0)),
+        (Samples([1.0, 2.0, 6.0]), Samples([2.0, 2.5, 4.5])),
+        (Triangular(0.0, 1.0, 5.0), Triangular(1.0, 1.5, 3.5)),
+    ],
+)
+def test_as_if_it_had_been_stated_with_half_the_error(stated, again):
+    """The same draws of the inputs stated by hand, in a model that bends."""
+
+    def model(x, y):
+        return {"out": x**2 / (1.0 + y**2)}
+
+    options = {"method": "quasi_random", "samples": 512, "seed": 3}
+    found = propagate(model, {"x": stated, "y": Normal(1.0, 0.1)}, **options).if_halved()
+    low, high = propagate(model, {"x": again, "y": Normal(1.0, 0.1)}, **options)["out"].interval()
+    assert found["x"]["out"] == pytest.approx(high - low, rel=1e-12)
+    assert found.samples == 512
+
+
+def test_a_skew_input_keeps_its_mean():
+    stated = LogNormal.between(1.0, 8.0, 0.9)
+    found = propagate(lambda x: {"x": x}, {"x": stated}, seed=1).if_halved()
+    assert found["x"]["x"] == pytest.approx(0.5 * found.now["x"], rel=1e-12)
+
+
+def test_correlated_inputs_and_joint_samples_stay_together():
+    """Both masses by one scale: the sum has the sum of the deviations. Joint samples keep their
+    rows.
+    """
+    masses = {"a": Normal(1500.0, 30.0), "b": Normal(1200.0, 20.0)}
+    found = propagate(
+        lambda a, b: {"sum": a + b},
+        masses,
+        method="first_order",
+        correlation={("a", "b"): 1.0},
+    ).if_halved()
+    assert found.now["sum"] == pytest.approx(2.0 * Z * 50.0)
+    assert found["a"]["sum"] == pytest.approx(2.0 * Z * 35.0)
+    assert found["b"]["sum"] == pytest.approx(2.0 * Z * 40.0)
+    values = np.linspace(0.0, 1.0, 101)
+    joint = Samples.joint(p=values, q=-values)
+    found = propagate(lambda p, q: {"sum": p + q}, joint, seed=1).if_halved()
+    assert found.now["sum"] == 0.0
+    assert found["p"]["sum"] == pytest.approx(0.5 * 0.95, abs=0.02)
+
+
+def test_bounds_move_halfway_to_their_middle():
+    inputs = {"x": Interval(1.0, 3.0), "y": Interval(0.0, 4.0)}
+    found = propagate(lambda x, y: {"sum": x + y}, inputs).if_halved()
+    assert found.now == {"sum": pytest.approx(6.0)}
+    assert {name: row["sum"] for name, row in found.widths.items()} == {
+        "y": pytest.approx(4.0),
+        "x": pytest.approx(5.0),
+    }
+    assert found.coverage is None
+    assert "whole range" in str(found)
+    mixed = propagate(
+        lambda x, y: {"sum": x + y},
+        {"x": Interval(1.0, 3.0), "y": Normal(0.0, 0.5)},
+        samples=512,
+        seed=1,
+    ).if_halved()
+    assert mixed["x"]["sum"] == pytest.approx(mixed.now["sum"] - 1.0, abs=1e-6)
+    assert mixed.samples == 512
+
+
+def test_it_shows_itself_in_the_units_of_the_inputs():
+    def rear_end(speed, mass):
+        a, b = col.Vehicle(mass=mass, vx=speed), col.Vehicle(mass="3000 lb")
+        return {"delta_v": col.linear_central(a, b, 0.1).b.q.delta_v, "ratio": mass / 1500.0}
+
+    inputs = {"speed": Normal("30 mph", "2 mph"), "mass": Normal("3400 lb", "100 lb"), "k": 1.0}
+    inputs.pop("k")
+    propagated = propagate(rear_end, inputs, method="first_order")
+    found = propagated.if_halved()
+    assert isinstance(found, Halved)
+    assert propagated.if_halved() is found
+    text = str(found)
+    assert "mph (" in text
+    assert "95% range" in text
+    assert "-50 %" in text
+    assert "same" in text
+    assert "now" in found._repr_html_()
+    assert found.q["speed"]["delta_v"].to("mph").magnitude == pytest.approx(
+        found["speed"]["delta_v"] / 0.44704
+    )
+    assert found.q["speed"]["ratio"] == found["speed"]["ratio"]
+    record = json.loads(json.dumps(found.to_dict(), allow_nan=False))
+    assert record["now"]["delta_v"] == found.now["delta_v"]
+    assert record["units"] == {"delta_v": "m/s", "ratio": None}
+    with pytest.raises(col.InputError, match="'drag' is none of the uncertain inputs") as caught:
+        found["drag"]
+    assert caught.value.code == "unknown_name"
+
+
+def twice(x):
+    return {"twice": 2.0 * x}
+
+
+def test_a_pickle_keeps_the_answer_but_not_the_model():
+    found = propagate(twice, {"x": Normal(1.0, 0.1)}, method="first_order")
+    with pytest.raises(col.InputError, match="before it is pickled") as caught:
+        pickle.loads(pickle.dumps(found)).if_halved()
+    assert caught.value.code == "no_model"
+    widths = found.if_halved()
+    kept = pickle.loads(pickle.dumps(found)).if_halved()
+    assert kept.to_dict() == widths.to_dict()
+
+
+def test_large_runs_are_cut_to_what_ranks_them():
+    found = propagate(twice, {"x": Normal(1.0, 0.1)}, samples=20000, seed=1)
+    widths = found.if_halved()
+    assert widths.samples == 8192
+    assert widths["x"]["twice"] == pytest.approx(0.5 * widths.now["twice"], rel=1e-12)
+    assert widths.now["twice"] == pytest.approx(2.0 * Z * 0.2, rel=5e-3)
+
+
+def test_an_output_that_does_not_vary_has_no_change():
+    found = propagate(lambda x: {"one": 0.0 * x + 1.0}, {"x": Normal(1.0, 0.1)}, seed=1)
+    assert "no change known" in str(found.if_halved())
+
+
+def test_warnings_are_given_once():
+    """Those of the runs with half an error are those of the propagation, which said them."""
+
+    def model(x):
+        return {"root": np.sqrt(x)}
+
+    with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
+        found = propagate(model, {"x": Normal(1.0, 1.0)}, samples=512, seed=1)
+    assert found.if_halved()["x"]["root"] < found.if_halved().now["root"]
