@@ -14,7 +14,7 @@ from ..messages.errors import CollisionsError, InputError, NoSolutionError, Unit
 from ..quantities.reading import ArgumentReader
 from ..uncertainty.distribution import from_numbers, read_alike, show
 from ..uncertainty.distributions import Censored, Interval, Normal
-from ..uncertainty.model import Model, check_names
+from ..uncertainty.model import Model, check_names, function_of
 from ..uncertainty.normal import log_survival
 from ..uncertainty.turns import folded
 
@@ -142,6 +142,7 @@ def read_evidence(
         reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_observed
     )
     reader.close()
+    model = function_of(model, known, readings, "observed")
     called = Model(model, {})
     check_names(model, known, "unknowns", "bad_model")
     return called, known, [Observation(name, value) for name, value in readings.items()]

@@ -4,7 +4,7 @@ start to rest.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -118,7 +118,14 @@ class Scene(Shown):
         for name, value in found.items():
             object.__setattr__(self, name, lock(value))
         object.__setattr__(self, "_inputs_as_texts", Texts(reader.texts))
-        broadcast(dict(self._numbers()))
+        shape = broadcast(dict(self._numbers()))
+        if shape is not None and len(shape) != 1:
+            raise ShapeError(
+                f"the arrays of a scene have the shape {shape}, and must have one axis, over the "
+                "cases; give them as array.ravel()",
+                code="bad_shape",
+                argument="movers",
+            )
         if found["shared"]:
             from .names import check_shared
 
@@ -218,6 +225,38 @@ class Scene(Shown):
         from .names import results_of
 
         return results_of(self)
+
+    def as_model(
+        self, names: Sequence[str], outputs: Sequence[str], *, tolerance: float = _TOLERANCE
+    ) -> Callable[..., dict[str, Any]]:
+        """The scene as a function of some of its numbers, as ``propagate``, ``fit`` and
+        ``posterior`` take it.
+
+        They make it themselves of a scene that they are given in place of a function.
+
+        Parameters
+        ----------
+        names : list of str
+            The paths of the inputs, which are its arguments.
+        outputs : list of str
+            The paths of the results that it returns.
+        tolerance : float [-]
+            As for ``run``.
+
+        Returns
+        -------
+        function
+            Called with numbers or arrays, as in ``model(**{"Camry.vx": 20.0})``, it returns a dict
+            of Quantities.
+
+        Raises
+        ------
+        InputError
+            A path that is none, with the nearest ones.
+        """
+        from .names import as_function
+
+        return as_function(self, names, outputs, _read_tolerance(tolerance))
 
     def case(self, index: int | tuple[int, ...]) -> Scene:
         """One case of a batch as a single scene.

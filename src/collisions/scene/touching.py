@@ -207,7 +207,7 @@ def first_touch(pair: Pair, begin: Any, until: Any, cases: Any) -> Touch:
         step = _steps(gaps, rates, bend).min(axis=(0, 1))
         step = np.where(bend > 0.0, np.minimum(step, _LONGEST_STEP), step)
         # Without a number there is no motion to follow.
-        on = ~touch & (now + step <= until) & np.isfinite(gap)
+        on = ~touch & (now + step <= until[going]) & np.isfinite(gap)
         time[going] = now + np.maximum(step, _SHORTEST_STEP)
         going = going[on]
     return found
@@ -231,7 +231,7 @@ def first_apart(pair: Pair, begin: Any, until: Any, cases: Any, gap: float) -> A
         step = _steps(np.maximum(gap - met.gap, 0.0), away, bend)
         step = np.where(bend > 0.0, np.minimum(step, _LONGEST_STEP), step)
         time[going] = now + np.maximum(step, 2e-3)
-        going = going[~apart & (now < until) & np.isfinite(met.gap)]
+        going = going[~apart & (now < until[going]) & np.isfinite(met.gap)]
     return found
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from numbers import Number
 from types import FunctionType
 from typing import Any, TypeAlias
@@ -137,6 +137,34 @@ class Model:
         found = np.array(read, dtype=np.float64).reshape(count)
         found[~np.isfinite(found)] = np.nan
         return found
+
+
+def function_of(model: Any, names: Iterable[str], outputs: Any, argument: str) -> Any:
+    """The function of a model that has many inputs and outputs by name, such as a ``Scene``, for
+    some of them; any other model as it is.
+
+    Such a model has ``as_model(names, outputs)``; it works out what is asked for alone, so the
+    outputs have to be named.
+    """
+    if not hasattr(model, "as_model"):
+        if outputs is not None and argument == "outputs":
+            raise InputError(
+                "outputs names results of a Scene, and model is a function, which returns its own; "
+                "leave outputs out",
+                code="bad_option",
+                argument="outputs",
+            )
+        return model
+    listed = isinstance(outputs, (list, tuple)) and all(isinstance(one, str) for one in outputs)
+    if argument == "outputs" and (not listed or not outputs):
+        known = ", ".join(list(model.results())[:3])
+        raise InputError(
+            f"outputs must be a list of results of the {type(model).__name__}, such as {known}; "
+            f"got {shown(outputs)}",
+            code="bad_outputs",
+            argument="outputs",
+        )
+    return model.as_model(list(names), list(outputs))
 
 
 def count_failed(answers: Mapping[str, Any]) -> int:

@@ -24,7 +24,15 @@ from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
 from .distribution import Stated
 from .distributions import Distribution, Interval
 from .intervals import COMMON_CASES, Bounds, extremes
-from .model import Function, Model, check_names, count_failed, pair_hints, read_input
+from .model import (
+    Function,
+    Model,
+    check_names,
+    count_failed,
+    function_of,
+    pair_hints,
+    read_input,
+)
 from .result import Output, Propagation, Sampled, Shares
 from .sampling import Correlation, Joint, Sample, sampled_shares
 
@@ -64,6 +72,7 @@ def propagate(
     tolerance: Any = None,
     seed: int | None = None,
     correlation: Correlation | None = None,
+    outputs: Sequence[str] | None = None,
     threads: int = 1,
     progress: Callable[[int, int], None] | bool | None = None,
 ) -> Propagation:
@@ -87,7 +96,8 @@ def propagate(
         and a model that then answers differently is refused. A case without an answer is NaN;
         solvers return it with ``on_failure="nan"``. Booleans count as 0 and 1, so their mean is a
         probability. Angles returned with a unit that all lie in [-pi, pi] are directions, counted
-        round the circle about their mean (see ``Output``); return a rotation as a plain number.
+        round the circle about their mean (see ``Output``); return a rotation as a plain number. A
+        ``scene.Scene`` is a model too: its inputs and ``outputs`` are named by their paths.
     inputs : dict
         For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``,
         ``Interval`` or fixed value. Numbers reach the model in SI, without their unit.
@@ -107,6 +117,9 @@ def propagate(
         Correlation, -1 to 1, for pairs of input names, such as ``{("mass_a", "mass_b"): 1.0}`` for
         masses weighed on one scale: between the values of normal inputs, or the normal scores of
         others. Pairs that are not listed are independent.
+    outputs : list of str, optional
+        Of a scene, the paths of the results that are asked for, as ``Scene.results`` lists them;
+        only what they need is worked out.
     threads : int, optional
         Number of blocks of cases computed at once. If more than 1, the model must be safe to call
         from several threads.
@@ -155,6 +168,7 @@ def propagate(
         "quasi_random" if method is None else method, samples, tolerance, seed, threads, progress
     )
     stated = _read_inputs(inputs)
+    model = function_of(model, stated, outputs, "outputs")
     if method is None:
         kinds = {type(value) for value in stated.values() if isinstance(value, Stated)}
         method = (
@@ -226,7 +240,7 @@ def propagate(
         )
     runs = _run_at(places, whole, run, reporter(progress))
     samples_run = sum(one.samples for one in runs)
-    outputs: dict[str, Output] = {}
+    answered: dict[str, Output] = {}
     for name, output in runs[0].outputs.items():
         cases = [
             one.outputs[name]
@@ -240,7 +254,7 @@ def propagate(
                 code="all_failed",
                 output=name,
             )
-        outputs[name] = Bounds(name, output.unit, cases, cuts.get(name)) if intervals else output
+        answered[name] = Bounds(name, output.unit, cases, cuts.get(name)) if intervals else output
     count, failed = count + samples_run, failed + sum(one.failed for one in runs)
     notes = _notes(method, runs, len(places), count, failed, whole)
     warn_of(notes)
@@ -248,7 +262,7 @@ def propagate(
     return Propagation(
         method,
         stated,
-        outputs,
+        answered,
         count,
         failed,
         None if method in LOCAL else seed,
