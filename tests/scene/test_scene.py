@@ -248,5 +248,5 @@ def test_contacts_without_end_are_refused_with_the_pair() -> None:
         Contact("A", "right", restitution=1.0, **IN_ROW),
     ]
     crash = Scene(movers={"A": Mover(a, outline=OUTLINE), **walls}, contacts=contacts)
-    with pytest.raises(col.NoSolutionError, match="after 20 contacts: .* go on touching"):
+    with pytest.raises(col.NoSolutionError, match=r"after 20 contacts: .* go on touching"):
         crash.run()

@@ -262,7 +262,8 @@ def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
     if pair is None:
         return None
     closing, slip = (
-        read_strict(part) if isinstance(part, Mapping) else float(read_strict(part)) for part in pair
+        read_strict(part) if isinstance(part, Mapping) else float(read_strict(part))
+        for part in pair
     )
     if not np.shape(closing) == np.shape(slip) == shape:
         raise bad_record("its contact_velocity is not that of its cases")

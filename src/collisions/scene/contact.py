@@ -6,14 +6,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal, TypeAlias
 
-import numpy as np
-
 from ..impact.inputs import Law
 from ..kernels.contact_laws import FRICTION, LAWS, RULES
 from ..kernels.elementwise import FINITE, Domain, restitution_domain
 from ..messages.errors import InputError, MissingInputError
 from ..messages.hints import hinted
-from ..quantities.attributes import Shown, lock
+from ..quantities.attributes import Shown, lock, texts_given
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.settings import Default
@@ -25,7 +23,9 @@ TOUCH = "touch"
 USUAL_DELAY = Default(0.03)
 """After first touch [s], where neither a depth nor a delay is given."""
 Plane: TypeAlias = Literal["face", "crossings"]
-ContactModel: TypeAlias = Literal["linear_central", "oblique_central", "eccentric", "solve"]
+ContactModel: TypeAlias = Literal[
+    "linear_central", "oblique_central", "eccentric", "time_resolved", "solve"
+]
 PLANES, MODELS = (
     ("face", "crossings"),
     ("linear_central", "oblique_central", "eccentric", "time_resolved", "solve"),
@@ -68,7 +68,7 @@ class Contact(Shown):
     plane : {"face", "crossings"}, optional
         How normal and point come from the outlines.
     model : {"linear_central", "oblique_central", "eccentric", "solve"}, optional
-        The solver; ``eccentric`` if not given.
+        The solver; ``eccentric`` if not given. ("time_resolved" is not offered in a scene yet.)
     duration : float, str, Quantity or array [s], optional
         How long the contact lasts, for the impulse of the tyres, as for ``eccentric``. The vehicles
         then move on by the velocities after it until it has passed, and from there on their tyres.
@@ -150,11 +150,11 @@ class Contact(Shown):
         found: dict[str, Any] = {"a": a, "b": b, "plane": plane, "law": law}
         found["incomplete"] = incomplete
         for name, choices in (("plane", PLANES), ("model", MODELS), ("law", tuple(LAWS))):
-            value = {"plane": plane, "model": model, "law": law}[name]
-            if not (value is None and name == "model") and not (
-                isinstance(value, str) and value in choices
+            option = {"plane": plane, "model": model, "law": law}[name]
+            if not (option is None and name == "model") and not (
+                isinstance(option, str) and option in choices
             ):
-                text = f"{name} must be one of {', '.join(choices)}, got {shown(value)}"
+                text = f"{name} must be one of {', '.join(choices)}, got {shown(option)}"
                 reader.refuse(InputError(text, code="bad_option", argument=name))
         if not isinstance(incomplete, bool):
             text = f"incomplete must be True or False, got {shown(incomplete)}"
@@ -232,8 +232,7 @@ class Contact(Shown):
     @property
     def given(self) -> Texts:
         """The texts that the arguments were given as."""
-        texts: Texts = self._inputs_as_texts
-        return texts
+        return texts_given(self)
 
     @property
     def touches(self) -> bool:

@@ -20,7 +20,6 @@ from ..messages.errors import (
     NoSolutionError,
     Status,
 )
-from ..messages.warning import quietly
 from ..quantities.settings import in_si
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import needed
@@ -56,7 +55,9 @@ _IN_LINE = 0.01
 
 
 class Hit(NamedTuple):
-    """One contact of some cases: which rule, when, the impact, and whether it was at its deepest."""
+    """One contact of some cases: which rule, when, the impact, whether it was at its deepest, and
+    which impact of each case it is.
+    """
 
     rule: int
     which: Any
@@ -161,6 +162,11 @@ class Followed:
                 found.append(pair)
         return found
 
+    @property
+    def longest(self) -> list[int]:
+        """The contacts of a case that has most of them."""
+        return max(self.sequences, key=lambda came: len(came), default=[])
+
     # Where things are
 
     def _pair(self, pair: _Between) -> Pair:
@@ -255,8 +261,8 @@ class Followed:
             one, other = pair.names
             raise InputError(
                 f"the outlines of {one} and {other} overlap by {-float(met.gap[0]):.3g} m at the "
-                "start, and no contact of these two is at time 0; correct x, y, heading or outline, "
-                f"or write Contact({one!r}, {other!r}, ...) at 0",
+                "start, and no contact of these two is at time 0; correct x, y, heading or "
+                f"outline, or write Contact({one!r}, {other!r}, ...) at 0",
                 code="overlap_at_start",
                 argument="movers",
                 movers=pair.names,
@@ -455,7 +461,8 @@ class Followed:
     def _place(self, pair: _Between, contact: Contact, which: Any, time: Any) -> tuple[Any, Any]:
         """Normal and point of a contact: as given, or of each case from the outlines."""
         take = self.ground.taker(which)
-        normal, point = contact.normal, contact.point
+        normal: Any = contact.normal
+        point: Any = contact.point
         if not self.single:
             normal = None if normal is None else tuple(part_of(part, take) for part in normal)
             point = None if point is None else tuple(part_of(part, take) for part in point)
@@ -470,7 +477,7 @@ class Followed:
                 code="missing_outline",
                 argument="outline",
             )
-        met, state_a, state_b = self._pair(pair).at(time, which)
+        met, state_a, _ = self._pair(pair).at(time, which)
         which_axis = pair.axis[which] if contact.touches else met.widest
         axis = self._axis(pair, contact, met, which_axis, which)
         centre, _, crossings = overlap_of(met.one, met.other)
@@ -479,8 +486,8 @@ class Followed:
             if self.single:
                 raise InputError(
                     f"{contact.a} and {contact.b} are {float(met.gap[0]):.3g} m apart at "
-                    f"{float(time[0]):.4g} s, where contact says that they meet; correct the states, "
-                    "at= or the outlines, write at='touch', or give normal= and point=",
+                    f"{float(time[0]):.4g} s, where contact says that they meet; correct the "
+                    "states, at= or the outlines, write at='touch', or give normal= and point=",
                     code="contact_missing",
                     argument="contacts",
                 )
@@ -577,9 +584,9 @@ class Followed:
         contact = self.contacts[int(rules[cases[0]])]
         if self.single:
             raise NoSolutionError(
-                f"the scene has not come to its end after {MOST_CONTACTS} contacts: {contact.a} and "
-                f"{contact.b} go on touching, at {self.times[0][-1]:.4g} s; a lower restitution, or "
-                "tyres or drag, would end it",
+                f"the scene has not come to its end after {MOST_CONTACTS} contacts: {contact.a} "
+                f"and {contact.b} go on touching, at {self.times[0][-1]:.4g} s; a lower "
+                "restitution, or tyres or drag, would end it",
                 code="never_ends",
                 movers=(contact.a, contact.b),
             )

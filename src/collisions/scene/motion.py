@@ -123,10 +123,12 @@ class Course:
 
     def tyres_of(self, case: int) -> Tyres | None:
         """The tyres on which a case moves now."""
-        for which, _, _, _, tyres in reversed(self._waiting):
-            if case in which:
-                return tyres
-        return next((leg.tyres for leg in reversed(self.legs) if case in leg.which), None)
+        found: Tyres | None = None
+        for leg in self.legs:
+            found = leg.tyres if case in leg.which else found
+        for which, _, _, _, tyres in self._waiting:
+            found = tyres if case in which else found
+        return found
 
     def began(self, cases: Any) -> Any:
         """When the present leg of each case began [s]."""
@@ -143,7 +145,9 @@ class Course:
         return self.legs
 
     def at(self, time: Any, cases: Any, *, before: bool = False) -> Any:
-        """The states of some cases, each at its own time; at a contact that after it, or ``before``."""
+        """The states of some cases, each at its own time; at a contact that after it, or that
+        ``before``.
+        """
         if len(self._waiting) == 1 and not self.legs and not np.any(time):
             # The start needs no motion.
             return self._waiting[0][3][:, cases]
@@ -267,12 +271,12 @@ class Course:
         for name in ("yaw_inertia", "x", "y", "heading"):
             needed(body, name, "motion on tyres", self.name)
         one = ground.single
-        take = (lambda value: value) if one else ground.taker(which)
+        take = _as_it_is if one else ground.taker(which)
         numbers = {name: getattr(body, name) for name in NAMES}
         rows = dict(zip(STATE, state, strict=True))
         if one:
             numbers |= {name: float(row[0]) for name, row in rows.items()}
-            wheels = tyres
+            wheels: Any = tyres
         else:
             numbers |= {"mass": take(body.mass), "yaw_inertia": take(body.yaw_inertia), **rows}
             wheels = part_of(tyres, take)
@@ -296,6 +300,11 @@ class Course:
     def _fail(self, cases: Any, code: str) -> None:
         fresh = cases[self.failed[cases] == ""]
         self.failed[fresh] = code
+
+
+def _as_it_is(value: Any) -> Any:
+    """The number of the one case of a scene that is no batch."""
+    return value
 
 
 class Ground(NamedTuple):

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..messages.errors import InputError
 from ..messages.hints import hinted
-from ..quantities.attributes import Shown, lock
+from ..quantities.attributes import Shown, lock, texts_given
 from ..quantities.reading import ArgumentReader
 from ..quantities.units import Input, Texts, Value, texts_of
 from ..vehicle.drag import read_drag
@@ -127,8 +127,7 @@ class Mover(Shown):
         object
         """
         value = getattr(self, name)
-        texts: Texts = self._inputs_as_texts
-        return texts.get(name, value)
+        return texts_given(self).get(name, value)
 
     @property
     def fixed(self) -> bool:
@@ -150,9 +149,8 @@ class Mover(Shown):
         return max(math.hypot(*corner) for corner in self.outline.tolist())
 
     def _texts(self) -> Iterable[Any]:
-        own: Texts = self._inputs_as_texts
         tyres = () if self.tyres is None else texts_of(self.tyres.given)
-        return (*texts_of(self.vehicle.given), *texts_of(own), *tyres)
+        return (*texts_of(self.vehicle.given), *texts_of(texts_given(self)), *tyres)
 
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         if self.drag is not None:

@@ -179,8 +179,7 @@ def _change(
     if kind in ("surfaces", "slope"):
         listed = list(arguments[kind])
         for at, value in parts.items():
-            i = int(at)
-            listed[i] = (listed[i][0], value) if kind == "surfaces" else value
+            listed[int(at)] = (listed[int(at)][0], value) if kind == "surfaces" else value
         arguments[kind] = listed if kind == "surfaces" else tuple(listed)
         return
     try:
@@ -193,25 +192,25 @@ def _change(
                 new = mover.replace(vehicle=_moving(owner[1], mover.vehicle, parts), **drag)
             arguments["movers"][owner[1]] = new
             return
-        i = int(owner[1])
-        contact = arguments["contacts"][i]
+        number = int(owner[1])
+        contact = arguments["contacts"][number]
         if kind == "after":
             after = dict(contact.tyres_after)
             after[owner[2]] = _tyres_with(after[owner[2]], parts)
-            arguments["contacts"][i] = contact.replace(tyres_after=after)
+            arguments["contacts"][number] = contact.replace(tyres_after=after)
             return
         point = [*(contact.as_given("point") or ())]
-        for at in range(2):
-            if f"point[{at}]" in parts:
+        for k in range(2):
+            if f"point[{k}]" in parts:
                 if not point:
                     text = (
-                        f"contacts[{i}].point is not given, and comes from the outlines; write "
-                        "point= in the Contact to change it"
+                        f"contacts[{number}].point is not given, and comes from the outlines; "
+                        "write point= in the Contact to change it"
                     )
                     raise InputError(text, code="unknown_name", argument="scene")
-                point[at] = parts.pop(f"point[{at}]")
+                point[k] = parts.pop(f"point[{k}]")
         whole = {"point": tuple(point)} if point else {}
-        arguments["contacts"][i] = contact.replace(**whole, **parts)
+        arguments["contacts"][number] = contact.replace(**whole, **parts)
     except CollisionsError as error:
         path = "contacts[{}]" if kind in ("contact", "after") else "{}"
         raise type(error)(
@@ -425,8 +424,8 @@ def whole_impact(run: Run, number: int) -> Impact:
         return hits[0].impact
     if len(hits) > 1:
         raise InputError(
-            f"impact {number} is on other tyres in some cases of the batch; run.case(i).impacts has "
-            "that of one case",
+            f"impact {number} is on other tyres in some cases of the batch; run.case(i).impacts "
+            "has that of one case",
             code="several_orders",
             argument="index",
         )
@@ -481,5 +480,3 @@ def as_function(
         return {path: to_quantity(result_of(run, path), unit) for path, unit in units.items()}
 
     return model
-
-

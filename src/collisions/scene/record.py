@@ -102,7 +102,7 @@ def _contact_of(found: Mapping[str, Any]) -> Contact:
     if found.keys() != set(NAMES):
         raise _bad_record(f"a contact has {', '.join(NAMES)}", "Scene")
     values = {name: read_strict(found[name]) for name in NAMES if name != "tyres_after"}
-    after = {name: tyres_of(tyres) for name, tyres in found["tyres_after"].items()}
+    after: Any = {name: tyres_of(tyres) for name, tyres in found["tyres_after"].items()}
     return Contact(**values, tyres_after=after)
 
 
@@ -123,13 +123,12 @@ def run_record(run: Run) -> dict[str, Any]:
             for rule, pair, impact in zip(run.rules, run.pairs, run.impacts, strict=True)
         ]
         found["findings"] = [notice._asdict() for notice in run.findings]
-    return strict(found)
+    record: dict[str, Any] = strict(found)
+    return record
 
 
 def run_of(record: Any) -> Run:
     """The run of a record, run again from its scene."""
-    from .run import Run
-
     try:
         if record["format"] != RUN:
             raise _bad_record(f"its format is {shown(record['format'])} and not {RUN!r}", "Run")

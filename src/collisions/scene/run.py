@@ -1,29 +1,27 @@
-"""``Run``: a scene that was followed, with its impacts, times, tracks, places of rest and energy."""
+"""``Run``: a scene that was followed: its impacts, times, tracks, places of rest and energy."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 from types import MappingProxyType
 from typing import Any, ClassVar
 
 import numpy as np
 
 from ..impact.impact import Impact
-from ..impact.inputs import index_of
 from ..messages.errors import (
     CollisionsError,
     CollisionsWarning,
     InputError,
-    MissingInputError,
-    NoSolutionError,
 )
 from ..messages.warning import warn_of_cases
 from ..quantities.attributes import Frozen, Quantities, Shown, derived, lock, show
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers
-from ..quantities.units import Input, Texts
+from ..quantities.units import Input
 from ..vehicle.drag import one_value
 from ..vehicle.vehicle import NAMES, Vehicle, vehicle_of
 from .follow import Followed, Hit, Notice
@@ -78,6 +76,9 @@ class Track(Shown):
 class Moved(Frozen, Summarized):
     """One vehicle of a run: its way and its place of rest."""
 
+    name: str
+    _run: Run
+
     def __init__(self, run: Run, name: str) -> None:
         vars(self).update(_run=run, name=name)
 
@@ -122,8 +123,8 @@ class Run(Frozen, Summarized):
             listed = ", ".join(f"{count} {code}" for code, count in many.items())
             warn_of_cases(
                 CollisionsWarning(
-                    f"{int(wrong.sum())} of {found.count} cases of the scene have no answer and are "
-                    f"NaN ({listed})",
+                    f"{int(wrong.sum())} of {found.count} cases of the scene have no answer and "
+                    f"are NaN ({listed})",
                     code="refused_cases",
                     counts=many,
                 ),
@@ -151,7 +152,7 @@ class Run(Frozen, Summarized):
     def pairs(self) -> tuple[tuple[str, str], ...]:
         """The names of the two vehicles of each impact."""
         self._refuse_orders()
-        longest = max(self._followed.sequences, key=len, default=[])
+        longest = self._followed.longest
         contacts = self.scene.contacts
         return tuple((contacts[rule].a, contacts[rule].b) for rule in longest)
 
@@ -159,7 +160,7 @@ class Run(Frozen, Summarized):
     def rules(self) -> tuple[int, ...]:
         """Of each impact, which contact of the scene it is, by its place in the list."""
         self._refuse_orders()
-        return tuple(max(self._followed.sequences, key=len, default=[]))
+        return tuple(self._followed.longest)
 
     @derived("s")
     def times(self) -> tuple[Any, ...]:
@@ -168,7 +169,7 @@ class Run(Frozen, Summarized):
 
     @derived()
     def status(self) -> Any:
-        """ "ok", or why there is no answer; of a batch an array of such labels."""
+        """Of each case "ok", or a label that says why it has no answer; of a batch an array."""
         found = self._followed
         if found.single:
             return "ok"
@@ -384,8 +385,6 @@ class Run(Frozen, Summarized):
             return NotImplemented
         return self.scene == other.scene and self.tolerance == other.tolerance
 
-    __hash__ = None  # type: ignore[assignment]
-
     def __reduce__(self) -> tuple[Any, ...]:
         return Run, (self.scene, self.tolerance)
 
@@ -414,7 +413,7 @@ class Run(Frozen, Summarized):
         found = self._followed
         if found.single:
             return
-        longest = max(found.sequences, key=len, default=[])
+        longest = found.longest
         for came in found.sequences:
             if came != longest[: len(came)]:
                 raise InputError(
@@ -487,7 +486,7 @@ class Run(Frozen, Summarized):
     def _pieces(self, moments: int = _MOMENTS) -> Iterator[tuple[Any, bool]]:
         """The moments of the clock between two bounds, of (moments, cases)."""
         bounds = self._bounds()
-        for number, (begin, end) in enumerate(zip(bounds, bounds[1:], strict=False)):
+        for number, (begin, end) in enumerate(pairwise(bounds)):
             if np.all(end <= begin):
                 if number == len(bounds) - 2 and number:
                     # The scene ends with an impact: its state after.
@@ -581,9 +580,10 @@ class Run(Frozen, Summarized):
         return f"<Run of {', '.join(self.scene.movers)}: {self._most} impacts{cases}>"
 
     def _summary(self, numbers: Cells) -> Summary:
-        movers, parts = self.scene.movers, []
+        movers = self.scene.movers
+        parts: list[Part] = []
+        rows: list[tuple[str, ...]] = []
         if self._followed.single:
-            rows = []
             for time, pair, impact in zip(self.times, self.pairs, self.impacts, strict=True):
                 rows.append(
                     (

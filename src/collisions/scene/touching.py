@@ -214,7 +214,7 @@ def first_touch(pair: Pair, begin: Any, until: Any, cases: Any) -> Touch:
 
 
 def first_apart(pair: Pair, begin: Any, until: Any, cases: Any, gap: float) -> Any:
-    """When some cases are first this far apart [s]; infinite where they are not before ``until``."""
+    """When some cases are first this far apart [s]; infinite where they are not by then."""
     time = np.array(begin, dtype=float)
     found = np.full(len(cases), np.inf)
     going = np.arange(len(cases))
