@@ -259,43 +259,45 @@ def engaged(
     ``depth`` along that axis, of which one is None; of a pair that parts before, at its deepest.
     """
 
-    def deep(time: Any) -> Any:
+    def deep(time: Any) -> tuple[Any, Any]:
+        """The depth along the axis, and the least along any: below 0 where they are apart."""
         met, *_ = pair.at(time, cases)
         axis = axis_of(met)
         p = axis[0] * met.one[0] + axis[1] * met.one[1]
         q = axis[0] * met.other[0] + axis[1] * met.other[1]
-        return p.max(axis=0) - q.min(axis=0)
+        return p.max(axis=0) - q.min(axis=0), -met.gap
 
     count = len(cases)
     width, most = (_SEARCH, _MOST_SEARCHES) if delay is None else (delay / _PARTS, _PARTS)
     time, before = np.array(touch, dtype=float), np.zeros(count)
-    reached, turned = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
+    reached, parted = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
     for _ in range(most):
-        going = ~(reached | turned)
+        going = ~(reached | parted)
         if not going.any():
             break
         time = np.where(going, time + width, time)
-        now = deep(time)
-        hit = going & (now >= (np.inf if depth is None else depth))
-        fell = going & ~hit & (now < before)
-        reached, turned, before = reached | hit, turned | fell, np.where(going, now, before)
+        now, least = deep(time)
+        hit = going & (least >= 0.0) & (now >= (np.inf if depth is None else depth))
+        falls = now < before if delay is None else np.zeros(count, dtype=bool)
+        parts = going & ~hit & ((least < 0.0) | falls)
+        reached, parted, before = reached | hit, parted | parts, np.where(going, now, before)
     due = time if delay is None else touch + delay
     if reached.any():
         left, right = np.maximum(time - width, touch), time
         for _ in range(_SECTIONS):
             middle = 0.5 * (left + right)
-            beyond = deep(middle) >= depth
+            beyond = deep(middle)[0] >= depth
             left, right = np.where(beyond, left, middle), np.where(beyond, middle, right)
         due = np.where(reached, right, due)
-    if turned.any():
-        left, right = np.maximum(time - 2.0 * width, touch), time
+    if parted.any():
+        left, right = np.array(touch, dtype=float), time
         for _ in range(_SECTIONS):
             part = _GOLDEN * (right - left)
             one, two = right - part, left + part
-            more = deep(one) > deep(two)
+            more = deep(one)[1] > deep(two)[1]
             left, right = np.where(more, left, one), np.where(more, two, right)
-        due = np.where(turned, 0.5 * (left + right), due)
-    return due, turned
+        due = np.where(parted, 0.5 * (left + right), due)
+    return due, parted
 
 
 def overlap_of(one: Any, other: Any) -> tuple[Any, Any, Any]:
