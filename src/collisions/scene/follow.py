@@ -44,6 +44,7 @@ _LEAST_CLOSING, _AGAIN = 0.02, 1.0
 # A pair is one contact until its outlines were so far apart [m].
 APART = 0.05
 MOST_CONTACTS = 20
+_MOST_ROUNDS = 200
 # Outlines overlap at the start beyond this [m].
 _OVERLAPS = 1e-6
 # Faces within this angle [rad] of each other meet face to face.
@@ -218,16 +219,17 @@ class Followed:
             if not contact.touches
         }
         alive = np.ones(self.count, dtype=bool)
-        for number in range(MOST_CONTACTS + 1):
+        for _ in range(_MOST_ROUNDS):
             times, rules = self._next(now, alive, left)
             alive = alive & (self.failed == "")
             for course in self.courses.values():
                 alive &= course.failed == ""
             comes = alive & np.isfinite(times)
+            many = np.array([len(came) >= MOST_CONTACTS for came in self.sequences], dtype=bool)
+            if (comes & many).any():
+                self._endless(np.flatnonzero(comes & many), rules)
+                comes = comes & ~many
             if not comes.any():
-                break
-            if number == MOST_CONTACTS:
-                self._endless(np.flatnonzero(comes), rules)
                 break
             now = np.where(comes, times, now)
             for rule in np.unique(rules[comes]).tolist():
@@ -235,8 +237,9 @@ class Followed:
                 if rule in left:
                     left[rule][which] = False
                 for some in self._of_one_kind(rule, which):
-                    self._strike(rule, some, now, number)
-            alive = alive & (comes | ~np.isfinite(times))
+                    self._strike(rule, some, now)
+        else:
+            self._endless(np.flatnonzero(comes), rules)
         for course in self.courses.values():
             fresh = (self.failed == "") & (course.failed != "")
             self.failed[fresh] = course.failed[fresh]
@@ -383,20 +386,36 @@ class Followed:
             groups.setdefault((id(tyres[0]), id(tyres[1])), []).append(case)
         return [np.array(cases) for cases in groups.values()]
 
-    def _strike(self, rule: int, which: Any, now: Any, number: int) -> None:
+    def _strike(self, rule: int, which: Any, now: Any) -> None:
         contact = self.contacts[rule]
-        time = now[which]
         pair = next(p for p in self._pairs if {contact.a, contact.b} == {*p.names})
+        time = now[which]
         states = {name: self.courses[name].at(time, which) for name in (contact.a, contact.b)}
-        place = self._place(pair, contact, which, time)
-        impact = self._solved(rule, contact, which, time, states, place)
+        normal, point = self._place(pair, contact, which, time)
+        if contact.touches:
+            # Two that do not close where they would push each other are passed over.
+            closes = _closing_at(contact, states, normal, point) >= _LEAST_CLOSING
+            if not closes.all():
+                self._pass_over(pair, which[~closes], time[~closes])
+                which, time = which[closes], time[closes]
+                if not len(which):
+                    return
+                states = {name: state[:, closes] for name, state in states.items()}
+                normal, point = (
+                    None
+                    if part is None
+                    else tuple(one[closes] if np.ndim(one) else one for one in part)
+                    for part in (normal, point)
+                )
+        impact = self._solved(rule, contact, which, time, states, (normal, point))
         refused = np.atleast_1d(np.asarray(impact.status)) > Status.ENERGY_GAIN
         if refused.any() and not self.single:
             labels = np.array([Status(code).label for code in np.ravel(impact.status).tolist()])
             for label in np.unique(labels[refused]).tolist():
                 self._fail(which[refused & (labels == label)], label)
         deepest = pair.deepest[which].copy() if contact.touches else np.zeros(len(which), bool)
-        self.hits.append(Hit(rule, which, time, impact, deepest, np.full(len(which), number)))
+        number = np.array([len(self.sequences[case]) for case in which.tolist()])
+        self.hits.append(Hit(rule, which, time, impact, deepest, number))
         for case, at in zip(which.tolist(), time.tolist(), strict=True):
             self.sequences[case].append(rule)
             self.times[case].append(at)
@@ -408,6 +427,18 @@ class Followed:
             if other is pair or not {contact.a, contact.b} & {*other.names}:
                 continue
             self._disturbed(other, which, time, before.get(id(other)))
+
+    def _pass_over(self, pair: _Between, which: Any, time: Any) -> None:
+        """A touch in which nothing pushes: the search goes on once the two were apart."""
+        if self.single:
+            one, other = pair.names
+            text = (
+                f"{one} and {other} touch at {float(pair.touch[0]):.3g} s and do not close where "
+                "the impulse would act; they are followed without one"
+            )
+            self.notices.append(Notice("touch_passed_over", text, float(time[0]), pair.names))
+        pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
+        pair.begun[which] = time
 
     def _closings(self, struck: _Between, which: Any, time: Any) -> dict[int, Any]:
         """How fast the pairs close that are in contact beside the one that is struck."""
@@ -652,6 +683,17 @@ class Followed:
             time=at,
             movers=(contact.a, contact.b),
         )
+
+
+def _closing_at(contact: Contact, states: Mapping[str, Any], normal: Any, point: Any) -> Any:
+    """Closing speed of each case where the impulse would act."""
+    a, b = states[contact.a], states[contact.b]
+    vx, vy = a[3] - b[3], a[4] - b[4]
+    if point is not None:
+        px, py = point
+        vx = vx - a[5] * (py - a[1]) + b[5] * (py - b[1])
+        vy = vy + a[5] * (px - a[0]) - b[5] * (px - b[0])
+    return vx * normal[0] + vy * normal[1]
 
 
 def _listed(pairs: Sequence[tuple[str, str]]) -> str:

@@ -385,8 +385,9 @@ def result_of(run: Run, path: str) -> Any:
             raise _not_so_many(run, path)
         return _inner(run.impacts[number], inner, path)
     values = np.full(followed.count, np.nan)
-    for hit in run._hits(number):
-        values[hit.which] = _inner(hit.impact, inner, path)
+    for hit, some in run._hits(number):
+        part = np.broadcast_to(_inner(hit.impact, inner, path), len(hit.which))
+        values[hit.which[some]] = part[some]
     values[followed.failed != ""] = np.nan
     return values
 
@@ -420,20 +421,20 @@ def _not_so_many(run: Run, path: str) -> InputError:
 def whole_impact(run: Run, number: int) -> Impact:
     """The impacts of one number over all cases of a batch, NaN where there is none."""
     hits, count = run._hits(number), run._followed.count
-    if len(hits) == 1 and len(hits[0].which) == count:
-        return hits[0].impact
+    if len(hits) == 1 and np.count_nonzero(hits[0][1]) == count:
+        return hits[0][0].impact
     if len(hits) > 1:
         raise InputError(
-            f"impact {number} is on other tyres in some cases of the batch; run.case(i).impacts "
-            "has that of one case",
+            f"impact {number} comes about otherwise in some cases of the batch; "
+            "run.case(i).impacts has that of one case",
             code="several_orders",
             argument="index",
         )
-    (hit,) = hits
+    ((hit, some),) = hits
 
     def spread(value: Any) -> Any:
         whole = np.full(count, np.nan)
-        whole[hit.which] = np.broadcast_to(value, len(hit.which))
+        whole[hit.which[some]] = np.broadcast_to(value, len(hit.which))[some]
         return whole
 
     return part_of_impact(hit.impact, spread, on_failure="nan")

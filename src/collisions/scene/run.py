@@ -440,8 +440,10 @@ class Run(Frozen, Summarized):
 
         return whole_impact(self, number)
 
-    def _hits(self, number: int) -> list[Hit]:
-        return [hit for hit in self._followed.hits if hit.number[0] == number]
+    def _hits(self, number: int) -> list[tuple[Hit, Any]]:
+        """What has impacts of this number, and of which of its cases they are."""
+        found = [(hit, hit.number == number) for hit in self._followed.hits]
+        return [(hit, some) for hit, some in found if some.any()]
 
     def _ends(self) -> Any:
         found = self._followed
