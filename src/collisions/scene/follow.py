@@ -21,7 +21,6 @@ from ..messages.errors import (
     Status,
 )
 from ..quantities.settings import in_si
-from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import needed
 from .contact import USUAL_DELAY, Contact
 from .motion import Course, Ground, body_at
@@ -132,9 +131,10 @@ class Followed:
         self.hits: list[Hit] = []
         self.notices: list[Notice] = []
         self.failed: Any = np.full(self.count, "", dtype=object)
-        self.sequences: list[list[int]] = [[] for _ in range(self.count)]
-        self.times: list[list[float]] = [[] for _ in range(self.count)]
-        self._tyres: dict[str, list[Tyres | None]] = {}
+        # The contacts of each case in order, and when they came; -1 and NaN after the last.
+        self.rules: Any = np.full((MOST_CONTACTS, self.count), -1)
+        self.times: Any = np.full((MOST_CONTACTS, self.count), np.nan)
+        self.many: Any = np.zeros(self.count, dtype=int)
         self._pairs = self._all_pairs(watch)
         self._follow()
 
@@ -164,9 +164,22 @@ class Followed:
         return found
 
     @property
+    def most(self) -> int:
+        """The number of contacts of the case that has most of them."""
+        return int(self.many.max(initial=0))
+
+    @property
     def longest(self) -> list[int]:
-        """The contacts of a case that has most of them."""
-        return max(self.sequences, key=lambda came: len(came), default=[])
+        """The contacts of a case that has most of them, in order."""
+        found: list[int] = self.rules[: self.most, int(self.many.argmax())].tolist()
+        return found
+
+    @property
+    def same_order(self) -> bool:
+        """Whether the contacts of all cases come in one order, as far as they go."""
+        longest = np.array(self.longest)[:, None]
+        rules = self.rules[: self.most]
+        return bool(np.all((rules == longest) | (rules < 0)))
 
     # Where things are
 
@@ -225,7 +238,7 @@ class Followed:
             for course in self.courses.values():
                 alive &= course.failed == ""
             comes = alive & np.isfinite(times)
-            many = np.array([len(came) >= MOST_CONTACTS for came in self.sequences], dtype=bool)
+            many = self.many >= MOST_CONTACTS
             if (comes & many).any():
                 self._endless(np.flatnonzero(comes & many), rules)
                 comes = comes & ~many
@@ -279,20 +292,20 @@ class Followed:
             at = self.ground.cases(self.contacts[rule].at)
             sooner = waits & alive & (at < times)
             times, rules = np.where(sooner, at, times), np.where(sooner, rule, rules)
+        # A contact that is due now needs no look ahead.
+        looks = alive & ~(times <= now)
         for pair in self._pairs:
             if pair.shapes is None:
                 continue
-            self._look_ahead(pair, now, alive, times)
+            self._look_ahead(pair, now, looks)
             if pair.rule is not None:
                 sooner = alive & (pair.due < times)
                 times = np.where(sooner, pair.due, times)
                 rules = np.where(sooner, pair.rule, rules)
         return times, rules
 
-    def _look_ahead(self, pair: _Between, now: Any, alive: Any, before: Any) -> None:
+    def _look_ahead(self, pair: _Between, now: Any, alive: Any) -> None:
         """Find the next touch of a pair where it is not known, and what becomes of it."""
-        if pair.rule is None and not self.courses:
-            return
         while True:
             cases = np.flatnonzero(alive & np.isnan(pair.touch) & np.isinf(pair.due))
             if not len(cases):
@@ -382,8 +395,8 @@ class Followed:
             return [which]
         groups: dict[tuple[int, int], list[int]] = {}
         for case in which.tolist():
-            tyres = [self.courses[name].tyres_of(case) for name in (contact.a, contact.b)]
-            groups.setdefault((id(tyres[0]), id(tyres[1])), []).append(case)
+            one, other = (int(self.courses[n].wheels_of[case]) for n in (contact.a, contact.b))
+            groups.setdefault((one, other), []).append(case)
         return [np.array(cases) for cases in groups.values()]
 
     def _strike(self, rule: int, which: Any, now: Any) -> None:
@@ -414,11 +427,10 @@ class Followed:
             for label in np.unique(labels[refused]).tolist():
                 self._fail(which[refused & (labels == label)], label)
         deepest = pair.deepest[which].copy() if contact.touches else np.zeros(len(which), bool)
-        number = np.array([len(self.sequences[case]) for case in which.tolist()])
+        number = self.many[which]
         self.hits.append(Hit(rule, which, time, impact, deepest, number))
-        for case, at in zip(which.tolist(), time.tolist(), strict=True):
-            self.sequences[case].append(rule)
-            self.times[case].append(at)
+        self.rules[number, which], self.times[number, which] = rule, time
+        self.many[which] += 1
         before = self._closings(pair, which, time)
         self._go_on(contact, which, time, states, impact)
         pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
@@ -564,7 +576,8 @@ class Followed:
             if contact.duration is not None:
                 options["duration"] = numbers(contact.duration)
                 for label, name in (("a", contact.a), ("b", contact.b)):
-                    tyres = self.courses[name].tyres_of(int(which[0]))
+                    course = self.courses[name]
+                    tyres = course.wheels[int(course.wheels_of[which[0]])]
                     options[f"tyres_{label}"] = numbers(tyres) if tyres is not None else None
         if contact.model == "solve":
             options["tolerance"] = 0.0 if contact.tolerance is None else numbers(contact.tolerance)
@@ -591,19 +604,7 @@ class Followed:
             after, state = side.after, states[name].copy()
             for row, value in zip((3, 4, 5), (after.vx, after.vy, after.yaw_rate), strict=True):
                 state[row] = value
-            course = self.courses[name]
-            tyres = contact.tyres_after.get(name)
-            if tyres is not None:
-                course.turn(which, time, hold, state, tyres)
-                continue
-            # Cases that move on other tyres, after other contacts, go on apart.
-            groups: dict[int, tuple[Tyres | None, list[int]]] = {}
-            for at, case in enumerate(which.tolist()):
-                own = course.tyres_of(case)
-                groups.setdefault(id(own), (own, []))[1].append(at)
-            for own, members in groups.values():
-                some = np.array(members)
-                course.turn(which[some], time[some], hold[some], state[:, some], own)
+            self.courses[name].turn(which, time, hold, state, contact.tyres_after.get(name))
 
     # What the scene contradicts
 
@@ -616,7 +617,7 @@ class Followed:
         if self.single:
             raise NoSolutionError(
                 f"the scene has not come to its end after {MOST_CONTACTS} contacts: {contact.a} "
-                f"and {contact.b} go on touching, at {self.times[0][-1]:.4g} s; a lower "
+                f"and {contact.b} go on touching, at {float(self.times[-1, 0]):.4g} s; a lower "
                 "restitution, or tyres or drag, would end it",
                 code="never_ends",
                 movers=(contact.a, contact.b),
@@ -627,36 +628,36 @@ class Followed:
         """Refuse a case in which a contact does not come, or the order is another; note touches
         that no contact describes.
         """
-        for case in range(self.count):
-            if self.failed[case]:
-                continue
-            came = self.sequences[case]
-            for rule, contact in enumerate(self.contacts):
-                if rule not in came:
-                    if self.single:
-                        raise self._missing(rule, contact)
-                    self._fail(np.array([case]), "contact_missing")
-            if self.order is not None:
-                took = [(self.contacts[i].a, self.contacts[i].b) for i in came]
-                if [{*pair} for pair in took] != [{*pair} for pair in self.order]:
-                    if self.single:
-                        raise NoSolutionError(
-                            f"the contacts come in the order {_listed(took)}, and order says "
-                            f"{_listed(self.order)}",
-                            code="other_order",
-                            order=tuple(took),
-                        )
-                    self._fail(np.array([case]), "other_order")
+        for rule, contact in enumerate(self.contacts):
+            absent = np.flatnonzero(~np.any(self.rules == rule, axis=0) & (self.failed == ""))
+            if len(absent) and self.single:
+                raise self._missing(rule, contact)
+            self._fail(absent, "contact_missing")
+        if self.order is not None:
+            names = [(contact.a, contact.b) for contact in self.contacts]
+            good = self.many == len(self.order)
+            for number, pair in enumerate(self.order[:MOST_CONTACTS]):
+                fits = [i for i, one in enumerate(names) if {*one} == {*pair}]
+                good &= np.isin(self.rules[number], fits)
+            if self.single and not good[0]:
+                took = [names[rule] for rule in self.longest]
+                raise NoSolutionError(
+                    f"the contacts come in the order {_listed(took)}, and order says "
+                    f"{_listed(self.order)}",
+                    code="other_order",
+                    order=tuple(took),
+                )
+            self._fail(np.flatnonzero(~good), "other_order")
         if self.single:
-            for pair in self._pairs:
-                self._note(pair)
+            for one in self._pairs:
+                self._note(one)
 
     def _note(self, pair: _Between) -> None:
         """Note touches of a pair that no contact describes."""
         found = list(pair.touched)
         if math.isfinite(float(pair.touch[0])):
             found.append((float(pair.touch[0]), float(pair.closing[0])))
-        came = zip(self.sequences[0], self.times[0], strict=True)
+        came = zip(self.longest, self.times[:, 0].tolist(), strict=False)
         timed = [time for rule, time in came if rule in pair.timed]
         one, other = pair.names
         for time, closing in found if pair.rule is None else ():

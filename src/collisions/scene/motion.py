@@ -116,19 +116,23 @@ class Course:
             (every, none, none, np.array(rows), mover.tyres)
         ]
         self.fixed = mover.fixed
+        # All tyres that it has had, and on which of them each case moves now.
+        self.wheels: list[Tyres | None] = [mover.tyres]
+        self.wheels_of: Any = np.zeros(count, dtype=int)
 
     def turn(self, which: Any, start: Any, hold: Any, state: Any, tyres: Tyres | None) -> None:
-        """Let some cases go on from a time and a state, after a contact."""
-        self._waiting.append((which, start, hold, state, tyres))
-
-    def tyres_of(self, case: int) -> Tyres | None:
-        """The tyres on which a case moves now."""
-        found: Tyres | None = None
-        for leg in self.legs:
-            found = leg.tyres if case in leg.which else found
-        for which, _, _, _, tyres in self._waiting:
-            found = tyres if case in which else found
-        return found
+        """Let some cases go on from a time and a state, after a contact: on new tyres, or on those
+        that they have.
+        """
+        if tyres is not None:
+            self.wheels_of[which] = len(self.wheels)
+            self.wheels.append(tyres)
+        on = self.wheels_of[which]
+        for kind in np.unique(on).tolist():
+            some = np.flatnonzero(on == kind)
+            self._waiting.append(
+                (which[some], start[some], hold[some], state[:, some], self.wheels[kind])
+            )
 
     def began(self, cases: Any) -> Any:
         """When the present leg of each case began [s]."""
@@ -141,7 +145,13 @@ class Course:
         """All legs, worked out."""
         while self._waiting:
             which, start, hold, state, tyres = self._waiting.pop(0)
-            self.legs.append(self._leg(which, start, hold, state, tyres))
+            # Nobody asks for the motion of a leg that ends as it begins.
+            brief = np.zeros(len(which), dtype=bool)
+            for others, begun, *_ in self._waiting:
+                next_start = np.full(self.count, np.inf)
+                next_start[others] = begun
+                brief |= next_start[which] <= start
+            self.legs.append(self._leg(which, start, hold, state, tyres, brief))
         return self.legs
 
     def at(self, time: Any, cases: Any, *, before: bool = False) -> Any:
@@ -211,7 +221,9 @@ class Course:
                 spin[here] = np.where(moving, turning / np.where(moving, stops, 1.0), 0.0)
         return push, spin
 
-    def _leg(self, which: Any, start: Any, hold: Any, state: Any, tyres: Tyres | None) -> Leg:
+    def _leg(
+        self, which: Any, start: Any, hold: Any, state: Any, tyres: Tyres | None, brief: Any
+    ) -> Leg:
         speed = np.hypot(state[3], state[4])
         still = (speed == 0.0) & (state[5] == 0.0)
         count = len(which)
@@ -223,7 +235,7 @@ class Course:
             pass
         elif tyres is not None:
             rolling = self._rolls(tyres, which, state, speed)
-            tabled = ~(rolling | (still & (self.ground.steepest == 0.0)))
+            tabled = ~(rolling | brief | (still & (self.ground.steepest == 0.0)))
             if tabled.any():
                 table = np.full((7, self.ground.moments, count), np.nan)
                 table[:, :, tabled] = self._simulated(which[tabled], begun[:, tabled], tyres)

@@ -396,7 +396,7 @@ class Run(Frozen, Summarized):
 
     @property
     def _most(self) -> int:
-        return max((len(came) for came in self._followed.sequences), default=0)
+        return self._followed.most
 
     def _refuse_batch(self, what: str) -> None:
         if not self._followed.single:
@@ -413,25 +413,21 @@ class Run(Frozen, Summarized):
         found = self._followed
         if found.single:
             return
-        longest = found.longest
-        for came in found.sequences:
-            if came != longest[: len(came)]:
-                raise InputError(
-                    "the contacts come in another order in some cases of the batch, so that an "
-                    "impact is not of the same vehicles in all; run.case(i).impacts has those of "
-                    "one case, and scene.results() paths that are of each case",
-                    code="several_orders",
-                    argument="index",
-                )
+        if not found.same_order:
+            raise InputError(
+                "the contacts come in another order in some cases of the batch, so that an "
+                "impact is not of the same vehicles in all; run.case(i).impacts has those of "
+                "one case, and scene.results() paths that are of each case",
+                code="several_orders",
+                argument="index",
+            )
 
     def _time(self, number: int) -> Any:
         found = self._followed
         if found.single:
-            return found.times[0][number]
-        times = np.full(found.count, np.nan)
-        for case, came in enumerate(found.times):
-            if len(came) > number and not found.failed[case]:
-                times[case] = came[number]
+            return float(found.times[number, 0])
+        many = found.times[number] if number < len(found.times) else np.full(found.count, np.nan)
+        times = np.where(found.failed == "", many, np.nan)
         return lock(times.reshape(self._shape))
 
     def _whole(self, number: int) -> Impact:
@@ -447,7 +443,7 @@ class Run(Frozen, Summarized):
 
     def _ends(self) -> Any:
         found = self._followed
-        last = np.array([came[-1] if came else 0.0 for came in found.times])
+        last = np.fmax.reduce(found.times, axis=0, initial=0.0)
         rests = np.array([course.rests for course in found.courses.values()])
         return np.maximum(last, np.where(np.isfinite(rests), rests, 0.0).max(axis=0))
 
@@ -481,7 +477,7 @@ class Run(Frozen, Summarized):
         ends = self._ends()
         rows = [np.zeros(found.count)]
         for number in range(self._most):
-            came = [times[number] if len(times) > number else np.nan for times in found.times]
+            came = found.times[number]
             rows.append(np.where(np.isnan(came), ends, came))
         return np.array([*rows, ends])
 
