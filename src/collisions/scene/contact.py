@@ -144,7 +144,7 @@ class Contact(Shown):
             if not isinstance(name, str) or not name:
                 text = f"{label} must be the name of a vehicle of the scene, got {shown(name)}"
                 reader.refuse(InputError(text, code="not_a_text", argument=label))
-        if isinstance(a, str) and a == b:
+        if isinstance(a, str) and isinstance(b, str) and a == b:
             text = f"a and b are both {a!r}; a contact is between two vehicles"
             reader.refuse(InputError(text, code="bad_combination", argument="b"))
         found: dict[str, Any] = {"a": a, "b": b, "plane": plane, "law": law}
@@ -159,8 +159,8 @@ class Contact(Shown):
         if not isinstance(incomplete, bool):
             text = f"incomplete must be True or False, got {shown(incomplete)}"
             reader.refuse(InputError(text, code="bad_option", argument="incomplete"))
-        found["model"] = model or "eccentric"
-        if model == "time_resolved":
+        found["model"] = "eccentric" if model is None else model
+        if isinstance(model, str) and model == "time_resolved":
             text = (
                 "model 'time_resolved' is not offered in a scene yet; write model='eccentric' and "
                 "duration=, which has the impulse of the tyres during the contact"
@@ -171,7 +171,7 @@ class Contact(Shown):
         )
         found["normal"] = None if normal is None else direction(reader, normal, "normal")
         found["point"] = None if point is None else reader.pair(point, "m", "point")
-        found["at"] = at if at == TOUCH and isinstance(at, str) else _time(reader, at)
+        found["at"] = at if isinstance(at, str) and at == TOUCH else _time(reader, at)
         found["depth"] = _length(reader, depth)
         found["delay"] = _delay(reader, delay)
         found["duration"] = None if duration is None else read_duration(reader, duration)
@@ -335,7 +335,7 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
     def refuse(text: str, argument: str, kind: type[InputError] = InputError) -> None:
         reader.refuse(kind(text, code="bad_combination", argument=argument))
 
-    model = found["model"]
+    model = found["model"] if isinstance(found["model"], str) else ""
     given = [name for name, value in rules.items() if value is not None]
     if model == "linear_central":
         for name in given:
@@ -359,14 +359,18 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
     for name in ("depth", "delay"):
         if found[name] is None:
             continue
-        if found["at"] != TOUCH or not isinstance(found["at"], str):
+        if not isinstance(found["at"], str):
             refuse(f"{name} is counted from first touch; write at='touch' with it", name)
         elif whole:
             refuse(
                 f"normal and point are given, so the impulse acts at first touch; leave {name} out",
                 name,
             )
-    if found["plane"] == "crossings" and found["normal"] is not None:
+    if (
+        isinstance(found["plane"], str)
+        and found["plane"] == "crossings"
+        and found["normal"] is not None
+    ):
         refuse("plane says how the normal comes from the outlines; leave it or normal out", "plane")
     if found["tolerance"] is not None and model != "solve":
         refuse("tolerance is for model='solve', which takes the least model within it", "tolerance")

@@ -19,6 +19,9 @@ from ..vehicle.outlines import read_outline
 from ..vehicle.tyres import Tyres, not_tyres
 from ..vehicle.vehicle import Vehicle, not_a_vehicle
 
+# Of an outline [m]: what is smaller is no vehicle, and what is larger no place.
+_LEAST, _MOST = 1e-2, 1e4
+
 
 @dataclass(frozen=True, slots=True, init=False, eq=False, repr=False)
 class Mover(Shown):
@@ -83,6 +86,14 @@ class Mover(Shown):
             )
             reader.refuse(InputError(text, code="pinned", argument="vehicle"))
         corners = None if outline is None else read_outline(reader, outline, "outline")
+        if corners is not None:
+            size = float(np.ptp(corners, axis=0).min()), float(np.ptp(corners, axis=0).max())
+            if not _LEAST <= size[0] <= size[1] <= _MOST:
+                text = (
+                    f"outline is {size[1]:.3g} m long and {size[0]:.3g} m wide, and may be from "
+                    f"{_LEAST:g} to {_MOST:g} m; give metres, such as (4.5, 1.8)"
+                )
+                reader.refuse(InputError(text, code="bad_outline", argument="outline"))
         if tyres is not None and not isinstance(tyres, Tyres):
             reader.refuse(not_tyres("tyres", tyres))
         read = None if drag is None else read_drag(reader, drag, "drag")

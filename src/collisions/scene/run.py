@@ -112,9 +112,11 @@ class Run(Frozen, Summarized):
 
     def __init__(self, scene: Scene, tolerance: float) -> None:
         ground = Ground(scene.surfaces, scene.slope, moments_for(tolerance), tolerance, scene.shape)
-        found = Followed(
-            scene.movers, scene.contacts, ground, scene.order, watch=scene.shape is None
-        )
+        # What cannot be answered is NaN, of which numpy need not warn.
+        with np.errstate(all="ignore"):
+            found = Followed(
+                scene.movers, scene.contacts, ground, scene.order, watch=scene.shape is None
+            )
         vars(self).update(scene=scene, tolerance=tolerance, _followed=found)
         wrong = found.failed != ""
         if not found.single and wrong.any():
@@ -205,9 +207,9 @@ class Run(Frozen, Summarized):
         return MappingProxyType({name: self._track(name) for name in self.scene.movers})
 
     @derived()
-    def rest(self) -> Mapping[str, Vehicle]:
-        """Each vehicle at its place of rest, by name."""
-        return _Rests(self)
+    def rest(self) -> Rests:
+        """Each vehicle at its place of rest, by name; an error for one that nothing slows."""
+        return Rests(self)
 
     @derived("s")
     def end(self) -> Any:
@@ -306,7 +308,8 @@ class Run(Frozen, Summarized):
                 )
         wanted = np.array(np.broadcast_to(read, self._shape), dtype=float).reshape(-1)
         every = np.arange(found.count)
-        states = {name: course.at(wanted, every) for name, course in found.courses.items()}
+        with np.errstate(all="ignore"):
+            states = {name: course.at(wanted, every) for name, course in found.courses.items()}
         return {name: self._body(name, state) for name, state in states.items()}
 
     def case(self, index: int | tuple[int, ...]) -> Run:
@@ -390,6 +393,12 @@ class Run(Frozen, Summarized):
 
     # Parts
 
+    def _roll_out(self) -> None:
+        """Work out all motions to their rest, so that what cannot be followed is refused."""
+        with np.errstate(all="ignore"):
+            for course in self._followed.courses.values():
+                course.settled()
+
     @property
     def _shape(self) -> tuple[int, ...]:
         return self._followed.ground.shape or ()
@@ -462,10 +471,12 @@ class Run(Frozen, Summarized):
     def _rest(self, name: str) -> Vehicle:
         found = self._followed
         course = found.courses[name]
-        rests = course.rests
+        with np.errstate(all="ignore"):
+            rests = course.rests
         if found.single and not math.isfinite(rests[0]):
             raise no_rest(name)
-        state = course.at(np.where(np.isfinite(rests), rests, 0.0), np.arange(found.count))
+        with np.errstate(all="ignore"):
+            state = course.at(np.where(np.isfinite(rests), rests, 0.0), np.arange(found.count))
         # Where nothing stops it there is no such place.
         state[:3] += np.where(np.isfinite(rests), 0.0, np.nan)
         state[3:] = 0.0
@@ -626,11 +637,15 @@ class Run(Frozen, Summarized):
         return self.scene._texts()
 
 
-class _Rests(Mapping[str, Vehicle]):
-    """Places of rest by name, each worked out when it is asked for."""
+class Rests(Frozen):
+    """Vehicles at their places of rest by name, as in a dict; each is worked out when it is asked
+    for.
+    """
+
+    _run: Run
 
     def __init__(self, run: Run) -> None:
-        self._run = run
+        vars(self).update(_run=run)
 
     def __getitem__(self, name: str) -> Vehicle:
         if name not in self._run.scene.movers:
@@ -643,8 +658,15 @@ class _Rests(Mapping[str, Vehicle]):
     def __len__(self) -> int:
         return len(self._run.scene.movers)
 
+    def __contains__(self, name: object) -> bool:
+        return name in self._run.scene.movers
+
+    def keys(self) -> Iterable[str]:
+        """The names of the vehicles."""
+        return self._run.scene.movers.keys()
+
     def __repr__(self) -> str:
-        return repr(dict(self))
+        return f"<places of rest of {', '.join(self)}>"
 
 
 def _tyre_loss(side: Any) -> float:

@@ -119,10 +119,10 @@ class Scene(Shown):
             object.__setattr__(self, name, lock(value))
         object.__setattr__(self, "_inputs_as_texts", Texts(reader.texts))
         shape = broadcast(dict(self._numbers()))
-        if shape is not None and len(shape) != 1:
+        if shape is not None and (len(shape) != 1 or not shape[0]):
             raise ShapeError(
                 f"the arrays of a scene have the shape {shape}, and must have one axis, over the "
-                "cases; give them as array.ravel()",
+                "cases, of one or more; give them as array.ravel()",
                 code="bad_shape",
                 argument="movers",
             )
@@ -164,7 +164,10 @@ class Scene(Shown):
         """
         from .run import Run
 
-        return Run(self, _read_tolerance(tolerance))
+        run = Run(self, _read_tolerance(tolerance))
+        # A motion that cannot be followed is refused here, and not when it is looked at.
+        run._roll_out()
+        return run
 
     def replace(self, changes: Mapping[str, Any]) -> Scene:
         """The scene with other numbers, each by its path.
