@@ -5,7 +5,7 @@ least squares.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -19,7 +19,7 @@ from ..quantities.attributes import lock
 from ..quantities.units import is_quantity
 from ..uncertainty.distribution import read_alike
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform
-from ..uncertainty.model import Model, range_hint
+from ..uncertainty.model import AnyModel, Model, range_hint
 from ..uncertainty.turns import folded
 from .evidence import (
     Observation,
@@ -60,7 +60,7 @@ _MOST_STEPS = 100.0  # standard errors over which slopes may be taken at most
 
 @hinted
 def fit(
-    model: Callable[..., Mapping[str, Any]],
+    model: AnyModel,
     unknowns: Mapping[str, Any],
     observed: Mapping[str, Any],
 ) -> Fit:
@@ -78,7 +78,8 @@ def fit(
     Parameters
     ----------
     model : function
-        ``model(**unknowns)`` returns a dict of named outputs. It is called with an array of cases
+        ``model(**unknowns)`` returns a dict of named outputs; or a ``scene.Scene``, with paths for
+        names. It is called with an array of cases
         for every unknown [SI] and returns arrays as long, NaN where it refuses
         (``on_failure="nan"``), as for ``uncertainty.propagate``. Each case is to be answered
         independently of the others; as a check, a few are called again by themselves. What is known

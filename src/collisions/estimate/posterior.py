@@ -18,7 +18,7 @@ from ..messages.progress import reporter
 from ..messages.warning import notes_of_samples, warn_of
 from ..quantities.attributes import lock
 from ..uncertainty.distributions import Distribution, Normal
-from ..uncertainty.model import Model, range_hint
+from ..uncertainty.model import AnyModel, Model, range_hint
 from ..uncertainty.propagation import check_options
 from ..uncertainty.sampling import Correlation, Joint
 from .evidence import Observation, observed_columns, read_evidence, read_reading, refused_everywhere
@@ -36,7 +36,7 @@ _LEAST_SAMPLES = 512
 
 @hinted
 def posterior(
-    model: Callable[..., Mapping[str, Any]],
+    model: AnyModel,
     unknowns: Mapping[str, Any],
     observed: Mapping[str, Any],
     *,
@@ -60,7 +60,7 @@ def posterior(
     ----------
     model : function
         ``model(**unknowns)`` returns a dict of named outputs, as for ``fit`` and
-        ``uncertainty.propagate``: it is called with arrays of cases [SI] and answers case by case,
+        ``uncertainty.propagate``; or a ``scene.Scene``, with paths for names. It is called with arrays of cases [SI] and answers case by case,
         NaN where it refuses (``on_failure="nan"``); the evidence counts as impossible there. What
         is known exactly is written into the model.
     unknowns : dict

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Collection, Iterable, Mapping
 from numbers import Number
 from types import FunctionType
-from typing import Any, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 
@@ -23,6 +23,19 @@ from . import turns
 from .distributions import Distribution, Interval
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
+
+
+class ByPaths(Protocol):
+    """A model with many inputs and results by name, such as a ``scene.Scene``."""
+
+    def as_model(self, names: list[str], outputs: list[str]) -> Function:
+        """The function of some of its inputs that returns some of its results."""
+
+    def results(self) -> Mapping[str, str]:
+        """The names of its results, with their units."""
+
+
+AnyModel: TypeAlias = Function | ByPaths
 
 _LOW_CASES = 4  # asked again together: as alone, a threshold of those few divides them
 # Of the width of the middle half of the answers: an iteration that goes on until every case has

@@ -25,7 +25,7 @@ from .distribution import Stated
 from .distributions import Distribution, Interval
 from .intervals import COMMON_CASES, Bounds, extremes
 from .model import (
-    Function,
+    AnyModel,
     Model,
     check_names,
     count_failed,
@@ -64,7 +64,7 @@ class Run:
 
 @hinted
 def propagate(
-    model: Function,
+    model: AnyModel,
     inputs: Mapping[str, Any],
     *,
     method: Method | None = None,
