@@ -250,3 +250,83 @@ def test_contacts_without_end_are_refused_with_the_pair() -> None:
     crash = Scene(movers={"A": Mover(a, outline=OUTLINE), **walls}, contacts=contacts)
     with pytest.raises(col.NoSolutionError, match=r"after 20 contacts: .* go on touching"):
         crash.run()
+
+
+def side_on(**contact: object) -> Scene:
+    """A strikes B in the side, ahead of its middle."""
+    a = col.Vehicle(mass=1500.0, vx=15.0, x=-8.0, y=0.0, yaw_inertia=2400.0, heading=0.0)
+    b = col.Vehicle(
+        mass=1300.0, vy=6.0, x=0.0, y=-3.0, yaw_inertia=2000.0, heading=math.radians(90.0)
+    )
+    return Scene(
+        movers={
+            "A": Mover(a, outline=OUTLINE, tyres=BRAKED),
+            "B": Mover(b, outline=OUTLINE, tyres=BRAKED),
+        },
+        contacts=[Contact("A", "B", restitution=0.1, friction=0.5, at="touch", **contact)],
+    )
+
+
+def test_the_impulse_acts_at_the_depth_or_after_the_delay_that_is_asked_for() -> None:
+    early, late = (side_on(delay=delay).run() for delay in (0.01, 0.02))
+    assert late.times[0] - early.times[0] == pytest.approx(0.01, abs=1e-9)
+    run = side_on(depth="20 cm").run()
+    impact = run.impacts[0]
+    # A's front is 2.25 m ahead of it, and the side of B, which faces up, 0.9 m before its middle.
+    overlap = (impact.a.before.x + 2.25) - (impact.b.before.x - 0.9)
+    assert overlap == pytest.approx(0.2, abs=1e-3)
+    assert impact.normal == pytest.approx((1.0, 0.0), abs=0.02)
+    assert not run.deepest[0]
+    deep = side_on(depth=20.0).run()
+    assert deep.deepest == (True,)
+    assert deep.findings[0].code == "at_deepest"
+
+
+def test_the_plane_through_the_crossings_is_that_of_both_points_where_outlines_cross() -> None:
+    face, plane = side_on().run().impacts[0], side_on(plane="crossings").run().impacts[0]
+    assert face.point == pytest.approx(plane.point, abs=1e-12)
+    # The front of A is wholly within the length of B, or its corners stick out: two crossings lie
+    # on the side of B.
+    assert math.hypot(*plane.normal) == pytest.approx(1.0, abs=1e-12)
+    assert abs(plane.normal_angle - face.normal_angle) < math.radians(40.0)
+
+
+def test_a_contact_that_lasts_has_the_impulse_of_the_tyres_once() -> None:
+    a, b = pair()
+    given = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
+    crash = Scene(
+        movers={"A": Mover(a, tyres=BRAKED), "B": Mover(b, tyres=BRAKED)},
+        contacts=[Contact("A", "B", restitution=0.1, duration="0.1 s", **given)],
+    )
+    run = crash.run()
+    alone = col.eccentric(a, b, 0.1, duration=0.1, tyres_a=BRAKED, tyres_b=BRAKED, **given)
+    after = alone.a.after
+    assert run.impacts[0].a.after.vx == after.vx
+    # The states given are those of maximum engagement, half-way through.
+    begun = after.replace(x=after.x + 0.05 * after.vx, y=after.y + 0.05 * after.vy,
+                          heading=after.heading + 0.05 * after.yaw_rate)  # fmt: skip
+    rest = simulate(begun, BRAKED, tolerance=1e-5).rest
+    assert run.rest["A"].x == pytest.approx(rest.x, abs=1e-9)
+    energy = run.energy
+    closes = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
+    assert abs(closes) < 1e-3 * energy["before"]
+
+
+def test_a_rule_is_applied_again_when_a_pair_comes_back() -> None:
+    # A spun car slaps the other with its side, as most T-bones do.
+    a = col.Vehicle(mass=1000.0, vx=8.0, x=-5.0, y=0.0, heading=0.0)
+    wall = {
+        "near": Mover(col.Vehicle.barrier(x=4.5, y=0.0, heading=0.0), outline=OUTLINE),
+        "far": Mover(col.Vehicle.barrier(x=-14.0, y=0.0, heading=0.0), outline=OUTLINE),
+    }
+    movers = {"A": Mover(a, outline=OUTLINE), **wall}
+    contacts = [Contact("A", name, restitution=0.5, **IN_ROW) for name in ("near", "far")]
+    with pytest.raises(col.NoSolutionError, match="do not close along the normal from A into far"):
+        Scene(movers=movers, contacts=contacts).run()
+    contacts[1] = Contact("far", "A", restitution=0.5, **IN_ROW)
+    run = Scene(movers=movers, contacts=contacts).run()
+    assert run.pairs[:3] == (("A", "near"), ("far", "A"), ("A", "near"))
+    speeds = [impact.closing_speed for impact in run.impacts]
+    assert speeds == pytest.approx([8.0 * 0.5**k for k in range(len(speeds))])
+    # Below 1 m/s a pair that has met is passed over.
+    assert speeds[-1] >= 1.0 > 0.5 * speeds[-1]

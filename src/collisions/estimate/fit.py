@@ -79,11 +79,10 @@ def fit(
     ----------
     model : function
         ``model(**unknowns)`` returns a dict of named outputs; or a ``scene.Scene``, with paths for
-        names. It is called with an array of cases
-        for every unknown [SI] and returns arrays as long, NaN where it refuses
-        (``on_failure="nan"``), as for ``uncertainty.propagate``. Each case is to be answered
-        independently of the others; as a check, a few are called again by themselves. What is known
-        exactly is written into the model.
+        names. It is called with an array of cases for every unknown [SI] and returns arrays as
+        long, NaN where it refuses (``on_failure="nan"``), as for ``uncertainty.propagate``. Each
+        case is to be answered independently of the others; as a check, a few are called again by
+        themselves. What is known exactly is written into the model.
     unknowns : dict
         By name, what is known before: a ``Normal`` (a prior, which has weight; ``truncate=`` gives
         bounds), a ``Uniform`` or an ``Interval`` (bounds without weight), or a number, text or

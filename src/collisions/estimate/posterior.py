@@ -60,9 +60,9 @@ def posterior(
     ----------
     model : function
         ``model(**unknowns)`` returns a dict of named outputs, as for ``fit`` and
-        ``uncertainty.propagate``; or a ``scene.Scene``, with paths for names. It is called with arrays of cases [SI] and answers case by case,
-        NaN where it refuses (``on_failure="nan"``); the evidence counts as impossible there. What
-        is known exactly is written into the model.
+        ``uncertainty.propagate``; or a ``scene.Scene``, with paths for names. It is called with
+        arrays of cases [SI] and answers case by case, NaN where it refuses (``on_failure="nan"``);
+        the evidence counts as impossible there. What is known exactly is written into the model.
     unknowns : dict
         By name, the prior (what was known before): any distribution of ``uncertainty``, truncated
         or not. An ``Interval`` says nothing about likelihood and is refused: give ``Uniform``.

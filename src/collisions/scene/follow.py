@@ -674,6 +674,11 @@ class Followed:
         near, at = float(pair.nearest[0]), float(pair.nearest_at[0])
         if not math.isfinite(near):
             reason = "do not part and meet again"
+        elif near <= TOUCHING:
+            reason = (
+                f"touch at {at:.3g} s, and do not close along the normal from {contact.a} into "
+                f"{contact.b} where the impulse would act"
+            )
         else:
             reason = f"are {near:.3g} m apart at their closest, at {at:.3g} s"
         return NoSolutionError(

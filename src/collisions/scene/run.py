@@ -662,7 +662,12 @@ class Rests(Frozen):
         return name in self._run.scene.movers
 
     def keys(self) -> Iterable[str]:
-        """The names of the vehicles."""
+        """The names of the vehicles.
+
+        Returns
+        -------
+        iterable of str
+        """
         return self._run.scene.movers.keys()
 
     def __repr__(self) -> str:
