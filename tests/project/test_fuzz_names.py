@@ -1474,7 +1474,7 @@ def scene_contact(case: Case, a: Any, b: Any) -> Any:
     if isinstance(model, str) and model == "solve" and case.maybe(0.6):
         given["tolerance"] = case.value("tolerance")
     if case.maybe(0.1):
-        given["duration"] = case.value("duration")
+        given |= {"duration": case.value("duration"), "model": case.option("eccentric", "solve")}
     if case.maybe(0.1):
         given["tyres_after"] = {a: scene_tyres(case)}
     if case.maybe(0.2):

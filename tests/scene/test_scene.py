@@ -291,12 +291,20 @@ def test_the_plane_through_the_crossings_is_that_of_both_points_where_outlines_c
     assert abs(plane.normal_angle - face.normal_angle) < math.radians(40.0)
 
 
+def test_what_is_not_offered_says_what_to_write() -> None:
+    rule = {"restitution": 0.1, "friction": 0.5, "duration": 0.1}
+    with pytest.raises(col.InputError, match="write model='eccentric'"):
+        Contact("A", "B", **rule)
+    with pytest.raises(col.InputError, match="'time_resolved' is not offered in a scene yet"):
+        Contact("A", "B", model="time_resolved", **rule)
+
+
 def test_a_contact_that_lasts_has_the_impulse_of_the_tyres_once() -> None:
     a, b = pair()
     given = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
     crash = Scene(
         movers={"A": Mover(a, tyres=BRAKED), "B": Mover(b, tyres=BRAKED)},
-        contacts=[Contact("A", "B", restitution=0.1, duration="0.1 s", **given)],
+        contacts=[Contact("A", "B", restitution=0.1, model="eccentric", duration="0.1 s", **given)],
     )
     run = crash.run()
     alone = col.eccentric(a, b, 0.1, duration=0.1, tyres_a=BRAKED, tyres_b=BRAKED, **given)

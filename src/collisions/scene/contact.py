@@ -70,7 +70,8 @@ class Contact(Shown):
     model : {"linear_central", "oblique_central", "eccentric", "solve"}, optional
         The solver; ``eccentric`` if not given. ("time_resolved" is not offered in a scene yet.)
     duration : float, str, Quantity or array [s], optional
-        How long the contact lasts, for the impulse of the tyres, as for ``eccentric``. The vehicles
+        How long the contact lasts, for the impulse of the tyres, as for ``eccentric``, with
+        ``model`` "eccentric" or "solve", which then has to be stated. The vehicles
         then move on by the velocities after it until it has passed, and from there on their tyres.
     tolerance : float, str, Quantity or array [m/s], optional
         With the model "solve", the largest error that is accepted.
@@ -186,7 +187,7 @@ class Contact(Shown):
             domain: Domain = RULES[name].domain
             found[name] = None if value is None else one_value(reader, value, "", name, domain)
         found["tyres_after"] = _tyres_after(reader, tyres_after, (a, b))
-        _check(reader, found, rules)
+        _check(reader, found, rules, stated=model is not None)
         reader.close()
         texts = Texts(
             {key: text for key, text in reader.texts.items() if not key.startswith("normal[")}
@@ -329,7 +330,9 @@ def _tyres_after(reader: ArgumentReader, given: Any, pair: tuple[Any, Any]) -> M
     return dict(given)
 
 
-def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str, Any]) -> None:
+def _check(
+    reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str, Any], *, stated: bool
+) -> None:
     """Refuse arguments that do not go together."""
 
     def refuse(text: str, argument: str, kind: type[InputError] = InputError) -> None:
@@ -374,6 +377,13 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
         refuse("plane says how the normal comes from the outlines; leave it or normal out", "plane")
     if found["tolerance"] is not None and model != "solve":
         refuse("tolerance is for model='solve', which takes the least model within it", "tolerance")
+    if found["duration"] is not None and not stated:
+        refuse(
+            "duration is given without a model; write model='eccentric', which has the impulse of "
+            "the tyres during the contact (a contact followed in time is not offered in a scene "
+            "yet)",
+            "duration",
+        )
     if found["duration"] is not None and model not in ("eccentric", "solve"):
         refuse(f"model {model!r} takes no time; leave duration out, or use eccentric", "duration")
     law = found["law"]
