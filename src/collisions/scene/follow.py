@@ -190,8 +190,14 @@ class Followed:
         def states(time: Any, cases: Any) -> tuple[Any, Any]:
             return one.at(time, cases), other.at(time, cases)
 
-        def bounds(cases: Any) -> tuple[Any, Any, Any, Any]:
-            return *one.bounds(cases), *other.bounds(cases)
+        kept: list[Any] = []
+
+        def bounds(cases: Any) -> Any:
+            if not kept:
+                every = np.arange(self.count)
+                rows = (*one.bounds(every), *other.bounds(every))
+                kept.append(np.array([np.broadcast_to(row, self.count) for row in rows]))
+            return kept[0][:, cases]
 
         return Pair(*pair.shapes, states, bounds)
 

@@ -19,6 +19,8 @@ _MOST_STEPS = 3000
 # No step is longer [s] where velocities change: bounds of the yaw rate hold for as long.
 _LONGEST_STEP = 0.2
 _SHORTEST_STEP = 1e-12
+# Whether a pair has parted is looked at no more often [s].
+_SHORTEST_LOOK = 1e-2
 _SECTIONS = 48
 _GOLDEN = 0.6180339887498949
 # The depth of an overlap is looked at this often [s], or in so many parts of a delay.
@@ -107,7 +109,7 @@ class Pair(NamedTuple):
     a: Shape
     b: Shape
     states: Callable[[Any, Any], tuple[Any, Any]]
-    bounds: Callable[[Any], tuple[Any, Any, Any, Any]]
+    bounds: Callable[[Any], Any]
 
     def at(self, time: Any, cases: Any) -> tuple[Meeting, Any, Any]:
         """The outlines, and both states, at a time of each case."""
@@ -230,7 +232,7 @@ def first_apart(pair: Pair, begin: Any, until: Any, cases: Any, gap: float) -> A
         away += pair.a.reach * np.abs(state_a[5]) + pair.b.reach * np.abs(state_b[5])
         step = _steps(np.maximum(gap - met.gap, 0.0), away, bend)
         step = np.where(bend > 0.0, np.minimum(step, _LONGEST_STEP), step)
-        time[going] = now + np.maximum(step, 2e-3)
+        time[going] = now + np.maximum(step, _SHORTEST_LOOK)
         going = going[~apart & (now < until[going]) & np.isfinite(met.gap)]
     return found
 
