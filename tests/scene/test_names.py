@@ -219,3 +219,15 @@ def test_cases_of_a_batch_go_in_orders_of_their_own() -> None:
     assert np.isnan(run.times[0][4])
     with pytest.raises(col.NoSolutionError, match="does not come"):
         run.case(4)
+
+
+@pytest.mark.slow
+def test_places_of_rest_on_tyres_can_be_propagated_whatever_is_drawn() -> None:
+    inputs = {"Camry.vx": Normal(18.0, 1.0), "ground": Uniform(0.6, 0.8)}
+    scene = Scene(movers=crash().movers, contacts=crash().contacts, shared=crash().shared)
+    for seed in range(3):
+        found = propagate(
+            scene, inputs, outputs=["Camry.rest.x", "Civic.rest.y"], samples=128, seed=seed
+        )
+        assert found.failed == 0
+        assert found["Civic.rest.y"].std > 0.5

@@ -480,4 +480,5 @@ def as_function(
         run = Run(replaced(scene, values), tolerance)
         return {path: to_quantity(result_of(run, path), unit) for path, unit in units.items()}
 
+    vars(model)["answers_by_case"] = True
     return model
