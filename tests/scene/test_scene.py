@@ -338,3 +338,20 @@ def test_a_rule_is_applied_again_when_a_pair_comes_back() -> None:
     assert speeds == pytest.approx([8.0 * 0.5**k for k in range(len(speeds))])
     # Below 1 m/s a pair that has met is passed over.
     assert speeds[-1] >= 1.0 > 0.5 * speeds[-1]
+
+
+@pytest.mark.parametrize("slope", [(0.0, 0.0), (0.05, "-3 %")])
+@pytest.mark.parametrize(
+    "slowed",
+    [{"drag": 0.5}, {"tyres": BRAKED}, {"tyres": BRAKED.replace(height=0.5)}, {}],
+    ids=["drag", "tyres", "load transfer", "unslowed"],
+)
+def test_energy_closes_on_any_ground(slope: tuple[object, object], slowed: object) -> None:
+    flat = side_on()
+    movers = {
+        name: Mover(mover.vehicle, outline=OUTLINE, **slowed) for name, mover in flat.movers.items()
+    }
+    run = Scene(movers=movers, contacts=flat.contacts, slope=slope).run()
+    energy = run.energy
+    closes = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
+    assert abs(closes) < 1e-5 * energy["before"]

@@ -565,7 +565,8 @@ class Run(Frozen, Summarized):
             speed = math.hypot(leg.state[3, 0], leg.state[4, 0])
             slowing = speed / stops if 0.0 < stops < math.inf else 0.0
             power = on_drag(mover, found.ground, state, slowing)
-        if found.ground.steepest:
+        # What moves on unslowed does so on a slope too.
+        if found.ground.steepest and (leg.tyres is not None or mover.drag is not None):
             power = power + on_slope(mover, found.ground, state)
         marks = np.where(held, np.nan, marks)
         return np.where(held, 0.0, power), marks

@@ -51,7 +51,7 @@ class Scene(Shown):
         Areas with a different friction, each with three or more corners [m] in order, for movers
         with tyres. The first that a wheel is in counts.
     slope : pair of float, str, Quantity or array [-]
-        Rise over run of the ground along x and along y.
+        Rise over run of the ground along x and along y, for movers with tyres or a drag.
     order : list of pairs of names, optional
         The order of the contacts that an account claims, such as ``[("A", "B"), ("B", "C")]``. A
         case that goes otherwise is refused, with the order that it takes.
@@ -144,7 +144,7 @@ class Scene(Shown):
         ----------
         tolerance : float [-]
             How finely motion on tyres is followed, as for ``travel.simulate``, 1e-10 to 0.01. At
-            the default the energy of the scene closes to 1e-3, at 1e-6 to 1e-4.
+            the default the energy of the scene closes to 1e-3, and mostly to 1e-6.
 
         Returns
         -------
