@@ -15,6 +15,7 @@ from ..impact.inputs import part_of
 from ..messages.errors import CollisionsError, MissingInputError, NoSolutionError
 from ..messages.warning import quietly
 from ..quantities.settings import in_si
+from ..quantities.units import Texts, texts_of
 from ..travel import simulate
 from ..vehicle.drag import GRAVITY
 from ..vehicle.tyres import Tyres
@@ -389,4 +390,5 @@ def body_at(
         for one in ("mass", "yaw_inertia"):
             numbers[one] = part_of(numbers[one], take)
     numbers["name"] = name
-    return vehicle_of(numbers)
+    # Shown in the units that the mover was given in.
+    return vehicle_of(numbers, given=Texts(units=texts_of(body.given)))

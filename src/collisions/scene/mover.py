@@ -13,6 +13,7 @@ from ..messages.errors import InputError
 from ..messages.hints import hinted
 from ..quantities.attributes import Shown, lock, texts_given
 from ..quantities.reading import ArgumentReader
+from ..quantities.tables import Cells, Part, Summary, all_numbers
 from ..quantities.units import Input, Texts, Value, texts_of
 from ..vehicle.drag import read_drag
 from ..vehicle.outlines import read_outline
@@ -162,6 +163,22 @@ class Mover(Shown):
     def _texts(self) -> Iterable[Any]:
         tyres = () if self.tyres is None else texts_of(self.tyres.given)
         return (*texts_of(self.vehicle.given), *texts_of(texts_given(self)), *tyres)
+
+    def _summary(self, numbers: Cells) -> Summary:
+        rows = [*self.vehicle._summary(numbers).parts[0].rows]
+        if self.outline is not None:
+            length, width = (float(size) for size in np.ptp(self.outline, axis=0))
+            rows.append(("outline", f"{numbers.text(length, 'm')} by {numbers.text(width, 'm')}"))
+        if self.drag is not None:
+            rows.append(("drag", numbers.text(self.drag, "")))
+        parts = [Part(rows)]
+        if self.tyres is not None:
+            parts += [
+                part._replace(heading="Tyres")
+                for part in self.tyres._summary(numbers).parts
+                if not part.folded
+            ]
+        return Summary(self.vehicle.name or self._title, [*parts, all_numbers(self._rows())])
 
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         if self.drag is not None:

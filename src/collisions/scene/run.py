@@ -21,7 +21,7 @@ from ..messages.warning import warn_of_cases
 from ..quantities.attributes import Frozen, Quantities, Shown, derived, lock, show
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers
-from ..quantities.units import Input
+from ..quantities.units import Input, Texts, texts_of
 from ..vehicle.drag import one_value
 from ..vehicle.vehicle import NAMES, Vehicle, vehicle_of
 from .follow import Followed, Hit, Notice
@@ -466,7 +466,8 @@ class Run(Frozen, Summarized):
         for one, row in zip(STATE, state + missing, strict=True):
             if numbers[one] is not None:
                 numbers[one] = row.reshape(self._shape)
-        return vehicle_of(numbers | {"name": name})
+        texts = Texts(units=texts_of(body.given))
+        return vehicle_of(numbers | {"name": name}, given=texts)
 
     def _rest(self, name: str) -> Vehicle:
         found = self._followed

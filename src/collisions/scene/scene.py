@@ -17,6 +17,7 @@ from ..messages.hints import hinted
 from ..quantities.attributes import Shown, lock, same, texts_given
 from ..quantities.reading import ArgumentReader, broadcast
 from ..quantities.settings import Default
+from ..quantities.tables import Cells, Part, Summary, all_numbers
 from ..quantities.units import Input, Pair, Texts, Value, shown, texts_of
 from ..vehicle.drag import read_friction
 from ..vehicle.vehicle import numbers_of
@@ -339,6 +340,32 @@ class Scene(Shown):
         for part in (*self.movers.values(), *self.contacts):
             yield from part._texts()
         yield from texts_of(texts_given(self))
+
+    def _summary(self, numbers: Cells) -> Summary:
+        rows = []
+        for name, mover in self.movers.items():
+            body = mover.vehicle
+            slowed = (
+                "tyres" if mover.tyres is not None else "drag" if mover.drag is not None else ""
+            )
+            cells = (
+                numbers.text(body.mass, "kg"),
+                numbers.text(body.speed, "m/s"),
+                numbers.text(body.heading, "rad", "heading"),
+                slowed or "nothing",
+            )
+            rows.append((name, *cells))
+        contacts = []
+        for contact in self.contacts:
+            at = "touch" if isinstance(contact.at, str) else numbers.text(contact.at, "s")
+            e = numbers.text(contact.restitution, "")
+            contacts.append((f"{contact.a} and {contact.b}", at, contact.model, e))
+        parts = [
+            Part(rows, "Movers", ("mass", "speed", "heading", "slowed by")),
+            Part(contacts, "Contacts", ("at", "model", "restitution")),
+            all_numbers(self._rows()),
+        ]
+        return Summary(self._title, parts)
 
     def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
         yield f"{prefix}movers", ", ".join(self.movers)
