@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 import collisions as col
-from collisions import plot, reconstruct, reference, reporting, travel, uncertainty
+from collisions import plot, reconstruct, reference, reporting, scene, travel, uncertainty
 from collisions.uncertainty import (
     Censored,
     Interval,
@@ -325,6 +325,37 @@ def on_the_ground() -> float:
         + tyres.replace(height=0.5).wheelbase
     )
     return one + lasts + run_out.speed + rest + travel.speed([10.0, 5.0], drag=[0.7, 0.3])
+
+
+def whole_crash() -> float:
+    """A scene, forward and as a model."""
+    outline = ("4.5 m", 1.8)
+    tyres = travel.Tyres(0.7, 1, "2.7 m", 1.5)
+    contact = scene.Contact(
+        "A", "B", restitution="10 %", friction=0.5, at="touch", tyres_after={"A": tyres}
+    )
+    crash = scene.Scene(
+        movers={
+            "A": scene.Mover(a, outline=outline, tyres=tyres),
+            "B": scene.Mover(b, outline=outline).replace(drag="70 %"),
+        },
+        contacts=[contact.replace(delay="20 ms")],
+        surfaces=[([(20, -5), (30, -5), ("30 m", 5)], 0.3)],
+        order=[("A", "B")],
+    )
+    run: scene.Run = crash.replace({"A.vx": "50 km/h"}).run(tolerance=1e-5)
+    again = scene.Run.from_dict(run.to_dict())
+    found = uncertainty.propagate(
+        crash, {"A.vx": Normal("50 km/h", 1)}, outputs=["B.rest.x"], samples=256
+    )
+    model = crash.as_model(["A.vx"], list(crash.results())[:1])
+    print(crash.inputs(), contact.as_given("delay"), run.summary(), run.to_columns(), model)
+    print(scene.Scene.from_dict(crash.to_dict()).case(0).run().case(0), crash.movers["A"].reach)
+    struck: col.Impact = run.impacts[0]
+    x = float(run["A"].rest.q.x.m_as("m") + run.rest["B"].speed + again.at("1 s")["B"].speed)
+    print([*run.rest.keys()], struck.energy_loss, float(run.energy["ground"]))
+    mean: float = found["B.rest.x"].mean
+    return x + mean
 
 
 def ranges() -> tuple[float, float]:
