@@ -151,8 +151,9 @@ def speeds(
         contact stuck. If it slid at that ratio, it only repeats the friction: the answers are a
         family, which begins at the answer of the contact that stuck, and one speed must be known.
         Components do not tell which it was: see ``regime`` and ``slid``. An energy greater than a
-        contact that stuck loses was lost by sliding. delta_v_forward_b, delta_v_left_b : float,
-        str, Quantity or array [m/s], optional The same of B.
+        contact that stuck loses was lost by sliding.
+    delta_v_forward_b, delta_v_left_b : float, str, Quantity or array [m/s], optional
+        The same of B.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
@@ -198,8 +199,9 @@ def speeds(
         ``reference.RECORDER_ACCURACY``; beyond three times that they are refused. Or the contact
         was stated to have stuck, or was taken to, and may have slid (code "may_slide"): sticking
         needs an impulse ratio at which contacts between vehicles slide, from
-        ``reference.INTER_VEHICLE_FRICTION.low`` on. Or, with no speed known, the courses are near
-        one line.
+        ``reference.INTER_VEHICLE_FRICTION.low`` on. Or a bound was asked for, and the ratio is
+        further from the friction than recorders may be; or cases of a batch leave open whether the
+        contact stuck or slid. Or, with no speed known, the courses are near one line.
     CollisionsWarning
         Some cases of a batch have no answer; they are NaN, and ``status`` of the first impact says
         why.
