@@ -387,8 +387,8 @@ def ranges() -> tuple[float, float]:
     low, high = found["speed"].interval(0.95)
     chance: tuple[float, float] = found["speed"].probability(lambda v: v > 13.9)
     chance = found.probability(lambda at: at["speed"] > chance[0])
-    left: uncertainty.Halved = found.if_halved()
-    print(left["drag"]["speed"], left.now, left.q, left.to_dict(), left.summary("us"))
+    halved: uncertainty.Halved = found.if_halved()
+    print(halved["drag"]["speed"], halved.now, halved.q, halved.to_dict(), halved.summary("us"))
     mean: float = found["speed"].mean
     joint: dict[str, Samples] = Samples.joint(speed=[10.0, 12.0], mass=[1500.0, 1490.0])
     score = joint["speed"].scored(0.5) + Normal.between("20 m/s", 25, 0.9).quantile(0.5)
@@ -445,7 +445,7 @@ def refused() -> float | None:
     except (col.MissingInputError, col.UnitsError, col.ShapeError) as error:
         print(error.fields["argument"])
     except col.InternalError as error:
-        return error.code
+        print(error.code)
     except col.NoSolutionError as error:
         print(error.solutions)
     except col.CollisionsError as error:

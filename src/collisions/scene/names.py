@@ -22,7 +22,7 @@ from ..quantities.directions import direction
 from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.tables import cells
-from ..vehicle.tyres import LOCKS
+from ..vehicle.tyres import LOCKS, as_given
 from ..vehicle.vehicle import UNITS as OF_VEHICLE
 from ..vehicle.vehicle import Vehicle
 from .contact import UNITS as OF_CONTACT
@@ -230,7 +230,7 @@ def _tyres_with(tyres: Any, parts: Mapping[str, Any]) -> Any:
             code="unknown_name",
             argument="scene",
         )
-    given = tyres.as_given("lock")
+    given = as_given(tyres, "lock")
     given = [parts.get(name, one) for name, one in zip(LOCKS, given, strict=True)]
     rest = {name: value for name, value in parts.items() if name not in LOCKS}
     return tyres.replace(lock=given, **rest)
