@@ -114,9 +114,7 @@ class Run(Frozen, Summarized):
         ground = Ground(scene.surfaces, scene.slope, moments_for(tolerance), tolerance, scene.shape)
         # What cannot be answered is NaN, of which numpy need not warn.
         with np.errstate(all="ignore"):
-            found = Followed(
-                scene.movers, scene.contacts, ground, scene.order, watch=scene.shape is None
-            )
+            found = Followed(scene.movers, scene.contacts, ground, scene.order)
         vars(self).update(scene=scene, tolerance=tolerance, _followed=found)
         wrong = found.failed != ""
         if not found.single and wrong.any():
