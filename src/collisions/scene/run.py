@@ -193,11 +193,14 @@ class Run(Frozen, Summarized):
         return tuple(sorted(notices, key=lambda one: one.time))
 
     @derived()
-    def deepest(self) -> tuple[bool, ...]:
+    def deepest(self) -> tuple[Any, ...]:
         """Of each impact, whether the vehicles parted before the depth or delay that was asked for,
         so that it acts at their deepest.
         """
-        return tuple(bool(hit.deepest[0]) for hit in self._followed.hits)
+        found = self._followed
+        if found.single:
+            return tuple(bool(hit.deepest[0]) for hit in found.hits)
+        return tuple(self._deepest(number) for number in range(self._most))
 
     @derived()
     def paths(self) -> Mapping[str, Track]:
@@ -404,6 +407,13 @@ class Run(Frozen, Summarized):
     @property
     def _most(self) -> int:
         return self._followed.most
+
+    def _deepest(self, number: int) -> Any:
+        """Of one impact of every case of a batch, whether it acts at the deepest."""
+        found = np.zeros(self._followed.count, dtype=bool)
+        for hit, some in self._hits(number):
+            found[hit.which[some]] = hit.deepest[some]
+        return lock(found)
 
     def _refuse_batch(self, what: str) -> None:
         if not self._followed.single:
