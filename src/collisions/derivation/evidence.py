@@ -13,6 +13,7 @@ from .contact import pdof
 from .expressions import ZERO, Direction, Expression, Function, magnitude, signed_total, total
 from .page import Page
 from .symbols import Symbol, delta_v
+from .wheels import tyre_inputs
 
 # The results of planar momentum: vehicle, description and kind.
 MOMENTUM_ANSWERS = {
@@ -53,10 +54,19 @@ class _Momenta:
             course = getattr(solution, name.replace("speed", "course"))
             if course is not None:
                 self.course[name] = Symbol(rf"\theta_{index}", course, "angle")
-        outside = {axis: getattr(solution, f"outside_impulse_{axis}") for axis in "xy"}
-        self.outside = {
-            axis: Symbol(f"J_{axis}", j, "impulse") for axis, j in outside.items() if j is not None
-        }
+        self.pushes = {axis: list(self._pushes(axis)) for axis in "xy"}
+
+    def _pushes(self, axis: str) -> Iterator[tuple[str, Symbol]]:
+        """Where an impulse that is not the contact's comes from, and its part along an axis."""
+        stated = getattr(self.solution, f"outside_impulse_{axis}")
+        if stated is not None:
+            whence = "An impulse from outside was stated"
+            yield whence, Symbol(f"J_{axis}", stated, "impulse")
+        for label in self.solution.tyres:
+            of = label.upper()
+            found = getattr(self.solution, f"tyre_impulse_{axis}_{label}")
+            whence = f"The tyres of {of} give an impulse while the contact lasts"
+            yield whence, Symbol(rf"J_{{{of}{axis}}}", found, "impulse")
 
     def along(self, name: str, function: str, axis: Expression = ZERO) -> Expression:
         """The component of a velocity along x, or along an axis at another angle."""
@@ -93,6 +103,41 @@ def momentum_inputs(solution: MomentumSolution) -> Iterator[tuple[str, str, str,
                 outside,
                 "impulse",
             )
+    if solution.duration is not None:
+        yield "both", "duration, for the tyres", "duration", solution.duration, "duration"
+    for label in "ab":
+        rate = getattr(solution, f"yaw_rate_{label}_after")
+        if rate is not None:
+            yield label.upper(), "yaw rate after", f"yaw_rate_{label}_after", rate, "yaw rate"
+    for what, name, value, kind in tyre_inputs(solution.tyres):
+        yield "contact", what, name, value, kind
+
+
+def momentum_assumption(solution: MomentumSolution) -> str:
+    """What planar momentum takes for granted, in sentences."""
+    found = (
+        "The momentum of both vehicles together is the same before and after, along x and along "
+        "y (1), (2), save for an impulse from outside that is stated. Nothing is assumed of "
+        "restitution, friction or rotation."
+    )
+    labels = [label.upper() for label in solution.tyres]
+    if not labels:
+        return found
+    lacking = [
+        label for label in labels if getattr(solution, f"yaw_rate_{label.lower()}_after") is None
+    ]
+    unturned = (
+        f"; after it, the yaw rate of {' and of '.join(lacking)} was not given and taken as 0"
+        if lacking
+        else ""
+    )
+    return (
+        f"{found} While the contact lasts the tyres of {' and of '.join(labels)} act: the mean of "
+        "their force before it, half-way through it and after it (Simpson's rule), times its "
+        "duration, is in the balance. That force follows from the speeds found, which were found "
+        "again with it, three times. Before the contact no vehicle turns; half-way through it 29 "
+        f"percent of the change of velocity have passed, as in a plastic contact{unturned}."
+    )
 
 
 def momentum(page: Page, solution: MomentumSolution) -> None:
@@ -105,11 +150,7 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
     page.heading("Given")
     page.table(rows)
     page.heading("Planar momentum")
-    page.say(
-        "The momentum of both vehicles together is the same before and after, along x and along "
-        "y (1), (2). Nothing is assumed of restitution, friction or rotation. Unknown are the "
-        "two speeds along their courses."
-    )
+    page.say(f"{momentum_assumption(solution)} Unknown are the two speeds along their courses.")
     for axis, function in (("x", "cos"), ("y", "sin")):
         _balance(page, m, axis, function)
     first, second = solution.unknowns
@@ -155,11 +196,9 @@ def _balance(page: Page, m: _Momenta, axis: str, function: str) -> None:
         )
         for when in ("before", "after")
     )
-    if axis in m.outside:
-        page.say(
-            f"An impulse from outside was stated; along {axis} it is {page.shown(m.outside[axis])}."
-        )
-        left = left + m.outside[axis]
+    for whence, push in m.pushes[axis]:
+        page.say(f"{whence}; along {axis} it is {page.shown(push)}.")
+        left = left + push
     page.balance(f"Momentum along {axis} (2)", left, right, "impulse")
 
 
@@ -180,8 +219,8 @@ def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
         if other not in own and course.value != across.value and m.speed[other].value
     ]
     found = signed_total(sorted(terms, key=lambda term: -term[0]))
-    if m.outside:
-        moment = m.outside["y"] * Function("cos", across) - m.outside["x"] * Function("sin", across)
+    for (_, x), (_, y) in zip(m.pushes["x"], m.pushes["y"], strict=True):
+        moment = y * Function("cos", across) - x * Function("sin", across)
         found = found.plus(1.0 if when == "after" else -1.0, moment)
     if found is ZERO:
         page.fact(
@@ -249,6 +288,10 @@ def momentum_answers(page: Page, solution: MomentumSolution) -> Iterator[tuple[s
         value = getattr(solution, name)
         if _is_known(value) and (name in solution.unknowns or name not in _SPEEDS):
             yield of, what, page.answer(name, value, kind)
+    for label in solution.tyres:
+        for axis in "xy":
+            push = getattr(solution, f"tyre_impulse_{axis}_{label}")
+            yield label.upper(), f"impulse of the tyres, along {axis}", page.number(push, "impulse")
 
 
 def fit(page: Page, found: Fit) -> None:

@@ -5,7 +5,7 @@ cases and energy gains.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from functools import partial
@@ -39,7 +39,7 @@ from ..quantities.attributes import lock
 from ..quantities.tables import Sentences, said
 from ..quantities.units import shown
 from ..vehicle.tyres import DOMAINS as TYRE_DOMAINS
-from ..vehicle.tyres import could_lift
+from ..vehicle.tyres import Tyres, could_lift
 from ..vehicle.vehicle import DOMAINS, with_name
 from .inputs import Inputs, first_case, named_numbers, part_of_inputs
 from .models import TIME_RESOLVED, Model, float_function, in_form, kind_of, model_of, read_again
@@ -334,7 +334,7 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
         )
     add_arrays(FINITE, *(inputs.point or ()), *(inputs.outside_a or ()), *(inputs.outside_b or ()))
     add_arrays(RULES[inputs.rule].domain, inputs.rule_value)
-    found += _tyre_checks(inputs)
+    found += tyre_checks(inputs.tyres)
     for name, domains in TIME_DOMAINS.items():
         given = getattr(inputs, name)
         for part, domain in zip(
@@ -344,12 +344,12 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
     return found
 
 
-def _tyre_checks(inputs: Inputs) -> list[Any]:
-    """The same of the tyres."""
+def tyre_checks(tyres_of: Mapping[str, Tyres]) -> list[Any]:
+    """The same of the tyres of each vehicle."""
     from ..engine.batch import Check
 
     found = []
-    for tyres in inputs.tyres.values():
+    for tyres in tyres_of.values():
         for name, value in tyres.named.items():
             domain = TYRE_DOMAINS[name.partition("[")[0]]
             if isinstance(value, np.ndarray):
@@ -371,7 +371,7 @@ def _where_tyres_hold(inputs: Inputs, raw: Any) -> Any:
     """
     with np.errstate(all="ignore"):
         status = raw.status.copy()
-        for check in reversed(_tyre_checks(inputs)):
+        for check in reversed(tyre_checks(inputs.tyres)):
             fault = np.broadcast_to(check.fault(*check.values), status.shape)
             np.copyto(status, fault, where=np.not_equal(fault, Status.OK), casting="unsafe")
     refused = status > Status.ENERGY_GAIN

@@ -17,6 +17,7 @@ from ..quantities.attribute_stubs import MomentumSolutionQuantities
 from ..quantities.attributes import Shown, derived, same
 from ..quantities.tables import Cells, Part, Summary, all_numbers, sided
 from ..quantities.units import Value, to_quantity
+from ..vehicle.tyres import Tyres
 
 # The arguments that give attributes which may be None.
 _NEEDED = {
@@ -24,6 +25,7 @@ _NEEDED = {
     "pdof_b": "heading_b",
     "closing_speed": "normal",
     "restitution": "normal",
+    **{f"tyre_impulse_{axis}_{label}": f"tyres_{label}" for label in "ab" for axis in "xy"},
 }
 _SENSITIVITY_UNITS = {
     "mass": "m/s/kg",
@@ -95,6 +97,15 @@ class MomentumSolution(Shown):
     normal_angle: Value | None = field(default=None, metadata={"unit": "rad"})
     outside_impulse_x: Value | None = field(default=None, metadata={"unit": "N*s"})
     outside_impulse_y: Value | None = field(default=None, metadata={"unit": "N*s"})
+    duration: Value | None = field(default=None, metadata={"unit": "s"})
+    yaw_rate_a_after: Value | None = field(default=None, metadata={"unit": "rad/s"})
+    yaw_rate_b_after: Value | None = field(default=None, metadata={"unit": "rad/s"})
+    tyre_impulse_x_a: Value | None = field(default=None, metadata={"unit": "N*s"})
+    tyre_impulse_y_a: Value | None = field(default=None, metadata={"unit": "N*s"})
+    tyre_impulse_x_b: Value | None = field(default=None, metadata={"unit": "N*s"})
+    tyre_impulse_y_b: Value | None = field(default=None, metadata={"unit": "N*s"})
+    tyres_a: Tyres | None = field(default=None)
+    tyres_b: Tyres | None = field(default=None)
     # The arguments as they were given, texts and numbers, from which one case can be solved again.
     given: Mapping[str, Any] | None = field(default=None)
 
@@ -152,8 +163,16 @@ class MomentumSolution(Shown):
         )
         return [f"{np.count_nonzero(which)} {many} {what}" for which, what in said if np.any(which)]
 
+    @property
+    def tyres(self) -> dict[str, Tyres]:
+        """The tyres by vehicle, "a" and "b", of those that have some."""
+        both = (("a", self.tyres_a), ("b", self.tyres_b))
+        return {label: one for label, one in both if one is not None}
+
     def _texts(self) -> Iterable[Any]:
-        return (self.given or {}).values() or Shown._texts(self)
+        texts = [value for value in (self.given or {}).values() if not isinstance(value, Tyres)]
+        of_tyres = [text for one in self.tyres.values() for text in one.given.values()]
+        return [*texts, *of_tyres] or Shown._texts(self)
 
     @derived()
     def ok(self) -> Any:

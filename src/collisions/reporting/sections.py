@@ -10,7 +10,7 @@ from typing import Any
 
 from .. import reference
 from ..derivation import reverse
-from ..derivation.evidence import momentum_answers, momentum_inputs
+from ..derivation.evidence import momentum_answers, momentum_assumption, momentum_inputs
 from ..derivation.explain import impact_answers, impact_inputs
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
@@ -28,6 +28,7 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.tables import label_of
 from ..quantities.units import Input
 from ..reconstruct import MomentumSolution, Posterior
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle
 from .render import Sheet, given_as, plain
 
@@ -313,6 +314,9 @@ def momentum(
     """Inputs, assumptions and results of planar momentum, and how far each input moves them."""
     given: dict[str, Any] = {}
     for name, value in (solution.given or {}).items():
+        if isinstance(value, Tyres):
+            given |= {f"{name}.{one}": text for one, text in value.given.items()}
+            continue
         given |= (
             {f"{name}[{at}]": part for at, part in enumerate(value)}
             if isinstance(value, list)
@@ -327,11 +331,7 @@ def momentum(
     sheet.table([*rows, *_damage(sheet, options)])
     sheet.heading("Assumptions")
     together = " The vehicles leave together." if "together" in given else ""
-    sheet.say(
-        "The momentum of both vehicles together is the same before and after, along x and along "
-        "y (1), (2), save for an impulse from outside that is stated. Nothing is assumed of "
-        f"restitution, friction or rotation.{together}"
-    )
+    sheet.say(f"{momentum_assumption(solution)}{together}")
     sheet.heading("Results")
     sheet.table(momentum_answers(sheet, solution))
     system, of_speed = sheet.system, sheet.system.scale("speed")

@@ -1,0 +1,140 @@
+"""What tyres do to planar momentum while the contact lasts: read, worked out, and, where none were
+given, estimated as what was left out.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..impact.pulse import passed
+from ..impact.run import tyre_checks
+from ..impact.time_resolved_inputs import DOMAINS, impulse_of, read_lasting
+from ..kernels.status import Status
+from ..messages.errors import InputError, MissingInputError
+from ..quantities.reading import ArgumentReader
+from ..vehicle.drag import GRAVITY
+from ..vehicle.tyres import Tyres
+
+# Of a plastic contact, the share of the impulse that has passed at half of its time: momentum
+# knows no restitution, and one of 0.2 would make it 0.34 instead of 0.29.
+_HALF = passed(0.0, 0.5)
+# Each takes the force of the tyres from the motions that the one before has found.
+CORRECTIONS = 3
+
+
+class Lasting(NamedTuple):
+    """The duration of a contact, the tyres that act in it, by vehicle, and the yaw rates after that
+    were given.
+    """
+
+    duration: Any
+    tyres: dict[str, Tyres]
+    yaw_rates: dict[str, Any]
+
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """Every number by its name."""
+        found = {"duration": self.duration}
+        found |= {f"yaw_rate_{label}_after": rate for label, rate in self.yaw_rates.items()}
+        return found | {
+            f"tyres_{label}.{name}": value
+            for label, tyres in self.tyres.items()
+            for name, value in tyres.named.items()
+        }
+
+    def faults(self) -> Iterator[tuple[Any, Any]]:
+        """The faults of arrays, whose elements the reader does not check, with their status."""
+        if np.ndim(self.duration):
+            for domain in DOMAINS["duration"]:
+                yield from ((fault(self.duration), status) for fault, status in domain.faults)
+        for rate in self.yaw_rates.values():
+            yield ~np.isfinite(rate), Status.NOT_FINITE
+        for check in tyre_checks(self.tyres):
+            fault = check.fault(*check.values)
+            yield np.not_equal(fault, Status.OK), fault
+
+    def impulses(
+        self,
+        masses: Mapping[str, Any],
+        headings: Mapping[str, Any],
+        velocities: Mapping[str, tuple[Any, Any]],
+        single: bool,
+    ) -> dict[str, tuple[Any, Any]]:
+        """Impulse of the tyres of each vehicle that has some, along x and y.
+
+        The force of the wheels before, half-way through and after the contact, by Simpson's rule.
+        Before it no vehicle turns. ``velocities`` are by the names of speeds.
+        """
+        found = {}
+        for label, tyres in self.tyres.items():
+            before, after = velocities[f"speed_{label}"], velocities[f"speed_{label}_after"]
+            changes = [now - was for was, now in zip(before, after, strict=True)]
+            numbers = [*before, 0.0, *changes, self.yaw_rates.get(label, 0.0)]
+            if single:
+                numbers = [float(number) for number in numbers]
+            x, y, _ = impulse_of(
+                tyres,
+                (masses[label], math.inf, headings[label]),
+                numbers[:3],
+                numbers[3:],
+                (_HALF, self.duration),
+                single=single,
+            )
+            found[label] = x, y
+        return found
+
+
+def read_tyres(
+    reader: ArgumentReader,
+    duration: Any,
+    tyres: tuple[Any, Any],
+    yaw_rates: tuple[Any, Any],
+    headings: tuple[Any, Any],
+) -> Lasting | None:
+    """Duration, tyres and yaw rates after, or None where the contact is taken as an instant."""
+    given = {label: rate for label, rate in zip("ab", yaw_rates, strict=True) if rate is not None}
+    found: dict[str, Any] = {"tyres_a": None, "tyres_b": None}
+    if duration is not None or tyres != (None, None):
+        found = read_lasting(reader, "momentum", None, None, duration, tyres, ", or leave it out")
+    own = {label: found[f"tyres_{label}"] for label in "ab" if found[f"tyres_{label}"] is not None}
+    for label, heading in zip("ab", headings, strict=True):
+        if label in own and heading is None:
+            text = (
+                f"heading_{label} is missing, and momentum with tyres_{label} needs it: wheels "
+                f"roll along it; write heading_{label}='30 deg'"
+            )
+            reader.refuse(
+                MissingInputError(text, code="missing_heading", argument=f"heading_{label}")
+            )
+    rates = {}
+    for label, rate in given.items():
+        name = f"yaw_rate_{label}_after"
+        rates[label] = reader.number(rate, "rad/s", name)
+        if tyres["ab".index(label)] is None:
+            text = (
+                f"{name} counts for the tyres of {label.upper()} alone, and there are none: give "
+                f"duration= and tyres_{label}=, or leave it out"
+            )
+            reader.refuse(InputError(text, code="bad_combination", argument=name))
+    return Lasting(found["duration"], own, rates) if own and "duration" in found else None
+
+
+def sliding(
+    mass: Any, before: tuple[Any, Any], after: tuple[Any, Any], drag: Any, duration: Any
+) -> tuple[Any, Any]:
+    """Impulse of tyres that slide against the motion of a vehicle all the while, as ``left_out``
+    takes them where none were given: Simpson's rule over before, half-way and after.
+    """
+    x: Any = 0.0
+    y: Any = 0.0
+    for weight, share in ((1.0, 0.0), (4.0, _HALF), (1.0, 1.0)):
+        vx, vy = (was + share * (now - was) for was, now in zip(before, after, strict=True))
+        speed = np.hypot(vx, vy)
+        speed = np.where(speed > 0.0, speed, 1.0)
+        x, y = x - weight / 6.0 * vx / speed, y - weight / 6.0 * vy / speed
+    most = mass * drag * GRAVITY * duration
+    return most * x, most * y
