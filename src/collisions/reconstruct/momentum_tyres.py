@@ -11,13 +11,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..impact.pulse import passed
-from ..impact.run import tyre_checks
-from ..impact.time_resolved_inputs import DOMAINS, impulse_of, read_lasting
+from ..impact.time_resolved_inputs import impulse_of, read_lasting
 from ..kernels.status import Status
 from ..messages.errors import InputError, MissingInputError
 from ..quantities.reading import ArgumentReader
 from ..vehicle.drag import GRAVITY
 from ..vehicle.tyres import Tyres
+from .lasting import numbers_of_times, tyre_faults
 
 # Of a plastic contact, the share of the impulse that has passed at half of its time: momentum
 # knows no restitution, and one of 0.2 would make it 0.34 instead of 0.29.
@@ -38,24 +38,15 @@ class Lasting(NamedTuple):
     @property
     def numbers(self) -> dict[str, Any]:
         """Every number by its name."""
-        found = {"duration": self.duration}
-        found |= {f"yaw_rate_{label}_after": rate for label, rate in self.yaw_rates.items()}
-        return found | {
-            f"tyres_{label}.{name}": value
-            for label, tyres in self.tyres.items()
-            for name, value in tyres.named.items()
-        }
+        rates = {f"yaw_rate_{label}_after": rate for label, rate in self.yaw_rates.items()}
+        wheels = {f"tyres_{label}": tyres for label, tyres in self.tyres.items()}
+        return numbers_of_times({"duration": self.duration, **wheels}) | rates
 
     def faults(self) -> Iterator[tuple[Any, Any]]:
         """The faults of arrays, whose elements the reader does not check, with their status."""
-        if np.ndim(self.duration):
-            for domain in DOMAINS["duration"]:
-                yield from ((fault(self.duration), status) for fault, status in domain.faults)
         for rate in self.yaw_rates.values():
             yield ~np.isfinite(rate), Status.NOT_FINITE
-        for check in tyre_checks(self.tyres):
-            fault = check.fault(*check.values)
-            yield np.not_equal(fault, Status.OK), fault
+        yield from tyre_faults(self.duration, self.tyres)
 
     def impulses(
         self,
