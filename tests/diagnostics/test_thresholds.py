@@ -283,6 +283,34 @@ def turned_normal_yaw(share):
     return off_the_wall(low)
 
 
+def moved_by_the_normal(share):
+    """As for ``turned_normal``, five degrees apart, where nothing else moves by more than a tenth;
+    in no time tyres do nothing.
+    """
+    along = math.sin(math.radians(5.0)) / share
+    velocity = {"vx": 20.0 * along, "vy": 20.0 * math.sqrt(1.0 - along**2)}
+    return aslant(**velocity, friction=None, impulse_ratio=0.0), {"duration": "1 ns"}
+
+
+def turned_by_what_moves(rate):
+    """A yaw rate is in proportion to the speed, and so is each change of it: by the point, the
+    normal, the restitution and the impulse ratio, from levers along normal and tangent.
+    """
+
+    def yaw(aside=0.0, angle=0.0, e=0.0, ratio=0.0):
+        x, y = 2.0, -0.5 + aside
+        rn = x * math.cos(angle) + y * math.sin(angle)
+        rt = y * math.cos(angle) - x * math.sin(angle)
+        yields = 1.0 / 1500.0 + rt * (rt - ratio * rn) / 2600.0
+        return (1.0 + e) * math.cos(angle) / yields * (rt - ratio * rn) / 2600.0
+
+    turn = math.radians(5.0)
+    ways = ({"aside": 0.25}, {"angle": turn}, {"e": 0.1}, {"ratio": 0.1})
+    others = [{name: -by for name, by in way.items()} for way in ways if "e" not in way]
+    largest = max(abs(yaw(**way) - yaw()) for way in (*ways, *others))
+    return off_the_wall(0.5, vx=rate / largest, friction=None, impulse_ratio=0.0)
+
+
 def without_an_inertia(count):
     """The contact half-way between the centres is beside both, which matters by the yaw
     inertias.
@@ -374,6 +402,8 @@ ROWS = [
     Row("law_yaw", 0.25, OWN, other_yaw),
     Row("normal", 0.2, MESSAGES, turned_normal),
     Row("normal_yaw", 0.5, OWN, turned_normal_yaw),
+    Row("moves", 0.2, OWN, moved_by_the_normal),
+    Row("moves_yaw", 2.0, OWN, turned_by_what_moves),
     Row("friction_low", 0.3, "SAE 970947", lambda x: aslant(vy=60.0, friction=x), below=True),
     Row("ratio_high", 1.0, "SAE 970947", lambda x: aslant(vy=60.0, friction=x)),
     Row("suspect_mass", 150.0, OWN, lambda x: in_line(b={"mass": x}), below=True),

@@ -1,5 +1,5 @@
-"""``planar`` with tyres: the forward solver is found again to rounding, in single cases, batches and
-studies, and everything that prints or records an input has the tyres.
+"""``planar`` with tyres: the forward solver is found again to rounding, in single cases, batches
+and studies, and everything that prints or records an input has the tyres.
 """
 
 import json
@@ -97,6 +97,7 @@ def test_the_forward_answer_is_found_again(kind):
     """
     rng = random.Random(3901)
     answers, same, several, lost, refused = 0, 0, 0, 0, 0
+    codes = set()
     while answers < 60:
         (a, b), e, contact = drawn(rng)
         with warnings.catch_warnings():
@@ -121,7 +122,7 @@ def test_the_forward_answer_is_found_again(kind):
                 refused += error.code not in ("stick_inverse", "inverse_e0")
                 continue
             except col.InputError as error:
-                assert error.code == "bad_combination"
+                codes.add(error.code)
                 continue
         answers += 1
         same += begins_so(found, impact) < 1e-6
@@ -133,6 +134,7 @@ def test_the_forward_answer_is_found_again(kind):
             assert found.restitution == known
     assert same >= answers - 1
     assert several > 0
+    assert codes <= {"bad_combination"}
     assert lost <= 2
     assert refused <= 2
 
@@ -263,8 +265,8 @@ def test_what_decides_is_said_for_the_lasting_contact():
     """A slow slip: sliding either way or not at all ends so, and each of the solutions leads to
     this end while the tyres act.
     """
-    rng, met = random.Random(7), 0
-    while met < 3:
+    rng, met = random.Random(7), []
+    while len(met) < 3:
         (a, b), e, contact = drawn(rng)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", col.CollisionsWarning)
@@ -272,14 +274,13 @@ def test_what_decides_is_said_for_the_lasting_contact():
                 end = col.eccentric(a, b, e, **contact)
                 reconstruct.planar(end.a.after, end.b.after, restitution=e, **contact)
             except col.AmbiguousSolutionError as error:
-                met += 1
-                assert len(error.solutions) > 1
-                assert max(ends_so(one, end) for one in error.solutions) < 1e-9
-                assert {one.reconstruction.answers for one in error.solutions} == {
-                    len(error.solutions)
-                }
+                met.append((end, error.solutions))
             except (col.NoImpactError, col.NoSolutionError):
                 continue
+    for end, solutions in met:
+        assert len(solutions) > 1
+        assert max(ends_so(one, end) for one in solutions) < 1e-9
+        assert {one.reconstruction.answers for one in solutions} == {len(solutions)}
 
 
 @pytest.mark.parametrize(

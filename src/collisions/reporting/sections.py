@@ -15,6 +15,7 @@ from ..derivation.explain import impact_answers, impact_inputs
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note
+from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
 from ..impact.left_out import LeftOutSide, left_out
 from ..impact.models import BY_NAME
@@ -677,6 +678,31 @@ def findings(sheet: Sheet, found: Findings) -> None:
         f"{len(found.measured)} checks were made. A finding is a reason to look again, not an "
         f"error.{others}"
     )
+
+
+def moves(sheet: Sheet, found: Moves) -> None:
+    """Write what would move the answer, largest first."""
+    if not found:
+        return
+    sheet.say(
+        "What would move this answer, the larger of both ways; the share is that of the vehicle's "
+        "own delta-V, of A or of B, whichever is larger:"
+    )
+    rows = []
+    for move in found:
+        if math.isinf(move.share):
+            rows.append((plain(move.what), "change", "there is no answer then"))
+            continue
+        for what, changes, kind in (
+            ("delta-V", (move.delta_v_a, move.delta_v_b), "speed"),
+            ("yaw rate after", (move.yaw_rate_a, move.yaw_rate_b), "yaw rate"),
+        ):
+            known = [change for change in changes if change is not None]
+            if known:
+                text = ", ".join(sheet.system.answer(change, kind) for change in known)
+                text += f" ({percent(move.share)})" if kind == "speed" else ""
+                rows.append((plain(move.what), f"change of the {what} of A, of B", text))
+    sheet.table(rows)
 
 
 def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Finding]) -> None:
