@@ -238,6 +238,10 @@ CASES = {
         lambda: (square(a={"vx": 3.0}), {}),
         lambda: (square(a={"vx": 3.0}), {"duration": "10 ms"}),
     ),
+    "instant": (
+        lambda: (planar(0.2), {"duration": "200 ms"}),
+        lambda: (planar(0.2), {"duration": "1 ms"}),
+    ),
     "model": (lambda: (central(a={"y": 1.0}), {}), lambda: (central(), {})),
     "law": (
         lambda: (square(b={"y": -1.0, "vy": -15.0}, restitution=0.3, friction=math.inf), {}),

@@ -283,6 +283,21 @@ def turned_normal_yaw(share):
     return off_the_wall(low)
 
 
+def momentum_without_its_tyres(share):
+    """A comes along x at 12 m/s, B along y at 10, both leave with (6, 5): what sliding tyres take
+    of the momentum along x and along y in 0.1 s is by Simpson's rule, and in proportion to a drag.
+    """
+    half = 1.0 - math.cos(0.25 * math.pi)
+    taken = [0.0, 0.0]
+    for before in ((12.0, 0.0), (0.0, 10.0)):
+        for weight, passed in ((1.0, 0.0), (4.0, half), (1.0, 1.0)):
+            now = [was + passed * (end - was) for was, end in zip(before, (6.0, 5.0), strict=True)]
+            for axis in range(2):
+                taken[axis] += weight / 6.0 * now[axis] / math.hypot(*now)
+    largest = max(taken[0] / 12.0, taken[1] / 10.0) * GRAVITY * 0.1
+    return by_momentum(), {"drag": share / largest}
+
+
 def moved_by_the_normal(share):
     """As for ``turned_normal``, five degrees apart, where nothing else moves by more than a tenth;
     in no time tyres do nothing.
@@ -397,6 +412,9 @@ ROWS = [
     Row("tyre_impulse", 0.25, OWN, lambda x: in_line(2.0 * 0.7 * GRAVITY * 0.1 / x)),
     Row("tyre_impulse", 0.25, OWN, lambda x: by_momentum((6.0, 0.8 * 0.07 * GRAVITY / x),
         (0.6 * 0.07 * GRAVITY / x, 5.0))),
+    Row("instant", 0.1, MESSAGES, lambda x: reconstruct.central(
+        1500.0, 1500.0, va=2.0 * 0.07 * GRAVITY / x, vb=0.0, restitution=0.0)),
+    Row("instant", 0.1, MESSAGES, momentum_without_its_tyres),
     Row("model", 0.1, MESSAGES, off_centre),
     Row("law", 0.1, MESSAGES, other_tangential_impulse),
     Row("law_yaw", 0.25, OWN, other_yaw),

@@ -5,6 +5,7 @@ made here, the forward solver, and everything that prints or records an input.
 import json
 import math
 import random
+import re
 
 import numpy as np
 import pytest
@@ -242,3 +243,40 @@ def test_what_cannot_be_used_is_refused(arguments, code, argument):
         found(**arguments)
     assert refused.value.code == code
     assert refused.value.fields["argument"] == argument
+
+
+def test_without_tyres_it_says_what_that_leaves_out():
+    """The estimate is nearly what wheels that slide change, which is worked out with them."""
+    instant = found()
+    sliding = found(duration=0.1, tyres_a=locked(0.7), tyres_b=locked(0.7))
+    assert sliding.statements == ()
+    (sentence,) = instant.statements
+    assert sentence.startswith("found as an instant, which leaves out the tyres")
+    for name in ("speed_a", "speed_b"):
+        change = getattr(sliding, name) - getattr(instant, name)
+        said = re.search(rf"{name} would be ([0-9.]+) m/s (more|less)", sentence)
+        assert float(said[1]) == pytest.approx(abs(change), rel=0.06)
+        assert (said[2] == "more") == (change > 0.0)
+    for text in (
+        explain(instant, form="text"),
+        str(instant.summary()),
+        col.report(instant, form="markdown", figures=False),
+    ):
+        assert "which leaves out the tyres" in " ".join(text.split())
+
+
+def test_what_a_planar_reconstruction_leaves_out_is_said():
+    a = col.Vehicle(mass=1437.0, yaw_inertia=2311.0, vx=14.0, x=-2.0, y=0.4, heading=0.1)
+    b = col.Vehicle(mass=1213.0, yaw_inertia=1877.0, vy=6.0, x=2.0, y=0.0, heading=1.3)
+    contact = {"normal": 0.07, "point": (0.05, 0.09), "friction": 0.08}
+    end = col.eccentric(a, b, 0.15, **contact)
+    assert end.statements == ()
+    answer = reconstruct.planar(end.a.after, end.b.after, restitution=0.15, **contact)
+    left = col.left_out(answer)
+    tyres = max(left.a.tyre_share, left.b.tyre_share)
+    motion = max(left.a.geometry_share, left.b.geometry_share)
+    (sentence,) = answer.statements
+    assert f"about {100 * tyres:.0f} percent for tyres that slide" in sentence
+    assert f"and {100 * motion:.0f} percent for point and normal that move on" in sentence
+    for text in (explain(answer, form="text"), col.report(answer, form="markdown", figures=False)):
+        assert "Found as an instant" in text

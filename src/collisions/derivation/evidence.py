@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterator
 
 from ..quantities.formatting import KIND_OF, in_words, percent
+from ..quantities.tables import as_sentence
 from ..reconstruct import Fit, MomentumSolution
 from .contact import pdof
 from .expressions import ZERO, Direction, Expression, Function, magnitude, signed_total, total
@@ -182,6 +183,8 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
     )
     page.heading("Answers")
     page.table(momentum_answers(page, solution))
+    for sentence in solution.statements:
+        page.say(as_sentence(sentence))
 
 
 def _balance(page: Page, m: _Momenta, axis: str, function: str) -> None:

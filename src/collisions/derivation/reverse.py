@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from ..impact.impact import Impact
 from ..impact.provenance import KNOWN, Reconstruction, how_many
 from ..kernels.central import shares
+from ..quantities.tables import as_sentence
 from .expressions import HALF, ONE, ZERO, Expression, root
 from .models import Lever, impulse_in_scene_axes
 from .page import Page
@@ -60,6 +61,8 @@ def state_before(page: Page, s: Symbols) -> None:
         _planar(page, s, origin.known[0])
     elif origin.method == "speeds":
         _speeds(page, s, origin.known)
+    for sentence in s.impact.statements:
+        page.say(as_sentence(sentence))
     page.say("What follows is the same impact solved forwards; it must reproduce what was known.")
 
 

@@ -10,8 +10,10 @@ from typing import Any
 
 from ..impact.impact import Impact
 from ..impact.inputs import PLACED
+from ..impact.instant import neglected
 from ..impact.provenance import how_many
 from ..impact.side import Side
+from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..reference import INTER_VEHICLE_FRICTION
 from ..vehicle.drag import GRAVITY
 from .case import RATIO_ROUNDING, Case, ImpactCase, MomentumCase, off_by, plain
@@ -128,6 +130,25 @@ def tyre_impulse(case: Case) -> Iterator[Measured]:
             f"delta-V of {case.text(vehicle.delta_v, 'speed')}"
         )
         yield Measured(part, sentence, label)
+
+
+@finding(
+    "in a reconstruction without tyres, what an instant leaves out, as a share of delta-V, or of "
+    "a speed that momentum found",
+    above(0.1),
+    f"the 10 percent by which delta-V may differ between methods, {MESSAGES}",
+)
+def instant(case: Case) -> Iterator[Measured]:
+    if isinstance(case, MomentumCase):
+        left = momentum_neglect(
+            case.answer, case.duration, case.drag, lambda speed: case.text(speed, "speed")
+        )
+        if left is not None:
+            yield Measured(left.share, left.sentence)
+    elif case.left_out is not None:
+        neglect = neglected(case.answer, case.left_out)
+        if neglect is not None:
+            yield Measured(neglect.share, neglect.sentence)
 
 
 @finding(

@@ -15,9 +15,11 @@ from ..kernels.status import Status
 from ..messages.errors import MissingInputError
 from ..quantities.attribute_stubs import MomentumSolutionQuantities
 from ..quantities.attributes import Shown, derived, same
-from ..quantities.tables import Cells, Part, Summary, all_numbers, sided
+from ..quantities.tables import Cells, Part, Sentences, Summary, all_numbers, as_sentence, sided
 from ..quantities.units import Value, to_quantity
+from ..vehicle.drag import USUAL_DURATION
 from ..vehicle.tyres import Tyres
+from .momentum_tyres import neglected
 
 # The arguments that give attributes which may be None.
 _NEEDED = {
@@ -143,7 +145,7 @@ class MomentumSolution(Shown):
         return Summary(
             self._title,
             [*sided(values, numbers), changes, all_numbers(self._rows())],
-            self._outcome(),
+            [*self._outcome(), *map(as_sentence, self.statements)],
         )
 
     def _outcome(self) -> list[str]:
@@ -168,6 +170,15 @@ class MomentumSolution(Shown):
         """The tyres by vehicle, "a" and "b", of those that have some."""
         both = (("a", self.tyres_a), ("b", self.tyres_b))
         return {label: one for label, one in both if one is not None}
+
+    @property
+    def statements(self) -> tuple[str, ...]:
+        """What has to be said beside the numbers: without tyres, by how much the speeds would
+        differ if all wheels slid for 0.1 s with a drag of 0.7.
+        """
+        say = Sentences(self._texts())
+        found = neglected(self, float(USUAL_DURATION), 0.7, lambda speed: say(speed, "speed", 2))
+        return () if found is None else (found.sentence,)
 
     def _texts(self) -> Iterable[Any]:
         texts = [value for value in (self.given or {}).values() if not isinstance(value, Tyres)]

@@ -5,8 +5,8 @@ given, estimated as what was left out.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,9 @@ from ..quantities.reading import ArgumentReader
 from ..vehicle.drag import GRAVITY
 from ..vehicle.tyres import Tyres
 from .lasting import numbers_of_times, tyre_faults
+
+if TYPE_CHECKING:
+    from .momentum_solution import MomentumSolution
 
 # Of a plastic contact, the share of the impulse that has passed at half of its time: momentum
 # knows no restitution, and one of 0.2 would make it 0.34 instead of 0.29.
@@ -112,6 +115,73 @@ def read_tyres(
             )
             reader.refuse(InputError(text, code="bad_combination", argument=name))
     return Lasting(found["duration"], own, rates) if own and "duration" in found else None
+
+
+class Neglect(NamedTuple):
+    """By how much tyres would change the speeds that were found, the largest as a share of its
+    speed, and the sentence for it.
+    """
+
+    changes: dict[str, float]
+    share: float
+    sentence: str
+
+
+def neglected(
+    solution: MomentumSolution, duration: float, drag: float, say: Callable[[float], str]
+) -> Neglect | None:
+    """What an answer without tyres leaves out if all wheels slid: the change of both speeds found,
+    in a batch in the median; None of an answer with tyres, and where there is none.
+
+    ``say`` writes a speed.
+    """
+    if solution.tyres:
+        return None
+    push_x: Any = 0.0
+    push_y: Any = 0.0
+    with np.errstate(all="ignore"):
+        for label in "ab":
+            before, after = (_velocity(solution, f"speed_{label}{when}") for when in ("", "_after"))
+            mass = getattr(solution, f"mass_{label}")
+            x, y = sliding(mass, before, after, drag, duration)
+            push_x, push_y = push_x + x, push_y + y
+        courses = [getattr(solution, name.replace("speed", "course")) for name in solution.unknowns]
+        together = solution.speed_b_after is solution.speed_a_after
+        changes, shares = {}, []
+        for name, own, other in zip(solution.unknowns, courses, courses[::-1], strict=True):
+            mass = getattr(solution, f"mass_{name[6]}")
+            if together and name == "speed_a_after":
+                mass = solution.mass_a + solution.mass_b
+            sign = -1.0 if name.endswith("after") else 1.0
+            across = push_x * np.sin(other) - push_y * np.cos(other)
+            change = -sign * across / (mass * np.sin(other - own))
+            changes[name] = _middle(change)
+            shares.append(_middle(abs(change / getattr(solution, name))))
+    if not all(map(math.isfinite, (*changes.values(), *shares))):
+        return None
+    parts = [
+        f"{name} would be {say(abs(change))} {'more' if change > 0.0 else 'less'}"
+        for name, change in changes.items()
+    ]
+    sentence = (
+        f"found as an instant, which leaves out the tyres: if all wheels slid for {duration:.3g} s "
+        f"with a drag of {drag:.2g}, {' and '.join(parts)}; give duration= and tyres_a=, tyres_b="
+    )
+    return Neglect(changes, max(shares), sentence)
+
+
+def _velocity(solution: MomentumSolution, name: str) -> tuple[Any, Any]:
+    """Along x and y; a vehicle at rest has no course."""
+    speed, course = getattr(solution, name), getattr(solution, name.replace("speed", "course"))
+    if course is None:
+        return 0.0 * speed, 0.0 * speed
+    return speed * np.cos(course), speed * np.sin(course)
+
+
+def _middle(values: Any) -> float:
+    known = np.asarray(values, dtype=np.float64)
+    known = known[np.isfinite(known)]
+    return float(np.median(known)) if known.size else math.nan
 
 
 def sliding(

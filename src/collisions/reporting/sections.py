@@ -17,6 +17,7 @@ from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note
 from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
+from ..impact.instant import neglected
 from ..impact.left_out import LeftOutSide, left_out
 from ..impact.models import BY_NAME
 from ..impact.provenance import KNOWN
@@ -26,9 +27,11 @@ from ..plot.canvas import who
 from ..quantities.directions import course
 from ..quantities.formatting import KIND_OF, SI_UNITS, percent, typeset
 from ..quantities.reading import ArgumentReader
-from ..quantities.tables import label_of
+from ..quantities.tables import as_sentence, label_of
 from ..quantities.units import Input
 from ..reconstruct import MomentumSolution, Posterior
+from ..reconstruct.momentum_tyres import neglected as momentum_neglect
+from ..vehicle.drag import read_drag, read_duration
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle
 from .render import Sheet, given_as, plain
@@ -155,6 +158,10 @@ def inputs(
     reverse.why_this_model(sheet, impact)
     if impact.reconstruction is not None:
         reverse.what_was_known(sheet, impact.reconstruction)
+        left = left_out(impact, duration=options["duration"], drag=options["drag"])
+        neglect = neglected(impact, left)
+        if neglect is not None:
+            sheet.say(as_sentence(neglect.sentence))
         if known:
             sheet.table(known)
 
@@ -335,6 +342,8 @@ def momentum(
     sheet.say(f"{momentum_assumption(solution)}{together}")
     sheet.heading("Results")
     sheet.table(momentum_answers(sheet, solution))
+    for sentence in _momentum_neglect(sheet, solution, options):
+        sheet.say(as_sentence(sentence))
     system, of_speed = sheet.system, sheet.system.scale("speed")
     rows = [
         (
@@ -358,6 +367,20 @@ def momentum(
             moved = f"{f'{by:+.3g}' if by else '0'} {system.label('speed')} per {unit}"
             rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
     sheet.table(rows)
+
+
+def _momentum_neglect(
+    sheet: Sheet, solution: MomentumSolution, options: Mapping[str, Any]
+) -> Iterator[str]:
+    """What planar momentum without tyres leaves out, for the duration and drag of the report."""
+    reader = ArgumentReader()
+    time = read_duration(reader, options["duration"])
+    drag = read_drag(reader, options["drag"], "drag")
+    found = momentum_neglect(
+        solution, time, drag, lambda speed: sheet.system.answer(speed, "speed")
+    )
+    if found is not None:
+        yield found.sentence
 
 
 def _in_words(name: str) -> str:
