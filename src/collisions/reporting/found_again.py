@@ -11,6 +11,7 @@ from operator import attrgetter
 from typing import Any
 
 from ..impact.impact import Impact
+from ..impact.inputs import TYRES
 from ..impact.provenance import KNOWN, Reconstruction
 from ..kernels.contact_laws import BRACH, RULES
 from ..messages.errors import AmbiguousSolutionError, CollisionsError
@@ -115,7 +116,8 @@ def _solved_again(impact: Impact, origin: Reconstruction) -> tuple[Any, ...]:
     if origin.method == "central":
         return (central(inputs.a.mass, inputs.b.mass, **known, incomplete=inputs.incomplete),)
     if origin.method == "planar":
-        return (planar(impact.a.after, impact.b.after, **known, **contact),)
+        wheels = {name: getattr(inputs, name) for name in ("duration", *TYRES)}
+        return (planar(impact.a.after, impact.b.after, **known, **contact, **wheels),)
     if any(name.startswith(("delta_v_forward", "delta_v_left")) for name in known):
         slid = None if origin.one_sided is None else "bound"
         contact |= {"regime": origin.regime, "slid": slid}
