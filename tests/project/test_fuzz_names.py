@@ -768,6 +768,10 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         **masses,
         restitution=e,
         **{name: case.value(kind) for name, kind in known.items()},
+        **{
+            name: case.value("duration" if name == "duration" else "drag")
+            for name in case.choice(((), (), ("duration", "drag_a", "drag_b"), ("drag_a",)))
+        },
     )
     courses = {
         name: case.value("course")
