@@ -737,6 +737,7 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
             "vb": case.uniform(-20.0, 5.0),
             "restitution": case.value("restitution"),
         }
+    given |= {name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.1)}
     if case.maybe(0.1):
         given |= (
             {"restitution": -case.random()} if "restitution" in given and case.maybe(0.5) else {}
@@ -797,8 +798,11 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         more["outside_impulse"] = case.pair("outside_impulse")
     if case.maybe(0.3):
         more |= lasting(case)
-        rates = ("yaw_rate_a_after", "yaw_rate_b_after")
-        more |= {name: case.value("yaw_rate") for name in rates if case.maybe(0.3)}
+        for label in "ab":
+            if f"tyres_{label}" in more or case.maybe(0.05):
+                more[f"heading_{label}"] = case.value("heading")
+                if case.maybe(0.4):
+                    more[f"yaw_rate_{label}_after"] = case.value("yaw_rate")
     momentum = solved(case, "momentum", **masses, **courses, **speeds, **more)
     if isinstance(momentum, reconstruct.MomentumSolution) and case.maybe(0.2):
         explained(case, momentum)
