@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, get_type_hints
 from ..quantities.attributes import OWN, Quantities
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary
-from .moves import Moves
+from .moves import Moves, table
 
 _NO_PROOF = "A finding is a reason to look again, not an error; no finding is no proof."
 # The source of a limit of what is a note: its count has no size to judge, and pages and tables show
@@ -143,7 +143,7 @@ class Findings(tuple[Finding, ...], Summarized):
         title = f"{len(self) or 'No'} finding{'s' * (len(self) != 1)}"
         parts = [Part(rows, "", ("what was found", "measured", "limit"))]
         if self.moves:
-            parts.append(self.moves.part(numbers))
+            parts.append(table(self.moves, numbers))
         return Summary(title, parts, (checks, _NO_PROOF))
 
     def __repr__(self) -> str:

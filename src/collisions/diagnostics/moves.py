@@ -35,19 +35,18 @@ _HEADS = ("delta-V of A", "of B", "yaw rate of A", "of B", "share of delta-V")
 class Move:
     """What one input would do to an answer if it were wrong by so much: the larger of both ways.
 
-    Parameters
+    Attributes
     ----------
     name : str
         The input: "point", "normal", "restitution", the name of the rule such as "friction", or,
         for what an impulse leaves out, "geometry" and "tyres".
     what : str
         What was changed, and by how much.
-    delta_v_a, delta_v_b : float
-        Length by which the vector of delta-V of a vehicle moves [m/s]; NaN where there is no answer
-        then.
-    yaw_rate_a, yaw_rate_b : float or None
-        Change of the yaw rate after [rad/s]; None where no estimate has one.
-    share : float
+    delta_v_a, delta_v_b : float [m/s]
+        Length by which the vector of delta-V of a vehicle moves; NaN where there is no answer then.
+    yaw_rate_a, yaw_rate_b : float or None [rad/s]
+        Change of the yaw rate after; None where no estimate has one.
+    share : float [-]
         The larger of both changes of delta-V, as a share of that vehicle's; infinite where there is
         no answer then.
     """
@@ -92,29 +91,30 @@ class Moves(tuple[Move, ...], Summarized):
         """The table; numbers in ``units``, by default those of the diagnosis."""
         return super().summary(self._system if units is None else units)
 
-    def part(self, numbers: Cells) -> Part:
-        """The rows as a part of a summary."""
-        rows = [(move.what, *self.texts(move, numbers)) for move in self]
-        return Part(rows, "What would move this answer", _HEADS)
-
-    @staticmethod
-    def texts(move: Move, numbers: Cells) -> Iterator[str]:
-        """The numbers of a row."""
-        for value, unit in (
-            (move.delta_v_a, "m/s"),
-            (move.delta_v_b, "m/s"),
-            (move.yaw_rate_a, "rad/s"),
-            (move.yaw_rate_b, "rad/s"),
-        ):
-            yield "" if value is None else numbers.text(value, unit)
-        yield percent(move.share)
-
     def _summary(self, numbers: Cells) -> Summary:
-        part = self.part(numbers)
+        part = table(self, numbers)
         return Summary(part.heading, [part._replace(heading="")])
 
     def __repr__(self) -> str:
         return str(self.summary())
+
+
+def table(found: Moves, numbers: Cells) -> Part:
+    """The moves as a part of a summary."""
+    rows = [(move.what, *_texts(move, numbers)) for move in found]
+    return Part(rows, "What would move this answer", _HEADS)
+
+
+def _texts(move: Move, numbers: Cells) -> Iterator[str]:
+    """The numbers of a row."""
+    for value, unit in (
+        (move.delta_v_a, "m/s"),
+        (move.delta_v_b, "m/s"),
+        (move.yaw_rate_a, "rad/s"),
+        (move.yaw_rate_b, "rad/s"),
+    ):
+        yield "" if value is None else numbers.text(value, unit)
+    yield percent(move.share)
 
 
 def moves(case: ImpactCase) -> Moves:

@@ -67,6 +67,19 @@ def settle(
     return [best[i] for i in range(count)], left <= _SETTLED
 
 
+def slopes_at(
+    inputs_at: Callable[[Sequence[Any]], Inputs],
+    start: Sequence[Any],
+    sizes: Sequence[Any],
+    misses: Callable[[Inputs, Any], Sequence[Any]],
+) -> list[list[Any]]:
+    """How what is missed changes with each unknown, by rows of what was known."""
+    values = np.stack(np.broadcast_arrays(*start)).astype(np.float64)
+    steps = np.stack([np.broadcast_to(_STEP * np.asarray(size), values[0].shape) for size in sizes])
+    _, slopes = _tried(inputs_at, misses, values, np.where(steps > 0.0, steps, _STEP))
+    return [list(row) for row in slopes]
+
+
 def numbers_of_times(times: Mapping[str, Any]) -> dict[str, Any]:
     """Every number of a duration and of tyres, by its name, from the arguments by name."""
     found = {"duration": times["duration"]} if times.get("duration") is not None else {}

@@ -1,0 +1,150 @@
+"""Speeds of an instant refined for tyres that act: forward answers are found again from every pair
+of what may be known.
+"""
+
+import math
+import random
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions import reconstruct
+from collisions.reconstruct.speeds_tyres import speeds_with_tyres
+from collisions.travel import Tyres
+
+COMPONENTS = ("delta_v_forward_a", "delta_v_left_a", "delta_v_forward_b", "delta_v_left_b")
+PAIRS = [
+    ("speed_b", "delta_v_a"),
+    ("speed_a", "energy_loss"),
+    ("delta_v_b", "energy_loss"),
+    ("speed_b", "ees_a"),
+    ("speed_a", "max_crush_speed_a"),
+    COMPONENTS[:2],
+    COMPONENTS,
+]
+
+
+def drawn(rng, stuck):
+    """Two cars that meet at an angle, their contact and their wheels."""
+    courses = rng.uniform(-0.3, 0.3), rng.uniform(1.1, 2.0)
+    a, b = (
+        col.Vehicle.from_speed(
+            mass=rng.uniform(900.0, 2200.0),
+            yaw_inertia=rng.uniform(1500.0, 3500.0),
+            speed=rng.uniform(8.0, 22.0),
+            course=course,
+            heading=course + rng.uniform(-0.05, 0.05),
+            x=x,
+            y=y,
+        )
+        for course, x, y in zip(
+            courses, (-2.0, 0.9), (rng.uniform(-0.5, 0.5), rng.uniform(-1.0, 1.0)), strict=True
+        )
+    )
+    wheels = {
+        "duration": rng.uniform(0.05, 0.15),
+        "tyres_a": Tyres(rng.uniform(0.4, 0.9), rng.choice((0.0, 0.4, 1.0)), 2.7, 1.5),
+        "tyres_b": Tyres(rng.uniform(0.4, 0.9), rng.choice((0.0, 0.4, 1.0)), 2.7, 1.5),
+    }
+    contact = {
+        "normal": rng.uniform(-0.2, 0.2),
+        "point": (0.0, 0.0),
+        "friction": math.inf if stuck else rng.uniform(0.3, 0.6),
+    }
+    return a, b, rng.uniform(0.05, 0.3), contact, wheels
+
+
+def read(impact, name):
+    """What is known of an answer, by the argument of speeds."""
+    label = name[-1]
+    if name.startswith("ees"):
+        return impact.ees(0.4)["ab".index(label)]
+    if name.startswith("max_crush"):
+        return impact.max_crush_speeds(0.4)["ab".index(label)]
+    if name == "energy_loss":
+        return impact.energy_loss
+    side = getattr(impact, label)
+    return side.before.speed if name.startswith("speed") else getattr(side, name[:-2])
+
+
+def refined(impact, known, contact, wheels, e):
+    """The refined speeds next to each answer of the instant."""
+    courses = {label: getattr(impact, label).before.course for label in "ab"}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        instants = reconstruct.speeds(
+            impact.a.before,
+            impact.b.before,
+            **{f"course_{label}": course for label, course in courses.items()},
+            **known,
+            **contact,
+            restitution=e,
+        )
+    directions = {label: (math.cos(at), math.sin(at)) for label, at in courses.items()}
+    for instant in instants:
+        start = [
+            side.before.vx * directions[label][0] + side.before.vy * directions[label][1]
+            for label, side in (("a", instant.a), ("b", instant.b))
+        ]
+        inputs = replace(instant.inputs, **wheels)
+        yield start, speeds_with_tyres(inputs, directions, tuple(start), known, ())
+
+
+@pytest.mark.parametrize("names", PAIRS, ids=lambda names: "-".join(names))
+def test_the_speeds_of_a_forward_answer_are_found_again(names):
+    rng, met, moved = random.Random(41), 0, []
+    while met < 5:
+        a, b, e, contact, wheels = drawn(rng, stuck=names[0] in COMPONENTS)
+        try:
+            impact = col.eccentric(a, b, e, **contact, **wheels)
+        except (col.NoImpactError, col.NoSolutionError):
+            continue
+        if impact.normal_impulse < 3000.0:
+            continue
+        known = {name: read(impact, name) for name in names}
+        if "ees_a" in known or "max_crush_speed_a" in known:
+            other = next(name for name in known if name[:3] in ("ees", "max")).removesuffix("a")
+            known[f"{other}b"] = read(impact, f"{other}b")
+        truth = [impact.a.before.speed, impact.b.before.speed]
+        try:
+            found = list(refined(impact, known, contact, wheels, e))
+        except col.NoSolutionError:
+            # An instant with these values does not exist.
+            continue
+        apart = [
+            (max(abs(np.subtract(speeds, truth))), max(abs(np.subtract(start, truth))))
+            for start, (*speeds, settled) in found
+            if settled
+        ]
+        if not apart:
+            continue
+        met += 1
+        nearest, instant = min(apart)
+        moved.append(instant)
+        assert nearest < 1e-6
+    # The instant was off.
+    assert np.median(moved) > 0.05
+
+
+def test_a_batch_has_the_answers_of_its_cases():
+    rng = random.Random(43)
+    while True:
+        a, b, e, contact, wheels = drawn(rng, stuck=False)
+        try:
+            impact = col.eccentric(a, b, e, **contact, **wheels)
+            break
+        except (col.NoImpactError, col.NoSolutionError):
+            continue
+    known = {"speed_b": read(impact, "speed_b"), "delta_v_a": read(impact, "delta_v_a")}
+    ((start, one),) = list(refined(impact, known, contact, wheels, e))[:1]
+    durations = np.array([wheels["duration"], 0.5 * wheels["duration"]])
+    inputs = replace(impact.inputs, duration=durations)
+    courses = {label: getattr(impact, label).before.course for label in "ab"}
+    directions = {label: (math.cos(at), math.sin(at)) for label, at in courses.items()}
+    many = speeds_with_tyres(inputs, directions, tuple(start), known, (2,))
+    assert many[0][0] == pytest.approx(one[0], rel=1e-11)
+    assert many[2].tolist() == [True, True]
+    assert abs(many[0][1] - one[0]) > 0.01
