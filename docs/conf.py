@@ -115,7 +115,7 @@ GALLERY = {
         "crossroads",
         "eccentric_types",
         "barrier",
-        "chain_of_three",
+        "three_cars",
         "truck_against_car",
         "sideswipe",
         "pole_impact",

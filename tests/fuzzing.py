@@ -49,6 +49,8 @@ from collisions.messages.warning import Note
 from collisions.quantities.attributes import Quantities
 from collisions.quantities.units import Texts
 from collisions.reconstruct.momentum_solution import Sensitivity
+from collisions.scene.follow import Notice
+from collisions.scene.run import Moved, Rests, Track
 from collisions.uncertainty.distribution import GivenUnit
 from strategies import (
     EXTREMES,
@@ -93,7 +95,7 @@ MODULES = ("reporting", "diagnostics", "derivation")  # public beside those of c
 GIVEN_BACK = (
     Side, Pulse, LeftOut, LeftOutSide, Findings, Moves, Estimate, Residual, Direction, Values,
     Sensitivity, ByModel, Inputs, PosteriorOutput,
-    Note,
+    Note, Moved, Notice, Rests, Track,
 )  # fmt: skip
 
 

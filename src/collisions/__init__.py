@@ -30,7 +30,7 @@ from .quantities.settings import options
 from .vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
-    from . import plot, reconstruct, reference, travel, uncertainty
+    from . import plot, reconstruct, reference, scene, travel, uncertainty
     from .derivation import explain
     from .diagnostics import diagnose
     from .impact.choice import ModelChoice
@@ -82,6 +82,7 @@ __all__ = [
     "reference",
     "report",
     "required_model",
+    "scene",
     "solve",
     "time_resolved",
     "travel",
@@ -112,7 +113,7 @@ _LATER = {
         "impact.solvers",
     ),
 }
-_MODULES = ("plot", "reconstruct", "reference", "travel", "uncertainty")
+_MODULES = ("plot", "reconstruct", "reference", "scene", "travel", "uncertainty")
 
 
 def __getattr__(name: str) -> Any:

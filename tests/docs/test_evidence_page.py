@@ -53,10 +53,13 @@ def test_every_route_holds_the_truth_as_often_as_it_states(committed, scripts):
         # Four in five have an end at least.
         assert row["open"] <= 0.2 * 2 * answered, name
         # A recorder with its own speed knows more than there are unknowns: near the edge of sliding
-        # its readings contradict it. Otherwise only a path that its spin leaves no drag is refused.
+        # its readings contradict it. A contact that slid may be so slight that delta-V is no more
+        # than a recorder's half km/h, whose sign is then open. Otherwise only a path that its spin
+        # leaves no drag is refused.
         assert (
             row["refused"] <= 0.01 * row["crashes"]
             or name == "components and speed of one recorder"
+            or (name.endswith("contact slid") and row["refused"] <= 0.02 * row["crashes"])
         ), name
     momentum, everything = (
         committed["routes"][name]["half_width"][1] for name in list(scripts[0].ROUTES)[4:]

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import copy
 import functools
+import itertools
 import json
 import math
 import pickle
@@ -21,7 +22,7 @@ import numpy as np
 import pytest
 
 import collisions as col
-from collisions import plot, reconstruct, reference, reporting, travel, uncertainty
+from collisions import plot, reconstruct, reference, reporting, scene, travel, uncertainty
 from collisions.diagnostics import LIMITS
 from collisions.estimate import posterior
 from collisions.travel import motion as motion_of_wheels
@@ -36,7 +37,7 @@ from fuzzing import (
     load_units,
     public,
 )
-from strategies import registries
+from strategies import RANGES, registries
 
 pytestmark = pytest.mark.slow
 
@@ -1471,7 +1472,8 @@ def speed_error(points: list[Any], path: dict[str, Any]) -> float:
 
 
 @fuzzes(
-    "travel.Tyres", "travel.Tyres.replace", "travel.Tyres.summary", "travel.simulate",
+    "travel.Tyres", "travel.Tyres.replace", "travel.Tyres.summary", "travel.Tyres.as_given",
+    "travel.simulate",
     "travel.SimulatedPath",
     "travel.SimulatedPath.at", "travel.SimulatedPath.summary", "plot.path", share=0.2,
 )  # fmt: skip
@@ -1480,10 +1482,19 @@ def test_simulated_travel(case: Case) -> None:
     mass = case.number("mass")
     # A lorry with the yaw inertia of a wheelbarrow takes ten thousand steps.
     body = vehicle(case, mass=mass, yaw_inertia=mass * case.uniform(0.5, 4.0))
-    tyres = tyres_of(case)
-    case.must("travel.Tyres.replace", tyres.replace)
-    assert str(case.must("travel.Tyres.summary", tyres.summary, case.choice(UNIT_SYSTEMS)))
-    case.look(tyres)
+    given: dict[str, Any] = {
+        "friction": case.value("drag"),
+        "lock": case.option(case.value("lock"), [case.value("lock")] * 4),
+    }
+    size = case.choice(("wheelbase", "wheelbase", "distance"))
+    given |= {"wheelbase": case.value(size), "track": case.value(size)}
+    if case.maybe(0.3):
+        given |= {"steer": case.value("heading"), "height": case.option(None, 0.4)}
+    tyres = case.call("travel.Tyres", travel.Tyres, **case.spoil(given))
+    if isinstance(tyres, travel.Tyres):
+        case.must("travel.Tyres.replace", tyres.replace)
+        assert str(case.must("travel.Tyres.summary", tyres.summary, case.choice(UNIT_SYSTEMS)))
+        case.look(tyres)
     ground: dict[str, Any] = {}
     if case.maybe(0.2):
         corners = [case.pair("x") for _ in range(case.choice((2, 3, 3, 4, 5)))]
@@ -1507,6 +1518,194 @@ def test_simulated_travel(case: Case) -> None:
         if case.maybe(0.2):
             outlines = {f"outline_{v}": outline(case) if case.maybe(0.3) else None for v in "ab"}
             drawn(case, "path", found, case.option(None, found), **outlines)
+
+
+# --- scenes ---------------------------------------------------------------------------------------
+
+
+def scene_vehicle(case: Case, name: str, x: float) -> col.Vehicle | Exception:
+    """A car near x, that moves along the road or stands."""
+    mass = case.number("mass")
+    fields: dict[str, Any] = {
+        "mass": mass,
+        "yaw_inertia": mass * case.uniform(1.0, 2.0),
+        "x": x + case.uniform(-0.5, 0.5),
+        "y": case.uniform(-0.5, 0.5),
+        "heading": case.choice((0.0, 1.5, case.number("heading"))),
+        "vx": case.choice((0.0, case.number("vx"))),
+    }
+    for field in fields:
+        if case.mood != "plain" and case.maybe(0.1):
+            fields[field] = case.value(field)
+    if case.maybe(0.05):
+        del fields[case.choice(("yaw_inertia", "x", "heading"))]
+    made = case.call("Vehicle", col.Vehicle, **case.spoil(fields), name=name)
+    return made
+
+
+def scene_tyres(case: Case) -> Any:
+    """Tyres that stop a car soon."""
+    lock = case.choice((1.0, 0.4, [1.0, 0.3, 0.3, 0.3], 0.0 if case.maybe(0.1) else 0.2))
+    friction = case.value("drag") if case.maybe(0.2) else case.uniform(0.4, 0.9)
+    return case.call("travel.Tyres", travel.Tyres, friction, lock, 2.7, 1.5)
+
+
+def scene_movers(case: Case) -> dict[str, Any]:
+    """One to three movers in a row."""
+    found: dict[str, Any] = {}
+    for k in range(case.choice((1, 2, 2, 2, 3))):
+        given: dict[str, Any] = {"vehicle": scene_vehicle(case, "ABC"[k], 7.0 * k)}
+        if case.maybe(0.9):
+            given["outline"] = outline(case) if case.maybe(0.2) else (4.5, 1.8)
+        how = case.random()
+        if how < 0.5:
+            given["tyres"] = scene_tyres(case)
+        elif how < 0.8:
+            given["drag"] = case.value("drag")
+        mover = case.call("scene.Mover", scene.Mover, **case.spoil(given))
+        if isinstance(mover, scene.Mover):
+            case.must("scene.Mover.as_given", mover.as_given, name="vehicle")
+            case.must("scene.Mover.replace", mover.replace, drag=None)
+            assert str(case.must("scene.Mover.summary", mover.summary, case.choice(UNIT_SYSTEMS)))
+        found["ABC"[k]] = mover
+    return found
+
+
+def scene_contact(case: Case, a: Any, b: Any) -> Any:
+    """A contact of two names, with anything that a contact may have."""
+    given: dict[str, Any] = {"a": a, "b": b, "restitution": case.value("restitution")}
+    model = case.option(None, None, "eccentric", "solve", "linear_central", "oblique_central")
+    if not (isinstance(model, str) and model == "linear_central"):
+        given[case.choice(("friction", "friction", "impulse_ratio", "critical_fraction"))] = (
+            case.number("critical_fraction")
+        )
+    if case.maybe(0.7):
+        given["model"] = model
+    if case.maybe(0.6):
+        given["at"] = "touch"
+        if case.maybe(0.4):
+            given[case.choice(("depth", "delay"))] = case.choice((0.0, 0.02, case.value("width")))
+    elif case.maybe(0.3):
+        given["at"] = case.value("duration")
+    if case.maybe(0.4):
+        given["normal"] = case.option(0.0, case.value("normal"), (1.0, 0.1))
+        if case.maybe(0.6):
+            given["point"] = case.pair("x")
+    elif case.maybe(0.3):
+        given["plane"] = case.option("crossings", "face")
+    if isinstance(model, str) and model == "solve" and case.maybe(0.6):
+        given["tolerance"] = case.value("tolerance")
+    if case.maybe(0.1):
+        given |= {"duration": case.value("duration"), "model": case.option("eccentric", "solve")}
+    if case.maybe(0.1):
+        given["tyres_after"] = {a: scene_tyres(case)}
+    if case.maybe(0.2):
+        given["law"] = case.option("brach", "kudlich-slibar", "stronge")
+    if case.maybe(0.1):
+        given["incomplete"] = case.option(True, False)
+    contact = case.call("scene.Contact", scene.Contact, **case.spoil(given))
+    if isinstance(contact, scene.Contact):
+        case.must("scene.Contact.as_given", contact.as_given, name="restitution")
+        case.must("scene.Contact.replace", contact.replace, restitution=0.1)
+        assert str(case.must("scene.Contact.summary", contact.summary, case.choice(UNIT_SYSTEMS)))
+    return contact
+
+
+def known_scene() -> scene.Scene:
+    """A plain one, in which A runs into B."""
+    bodies = {
+        name: col.Vehicle(mass=1500.0, vx=vx, x=x, y=0.0, heading=0.0, yaw_inertia=2500.0)
+        for name, vx, x in (("A", 15.0, 0.0), ("B", 0.0, 8.0))
+    }
+    row = {"normal": 0.0, "model": "linear_central", "at": "touch"}
+    return scene.Scene(
+        movers={
+            name: scene.Mover(body, outline=(4.5, 1.8), drag=0.6) for name, body in bodies.items()
+        },
+        contacts=[scene.Contact("A", "B", restitution=0.1, **row)],
+    )
+
+
+@fuzzes(
+    "Moved", "Moved.summary", "Notice", "Rests", "Rests.keys", "Track", "Track.summary",
+    "scene.Contact", "scene.Contact.as_given", "scene.Contact.replace", "scene.Contact.summary",
+    "scene.Mover", "scene.Mover.as_given", "scene.Mover.replace", "scene.Mover.summary",
+    "scene.Run", "scene.Run.at", "scene.Run.case", "scene.Run.from_dict", "scene.Run.summary",
+    "scene.Run.to_columns", "scene.Run.to_dict",
+    "scene.Scene", "scene.Scene.as_model", "scene.Scene.case", "scene.Scene.from_dict",
+    "scene.Scene.inputs", "scene.Scene.replace", "scene.Scene.results", "scene.Scene.run",
+    "scene.Scene.summary", "scene.Scene.to_dict", share=0.3,
+)  # fmt: skip
+def test_scenes(case: Case) -> None:
+    """Movers, contacts and ground of any kind: a run, or a refusal."""
+    movers = scene_movers(case)
+    names = list(movers)
+    contacts = [
+        scene_contact(case, one, two) for one, two in itertools.pairwise(names) if case.maybe(0.85)
+    ]
+    given: dict[str, Any] = {"movers": case.option(movers), "contacts": case.option(contacts)}
+    if case.maybe(0.15):
+        corners = [case.pair("x") for _ in range(case.choice((2, 3, 4)))]
+        given["surfaces"] = case.option([(corners, case.value("drag"))])
+    if case.maybe(0.15):
+        given["slope"] = case.option((0.02, "1 %"), case.pair("restitution"))
+    if case.maybe(0.15):
+        given["order"] = case.option([("A", "B")], [])
+    if case.maybe(0.15):
+        given["shared"] = case.option(
+            {"e": ["contacts[0].restitution"]}, {"m": ["A.mass", "B.mass"]}
+        )
+    made = case.call("scene.Scene", scene.Scene, **case.spoil(given))
+    if not isinstance(made, scene.Scene):
+        made = known_scene()
+    paths = case.must("scene.Scene.inputs", made.inputs)
+    results = case.must("scene.Scene.results", made.results)
+    record = json.dumps(case.must("scene.Scene.to_dict", made.to_dict), allow_nan=False)
+    again = case.must("scene.Scene.from_dict", scene.Scene.from_dict, json.loads(record))
+    assert case.mood in ("extreme", "odd", "batch") or again == made
+    case.call("scene.Scene.from_dict", scene.Scene.from_dict, case.garbage())
+    assert str(case.must("scene.Scene.summary", made.summary, case.choice(UNIT_SYSTEMS)))
+    path = case.choice(list(paths))
+    name = path.rpartition(".")[2].partition("[")[0]
+    changes = case.option({path: case.value(name if name in RANGES else "x")}, {"A.z": 1.0})
+    changed = case.call("scene.Scene.replace", made.replace, changes)
+    if isinstance(changed, scene.Scene):
+        made = changed
+    if made.shape is not None:
+        case.call("scene.Scene.case", made.case, case.option(0, 1, (0,)))
+    wanted = case.sample(list(results), 2)
+    with mock.patch.object(motion_of_wheels, "_MOST_STEPS", 1_500):
+        found = case.call(
+            "scene.Scene.run", made.run, **case.spoil({"tolerance": case.option(1e-4, 1e-3)})
+        )
+        model = case.call("scene.Scene.as_model", made.as_model, [path], wanted, tolerance=1e-3)
+        if callable(model):
+            case.call("model of a scene", model, **{path: case.number(name)})
+        if not isinstance(found, scene.Run):
+            found = known_scene().run()
+        ran(case, found)
+
+
+def ran(case: Case, run: scene.Run) -> None:
+    """Everything of a run."""
+    record = json.dumps(case.must("scene.Run.to_dict", run.to_dict), allow_nan=False)
+    case.must("scene.Run.from_dict", scene.Run.from_dict, json.loads(record))
+    case.call("scene.Run.from_dict", scene.Run.from_dict, case.garbage())
+    case.call("scene.Run.at", run.at, case.value("duration"))
+    if run.scene.shape is not None:
+        case.call("scene.Run.case", run.case, case.option(0, 1))
+    case.must("scene.Run.to_columns", run.to_columns, units=case.choice((None, "us")))
+    assert str(case.must("scene.Run.summary", run.summary, case.choice(UNIT_SYSTEMS)))
+    one = run[next(iter(run.scene.movers))]
+    case.call("Moved.summary", one.summary, case.choice(UNIT_SYSTEMS))
+    track = case.must("Track", lambda: one.path)
+    assert str(case.must("Track.summary", track.summary, case.choice(UNIT_SYSTEMS)))
+    case.call("Moved", lambda: one.rest)
+    assert list(case.must("Rests.keys", run.rest.keys)) == list(run.scene.movers)
+    case.call("scene.Run", lambda: run.energy)
+    case.look(run, None, thorough=False)
+    apart = known_scene().replace({"A.vx": 8.0, "A.x": 1.0})
+    case.look(scene.Scene(movers=apart.movers, contacts=[]).run().findings)
 
 
 # --- uncertainty ----------------------------------------------------------------------------------
@@ -1719,6 +1918,10 @@ def propagation(case: Case) -> Any:
         if case.maybe(0.5):
             options["finer_samples"] = case.option(64, 100, 512)
     model: Any = rear_end if case.maybe(0.7) else scaled
+    if case.maybe(0.05):
+        model, inputs = known_scene(), {"A.vx": uncertainty.Uniform(10.0, case.uniform(11.0, 20.0))}
+        options.pop("correlation", None)
+        options["outputs"] = case.option(["B.rest.x"], ["times[0]", "impacts[0].a.delta_v"])
     if case.mood == "extreme":
         inputs[case.choice(sorted(inputs))] = case.extreme()
         model = scaled

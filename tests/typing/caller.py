@@ -10,7 +10,16 @@ import numpy as np
 import numpy.typing as npt
 
 import collisions as col
-from collisions import diagnostics, plot, reconstruct, reference, reporting, travel, uncertainty
+from collisions import (
+    diagnostics,
+    plot,
+    reconstruct,
+    reference,
+    reporting,
+    scene,
+    travel,
+    uncertainty,
+)
 from collisions.uncertainty import (
     Censored,
     Interval,
@@ -341,6 +350,37 @@ def on_the_ground() -> float:
     return one + lasts + run_out.speed + rest + travel.speed([10.0, 5.0], drag=[0.7, 0.3])
 
 
+def whole_crash() -> float:
+    """A scene, forward and as a model."""
+    outline = ("4.5 m", 1.8)
+    tyres = travel.Tyres(0.7, 1, "2.7 m", 1.5)
+    contact = scene.Contact(
+        "A", "B", restitution="10 %", friction=0.5, at="touch", tyres_after={"A": tyres}
+    )
+    crash = scene.Scene(
+        movers={
+            "A": scene.Mover(a, outline=outline, tyres=tyres),
+            "B": scene.Mover(b, outline=outline).replace(drag="70 %"),
+        },
+        contacts=[contact.replace(delay="20 ms")],
+        surfaces=[([(20, -5), (30, -5), ("30 m", 5)], 0.3)],
+        order=[("A", "B")],
+    )
+    run: scene.Run = crash.replace({"A.vx": "50 km/h"}).run(tolerance=1e-5)
+    again = scene.Run.from_dict(run.to_dict())
+    found = uncertainty.propagate(
+        crash, {"A.vx": Normal("50 km/h", 1)}, outputs=["B.rest.x"], samples=256
+    )
+    model = crash.as_model(["A.vx"], list(crash.results())[:1])
+    print(crash.inputs(), contact.as_given("delay"), run.summary(), run.to_columns(), model)
+    print(scene.Scene.from_dict(crash.to_dict()).case(0).run().case(0), crash.movers["A"].reach)
+    struck: col.Impact = run.impacts[0]
+    x = float(run["A"].rest.q.x.m_as("m") + run.rest["B"].speed + again.at("1 s")["B"].speed)
+    print([*run.rest.keys()], struck.energy_loss, float(run.energy["ground"]))
+    mean: float = found["B.rest.x"].mean
+    return x + mean
+
+
 def ranges() -> tuple[float, float]:
     """Every way to state an input."""
     inputs = {
@@ -370,8 +410,8 @@ def ranges() -> tuple[float, float]:
     low, high = found["speed"].interval(0.95)
     chance: tuple[float, float] = found["speed"].probability(lambda v: v > 13.9)
     chance = found.probability(lambda at: at["speed"] > chance[0])
-    left: uncertainty.Halved = found.if_halved()
-    print(left["drag"]["speed"], left.now, left.q, left.to_dict(), left.summary("us"))
+    halved: uncertainty.Halved = found.if_halved()
+    print(halved["drag"]["speed"], halved.now, halved.q, halved.to_dict(), halved.summary("us"))
     mean: float = found["speed"].mean
     joint: dict[str, Samples] = Samples.joint(speed=[10.0, 12.0], mass=[1500.0, 1490.0])
     score = joint["speed"].scored(0.5) + Normal.between("20 m/s", 25, 0.9).quantile(0.5)
@@ -428,7 +468,7 @@ def refused() -> float | None:
     except (col.MissingInputError, col.UnitsError, col.ShapeError) as error:
         print(error.fields["argument"])
     except col.InternalError as error:
-        return error.code
+        print(error.code)
     except col.NoSolutionError as error:
         print(error.solutions)
     except col.CollisionsError as error:

@@ -12,7 +12,7 @@ from ..messages.errors import CollisionsError, InputError, NoSolutionError, Unit
 from ..quantities.reading import ArgumentReader
 from ..uncertainty.distribution import Stated, from_numbers, read_alike, show
 from ..uncertainty.distributions import Censored, Interval, Normal
-from ..uncertainty.model import Model, check_names
+from ..uncertainty.model import Model, check_names, function_of
 from .readings import KINDS, Reading
 
 T = TypeVar("T")
@@ -75,6 +75,7 @@ def read_evidence(
         reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_observed
     )
     reader.close()
+    model = function_of(model, known, readings, "observed")
     called = Model(model, {})
     check_names(model, known, "unknowns", "bad_model")
     return called, known, [Observation.of(name, value) for name, value in readings.items()]

@@ -5,7 +5,7 @@ least squares.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -20,7 +20,7 @@ from ..quantities.units import is_quantity
 from ..uncertainty.distribution import read_alike
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform
 from ..uncertainty.finer import FinerModel
-from ..uncertainty.model import Model, range_hint
+from ..uncertainty.model import AnyModel, Model, function_of, range_hint
 from ..uncertainty.turns import folded
 from .evidence import (
     Observation,
@@ -67,11 +67,11 @@ _MOST_STEPS = 100.0  # standard errors over which slopes may be taken at most
 
 @hinted
 def fit(
-    model: Callable[..., Mapping[str, Any]],
+    model: AnyModel,
     unknowns: Mapping[str, Any],
     observed: Mapping[str, Any],
     *,
-    finer: Callable[..., Mapping[str, Any]] | None = None,
+    finer: AnyModel | None = None,
 ) -> Fit:
     """Estimate the unknowns of a scene from measurements, each given with its error.
 
@@ -88,11 +88,11 @@ def fit(
     Parameters
     ----------
     model : function
-        ``model(**unknowns)`` returns a dict of named outputs. It is called with an array of cases
-        for every unknown [SI] and returns arrays as long, NaN where it refuses
-        (``on_failure="nan"``), as for ``uncertainty.propagate``. Each case is to be answered
-        independently of the others; as a check, a few are called again by themselves. What is known
-        exactly is written into the model.
+        ``model(**unknowns)`` returns a dict of named outputs; or a ``scene.Scene``, with paths for
+        names. It is called with an array of cases for every unknown [SI] and returns arrays as
+        long, NaN where it refuses (``on_failure="nan"``), as for ``uncertainty.propagate``. Each
+        case is to be answered independently of the others; as a check, a few are called again by
+        themselves. What is known exactly is written into the model.
     unknowns : dict
         By name, what is known before: a ``Normal`` (a prior, which has weight; ``truncate=`` gives
         bounds), a ``Uniform`` or an ``Interval`` (bounds without weight), or a number, text or
@@ -234,7 +234,8 @@ def fit(
 
 def _with_finer(inputs: _Inputs, problem: Problem, finer: Any) -> tuple[_Inputs, Problem]:
     """The same inputs and problem with a finer model, whose outputs must be the same."""
-    dearer = FinerModel(finer, {})
+    seen = [row.name for row in inputs.rows if not row.is_prior]
+    dearer = FinerModel(function_of(finer, inputs.units, seen, "observed"), {})
     dearer.check_inputs(list(inputs.units), "unknowns", "bad_model")
     found = inputs._replace(model=dearer)
     found.computed(np.tile(inputs.start, (2, 1)))

@@ -19,7 +19,7 @@ from ..messages.warning import notes_of_samples, warn_of
 from ..quantities.attributes import lock
 from ..uncertainty.distributions import Distribution
 from ..uncertainty.finer import FinerModel
-from ..uncertainty.model import Model, range_hint
+from ..uncertainty.model import AnyModel, Model, function_of, range_hint
 from ..uncertainty.propagation import check_options
 from ..uncertainty.sampling import Correlation, Joint
 from ..uncertainty.turns import folded
@@ -41,11 +41,11 @@ _LEAST_SOFTENED = 1e-3  # of the size of an output, where two models agree on it
 
 @hinted
 def posterior(
-    model: Callable[..., Mapping[str, Any]],
+    model: AnyModel,
     unknowns: Mapping[str, Any],
     observed: Mapping[str, Any],
     *,
-    finer: Callable[..., Mapping[str, Any]] | None = None,
+    finer: AnyModel | None = None,
     samples: int = 8192,
     seed: int | None = None,
     correlation: Correlation | None = None,
@@ -66,9 +66,9 @@ def posterior(
     ----------
     model : function
         ``model(**unknowns)`` returns a dict of named outputs, as for ``fit`` and
-        ``uncertainty.propagate``: it is called with arrays of cases [SI] and answers case by case,
-        NaN where it refuses (``on_failure="nan"``); the evidence counts as impossible there. What
-        is known exactly is written into the model.
+        ``uncertainty.propagate``; or a ``scene.Scene``, with paths for names. It is called with
+        arrays of cases [SI] and answers case by case, NaN where it refuses (``on_failure="nan"``);
+        the evidence counts as impossible there. What is known exactly is written into the model.
     unknowns : dict
         By name, the prior (what was known before): any distribution of ``uncertainty``, truncated
         or not. An ``Interval`` says nothing about likelihood and is refused: give ``Uniform``.
@@ -163,7 +163,8 @@ def posterior(
     )
     problem = _Problem(called, Joint(priors, correlation), rows)
     if finer is not None:
-        problem.finer = FinerModel(finer, {})
+        seen = [row.name for row in rows]
+        problem.finer = FinerModel(function_of(finer, priors, seen, "observed"), {})
         problem.finer.check_inputs(priors, "unknowns", "bad_model")
     seed = int(seed) if seed is not None else secrets.randbits(64)
     # A point at which numbers overflow counts as refused.

@@ -64,8 +64,8 @@ def _inputs(inputs: Inputs) -> dict[str, Any]:
     )
     return {
         **{name: getattr(inputs, name) for name in (*_LABELS, *_OPTIONS)},
-        "a": _vehicle_inputs(inputs.a),
-        "b": _vehicle_inputs(inputs.b),
+        "a": vehicle_record(inputs.a),
+        "b": vehicle_record(inputs.b),
         **{
             name: _given_input(texts, name, getattr(inputs, name), unit)
             for name, unit in UNITS.items()
@@ -81,7 +81,7 @@ def _inputs(inputs: Inputs) -> dict[str, Any]:
     }
 
 
-def _vehicle_inputs(vehicle: Vehicle) -> dict[str, Any]:
+def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
     texts = Texts(vehicle.given)
     found: dict[str, Any] = {"name": vehicle.name}
     for name in DOMAINS:
@@ -107,7 +107,7 @@ def tyres_of(found: Mapping[str, Any] | None) -> Tyres | None:
         return None
     if found.keys() != set(TYRES):
         raise bad_record(f"tyres have {', '.join(TYRES)}, and it has {', '.join(map(str, found))}")
-    values = {name: _read(value) for name, value in found.items()}
+    values = {name: read_strict(value) for name, value in found.items()}
     return Tyres(**values)
 
 
@@ -170,14 +170,14 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
         refused = any(Status(code) > Status.ENERGY_GAIN for code in np.ravel(status).tolist())
         velocity = _contact_velocity(found["contact_velocity"], np.shape(status))
         origin = _origin(record["results"]["reconstruction"], velocity)
-        a, b = (_vehicle(found[label], refused and origin is not None) for label in "ab")
+        a, b = (vehicle_of_record(found[label], refused and origin is not None) for label in "ab")
         given: dict[str, Any] = _texts(found["known"], origin)
         if found["bare_normal"] is not None:
             reader = ArgumentReader()
-            given["normal"] = reader.number(_read(found["bare_normal"]), "", "bare_normal")
+            given["normal"] = reader.number(read_strict(found["bare_normal"]), "", "bare_normal")
             reader.close()
         numbers = {
-            name: _read(found[name])
+            name: read_strict(found[name])
             for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS)
         }
         numbers |= {name: tyres_of(found[name]) for name in TYRES_OF}
@@ -226,7 +226,7 @@ def _check_texts(found: Mapping[str, Any], inputs: Inputs, results: Mapping[str,
         for i, number in enumerate(numbers if pair else (numbers,)):
             text, was = (
                 (texts[i] if isinstance(texts, list) else texts),
-                _read(then[i] if pair else then),
+                read_strict(then[i] if pair else then),
             )
             # An angle in radians may come out by the last bit of another machine's sine.
             if (
@@ -245,7 +245,7 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
     if found is None:
         return None
     known = tuple(str(name) for name in found["known"])
-    condition, answers = lock(_read(found["condition"])), _count(found["answers"])
+    condition, answers = lock(read_strict(found["condition"])), _count(found["answers"])
     return Reconstruction(
         method=str(found["method"]),
         known=known,
@@ -282,7 +282,8 @@ def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
     if pair is None:
         return None
     closing, slip = (
-        _read(part) if isinstance(part, Mapping) else float(_read(part)) for part in pair
+        read_strict(part) if isinstance(part, Mapping) else float(read_strict(part))
+        for part in pair
     )
     if not np.shape(closing) == np.shape(slip) == shape:
         raise bad_record("its contact_velocity is not that of its cases")
@@ -300,12 +301,12 @@ def _texts(known: Mapping[str, Any], origin: Reconstruction | None) -> dict[str,
     return dict(known)
 
 
-def _vehicle(found: Mapping[str, Any], lost: bool) -> Vehicle:
+def vehicle_of_record(found: Mapping[str, Any], lost: bool = False) -> Vehicle:
     """A vehicle from its record; NaN, the motion that a reverse solver did not find, bypasses the
     reader.
     """
     state = {
-        name: value if name == "name" else _read(value)
+        name: value if name == "name" else read_strict(value)
         for name, value in found.items()
         if value is not None
     }
@@ -452,14 +453,14 @@ def _count(value: Any) -> Any:
     return value
 
 
-def _read(value: Any) -> Any:
+def read_strict(value: Any) -> Any:
     """The value that ``strict`` wrote; a text with a unit stays a text."""
     if isinstance(value, list):
-        return tuple(_read(part) for part in value)
+        return tuple(read_strict(part) for part in value)
     if isinstance(value, Mapping):
         if value["dtype"] not in ("float32", "float64"):
             raise bad_record(f"an array of {shown(value['dtype'])} is none that to_dict writes")
-        numbers = [_read(part) for part in value["values"]]
+        numbers = [read_strict(part) for part in value["values"]]
         # numpy would read the text "1_0" as 10
         if texts := [part for part in numbers if isinstance(part, str)]:
             raise bad_record(f"{shown(texts[0])} in an array is no number")

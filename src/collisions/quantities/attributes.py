@@ -15,7 +15,7 @@ import numpy as np
 from ..messages.errors import MissingInputError, Status
 from .formatting import in_words
 from .tables import Cells, Summarized, Summary, all_numbers, sided
-from .units import Value, to_quantity
+from .units import Texts, Value, to_quantity
 
 T = TypeVar("T")
 P = ParamSpec("P")
@@ -330,6 +330,12 @@ class Shown(LookedUp, Summarized):
     def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
         for name, value, unit in self._values(prefix):
             yield name, show(value, unit)
+
+
+def texts_given(result: Shown) -> Texts:
+    """The texts by argument that were kept beside a dataclass as it was made."""
+    kept: Any = getattr(result, "_inputs_as_texts", Texts())
+    return Texts(kept)
 
 
 def in_units_of(result: T, texts: Iterable[Any]) -> T:

@@ -220,8 +220,9 @@ def speeds(
         ``reference.RECORDER_ACCURACY``; beyond three times that they are refused. Or the contact
         was stated to have stuck, or was taken to, and may have slid (code "may_slide"): sticking
         needs an impulse ratio at which contacts between vehicles slide, from
-        ``reference.INTER_VEHICLE_FRICTION.low`` on. Or, with no speed known, the courses are near
-        one line.
+        ``reference.INTER_VEHICLE_FRICTION.low`` on. Or a bound was asked for, and the ratio is
+        further from the friction than recorders may be; or cases of a batch leave open whether the
+        contact stuck or slid. Or, with no speed known, the courses are near one line.
     CollisionsWarning
         Some cases of a batch have no answer; they are NaN, and ``status`` of the first impact says
         why.

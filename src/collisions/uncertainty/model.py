@@ -6,10 +6,10 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from numbers import Number
 from types import FunctionType
-from typing import Any, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 
@@ -24,6 +24,19 @@ from .distributions import Distribution, Interval
 from .one_sided import Answers, OneSided
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
+
+
+class ByPaths(Protocol):
+    """A model with many inputs and results by name, such as a ``scene.Scene``."""
+
+    def as_model(self, names: list[str], outputs: list[str]) -> Function:
+        """The function of some of its inputs that returns some of its results."""
+
+    def results(self) -> Mapping[str, str]:
+        """The names of its results, with their units."""
+
+
+AnyModel: TypeAlias = Function | ByPaths
 
 _LOW_CASES = 4  # asked again together: as alone, a threshold of those few divides them
 # Of the width of the middle half of the answers: an iteration that goes on until every case has
@@ -53,7 +66,9 @@ class Model:
         self.cases = 0  # asked so far, but for those asked again as a check
         # Whether its outputs may be OneSided.
         self.one_sided = one_sided
-        self._checked = False
+        # A scene answers case by case, as its own tests show; but a motion on tyres is followed in
+        # steps of its own, which rounding may change within the tolerance it is followed in.
+        self._checked = getattr(function, "answers_by_case", False)
 
     def at(self, place: Mapping[str, float]) -> Model:
         """The model with more inputs fixed."""
@@ -164,6 +179,34 @@ class Model:
         found = np.array(read, dtype=np.float64).reshape(count)
         found[~np.isfinite(found)] = np.nan
         return found
+
+
+def function_of(model: Any, names: Iterable[str], outputs: Any, argument: str) -> Any:
+    """The function of a model that has many inputs and outputs by name, such as a ``Scene``, for
+    some of them; any other model as it is.
+
+    Such a model has ``as_model(names, outputs)``; it works out what is asked for alone, so the
+    outputs have to be named.
+    """
+    if not hasattr(model, "as_model"):
+        if outputs is not None and argument == "outputs":
+            raise InputError(
+                "outputs names results of a Scene, and model is a function, which returns its own; "
+                "leave outputs out",
+                code="bad_option",
+                argument="outputs",
+            )
+        return model
+    listed = isinstance(outputs, (list, tuple)) and all(isinstance(one, str) for one in outputs)
+    if argument != "observed" and (not listed or not outputs):
+        known = ", ".join(list(model.results())[:3])
+        raise InputError(
+            f"outputs must be a list of results of the {type(model).__name__}, such as {known}; "
+            f"got {shown(outputs)}",
+            code="bad_outputs",
+            argument="outputs",
+        )
+    return model.as_model(list(names), list(outputs))
 
 
 def count_failed(answers: Mapping[str, Any]) -> int:

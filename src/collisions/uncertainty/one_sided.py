@@ -46,7 +46,7 @@ class OneSided:
     ...     return {"delta_v": OneSided(delta_v, np.where(delta_v > 8.0, 1, 0))}
     >>> found = propagate(recorded, {"delta_v": Uniform(6.0, 9.0)}, samples=1024, seed=1)["delta_v"]
     >>> print(found.row()[1])
-    at least 6.07358, 97.5 percent
+    at least 6.08063, 97.5 percent
     """
 
     values: Any

@@ -27,7 +27,15 @@ from .distributions import Distribution, Interval
 from .finer import FinerModel
 from .halved import Halved, widths_if_halved
 from .intervals import COMMON_CASES, Bounds, extremes
-from .model import Function, Model, check_names, count_failed, pair_hints, read_input
+from .model import (
+    AnyModel,
+    Model,
+    check_names,
+    count_failed,
+    function_of,
+    pair_hints,
+    read_input,
+)
 from .one_sided import Answers
 from .one_sided_output import OneSidedOutput, one_sided_notes
 from .result import Output, Propagation, Sampled, Shares
@@ -63,16 +71,17 @@ class Run:
 
 @hinted
 def propagate(
-    model: Function,
+    model: AnyModel,
     inputs: Mapping[str, Any],
     *,
-    finer: Function | None = None,
+    finer: AnyModel | None = None,
     finer_samples: int | None = None,
     method: Method | None = None,
     samples: int | None = None,
     tolerance: Any = None,
     seed: int | None = None,
     correlation: Correlation | None = None,
+    outputs: Sequence[str] | None = None,
     threads: int = 1,
     progress: Callable[[int, int], None] | bool | None = None,
 ) -> Propagation:
@@ -98,6 +107,7 @@ def propagate(
         "at most" is a ``OneSided``. Booleans count as 0 and 1, so their mean is a probability.
         Angles returned with a unit that all lie in [-pi, pi] are directions, counted round the
         circle about their mean (see ``Output``); return a rotation as a plain number.
+        A ``scene.Scene`` is a model too: its inputs and ``outputs`` are named by their paths.
     inputs : dict
         For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``,
         ``Interval`` or fixed value. Numbers reach the model in SI, without their unit.
@@ -126,6 +136,9 @@ def propagate(
         Correlation, -1 to 1, for pairs of input names, such as ``{("mass_a", "mass_b"): 1.0}`` for
         masses weighed on one scale: between the values of normal inputs, or the normal scores of
         others. Pairs that are not listed are independent.
+    outputs : list of str, optional
+        Of a scene, the paths of the results that are asked for, as ``Scene.results`` lists them;
+        only what they need is worked out.
     threads : int, optional
         Number of blocks of cases computed at once. If more than 1, the model must be safe to call
         from several threads.
@@ -187,6 +200,8 @@ def propagate(
     )
     stated = _read_inputs(inputs)
     wanted = _read_finer(finer, finer_samples, stated, method, tolerance)
+    model = function_of(model, stated, outputs, "outputs")
+    finer = None if finer is None else function_of(finer, stated, outputs, "finer")
     if method is None:
         kinds = {type(value) for value in stated.values() if isinstance(value, Stated)}
         method = (
@@ -235,7 +250,7 @@ def _if_halved(run: Callable[..., Propagation], found: Propagation) -> Halved:
 
 
 def _propagated(
-    model: Function,
+    model: AnyModel,
     stated: dict[str, Any],
     method: Method,
     samples: int | None,
@@ -244,7 +259,7 @@ def _propagated(
     correlation: Correlation | None,
     threads: int,
     progress: Any,
-    refined: tuple[Function | None, int],
+    refined: tuple[AnyModel | None, int],
 ) -> Propagation:
     """What ``propagate`` answers for inputs that are read, with the warnings it gives as notes."""
     finer, wanted = refined
@@ -325,7 +340,7 @@ def _propagated(
         )
     runs = _run_at(places, whole, run, reporter(progress))
     samples_run = sum(one.samples for one in runs)
-    outputs: dict[str, Output] = {}
+    answered: dict[str, Output] = {}
     for name, output in runs[0].outputs.items():
         cases = [
             one.outputs[name]
@@ -339,7 +354,7 @@ def _propagated(
                 code="all_failed",
                 output=name,
             )
-        outputs[name] = Bounds(name, output.unit, cases, cuts.get(name)) if intervals else output
+        answered[name] = Bounds(name, output.unit, cases, cuts.get(name)) if intervals else output
     count, failed = count + samples_run, failed + sum(one.failed for one in runs)
     notes = _notes(method, runs, len(places), count, failed, whole)
     found = runs[0].corrected
@@ -349,7 +364,7 @@ def _propagated(
     return Propagation(
         method,
         stated,
-        outputs,
+        answered,
         count,
         failed,
         None if method in LOCAL else seed,

@@ -1,0 +1,754 @@
+"""The course of a scene: from contact to contact, in all cases at once, each on its own clock."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from itertools import combinations
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..impact.impact import Impact
+from ..impact.inputs import part_of
+from ..impact.solvers import eccentric, linear_central, oblique_central, solve
+from ..kernels.contact_laws import RULES
+from ..messages.errors import (
+    CollisionsError,
+    InputError,
+    MissingInputError,
+    NoSolutionError,
+    Status,
+)
+from ..quantities.settings import in_si
+from ..vehicle.vehicle import needed
+from .contact import USUAL_DELAY, Contact
+from .motion import Course, Ground, body_at
+from .mover import Mover
+from .touching import (
+    TOUCHING,
+    Meeting,
+    Pair,
+    Shape,
+    closing_of,
+    engaged,
+    first_apart,
+    first_touch,
+    overlap_of,
+    struck_face,
+)
+
+# Outlines close by this much [m/s] where a touch counts, and again after a contact.
+_LEAST_CLOSING, _AGAIN = 0.02, 1.0
+# A pair is one contact until its outlines were so far apart [m].
+APART = 0.05
+MOST_CONTACTS = 20
+_MOST_ROUNDS = 200
+# Outlines overlap at the start beyond this [m].
+_OVERLAPS = 1e-6
+# Faces within this angle [rad] of each other meet face to face.
+_FACE_TO_FACE = math.radians(1.0)
+# A contact at a time that comes within this [s] of a touch is that of the touch.
+_LATE = 0.5
+# Outlines whose edges are this near in line [m] cross nowhere in particular.
+_IN_LINE = 0.01
+
+
+class Hit(NamedTuple):
+    """One contact of some cases: which rule, when, the impact, whether it was at its deepest, and
+    which impact of each case it is.
+    """
+
+    rule: int
+    which: Any
+    time: Any
+    impact: Impact
+    deepest: Any
+    number: Any
+
+
+class Notice(NamedTuple):
+    """Something that the scene does not describe, or that limits its answer.
+
+    Attributes
+    ----------
+    code : str
+        A label that does not change between versions.
+    sentence : str
+        What was found, with names and times.
+    time : float [s]
+    movers : tuple of str
+    """
+
+    code: str
+    sentence: str
+    time: float
+    movers: tuple[str, ...]
+
+
+class _Between:
+    """Two movers: what contacts they may have, whether they are apart, and their next touch."""
+
+    def __init__(self, one: str, other: str, shapes: tuple[Shape, Shape] | None, count: int):
+        self.names = one, other
+        self.shapes = shapes
+        self.rule: int | None = None
+        self.timed: list[int] = []
+        self.apart: Any = np.ones(count, dtype=bool)
+        self.least: Any = np.full(count, _LEAST_CLOSING)
+        # The next touch and how fast it closes; NaN where it has to be looked for.
+        self.touch: Any = np.full(count, np.nan)
+        self.closing: Any = np.zeros(count)
+        self.due: Any = np.full(count, np.inf)
+        self.begun: Any = np.full(count, np.nan)
+        self.axis: Any = np.zeros(count, dtype=int)
+        self.deepest: Any = np.zeros(count, dtype=bool)
+        self.nearest: Any = np.full(count, np.inf)
+        self.nearest_at: Any = np.zeros(count)
+        self.touched: list[tuple[float, float]] = []
+
+
+class Followed:
+    """A scene that was followed: its contacts in order, the courses of all movers, notices, and
+    what became of each case.
+    """
+
+    def __init__(
+        self,
+        movers: Mapping[str, Mover],
+        contacts: Sequence[Contact],
+        ground: Ground,
+        order: Sequence[tuple[str, str]] | None,
+        *,
+        watch: bool = True,
+    ) -> None:
+        self.movers, self.contacts, self.ground, self.order = movers, contacts, ground, order
+        self.single = ground.single
+        self.count = int(np.prod(ground.shape or (), dtype=int))
+        self.courses = {
+            name: Course(name, mover, ground, self.count) for name, mover in movers.items()
+        }
+        self.hits: list[Hit] = []
+        self.notices: list[Notice] = []
+        self.failed: Any = np.full(self.count, "", dtype=object)
+        # The contacts of each case in order, and when they came; -1 and NaN after the last.
+        self.rules: Any = np.full((MOST_CONTACTS, self.count), -1)
+        self.times: Any = np.full((MOST_CONTACTS, self.count), np.nan)
+        self.many: Any = np.zeros(self.count, dtype=int)
+        self._pairs = self._all_pairs(watch)
+        self._follow()
+
+    def _all_pairs(self, watch: bool) -> list[_Between]:
+        shapes = {
+            name: Shape.of(mover.outline)
+            for name, mover in self.movers.items()
+            if mover.outline is not None
+        }
+        found = []
+        for one, other in combinations(self.movers, 2):
+            rules = [
+                i
+                for i, contact in enumerate(self.contacts)
+                if {contact.a, contact.b} == {one, other}
+            ]
+            touching = [i for i in rules if self.contacts[i].touches]
+            both = None
+            if one in shapes and other in shapes:
+                both = shapes[one], shapes[other]
+            pair = _Between(one, other, both, self.count)
+            pair.rule = touching[0] if touching else None
+            pair.timed = [i for i in rules if not self.contacts[i].touches]
+            still = self.movers[one].fixed and self.movers[other].fixed
+            if touching or pair.timed or (watch and both is not None and not still):
+                found.append(pair)
+        return found
+
+    @property
+    def most(self) -> int:
+        """The number of contacts of the case that has most of them."""
+        return int(self.many.max(initial=0))
+
+    @property
+    def longest(self) -> list[int]:
+        """The contacts of a case that has most of them, in order."""
+        found: list[int] = self.rules[: self.most, int(self.many.argmax())].tolist()
+        return found
+
+    @property
+    def same_order(self) -> bool:
+        """Whether the contacts of all cases come in one order, as far as they go."""
+        longest = np.array(self.longest)[:, None]
+        rules = self.rules[: self.most]
+        return bool(np.all((rules == longest) | (rules < 0)))
+
+    # Where things are
+
+    def _pair(self, pair: _Between) -> Pair:
+        one, other = (self.courses[name] for name in pair.names)
+        assert pair.shapes is not None
+
+        def states(time: Any, cases: Any) -> tuple[Any, Any]:
+            return one.at(time, cases), other.at(time, cases)
+
+        kept: list[Any] = []
+
+        def bounds(cases: Any) -> Any:
+            if not kept:
+                every = np.arange(self.count)
+                rows = (*one.bounds(every), *other.bounds(every))
+                kept.append(np.array([np.broadcast_to(row, self.count) for row in rows]))
+            return kept[0][:, cases]
+
+        return Pair(*pair.shapes, states, bounds)
+
+    def _horizon(self, pair: _Between, cases: Any) -> Any:
+        """Until when two movers may touch [s]."""
+        one, other = (self.courses[name] for name in pair.names)
+        assert pair.shapes is not None
+        ends = np.array([one.rests[cases], other.rests[cases]])
+        never = np.isinf(ends)
+        last = np.where(never, 0.0, ends).max(axis=0)
+        starts = np.array([course.began(cases) for course in (one, other)]).max(axis=0)
+        last = np.maximum(last, starts)
+        unslowed = never.any(axis=0)
+        if not unslowed.any():
+            return last
+        # From then on the relative motion is even: until one has left the other behind.
+        state_a, state_b = one.at(last, cases), other.at(last, cases)
+        away, going = state_b[:2] - state_a[:2], state_b[3:5] - state_a[3:5]
+        reach = pair.shapes[0].reach + pair.shapes[1].reach
+        square = going[0] ** 2 + going[1] ** 2
+        dot = away[0] * going[0] + away[1] * going[1]
+        inside = dot * dot - square * (away[0] ** 2 + away[1] ** 2 - reach * reach)
+        with np.errstate(all="ignore"):
+            left = (-dot + np.sqrt(np.maximum(inside, 0.0))) / np.where(square > 0.0, square, 1.0)
+        left = np.where((square > 0.0) & (inside > 0.0), np.maximum(left, 0.0), 0.0)
+        return np.where(unslowed, last + left, last)
+
+    # The loop
+
+    def _follow(self) -> None:
+        every = np.arange(self.count)
+        now = np.zeros(self.count)
+        for pair in self._pairs:
+            self._at_start(pair, every)
+        left = {
+            i: np.ones(self.count, dtype=bool)
+            for i, contact in enumerate(self.contacts)
+            if not contact.touches
+        }
+        alive = np.ones(self.count, dtype=bool)
+        for _ in range(_MOST_ROUNDS):
+            times, rules = self._next(now, alive, left)
+            alive = alive & (self.failed == "")
+            for course in self.courses.values():
+                alive &= course.failed == ""
+            comes = alive & np.isfinite(times)
+            many = self.many >= MOST_CONTACTS
+            if (comes & many).any():
+                self._endless(np.flatnonzero(comes & many), rules)
+                comes = comes & ~many
+            if not comes.any():
+                break
+            now = np.where(comes, times, now)
+            for rule in np.unique(rules[comes]).tolist():
+                which = np.flatnonzero(comes & (rules == rule))
+                if rule in left:
+                    left[rule][which] = False
+                for some in self._of_one_kind(rule, which):
+                    self._strike(rule, some, now)
+        else:
+            self._endless(np.flatnonzero(comes), rules)
+        for course in self.courses.values():
+            fresh = (self.failed == "") & (course.failed != "")
+            self.failed[fresh] = course.failed[fresh]
+        self._check()
+
+    def _at_start(self, pair: _Between, every: Any) -> None:
+        """Refuse outlines that overlap at the start without a contact; pairs that touch are one
+        contact.
+        """
+        if pair.shapes is None:
+            return
+        for name in pair.names:
+            for part in ("x", "y", "heading"):
+                needed(self.movers[name].vehicle, part, "an outline in a scene", name)
+        met, *_ = self._pair(pair).at(np.zeros(self.count), every)
+        pair.apart = met.gap > TOUCHING
+        begins = np.zeros(self.count, dtype=bool)
+        for rule in pair.timed:
+            begins |= self.ground.cases(self.contacts[rule].at) == 0.0
+        wrong = (met.gap < -_OVERLAPS) & ~begins
+        if self.single and wrong.any():
+            one, other = pair.names
+            raise InputError(
+                f"the outlines of {one} and {other} overlap by {-float(met.gap[0]):.3g} m at the "
+                "start, and no contact of these two is at time 0; correct x, y, heading or "
+                f"outline, or write Contact({one!r}, {other!r}, ...) at 0",
+                code="overlap_at_start",
+                argument="movers",
+                movers=pair.names,
+            )
+        self._fail(np.flatnonzero(wrong), "overlap_at_start")
+
+    def _next(self, now: Any, alive: Any, left: Mapping[int, Any]) -> tuple[Any, Any]:
+        """When the next contact of each case comes, and by which rule; infinite where none does."""
+        times, rules = np.full(self.count, np.inf), np.full(self.count, -1)
+        for rule, waits in left.items():
+            at = self.ground.cases(self.contacts[rule].at)
+            sooner = waits & alive & (at < times)
+            times, rules = np.where(sooner, at, times), np.where(sooner, rule, rules)
+        # A contact that is due now needs no look ahead.
+        looks = alive & ~(times <= now)
+        for pair in self._pairs:
+            if pair.shapes is None:
+                continue
+            self._look_ahead(pair, now, looks)
+            if pair.rule is not None:
+                sooner = alive & (pair.due < times)
+                times = np.where(sooner, pair.due, times)
+                rules = np.where(sooner, pair.rule, rules)
+        return times, rules
+
+    def _look_ahead(self, pair: _Between, now: Any, alive: Any) -> None:
+        """Find the next touch of a pair where it is not known, and what becomes of it."""
+        while True:
+            cases = np.flatnonzero(alive & np.isnan(pair.touch) & np.isinf(pair.due))
+            if not len(cases):
+                return
+            moving = self._pair(pair)
+            until = self._horizon(pair, cases)
+            begin = np.maximum(now[cases], np.where(np.isnan(pair.begun), 0.0, pair.begun)[cases])
+            near = ~pair.apart[cases]
+            if near.any():
+                begin[near] = first_apart(moving, begin[near], until[near], cases[near], APART)
+            touch = first_touch(moving, begin, until, cases)
+            pair.apart[cases] = np.isfinite(begin)
+            closer = touch.nearest < pair.nearest[cases]
+            pair.nearest[cases] = np.where(closer, touch.nearest, pair.nearest[cases])
+            pair.nearest_at[cases] = np.where(closer, touch.nearest_at, pair.nearest_at[cases])
+            pair.touch[cases], pair.closing[cases] = touch.time, touch.closing
+            counts = np.isfinite(touch.time) & (touch.closing >= pair.least[cases])
+            passes = np.isfinite(touch.time) & ~counts
+            if pair.rule is not None:
+                self._arrange(pair, cases[counts])
+            # A resting contact is passed over: the search goes on once they were apart.
+            over = cases[passes]
+            pair.touch[over], pair.begun[over], pair.apart[over] = np.nan, touch.time[passes], False
+            if not passes.any():
+                return
+
+    def _arrange(self, pair: _Between, cases: Any) -> None:
+        """When the impulse of a touch acts."""
+        if not len(cases) or pair.rule is None:
+            return
+        contact, moving = self.contacts[pair.rule], self._pair(pair)
+        touch, take = pair.touch[cases], self.ground.taker(cases)
+        if not contact.from_outlines:
+            pair.due[cases], pair.deepest[cases] = touch, False
+            return
+        depth = None if contact.depth is None else take(contact.depth)
+        delay = take(USUAL_DELAY if contact.delay is None else contact.delay)
+        later = touch + (np.maximum(delay, 1e-3) if depth is None else USUAL_DELAY)
+        axis = pair.axis[cases] = struck_face(moving, touch, later, cases)
+        self._refuse_bare(pair, moving, cases, delay if depth is None else depth)
+
+        def along(met: Meeting) -> Any:
+            return self._axis(pair, contact, met, axis, cases)
+
+        due, deepest = engaged(moving, along, touch, cases, delay if depth is None else None, depth)
+        pair.due[cases], pair.deepest[cases] = due, deepest
+
+    def _refuse_bare(self, pair: _Between, moving: Pair, cases: Any, amount: Any) -> None:
+        """Refuse a point at bare first touch where two faces meet."""
+        bare = amount == 0.0
+        if not bare.any():
+            return
+        met, *_ = moving.at(pair.touch[cases], cases)
+        count = moving.a.normals.shape[1]
+        struck = met.axis(pair.axis[cases])
+        own = pair.axis[cases] < count
+        others = np.where(own, np.arange(len(met.axes[0]))[:, None] >= count, False)
+        others |= np.where(~own, np.arange(len(met.axes[0]))[:, None] < count, False)
+        turned = np.abs(met.axes[0] * struck[1] - met.axes[1] * struck[0])
+        facing = met.axes[0] * struck[0] + met.axes[1] * struck[1] > 0.0
+        flat = bare & (others & facing & (turned < math.sin(_FACE_TO_FACE))).any(axis=0)
+        if flat.any() and self.single:
+            one, other = pair.names
+            raise InputError(
+                f"{one} and {other} meet face to face, where the point at bare first touch depends "
+                "on the last digit of a heading, and with it which way they spin; give a delay= or "
+                "depth= above 0, or normal= and point=",
+                code="bare_touch",
+                argument="delay",
+            )
+        self._fail(cases[flat], "bare_touch")
+
+    def _axis(self, pair: _Between, contact: Contact, met: Meeting, axis: Any, cases: Any) -> Any:
+        """The normal from the first of the pair to the second, of each case."""
+        if contact.normal is None:
+            return met.axis(axis)
+        sign = 1.0 if contact.a == pair.names[0] else -1.0
+        take = self.ground.taker(cases)
+        return sign * np.array([take(part) for part in contact.normal])
+
+    # One contact
+
+    def _of_one_kind(self, rule: int, which: Any) -> list[Any]:
+        """The cases by the tyres that act during the contact, if any do."""
+        contact = self.contacts[rule]
+        if contact.duration is None or self.single:
+            return [which]
+        groups: dict[tuple[int, int], list[int]] = {}
+        for case in which.tolist():
+            one, other = (int(self.courses[n].wheels_of[case]) for n in (contact.a, contact.b))
+            groups.setdefault((one, other), []).append(case)
+        return [np.array(cases) for cases in groups.values()]
+
+    def _strike(self, rule: int, which: Any, now: Any) -> None:
+        contact = self.contacts[rule]
+        pair = next(p for p in self._pairs if {contact.a, contact.b} == {*p.names})
+        time = now[which]
+        states = {name: self.courses[name].at(time, which) for name in (contact.a, contact.b)}
+        normal, point = self._place(pair, contact, which, time)
+        if contact.touches:
+            # Two that do not close where they would push each other are passed over.
+            closes = _closing_at(contact, states, normal, point) >= _LEAST_CLOSING
+            if not closes.all():
+                self._pass_over(pair, which[~closes], time[~closes])
+                which, time = which[closes], time[closes]
+                if not len(which):
+                    return
+                states = {name: state[:, closes] for name, state in states.items()}
+                normal, point = (
+                    None
+                    if part is None
+                    else tuple(one[closes] if np.ndim(one) else one for one in part)
+                    for part in (normal, point)
+                )
+        impact = self._solved(rule, contact, which, time, states, (normal, point))
+        refused = np.atleast_1d(np.asarray(impact.status)) > Status.ENERGY_GAIN
+        if refused.any() and not self.single:
+            labels = np.array([Status(code).label for code in np.ravel(impact.status).tolist()])
+            for label in np.unique(labels[refused]).tolist():
+                self._fail(which[refused & (labels == label)], label)
+        deepest = pair.deepest[which].copy() if contact.touches else np.zeros(len(which), bool)
+        number = self.many[which]
+        self.hits.append(Hit(rule, which, time, impact, deepest, number))
+        self.rules[number, which], self.times[number, which] = rule, time
+        self.many[which] += 1
+        before = self._closings(pair, which, time)
+        self._go_on(contact, which, time, states, impact)
+        pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
+        pair.least[which], pair.begun[which] = _AGAIN, np.nan
+        for other in self._pairs:
+            if other is pair or not {contact.a, contact.b} & {*other.names}:
+                continue
+            self._disturbed(other, which, time, before.get(id(other)))
+
+    def _pass_over(self, pair: _Between, which: Any, time: Any) -> None:
+        """A touch in which nothing pushes: the search goes on once the two were apart."""
+        if self.single:
+            one, other = pair.names
+            text = (
+                f"{one} and {other} touch at {float(pair.touch[0]):.3g} s and do not close where "
+                "the impulse would act; they are followed without one"
+            )
+            self.notices.append(Notice("touch_passed_over", text, float(time[0]), pair.names))
+        pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
+        pair.begun[which] = time
+
+    def _closings(self, struck: _Between, which: Any, time: Any) -> dict[int, Any]:
+        """How fast the pairs close that are in contact beside the one that is struck."""
+        found = {}
+        for pair in self._pairs:
+            if pair is not struck and pair.shapes is not None and {*pair.names} & {*struck.names}:
+                found[id(pair)] = self._closing(pair, which, time)
+        return found
+
+    def _closing(self, pair: _Between, which: Any, time: Any) -> tuple[Any, Any, Any]:
+        met, state_a, state_b = self._pair(pair).at(time, which)
+        axis = met.axis(met.widest)
+        return closing_of(met, axis, state_a, state_b), met.gap, met.widest
+
+    def _disturbed(self, pair: _Between, which: Any, time: Any, before: Any) -> None:
+        """A pair of which one was struck: its next touch is to be found again; it comes at once
+        where it is in contact and is driven together.
+        """
+        if pair.shapes is not None and pair.rule is None and self.single:
+            touch = float(pair.touch[0])
+            if touch <= float(time[0]):
+                pair.touched.append((touch, float(pair.closing[0])))
+                pair.apart[which], pair.begun[which] = False, touch
+        # A touch that has begun goes on to its impulse.
+        waiting = np.isfinite(pair.due[which]) & (pair.touch[which] <= time)
+        pair.touch[which] = np.where(waiting, pair.touch[which], np.nan)
+        pair.due[which] = np.where(waiting, pair.due[which], np.inf)
+        if pair.shapes is None or pair.rule is None:
+            return
+        kept = which[waiting]
+        if len(kept):
+            self._arrange(pair, kept)
+            pair.due[kept] = np.maximum(pair.due[kept], time[waiting])
+        closing, gap, widest = self._closing(pair, which, time)
+        least = pair.least[which]
+        in_contact = ~pair.apart[which] & ~waiting & (gap < APART)
+        driven = in_contact & (closing >= least) & (before[0] < least)
+        some = which[driven]
+        if not len(some):
+            return
+        contact = self.contacts[pair.rule]
+        pair.touch[some], pair.closing[some] = time[driven], closing[driven]
+        pair.axis[some], pair.deepest[some] = widest[driven], False
+        pair.due[some] = time[driven]
+        # Outlines that only touch have no overlap yet.
+        bare = driven & (gap > -1e-3)
+        if contact.from_outlines and bare.any():
+            pair.due[which[bare]] = np.inf
+            self._arrange(pair, which[bare])
+
+    def _place(self, pair: _Between, contact: Contact, which: Any, time: Any) -> tuple[Any, Any]:
+        """Normal and point of a contact: as given, or of each case from the outlines."""
+        take = self.ground.taker(which)
+        normal: Any = contact.normal
+        point: Any = contact.point
+        if not self.single:
+            normal = None if normal is None else tuple(part_of(part, take) for part in normal)
+            point = None if point is None else tuple(part_of(part, take) for part in point)
+        if not contact.from_outlines:
+            return normal, point
+        if pair.shapes is None:
+            lacks = [name for name in pair.names if self.movers[name].outline is None]
+            raise MissingInputError(
+                f"{' and '.join(lacks)} has no outline, from which normal and point of the contact "
+                f"of {contact.a} and {contact.b} come; give outline=(length, width) to its Mover, "
+                "or normal= and point= to the Contact",
+                code="missing_outline",
+                argument="outline",
+            )
+        met, state_a, _ = self._pair(pair).at(time, which)
+        which_axis = pair.axis[which] if contact.touches else met.widest
+        axis = self._axis(pair, contact, met, which_axis, which)
+        centre, _, crossings = overlap_of(met.one, met.other)
+        apart = met.gap > TOUCHING
+        if not contact.touches and apart.any():
+            if self.single:
+                raise InputError(
+                    f"{contact.a} and {contact.b} are {float(met.gap[0]):.3g} m apart at "
+                    f"{float(time[0]):.4g} s, where contact says that they meet; correct the "
+                    "states, at= or the outlines, write at='touch', or give normal= and point=",
+                    code="contact_missing",
+                    argument="contacts",
+                )
+            self._fail(which[apart], "contact_missing")
+        if contact.plane == "crossings":
+            axis = _through_crossings(met, crossings, axis)
+        # Where outlines only touch, the corner that is ahead.
+        nearest = _nearest_corner(met, axis)
+        centre = np.where(np.isnan(centre), nearest, centre) + state_a[:2]
+        sign = 1.0 if contact.a == pair.names[0] else -1.0
+        if normal is None:
+            found = sign * axis
+            normal = tuple(float(part[0]) if self.single else part for part in found)
+        if point is None and contact.model not in ("linear_central", "oblique_central"):
+            point = tuple(float(part[0]) if self.single else part for part in centre)
+        return normal, point
+
+    def _solved(
+        self, rule: int, contact: Contact, which: Any, time: Any, states: Any, place: Any
+    ) -> Impact:
+        take = self.ground.taker(which)
+
+        def numbers(value: Any) -> Any:
+            return value if self.single else part_of(value, take)
+
+        a, b = (
+            body_at(self.movers[name], name, states[name], take, single=self.single)
+            for name in (contact.a, contact.b)
+        )
+        if self.single and float(time[0]) == 0.0 and not self.hits:
+            # As they were given, texts included.
+            a, b = (self.movers[name].vehicle.replace(name=name) for name in (contact.a, contact.b))
+        normal, point = place
+        options: dict[str, Any] = {"normal": normal, "incomplete": contact.incomplete}
+        solver: Any = linear_central
+        if contact.model != "linear_central":
+            options |= {name: numbers(getattr(contact, name)) for name in RULES}
+            options |= {"law": contact.law}
+            solver = oblique_central
+        if contact.model in ("eccentric", "solve"):
+            solver = eccentric if contact.model == "eccentric" else solve
+            options["point"] = point
+            if contact.duration is not None:
+                options["duration"] = numbers(contact.duration)
+                for label, name in (("a", contact.a), ("b", contact.b)):
+                    course = self.courses[name]
+                    tyres = course.wheels[int(course.wheels_of[which[0]])]
+                    options[f"tyres_{label}"] = numbers(tyres) if tyres is not None else None
+        if contact.model == "solve":
+            options["tolerance"] = 0.0 if contact.tolerance is None else numbers(contact.tolerance)
+        if not self.single:
+            options["on_failure"] = "nan"
+        try:
+            with in_si():
+                found: Impact = solver(a, b, numbers(contact.restitution), **options)
+        except CollisionsError as error:
+            raise type(error)(
+                f"contacts[{rule}], {contact.a} and {contact.b} at {float(time[0]):.4g} s: {error}",
+                code=error.code,
+                **error.fields,
+            ) from None
+        return found
+
+    def _go_on(self, contact: Contact, which: Any, time: Any, states: Any, impact: Impact) -> None:
+        """Let both vehicles go on from the motion after the contact."""
+        hold = np.zeros(len(which))
+        if contact.duration is not None:
+            whole = self.ground.taker(which)(contact.duration)
+            hold = np.where((time == 0.0) & (not contact.touches), 0.5 * whole, whole)
+        for name, side in ((contact.a, impact.a), (contact.b, impact.b)):
+            after, state = side.after, states[name].copy()
+            for row, value in zip((3, 4, 5), (after.vx, after.vy, after.yaw_rate), strict=True):
+                state[row] = value
+            self.courses[name].turn(which, time, hold, state, contact.tyres_after.get(name))
+
+    # What the scene contradicts
+
+    def _fail(self, cases: Any, code: str) -> None:
+        fresh = cases[self.failed[cases] == ""]
+        self.failed[fresh] = code
+
+    def _endless(self, cases: Any, rules: Any) -> None:
+        contact = self.contacts[int(rules[cases[0]])]
+        if self.single:
+            raise NoSolutionError(
+                f"the scene has not come to its end after {MOST_CONTACTS} contacts: {contact.a} "
+                f"and {contact.b} go on touching, at {float(self.times[-1, 0]):.4g} s; a lower "
+                "restitution, or tyres or drag, would end it",
+                code="never_ends",
+                movers=(contact.a, contact.b),
+            )
+        self._fail(cases, "never_ends")
+
+    def _check(self) -> None:
+        """Refuse a case in which a contact does not come, or the order is another; note touches
+        that no contact describes.
+        """
+        for rule, contact in enumerate(self.contacts):
+            absent = np.flatnonzero(~np.any(self.rules == rule, axis=0) & (self.failed == ""))
+            if len(absent) and self.single:
+                raise self._missing(rule, contact)
+            self._fail(absent, "contact_missing")
+        if self.order is not None:
+            names = [(contact.a, contact.b) for contact in self.contacts]
+            good = self.many == len(self.order)
+            for number, pair in enumerate(self.order[:MOST_CONTACTS]):
+                fits = [i for i, one in enumerate(names) if {*one} == {*pair}]
+                good &= np.isin(self.rules[number], fits)
+            if self.single and not good[0]:
+                took = [names[rule] for rule in self.longest]
+                raise NoSolutionError(
+                    f"the contacts come in the order {_listed(took)}, and order says "
+                    f"{_listed(self.order)}",
+                    code="other_order",
+                    order=tuple(took),
+                )
+            self._fail(np.flatnonzero(~good), "other_order")
+        if self.single:
+            for one in self._pairs:
+                self._note(one)
+
+    def _note(self, pair: _Between) -> None:
+        """Note touches of a pair that no contact describes."""
+        found = list(pair.touched)
+        if math.isfinite(float(pair.touch[0])):
+            found.append((float(pair.touch[0]), float(pair.closing[0])))
+        came = zip(self.longest, self.times[:, 0].tolist(), strict=False)
+        timed = [time for rule, time in came if rule in pair.timed]
+        one, other = pair.names
+        for time, closing in found if pair.rule is None else ():
+            if any(0.0 <= at - time <= _LATE for at in timed):
+                continue
+            text = (
+                f"{one} and {other} touch at {time:.3g} s, closing by {closing:.3g} m/s, and no "
+                "contact says what happens; they are followed as if they passed through each other"
+            )
+            self.notices.append(Notice("touch_without_contact", text, time, pair.names))
+
+    def _missing(self, rule: int, contact: Contact) -> CollisionsError:
+        pair = next(p for p in self._pairs if {contact.a, contact.b} == {*p.names})
+        near, at = float(pair.nearest[0]), float(pair.nearest_at[0])
+        if not math.isfinite(near):
+            reason = "do not part and meet again"
+        elif near <= TOUCHING:
+            reason = (
+                f"touch at {at:.3g} s, and do not close along the normal from {contact.a} into "
+                f"{contact.b} where the impulse would act"
+            )
+        else:
+            reason = f"are {near:.3g} m apart at their closest, at {at:.3g} s"
+        return NoSolutionError(
+            f"contacts[{rule}] does not come: {contact.a} and {contact.b} {reason}; correct what "
+            "leads there, or leave the contact out",
+            code="contact_missing",
+            distance=near,
+            time=at,
+            movers=(contact.a, contact.b),
+        )
+
+
+def _closing_at(contact: Contact, states: Mapping[str, Any], normal: Any, point: Any) -> Any:
+    """Closing speed of each case where the impulse would act."""
+    a, b = states[contact.a], states[contact.b]
+    vx, vy = a[3] - b[3], a[4] - b[4]
+    if point is not None:
+        px, py = point
+        vx = vx - a[5] * (py - a[1]) + b[5] * (py - b[1])
+        vy = vy + a[5] * (px - a[0]) - b[5] * (px - b[0])
+    return vx * normal[0] + vy * normal[1]
+
+
+def _listed(pairs: Sequence[tuple[str, str]]) -> str:
+    return ", then ".join(f"{one} and {other}" for one, other in pairs) or "none"
+
+
+def _nearest_corner(met: Meeting, axis: Any) -> Any:
+    """The corner that is farthest along the axis towards the other outline; the middle where
+    several are.
+    """
+    p = axis[0] * met.one[0] + axis[1] * met.one[1]
+    q = axis[0] * met.other[0] + axis[1] * met.other[1]
+    ahead = p >= p.max(axis=0) - TOUCHING
+    behind = q <= q.min(axis=0) + TOUCHING
+    own = ahead.sum(axis=0) <= behind.sum(axis=0)
+    one = np.where(ahead, met.one, 0.0).sum(axis=1) / ahead.sum(axis=0)
+    other = np.where(behind, met.other, 0.0).sum(axis=1) / behind.sum(axis=0)
+    return np.where(own, one, other)
+
+
+def _through_crossings(met: Meeting, crossings: Any, face: Any) -> Any:
+    """The normal of the plane through the two points where outlines cross, along the face's.
+
+    The face's own where there are not two such points, or where they are the ends of two faces in
+    line.
+    """
+    flat = crossings.reshape(2, -1, crossings.shape[-1])
+    valid = np.isfinite(flat[0])
+    two = valid.sum(axis=0) == 2
+    order = np.argsort(~valid, axis=0, kind="stable")
+    first, second = (
+        np.take_along_axis(flat, np.broadcast_to(order[k], flat[:, :1].shape), axis=1)[:, 0]
+        for k in (0, 1)
+    )
+    away = second - first
+    length = np.hypot(*away)
+    with np.errstate(all="ignore"):
+        normal = np.array([away[1], -away[0]]) / length
+    toward = normal[0] * face[0] + normal[1] * face[1]
+    normal = np.where(toward < 0.0, -normal, normal)
+    p = -face[1] * met.one[0] + face[0] * met.one[1]
+    q = -face[1] * met.other[0] + face[0] * met.other[1]
+    in_line = (np.abs(p.max(axis=0) - q.max(axis=0)) < _IN_LINE) & (
+        np.abs(p.min(axis=0) - q.min(axis=0)) < _IN_LINE
+    )
+    return np.where(two & (length > 0.0) & ~in_line & np.isfinite(normal[0]), normal, face)

@@ -1,0 +1,394 @@
+"""How a mover goes on between contacts: on its tyres, by drag, or unslowed; and where it is at any
+time.
+
+States are rows of x, y, heading, vx, vy and yaw rate, with a column for each case.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..impact.inputs import part_of
+from ..messages.errors import CollisionsError, MissingInputError, NoSolutionError
+from ..messages.warning import quietly
+from ..quantities.settings import in_si
+from ..quantities.units import Texts, texts_of
+from ..travel import simulate
+from ..vehicle.drag import GRAVITY
+from ..vehicle.tyres import Tyres
+from ..vehicle.vehicle import NAMES, Vehicle, needed, vehicle_of
+from .mover import Mover
+
+STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate")
+_PLACES, _RATES = slice(0, 3), slice(3, 6)
+# A wheel whose slip is below this share of the speed rolls straight.
+_ROLLS = 1e-9
+# From the speed over gravity: below it, a drag stops nothing.
+_LEAST_DRAG = 1e-9
+
+
+class Leg(NamedTuple):
+    """The motion of some cases from ``start`` [s] on, until the next leg.
+
+    Until ``hold`` [s] after the start the motion is unslowed. Then it is that of the ``table``
+    (time and state, of (7, moments, cases)) where ``tabled``, and else straight on, slowed evenly
+    to rest within ``stops`` [s], which is infinite for a motion that nothing slows.
+    """
+
+    which: Any
+    start: Any
+    hold: Any
+    state: Any
+    stops: Any
+    tabled: Any
+    table: Any
+    tyres: Tyres | None
+
+    def at(self, time: Any, cases: Any) -> Any:
+        """The states of some of its cases, by their places in it, at a time of each."""
+        after = np.maximum(time - self.start[cases], 0.0)
+        hold, begin = self.hold[cases], self.state[:, cases]
+        held = np.minimum(after, hold)
+        after = after - held
+        found = np.empty_like(begin)
+        stops = self.stops[cases]
+        part = np.minimum(after / np.where(stops > 0.0, stops, 1.0), 1.0)
+        part = np.where(stops > 0.0, part, 1.0)
+        whole = np.isinf(stops)
+        passed = held + np.where(
+            whole, after, np.where(whole, 0.0, stops) * part * (1 - 0.5 * part)
+        )
+        found[_PLACES] = begin[_PLACES] + passed * begin[_RATES]
+        found[_RATES] = begin[_RATES] * np.where(after > 0.0, 1.0 - np.where(whole, 0.0, part), 1.0)
+        some = np.flatnonzero(self.tabled[cases] & (after > 0.0))
+        if len(some):
+            found[:, some] = _between(self.table, after[some], cases[some])
+        return found
+
+    @property
+    def rests(self) -> Any:
+        """When each case has come to rest [s]; infinite where it does not."""
+        last = np.where(self.tabled, 0.0, self.stops)
+        if self.table is not None:
+            last = np.where(self.tabled, self.table[0, -1], last)
+        still = ~np.any(self.state[_RATES] != 0.0, axis=0)
+        return self.start + np.where(still & ~self.tabled, 0.0, self.hold + last)
+
+
+def _between(table: Any, time: Any, cases: Any) -> Any:
+    """States between the moments of a table: cubics with their places and velocities."""
+    last, count = table[0, -1, cases], table.shape[1] - 1
+    share = np.clip(time / np.where(last > 0.0, last, 1.0), 0.0, 1.0) * count
+    before = np.minimum(share.astype(int), count - 1)
+    part, width = share - before, last / count
+    one, two = table[1:, before, cases], table[1:, before + 1, cases]
+    p, q = one[_PLACES], two[_PLACES]
+    v, w = width * one[_RATES], width * two[_RATES]
+    rise = q - p
+    bend = 3.0 * rise - 2.0 * v - w
+    twist = v + w - 2.0 * rise
+    places = p + part * (v + part * (bend + part * twist))
+    rates = (v + part * (2.0 * bend + part * 3.0 * twist)) / np.where(width > 0.0, width, 1.0)
+    ended = time >= last
+    return np.concatenate([np.where(ended, q, places), np.where(ended, 0.0, rates)])
+
+
+class Course:
+    """The legs of one mover, one after another, in all cases; a leg is worked out when its motion
+    is first asked for.
+    """
+
+    def __init__(self, name: str, mover: Mover, ground: Ground, count: int) -> None:
+        self.name, self.mover, self.ground, self.count = name, mover, ground, count
+        self.legs: list[Leg] = []
+        self.failed: Any = np.full(count, "", dtype=object)
+        body = mover.vehicle
+        self.placed = body.x is not None and body.y is not None
+        self.aimed = body.heading is not None
+        given = [getattr(body, name) for name in STATE]
+        values = [np.nan if value is None else value for value in given]
+        rows = [ground.cases(value) for value in values]
+        every = np.arange(count)
+        none = np.zeros(count)
+        self._waiting: list[tuple[Any, Any, Any, Any, Tyres | None]] = [
+            (every, none, none, np.array(rows), mover.tyres)
+        ]
+        self.fixed = mover.fixed
+        # All tyres that it has had, and on which of them each case moves now.
+        self.wheels: list[Tyres | None] = [mover.tyres]
+        self.wheels_of: Any = np.zeros(count, dtype=int)
+
+    def turn(self, which: Any, start: Any, hold: Any, state: Any, tyres: Tyres | None) -> None:
+        """Let some cases go on from a time and a state, after a contact: on new tyres, or on those
+        that they have.
+        """
+        if tyres is not None:
+            self.wheels_of[which] = len(self.wheels)
+            self.wheels.append(tyres)
+        on = self.wheels_of[which]
+        for kind in np.unique(on).tolist():
+            some = np.flatnonzero(on == kind)
+            self._waiting.append(
+                (which[some], start[some], hold[some], state[:, some], self.wheels[kind])
+            )
+
+    def began(self, cases: Any) -> Any:
+        """When the present leg of each case began [s]."""
+        start = np.zeros(self.count)
+        for leg in self.settled():
+            start[leg.which] = leg.start
+        return start[cases]
+
+    def settled(self) -> list[Leg]:
+        """All legs, worked out."""
+        while self._waiting:
+            which, start, hold, state, tyres = self._waiting.pop(0)
+            # Nobody asks for the motion of a leg that ends as it begins.
+            brief = np.zeros(len(which), dtype=bool)
+            for others, begun, *_ in self._waiting:
+                next_start = np.full(self.count, np.inf)
+                next_start[others] = begun
+                brief |= next_start[which] <= start
+            self.legs.append(self._leg(which, start, hold, state, tyres, brief))
+        return self.legs
+
+    def at(self, time: Any, cases: Any, *, before: bool = False) -> Any:
+        """The states of some cases, each at its own time; at a contact that after it, or that
+        ``before``.
+        """
+        if len(self._waiting) == 1 and not self.legs and not np.any(time):
+            # The start needs no motion.
+            return self._waiting[0][3][:, cases]
+        legs = self.settled()
+        if len(legs) == 1:
+            return legs[0].at(time, cases)
+        found = np.empty((6, len(cases)))
+        for number, leg in enumerate(legs):
+            place = np.full(self.count, -1)
+            place[leg.which] = np.arange(len(leg.which))
+            at = place[cases]
+            begun = leg.start[at] < time if before and number else leg.start[at] <= time
+            some = np.flatnonzero((at >= 0) & begun)
+            if len(some):
+                found[:, some] = leg.at(time[some], at[some])
+        return found
+
+    def leg_at(self, time: float, *, before: bool = False) -> Leg:
+        """The leg of the one case of a scene that is no batch."""
+        legs = self.settled()
+        begun = [leg for leg in legs if (leg.start[0] < time if before else leg.start[0] <= time)]
+        return (begun or legs[:1])[-1]
+
+    @property
+    def rests(self) -> Any:
+        """When each case has come to rest for good [s]; infinite where it does not."""
+        found = np.empty(self.count)
+        for leg in self.settled():
+            found[leg.which] = leg.rests
+        return found
+
+    def bounds(self, cases: Any) -> tuple[Any, Any]:
+        """Bounds of what the motion may change by: of the acceleration and the yaw acceleration."""
+        body, ground = self.mover.vehicle, self.ground
+        if self.fixed:
+            return 0.0, 0.0
+        push = np.zeros(len(cases))
+        spin = np.zeros(len(cases))
+        for leg in self.settled():
+            here = np.isin(cases, leg.which)
+            if not here.any():
+                continue
+            if leg.tyres is not None:
+                mine = cases[here]
+                take = ground.taker(mine)
+                most = ground.greatest(leg.tyres, take)
+                reach = np.hypot(
+                    *(0.5 * take(size) for size in (leg.tyres.wheelbase, leg.tyres.track))
+                )
+                push[here] = GRAVITY * (most + ground.steepest)
+                spin[here] = GRAVITY * most * reach * take(body.mass) / take(body.yaw_inertia)
+            elif self.mover.drag is not None:
+                place = np.full(self.count, 0)
+                place[leg.which] = np.arange(len(leg.which))
+                at = place[cases[here]]
+                stops = leg.stops[at]
+                speed = np.hypot(leg.state[3, at], leg.state[4, at])
+                moving = (stops > 0.0) & np.isfinite(stops)
+                push[here] = np.where(moving, speed / np.where(moving, stops, 1.0), 0.0)
+                turning = np.abs(leg.state[5, at])
+                spin[here] = np.where(moving, turning / np.where(moving, stops, 1.0), 0.0)
+        return push, spin
+
+    def _leg(
+        self, which: Any, start: Any, hold: Any, state: Any, tyres: Tyres | None, brief: Any
+    ) -> Leg:
+        speed = np.hypot(state[3], state[4])
+        still = (speed == 0.0) & (state[5] == 0.0)
+        count = len(which)
+        stops = np.where(still, 0.0, np.inf)
+        tabled, table = np.zeros(count, dtype=bool), None
+        begun = state.copy()
+        begun[_PLACES] = state[_PLACES] + hold * state[_RATES]
+        if self.fixed or count == 0:
+            pass
+        elif tyres is not None:
+            rolling = self._rolls(tyres, which, state, speed)
+            tabled = ~(rolling | brief | (still & (self.ground.steepest == 0.0)))
+            if tabled.any():
+                table = np.full((7, self.ground.moments, count), np.nan)
+                table[:, :, tabled] = self._simulated(which[tabled], begun[:, tabled], tyres)
+        elif self.mover.drag is not None:
+            stops = self._slides(which, state, speed, still)
+        return Leg(which, start, hold, state, stops, tabled, table, tyres)
+
+    def _rolls(self, tyres: Tyres, which: Any, state: Any, speed: Any) -> Any:
+        """Whether all wheels roll freely straight on, so that nothing slows the vehicle."""
+        take = self.ground.taker(which)
+        free = ~np.any([take(lock) != 0.0 for lock in tyres.locks], axis=0)
+        straight = (take(tyres.steer) == 0.0) & (state[5] == 0.0)
+        aside = state[4] * np.cos(state[2]) - state[3] * np.sin(state[2])
+        level = self.ground.steepest == 0.0
+        return free & straight & level & (np.abs(aside) <= _ROLLS * speed) & (speed > 0.0)
+
+    def _slides(self, which: Any, state: Any, speed: Any, still: Any) -> Any:
+        """Time until each case has stopped by drag."""
+        take = self.ground.taker(which)
+        moving = np.where(speed > 0.0, speed, 1.0)
+        rise = (
+            take(self.ground.slope[0]) * state[3] + take(self.ground.slope[1]) * state[4]
+        ) / moving
+        slowing = take(self.mover.drag) + np.where(speed > 0.0, rise, 0.0)
+        spins = (speed == 0.0) & ~still
+        steep = still & (self.ground.steepest > slowing)
+        if self.count == 1 and (spins | steep).any():
+            how = (
+                "turns on the spot, which a drag does not slow"
+                if spins.any()
+                else "stands on a slope that is too steep for its drag"
+            )
+            raise NoSolutionError(
+                f"{self.name} {how}; give it tyres=, with the lock of its wheels",
+                code="never_stops",
+            )
+        self._fail(which[spins | steep], "never_stops")
+        usable = slowing > _LEAST_DRAG
+        stops = np.where(usable, speed / (GRAVITY * np.where(usable, slowing, 1.0)), np.inf)
+        return np.where(still, 0.0, stops)
+
+    def _simulated(self, which: Any, state: Any, tyres: Tyres) -> Any:
+        """Time and states at the moments of ``simulate``."""
+        body, ground = self.mover.vehicle, self.ground
+        for name in ("yaw_inertia", "x", "y", "heading"):
+            needed(body, name, "motion on tyres", self.name)
+        one = ground.single
+        take = _as_it_is if one else ground.taker(which)
+        numbers = {name: getattr(body, name) for name in NAMES}
+        rows = dict(zip(STATE, state, strict=True))
+        if one:
+            numbers |= {name: float(row[0]) for name, row in rows.items()}
+            wheels: Any = tyres
+        else:
+            numbers |= {"mass": take(body.mass), "yaw_inertia": take(body.yaw_inertia), **rows}
+            wheels = part_of(tyres, take)
+        try:
+            with quietly([]), in_si():
+                path = simulate(
+                    vehicle_of(numbers),
+                    wheels,
+                    surfaces=ground.surfaces_for(take) or None,
+                    slope=tuple(part_of(part, take) for part in ground.slope),
+                    moments=ground.moments,
+                    tolerance=ground.tolerance,
+                )
+        except CollisionsError as error:
+            raise type(error)(f"{self.name}: {error}", code=error.code, **error.fields) from None
+        names = ("time", *STATE)
+        table = np.array([getattr(path, name) for name in names]).reshape(7, ground.moments, -1)
+        self._fail(which[~np.isfinite(table[:, -1]).all(axis=0)], "never_stops")
+        return table
+
+    def _fail(self, cases: Any, code: str) -> None:
+        fresh = cases[self.failed[cases] == ""]
+        self.failed[fresh] = code
+
+
+def _as_it_is(value: Any) -> Any:
+    """The number of the one case of a scene that is no batch."""
+    return value
+
+
+class Ground(NamedTuple):
+    """What all movers of a scene share: areas, slope, how finely motion is followed, and the cases.
+
+    ``shape`` is that of the cases of a batch, None for one.
+    """
+
+    surfaces: tuple[tuple[Any, Any], ...]
+    slope: tuple[Any, Any]
+    moments: int
+    tolerance: float
+    shape: tuple[int, ...] | None
+
+    @property
+    def single(self) -> bool:
+        """Whether the scene is one case."""
+        return self.shape is None
+
+    @property
+    def steepest(self) -> float:
+        """The greatest rise over run in any case."""
+        return float(np.max(np.hypot(*self.slope), initial=0.0))
+
+    def cases(self, value: Any) -> Any:
+        """A number of the scene in every case, as a fresh array."""
+        shape = self.shape or ()
+        return np.array(np.broadcast_to(np.asarray(value, float), shape)).reshape(-1)
+
+    def taker(self, which: Any) -> Callable[[Any], Any]:
+        """What takes the numbers of some cases from a number of the scene."""
+
+        def take(value: Any) -> Any:
+            return self.cases(value)[which]
+
+        return take
+
+    def surfaces_for(self, take: Callable[[Any], Any]) -> list[tuple[Any, Any]]:
+        """The areas as ``simulate`` takes them, with the friction of some cases."""
+        return [(list(corners), part_of(friction, take)) for corners, friction in self.surfaces]
+
+    def greatest(self, tyres: Tyres, take: Callable[[Any], Any]) -> Any:
+        """The greatest friction anywhere."""
+        most = take(tyres.friction)
+        for _, friction in self.surfaces:
+            most = np.maximum(most, take(friction))
+        return most
+
+
+def no_rest(name: str) -> MissingInputError:
+    """The error for the place of rest of a mover that nothing slows."""
+    return MissingInputError(
+        f"{name} has no place of rest, as nothing slows it; give it tyres=, or drag=, in its Mover",
+        code="missing_drag",
+        argument=name,
+    )
+
+
+def body_at(
+    mover: Mover, name: str, state: Any, take: Callable[[Any], Any], *, single: bool
+) -> Vehicle:
+    """The vehicle of a mover in a state of some cases: floats for one, else arrays."""
+    body = mover.vehicle
+    numbers: dict[str, Any] = {one: getattr(body, one) for one in NAMES}
+    rows: Mapping[str, Any] = dict(zip(STATE, state, strict=True))
+    for one, row in rows.items():
+        if numbers[one] is not None:
+            numbers[one] = float(row[0]) if single else row
+    if not single:
+        for one in ("mass", "yaw_inertia"):
+            numbers[one] = part_of(numbers[one], take)
+    numbers["name"] = name
+    # Shown in the units that the mover was given in.
+    return vehicle_of(numbers, given=Texts(units=texts_of(body.given)))

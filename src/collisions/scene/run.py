@@ -1,0 +1,686 @@
+"""``Run``: a scene that was followed: its impacts, times, tracks, places of rest and energy."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import pairwise
+from types import MappingProxyType
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ..impact.impact import Impact
+from ..messages.errors import (
+    CollisionsError,
+    CollisionsWarning,
+    InputError,
+)
+from ..messages.warning import warn_of_cases
+from ..quantities.attributes import Frozen, Quantities, Shown, derived, lock, show
+from ..quantities.reading import ArgumentReader
+from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers
+from ..quantities.units import Input, Texts, texts_of
+from ..vehicle.drag import one_value
+from ..vehicle.vehicle import NAMES, Vehicle, vehicle_of
+from .follow import Followed, Hit, Notice
+from .ledger import on_drag, on_slope, on_tyres
+from .motion import STATE, Ground, body_at, no_rest
+from .scene import Scene
+
+# Moments of a track between two contacts; odd, for Simpson's rule.
+_MOMENTS = 101
+# And for the work of the ground, whose power jumps where wheels come to edges.
+_FOR_WORK = 2001
+_WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class Track(Shown):
+    """The way of one vehicle through a scene, on the clock of all; of a batch over moments, then
+    over cases.
+
+    At each contact the clock has its time twice, before and after.
+
+    Attributes
+    ----------
+    time : array [s]
+        Equal steps between contacts.
+    x, y : array [m]
+        Position of the centre of mass at these moments.
+    heading : array [rad]
+        Counted on through full turns.
+    vx, vy : array [m/s]
+    yaw_rate : array [rad/s]
+    marks : dict of pairs of arrays [m], optional
+        By wheel ("front_left" and so on), x and y of its track where the tyre uses 90 % of the
+        friction or more; NaN elsewhere. Empty without tyres, and of a batch.
+    """
+
+    _title: ClassVar[str] = "Track"
+
+    time: Any = field(metadata={"unit": "s"})
+    x: Any = field(metadata={"unit": "m"})
+    y: Any = field(metadata={"unit": "m"})
+    heading: Any = field(metadata={"unit": "rad"})
+    vx: Any = field(metadata={"unit": "m/s"})
+    vy: Any = field(metadata={"unit": "m/s"})
+    yaw_rate: Any = field(metadata={"unit": "rad/s"})
+    marks: Any = field(metadata={"unit": "m"})
+
+    def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
+        yield from (row for row in Shown._values(self, prefix) if row[0] != f"{prefix}marks")
+
+
+class Moved(Frozen, Summarized):
+    """One vehicle of a run: its way and its place of rest."""
+
+    name: str
+    _run: Run
+
+    def __init__(self, run: Run, name: str) -> None:
+        vars(self).update(_run=run, name=name)
+
+    @property
+    def path(self) -> Track:
+        """Its way through the scene."""
+        track: Track = self._run.paths[self.name]
+        return track
+
+    @property
+    def rest(self) -> Vehicle:
+        """The vehicle at its place of rest."""
+        return self._run._rest(self.name)
+
+    @property
+    def impacts(self) -> tuple[Impact, ...]:
+        """Its impacts in order."""
+        pairs = zip(self._run.impacts, self._run.pairs, strict=True)
+        return tuple(impact for impact, pair in pairs if self.name in pair)
+
+    def _summary(self, numbers: Cells) -> Summary:
+        return self.rest._summary(numbers)
+
+
+class Run(Frozen, Summarized):
+    """A scene as it went, from the start to rest: the answer of ``Scene.run``.
+
+    Of a batch, numbers are arrays over the cases, and ``status`` says of each case why it has no
+    answer. Impacts are counted in order of time.
+    """
+
+    def __init__(self, scene: Scene, tolerance: float) -> None:
+        ground = Ground(scene.surfaces, scene.slope, moments_for(tolerance), tolerance, scene.shape)
+        # What cannot be answered is NaN, of which numpy need not warn.
+        with np.errstate(all="ignore"):
+            found = Followed(
+                scene.movers, scene.contacts, ground, scene.order, watch=scene.shape is None
+            )
+        vars(self).update(scene=scene, tolerance=tolerance, _followed=found)
+        wrong = found.failed != ""
+        if not found.single and wrong.any():
+            codes, counts = np.unique(found.failed[wrong].astype(str), return_counts=True)
+            many = dict(zip(codes.tolist(), counts.tolist(), strict=True))
+            listed = ", ".join(f"{count} {code}" for code, count in many.items())
+            warn_of_cases(
+                CollisionsWarning(
+                    f"{int(wrong.sum())} of {found.count} cases of the scene have no answer and "
+                    f"are NaN ({listed})",
+                    code="refused_cases",
+                    counts=many,
+                ),
+                {f"without an answer, as {code}": count for code, count in many.items()},
+            )
+
+    scene: Scene
+    tolerance: float
+    _followed: Followed
+
+    @derived()
+    def impacts(self) -> tuple[Impact, ...]:
+        """The impacts in order of time, with the names of the vehicles.
+
+        Of a batch each is over all cases, NaN where there is none; where the order of the contacts
+        differs between cases it is an error, and ``case`` has those of one.
+        """
+        found = self._followed
+        if found.single:
+            return tuple(hit.impact for hit in found.hits)
+        self._refuse_orders()
+        return tuple(self._whole(number) for number in range(self._most))
+
+    @derived()
+    def pairs(self) -> tuple[tuple[str, str], ...]:
+        """The names of the two vehicles of each impact."""
+        self._refuse_orders()
+        longest = self._followed.longest
+        contacts = self.scene.contacts
+        return tuple((contacts[rule].a, contacts[rule].b) for rule in longest)
+
+    @derived()
+    def rules(self) -> tuple[int, ...]:
+        """Of each impact, which contact of the scene it is, by its place in the list."""
+        self._refuse_orders()
+        return tuple(self._followed.longest)
+
+    @derived("s")
+    def times(self) -> tuple[Any, ...]:
+        """When each impact came [s]."""
+        return tuple(self._time(number) for number in range(self._most))
+
+    @derived()
+    def status(self) -> Any:
+        """Of each case "ok", or a label that says why it has no answer; of a batch an array."""
+        found = self._followed
+        if found.single:
+            return "ok"
+        codes = np.where(found.failed == "", "ok", found.failed).astype(str)
+        return codes.reshape(self._shape)
+
+    @derived()
+    def findings(self) -> tuple[Notice, ...]:
+        """What the scene does not describe, or limits its answer; of a single case."""
+        found = self._followed
+        notices = list(found.notices)
+        for hit in found.hits if found.single else ():
+            if bool(hit.deepest[0]):
+                contact = self.scene.contacts[hit.rule]
+                time = float(hit.time[0])
+                text = (
+                    f"{contact.a} and {contact.b} part before the depth or delay of contacts"
+                    f"[{hit.rule}] is reached; the impulse acts at their deepest, at {time:.3g} s"
+                )
+                notices.append(Notice("at_deepest", text, time, (contact.a, contact.b)))
+        return tuple(sorted(notices, key=lambda one: one.time))
+
+    @derived()
+    def deepest(self) -> tuple[bool, ...]:
+        """Of each impact, whether the vehicles parted before the depth or delay that was asked for,
+        so that it acts at their deepest.
+        """
+        return tuple(bool(hit.deepest[0]) for hit in self._followed.hits)
+
+    @derived()
+    def paths(self) -> Mapping[str, Track]:
+        """The way of each vehicle, by name, on one clock."""
+        return MappingProxyType({name: self._track(name) for name in self.scene.movers})
+
+    @derived()
+    def rest(self) -> Rests:
+        """Each vehicle at its place of rest, by name; an error for one that nothing slows."""
+        return Rests(self)
+
+    @derived("s")
+    def end(self) -> Any:
+        """When the last vehicle that comes to rest does [s]; without one, the time of the last
+        impact.
+        """
+        found = self._followed
+        ends = self._ends()
+        return float(ends[0]) if found.single else ends.reshape(self._shape)
+
+    @derived("J")
+    def energy(self) -> Mapping[str, Any]:
+        """Where the kinetic energy went [J]: "before", the sum at the start; "contacts", what each
+        took, its tyres included; "ground", what tyres, drag and slope took, by their power along
+        the way; and "left" at the end of the clock.
+        """
+        self._refuse_batch("energy")
+        movers = self.scene.movers
+        begins = [movers[name].vehicle.kinetic_energy for name in movers]
+        lost = tuple(
+            impact.energy_loss + _tyre_loss(impact.a) + _tyre_loss(impact.b)
+            for impact in self.impacts
+        )
+        ends = self._ends()
+        left = [
+            self._body(name, self._followed.courses[name].at(ends, np.arange(1))) for name in movers
+        ]
+        return MappingProxyType(
+            {
+                "before": math.fsum(begins),
+                "contacts": lost,
+                "ground": math.fsum(self._ground_work(name) for name in movers),
+                "left": math.fsum(body.kinetic_energy for body in left),
+            }
+        )
+
+    @derived("kg*m/s")
+    def momentum(self) -> tuple[Any, ...]:
+        """Of each impact, the momentum (x, y) of both vehicles together, before and after
+        [kg*m/s].
+        """
+        found = []
+        for impact in self.impacts:
+            before, after = (
+                tuple(
+                    one + other
+                    for one, other in zip(
+                        getattr(impact.a, when).momentum,
+                        getattr(impact.b, when).momentum,
+                        strict=True,
+                    )
+                )
+                for when in ("before", "after")
+            )
+            found.append((before, after))
+        return tuple(found)
+
+    @property
+    def q(self) -> Any:
+        """The same attributes as pint Quantities of the application registry."""
+        return Quantities(self)
+
+    def at(self, time: Input) -> dict[str, Vehicle]:
+        """All vehicles at a time; at that of a contact, after it.
+
+        Parameters
+        ----------
+        time : float, str, Quantity or array [s]
+            From the start; for a batch also one for each case. Later than the end, vehicles that
+            rest stay, and others go on.
+
+        Returns
+        -------
+        dict of Vehicle
+            By name.
+
+        Raises
+        ------
+        InputError
+            A time before the start.
+        """
+        reader = ArgumentReader()
+        read = one_value(reader, time, "s", "time")
+        if np.any(np.less(read, 0.0)):
+            text = "time must be >= 0: a scene starts at 0"
+            reader.refuse(InputError(text, code="negative_time", argument="time"))
+        reader.close()
+        found = self._followed
+        if found.single:
+            reader.close()
+            if isinstance(read, np.ndarray):
+                raise InputError(
+                    "time is an array, and this run is one case; run.paths has all moments",
+                    code="bad_shape",
+                    argument="time",
+                )
+        wanted = np.array(np.broadcast_to(read, self._shape), dtype=float).reshape(-1)
+        every = np.arange(found.count)
+        with np.errstate(all="ignore"):
+            states = {name: course.at(wanted, every) for name, course in found.courses.items()}
+        return {name: self._body(name, state) for name, state in states.items()}
+
+    def case(self, index: int | tuple[int, ...]) -> Run:
+        """One case of a batch as a single run.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Which case, as an index into the arrays of the batch.
+
+        Returns
+        -------
+        Run
+
+        Raises
+        ------
+        CollisionsError
+            There is no such case, or it has no answer.
+        """
+        return Run(self.scene.case(index), self.tolerance)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The scene and the results as nested plain values that strict JSON can hold; ``from_dict``
+        runs the scene again.
+
+        Returns
+        -------
+        dict
+        """
+        from .record import run_record
+
+        return run_record(self)
+
+    @classmethod
+    def from_dict(cls, record: Mapping[str, Any]) -> Run:
+        """The run of a ``to_dict`` record, run again from its scene: equal to the original.
+
+        Parameters
+        ----------
+        record : dict
+            What ``to_dict`` gave, also through JSON.
+
+        Returns
+        -------
+        Run
+        """
+        from .record import run_of
+
+        return run_of(record)
+
+    def to_columns(self, *, units: str | None = None) -> dict[str, list[Any]]:
+        """The results as flat columns with one value for each case, ready for
+        ``pandas.DataFrame(...)``.
+
+        Parameters
+        ----------
+        units : {"si", "metric", "us"}, optional
+            Units of the numbers, which then appear in the names. By default SI, with plain names.
+
+        Returns
+        -------
+        dict of list
+            By path, as ``Scene.results`` lists them.
+        """
+        from .names import columns_of
+
+        return columns_of(self, units)
+
+    def __getitem__(self, name: str) -> Moved:
+        if name not in self.scene.movers:
+            raise KeyError(f"{name!r} is no mover; the movers are {', '.join(self.scene.movers)}")
+        return Moved(self, name)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Run):
+            return NotImplemented
+        return self.scene == other.scene and self.tolerance == other.tolerance
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Run, (self.scene, self.tolerance)
+
+    # Parts
+
+    def _roll_out(self) -> None:
+        """Work out all motions to their rest, so that what cannot be followed is refused."""
+        with np.errstate(all="ignore"):
+            for course in self._followed.courses.values():
+                course.settled()
+
+    @property
+    def _shape(self) -> tuple[int, ...]:
+        return self._followed.ground.shape or ()
+
+    @property
+    def _most(self) -> int:
+        return self._followed.most
+
+    def _refuse_batch(self, what: str) -> None:
+        if not self._followed.single:
+            raise InputError(
+                f"{what} is of one case; write run.case(0).{what} for the first of this batch",
+                code="bad_shape",
+                argument="index",
+            )
+
+    def _refuse_orders(self) -> None:
+        """Refuse to put impacts of a batch together whose cases have other contacts in other
+        orders.
+        """
+        found = self._followed
+        if found.single:
+            return
+        if not found.same_order:
+            raise InputError(
+                "the contacts come in another order in some cases of the batch, so that an "
+                "impact is not of the same vehicles in all; run.case(i).impacts has those of "
+                "one case, and scene.results() paths that are of each case",
+                code="several_orders",
+                argument="index",
+            )
+
+    def _time(self, number: int) -> Any:
+        found = self._followed
+        if found.single:
+            return float(found.times[number, 0])
+        many = found.times[number] if number < len(found.times) else np.full(found.count, np.nan)
+        times = np.where(found.failed == "", many, np.nan)
+        return lock(times.reshape(self._shape))
+
+    def _whole(self, number: int) -> Impact:
+        """The impacts of one number over all cases, NaN where there is none."""
+        from .names import whole_impact
+
+        return whole_impact(self, number)
+
+    def _hits(self, number: int) -> list[tuple[Hit, Any]]:
+        """What has impacts of this number, and of which of its cases they are."""
+        found = [(hit, hit.number == number) for hit in self._followed.hits]
+        return [(hit, some) for hit, some in found if some.any()]
+
+    def _ends(self) -> Any:
+        found = self._followed
+        last = np.fmax.reduce(found.times, axis=0, initial=0.0)
+        rests = np.array([course.rests for course in found.courses.values()])
+        return np.maximum(last, np.where(np.isfinite(rests), rests, 0.0).max(axis=0))
+
+    def _body(self, name: str, state: Any) -> Vehicle:
+        found = self._followed
+        if found.single:
+            return body_at(self.scene.movers[name], name, state, lambda v: v, single=True)
+        missing = np.where(found.failed == "", 0.0, np.nan)
+        body = self.scene.movers[name].vehicle
+        numbers: dict[str, Any] = {one: getattr(body, one) for one in NAMES}
+        for one, row in zip(STATE, state + missing, strict=True):
+            if numbers[one] is not None:
+                numbers[one] = row.reshape(self._shape)
+        texts = Texts(units=texts_of(body.given))
+        return vehicle_of(numbers | {"name": name}, given=texts)
+
+    def _rest(self, name: str) -> Vehicle:
+        found = self._followed
+        course = found.courses[name]
+        with np.errstate(all="ignore"):
+            rests = course.rests
+        if found.single and not math.isfinite(rests[0]):
+            raise no_rest(name)
+        with np.errstate(all="ignore"):
+            state = course.at(np.where(np.isfinite(rests), rests, 0.0), np.arange(found.count))
+        # Where nothing stops it there is no such place.
+        state[:3] += np.where(np.isfinite(rests), 0.0, np.nan)
+        state[3:] = 0.0
+        return self._body(name, state)
+
+    def _bounds(self) -> Any:
+        """Start, times of impacts and end, (bounds, cases)."""
+        found = self._followed
+        ends = self._ends()
+        rows = [np.zeros(found.count)]
+        for number in range(self._most):
+            came = found.times[number]
+            rows.append(np.where(np.isnan(came), ends, came))
+        return np.array([*rows, ends])
+
+    def _pieces(self, moments: int = _MOMENTS) -> Iterator[tuple[Any, bool]]:
+        """The moments of the clock between two bounds, of (moments, cases)."""
+        bounds = self._bounds()
+        for number, (begin, end) in enumerate(pairwise(bounds)):
+            if np.all(end <= begin):
+                if number == len(bounds) - 2 and number:
+                    # The scene ends with an impact: its state after.
+                    yield begin[None], False
+                elif number < len(bounds) - 2:
+                    yield begin[None], True
+                else:
+                    yield begin[None], False
+                continue
+            share = np.linspace(0.0, 1.0, moments)[:, None]
+            times = begin + share * (end - begin)
+            times[-1] = end
+            yield times, number < len(bounds) - 2
+
+    def _states(self, name: str, moments: int = _MOMENTS) -> Iterator[tuple[Any, Any]]:
+        """The clock and the states of a vehicle, piece by piece: (moments, cases), (6, ...)."""
+        found = self._followed
+        course, every = found.courses[name], np.arange(found.count)
+        for times, ends_in_contact in self._pieces(moments):
+            cases = np.broadcast_to(every, times.shape).ravel()
+            states = course.at(times.ravel(), cases).reshape(6, *times.shape)
+            if ends_in_contact:
+                states[:, -1] = course.at(times[-1], every, before=True)
+            yield times, states
+
+    def _track(self, name: str) -> Track:
+        found = self._followed
+        mover = self.scene.movers[name]
+        times, states, marks = [], [], []
+        for clock, state in self._states(name):
+            times.append(clock)
+            states.append(state)
+            if found.single:
+                marks.append(self._marks(name, clock, state))
+        time, state = np.concatenate(times), np.concatenate(states, axis=1)
+        shape = (len(time), *self._shape)
+        if not found.single:
+            state = state + np.where(found.failed == "", 0.0, np.nan)
+        rows = {one: lock(row.reshape(shape)) for one, row in zip(STATE, state, strict=True)}
+        tracks: dict[str, Any] = {}
+        if found.single and mover.tyres is not None and marks:
+            whole = np.concatenate(marks, axis=2)
+            tracks = {
+                wheel: (lock(x.copy()), lock(y.copy()))
+                for wheel, (x, y) in zip(_WHEELS, whole, strict=True)
+            }
+        return Track(time=lock(time.reshape(shape)), **rows, marks=tracks)
+
+    def _marks(self, name: str, clock: Any, state: Any) -> Any:
+        _, marks = self._power(name, clock, state)
+        return marks
+
+    def _power(self, name: str, clock: Any, state: Any) -> tuple[Any, Any]:
+        """What the ground takes at the moments of a piece [W], and marks."""
+        found, mover = self._followed, self.scene.movers[name]
+        state = state[:, :, 0]
+        none = np.zeros(len(clock)), np.full((4, 2, len(clock)), np.nan)
+        if mover.fixed:
+            return none
+        leg = found.courses[name].leg_at(float(clock[0, 0]))
+        held = clock[:, 0] < leg.start[0] + leg.hold[0]
+        power, marks = none
+        if leg.tyres is not None:
+            power, marks = on_tyres(leg.tyres, mover, found.ground, state)
+        elif mover.drag is not None:
+            stops = float(leg.stops[0])
+            speed = math.hypot(leg.state[3, 0], leg.state[4, 0])
+            slowing = speed / stops if 0.0 < stops < math.inf else 0.0
+            power = on_drag(mover, found.ground, state, slowing)
+        # What moves on unslowed does so on a slope too.
+        if found.ground.steepest and (leg.tyres is not None or mover.drag is not None):
+            power = power + on_slope(mover, found.ground, state)
+        marks = np.where(held, np.nan, marks)
+        return np.where(held, 0.0, power), marks
+
+    def _ground_work(self, name: str) -> float:
+        """What the ground takes from one vehicle on the whole way [J], by Simpson's rule."""
+        total = 0.0
+        for clock, state in self._states(name, _FOR_WORK):
+            if len(clock) < 3:
+                continue
+            power, _ = self._power(name, clock, state)
+            width = float(clock[1, 0] - clock[0, 0])
+            weights = np.ones(len(power))
+            weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
+            total += width / 3.0 * float(weights @ power)
+        return total
+
+    def __repr__(self) -> str:
+        found = self._followed
+        cases = "" if found.single else f", {found.count} cases"
+        return f"<Run of {', '.join(self.scene.movers)}: {self._most} impacts{cases}>"
+
+    def _summary(self, numbers: Cells) -> Summary:
+        movers = self.scene.movers
+        parts: list[Part] = []
+        rows: list[tuple[str, ...]] = []
+        if self._followed.single:
+            for time, pair, impact in zip(self.times, self.pairs, self.impacts, strict=True):
+                rows.append(
+                    (
+                        f"{pair[0]} and {pair[1]}",
+                        numbers.text(time, "s"),
+                        numbers.text(impact.closing_speed, "m/s"),
+                        numbers.text(impact.a.delta_v, "m/s"),
+                        numbers.text(impact.b.delta_v, "m/s"),
+                        numbers.text(impact.energy_loss, "J"),
+                    )
+                )
+            heads = ("at", "closing", "delta-V of the first", "of the second", "energy lost")
+            parts.append(Part(rows, "Impacts", heads))
+        rows = []
+        for name in movers:
+            try:
+                body = self._rest(name)
+            except CollisionsError:
+                rows.append((name, "goes on", "", ""))
+                continue
+            cells = [
+                numbers.text(getattr(body, part), unit, part)
+                for part, unit in (("x", "m"), ("y", "m"), ("heading", "rad"))
+            ]
+            rows.append((name, *cells))
+        parts.append(Part(rows, "Places of rest", ("x", "y", "heading")))
+        notes = [f"{one.sentence}." for one in self.findings]
+        title = f"Scene of {', '.join(movers)}"
+        if not self._followed.single:
+            wrong = int((self._followed.failed != "").sum())
+            notes.append(f"{self._followed.count} cases, {wrong} of them without an answer.")
+        return Summary(title, [*parts, all_numbers(self._rows())], notes)
+
+    def _rows(self) -> Iterator[tuple[str, str]]:
+        for number in range(self._most):
+            yield f"times[{number}]", show(self._time(number), "s")
+        if self._followed.single:
+            for number, impact in enumerate(self.impacts):
+                yield from ((f"impacts[{number}].{name}", text) for name, text in impact._rows())
+
+    def _texts(self) -> Iterable[Any]:
+        return self.scene._texts()
+
+
+class Rests(Frozen):
+    """Vehicles at their places of rest by name, as in a dict; each is worked out when it is asked
+    for.
+    """
+
+    _run: Run
+
+    def __init__(self, run: Run) -> None:
+        vars(self).update(_run=run)
+
+    def __getitem__(self, name: str) -> Vehicle:
+        if name not in self._run.scene.movers:
+            raise KeyError(name)
+        return self._run._rest(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._run.scene.movers)
+
+    def __len__(self) -> int:
+        return len(self._run.scene.movers)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._run.scene.movers
+
+    def keys(self) -> Iterable[str]:
+        """The names of the vehicles.
+
+        Returns
+        -------
+        iterable of str
+        """
+        return self._run.scene.movers.keys()
+
+    def __repr__(self) -> str:
+        return f"<places of rest of {', '.join(self)}>"
+
+
+def _tyre_loss(side: Any) -> float:
+    loss: float = side.tyre_loss
+    return loss
+
+
+def moments_for(tolerance: float) -> int:
+    """Moments of the motion to rest between which places are cubics: more for a finer tolerance."""
+    return int(min(2001, max(101, 101 * (1e-5 / tolerance) ** 0.5)))

@@ -1,0 +1,356 @@
+"""Outlines in motion: how far apart two are, when they first touch, and where they overlap.
+
+All work on many cases at once: corners are (2, corners, cases), axes (2, cases) or (2, axes,
+cases). Axes point from the first outline to the second.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+# Outlines this near [m] touch.
+TOUCHING = 1e-9
+# Axes whose gap is within this [m] of the greatest are candidates for the face struck.
+_ALIKE = 1e-6
+_MOST_STEPS = 3000
+# No step is longer [s] where velocities change: bounds of the yaw rate hold for as long.
+_LONGEST_STEP = 0.2
+_SHORTEST_STEP = 1e-12
+# Whether a pair has parted is looked at no more often [s].
+_SHORTEST_LOOK = 1e-2
+_SECTIONS = 48
+_GOLDEN = 0.6180339887498949
+# The depth of an overlap is looked at this often [s], or in so many parts of a delay.
+_SEARCH, _MOST_SEARCHES, _PARTS = 2.5e-3, 400, 12
+
+
+class Shape(NamedTuple):
+    """An outline: corners (2, corners) counter-clockwise and the outward normals of its edges, on
+    the vehicle.
+    """
+
+    corners: Any
+    normals: Any
+    reach: float
+
+    @classmethod
+    def of(cls, outline: Any) -> Shape:
+        """From corners in rows."""
+        corners = np.asarray(outline, float).T
+        edges = np.roll(corners, -1, axis=1) - corners
+        keep = np.hypot(*edges) > 0.0
+        edges = edges[:, keep]
+        normals = np.array([edges[1], -edges[0]]) / np.hypot(*edges)
+        return cls(corners, normals, float(np.max(np.hypot(*corners))))
+
+    def placed(self, state: Any) -> Any:
+        """Corners in the scene."""
+        return _turned(self.corners, state[2]) + state[:2, None]
+
+    def faces(self, state: Any) -> Any:
+        """Outward normals in the scene."""
+        return _turned(self.normals, state[2])
+
+
+def _turned(vectors: Any, heading: Any) -> Any:
+    c, s = np.cos(heading), np.sin(heading)
+    x, y = vectors[0][:, None], vectors[1][:, None]
+    return np.array([c * x - s * y, s * x + c * y])
+
+
+class Meeting(NamedTuple):
+    """Two outlines at one time: corners, all axes, and the gap along each (negative: overlap)."""
+
+    one: Any
+    other: Any
+    axes: Any
+    gaps: Any
+
+    @property
+    def gap(self) -> Any:
+        """The greatest gap along an axis: below 0 where the outlines overlap."""
+        return self.gaps.max(axis=0)
+
+    @property
+    def widest(self) -> Any:
+        """Which axis has the greatest gap."""
+        return self.gaps.argmax(axis=0)
+
+    def axis(self, which: Any) -> Any:
+        """One of the axes for each case."""
+        return self.axes[:, which, np.arange(self.axes.shape[2])]
+
+
+def meeting(a: Shape, b: Shape, state_a: Any, state_b: Any) -> Meeting:
+    """Both outlines in these states."""
+    # From the first centre of mass, so that a distant origin rounds nothing.
+    away = state_b[:2] - state_a[:2]
+    one = _turned(a.corners, state_a[2])
+    other = _turned(b.corners, state_b[2]) + away[:, None]
+    axes = np.concatenate([a.faces(state_a), -b.faces(state_b)], axis=1)
+    ends = _along(axes, one).max(axis=1)
+    starts = _along(axes, other).min(axis=1)
+    return Meeting(one, other, axes, starts - ends)
+
+
+def _along(axes: Any, corners: Any) -> Any:
+    """Corners along axes, of (axes, corners, cases)."""
+    return axes[0][:, None] * corners[0][None] + axes[1][:, None] * corners[1][None]
+
+
+class Pair(NamedTuple):
+    """Two outlines and how both move: ``states(times, cases)`` of each, and the bounds of their
+    accelerations.
+    """
+
+    a: Shape
+    b: Shape
+    states: Callable[[Any, Any], tuple[Any, Any]]
+    bounds: Callable[[Any], Any]
+
+    def at(self, time: Any, cases: Any) -> tuple[Meeting, Any, Any]:
+        """The outlines, and both states, at a time of each case."""
+        state_a, state_b = self.states(time, cases)
+        return meeting(self.a, self.b, state_a, state_b), state_a, state_b
+
+
+def _steps(clearance: Any, rate: Any, bend: Any) -> Any:
+    """The time in which a clearance is used up at most, from its rate and a bound of its
+    acceleration.
+    """
+    with np.errstate(all="ignore"):
+        straight = np.where(rate > 0.0, clearance / np.where(rate > 0.0, rate, 1.0), np.inf)
+        root = np.sqrt(rate * rate + 2.0 * bend * clearance)
+        bent = 2.0 * clearance / (rate + root)
+        return np.where(bend > 0.0, np.where(rate + root > 0.0, bent, np.inf), straight)
+
+
+def _bending(pair: Pair, bounds: Any, state_a: Any, state_b: Any) -> Any:
+    """A bound of the relative acceleration of any two corners, over the next step."""
+    push_a, spin_a, push_b, spin_b = bounds
+    turn_a = np.abs(state_a[5]) + _LONGEST_STEP * spin_a
+    turn_b = np.abs(state_b[5]) + _LONGEST_STEP * spin_b
+    return (
+        push_a + push_b
+        + pair.a.reach * (spin_a + turn_a * turn_a)
+        + pair.b.reach * (spin_b + turn_b * turn_b)
+    )  # fmt: skip
+
+
+def _rates(corners: Any, state: Any, centre: Any) -> Any:
+    """Velocities of corners in the scene."""
+    arm = corners - centre[:, None]
+    return np.array([state[3] - state[5] * arm[1], state[4] + state[5] * arm[0]])
+
+
+def _corner_rates(met: Meeting, axis: Any, state_a: Any, state_b: Any) -> tuple[Any, Any]:
+    """Gaps between every two corners along an axis of each case, and how fast they close."""
+    none = np.zeros((2, axis.shape[1]))
+    away = state_b[:2] - state_a[:2]
+    p = axis[0] * met.one[0] + axis[1] * met.one[1]
+    q = axis[0] * met.other[0] + axis[1] * met.other[1]
+    u, v = _rates(met.one, state_a, none), _rates(met.other, state_b, away)
+    pu, qv = axis[0] * u[0] + axis[1] * u[1], axis[0] * v[0] + axis[1] * v[1]
+    return q[None] - p[:, None], pu[:, None] - qv[None]
+
+
+def closing_of(met: Meeting, axis: Any, state_a: Any, state_b: Any) -> Any:
+    """How fast the gap along an axis closes, between the corners that are nearest along it."""
+    gaps, rates = _corner_rates(met, axis, state_a, state_b)
+    least = gaps.min(axis=(0, 1))
+    return np.where(gaps <= least + _ALIKE, rates, -np.inf).max(axis=(0, 1))
+
+
+class Touch(NamedTuple):
+    """When outlines first touch [s] (infinite: never), how fast they close there [m/s], and the
+    nearest that they were [m], and when.
+    """
+
+    time: Any
+    closing: Any
+    nearest: Any
+    nearest_at: Any
+
+
+def first_touch(pair: Pair, begin: Any, until: Any, cases: Any) -> Touch:
+    """The first touch of some cases after a time at which they are apart, by conservative
+    advancement.
+
+    Each step goes as far as no corner can pass the axis between both, by its velocity and a bound
+    of its acceleration. So no touch is missed, however short.
+    """
+    total = len(cases)
+    time = np.array(begin, dtype=float)
+    found = Touch(
+        np.full(total, np.inf), np.zeros(total), np.full(total, np.inf), np.array(begin, float)
+    )
+    going = np.flatnonzero(time <= until)
+    for _ in range(_MOST_STEPS):
+        if not len(going):
+            break
+        now, mine = time[going], cases[going]
+        met, state_a, state_b = pair.at(now, mine)
+        gap = met.gap
+        axis = met.axis(met.widest)
+        nearer = gap < found.nearest[going]
+        found.nearest[going[nearer]] = gap[nearer]
+        found.nearest_at[going[nearer]] = now[nearer]
+        touch = gap <= TOUCHING
+        if touch.any():
+            at = going[touch]
+            found.time[at] = now[touch]
+            closing = closing_of(met, axis, state_a, state_b)
+            found.closing[at] = closing[touch]
+        gaps, rates = _corner_rates(met, axis, state_a, state_b)
+        bend = _bending(pair, pair.bounds(mine), state_a, state_b)
+        step = _steps(gaps, rates, bend).min(axis=(0, 1))
+        step = np.where(bend > 0.0, np.minimum(step, _LONGEST_STEP), step)
+        # Without a number there is no motion to follow.
+        on = ~touch & (now + step <= until[going]) & np.isfinite(gap)
+        time[going] = now + np.maximum(step, _SHORTEST_STEP)
+        going = going[on]
+    return found
+
+
+def first_apart(pair: Pair, begin: Any, until: Any, cases: Any, gap: float) -> Any:
+    """When some cases are first this far apart [s]; infinite where they are not by then."""
+    time = np.array(begin, dtype=float)
+    found = np.full(len(cases), np.inf)
+    going = np.arange(len(cases))
+    for _ in range(_MOST_STEPS):
+        if not len(going):
+            break
+        now, mine = time[going], cases[going]
+        met, state_a, state_b = pair.at(now, mine)
+        apart = met.gap >= gap
+        found[going[apart]] = now[apart]
+        bend = _bending(pair, pair.bounds(mine), state_a, state_b)
+        away = np.hypot(*(state_b[3:5] - state_a[3:5]))
+        away += pair.a.reach * np.abs(state_a[5]) + pair.b.reach * np.abs(state_b[5])
+        step = _steps(np.maximum(gap - met.gap, 0.0), away, bend)
+        step = np.where(bend > 0.0, np.minimum(step, _LONGEST_STEP), step)
+        time[going] = now + np.maximum(step, _SHORTEST_LOOK)
+        going = going[~apart & (now < until[going]) & np.isfinite(met.gap)]
+    return found
+
+
+def struck_face(pair: Pair, touch: Any, later: Any, cases: Any) -> Any:
+    """Which axis is that of the face struck at first touch: where several touch, the one whose
+    overlap stays least.
+    """
+    met, *_ = pair.at(touch, cases)
+    alike = met.gaps >= met.gap - _ALIKE
+    then, *_ = pair.at(later, cases)
+    return np.where(alike, then.gaps, -np.inf).argmax(axis=0)
+
+
+def engaged(
+    pair: Pair,
+    axis_of: Callable[[Meeting], Any],
+    touch: Any,
+    cases: Any,
+    delay: Any,
+    depth: Any,
+) -> tuple[Any, Any]:
+    """When the impulse acts [s], and whether the pair was at its deepest before.
+
+    ``axis_of`` gives the axis of each case. The impulse acts ``delay`` after first touch, or at the
+    ``depth`` along that axis, of which one is None; of a pair that parts before, at its deepest.
+    """
+
+    def deep(time: Any) -> tuple[Any, Any]:
+        """The depth along the axis, and the least along any: below 0 where they are apart."""
+        met, *_ = pair.at(time, cases)
+        axis = axis_of(met)
+        p = axis[0] * met.one[0] + axis[1] * met.one[1]
+        q = axis[0] * met.other[0] + axis[1] * met.other[1]
+        return p.max(axis=0) - q.min(axis=0), -met.gap
+
+    count = len(cases)
+    width, most = (_SEARCH, _MOST_SEARCHES) if delay is None else (delay / _PARTS, _PARTS)
+    time, before = np.array(touch, dtype=float), np.zeros(count)
+    reached, parted = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
+    for _ in range(most):
+        going = ~(reached | parted)
+        if not going.any():
+            break
+        time = np.where(going, time + width, time)
+        now, least = deep(time)
+        hit = going & (least >= 0.0) & (now >= (np.inf if depth is None else depth))
+        falls = now < before if delay is None else np.zeros(count, dtype=bool)
+        parts = going & ~hit & ((least < 0.0) | falls)
+        reached, parted, before = reached | hit, parted | parts, np.where(going, now, before)
+    due = time if delay is None else touch + delay
+    if reached.any():
+        left, right = np.maximum(time - width, touch), time
+        for _ in range(_SECTIONS):
+            middle = 0.5 * (left + right)
+            beyond = deep(middle)[0] >= depth
+            left, right = np.where(beyond, left, middle), np.where(beyond, middle, right)
+        due = np.where(reached, right, due)
+    if parted.any():
+        left, right = np.array(touch, dtype=float), time
+        for _ in range(_SECTIONS):
+            part = _GOLDEN * (right - left)
+            one, two = right - part, left + part
+            more = deep(one)[1] > deep(two)[1]
+            left, right = np.where(more, left, one), np.where(more, two, right)
+        due = np.where(parted, 0.5 * (left + right), due)
+    return due, parted
+
+
+def overlap_of(one: Any, other: Any) -> tuple[Any, Any, Any]:
+    """Centroid (2, cases) of the overlap of convex outlines, its area, and their crossings.
+
+    Crossings are (2, edges, edges, cases), NaN where two edges do not cross. Where nothing
+    overlaps the centroid is that of the corners and crossings that touch, or NaN.
+    """
+    inside_one = _inside(one, other)
+    inside_other = _inside(other, one)
+    crossings = _crossings(one, other)
+    cases = one.shape[2]
+    points = np.concatenate([one, other, crossings.reshape(2, -1, cases)], axis=1)
+    valid = np.concatenate([inside_one, inside_other, np.isfinite(crossings[0]).reshape(-1, cases)])
+    count = valid.sum(axis=0)
+    with np.errstate(all="ignore"):
+        mean = np.where(valid, points, 0.0).sum(axis=1) / np.where(count > 0, count, 1)
+        mean = np.where(count > 0, mean, np.nan)
+        x, y = np.where(valid, points - mean[:, None], 0.0)
+        angle = np.where(valid, np.arctan2(y, x), np.inf)
+        order = np.argsort(angle, axis=0, kind="stable")
+        x, y = np.take_along_axis(x, order, axis=0), np.take_along_axis(y, order, axis=0)
+        place = np.arange(len(x))[:, None]
+        # Those that are none repeat the first, which adds no area.
+        x, y = np.where(place < count, x, x[:1]), np.where(place < count, y, y[:1])
+        nx, ny = np.roll(x, -1, axis=0), np.roll(y, -1, axis=0)
+        twice = x * ny - nx * y
+        area = 0.5 * twice.sum(axis=0)
+        share = np.where(area > 0.0, 6.0 * area, 1.0)
+        centre = np.array([((x + nx) * twice).sum(axis=0), ((y + ny) * twice).sum(axis=0)]) / share
+        size = np.hypot(x, y).max(axis=0)
+        thin = area <= 1e-14 * np.maximum(size * size, 1e-30)
+    return mean + np.where(thin, 0.0, centre), area, crossings
+
+
+def _inside(points: Any, outline: Any) -> Any:
+    """Which points lie in a convex outline, its edge included."""
+    edges = np.roll(outline, -1, axis=1) - outline
+    away = points[:, :, None] - outline[:, None]
+    side = edges[0] * away[1] - edges[1] * away[0]
+    return (side >= -1e-12).all(axis=1)
+
+
+def _crossings(one: Any, other: Any) -> Any:
+    """Where edges of the one cross edges of the other."""
+    p, r = one[:, :, None], (np.roll(one, -1, axis=1) - one)[:, :, None]
+    q, s = other[:, None], (np.roll(other, -1, axis=1) - other)[:, None]
+    cross = r[0] * s[1] - r[1] * s[0]
+    with np.errstate(all="ignore"):
+        ahead = ((q[0] - p[0]) * s[1] - (q[1] - p[1]) * s[0]) / cross
+        along = ((q[0] - p[0]) * r[1] - (q[1] - p[1]) * r[0]) / cross
+        hits = (ahead >= 0.0) & (ahead <= 1.0) & (along >= 0.0) & (along <= 1.0)
+        hits &= np.abs(cross) > 0.0
+        return np.where(hits, p + ahead * r, np.nan)

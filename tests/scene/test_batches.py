@@ -1,0 +1,71 @@
+"""Cases of a batch of scenes against the same cases alone: order, times, impacts and places of
+rest.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions.scene import Contact, Mover, Scene
+
+COUNT = 24
+RULE = {"restitution": 0.3, "friction": 0.5, "at": "touch"}
+
+
+def crash(seed: int) -> Scene:
+    """Three cars that slide, in many cases; the second stands or drives across."""
+    rng = np.random.default_rng(seed)
+
+    def car(x: float, y: float, speed: float, course: float, spread: float) -> Mover:
+        speeds = speed * rng.uniform(1.0 - spread, 1.0 + spread, COUNT)
+        courses = course + rng.normal(0.0, 0.1, COUNT)
+        body = col.Vehicle(
+            mass=rng.uniform(1000.0, 2000.0, COUNT),
+            yaw_inertia=rng.uniform(1500.0, 3000.0, COUNT),
+            x=x + rng.normal(0.0, 0.2, COUNT),
+            y=y + rng.normal(0.0, 0.3, COUNT),
+            vx=speeds * np.cos(courses),
+            vy=speeds * np.sin(courses),
+            heading=course + rng.normal(0.0, 0.05, COUNT),
+            yaw_rate=rng.normal(0.0, 0.3, COUNT) * (speed > 0.0),
+        )
+        return Mover(body, outline=(4.5, 1.8), drag=rng.uniform(0.3, 0.7, COUNT))
+
+    movers = {
+        "A": car(-9.0, 0.0, 18.0, 0.0, 0.3),
+        "B": car(0.0, 0.0, 0.0, 0.0, 0.0),
+        "C": car(7.0, -5.0, 6.0, 0.5 * math.pi, 0.4),
+    }
+    return Scene(movers=movers, contacts=[Contact("A", "B", **RULE), Contact("B", "C", **RULE)])
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize("seed", range(3))
+def test_every_case_of_a_batch_is_as_it_is_alone(seed: int) -> None:
+    scene = crash(seed)
+    run = scene.run()
+    columns = run.to_columns()
+    orders = set()
+    for i in range(COUNT):
+        label = run.status[i]
+        if label != "ok":
+            with pytest.raises(col.CollisionsError) as refused:
+                scene.case(i).run()
+            assert refused.value.code == label
+            assert math.isnan(columns["A.rest.x"][i])
+            continue
+        one = scene.case(i).run()
+        orders.add(one.pairs)
+        for path, value in one.to_columns().items():
+            if path != "status":
+                assert columns[path][i] == pytest.approx(
+                    value[0], rel=1e-9, abs=1e-9, nan_ok=True
+                ), path
+        times = [columns[f"times[{k}]"][i] for k in range(len(one.times))]
+        assert times == pytest.approx(one.times, abs=1e-12)
+    assert len(orders) > 1

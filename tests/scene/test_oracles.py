@@ -1,0 +1,250 @@
+"""Scenes against independent integrations, brute force, and what does not depend on who looks."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import random
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+import collisions as col
+import reference_of_scenes as independent
+from collisions.scene import Contact, Mover, Scene
+from collisions.scene.touching import Meeting, Pair, Shape, first_touch, meeting, overlap_of
+from collisions.travel import Tyres
+
+RULE = {"at": "touch", "restitution": 0.15, "friction": 0.5}
+
+
+def car(rng: random.Random, place: tuple[float, float], toward: tuple[float, float]) -> Mover:
+    """A car at a place that moves about toward another."""
+    mass = rng.uniform(900.0, 3000.0)
+    course = math.atan2(toward[1] - place[1], toward[0] - place[0]) + rng.uniform(-0.2, 0.2)
+    speed = rng.choice((0.0, rng.uniform(5.0, 25.0), rng.uniform(5.0, 25.0)))
+    body = col.Vehicle(
+        mass=mass,
+        yaw_inertia=mass * rng.uniform(1.2, 1.5) ** 2,
+        x=place[0],
+        y=place[1],
+        vx=speed * math.cos(course),
+        vy=speed * math.sin(course),
+        heading=course + rng.choice((0.0, 0.0, rng.uniform(-0.4, 0.4), math.pi / 2)),
+        yaw_rate=rng.choice((0.0, rng.uniform(-2.0, 2.0))) if speed else 0.0,
+    )
+    tyres = Tyres(rng.uniform(0.5, 0.8), rng.choice((0.1, 0.3, 1.0)), 2.7, 1.5)
+    return Mover(body, outline=(rng.uniform(4.0, 5.0), rng.uniform(1.6, 1.9)), tyres=tyres)
+
+
+def drawn(seed: int, count: int = 2) -> dict[str, Mover]:
+    """Cars around the middle of the scene."""
+    rng = random.Random(seed)
+    movers = {}
+    for k in range(count):
+        angle = 2.0 * math.pi * (k + rng.uniform(-0.2, 0.2)) / count
+        away = rng.uniform(5.0, 9.0)
+        place = (away * math.cos(angle), away * math.sin(angle))
+        movers["ABCD"[k]] = car(rng, place, (rng.uniform(-1, 1), rng.uniform(-1, 1)))
+    return movers
+
+
+def crashes(first: int, count: int, sizes: tuple[int, ...]) -> Iterator[tuple[Any, Scene]]:
+    """So many scenes in which some meet, and their movers."""
+    seed = first
+    while count:
+        movers = drawn(seed, sizes[count % len(sizes)])
+        crash = crash_of(movers)
+        seed += 1
+        if crash is not None:
+            count -= 1
+            yield movers, crash
+
+
+def crash_of(movers: dict[str, Mover]) -> Scene | None:
+    """The scene of all contacts that come; None without any."""
+    names = list(movers)
+    pairs = [(a, b) for i, a in enumerate(names) for b in names[i + 1 :]]
+    while pairs:
+        crash = Scene(movers=movers, contacts=[Contact(a, b, **RULE) for a, b in pairs])
+        try:
+            crash.run()
+        except col.NoSolutionError as error:
+            if error.code != "contact_missing":
+                return None
+            pairs.remove(error.fields["movers"])
+        except (col.NoImpactError, col.InputError):
+            return None
+        else:
+            return crash
+    return None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(12))
+def test_a_scene_is_as_an_independent_integration_has_it(seed: int) -> None:
+    movers = drawn(seed)
+    contact = Contact("A", "B", **RULE)
+    wanted = independent.follow(movers, contact)
+    crash = Scene(movers=movers, contacts=[contact])
+    if wanted is None:
+        with contextlib.suppress(col.NoSolutionError, col.NoImpactError):
+            assert crash.run(tolerance=1e-7).deepest[0]
+        return
+    run = crash.run(tolerance=1e-7)
+    assert run.times[0] == pytest.approx(wanted["time"], abs=2e-6)
+    impact, other = run.impacts[0], wanted["impact"]
+    assert impact.normal == pytest.approx(other.normal, abs=1e-5)
+    assert impact.point == pytest.approx(other.point, abs=1e-5)
+    assert impact.a.delta_v == pytest.approx(other.a.delta_v, abs=1e-4)
+    if len(run.impacts) > 1:
+        return
+    for name, mover in movers.items():
+        rest, place = run.rest[name], wanted["rest"][name]
+        way = 1.0 + math.hypot(place[0] - mover.vehicle.x, place[1] - mover.vehicle.y)
+        assert math.hypot(rest.x - place[0], rest.y - place[1]) < 2e-3 * way
+        assert abs(rest.heading - place[2]) < 5e-3
+
+
+def straight(seed: int) -> tuple[Pair, float]:
+    """Two outlines in even motion that may pass each other closely."""
+    rng = np.random.default_rng(seed)
+    shapes = [
+        Shape.of(Mover(col.Vehicle(mass=1.0), outline=tuple(size)).outline)
+        for size in rng.uniform((3.5, 1.4), (6.0, 2.4), (2, 2))
+    ]
+    begin = np.zeros((2, 6))
+    begin[1, :2] = rng.uniform(-8.0, 8.0, 2) + np.sign(rng.uniform(-1, 1, 2)) * 5.0
+    begin[:, 2] = rng.uniform(-3.0, 3.0, 2)
+    begin[1, 3:5] = -begin[1, :2] / rng.uniform(0.4, 1.0) + rng.uniform(-6.0, 6.0, 2)
+    begin[:, 5] = rng.uniform(-3.0, 3.0, 2)
+
+    def states(time: Any, cases: Any) -> tuple[Any, Any]:
+        found = []
+        for row in begin:
+            state = np.repeat(row[:, None], len(time), axis=1)
+            state[:3] += time * row[3:, None]
+            found.append(state)
+        return found[0], found[1]
+
+    return Pair(shapes[0], shapes[1], states, lambda cases: (0.0, 0.0, 0.0, 0.0)), 2.0
+
+
+@pytest.mark.slow
+def test_no_touch_is_missed_and_each_is_when_a_fine_grid_has_it() -> None:
+    touched = 0
+    for seed in range(80):
+        pair, until = straight(seed)
+        grid = np.arange(0.0, until, 2.5e-4)
+        met, *_ = pair.at(grid, np.zeros(len(grid), dtype=int))
+        overlaps = np.flatnonzero(met.gap <= 0.0)
+        if met.gap[0] <= 0.0:
+            continue
+        found = first_touch(pair, np.zeros(1), np.array([until]), np.zeros(1, dtype=int))
+        if len(overlaps):
+            touched += 1
+            at = grid[overlaps[0]]
+            assert at - 2.5e-4 - 1e-9 <= found.time[0] <= at + 1e-9
+        elif np.isfinite(found.time[0]):
+            # A graze between two moments of the grid.
+            near, *_ = pair.at(found.time, np.zeros(1, dtype=int))
+            assert abs(near.gap[0]) < 1e-8
+    assert touched > 25
+
+
+def polygons(met: Meeting) -> list[list[tuple[float, float]]]:
+    return [list(zip(*part[:, :, 0].tolist(), strict=True)) for part in (met.one, met.other)]
+
+
+def test_overlaps_are_those_of_polygons_cut_edge_by_edge() -> None:
+    compared = 0
+    for seed in range(400):
+        pair, _ = straight(seed)
+        time = np.array([np.random.default_rng(seed).uniform(0.2, 1.0)])
+        state_a, state_b = pair.states(time, np.zeros(1, dtype=int))
+        met = meeting(pair.a, pair.b, state_a, state_b)
+        one, other = polygons(met)
+        area, centre = independent.area_and_centre(independent.cut(one, other))
+        assert (area > 0.0) == (met.gap[0] < 0.0)
+        if area > 1e-9:
+            compared += 1
+            found, size, _ = overlap_of(met.one, met.other)
+            assert size[0] == pytest.approx(area, rel=1e-9)
+            assert found[:, 0] == pytest.approx(centre, abs=1e-9)
+    assert compared > 50
+
+
+def balance(run: Any) -> float:
+    energy = run.energy
+    left = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
+    return float(left / energy["before"])
+
+
+@pytest.mark.slow
+def test_energy_closes_and_every_contact_keeps_momentum() -> None:
+    for _, crash in crashes(100, 12, (2, 3, 4)):
+        run = crash.run()
+        assert abs(balance(run)) < 1e-3
+        for before, after in run.momentum:
+            size = max(abs(part) for part in before)
+            assert after == pytest.approx(before, abs=1e-12 * size)
+
+
+def turned(movers: dict[str, Mover], angle: float) -> dict[str, Mover]:
+    """The whole scene turned about the origin."""
+    c, s = math.cos(angle), math.sin(angle)
+    found = {}
+    for name, mover in movers.items():
+        v = mover.vehicle
+        body = v.replace(
+            x=c * v.x - s * v.y,
+            y=s * v.x + c * v.y,
+            vx=c * v.vx - s * v.vy,
+            vy=s * v.vx + c * v.vy,
+            heading=math.remainder(v.heading + angle, math.tau),
+        )
+        found[name] = mover.replace(vehicle=body)
+    return found
+
+
+def mirrored(movers: dict[str, Mover]) -> dict[str, Mover]:
+    """The whole scene seen in a mirror along x."""
+    found = {}
+    for name, mover in movers.items():
+        v = mover.vehicle
+        body = v.replace(y=-v.y, vy=-v.vy, heading=-v.heading, yaw_rate=-v.yaw_rate)
+        found[name] = mover.replace(vehicle=body)
+    return found
+
+
+@pytest.mark.slow
+def test_a_scene_does_not_depend_on_axes_mirrors_or_names() -> None:
+    for movers, crash in crashes(200, 5, (2, 3)):
+        looks_the_same(movers, crash)
+
+
+def looks_the_same(movers: dict[str, Mover], crash: Scene) -> None:
+    """Turned, in a mirror, and by other names in another order."""
+    run = crash.run(tolerance=1e-6)
+    angle = 0.7
+    other = Scene(movers=turned(movers, angle), contacts=list(crash.contacts)).run(tolerance=1e-6)
+    mirror = Scene(movers=mirrored(movers), contacts=list(crash.contacts)).run(tolerance=1e-6)
+    renamed = dict(reversed([(f"car {name}", mover) for name, mover in movers.items()]))
+    contacts = [Contact(f"car {c.b}", f"car {c.a}", **RULE) for c in reversed(crash.contacts)]
+    swapped = Scene(movers=renamed, contacts=contacts).run(tolerance=1e-6)
+    c, s = math.cos(angle), math.sin(angle)
+    for name, mover in movers.items():
+        # Rounding takes other steps: as near as ``simulate`` says its places of rest are.
+        x, y = run.rest[name].x - mover.vehicle.x, run.rest[name].y - mover.vehicle.y
+        near = {"abs": 1e-3 * max(1.0, math.hypot(x, y))}
+        rest, there, seen = run.rest[name], other.rest[name], mirror.rest[name]
+        assert there.x == pytest.approx(c * rest.x - s * rest.y, **near)
+        assert there.y == pytest.approx(s * rest.x + c * rest.y, **near)
+        assert (seen.x, -seen.y) == pytest.approx((rest.x, rest.y), **near)
+        assert -seen.heading == pytest.approx(rest.heading, **near)
+        again = swapped.rest[f"car {name}"]
+        assert (again.x, again.y) == pytest.approx((rest.x, rest.y), **near)
+    for runs in (other, mirror, swapped):
+        assert runs.times == pytest.approx(run.times, abs=1e-4)
