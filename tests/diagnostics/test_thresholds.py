@@ -420,7 +420,7 @@ ROWS = [
     Row("law_yaw", 0.25, OWN, other_yaw),
     Row("normal", 0.2, MESSAGES, turned_normal),
     Row("normal_yaw", 0.5, OWN, turned_normal_yaw),
-    Row("moves", 0.2, OWN, moved_by_the_normal),
+    Row("moves", 0.25, OWN, moved_by_the_normal),
     Row("moves_yaw", 2.0, OWN, turned_by_what_moves),
     Row("friction_low", 0.3, "SAE 970947", lambda x: aslant(vy=60.0, friction=x), below=True),
     Row("may_slide", 0.3, "SAE 970947", lambda x: aslant(vy=20.0 * x, friction=math.inf)),

@@ -1047,6 +1047,8 @@ def test_speeds(case: Case) -> None:
         known |= {f"recorder_{side}": case.option((0.5, 0.1), case.pair("x")) for side in sides}
         known |= {"duration": case.option(0.1, case.value("duration"))}
         known |= {"axes": case.option("turning", "fixed")} if case.maybe(0.5) else {}
+    if case.maybe(0.2):
+        known |= lasting(case)
     solved(case, "speeds", a, b, restitution=e, **keywords, **courses, **known)
 
 

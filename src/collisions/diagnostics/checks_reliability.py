@@ -298,10 +298,10 @@ def normal_yaw(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "largest change of delta-V in what would move the answer (diagnose(...).moves), as a share "
     "of delta-V; inf if there is no answer then",
-    above(0.2),
+    above(0.25),
     (
-        "set here: predictions of staged crashes from drawn contacts, made before their "
-        "measurements were read, were off by a fifth (documentation, validation, table 1)"
+        "set here: a quarter; predictions of staged crashes from drawn contacts, made before their "
+        "measurements were read, scatter by about a fifth (documentation, validation, table 1)"
     ),
 )
 def moves(case: ImpactCase) -> Iterator[Measured]:

@@ -16,6 +16,9 @@ from ..quantities.directions import from_radians
 from ..vehicle.vehicle import moved
 from .lasting import settle, slopes_at
 
+# The second of a pair that together is one energy.
+_STANDS_FOR_NONE = ("ees_b", "max_crush_speed_b")
+
 
 def speeds_with_tyres(
     inputs: Inputs,
@@ -31,7 +34,8 @@ def speeds_with_tyres(
     speeds that were found without tyres, below 0 for a motion backwards, ``known`` what was known,
     by the arguments of ``speeds``. Energies are those of the contact, without what the tyres take.
     More components of delta-V than are needed are met by least squares, all weighing alike as parts
-    of the impulse, as ``speeds`` does: the directions in which they are met are those of the start.
+    of the impulse, and a speed or an energy beside them exactly, as ``speeds`` does: the directions
+    in which they are met are those of the start.
     """
     start = [np.broadcast_to(np.asarray(speed, np.float64), shape) for speed in instant]
     speed = np.hypot(*start)
@@ -56,11 +60,30 @@ def speeds_with_tyres(
     if len(rows) == 2:
         return _found(*settle(inputs_at, start, sizes, off))
 
-    def normal_equations(tried: Inputs, answer: Any) -> list[Any]:
-        left = off(tried, answer)
-        return [sum(row[i] * one for row, one in zip(rows, left, strict=True)) for i in range(2)]
+    exact = [
+        not name.startswith(("delta_v_forward", "delta_v_left"))
+        for name in known
+        if name not in _STANDS_FOR_NONE
+    ]
 
-    return _found(*settle(inputs_at, start, sizes, normal_equations))
+    def equations(tried: Inputs, answer: Any) -> list[Any]:
+        left = off(tried, answer)
+        met = [one for one, alone in zip(left, exact, strict=True) if alone]
+        if not met:
+            return [
+                sum(row[i] * one for row, one in zip(rows, left, strict=True)) for i in range(2)
+            ]
+        # Along what leaves the exact one as it is.
+        x, y = rows[exact.index(True)]
+        size = np.hypot(x, y)
+        rest = sum(
+            (row[1] * x - row[0] * y) / size * one
+            for row, one, alone in zip(rows, left, exact, strict=True)
+            if not alone
+        )
+        return [*met, rest][:2]
+
+    return _found(*settle(inputs_at, start, sizes, equations))
 
 
 def _found(values: Sequence[Any], settled: Any) -> tuple[Any, Any, Any]:
@@ -90,14 +113,16 @@ def _missed(
         # A part of the impulse, as a speed of both together.
         weight = body.mass / (tried.a.mass + tried.b.mass)
         return [weight * (along - value)]
-    if name in ("ees_b", "max_crush_speed_b"):
+    if name in _STANDS_FOR_NONE:
         return []
     lost = answer.energy_loss
     if name.startswith("ees"):
         value = energy_of_speeds(tried.a.mass, value, tried.b.mass, known["ees_b"])
     elif name.startswith("max_crush"):
         value = energy_of_speeds(tried.a.mass, value, tried.b.mass, known["max_crush_speed_b"])
-        lost = 0.5 * answer.closing_speed * answer.compression_impulse
+        absorbed = 0.5 * answer.closing_speed * answer.compression_impulse
+        # An incomplete contact absorbs until it ends.
+        lost = np.where(tried.restitution < 0.0, answer.energy_loss_normal, absorbed)
     # Energies as the speeds that they stand for.
     light = np.minimum(tried.a.mass, tried.b.mass)
     return [np.sqrt(2.0 * np.maximum(lost, 0.0) / light) - np.sqrt(2.0 * value / light)]
