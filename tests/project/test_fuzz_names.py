@@ -974,6 +974,8 @@ def test_speeds(case: Case) -> None:
         )
     if case.maybe(0.1):
         known["forward_only"] = case.option(True, False)
+    if case.maybe(0.2):
+        known |= lasting(case)
     solved(case, "speeds", a, b, restitution=e, **keywords, **courses, **known)
 
 

@@ -12,7 +12,9 @@ import pytest
 
 import collisions as col
 from collisions import reconstruct
+from collisions.derivation import explain
 from collisions.reconstruct.speeds_tyres import speeds_with_tyres
+from collisions.reporting import replay
 from collisions.travel import Tyres
 
 COMPONENTS = ("delta_v_forward_a", "delta_v_left_a", "delta_v_forward_b", "delta_v_left_b")
@@ -148,3 +150,90 @@ def test_a_batch_has_the_answers_of_its_cases():
     assert many[0][0] == pytest.approx(one[0], rel=1e-11)
     assert many[2].tolist() == [True, True]
     assert abs(many[0][1] - one[0]) > 0.01
+
+
+A = col.Vehicle(mass=1437.0, yaw_inertia=2311.0, vx=14.0, vy=1.0, x=-2.0, y=0.4, heading=0.1)
+B = col.Vehicle(mass=1213.0, yaw_inertia=1877.0, vy=6.0, x=2.0, y=0.0, heading=1.3)
+CONTACT = {"normal": 0.0713, "point": (0.0531, 0.0917), "friction": 0.4137}
+WHEELS = {
+    "duration": 0.1013,
+    "tyres_a": Tyres(0.6713, (0.1719, 0.2317, 0.3137, 0.4179), 2.7139, 1.5317, steer=0.0917),
+    "tyres_b": Tyres(0.5713, 1.0, 2.6319, 1.4731, height=0.5179),
+}
+COURSES = {"course_a": A.course, "course_b": B.course}
+
+
+def ended(**changes):
+    return col.eccentric(A, B, 0.1531, **(CONTACT | WHEELS | changes))
+
+
+def asked(known, **changes):
+    return reconstruct.speeds(
+        A,
+        B,
+        **COURSES,
+        restitution=0.1531,
+        **known,
+        **(CONTACT | WHEELS | {"forward_only": True} | changes),
+    )
+
+
+def apart_from_truth(found):
+    return max(abs(found.a.before.speed - A.speed), abs(found.b.before.speed - B.speed))
+
+
+@pytest.mark.parametrize("names", PAIRS, ids=lambda names: "-".join(names))
+def test_speeds_takes_tyres(names):
+    friction = {"friction": math.inf} if names[0] in COMPONENTS else {}
+    end = ended(**friction)
+    known = {name: read(end, name) for name in names}
+    for name in list(known):
+        if name in ("ees_a", "max_crush_speed_a"):
+            known[f"{name[:-1]}b"] = read(end, f"{name[:-1]}b")
+    answers = asked(known, **friction)
+    off = [apart_from_truth(one) for one in answers]
+    assert min(off) < 1e-8
+    best = answers[int(np.argmin(off))]
+    assert best.inputs.duration == WHEELS["duration"]
+    assert best.statements == ()
+    for name, value in known.items():
+        if not name.startswith(("ees", "max")):
+            assert read(best, name) == pytest.approx(value, rel=1e-8)
+    instants = reconstruct.speeds(
+        A, B, **COURSES, restitution=0.1531, **known, **(CONTACT | friction), forward_only=True
+    )
+    assert min(apart_from_truth(one) for one in instants) > 0.01
+    assert len(instants[0].statements) == 1
+
+
+def test_an_answer_is_explained_reported_and_recorded():
+    end = ended()
+    (found, *_) = asked({"speed_b": B.speed, "delta_v_a": end.a.delta_v}, duration="101.3 ms")
+    page = col.report(found, form="markdown", units="si", figures=False)
+    for text in (explain(found, units="si", form="text"), page.partition("## Record")[0]):
+        for number in (0.1013, *WHEELS["tyres_a"].named.values()):
+            assert f"{number:.6g}" in text
+    assert replay(page) == found
+    assert col.report(replay(page), form="markdown", units="si", figures=False) == page
+
+
+def test_a_batch_of_speeds_with_tyres():
+    end = ended()
+    known = {"speed_b": B.speed, "delta_v_a": end.a.delta_v}
+    durations = np.array([0.05, 0.1013, -0.1])
+    with pytest.warns(col.CollisionsWarning, match="not_positive"):
+        many = asked(known, duration=durations)
+    speeds = many[0].a.before.vx
+    assert np.isnan(speeds).tolist() == [False, False, True]
+    (one, *_) = asked(known, duration=0.05)
+    assert speeds[0] == pytest.approx(one.a.before.vx, rel=1e-10)
+
+
+def test_what_speeds_cannot_use_with_tyres_is_refused():
+    known = {"speed_b": 6.0, "delta_v_a": 5.0}
+    with pytest.raises(col.InputError, match="a function of restitution and tyres"):
+        reconstruct.speeds(
+            A, B, **COURSES, restitution=lambda speed: 0.1, **known, **CONTACT, **WHEELS
+        )
+    with pytest.raises(col.InputError, match="tyres need a duration"):
+        asked(known, duration=None)

@@ -262,6 +262,11 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
         "known, and a pair of speeds was kept if the impact, solved forwards, is in that "
         "regime. For this one:"
     )
+    if s.impact.inputs.tyres:
+        page.say(
+            "Then they were refined, by Newton's method, until the contact with its tyres, solved "
+            "forwards, has what was known; delta-V is that of contact and tyres."
+        )
     for body in s.bodies:
         label = body.label
         if f"speed_{label.lower()}" in known:
@@ -279,6 +284,8 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
             )
         if f"delta_v_{label.lower()}" in known and not body.fixed:
             by_impulse = root(s.normal.squared() + s.tangential.squared()) / body.mass
+            if body.outside is not None:
+                by_impulse = root(body.delta_v("x").squared() + body.delta_v("y").squared())
             page.equation(f"Delta-V of {label}, known", body.delta_v(), by_impulse)
     for name, what in (
         ("energy_loss", "energy lost"),

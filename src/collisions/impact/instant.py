@@ -15,7 +15,7 @@ from .impact import Impact
 from .left_out import LeftOut, left_out
 
 # The reverse solvers that take a duration and tyres.
-TAKE_TYRES = ("planar",)
+TAKE_TYRES = ("planar", "speeds")
 
 
 class Neglect(NamedTuple):

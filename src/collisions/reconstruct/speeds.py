@@ -14,6 +14,7 @@ import numpy as np
 from ..impact.impact import Impact
 from ..impact.inputs import Inputs, Law, check_flag, read_inputs
 from ..impact.run import error_of, warn_of_refusals
+from ..impact.time_resolved_inputs import read_lasting
 from ..kernels.contact_laws import BRACH, LAWS
 from ..kernels.status import EPS, Status
 from ..messages.errors import CollisionsError, InputError, MissingInputError, OutOfRangeWarning
@@ -23,6 +24,7 @@ from ..quantities.directions import Angle, course
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Sentences, said
 from ..quantities.units import Input, Pair
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle, missing, moved
 from .common import (
     ASK_ALONE,
@@ -36,9 +38,11 @@ from .common import (
     run_forward,
     split_texts,
 )
+from .lasting import numbers_of_times, tyre_faults
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import ComponentScene
+from .speeds_tyres import speeds_with_tyres
 
 # What may be known: any two, or else components of delta-V, with speeds or without.
 _TWO_OF = (
@@ -50,6 +54,8 @@ _TWO_OF = (
     *chain.from_iterable(PAIRS.items()),
 )
 _COMPONENTS = tuple(f"delta_v_{part}_{label}" for label in "ab" for part in ("forward", "left"))
+# Of the speeds: refined answers that differ by no more are one.
+_ONE_ANSWER = 1e-6
 # Above this restitution hardly any energy is lost along the normal.
 _ELASTIC = 1.0 - 1e-6
 # Distances of two answers whose ratio is less: the fold, quadratic, is as near as the samples are
@@ -85,12 +91,17 @@ def speeds(
     delta_v_left_a: Input | None = None,
     delta_v_forward_b: Input | None = None,
     delta_v_left_b: Input | None = None,
+    duration: Input | None = None,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
     forward_only: bool = False,
 ) -> tuple[Impact, ...]:
     """Impact speeds of both vehicles from the geometry of the impact and two known quantities.
 
     The model is that of ``eccentric``: lever arms, rotation, friction and both laws. All pairs of
-    speeds that fit are returned.
+    speeds that fit are returned. With ``duration`` and ``tyres_a``, ``tyres_b`` each answer of the
+    instant is refined to the speeds for which ``eccentric`` with the same arguments has what is
+    known.
 
     Parameters
     ----------
@@ -140,6 +151,9 @@ def speeds(
         friction, and one speed must be known.
     delta_v_forward_b, delta_v_left_b : float, str, Quantity or array [m/s], optional
         The same of B.
+    duration, tyres_a, tyres_b
+        As for ``eccentric``: how long the contact lasts, and the wheels that act on the ground
+        meanwhile. A known delta-V has their part in it; known energies are those of the contact.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
 
@@ -218,6 +232,9 @@ def speeds(
     components = {name: given[name] for name in _COMPONENTS if given[name] is not None}
     others = _known_beside(components, {name: given[name] for name in _TWO_OF})
     reader = ArgumentReader()
+    times: dict[str, Any] = {}
+    if duration is not None or tyres_a is not None or tyres_b is not None:
+        times = read_lasting(reader, "speeds", a, b, duration, (tyres_a, tyres_b))
     known = read_amounts(reader, others)
     known |= {name: reader.number(value, "m/s", name) for name, value in components.items()}
     courses = {
@@ -227,8 +244,17 @@ def speeds(
     check_flag(reader, "forward_only", forward_only)
     e = 0.0 if callable(restitution) else restitution
     arguments = a, b, e, normal, point, (friction, impulse_ratio, critical_fraction), law
-    beside = (*known.values(), *(angle.value for angle in courses.values()))
+    in_time = numbers_of_times(times)
+    beside = (*known.values(), *(angle.value for angle in courses.values()), *in_time.values())
     inputs = read_inputs("eccentric", arguments, reader.problems, beside, incomplete)
+    inputs = replace(inputs, **times)
+    if times and callable(restitution):
+        raise InputError(
+            "a function of restitution and tyres cannot be solved together; give a number for the "
+            "restitution",
+            code="bad_combination",
+            argument="restitution",
+        )
     numbers = {
         **known,
         "restitution": inputs.restitution,
@@ -240,7 +266,7 @@ def speeds(
         numbers |= {
             f"course_{label}[{i}]": part for i, part in enumerate(angle.beside(beside).direction)
         }
-    cases = Cases.of(numbers)
+    cases = Cases.of(numbers | in_time)
     with np.errstate(all="ignore"):
         _refuse_combinations(inputs, known, bool(components), callable(restitution))
         function = (
@@ -489,6 +515,9 @@ def _answers(
         e = inputs.restitution if function is None else cases.where(keep, root.restitution)
         return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
 
+    if inputs.tyres:
+        faults += tyre_faults(inputs.duration, inputs.tyres)
+        found = _while_tyres_act(cases, scene, found, inputs, known, forward_only)
     nowhere = np.zeros(scene.shape, dtype=bool)
     count = sum((there.astype(np.int64) for _, there in found), nowhere.astype(np.int64))
     impacts: list[Impact] = []
@@ -527,6 +556,39 @@ def _answers(
         )
         warn_of_cases(warning, {f"a speed comes out below 0, {cure}": cases.number(turned)})
     return tuple(impacts)
+
+
+def _while_tyres_act(
+    cases: Cases,
+    scene: Scene,
+    found: list[tuple[Root, Any]],
+    inputs: Inputs,
+    known: dict[str, Any],
+    forward_only: bool,
+) -> list[tuple[Root, Any]]:
+    """Each root refined for a contact in which the tyres act, and where there is one; those that
+    come to another are left out.
+    """
+    directions = {
+        label: (scene.numbers[f"course_{label}[0]"], scene.numbers[f"course_{label}[1]"])
+        for label in "ab"
+    }
+    refined: list[tuple[Root, Any]] = []
+    for root, there in found:
+        instant = root.speed_a * scene.speed_unit, root.speed_b * scene.speed_unit
+        start = tuple(np.where(there, speed, np.nan) for speed in instant)
+        one, other, settled = speeds_with_tyres(
+            inputs, directions, (start[0], start[1]), known, cases.shape or ()
+        )
+        size = np.hypot(one, other)
+        if forward_only:
+            settled = settled & (np.minimum(one, other) >= -ROOT_TOL * size)
+        root = root._replace(speed_a=one / scene.speed_unit, speed_b=other / scene.speed_unit)
+        for earlier, before in refined:
+            apart = abs(earlier.speed_a - root.speed_a) + abs(earlier.speed_b - root.speed_b)
+            settled = settled & ~(before & (apart * scene.speed_unit <= _ONE_ANSWER * size))
+        refined.append((root, settled))
+    return [(root, settled) for root, settled in refined if np.any(settled)]
 
 
 def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> None:

@@ -97,7 +97,9 @@ def _missed(
         value = energy_of_speeds(tried.a.mass, value, tried.b.mass, known["ees_b"])
     elif name.startswith("max_crush"):
         value = energy_of_speeds(tried.a.mass, value, tried.b.mass, known["max_crush_speed_b"])
-        lost = 0.5 * answer.closing_speed * answer.compression_impulse
+        absorbed = 0.5 * answer.closing_speed * answer.compression_impulse
+        # An incomplete contact absorbs until it ends.
+        lost = np.where(tried.restitution < 0.0, answer.energy_loss_normal, absorbed)
     # Energies as the speeds that they stand for.
     light = np.minimum(tried.a.mass, tried.b.mass)
     return [np.sqrt(2.0 * np.maximum(lost, 0.0) / light) - np.sqrt(2.0 * value / light)]

@@ -108,14 +108,14 @@ def _solved_again(impact: Impact, origin: Reconstruction) -> tuple[Any, ...]:
     contact |= {"law": inputs.law or BRACH, "incomplete": inputs.incomplete}
     if len(known) < len(origin.known):
         return ()
+    wheels = {name: getattr(inputs, name) for name in ("duration", *TYRES)}
     if origin.method == "central":
         return (central(inputs.a.mass, inputs.b.mass, **known, incomplete=inputs.incomplete),)
     if origin.method == "planar":
-        wheels = {name: getattr(inputs, name) for name in ("duration", *TYRES)}
         return (planar(impact.a.after, impact.b.after, **known, **contact, **wheels),)
     courses = {f"course_{label}": getattr(inputs, label).course for label in "ab"}
     more: dict[str, Any] = {**courses, **contact, **known, inputs.rule: inputs.rule_value}
-    return speeds(inputs.a, inputs.b, restitution=inputs.restitution, **more)
+    return speeds(inputs.a, inputs.b, restitution=inputs.restitution, **more, **wheels)
 
 
 def _is_same(one: Impact, other: Impact) -> bool:
