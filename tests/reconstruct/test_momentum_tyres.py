@@ -280,3 +280,11 @@ def test_what_a_planar_reconstruction_leaves_out_is_said():
     assert f"and {100 * motion:.0f} percent for point and normal that move on" in sentence
     for text in (explain(answer, form="text"), col.report(answer, form="markdown", figures=False)):
         assert "Found as an instant" in text
+
+
+def test_tyres_that_are_in_the_answer_are_no_finding():
+    checks = [
+        col.diagnose(answer).measured & {"tyre_impulse", "instant"}
+        for answer in (found(), found(duration=0.1, tyres_a=ROLLING))
+    ]
+    assert checks == [{"tyre_impulse", "instant"}, set()]

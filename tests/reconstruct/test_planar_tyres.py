@@ -261,6 +261,7 @@ def test_it_is_explained_reported_and_recorded():
     assert col.Impact.from_dict(record) == found
 
 
+@pytest.mark.slow
 def test_what_decides_is_said_for_the_lasting_contact():
     """A slow slip: sliding either way or not at all ends so, and each of the solutions leads to
     this end while the tyres act.

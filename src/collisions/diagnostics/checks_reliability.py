@@ -117,6 +117,8 @@ def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
     ),
 )
 def tyre_impulse(case: Case) -> Iterator[Measured]:
+    if isinstance(case, MomentumCase) and case.answer.tyres:
+        return
     for label, vehicle in case.vehicles.items():
         if isinstance(case, ImpactCase) and (
             case.answer.inputs.tyres or (case.answer.inputs.drag and case.left_out is None)
