@@ -197,6 +197,7 @@ def report(
         spread.write(sheet, uncertainty)
     if findings is not None:
         sections.findings(sheet, findings)
+        sections.moves(sheet, findings.moves)
     if paragraphs:
         sheet.heading("Notes")
         for paragraph in paragraphs:

@@ -17,6 +17,8 @@ from typing import Any
 
 from ..diagnostics import LIMITS
 from ..impact.impact import Impact, with_vehicles
+from ..impact.inputs import TYRES
+from ..impact.records import tyres_of, tyres_record
 from ..kernels.elementwise import UNCHECKED
 from ..messages.errors import CollisionsError, CollisionsWarning, InputError
 from ..quantities.attributes import unit_of
@@ -28,6 +30,7 @@ from ..quantities.units import Texts, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior, momentum
 from ..uncertainty import Propagation
 from ..vehicle.outlines import read_outline
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import DOMAINS, Vehicle, with_given
 from .found_again import contradicted_origin
 from .render import FENCE, RECORD
@@ -89,7 +92,11 @@ def record(
     elif isinstance(impact, (Fit, Posterior)):
         whole[type(impact).__name__.lower()] = impact.to_dict()
     else:
-        whole["momentum"] = {"inputs": impact.given, "results": _results(impact)}
+        given = {
+            name: tyres_record(value) if isinstance(value, Tyres) else value
+            for name, value in (impact.given or {}).items()
+        }
+        whole["momentum"] = {"inputs": given, "results": _results(impact)}
     return json.dumps(whole, indent=1, allow_nan=False)
 
 
@@ -155,7 +162,11 @@ def _argument(find: Callable[[str], Any], name: str) -> Any:
 def _results(solution: MomentumSolution) -> Any:
     """The fields of a planar-momentum result."""
     return strict(
-        {f.name: getattr(solution, f.name) for f in fields(solution) if f.name != "given"}
+        {
+            f.name: getattr(solution, f.name)
+            for f in fields(solution)
+            if f.name not in ("given", *TYRES)
+        }
     )
 
 
@@ -227,7 +238,10 @@ def _momentum(whole: Any) -> MomentumSolution:
     """Planar momentum solved again from a record."""
     try:
         inputs, results = dict(whole["inputs"]), whole["results"]
-        pairs = {name: tuple(value) for name, value in inputs.items() if isinstance(value, list)}
+        pairs: dict[str, Any] = {
+            name: tuple(value) for name, value in inputs.items() if isinstance(value, list)
+        }
+        pairs |= {name: tyres_of(inputs[name]) for name in TYRES if name in inputs}
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", CollisionsWarning)  # given when it was solved
             solution = momentum(**(inputs | pairs), on_failure="nan")

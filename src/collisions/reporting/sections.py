@@ -10,12 +10,14 @@ from typing import Any
 
 from .. import reference
 from ..derivation import reverse
-from ..derivation.evidence import momentum_answers, momentum_inputs
+from ..derivation.evidence import momentum_answers, momentum_assumption, momentum_inputs
 from ..derivation.explain import impact_answers, impact_inputs
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note
+from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
+from ..impact.instant import neglected
 from ..impact.left_out import LeftOutSide, left_out
 from ..impact.models import BY_NAME
 from ..impact.provenance import KNOWN
@@ -25,9 +27,12 @@ from ..plot.canvas import who
 from ..quantities.directions import course
 from ..quantities.formatting import KIND_OF, SI_UNITS, percent, typeset
 from ..quantities.reading import ArgumentReader
-from ..quantities.tables import label_of
+from ..quantities.tables import as_sentence, label_of
 from ..quantities.units import Input
 from ..reconstruct import MomentumSolution, Posterior
+from ..reconstruct.momentum_tyres import neglected as momentum_neglect
+from ..vehicle.drag import read_drag, read_duration
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle
 from .render import Sheet, given_as, plain
 
@@ -153,6 +158,10 @@ def inputs(
     reverse.why_this_model(sheet, impact)
     if impact.reconstruction is not None:
         reverse.what_was_known(sheet, impact)
+        left = left_out(impact, duration=options["duration"], drag=options["drag"])
+        neglect = neglected(impact, left)
+        if neglect is not None:
+            sheet.say(as_sentence(neglect.sentence))
         if known:
             sheet.table(known)
 
@@ -313,6 +322,9 @@ def momentum(
     """Inputs, assumptions and results of planar momentum, and how far each input moves them."""
     given: dict[str, Any] = {}
     for name, value in (solution.given or {}).items():
+        if isinstance(value, Tyres):
+            given |= {f"{name}.{one}": text for one, text in value.given.items()}
+            continue
         given |= (
             {f"{name}[{at}]": part for at, part in enumerate(value)}
             if isinstance(value, list)
@@ -327,13 +339,11 @@ def momentum(
     sheet.table([*rows, *_damage(sheet, options)])
     sheet.heading("Assumptions")
     together = " The vehicles leave together." if "together" in given else ""
-    sheet.say(
-        "The momentum of both vehicles together is the same before and after, along x and along "
-        "y (1), (2), save for an impulse from outside that is stated. Nothing is assumed of "
-        f"restitution, friction or rotation.{together}"
-    )
+    sheet.say(f"{momentum_assumption(solution)}{together}")
     sheet.heading("Results")
     sheet.table(momentum_answers(sheet, solution))
+    for sentence in _momentum_neglect(sheet, solution, options):
+        sheet.say(as_sentence(sentence))
     system = sheet.system
     whole = any(name.startswith("course") for name in solution.unknowns)
     what = (
@@ -360,6 +370,18 @@ def momentum(
             moved = f"{f'{by:+.3g}' if by else '0'}{label} per {unit}"
             rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
     sheet.table(rows)
+
+
+def _momentum_neglect(
+    sheet: Sheet, solution: MomentumSolution, options: Mapping[str, Any]
+) -> Iterator[str]:
+    """What planar momentum without tyres leaves out, for the duration and drag of the report."""
+    reader = ArgumentReader()
+    time = read_duration(reader, options["duration"])
+    drag = read_drag(reader, options["drag"], "drag")
+    found = momentum_neglect(solution, time, drag, sheet.system.answer)
+    if found is not None:
+        yield found.sentence
 
 
 def _in_words(name: str) -> str:
@@ -680,6 +702,31 @@ def findings(sheet: Sheet, found: Findings) -> None:
         f"{len(found.measured)} checks were made. A finding is a reason to look again, not an "
         f"error.{others}"
     )
+
+
+def moves(sheet: Sheet, found: Moves) -> None:
+    """Write what would move the answer, largest first."""
+    if not found:
+        return
+    sheet.say(
+        "What would move this answer, the larger of both ways; the share is that of the vehicle's "
+        "own delta-V, of A or of B, whichever is larger:"
+    )
+    rows = []
+    for move in found:
+        if math.isinf(move.share):
+            rows.append((plain(move.what), "change", "there is no answer then"))
+            continue
+        for what, changes, kind in (
+            ("delta-V", (move.delta_v_a, move.delta_v_b), "speed"),
+            ("yaw rate after", (move.yaw_rate_a, move.yaw_rate_b), "yaw rate"),
+        ):
+            known = [change for change in changes if change is not None]
+            if known:
+                text = ", ".join(sheet.system.answer(change, kind) for change in known)
+                text += f" ({percent(move.share)})" if kind == "speed" else ""
+                rows.append((plain(move.what), f"change of the {what} of A, of B", text))
+    sheet.table(rows)
 
 
 def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Finding]) -> None:
