@@ -26,15 +26,16 @@ from ..quantities.formatting import UnitSystem
 from ..quantities.reading import ArgumentReader, need_one_case, single_number
 from ..quantities.settings import callers_options, computing
 from ..quantities.tables import cells
-from ..quantities.units import Input, Pair, shown
+from ..quantities.units import Input, Pair, kinds_in_degrees, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled, varies
 from ..vehicle.drag import USUAL_DURATION
 from ..vehicle.outlines import read_outline
 from . import sections
+from .answer import answer
 from .record import plain_options, record
-from .render import Html, Markdown, plain, visible
+from .render import Html, Markdown, Printed, plain, visible
 from .sections import EVIDENCE
 from .uncertainty import Spread, shares_of
 
@@ -46,14 +47,17 @@ _OTHER_PARTS: dict[type, tuple[str, ...]] = {
     Fit: ("outline_a", "outline_b", "share_a", "duration", "drag", "limits", *EVIDENCE),
 }
 _OTHER_PARTS[Posterior] = (*_OTHER_PARTS[Fit], "derivation")
+# All of one width, so that their letters are of one size.
 _SIZES = {
-    "scene": (7.5, 6.5),
+    "scene": (6.5, 5.6),
     "momentum": (6.5, 6.2),
-    "impulse-plane": (7.5, 6.0),
-    "energy": (7.0, 4.2),
-    "pulse": (7.0, 7.0),
+    "impulse-plane": (6.5, 5.6),
+    "energy": (6.5, 4.2),
+    "pulse": (6.5, 6.5),
 }
 _SIZE = (6.5, 4.6)
+# What a page is filed under.
+_FILED = ("case", "author", "date")
 # Nothing in a file may depend on chance or on whoever runs it; its letters stay letters, and names
 # are no formulas.
 _SETTINGS: Any = {"svg.hashsalt": "collisions", "svg.fonttype": "none", "text.parse_math": False}
@@ -84,15 +88,19 @@ def report(
     notes: str | Mapping[str, str] | Sequence[str | Mapping[str, str]] | None = None,
     figures: bool = True,
     derivation: bool = False,
+    author: str | None = None,
+    case: str | None = None,
+    date: str | None = None,
 ) -> Document:
-    """One page about an answer: inputs, assumptions, results, uncertainty, findings, figures,
-    sources and the record.
+    """One page about a result: the answer with its range, then inputs, results, uncertainty,
+    findings, figures, assumptions, derivation, sources and the record.
 
-    An energy gain comes first. Every number comes from the result, from ``diagnose``, ``left_out``
-    or the propagation, rounded as in ``explain``. The page has one fact per line and no date; the
-    same arguments give the same page, byte for byte. From the record at its end
-    ``reporting.replay`` gives the impact again and ``reporting.options`` the options; with both,
-    ``report`` makes the same page again.
+    An energy gain comes before the answer. Every number comes from the result, from ``diagnose``,
+    ``left_out`` or the propagation, rounded as in ``explain``; where no range is stated, the page
+    says so. The page has one fact per line, and no date but the one that is given; the same
+    arguments give the same page, byte for byte. From the record at its end ``reporting.replay``
+    gives the impact again and ``reporting.options`` the options; with both, ``report`` makes the
+    same page again.
 
     A ``MomentumSolution`` has neither contact nor positions, and a ``Fit`` or a ``Posterior`` has
     only unknowns and observations: their pages have only the parts that apply, and options for
@@ -128,7 +136,10 @@ def report(
     figures : bool
         Whether to draw figures. They need matplotlib; without it the report says so and goes on.
     derivation : bool
-        Whether to append the derivation of ``explain``; in HTML it is plain text.
+        Whether to append the derivation of ``explain``.
+    author, case, date : str, optional
+        Who made the page, the number or name of the case, and the day: printed below the title,
+        and at the foot of every page in print.
 
     Returns
     -------
@@ -174,47 +185,50 @@ def report(
         for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units", *EVIDENCE)
     }
     spread = Spread(impact, uncertainty)
-    sheet = (Html if form == "html" else Markdown)(system, spread.deviations, spread.ranges)
+    sheet = (Html if form == "html" else Markdown)(
+        _printed(impact, system), spread.deviations, spread.ranges
+    )
     sheet.title(plain(title or _title(impact)))
+    filed = [(name, plain(options[name])) for name in _FILED if options[name] is not None]
+    if filed:
+        sheet.file([(name.capitalize(), text) for name, text in filed])
     # As they were given, so that it sees which have a unit.
     with callers_options():
         findings = None if isinstance(impact, (Fit, Posterior)) else diagnose(impact, **looked_at)
+    readable = _readable(impact) if isinstance(impact, Impact) else impact
+    draws = figures and isinstance(sheet, Html) and _can_draw()
+    _first(sheet, impact, readable, spread, uncertainty, findings, options, draws)
     if isinstance(impact, Impact):
-        sections.gain(sheet, impact, impact.energy_loss)
         sections.inputs(sheet, impact, options, by_input)
-        sections.assumptions(sheet, impact, options, outlines, by_input)
         sections.results(sheet, impact, options["share_a"])
     elif isinstance(impact, MomentumSolution):
-        sections.gain(sheet, impact, impact.translational_energy_loss)
-        sections.momentum(sheet, impact, options, by_input)
+        sections.momentum_inputs_and_results(sheet, impact, options, by_input)
     elif isinstance(impact, Fit):
         fit(sheet, impact)
     else:
         sections.posterior(sheet, impact)
     if uncertainty is not None:
+        spread.write(sheet, uncertainty)
         if spread.ranges:
             sheet.say(about_ranges(uncertainty))
-        spread.write(sheet, uncertainty)
     if findings is not None:
         sections.findings(sheet, findings)
     if paragraphs:
         sheet.heading("Notes")
         for paragraph in paragraphs:
             sheet.say(paragraph)
-    readable = _readable(impact) if isinstance(impact, Impact) else impact
-    if figures and (isinstance(impact, (Impact, Posterior)) or uncertainty is not None):
-        sheet.heading("Figures")
-        if isinstance(sheet, Html):
-            _figures(sheet, readable, spread, uncertainty, options)
-        else:
-            sheet.say("The figures are in the HTML form of this report.")
+    if figures:
+        _figures(sheet, readable, spread, uncertainty, options, draws)
+    if isinstance(impact, Impact):
+        sections.assumptions(sheet, impact, options, outlines, by_input)
+    elif isinstance(impact, MomentumSolution):
+        sections.momentum_assumptions(sheet, impact)
     if derivation and not isinstance(readable, Posterior):
         sheet.heading("Derivation")
         known = uncertainty if spread.outputs else None
-        text = explain(
-            readable, units=system, form="text" if form == "html" else form, uncertainty=known
-        )
-        sheet.working(text)
+        # Without a system named, what was given in degrees stays so.
+        own = None if cells(None, impact._texts()).name == system else system
+        sheet.working(explain(readable, units=own, form="markdown", uncertainty=known))
     if findings is not None and isinstance(impact, (Impact, MomentumSolution)):
         sections.sources(sheet, impact, findings)
     sheet.say(f"Calculated with collisions {__version__}.")
@@ -222,6 +236,43 @@ def report(
     unusual = {name: value for name, value in options.items() if not _is_usual(name, value)}
     sheet.record(record(impact, unusual, uncertainty))
     return Document(sheet.whole(__version__), form)
+
+
+def _printed(impact: Any, system: str) -> Printed:
+    """How the page writes its numbers: angles in degrees wherever an input was given so."""
+    texts = [text for text in impact._texts() if isinstance(text, str)]
+    return Printed(system, kinds_in_degrees(texts))
+
+
+def _first(
+    sheet: Html | Markdown,
+    impact: Any,
+    readable: Any,
+    spread: Spread,
+    uncertainty: Propagation | None,
+    findings: Any,
+    options: Mapping[str, Any],
+    draws: bool,
+) -> None:
+    """An energy gain, and the box that has the answer, with the scene or the momenta beside it."""
+    if isinstance(impact, Impact):
+        sections.gain(sheet, impact, impact.energy_loss)
+    elif isinstance(impact, MomentumSolution):
+        sections.gain(sheet, impact, impact.translational_energy_loss)
+    sheet.open_answer()
+    answer(sheet, impact, spread, uncertainty, findings)
+    picture = None
+    if draws and isinstance(sheet, Html):
+        if isinstance(impact, Impact):
+            outlines = {name: options[name] for name in ("outline_a", "outline_b")}
+            caption = "The scene from above at the moment of impact, to scale."
+            more = {"units": options["units"], **outlines}
+            picture = _drawn(sheet, "scene", caption, plot.scene, readable, **more)
+        elif isinstance(impact, MomentumSolution):
+            caption = "Momentum before and after, head to tail."
+            more = {"units": options["units"]}
+            picture = _drawn(sheet, "momentum", caption, plot.momentum, readable, **more)
+    sheet.close_answer(picture)
 
 
 _USUAL = plain_options(
@@ -247,7 +298,7 @@ def _checked(
     def refuse(argument: str, text: str, code: str = "bad_option") -> None:
         reader.refuse(InputError(text, code=code, argument=argument))
 
-    form, title, notes, share_a = (options[name] for name in ("form", "title", "notes", "share_a"))
+    form, notes, share_a = (options[name] for name in ("form", "notes", "share_a"))
     if not isinstance(form, str) or form not in get_args(Form):
         refuse(
             "form", f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}"
@@ -272,7 +323,7 @@ def _checked(
             "notes",
             f"notes has {shown(name)}, which is no input of this page; they are {', '.join(known)}",
         )
-    texts = [] if title is None else [("title", title)]
+    texts = [(name, options[name]) for name in ("title", *_FILED) if options[name] is not None]
     for name, text in [*texts, *(("notes", text) for text in (*paragraphs, *beside.values()))]:
         if not isinstance(text, str) or not plain(text):
             refuse(
@@ -357,97 +408,83 @@ def _readable(impact: Impact) -> Impact:
     return with_vehicles(impact, a, b)
 
 
+def _can_draw() -> bool:
+    try:
+        import_module("matplotlib.figure")
+    except ImportError:
+        return False
+    return True
+
+
 def _figures(
-    sheet: Html,
+    sheet: Html | Markdown,
     impact: Any,
     spread: Spread,
     uncertainty: Propagation | None,
     options: Mapping[str, Any],
+    draws: bool,
 ) -> None:
     """The figures of the impact and of its uncertainty, or a sentence where there can be none."""
-    try:
-        import_module("matplotlib.figure")
-    except ImportError:
+    if isinstance(impact, Fit) or (isinstance(impact, MomentumSolution) and uncertainty is None):
+        return
+    sheet.heading("Figures")
+    if not isinstance(sheet, Html):
+        sheet.say("The figures are in the HTML form of this report.")
+        return
+    if not draws:
         sheet.say(
             "None: matplotlib cannot be imported here. Install it with: python -m pip install "
             "matplotlib"
         )
         return
-    units, before = options["units"], sheet.blocks[-1]
+    before = len(sheet.blocks)
     if isinstance(impact, Impact):
-        outlines = {name: options[name] for name in ("outline_a", "outline_b")}
-        _draw(
-            sheet,
-            "scene",
-            "The scene from above at the moment of impact.",
-            plot.scene,
-            impact,
-            units=units,
-            **outlines,
-        )
-        if impact.model != "linear_central":
-            _draw(
-                sheet,
-                "momentum",
-                "Momentum before and after, head to tail.",
-                plot.momentum,
-                impact,
-                units=units,
-            )
-            if impact.pulse is not None:
-                caption = "Force, crush and delta-V over the time of the contact."
-                _draw(sheet, "pulse", caption, plot.pulse, impact, units=units)
-            else:
-                caption = "Normal and tangential impulse, with the lines that decide them."
-                _draw(sheet, "impulse-plane", caption, plot.impulse_plane, impact, units=units)
-        _draw(sheet, "energy", "Where the kinetic energy went.", plot.energy, impact, units=units)
+        _of_impact(sheet, impact, options["units"])
     if isinstance(impact, Posterior):
-        _draw(
-            sheet,
-            "residuals",
-            "Each observation less its computed value, in stated errors.",
-            plot.residuals,
-            impact,
-        )
-    outputs = (
-        impact.unknowns
-        if isinstance(impact, Posterior)
-        else {}
-        if uncertainty is None
-        else uncertainty.outputs
-    )
-    for number, output in enumerate(outputs.values(), 1):
+        caption = "Each observation less its computed value, in stated errors."
+        _draw(sheet, "residuals", caption, plot.residuals, impact)
+    _of_outputs(sheet, impact, spread, uncertainty, options["units"])
+    pictures = sheet.blocks[before:]
+    if pictures:
+        sheet.blocks[before:] = ['<div class="figures">', *pictures, "</div>"]
+    else:
+        sheet.say("None: the variance is all of one input, and no cases were drawn.")
+
+
+def _of_impact(sheet: Html, impact: Impact, units: Any) -> None:
+    if impact.model != "linear_central":
+        caption = "Momentum before and after, head to tail."
+        _draw(sheet, "momentum", caption, plot.momentum, impact, units=units)
+        if impact.pulse is not None:
+            caption = "Force, crush and delta-V over the time of the contact."
+            _draw(sheet, "pulse", caption, plot.pulse, impact, units=units)
+        else:
+            caption = "Normal and tangential impulse, with the lines that decide them."
+            _draw(sheet, "impulse-plane", caption, plot.impulse_plane, impact, units=units)
+    _draw(sheet, "energy", "Where the kinetic energy went.", plot.energy, impact, units=units)
+
+
+def _of_outputs(
+    sheet: Html, impact: Any, spread: Spread, uncertainty: Propagation | None, units: Any
+) -> None:
+    """What was drawn of each output, and the share of its variance that each input brings."""
+    of_posterior = isinstance(impact, Posterior)
+    outputs = {} if uncertainty is None else uncertainty.outputs
+    for number, output in enumerate((impact.unknowns if of_posterior else outputs).values(), 1):
         name = spread.heading(output)
         if not varies(output):
             sheet.say(f"{name} has no figures, because it is the same in every case.")
             continue
+        drawn = {"units": units, "words": name}
         if isinstance(output, Sampled):
             caption = f"{name}, in the cases drawn, given {output.given}."
-            _draw(
-                sheet,
-                f"distribution-{number}",
-                caption,
-                plot.distribution,
-                output,
-                units=units,
-                words=name,
-            )
-        if not isinstance(impact, Posterior) and len(shares_of(output)) != 1:
+            _draw(sheet, f"distribution-{number}", caption, plot.distribution, output, **drawn)
+        if not of_posterior and len(shares_of(output)) != 1:
             caption = (
                 f"{name}, and the share of its variance that each input brings, by itself and in "
                 "all."
             )
-            _draw(
-                sheet,
-                f"contributions-{number}",
-                caption,
-                plot.contributions,
-                output,
-                units=units,
-                words=name,
-            )
-    if not isinstance(impact, Impact) and sheet.blocks[-1] == before:
-        sheet.say("None: the variance is all of one input, and no cases were drawn.")
+            _draw(sheet, f"contributions-{number}", caption, plot.contributions, output, **drawn)
 
 
 def _draw(
@@ -459,8 +496,23 @@ def _draw(
     words: str = "",
     **options: Any,
 ) -> None:
-    """One figure, drawn with default matplotlib settings, with words for its name; a sentence if
-    the numbers allow none.
+    """Write one figure, or a sentence if the numbers allow none."""
+    picture = _drawn(sheet, name, caption, draw, result, words, **options)
+    if picture is not None:
+        sheet.picture(*picture)
+
+
+def _drawn(
+    sheet: Html,
+    name: str,
+    caption: str,
+    draw: Callable[..., Any],
+    result: Any,
+    words: str = "",
+    **options: Any,
+) -> tuple[str, str] | None:
+    """Caption and SVG of one figure, drawn with default matplotlib settings, with words for its
+    name; None after a sentence if the numbers allow none.
     """
     from matplotlib import rc_context, rcdefaults, rcParams
     from matplotlib.figure import Figure
@@ -476,7 +528,7 @@ def _draw(
             draw(result, axes=figure.add_subplot(), **options)
         except InputError as error:
             sheet.say(f"{caption} Not drawn: {error}.")
-            return
+            return None
         for text in figure.findobj(Text):
             found = text.get_text()
             text.set_text(visible(found.replace(result.name, words) if words else found))
@@ -484,7 +536,7 @@ def _draw(
         figure.savefig(
             target, format="svg", metadata=_UNDATED, bbox_inches="tight", pad_inches=0.05
         )
-    sheet.picture(caption, _standalone(target.getvalue(), name, caption))
+    return caption, _standalone(target.getvalue(), name, caption)
 
 
 def _standalone(svg: str, name: str, caption: str) -> str:

@@ -48,6 +48,9 @@ _UNITS: dict[str, str | None] = {
             "notes",
             "figures",
             "derivation",
+            "author",
+            "case",
+            "date",
         )
     ),
     "duration": "s",

@@ -30,6 +30,7 @@ from ..quantities.units import Input
 from ..reconstruct import MomentumSolution, Posterior
 from ..vehicle.vehicle import Vehicle
 from .render import Sheet, given_as, plain
+from .words import Names
 
 # A reverse solver's result agrees with its inputs within this, relative to the speeds or energies
 # of the impact; end states that still approach by up to a hundredth of the closing speed are taken
@@ -38,7 +39,16 @@ _COMES_OUT, _TOGETHER = 1e-6, 0.02
 # Components of delta-V are measured: if more are given than are needed, they are met only as well
 # as they agree.
 _RECORDED = 0.3
+# The state before by its words among the results, as its names in ``notes``.
+_BEFORE = {
+    "velocity before, along x": "vx",
+    "velocity before, along y": "vy",
+    "speed before": "speed",
+    "yaw rate before": "yaw_rate",
+}
 _DEGREE = math.degrees(1.0)
+# In the units of the page: what moves a speed by less moves it only by the rounding of a sine.
+_ROUNDING = 1e-12
 # What the damage shows, by the option that says it: what it is of, in words, and its kind.
 EVIDENCE = {
     "crush_energy": ("damage", "crush energy, both vehicles", "energy"),
@@ -103,12 +113,14 @@ def inputs(
     """Write the inputs with the texts they were given as, and the choice of the model or how the
     state was found.
     """
-    backwards = impact.reconstruction is not None
-    sheet.heading("What was given and found" if backwards else "Inputs")
+    found_names = found_inputs(impact)
+    sheet.heading("Inputs")
     vehicles = {"A": impact.a.before, "B": impact.b.before}
     rows: list[tuple[str, str, str]] = []
     for of, quantity, names, numbers, kind in impact_inputs(impact):
         vehicle = vehicles.get(of)
+        if key_of(of, names) in found_names:
+            continue
         texts = (impact.inputs.given if vehicle is None else vehicle.given) or {}
         if names[0].startswith("tyres_"):
             wheels = impact.inputs.tyres.items()
@@ -128,6 +140,8 @@ def inputs(
         rows += [(name, what, text) for what, text in _published(impact, names[0])]
         if vehicle is not None and quantity == "mass":
             for what, number in speed_rows(vehicle):
+                if f"{of.lower()}.{what}" in found_names:
+                    continue
                 found = (
                     ""
                     if number is None
@@ -141,20 +155,35 @@ def inputs(
                 rows.append((name, what, _with(text, notes.get(f"{of.lower()}.{what}"))))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution", _with(impact.law.title(), notes.get("law"))))
+    rows += _known(sheet, impact, notes)
     rows += _damage(sheet, options)
     sheet.table(rows)
-    known = [] if impact.reconstruction is None else _known(sheet, impact, notes)
-    if any("given as" in text for *_, text in (*rows, *known)):
+    if any("given as" in text for *_, text in rows):
         sheet.say(
             "“Given as” repeats the text of an input that was given in another unit than that of "
             "this page."
         )
+    if found_names:
+        sheet.say("The rest was found, and stands under Results.")
     sheet.say("The record at the end has every digit.")
-    reverse.why_this_model(sheet, impact)
-    if impact.reconstruction is not None:
-        reverse.what_was_known(sheet, impact.reconstruction)
-        if known:
-            sheet.table(known)
+
+
+def found_inputs(impact: Impact) -> set[str]:
+    """The inputs of the model that a reverse solver found, by their names in ``notes``."""
+    origin = impact.reconstruction
+    if origin is None:
+        return set()
+    known = set(origin.known)
+    found = {
+        f"{label}.{name}"
+        for label in "ab"
+        for name in ("vx", "vy", "speed")
+        if not known & {f"v{label}", f"speed_{label}"}
+        and math.isfinite(getattr(impact, label).before.mass)
+    }
+    if origin.method == "planar":
+        found |= {"a.yaw_rate", "b.yaw_rate", "a.course", "b.course"}
+    return found if "restitution" in known or origin.method == "speeds" else found | {"restitution"}
 
 
 def key_of(of: str, names: Sequence[str]) -> str:
@@ -253,15 +282,30 @@ def speed_rows(vehicle: Vehicle) -> Iterator[tuple[str, float | None]]:
             yield name, None
 
 
-def _known(sheet: Sheet, impact: Impact, notes: Mapping[str, str]) -> list[tuple[str, str, str]]:
-    """Table rows with the texts of a reverse solver's known inputs."""
-    rows = []
-    for name, text in (impact.inputs.given or {}).items():
-        if name in KNOWN:
-            known = KNOWN[name]
-            value = sheet.as_given(_read(text, name), known.kind, text)
-            rows.append(("known", known.what, _with(value, notes.get(name))))
-    return rows
+def _known(
+    sheet: Sheet, impact: Impact, notes: Mapping[str, str]
+) -> Iterator[tuple[str, str, str]]:
+    """Table rows with what a reverse solver was given, as texts or as numbers."""
+    origin, names = impact.reconstruction, Names(impact)
+    if origin is None:
+        return
+    texts = impact.inputs.given or {}
+    given = dict.fromkeys([*(name for name in texts if name in KNOWN), *origin.known])
+    for name in given:
+        # Restitution and friction stand with the contact; va and vb with their vehicle.
+        if name not in KNOWN or (name in ("va", "vb") and name not in texts):
+            continue
+        known = KNOWN[name]
+        if name in texts:
+            value = sheet.as_given(_read(texts[name], name), known.kind, texts[name])
+        elif known.path:
+            number = float(attrgetter(known.path)(impact))
+            value = sheet.number(number, known.kind)
+            if name.startswith(("delta_v_forward", "delta_v_left")):
+                value += ", as the answer has it; given without a unit"
+        else:
+            value = "given without a unit, and kept only in what was found from it"
+        yield "evidence", names(known.what), _with(value, notes.get(name))
 
 
 def _read(text: str, name: str) -> float | None:
@@ -307,10 +351,21 @@ def contradicted(impact: Impact) -> Iterator[str]:
             )
 
 
-def momentum(
+def momentum_assumptions(sheet: Sheet, solution: MomentumSolution) -> None:
+    """Write what planar momentum rests on."""
+    sheet.heading("Assumptions")
+    together = " The vehicles leave together." if "together" in (solution.given or {}) else ""
+    sheet.say(
+        "The momentum of both vehicles together is the same before and after, along x and along "
+        "y (1), (2), save for an impulse from outside that is stated. Nothing is assumed of "
+        f"restitution, friction or rotation.{together}"
+    )
+
+
+def momentum_inputs_and_results(
     sheet: Sheet, solution: MomentumSolution, options: Mapping[str, Any], notes: Mapping[str, str]
 ) -> None:
-    """Inputs, assumptions and results of planar momentum, and how far each input moves them."""
+    """Write inputs and results of planar momentum, and how far each input moves them."""
     given: dict[str, Any] = {}
     for name, value in (solution.given or {}).items():
         given |= (
@@ -325,13 +380,6 @@ def momentum(
         value = sheet.as_given(number, kind, text if isinstance(text, str) else None)
         rows.append((of, what, _with(value, note)))
     sheet.table([*rows, *_damage(sheet, options)])
-    sheet.heading("Assumptions")
-    together = " The vehicles leave together." if "together" in given else ""
-    sheet.say(
-        "The momentum of both vehicles together is the same before and after, along x and along "
-        "y (1), (2), save for an impulse from outside that is stated. Nothing is assumed of "
-        f"restitution, friction or rotation.{together}"
-    )
     sheet.heading("Results")
     sheet.table(momentum_answers(sheet, solution))
     system, of_speed = sheet.system, sheet.system.scale("speed")
@@ -354,7 +402,8 @@ def momentum(
                 else (system.scale(kind), typeset(system.label(kind)))
             )
             by = value * of_speed / scale
-            moved = f"{f'{by:+.3g}' if by else '0'} {system.label('speed')} per {unit}"
+            text = "0" if abs(by) < _ROUNDING else f"{by:+.3g}"
+            moved = f"{text} {typeset(system.label('speed'))} per {unit}"
             rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
     sheet.table(rows)
 
@@ -396,6 +445,9 @@ def assumptions(
         if impact.pulse is None
         else None
     )
+    reverse.why_this_model(sheet, impact)
+    if impact.reconstruction is not None:
+        reverse.what_was_known(sheet, impact.reconstruction)
     sheet.heading("Assumptions")
     lines = [("Model:", BY_NAME[impact.model].assumptions)]
     if impact.model != "linear_central":
@@ -485,7 +537,7 @@ def assumptions(
     tyres = (
         "beside the tyres, which are in it" if held else f"and tyres with a drag factor of {drag}"
     )
-    sheet.say(f"What the model leaves out, for a contact of {time} {tyres} (estimates{but}):")
+    sheet.fold(f"What the model leaves out, for a contact of {time} {tyres} (estimates{but}):")
     crush = "not known: the impact is incomplete"
     if impact.complete:
         crush = sheet.system.answer(float(found.mutual_crush), "length")
@@ -507,6 +559,7 @@ def assumptions(
                 for what, text in _left_out(sheet, side, impact.model, vehicle)
             ]
     sheet.table(rows)
+    sheet.unfold()
 
 
 def _pulse(sheet: Sheet, impact: Impact) -> None:
@@ -618,7 +671,25 @@ def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     rows.append(("contact", "kind", impact.kind))
     names = {"A": who(0, impact.a.before), "B": who(1, impact.b.before)}
     sheet.heading("Results")
-    sheet.table([(plain(names.get(of, of)), what, text) for of, what, text in rows])
+    found = found_inputs(impact)
+    sheet.table(
+        [
+            (plain(names.get(of, of)), what, text + _origin(impact, found, of, what))
+            for of, what, text in rows
+        ]
+    )
+
+
+def _origin(impact: Impact, found: set[str], of: str, what: str) -> str:
+    """Whether a number of the state before was given or found, on the page of a reverse solver."""
+    if impact.reconstruction is None:
+        return ""
+    if what == "restitution":
+        return ", found" if "restitution" in found else ", given"
+    name = _BEFORE.get(what)
+    if name is None:
+        return ""
+    return ", found" if f"{of.lower()}.{name}" in found else ", given"
 
 
 def posterior(sheet: Sheet, found: Posterior) -> None:
@@ -647,17 +718,13 @@ def findings(sheet: Sheet, found: Findings) -> None:
     and those that were not.
     """
     sheet.heading("Findings")
-    others = ", ".join(label_of(code) for code in LIMITS if code not in found.measured)
-    others = (
-        f" Not made, because they lack an input, do not apply or are switched off: {others}."
-        if others
-        else ""
-    )
+    others = [label_of(code) for code in LIMITS if code not in found.measured]
     if not found:
         sheet.say(
             f"None of the {len(found.measured)} checks that were made found anything, which "
-            f"proves nothing by itself.{others}"
+            "proves nothing by itself."
         )
+        _not_made(sheet, others)
         return
     lines = []
     for finding in found:
@@ -675,8 +742,20 @@ def findings(sheet: Sheet, found: Findings) -> None:
     sheet.items(lines)
     sheet.say(
         f"{len(found.measured)} checks were made. A finding is a reason to look again, not an "
-        f"error.{others}"
+        "error."
     )
+    _not_made(sheet, others)
+
+
+def _not_made(sheet: Sheet, others: Sequence[str]) -> None:
+    """Name the checks that were not made, for those who ask."""
+    if others:
+        sheet.fold(
+            f"{len(others)} checks were not made, because they lack an input, do not apply or are "
+            "switched off:"
+        )
+        sheet.say(f"{', '.join(others)}.")
+        sheet.unfold()
 
 
 def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Finding]) -> None:
