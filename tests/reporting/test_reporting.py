@@ -1654,7 +1654,7 @@ def test_planar_momentum_has_a_report_that_can_be_made_again(name, form):
         assert isinstance(again, reconstruct.MomentumSolution)
         assert report(again, **options(page)) == page
         if form == "html":
-            assert "svg" not in Page(page).tags
+            assert Page(page).tags.count("svg") == 1
     if name == "energy gain":
         assert page.index("Energy gain of") < page.index("Inputs")
 
@@ -1685,7 +1685,7 @@ def test_inputs_and_answers_of_planar_momentum_are_shown():
     assert any(" ± 1.5 km/h" in text for text in Page(page).of("td"))
     # One input and nothing drawn: its share of the variance is no figure.
     assert "None: the variance is all of one input, and no cases were drawn." in Page(page).of("p")
-    assert "svg" not in Page(page).tags
+    assert Page(page).tags.count("svg") == 1
     assert "A: speed before" in Page(page).of("caption")
 
 
@@ -1723,7 +1723,9 @@ def test_samples_drawn_together_are_told_without_shares():
     assert stated["normal, direction from A into B"] == "one of 64 values from 9.333° to 10.67°"
     assert stated["restitution"] == "one of 64 values from 0.09333 to 0.1067"
     # That of B is another: whether this one is a speed is not known.
-    assert stated["speed of the Polo before"] == "one of 64 values from 14 to 16, given without a unit"
+    assert (
+        stated["speed of the Polo before"] == "one of 64 values from 14 to 16, given without a unit"
+    )
     drawn = Page(report(impact, units="metric", uncertainty=known))
     assert any(
         text.startswith("Golf: speed before, in the cases drawn") for text in drawn.of("figcaption")

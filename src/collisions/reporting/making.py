@@ -20,7 +20,7 @@ from ..diagnostics import diagnose
 from ..impact.impact import Impact, with_vehicles
 from ..kernels.elementwise import UNIT_INTERVAL
 from ..messages.errors import InputError
-from ..plot.canvas import who
+from ..plot.canvas import in_lines, who
 from ..quantities.document import Document
 from ..quantities.formatting import UnitSystem
 from ..quantities.reading import ArgumentReader, need_one_case, single_number
@@ -475,7 +475,7 @@ def _of_outputs(
         if not varies(output):
             sheet.say(f"{name} has no figures, because it is the same in every case.")
             continue
-        drawn = {"units": units, "words": name}
+        drawn: dict[str, Any] = {"units": units, "words": {output.name: name}}
         if isinstance(output, Sampled):
             caption = f"{name}, in the cases drawn, given {output.given}."
             _draw(sheet, f"distribution-{number}", caption, plot.distribution, output, **drawn)
@@ -484,6 +484,7 @@ def _of_outputs(
                 f"{name}, and the share of its variance that each input brings, by itself and in "
                 "all."
             )
+            drawn["inputs"] = spread.words_of(uncertainty)
             _draw(sheet, f"contributions-{number}", caption, plot.contributions, output, **drawn)
 
 
@@ -493,11 +494,12 @@ def _draw(
     caption: str,
     draw: Callable[..., Any],
     result: Any,
-    words: str = "",
+    words: Mapping[str, str] | None = None,
+    inputs: Mapping[str, str] | None = None,
     **options: Any,
 ) -> None:
     """Write one figure, or a sentence if the numbers allow none."""
-    picture = _drawn(sheet, name, caption, draw, result, words, **options)
+    picture = _drawn(sheet, name, caption, draw, result, words, inputs, **options)
     if picture is not None:
         sheet.picture(*picture)
 
@@ -508,11 +510,12 @@ def _drawn(
     caption: str,
     draw: Callable[..., Any],
     result: Any,
-    words: str = "",
+    words: Mapping[str, str] | None = None,
+    inputs: Mapping[str, str] | None = None,
     **options: Any,
 ) -> tuple[str, str] | None:
     """Caption and SVG of one figure, drawn with default matplotlib settings, with words for its
-    name; None after a sentence if the numbers allow none.
+    name and for those of the inputs; None after a sentence if the numbers allow none.
     """
     from matplotlib import rc_context, rcdefaults, rcParams
     from matplotlib.figure import Figure
@@ -531,7 +534,11 @@ def _drawn(
             return None
         for text in figure.findobj(Text):
             found = text.get_text()
-            text.set_text(visible(found.replace(result.name, words) if words else found))
+            if inputs and found in inputs:
+                found = in_lines(inputs[found])
+            for own, said in (words or {}).items():
+                found = found.replace(own, said)
+            text.set_text(visible(found))
         target = io.StringIO()
         figure.savefig(
             target, format="svg", metadata=_UNDATED, bbox_inches="tight", pad_inches=0.05

@@ -381,15 +381,15 @@ def momentum_inputs_and_results(
         rows.append((of, what, _with(value, note)))
     sheet.table([*rows, *_damage(sheet, options)])
     sheet.heading("Results")
-    sheet.table(momentum_answers(sheet, solution))
-    system, of_speed = sheet.system, sheet.system.scale("speed")
     rows = [
+        *momentum_answers(sheet, solution),
         (
             "both",
             "condition, from the angle between the courses of the unknown speeds",
             f"{solution.condition:.3g}",
-        )
+        ),
     ]
+    system, of_speed = sheet.system, sheet.system.scale("speed")
     for answer, row in solution.sensitivity.items():
         for name, value in row.items():
             kind = {"mass": "mass", "speed": "speed", "course": "angle", "outside": "impulse"}[

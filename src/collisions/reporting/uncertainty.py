@@ -55,6 +55,13 @@ class Spread:
         own = (self.kinds[name] for name, answer in self.outputs.items() if answer is output)
         return next(own, None)
 
+    def words_of(self, uncertainty: Propagation | None) -> dict[str, str]:
+        """The inputs of a propagation in words, by name."""
+        return {
+            name: self.names.of_input(name, *_ends(value))
+            for name, value in (uncertainty.inputs if uncertainty is not None else {}).items()
+        }
+
     def write(self, sheet: Sheet, uncertainty: Propagation) -> None:
         """Write the figures of every output and the inputs they assume."""
         sheet.heading("Uncertainty, given the stated inputs")
@@ -117,11 +124,7 @@ class Spread:
         ]
         if output.bounds_only:
             return found
-        words = {
-            name: self.names.of_input(name, *_ends(value))
-            for name, value in uncertainty.inputs.items()
-        }
-        return [*found, *_shares(output, words)]
+        return [*found, *_shares(output, self.words_of(uncertainty))]
 
     def _stated(self, sheet: Sheet, name: str, value: Any) -> tuple[str, str]:
         """An input and what was stated of it; bare numbers in the unit of the page if they are
