@@ -250,3 +250,74 @@ def test_what_moves_no_speed_but_by_rounding_is_0():
     text = report(found, form="markdown", units="us")
     assert not re.search(r"e-1\d mph per", text)
     assert "mph per °" in text
+
+
+# Several results on one page.
+
+
+def crossed():
+    return reconstruct.momentum(
+        "3400 lb", "2900 lb", course_a="0 deg", course_b="90 deg", course_a_after="35 deg",
+        course_b_after="50 deg", speed_a_after="22 mph", speed_b_after="25 mph",
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("form", ["markdown", "html"])
+def test_a_case_of_several_results_is_one_page(form):
+    known = spread()
+    results, ranges = [crossed(), found_speeds(), crash()], [None, None, known]
+    given = {"form": form, "units": "us", "derivation": True, "figures": False, "notes": "One."}
+    page = report(results, uncertainty=ranges, title="Elm and Main", **given)
+    again = replay(page)
+    assert again == results
+    assert report(again, **options(page), uncertainty=ranges) == page
+    if form == "html":
+        return
+    heads = re.findall(r"^(#+ .*)$", page, re.MULTILINE)
+    assert [head for head in heads if head.startswith("## ")] == [
+        "## Answer", "## 1. Planar momentum of A and B",
+        "## 2. Impact of A (Accord) and B (Civic)", "## 3. Impact of A (Accord) and B (Civic)",
+        "## Notes", "## References", "## Record",
+    ]  # fmt: skip
+    assert heads.count("### Inputs") == heads.count("### Derivation") == 3
+    first = box(page)
+    assert first.index("A: speed before") < first.index("Accord: speed before")
+    assert "(95 %)" in first.split("### 3. ")[1]
+    assert "(95 %)" not in first.split("### 3. ")[0]
+    # What each rests on, and what stands by itself in each part.
+    assert first.count("Worked back") == 2
+    assert page.count("is an equation of it.") == 1
+
+
+def test_figures_of_several_results_have_ids_of_their_own():
+    page = report([crossed(), crash()], units="us")
+    ids = re.findall(r'<[^<>]*\bid="([^"]*)"', page)
+    assert len(set(ids)) == len(ids)
+    assert {"1.momentum.figure_1", "2.scene.figure_1", "2.momentum.figure_1"} <= set(ids)
+
+
+@pytest.mark.parametrize(
+    ("results", "given", "said"),
+    [
+        ([], {}, "impact is an empty list"),
+        ([3.0], {}, "impact must be an Impact"),
+        (2, {"outline_a": (4.2, 1.8)}, "outline_a is of one impact, and this page has 2 results"),
+        (2, {"damage_pdof_b": 0.3}, "damage_pdof_b is of one impact"),
+        (2, {"notes": {"a.mass": "Weighed"}}, "notes that are texts alone"),
+        (2, {"uncertainty": [None]}, "uncertainty must be a list of 2 for as many results"),
+        (2, {"uncertainty": 3}, "uncertainty must be a list of 2"),
+        (2, {"uncertainty": [None, 3]}, "uncertainty must be what uncertainty.propagate returned"),
+    ],
+)
+def test_what_a_page_of_several_does_not_take_is_refused(results, given, said):
+    results = [crash(), crossed()] if results == 2 else results
+    with pytest.raises(col.InputError, match=re.escape(said)):
+        report(results, **given)
+
+
+def test_a_record_of_several_that_was_changed_is_refused():
+    page = report([crash(), crossed()], form="markdown")
+    with pytest.raises(col.InputError, match="its inputs do not give its"):
+        replay(page.replace('"delta_v_a": ', '"delta_v_a": 1'))
+    with pytest.raises(col.InputError, match="its results are no list of records"):
+        replay(page.replace('"results": [\n  {', '"results": {"x": [{}]}, "other": [{', 1))

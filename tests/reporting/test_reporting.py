@@ -1210,7 +1210,7 @@ def test_only_what_was_measured_is_counted():
     limits = dict.fromkeys([finding.code for finding in diagnose(impact)], math.inf)
     text = section(report(impact, form="markdown", limits=limits), "Findings").replace("\\", "")
     made = int(re.search(r"None of the (\d+) checks that were made found anything", text)[1])
-    others = set(re.search(r"or are switched off:\n\n(.*)\.", text)[1].split(", "))
+    others = set(re.search(r"or are switched off\.\n\n(.*)\.", text)[1].split(", "))
     codes = (
         "near_collinear", "restitution_negative", "speed_backwards", "momentum_energy",
         "pdof_off_damage", "delta_v_off_damage",

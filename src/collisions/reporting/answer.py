@@ -48,6 +48,7 @@ def answer(
     spread: Spread,
     uncertainty: Propagation | None,
     found: Sequence[Finding] | None,
+    alone: bool,
 ) -> None:
     """Write the figures, what they rest on and the findings, into the box that is open."""
     names = spread.names
@@ -56,7 +57,7 @@ def answer(
     sheet.say(_rests_on(result, names))
     bare = [figure for figure in shown if not figure.ranged]
     if bare and len(bare) == len(shown):
-        sheet.say(f"No range is stated for these figures: {_NO_RANGE}")
+        sheet.say(f"No range is stated for these figures{f': {_NO_RANGE}' if alone else '.'}")
     elif bare:
         sheet.say("No range is stated for the figures above that have only one number.")
     lines = [

@@ -24,13 +24,14 @@ body { font: 12pt/1.4 Georgia, "Times New Roman", serif; color: #1a1a1a; max-wid
 h1 { font-size: 1.6em; margin: 0 0 .2em; }
 h2 { font-size: 1.15em; margin: 1.2em 0 .3em; border-bottom: 1px solid #6a6a6a; }
 h3 { font-size: 1em; margin: 1em 0 .2em; }
-h1, h2, h3 { break-after: avoid; overflow-wrap: anywhere; }
+h4 { font-size: .95em; font-style: italic; margin: .8em 0 .2em; }
+h1, h2, h3, h4 { break-after: avoid; overflow-wrap: anywhere; }
 p, ul { margin: .4em 0; overflow-wrap: anywhere; orphans: 3; widows: 3; }
 ul { padding-left: 1.3em; }
 li { break-inside: avoid; }
 .filed { margin: 0 0 .6em; color: #444; }
 .stressed { font-weight: bold; border: 2px solid #a01040; padding: .4em .6em; }
-.answer { display: flex; flex-wrap: wrap; gap: 1em; align-items: center; border: 2px solid \
+.answer { display: flex; flex-wrap: wrap; gap: 1em; align-items: flex-start; border: 2px solid \
 #1a1a1a; padding: .7em 1em; margin: .6em 0 1em; break-inside: avoid; }
 .answer > div { flex: 1.15 1 20em; min-width: 0; }
 .answer > figure { flex: 1 1 17em; margin: 0; min-width: 0; }
@@ -67,10 +68,11 @@ summary { cursor: pointer; margin: .4em 0; }
 @media print {
   body { font-size: 9pt; max-width: none; margin: 0; padding: 0; }
   .answer { flex-wrap: nowrap; }
-  .figures { grid-template-columns: 1fr 1fr; }
+  .figures { grid-template-columns: 1fr 1fr; gap: .6em 2em; }
+  .figures svg { max-height: 66mm; width: auto; }
   summary { list-style: none; }
   details::details-content { content-visibility: visible; block-size: auto; }
-  details.record pre { display: none; }
+  details.record pre, details.screen > :not(summary) { display: none; }
   .line { overflow: visible; }
 }
 """
@@ -135,6 +137,8 @@ class _Sheet(Page):
         self.blocks: list[str] = []
         # What stands at the top and in the footer of a print: case, author and date.
         self.filed: tuple[str, ...] = ()
+        # Of the headings: one level down within a part, of which the ids of figures have a prefix.
+        self.level, self.prefix = 2, ""
 
     def name(self, text: str) -> str:
         return plain(text)
@@ -164,6 +168,22 @@ class _Sheet(Page):
         """A list of items, each with a lead-in that may be empty."""
         raise NotImplementedError
 
+    def subheading(self, text: str) -> None:
+        """A heading within a section."""
+        self.level += 1
+        self.heading(text)
+        self.level -= 1
+
+    def begin_part(self, text: str, prefix: str) -> None:
+        """Begin the part of one of several results."""
+        self.end_parts()
+        self.heading(text)
+        self.level, self.prefix = 3, prefix
+
+    def end_parts(self) -> None:
+        """What follows is of the whole page."""
+        self.level, self.prefix = 2, ""
+
     def open_answer(self) -> None:
         """Begin the box that has the answer."""
         self.heading("Answer")
@@ -175,8 +195,8 @@ class _Sheet(Page):
         """The figures in the box: what each is, and its text."""
         self.items([(f"{what}:", text) for what, text in rows])
 
-    def fold(self, summary: str) -> None:
-        """Begin what is read on demand."""
+    def fold(self, summary: str, printed: bool = True) -> None:
+        """Begin what is read on demand, and perhaps not in print."""
         self.say(summary)
 
     def unfold(self) -> None:
@@ -207,7 +227,7 @@ class Html(_Sheet):
         self.blocks.append(f'<p class="filed">{escape(" · ".join(self.filed))}</p>')
 
     def heading(self, text: str) -> None:
-        self.blocks.append(f"<h2>{escape(text)}</h2>")
+        self.blocks.append(f"<h{self.level}>{escape(text)}</h{self.level}>")
 
     def say(self, text: str) -> None:
         self.blocks.append(f"<p>{escape(text)}</p>")
@@ -253,8 +273,9 @@ class Html(_Sheet):
         ]
         self.blocks += ["<table><tbody>", *lines, "</tbody></table>"]
 
-    def fold(self, summary: str) -> None:
-        self.blocks += ["<details>", f"<summary>{escape(summary)}</summary>"]
+    def fold(self, summary: str, printed: bool = True) -> None:
+        kind = "<details>" if printed else '<details class="screen">'
+        self.blocks += [kind, f"<summary>{escape(summary)}</summary>"]
 
     def unfold(self) -> None:
         self.blocks.append("</details>")
@@ -274,7 +295,7 @@ class Html(_Sheet):
     def working(self, text: str) -> None:
         """The Markdown of a derivation, below a heading of the report: its title is left out."""
         blocks = text.partition("\n")[2].strip().split("\n\n")
-        self.blocks += map(_as_html, blocks)
+        self.blocks += [_as_html(block, self.level + 1) for block in blocks]
 
     def record(self, text: str) -> None:
         summary = "<summary>Record with all digits (not printed)</summary>"
@@ -317,7 +338,7 @@ class Markdown(_Sheet):
         self.blocks.append(_line(" · ".join(f"{what}: {text}" for what, text in entries)))
 
     def heading(self, text: str) -> None:
-        self.blocks.append(f"## {_escaped(text)}")
+        self.blocks.append(f"{'#' * self.level} {_escaped(text)}")
 
     def say(self, text: str) -> None:
         self.blocks.append(_line(text))
@@ -338,7 +359,9 @@ class Markdown(_Sheet):
 
     def working(self, text: str) -> None:
         """Below a heading of the report, without the title."""
-        self.blocks.append(text.replace("\n## ", "\n### ").partition("\n")[2].strip("\n"))
+        self.blocks.append(
+            text.replace("\n## ", f"\n{'#' * (self.level + 1)} ").partition("\n")[2].strip("\n")
+        )
 
     def record(self, text: str) -> None:
         self.blocks.append(f"{FENCE}{text}\n```")
@@ -350,10 +373,10 @@ class Markdown(_Sheet):
 Sheet: TypeAlias = Html | Markdown
 
 
-def _as_html(block: str) -> str:
+def _as_html(block: str, level: int) -> str:
     """A heading, formula, table, list or paragraph of a derivation in HTML."""
     if block.startswith("## "):
-        return f"<h3>{_inline(block[3:])}</h3>"
+        return f"<h{level}>{_inline(block[3:])}</h{level}>"
     if block.startswith("$$"):
         return f'<div class="line">{mathml(block.strip("$"))}</div>'
     lines = block.split("\n")

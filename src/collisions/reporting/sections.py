@@ -751,22 +751,29 @@ def _not_made(sheet: Sheet, others: Sequence[str]) -> None:
     """Name the checks that were not made, for those who ask."""
     if others:
         sheet.fold(
-            f"{len(others)} checks were not made, because they lack an input, do not apply or are "
-            "switched off:"
+            f"{len(others)} checks were not made: they lack an input, do not apply or are "
+            "switched off.",
+            printed=False,
         )
         sheet.say(f"{', '.join(others)}.")
         sheet.unfold()
 
 
-def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Finding]) -> None:
-    """Write the sources of equations, limits and comparable values."""
-    sheet.heading("References")
-    lines = [
-        (
-            '"Application of Impulse Momentum Theory to Vehicle Collisions"; a number such as '
-            "(5) is an equation of it."
-        )
-    ]
+def sources(sheet: Sheet, parts: Sequence[tuple[Any, Sequence[Finding] | None]]) -> None:
+    """Write the sources of equations, limits and comparable values, each once."""
+    lines = [line for result, found in parts for line in _sources(result, found or ())]
+    if lines:
+        sheet.heading("References")
+        sheet.listed(list(dict.fromkeys(lines)))
+
+
+def _sources(impact: Any, found: Sequence[Finding]) -> Iterator[str]:
+    if not isinstance(impact, (Impact, MomentumSolution)):
+        return
+    yield (
+        '"Application of Impulse Momentum Theory to Vehicle Collisions"; a number such as (5) is '
+        "an equation of it."
+    )
     if isinstance(impact, Impact):
         values = [("restitution", value) for value in _RANGE]
         if any(_published(impact, impact.inputs.rule)):
@@ -776,22 +783,19 @@ def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Fin
             for value in _DRAG
             if impact.pulse is None or impact.inputs.drag is not None
         ]
-        lines += [
-            f"For comparison with the {what}: {value.name}; {value.source}. {value.quality}"
-            for what, value in values
-        ]
+        for what, value in values:
+            yield f"For comparison with the {what}: {value.name}; {value.source}. {value.quality}"
     for finding in found:
         for name in _PUBLISHED.findall(finding.source):
             for value in _RANGE if name == "restitution_range" else (getattr(reference, name),):
-                lines.append(f"{value.name}: {value.source}. {value.quality}")
+                yield f"{value.name}: {value.source}. {value.quality}"
     if isinstance(impact, Impact):
         duration = reference.CONTACT_DURATION
         ends = f"{duration.low:g} to {duration.high:g} s"
-        lines.append(
+        yield (
             f"For comparison with the duration: {duration.name}, {ends}; {duration.source}. "
             f"{duration.quality}"
         )
-    sheet.listed(list(dict.fromkeys(lines)))
 
 
 def _basis(finding: Finding) -> str:
