@@ -69,7 +69,7 @@ summary { cursor: pointer; margin: .4em 0; }
   body { font-size: 9pt; max-width: none; margin: 0; padding: 0; }
   .answer { flex-wrap: nowrap; }
   .figures { grid-template-columns: 1fr 1fr; gap: .6em 2em; }
-  .figures svg { max-height: 66mm; width: auto; }
+  .figures svg { max-height: 58mm; width: auto; }
   summary { list-style: none; }
   details::details-content { content-visibility: visible; block-size: auto; }
   details.record pre, details.screen > :not(summary) { display: none; }
