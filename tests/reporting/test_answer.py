@@ -14,6 +14,8 @@ from collisions import reconstruct, uncertainty
 from collisions.diagnostics import diagnose
 from collisions.reporting import options, replay, report
 from collisions.reporting.mathml import mathml
+from collisions.reporting.render import Markdown, Printed
+from collisions.reporting.sections import _round_limit
 
 A = col.Vehicle(
     mass="3400 lb", yaw_inertia="1770 slug*ft**2", x="-6.5 ft", y="1.3 ft", heading="0 deg",
@@ -122,6 +124,43 @@ def test_a_reverse_solution_says_from_what_and_marks_what_it_found():
     assert "| B (Civic) | speed before | 25.0 mph, given |" in found
     assert "| contact | restitution | 0.10, given |" in found
     assert report(replay(page), **options(page)) == page
+
+
+def test_a_restitution_that_was_found_is_part_of_the_answer():
+    """Example 2 of the paper asks for it: 0.398."""
+    impact = reconstruct.central("1100 kg", "950 kg", va="80 km/h", vb=0.0, vb_after="60 km/h")
+    page = report(impact, form="markdown")
+    assert "- **Restitution:** 0.40\n" in box(page)
+    assert (
+        "from the velocity of A before, the velocity of B before and the velocity of B after"
+        in (box(page))
+    )
+    found = section(page, "Results")
+    assert "| A | velocity before, along x | 80.0 km/h, given |" in found
+    assert "| A | velocity before, along y | 0.0 km/h |" in found
+
+
+def test_a_wide_range_rounds_the_number_before_it():
+    """Of an interval from 20 to 90 mph the middle has no tenths."""
+    known = uncertainty.propagate(
+        lambda va: {"a.before.speed": 1.0 * va, "a.delta_v": 1.0 * va},
+        {"va": uncertainty.Interval("20.04 mph", "90.04 mph")},
+        method="interval",
+    )
+    page = report(crash(), form="markdown", units="us", uncertainty=known)
+    number = crash().a.delta_v / 0.44704
+    assert f"| A (Accord) | delta-V | {number:.0f} mph (20 to 90 mph) |" in section(page, "Results")
+
+
+def test_a_limit_that_is_round_in_si_stays_round():
+    """10 cm are 0.33 ft, and not 0.3281."""
+    sheet = Markdown(Printed("us"), {}, {})
+    assert _round_limit(sheet, 0.1, "length") == "0.33 ft"
+    assert _round_limit(sheet, math.radians(20.0), "angle") == "20°"
+    assert _round_limit(sheet, 0.005, "number") == "0.005"
+    assert _round_limit(sheet, 0.253, "number") == "0.253"
+    assert _round_limit(sheet, 1500.0, "mass") == "3300 lb"
+    assert _round_limit(sheet, 0.2, "number") == "0.2"
 
 
 @pytest.mark.parametrize("bare", [False, True])

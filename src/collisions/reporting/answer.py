@@ -19,6 +19,7 @@ from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Output, Propagation
 from ..uncertainty.result import figures
 from .render import Sheet, plain
+from .sections import found_inputs
 from .uncertainty import Spread
 from .words import Names, listed
 
@@ -125,6 +126,8 @@ def _asked(result: Impact | MomentumSolution) -> Iterator[str]:
         for label in sides:
             if not {f"speed_{label}", f"v{label}"} & set(known):
                 yield f"{label}.before.speed"
+    if "restitution" in found_inputs(result):
+        yield "restitution"
     for label in sides:
         if f"delta_v_{label}" not in known:
             yield f"{label}.delta_v"

@@ -23,7 +23,14 @@ from ..kernels.contact_laws import FRICTION, LAWS
 from ..messages.errors import Status
 from ..plot.canvas import who
 from ..quantities.directions import course
-from ..quantities.formatting import KIND_OF, SI_UNITS, percent, typeset
+from ..quantities.formatting import (
+    KIND_OF,
+    SI_UNITS,
+    percent,
+    places,
+    typeset,
+    with_decimals,
+)
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import label_of
 from ..quantities.units import Input
@@ -687,7 +694,8 @@ def _origin(impact: Impact, found: set[str], of: str, what: str) -> str:
     if what == "restitution":
         return ", found" if "restitution" in found else ", given"
     name = _BEFORE.get(what)
-    if name is None:
+    # In line nothing moves along y: that is the model, and neither given nor found.
+    if name is None or (name == "vy" and impact.reconstruction.method == "central"):
         return ""
     return ", found" if f"{of.lower()}.{name}" in found else ", given"
 
@@ -733,10 +741,9 @@ def findings(sheet: Sheet, found: Findings) -> None:
         end = "" if sentence.endswith("?") else "."
         judged = ""
         if not is_note(finding):
-            measured, limit = (
-                sheet.number(value, KIND_OF[finding.unit])
-                for value in (finding.measured, finding.limit)
-            )
+            kind = KIND_OF[finding.unit]
+            measured = sheet.number(finding.measured, kind)
+            limit = _round_limit(sheet, finding.limit, kind)
             judged = f" Measured {measured}, limit {limit}. Basis of the limit: {_basis(finding)}."
         lines.append((f"{label_of(finding.code)}{of}:", f"{sentence}{end}{judged}"))
     sheet.items(lines)
@@ -745,6 +752,18 @@ def findings(sheet: Sheet, found: Findings) -> None:
         "error."
     )
     _not_made(sheet, others)
+
+
+def _round_limit(sheet: Sheet, limit: float, kind: str) -> str:
+    """A limit in the units of the page; one that is round in SI has no more digits there."""
+    number = sheet.system.converted(limit, kind)
+    if not math.isfinite(limit) or number == 0.0 or float(f"{limit:.2g}") != limit:
+        return sheet.number(limit, kind)
+    figures = places(number, 2)
+    rounded = with_decimals(number, figures)
+    if figures > 0:
+        rounded = rounded.rstrip("0").rstrip(".")
+    return rounded + sheet.system.unit(kind)
 
 
 def _not_made(sheet: Sheet, others: Sequence[str]) -> None:
