@@ -1261,8 +1261,10 @@ def test_an_interval_has_a_range_and_no_deviation():
     assert (
         "B (Polo)",
         "delta-V",
-        f"{crash().b.delta_v:.2f} m/s ({low:.2f} to {high:.2f} m/s)",
+        f"{crash().b.delta_v:.1f} m/s ({low:.1f} to {high:.1f} m/s)",
     ) in rows(section(page, "Results"))
+    # Two figures of half the width end at the first decimal.
+    assert 1.0 < 0.5 * (high - low) < 9.95
 
 
 @pytest.mark.parametrize(("away", "centred"), [(0.09, True), (0.11, False), (-0.11, False)])
