@@ -14,7 +14,7 @@ from collisions import reconstruct, uncertainty
 from collisions.diagnostics import diagnose
 from collisions.reporting import options, replay, report
 from collisions.reporting.mathml import mathml
-from collisions.reporting.render import Markdown, Printed
+from collisions.reporting.render import Html, Markdown, Printed
 from collisions.reporting.sections import _round_limit
 
 A = col.Vehicle(
@@ -360,3 +360,24 @@ def test_a_record_of_several_that_was_changed_is_refused():
         replay(page.replace('"delta_v_a": ', '"delta_v_a": 1'))
     with pytest.raises(col.InputError, match="its results are no list of records"):
         replay(page.replace('"results": [\n  {', '"results": {"x": [{}]}, "other": [{', 1))
+
+
+def test_subjects_of_which_the_same_is_said_share_a_table():
+    """Both vehicles beside each other, one fact of many below its name, and others apart."""
+    sheet = Html(Printed("si"), {}, {})
+    sheet.table(
+        [
+            ("A (Golf)", "mass", "1 kg"), ("contact", "kind", "elastic"), ("B", "mass", "2 kg"),
+            ("B", "speed", "3 m/s"), ("x", "stated", "4"), ("y", "stated", "5"),
+            ("p", "mean", "6"), ("p", "range", "7"), ("q", "mean", "8"), ("q", "range", "9"),
+        ]
+    )  # fmt: skip
+    text = "\n".join(sheet.blocks)
+    assert text.count("<table>") == 4
+    heads = re.findall(r'<th scope="col">(.*?)</th>', text)
+    assert heads == ["A (Golf)", "B", "p", "q"]
+    assert '<tr><th scope="row">mass</th><td>1 kg</td><td>2 kg</td></tr>' in text
+    assert '<tr><th scope="row">speed</th><td></td><td>3 m/s</td></tr>' in text
+    assert re.findall("<caption>(.*?)</caption>", text) == ["contact", "stated"]
+    assert '<tr><th scope="row">y</th><td>5</td></tr>' in text
+    assert '<tr><th scope="row">range</th><td>7</td><td>9</td></tr>' in text

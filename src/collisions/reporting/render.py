@@ -244,16 +244,15 @@ class Html(_Sheet):
             subjects.setdefault(of, []).append((row[0], row[1]))
         lines = ['<div class="tables">']
         for group in _alike(subjects):
+            if len(group) > 1 and len(subjects[group[0]]) == 1 and not _VEHICLE.match(group[0]):
+                ((what, _),) = subjects[group[0]]
+                lines += _captioned(what, [(of, subjects[of][0][1]) for of in group])
+                continue
             if len(group) > 1:
                 lines += _side_by_side(group, [subjects[of] for of in group])
                 continue
             (of,) = group
-            lines += ['<div class="wide"><table>', f"<caption>{escape(of)}</caption>", "<tbody>"]
-            lines += [
-                f'<tr><th scope="row">{escape(what)}</th><td>{escape(value)}</td></tr>'
-                for what, value in subjects[of]
-            ]
-            lines += ["</tbody>", "</table></div>"]
+            lines += _captioned(of, subjects[of])
         self.blocks += [*lines, "</div>"]
 
     def open_answer(self) -> None:
@@ -408,14 +407,29 @@ def _alike(subjects: Mapping[str, Sequence[tuple[str, str]]]) -> list[list[str]]
     for of, rows in subjects.items():
         told = [what for what, _ in rows]
         for group in groups:
-            same = told == [what for what, _ in subjects[group[0]]] and len(told) > 1
+            same = told == [what for what, _ in subjects[group[0]]]
             vehicles = all(_VEHICLE.match(one) for one in (of, *group))
-            if (same and len(group) < _COLUMNS) or vehicles:
+            if (same and (len(group) < _COLUMNS or len(told) == 1)) or vehicles:
                 group.append(of)
                 break
         else:
             groups.append([of])
     return [sorted(group) if _VEHICLE.match(group[0]) else group for group in groups]
+
+
+def _captioned(caption: str, rows: Iterable[tuple[str, str]]) -> list[str]:
+    """A table of two columns below its caption."""
+    return [
+        '<div class="wide"><table>',
+        f"<caption>{escape(caption)}</caption>",
+        "<tbody>",
+        *(
+            f'<tr><th scope="row">{escape(what)}</th><td>{escape(value)}</td></tr>'
+            for what, value in rows
+        ),
+        "</tbody>",
+        "</table></div>",
+    ]
 
 
 def _side_by_side(subjects: Sequence[str], parts: Sequence[Sequence[tuple[str, str]]]) -> list[str]:
