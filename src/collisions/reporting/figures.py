@@ -82,12 +82,19 @@ def figures(
     if isinstance(impact, Posterior):
         caption = "Each observation less its computed value, in stated errors."
         _draw(sheet, "residuals", caption, plot.residuals, impact)
+    _in_rows(sheet, before)
+    # Apart, so that the figures of one output stand beside each other.
+    after = len(sheet.blocks)
     _of_outputs(sheet, impact, spread, uncertainty, options["units"])
-    pictures = sheet.blocks[before:]
-    if pictures:
-        sheet.blocks[before:] = ['<div class="figures">', *pictures, "</div>"]
-    else:
+    _in_rows(sheet, after)
+    if len(sheet.blocks) == before:
         sheet.say("None: the variance is all of one input, and no cases were drawn.")
+
+
+def _in_rows(sheet: Html, start: int) -> None:
+    """Set the blocks from there on side by side."""
+    if sheet.blocks[start:]:
+        sheet.blocks[start:] = ['<div class="figures">', *sheet.blocks[start:], "</div>"]
 
 
 def beside_answer(sheet: Html, impact: Any, options: Mapping[str, Any]) -> tuple[str, str] | None:
