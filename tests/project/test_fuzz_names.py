@@ -598,6 +598,9 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
         ("share_a", lambda: case.value("share_a")),
         ("uncertainty", lambda: uncertainties(case)),
         ("derivation", lambda: case.option(True, False)),
+        ("author", lambda: case.option("J. Doe", case.text())),
+        ("case", lambda: case.option("2026-11", case.text())),
+        ("date", lambda: case.option("25 November 2026", case.text())),
     ):
         if case.maybe(0.1):
             options[name] = draw()

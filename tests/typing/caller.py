@@ -137,7 +137,8 @@ def around(impact: col.Impact) -> str:
     )
     sliders.save("page.html")
     assert_type(
-        reporting.replay(str(col.report(impact))), col.Impact | reconstruct.MomentumSolution
+        reporting.replay(str(col.report(impact))),
+        col.Impact | reconstruct.MomentumSolution | list[col.Impact | reconstruct.MomentumSolution],
     )
     known: dict[str, Any] = reporting.options(str(col.report(impact)))
     one: col.Impact = impact.case(0).again(restitution=0.2, friction="0.4")
@@ -165,8 +166,12 @@ def around(impact: col.Impact) -> str:
             units="metric",
             duration="100 ms",
             share_a=0.5,
+            author="J. Doe",
+            case="2026-11",
+            date="25 November 2026",
         )
     )
+    page += str(col.report([impact, impact], figures=False))
     derivation: str = page + str(col.explain(impact, units="us", form="text"))
     return derivation + str(share) + str(schema) + "".join(sentences)
 
