@@ -17,6 +17,7 @@ from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note
 from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
+from ..impact.instant import neglected
 from ..impact.left_out import LeftOutSide, left_out
 from ..impact.models import BY_NAME
 from ..impact.provenance import KNOWN
