@@ -298,6 +298,8 @@ def _known(
         return
     texts = impact.inputs.given or {}
     given = dict.fromkeys([*(name for name in texts if name in KNOWN), *origin.known])
+    if origin.method == "planar":
+        given |= dict.fromkeys(_motions_after(impact, texts))
     for name in given:
         # Restitution and friction stand with the contact; va and vb with their vehicle.
         if name not in KNOWN or (name in ("va", "vb") and name not in texts):
@@ -313,6 +315,15 @@ def _known(
         else:
             value = "given without a unit, and kept only in what was found from it"
         yield "evidence", names(known.what), _with(value, notes.get(name))
+
+
+def _motions_after(impact: Impact, texts: Mapping[str, Any]) -> Iterator[str]:
+    """The motions after, from which ``planar`` works back, by their names in ``KNOWN``."""
+    for label, side in (("a", impact.a), ("b", impact.b)):
+        if math.isfinite(side.before.mass):
+            by_speed = {f"{label}_after.speed", f"{label}_after.course"} <= texts.keys()
+            names = ("speed", "course") if by_speed else ("vx", "vy")
+            yield from (f"{label}_after.{name}" for name in (*names, "yaw_rate"))
 
 
 def _read(text: str, name: str) -> float | None:
