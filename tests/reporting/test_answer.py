@@ -174,6 +174,9 @@ def test_evidence_stands_on_the_page_however_it_was_given(bare):
     (shown,) = (value for what, value in rows if what == "delta-V forward of the Accord")
     assert shown.startswith("-11.25 mph")
     assert ("speed of the Civic before", "25 mph") in rows
+    whence = {"delta_v_forward_a": "Read from the recorder"}
+    noted = section(report(impact, form="markdown", units="us", notes=whence), "Inputs")
+    assert re.search(r"\| delta-V forward of the Accord \| .*\. Read from the recorder \|", noted)
     assert ("course of the Accord before", "0°") in rows
 
 

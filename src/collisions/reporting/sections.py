@@ -293,17 +293,8 @@ def _known(
     sheet: Sheet, impact: Impact, notes: Mapping[str, str]
 ) -> Iterator[tuple[str, str, str]]:
     """Table rows with what a reverse solver was given, as texts or as numbers."""
-    origin, names = impact.reconstruction, Names(impact)
-    if origin is None:
-        return
-    texts = impact.inputs.given or {}
-    given = dict.fromkeys([*(name for name in texts if name in KNOWN), *origin.known])
-    if origin.method == "planar":
-        given |= dict.fromkeys(_motions_after(impact, texts))
-    for name in given:
-        # Restitution and friction stand with the contact; va and vb with their vehicle.
-        if name not in KNOWN or (name in ("va", "vb") and name not in texts):
-            continue
+    names, texts = Names(impact), impact.inputs.given or {}
+    for name in evidence_names(impact):
         known = KNOWN[name]
         if name in texts:
             value = sheet.as_given(_read(texts[name], name), known.kind, texts[name])
@@ -315,6 +306,18 @@ def _known(
         else:
             value = "given without a unit, and kept only in what was found from it"
         yield "evidence", names(known.what), _with(value, notes.get(name))
+
+
+def evidence_names(impact: Impact) -> list[str]:
+    """What a reverse solver was given besides the contact and the vehicles, by name."""
+    origin, texts = impact.reconstruction, impact.inputs.given or {}
+    if origin is None:
+        return []
+    found = dict.fromkeys([*texts, *origin.known])
+    if origin.method == "planar":
+        found |= dict.fromkeys(_motions_after(impact, texts))
+    # Restitution and friction stand with the contact; va and vb with their vehicle.
+    return [name for name in found if name in KNOWN and (name not in ("va", "vb") or name in texts)]
 
 
 def _motions_after(impact: Impact, texts: Mapping[str, Any]) -> Iterator[str]:
