@@ -222,6 +222,16 @@ def test_the_box_has_no_names_of_functions():
         assert text.count("that fit what was") == 1
 
 
+def test_courses_that_were_given_as_numbers_stand_on_the_page():
+    found = reconstruct.speeds(
+        A, B, course_a=0.0, course_b=0.5 * math.pi, restitution=0.1, speed_b="25 mph",
+        delta_v_forward_a=crash().a.delta_v_forward, **PLACE,
+    )[0]  # fmt: skip
+    given = section(report(found, form="markdown", units="us"), "Inputs")
+    assert "| evidence | course of the Accord before | 0°, as the answer has it" in given
+    assert "| evidence | course of the Civic before | 90°, as the answer has it" in given
+
+
 def test_inputs_of_a_propagation_are_in_words():
     page = report(crash(), form="markdown", units="us", uncertainty=spread())
     part = section(page, "Uncertainty, given the stated inputs")

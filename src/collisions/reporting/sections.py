@@ -301,7 +301,8 @@ def _known(
         elif known.path:
             number = float(attrgetter(known.path)(impact))
             value = sheet.number(number, known.kind)
-            if name.startswith(("delta_v_forward", "delta_v_left")):
+            # Components are met as well as they agree; a speed below 0 turns its course round.
+            if name.startswith(("delta_v_forward", "delta_v_left", "course_")):
                 value += ", as the answer has it; given without a unit"
         else:
             value = "given without a unit, and kept only in what was found from it"
@@ -316,6 +317,12 @@ def evidence_names(impact: Impact) -> list[str]:
     found = dict.fromkeys([*texts, *origin.known])
     if origin.method == "planar":
         found |= dict.fromkeys(_motions_after(impact, texts))
+    elif origin.method == "speeds":
+        # Along which the speeds are sought; a vehicle at rest has none.
+        sides = (("a", impact.a), ("b", impact.b))
+        found |= dict.fromkeys(
+            f"course_{label}" for label, side in sides if math.isfinite(side.before.course)
+        )
     # Restitution and friction stand with the contact; va and vb with their vehicle.
     return [name for name in found if name in KNOWN and (name not in ("va", "vb") or name in texts)]
 
