@@ -174,7 +174,62 @@ def test_evidence_stands_on_the_page_however_it_was_given(bare):
     (shown,) = (value for what, value in rows if what == "delta-V forward of the Accord")
     assert shown.startswith("-11.25 mph")
     assert ("speed of the Civic before", "25 mph") in rows
+    whence = {"delta_v_forward_a": "Read from the recorder"}
+    noted = section(report(impact, form="markdown", units="us", notes=whence), "Inputs")
+    assert re.search(r"\| delta-V forward of the Accord \| .*\. Read from the recorder \|", noted)
     assert ("course of the Accord before", "0°") in rows
+
+
+@pytest.mark.parametrize("text", [False, True])
+def test_the_motions_after_that_planar_was_given_stand_on_its_page(text):
+    """They are what it rests on, as texts or as the numbers of another result."""
+    end = crash()
+    after = {label: getattr(end, label).after for label in "ab"}
+    if text:
+        after = {
+            label: state.replace(vx=f"{state.vx / 0.44704:.9g} mph")
+            for label, state in after.items()
+        }
+    found = reconstruct.planar(
+        after["a"], after["b"], normal="0 deg", point=(0.0, 0.0), restitution=0.1, friction=0.5,
+        regime="sliding",
+    )  # fmt: skip
+    page = report(found, form="markdown", units="us")
+    assert "from the motions of both vehicles after, the restitution and the friction" in box(page)
+    shown = dict(re.findall(r"\| evidence \| (.*?) \| ([-\d.]+)", section(page, "Inputs")))
+    for name, side in (("Accord", end.a), ("Civic", end.b)):
+        state = side.after
+        for what, value in (
+            ("velocity along x", state.vx / 0.44704),
+            ("velocity along y", state.vy / 0.44704),
+            ("yaw rate", math.degrees(state.yaw_rate)),
+        ):
+            assert float(shown[f"{what} of the {name} after"]) == pytest.approx(value, rel=1e-3)
+    assert report(replay(page), **options(page)) == page
+
+
+def test_the_box_has_no_names_of_functions():
+    """Several impacts fit what planar was given; the finding says so, and once."""
+    end = crash()
+    found = reconstruct.planar(
+        end.a.after, end.b.after, normal="0 deg", point=(0.0, 0.0), restitution=0.1, friction=0.5,
+        regime="sliding",
+    )  # fmt: skip
+    text = box(report(found, form="markdown", units="us"))
+    assert "reconstruct." not in text.lower()
+    assert "Solving backwards: one percent in what was given" in text
+    if found.reconstruction.answers > 1:
+        assert text.count("that fit what was") == 1
+
+
+def test_courses_that_were_given_as_numbers_stand_on_the_page():
+    found = reconstruct.speeds(
+        A, B, course_a=0.0, course_b=0.5 * math.pi, restitution=0.1, speed_b="25 mph",
+        delta_v_forward_a=crash().a.delta_v_forward, **PLACE,
+    )[0]  # fmt: skip
+    given = section(report(found, form="markdown", units="us"), "Inputs")
+    assert "| evidence | course of the Accord before | 0°, as the answer has it" in given
+    assert "| evidence | course of the Civic before | 90°, as the answer has it" in given
 
 
 def test_inputs_of_a_propagation_are_in_words():

@@ -5,6 +5,7 @@ rest on, and the findings that matter.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from operator import attrgetter
 from typing import Any, NamedTuple
@@ -61,13 +62,14 @@ def answer(
         sheet.say(f"No range is stated for these figures{f': {_NO_RANGE}' if alone else '.'}")
     elif bare:
         sheet.say("No range is stated for the figures above that have only one number.")
+    told = [finding for finding in found or () if not is_note(finding)]
     lines = [
-        (f"{label_of(finding.code)}:", as_sentence(names(plain(finding.sentence))))
-        for finding in found or ()
-        if not is_note(finding)
+        (f"{label_of(finding.code)}:", as_sentence(names(_in_words(finding.sentence))))
+        for finding in told
     ]
     origin = result.reconstruction if isinstance(result, Impact) else None
-    if origin is not None and origin.answers > 1:
+    said = any(finding.code == "not_unique" for finding in told)
+    if origin is not None and origin.answers > 1 and not said:
         lines.insert(
             0, ("", f"Not the only answer: {how_many(origin.answers)} fit what was known.")
         )
@@ -101,6 +103,12 @@ def _figures(
         if name not in spread.outputs and value is not None and math.isfinite(value):
             text = system.answer(float(value), kinds[name])
             yield Figure(_begun(spread.names(words[name])), text, False)
+
+
+def _in_words(sentence: str) -> str:
+    """The sentence of a finding without names of functions and models."""
+    sentence = re.sub(r"\breconstruct\.\w+", "solving backwards", plain(sentence))
+    return re.sub(r"\b(linear|oblique)_(central)\b", r"\1-\2", sentence)
 
 
 def _begun(text: str) -> str:
@@ -184,6 +192,8 @@ def _rests_on(result: Any, names: Names) -> str:
             "velocities before, the masses and the contact that were given."
         )
     known = [_known(name, names) for name in origin.known if name not in _WITH_A]
+    if origin.method == "planar":
+        known.insert(0, "the motions of both vehicles after")
     return (
         f"Worked back by momentum and restitution ({model} impact), from {listed(known)}, with "
         "the masses and the contact that were given."

@@ -176,6 +176,7 @@ def inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
             if impact.law is None or impact.model in ("linear_central", "time_resolved")
             else ["law"]
         )
-        return [*found, *(impact.inputs.given or {}).keys() - set(found)]
+        more = [*(impact.inputs.given or {}), *sections.evidence_names(impact)]
+        return list(dict.fromkeys([*found, *more]))
     rows = momentum_inputs(impact) if isinstance(impact, MomentumSolution) else ()
     return [name.partition("[")[0] for _, _, name, _, _ in rows]

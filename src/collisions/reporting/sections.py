@@ -298,26 +298,47 @@ def _known(
     sheet: Sheet, impact: Impact, notes: Mapping[str, str]
 ) -> Iterator[tuple[str, str, str]]:
     """Table rows with what a reverse solver was given, as texts or as numbers."""
-    origin, names = impact.reconstruction, Names(impact)
-    if origin is None:
-        return
-    texts = impact.inputs.given or {}
-    given = dict.fromkeys([*(name for name in texts if name in KNOWN), *origin.known])
-    for name in given:
-        # Restitution and friction stand with the contact; va and vb with their vehicle.
-        if name not in KNOWN or (name in ("va", "vb") and name not in texts):
-            continue
+    names, texts = Names(impact), impact.inputs.given or {}
+    for name in evidence_names(impact):
         known = KNOWN[name]
         if name in texts:
             value = sheet.as_given(_read(texts[name], name), known.kind, texts[name])
         elif known.path:
             number = float(attrgetter(known.path)(impact))
             value = sheet.number(number, known.kind)
-            if name.startswith(("delta_v_forward", "delta_v_left")):
+            # Components are met as well as they agree; a speed below 0 turns its course round.
+            if name.startswith(("delta_v_forward", "delta_v_left", "course_")):
                 value += ", as the answer has it; given without a unit"
         else:
             value = "given without a unit, and kept only in what was found from it"
         yield "evidence", names(known.what), _with(value, notes.get(name))
+
+
+def evidence_names(impact: Impact) -> list[str]:
+    """What a reverse solver was given besides the contact and the vehicles, by name."""
+    origin, texts = impact.reconstruction, impact.inputs.given or {}
+    if origin is None:
+        return []
+    found = dict.fromkeys([*texts, *origin.known])
+    if origin.method == "planar":
+        found |= dict.fromkeys(_motions_after(impact, texts))
+    elif origin.method == "speeds":
+        # Along which the speeds are sought; a vehicle at rest has none.
+        sides = (("a", impact.a), ("b", impact.b))
+        found |= dict.fromkeys(
+            f"course_{label}" for label, side in sides if math.isfinite(side.before.course)
+        )
+    # Restitution and friction stand with the contact; va and vb with their vehicle.
+    return [name for name in found if name in KNOWN and (name not in ("va", "vb") or name in texts)]
+
+
+def _motions_after(impact: Impact, texts: Mapping[str, Any]) -> Iterator[str]:
+    """The motions after, from which ``planar`` works back, by their names in ``KNOWN``."""
+    for label, side in (("a", impact.a), ("b", impact.b)):
+        if math.isfinite(side.before.mass):
+            by_speed = {f"{label}_after.speed", f"{label}_after.course"} <= texts.keys()
+            names = ("speed", "course") if by_speed else ("vx", "vy")
+            yield from (f"{label}_after.{name}" for name in (*names, "yaw_rate"))
 
 
 def _read(text: str, name: str) -> float | None:
