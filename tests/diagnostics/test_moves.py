@@ -75,7 +75,7 @@ def test_what_an_impulse_leaves_out_is_what_left_out_says():
             getattr(left.a, f"{inner}_share"), getattr(left.b, f"{inner}_share")
         )
         assert moves[name].yaw_rate_a is None
-    assert "0.08 s with a drag of 0.5" in moves["tyres"].what
+    assert "0.08 s, drag 0.5" in moves["tyres"].what
 
 
 def test_the_largest_is_first():
@@ -93,7 +93,7 @@ def test_each_model_has_what_it_can_be_moved_by():
     tyres = Tyres(0.7, 0.2, 2.7, 1.5)
     assert "tyres" not in by_name(impact(duration=0.1, tyres_a=tyres))
     stuck = by_name(impact(friction=math.inf))["friction"]
-    assert stuck.what == "friction 0.55, the usual one, instead of sticking"
+    assert stuck.what == "friction 0.55, not sticking"
     timed = col.time_resolved(A, B, 0.15, **CONTACT, duration=0.1)
     assert set(by_name(timed)) == {"point", "normal", "restitution", "friction"}
 

@@ -182,7 +182,7 @@ def explain(
     ...     "1100 kg", "950 kg", va="80 km/h", vb=0.0, vb_after="60 km/h"
     ... )
     >>> page = explain(impact, form="text")
-    >>> print(page[page.index("Restitution") : page.index("What follows")].rstrip())
+    >>> print(page[page.index("Restitution") : page.index("Found as")].rstrip())
     Restitution, as in (9):
       e = (v'_B - v'_A) / (v_A - v_B)
         = (60 - 28.18) / (80 - 0)

@@ -142,10 +142,9 @@ def diagnose(
     >>> finding = diagnose(impact)[0]
     >>> finding.code, finding.measured, finding.limit
     ('restitution', 0.8, 0.3)
-    >>> diagnose(impact, limits={"restitution": 0.9, "normal": 1.0})
-    No findings
-    25 checks were made.
-    A finding is a reason to look again, not an error; no finding is no proof.
+    >>> found = diagnose(impact, limits={"restitution": 0.9, "normal": 1.0})
+    >>> len(found), found.moves[0].what
+    (0, 'contact point 0.25 m aside')
     """
     # An implausible limit is intended, so it is not warned of; where units are required, it has
     # one.

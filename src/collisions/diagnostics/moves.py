@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..impact.impact import Impact, solve_changed
 from ..impact.inputs import PLACED
-from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, RULES
+from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO
 from ..quantities.attributes import Quantities, same_fields
 from ..quantities.directions import from_degrees
 from ..quantities.strict_json import strict
@@ -28,7 +28,7 @@ ASIDE = 0.25
 TURN = 5.0
 OF_RESTITUTION = 0.1
 OF_RULE = {FRICTION: 0.2, IMPULSE_RATIO: 0.1, CRITICAL_FRACTION: 0.2}
-_HEADS = ("delta-V of A", "of B", "yaw rate of A", "of B", "share of delta-V")
+_HEADS = ("delta-V A", "B", "yaw rate A", "B", "share")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -130,7 +130,7 @@ def _of_inputs(case: ImpactCase) -> Iterator[Move]:
     if impact.model in PLACED and impact.point is not None:
         x, y = impact.point
         places = [(x - by * ny, y + by * nx) for by in (-ASIDE, ASIDE)]
-        what = f"contact point {case.text(ASIDE, 'length')} aside, across the normal"
+        what = f"contact point {case.text(ASIDE, 'length')} aside"
         yield _solved(impact, "point", what, [{"point": place} for place in places])
     if impact.model != "linear_central":
         turned = []
@@ -149,14 +149,19 @@ def _of_inputs(case: ImpactCase) -> Iterator[Move]:
         return
     if math.isinf(value):
         typical = INTER_VEHICLE_FRICTION.typical
-        what = f"{rule} {typical:g}, the usual one, instead of sticking"
+        what = f"{_named(rule)} {typical:g}, not sticking"
         yield _solved(impact, rule, what, [{"rule_value": typical}])
         return
     by = OF_RULE[rule]
     low = -math.inf if rule == IMPULSE_RATIO else 0.0
     high = 1.0 if rule == CRITICAL_FRACTION else math.inf
     ends = [{"rule_value": end} for end in (max(value - by, low), min(value + by, high))]
-    yield _solved(impact, rule, f"{RULES[rule].meaning} {by:g} more or less", ends)
+    yield _solved(impact, rule, f"{_named(rule)} {by:g} more or less", ends)
+
+
+def _named(rule: str) -> str:
+    """A tangential rule in words short enough for a table."""
+    return rule.replace("_", " ")
 
 
 def _solved(impact: Impact, name: str, what: str, changes: list[dict[str, Any]]) -> Move:
@@ -196,8 +201,8 @@ def _of_idealisation(case: ImpactCase) -> Iterator[Move]:
     held = bool(case.answer.inputs.tyres)
     time = f"{left.duration:.3g} s"
     for name, what, of in (
-        ("geometry", f"point and normal moving on for {time}", "geometry"),
-        ("tyres", f"tyres that slide for {time} with a drag of {left.drag:.2g}", "tyre"),
+        ("geometry", f"motion during contact, {time}", "geometry"),
+        ("tyres", f"tyres sliding {time}, drag {left.drag:.2g}", "tyre"),
     ):
         changes = [getattr(side, f"{of}_delta_v") for side in (left.a, left.b)]
         if None in changes or (name == "tyres" and held):

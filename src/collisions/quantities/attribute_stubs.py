@@ -57,7 +57,7 @@ class ImpactQuantities:
     relative_speed = restitution = restitution_impulse = separation_speed = slip_after = (
         slip_before
     ) = _QUANTITY
-    status = tangential_impulse = _QUANTITY
+    statements = status = tangential_impulse = _QUANTITY
 
 
 class MomentumSolutionQuantities:
@@ -69,7 +69,7 @@ class MomentumSolutionQuantities:
     mass_a = mass_b = normal_angle = ok = outside_impulse_x = outside_impulse_y = pdof_a = (
         pdof_b
     ) = restitution = sensitivity = speed_a = speed_a_after = _QUANTITY
-    speed_b = speed_b_after = status = translational_energy_loss = tyre_impulse_x_a = (
+    speed_b = speed_b_after = statements = status = translational_energy_loss = tyre_impulse_x_a = (
         tyre_impulse_x_b
     ) = tyre_impulse_y_a = tyre_impulse_y_b = tyres = tyres_a = tyres_b = unknowns = _QUANTITY
     yaw_rate_a_after = yaw_rate_b_after = _QUANTITY

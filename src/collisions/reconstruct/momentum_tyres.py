@@ -154,6 +154,12 @@ class Neglect(NamedTuple):
     sentence: str
 
 
+def _in_words(name: str) -> str:
+    """A speed or course of planar momentum in words: ``speed_a_after`` as "speed of A after"."""
+    kind, label, *after = name.split("_")
+    return " ".join((kind, "of", label.upper(), *after))
+
+
 def neglected(
     solution: MomentumSolution, duration: float, drag: float, say: Callable[[float, str], str]
 ) -> Neglect | None:
@@ -180,7 +186,7 @@ def neglected(
     if not all(map(math.isfinite, (*changes.values(), *shares))):
         return None
     parts = [
-        f"{name} would be {say(abs(change), 'angle' if name.startswith('course') else 'speed')} "
+        f"the {_in_words(name)} would be {say(abs(change), 'angle' if name.startswith('course') else 'speed')} "
         f"{'more' if change > 0.0 else 'less'}"
         for name, change in changes.items()
     ]
