@@ -185,9 +185,9 @@ def test_what_an_instant_leaves_out_of_vehicles_that_stay_together(given):
     instant = momentum(known, together=True)
     (sentence,) = instant.statements
     change = lasting.speed_a_after - instant.speed_a_after
-    said = float(sentence.partition("speed_a_after would be ")[2].split()[0])
+    said = float(sentence.partition("speed of A after would be ")[2].split()[0])
     assert said == pytest.approx(-change, rel=0.06)
-    assert ("course_a_after would be" in sentence) == (given == "velocities")
+    assert ("course of A after would be" in sentence) == (given == "velocities")
 
 
 def test_speeds_that_do_not_settle_are_refused():

@@ -254,7 +254,8 @@ def test_without_tyres_it_says_what_that_leaves_out():
     assert sentence.startswith("found as an instant, which leaves out the tyres")
     for name in ("speed_a", "speed_b"):
         change = getattr(sliding, name) - getattr(instant, name)
-        said = re.search(rf"{name} would be ([0-9.]+) m/s (more|less)", sentence)
+        words = f"speed of {name[-1].upper()}"
+        said = re.search(rf"{words} would be ([0-9.]+) m/s (more|less)", sentence)
         assert float(said[1]) == pytest.approx(abs(change), rel=0.06)
         assert (said[2] == "more") == (change > 0.0)
     for text in (
