@@ -1439,7 +1439,7 @@ def speed_error(points: list[Any], path: dict[str, Any]) -> float:
 
 
 @fuzzes(
-    "travel.Tyres", "travel.Tyres.replace", "travel.Tyres.summary", "travel.Tyres.as_given",
+    "travel.Tyres", "travel.Tyres.replace", "travel.Tyres.summary",
     "travel.simulate",
     "travel.SimulatedPath",
     "travel.SimulatedPath.at", "travel.SimulatedPath.summary", "plot.path", share=0.2,
@@ -1594,6 +1594,7 @@ def known_scene() -> scene.Scene:
 
 
 @fuzzes(
+    "plot.timeline",
     "Moved", "Moved.summary", "Notice", "Rests", "Rests.keys", "Track", "Track.summary",
     "scene.Contact", "scene.Contact.as_given", "scene.Contact.replace", "scene.Contact.summary",
     "scene.Mover", "scene.Mover.as_given", "scene.Mover.replace", "scene.Mover.summary",
@@ -1670,6 +1671,8 @@ def ran(case: Case, run: scene.Run) -> None:
     case.call("Moved", lambda: one.rest)
     assert list(case.must("Rests.keys", run.rest.keys)) == list(run.scene.movers)
     case.call("scene.Run", lambda: run.energy)
+    drawn(case, "timeline", run)
+    drawn(case, "scene", run)
     case.look(run, None, thorough=False)
     apart = known_scene().replace({"A.vx": 8.0, "A.x": 1.0})
     case.look(scene.Scene(movers=apart.movers, contacts=[]).run().findings)

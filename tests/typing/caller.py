@@ -419,6 +419,7 @@ def pictures(
     known: uncertainty.Propagation,
     sampled: reconstruct.Posterior,
     path: travel.SimulatedPath,
+    run: scene.Run,
 ) -> None:
     """Every picture."""
     plot.pulse(impact)
@@ -430,6 +431,8 @@ def pictures(
     plot.force_time(impact, "100 ms")
     plot.impulse_plane(impact)
     plot.scene(impact)
+    plot.scene(run, units="us")
+    plot.timeline(run, axes=axes, units="metric")
     plot.contributions(known, "speed")
     plot.distribution(known["speed"], bins=20)
 
