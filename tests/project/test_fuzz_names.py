@@ -1594,7 +1594,7 @@ def known_scene() -> scene.Scene:
 
 
 @fuzzes(
-    "plot.timeline",
+    "play", "plot.timeline",
     "Moved", "Moved.summary", "Notice", "Rests", "Rests.keys", "Track", "Track.summary",
     "scene.Contact", "scene.Contact.as_given", "scene.Contact.replace", "scene.Contact.summary",
     "scene.Mover", "scene.Mover.as_given", "scene.Mover.replace", "scene.Mover.summary",
@@ -1673,6 +1673,8 @@ def ran(case: Case, run: scene.Run) -> None:
     case.call("scene.Run", lambda: run.energy)
     drawn(case, "timeline", run)
     drawn(case, "scene", run)
+    page = case.call("play", col.play, run, **case.spoil({"units": case.option(*UNIT_SYSTEMS)}))
+    assert isinstance(page, Exception) or page.startswith("<!DOCTYPE html>")
     case.look(run, None, thorough=False)
     apart = known_scene().replace({"A.vx": 8.0, "A.x": 1.0})
     case.look(scene.Scene(movers=apart.movers, contacts=[]).run().findings)

@@ -353,6 +353,9 @@ def whole_crash() -> float:
     print(scene.Scene.from_dict(crash.to_dict()).case(0).run().case(0), crash.movers["A"].reach)
     struck: col.Impact = run.impacts[0]
     x = float(run["A"].rest.q.x.m_as("m") + run.rest["B"].speed + again.at("1 s")["B"].speed)
+    played: str = col.play(run, units="us")
+    col.play(run).save("crash.html")
+    print(played)
     print([*run.rest.keys()], struck.energy_loss, float(run.energy["ground"]))
     mean: float = found["B.rest.x"].mean
     return x + mean

@@ -37,8 +37,6 @@ def draw_run(run: Run, axes: Axes | None, units: UnitSystem | None) -> Axes:
     metre = labels.factor("m")
     axes = begin(axes, (8.6, 7.0))
     drawing = Drawing(axes)
-    every = [place for track in tracks.values() for place in zip(track.x, track.y, strict=True)]
-    size_of([(float(x), float(y)) for x, y in every], Units("si"), sketched=True)
     _surfaces(run, drawing, labels)
     for index, (name, track) in enumerate(tracks.items()):
         colour, style = COLOURS[index % len(COLOURS)], STYLES[index % len(STYLES)]
@@ -97,10 +95,14 @@ def tracks_of(run: Any, function: str, placed: bool = True) -> dict[str, Track]:
                 code=f"missing_{lacking[0]}",
                 argument=f"{name}.{lacking[0]}",
             )
-    for track in run.paths.values():
-        for part in (*(("x", "y") if placed else ()), "vx", "vy", "time"):
+    tracks = dict(run.paths)
+    for track in tracks.values():
+        for part in (*(("x", "y") if placed else ()), "vx", "vy", "yaw_rate", "time"):
             check_size(part, float(np.max(np.abs(getattr(track, part)))))
-    return dict(run.paths)
+    if placed:
+        ends = [(track.x[at], track.y[at]) for track in tracks.values() for at in (0, -1)]
+        size_of([(float(x), float(y)) for x, y in ends], Units("si"), sketched=True)
+    return tracks
 
 
 def stop_of(run: Run, name: str, time: float) -> tuple[float, float, float]:
