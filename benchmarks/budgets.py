@@ -37,7 +37,7 @@ import batch_speed
 import speed_rivals
 
 import collisions as col
-from collisions import reconstruct
+from collisions import reconstruct, travel
 from collisions.uncertainty import Normal, Uniform, propagate
 
 RUNS = 5
@@ -110,6 +110,23 @@ BUDGETS = (
     ),
     Budget("speeds", "one `reconstruct.speeds` against one `eccentric`", 300.0, 200.0),
     Budget("solve", "one `solve` against one `eccentric`", 5.0, 3.0),
+    Budget(
+        "run_out", "one `travel.simulate` of a spun car, lock 0.3, against that formula", 5_000.0
+    ),
+    Budget("run_out_free", "the same with lock 0.05", 10_000.0),
+    Budget(
+        "run_out_batch",
+        "a batch of 1000 `travel.simulate` for places of rest, lock 0.3, a case against that "
+        "formula",
+        200.0,
+    ),
+    Budget("in_time", "one `time_resolved` of 100 steps with a drag against that formula", 2_500.0),
+    Budget("in_time_batch", "a batch of 1000 of these, a case against that formula", 400.0),
+    Budget(
+        "required_in_time",
+        "one `required_model` with duration and drag against that formula",
+        900.0,
+    ),
 )
 CASE: dict[str, Any] = {"normal": 0.1, "point": (0.0, 0.0), "friction": 0.5}
 
@@ -206,6 +223,35 @@ def singles(wanted: set[str]) -> dict[str, float]:
     needed = {*rows, *(against.get(row, "formula") for row in rows)}
     best = fastest({key: call for key, call in calls.items() if key in needed}, 41, 0.004)
     return {row: best[row] / best[against.get(row, "formula")] for row in rows}
+
+
+# Sideways speed and yaw rate of spun cars: mean and standard deviation.
+SPUN = {"vy": (0.0, 3.0), "yaw_rate": (0.0, 2.0)}
+
+
+def followed(wanted: set[str]) -> dict[str, float]:
+    """Run-outs to rest and contacts in time, in calls of the formula."""
+    numbers, (a, b) = speed_rivals.numbers(batch_speed.scenes(1)), cars()
+    one = [float(number[0]) for number in numbers]
+    rng = np.random.default_rng(1)
+    spun = a.replace(x=0.0, y=0.0, heading=0.0, vx=14.0, vy=3.0, yaw_rate=3.0)
+    motion = {name: rng.normal(*about, 1000) for name, about in SPUN.items()}
+    many = spun.replace(vx=rng.uniform(6.0, 16.0, 1000), **motion)
+    half, free = (travel.Tyres(0.7, lock, 2.7, 1.5) for lock in (0.3, 0.05))
+    lasting = {**CASE, "duration": 0.1, "drag": 0.7}
+    fast = a.replace(vx=rng.uniform(8.0, 20.0, 1000))
+    calls: Calls = {
+        "run_out": lambda: travel.simulate(spun, half),
+        "run_out_free": lambda: travel.simulate(spun, free),
+        "run_out_batch": lambda: travel.simulate(many, half, moments=2),
+        "in_time": lambda: col.time_resolved(a, b, 0.1, **lasting),
+        "in_time_batch": lambda: col.time_resolved(fast, b, 0.1, **lasting, on_failure="nan"),
+        "required_in_time": lambda: col.required_model(a, b, 0.1, **lasting, tolerance=0.3),
+    }
+    calls = {key: call for key, call in calls.items() if key in wanted}
+    best = fastest({"formula": lambda: speed_rivals.formula(*one), **calls}, 9, 0.004)
+    cases = {key: 1000 if key.endswith("batch") else 1 for key in calls}
+    return {key: best[key] / best["formula"] / cases[key] for key in calls}
 
 
 def quantities(six: dict[str, float]) -> Calls:
@@ -405,6 +451,7 @@ def once(wanted: set[str], cases: int = 1_000_000) -> dict[str, float]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.CollisionsWarning)
         found |= singles(wanted)
+        found |= followed(wanted)
         found |= batches(wanted, cases)
         for key, row in (
             ("memory", lambda: kept(cases)),

@@ -52,8 +52,8 @@ KMH = 3.6
 # that of the vehicle. And where the bend changes, a parabola is off: the course by this times
 # window**2 friction g / speed**2, and the yaw rate by that in m2/s3 over speed**2. ARM is the
 # distance of a wheel from the centre of mass.
-YAWING, YAWING_LEFT = 0.38, 0.011
-BEND, SPIN = 0.0083, 15.5
+YAWING, YAWING_LEFT = 0.54, 0.02
+BEND, SPIN = 0.009, 26.5
 ARM, WINDOW = 1.54, 7.0
 SAMPLES, DRAWS = 512, 3072
 LOCKS = np.linspace(0.0, 1.0, 201)

@@ -37,6 +37,7 @@ import pytest
 import collisions as col
 from collisions.derivation import explain
 from collisions.diagnostics.finding import Findings
+from collisions.diagnostics.moves import Moves
 from collisions.estimate.fit_result import Direction, Estimate, Residual, Values
 from collisions.estimate.posterior_result import PosteriorOutput
 from collisions.impact.choice import ByModel
@@ -92,7 +93,7 @@ def seeds() -> range:
 MODULES = ("reporting", "diagnostics", "derivation")  # public beside those of collisions.__all__
 # What is given back without being in any __all__.
 GIVEN_BACK = (
-    Side, Pulse, LeftOut, LeftOutSide, Findings, Estimate, Residual, Direction, Values,
+    Side, Pulse, LeftOut, LeftOutSide, Findings, Moves, Estimate, Residual, Direction, Values,
     Sensitivity, ByModel, Inputs, PosteriorOutput,
     Note, Moved, Notice, Rests, Track,
 )  # fmt: skip

@@ -451,8 +451,8 @@ def test_two_answers_are_told_apart():
         ("0.4\n", "0.4\nanswer = 1\n",
             ("linear_central.answer: stands inside the table [linear_central]; move this line "
              "above the first table of the file")),
-        ("0.4\n", '0.4\n[report]\ndate = "1 May"\n',
-            "report.date: is not known here; write one of title, units, "),
+        ("0.4\n", '0.4\n[report]\nday = "1 May"\n',
+            "report.day: is not known here; write one of title, units, "),
         ("[a]", "[A]", "A: is not known here; did you mean a?"),
         ("80 km/h", "50 mph .. 40 mph",
             "a.vx: low and high must be in rising order, got 50 mph and 40 mph"),
@@ -863,8 +863,8 @@ def test_a_range_of_directions_in_degrees_is_no_suspect_number():
                  "length 4.6 m; wheelbase 2.7 m |"),
                  ("| contact | restitution e | 0.125. Stated as 0.05 to 0.2, all values "
                         "equally likely |"),
-                        "| known | delta-V of A | 20.9 km/h. Stated as 20.9 ± 1 km/h |",
-                        "| known | course of B before | 90°. Stated as 90 ± 2° |"]),
+                        "| evidence | delta-V of the Saloon | 20.9 km/h. Stated as 20.9 ± 1 km/h |",
+                        "| evidence | course of the Hatchback before | 90°. Stated as 90 ± 2° |"]),
         ("run_out.toml",
             [("| A | speed after | 46.21 km/h. Worked out by travel.speed from distance 12 m; "
               "drag 0.6 to 0.8, all values equally likely |"),

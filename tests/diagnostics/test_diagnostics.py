@@ -18,7 +18,8 @@ import pytest
 import collisions as col
 from collisions import reconstruct, reference
 from collisions.diagnostics import LIMITS, Finding, diagnose
-from collisions.diagnostics.case import MomentumCase, percent, plain
+from collisions.diagnostics.case import MomentumCase, plain
+from collisions.diagnostics.numbers import percent
 from collisions.kernels import contact_laws
 from collisions.reporting import replay, report
 from scenes import FAMILIES, LAWS, RULES, draw, solved
@@ -237,6 +238,10 @@ CASES = {
         lambda: (square(a={"vx": 3.0}), {}),
         lambda: (square(a={"vx": 3.0}), {"duration": "10 ms"}),
     ),
+    "instant": (
+        lambda: (planar(0.2), {"duration": "200 ms"}),
+        lambda: (planar(0.2), {"duration": "1 ms"}),
+    ),
     "model": (lambda: (central(a={"y": 1.0}), {}), lambda: (central(), {})),
     "law": (
         lambda: (square(b={"y": -1.0, "vy": -15.0}, restitution=0.3, friction=math.inf), {}),
@@ -253,6 +258,14 @@ CASES = {
     "normal_yaw": (
         lambda: (square(a={"vy": 0.0}, b={"vy": 0.0}, friction=0.0), {}),
         lambda: (square(b=SLIDING, friction=math.inf, law="kudlich-slibar"), {}),
+    ),
+    "moves": (
+        lambda: (square(a={"vx": 10.0, "vy": 25.0}, b={"vy": -5.0}, friction=0.1), {}),
+        lambda: (square(), {}),
+    ),
+    "moves_yaw": (
+        lambda: (square(a={"vx": 30.0}), {}),
+        lambda: (square(a={"vx": 6.0}), {}),
     ),
     "friction_low": (
         lambda: (square(b=SLIDING, friction=0.29), {}),
@@ -1164,8 +1177,10 @@ def test_published_cases_have_no_false_alarm(monkeypatch):
     for impact, (was, now) in zip(
         impacts, ((-31, -17), (-17, -31), (40, 61), (61, 40)), strict=True
     ):
-        (finding,) = diagnose(impact)
+        finding, *others = diagnose(impact)
         assert (finding.code, finding.vehicle) == ("law_yaw", "b")
+        # Both struck cars turn much further or less if the contact lies a quarter of a metre aside.
+        assert {other.code for other in others} == {"moves_yaw"}
         assert finding.measured == pytest.approx(
             abs(now - was) / max(abs(now), abs(was)), abs=1.5 / 31
         )

@@ -283,6 +283,49 @@ def turned_normal_yaw(share):
     return off_the_wall(low)
 
 
+def momentum_without_its_tyres(share):
+    """A comes along x at 12 m/s, B along y at 10, both leave with (6, 5): what sliding tyres take
+    of the momentum along x and along y in 0.1 s is by Simpson's rule, and in proportion to a drag.
+    """
+    half = 1.0 - math.cos(0.25 * math.pi)
+    taken = [0.0, 0.0]
+    for before in ((12.0, 0.0), (0.0, 10.0)):
+        for weight, passed in ((1.0, 0.0), (4.0, half), (1.0, 1.0)):
+            now = [was + passed * (end - was) for was, end in zip(before, (6.0, 5.0), strict=True)]
+            for axis in range(2):
+                taken[axis] += weight / 6.0 * now[axis] / math.hypot(*now)
+    largest = max(taken[0] / 12.0, taken[1] / 10.0) * GRAVITY * 0.1
+    return by_momentum(), {"drag": share / largest}
+
+
+def moved_by_the_normal(share):
+    """As for ``turned_normal``, five degrees apart, where nothing else moves by more than a tenth;
+    in no time tyres do nothing.
+    """
+    along = math.sin(math.radians(5.0)) / share
+    velocity = {"vx": 20.0 * along, "vy": 20.0 * math.sqrt(1.0 - along**2)}
+    return aslant(**velocity, friction=None, impulse_ratio=0.0), {"duration": "1 ns"}
+
+
+def turned_by_what_moves(rate):
+    """A yaw rate is in proportion to the speed, and so is each change of it: by the point, the
+    normal, the restitution and the impulse ratio, from levers along normal and tangent.
+    """
+
+    def yaw(aside=0.0, angle=0.0, e=0.0, ratio=0.0):
+        x, y = 2.0, -0.5 + aside
+        rn = x * math.cos(angle) + y * math.sin(angle)
+        rt = y * math.cos(angle) - x * math.sin(angle)
+        yields = 1.0 / 1500.0 + rt * (rt - ratio * rn) / 2600.0
+        return (1.0 + e) * math.cos(angle) / yields * (rt - ratio * rn) / 2600.0
+
+    turn = math.radians(5.0)
+    ways = ({"aside": 0.25}, {"angle": turn}, {"e": 0.1}, {"ratio": 0.1})
+    others = [{name: -by for name, by in way.items()} for way in ways if "e" not in way]
+    largest = max(abs(yaw(**way) - yaw()) for way in (*ways, *others))
+    return off_the_wall(0.5, vx=rate / largest, friction=None, impulse_ratio=0.0)
+
+
 def without_an_inertia(count):
     """The contact half-way between the centres is beside both, which matters by the yaw
     inertias.
@@ -369,11 +412,16 @@ ROWS = [
     Row("tyre_impulse", 0.25, OWN, lambda x: in_line(2.0 * 0.7 * GRAVITY * 0.1 / x)),
     Row("tyre_impulse", 0.25, OWN, lambda x: by_momentum((6.0, 0.8 * 0.07 * GRAVITY / x),
         (0.6 * 0.07 * GRAVITY / x, 5.0))),
+    Row("instant", 0.1, MESSAGES, lambda x: reconstruct.central(
+        1500.0, 1500.0, va=2.0 * 0.07 * GRAVITY / x, vb=0.0, restitution=0.0)),
+    Row("instant", 0.1, MESSAGES, momentum_without_its_tyres),
     Row("model", 0.1, MESSAGES, off_centre),
     Row("law", 0.1, MESSAGES, other_tangential_impulse),
     Row("law_yaw", 0.25, OWN, other_yaw),
     Row("normal", 0.2, MESSAGES, turned_normal),
     Row("normal_yaw", 0.5, OWN, turned_normal_yaw),
+    Row("moves", 0.25, OWN, moved_by_the_normal),
+    Row("moves_yaw", 2.0, OWN, turned_by_what_moves),
     Row("friction_low", 0.3, "SAE 970947", lambda x: aslant(vy=60.0, friction=x), below=True),
     Row("may_slide", 0.3, "SAE 970947", lambda x: aslant(vy=20.0 * x, friction=math.inf)),
     Row("ratio_high", 1.0, "SAE 970947", lambda x: aslant(vy=60.0, friction=x)),

@@ -113,9 +113,9 @@ def test_what_path_leaves_out_is_what_the_page_says(scripts):
     for number in (evidence.YAWING, evidence.YAWING_LEFT, evidence.BEND, evidence.SPIN):
         assert f"{number:g}" in page
         assert f"{number:g}" in (ROOT / "docs" / "intersection_case.md").read_text("utf-8")
-    for speed, degrees in ((60 / 3.6, 3.0), (25 / 3.6, 18.0)):
+    for speed, degrees in ((60 / 3.6, 5.5), (25 / 3.6, 31.5)):
         assert math.degrees(evidence.SPIN / speed**2) == pytest.approx(degrees, abs=0.5)
-    for speed, degrees in ((60 / 3.6, 0.5), (25 / 3.6, 3.0)):
+    for speed, degrees in ((60 / 3.6, 0.6), (25 / 3.6, 3.6)):
         off = evidence.BEND * evidence.WINDOW**2 * evidence.GROUND.given_mean * 9.80665 / speed**2
         assert math.degrees(off) == pytest.approx(degrees, abs=0.35)
 
@@ -132,15 +132,18 @@ def test_where_the_information_is_lost_each_way_back_refuses_or_warns(capsys):
     for cell in cells_of("evidence")[1:-1]:
         exec(cell, names)
     said = re.findall(r"^(?:refused|warned) \((\w+)\)", capsys.readouterr().out, re.MULTILINE)
-    along = ["nearly_collinear", "parallel_headings", "nearly_collinear", "undetermined"]
+    along = ["nearly_collinear", "parallel_headings", "nearly_collinear", "may_slide"]
+    slip = ["undetermined", "ambiguous"]
     cut, fold, spin = (
         ["pulse_cut", "pulse_cut"],
-        ["fold", "failed_cases"],
+        ["may_slide", "fold", "failed_cases"],
         ["wide_segment", "fast_yaw"],
     )
-    assert said == [*along, *cut, *fold, *spin, "contradictory", "undetermined"]
+    thin = ["contradictory", "may_slide", "undetermined", "may_slide"]
+    assert said == [*along, *slip, *cut, *fold, *spin, *thin]
 
 
+@pytest.mark.filterwarnings("ignore:(?s).*contact.*stick at an impulse ratio of 0.3 or more")
 def test_the_worked_case_says_what_came_out():
     """Its cells, run: every range of the table holds the truth, and the numbers that its text names
     are still so.
@@ -155,6 +158,6 @@ def test_the_worked_case_says_what_came_out():
     assert names["truth"].regime == "sticking"
     a = names["runs"]["a"].course - names["truth"].a.after.course
     assert abs(a) > 2.0 * names["course_error"]["a"]
-    assert 100 < 1 / sum(names["weights"] ** 2) < 400
+    assert 100 < 1 / sum(names["weights"] ** 2) < 2000  # of 4096
     residuals = {name: abs(one.over_sigma) for name, one in names["found"].residuals.items()}
     assert max(residuals, key=residuals.__getitem__) == "course of A"

@@ -271,6 +271,12 @@ def test_every_budget_is_that_of_the_design(committed, yardsticks):
         "propagate": 4.0,
         "speeds": 300.0,
         "solve": 5.0,
+        "run_out": 5_000.0,
+        "run_out_free": 10_000.0,
+        "run_out_batch": 200.0,
+        "in_time": 2_500.0,
+        "in_time_batch": 400.0,
+        "required_in_time": 900.0,
     }
     for row in committed[0]["budgets"]:
         assert row["held"] == (row["median"] <= row["budget"]), row

@@ -425,6 +425,18 @@ def test_two_answers_of_the_finer_model_are_refused_with_the_call_to_write():
     assert "write posterior(model, unknowns, observed, seed=1)" in str(refused.value)
 
 
+def test_rival_answers_say_on_what_they_agree():
+    """|x| = 2 has two answers, of the same y."""
+    with pytest.raises(
+        col.AmbiguousSolutionError, match=r"They agree on y within a standard error"
+    ):
+        fit(
+            lambda x, y: {"s": x * x, "t": y},
+            {"x": Uniform(-5, 5), "y": Uniform(0, 10)},
+            {"s": (4.0, 0.1), "t": (3.0, 0.1)},
+        )
+
+
 def test_what_nothing_determines_is_said_of_the_finer_model_too():
     def model(x, y):
         return {"s": x + 0.0 * y}

@@ -1119,6 +1119,60 @@ def test_momenta_are_head_to_tail():
         assert ends[f"{when}.b"][1] == pytest.approx(ends["total"][1])
 
 
+def crossing(**changes):
+    """Two cars that cross, and leave with known speeds."""
+    given = {"course_a": "0 deg", "course_b": "90 deg", "course_a_after": "35 deg"}
+    given |= {"course_b_after": "50 deg", "speed_a_after": "10 m/s", "speed_b_after": "11 m/s"}
+    return col.reconstruct.momentum("1500 kg", "1300 kg", **(given | changes))
+
+
+def test_the_solution_of_planar_momentum_has_its_diagram():
+    """The momenta after are known; those before are the total along each course."""
+    solution = crossing()
+    found = vectors(plot.momentum(solution, units="si"))
+    after = {
+        "a": 15000.0 * np.array([math.cos(math.radians(35)), math.sin(math.radians(35))]),
+        "b": 14300.0 * np.array([math.cos(math.radians(50)), math.sin(math.radians(50))]),
+    }
+    total = after["a"] + after["b"]
+    for letter, momentum in after.items():
+        assert found[f"after.{letter}"] == pytest.approx(momentum, rel=1e-9)
+    assert found["total"] == pytest.approx(total, rel=1e-9)
+    assert found["before.a"] == pytest.approx((total[0], 0.0), rel=1e-9, abs=1e-6)
+    assert found["before.b"] == pytest.approx((0.0, total[1]), rel=1e-9, abs=1e-6)
+
+
+def test_an_impulse_that_was_stated_is_an_arrow_of_its_own():
+    """Of planar momentum and of an impact; then there is no common total."""
+    axes = plot.momentum(crossing(outside_impulse=(-400.0, 100.0)), units="si")
+    found = vectors(axes)
+    assert found["outside"] == pytest.approx((-400.0, 100.0), rel=1e-9)
+    assert "total" not in found
+    assert any("given by the impulse that was stated" in text for text in in_legend(axes))
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, vx=15.0, x=-2.0, y=0.0)
+    b = col.Vehicle(mass=1300.0, yaw_inertia=2000.0, vy=10.0, x=2.0, y=0.3)
+    impact = col.eccentric(
+        a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, outside_a=(-300.0, 50.0, 0.0)
+    )
+    found = vectors(plot.momentum(impact, units="si"))
+    assert found["outside"] == pytest.approx((-300.0, 50.0), rel=1e-9)
+    assert "total" not in found
+
+
+def test_a_vehicle_of_planar_momentum_at_rest_has_no_arrow():
+    axes = plot.momentum(
+        col.reconstruct.momentum(
+            1500.0, 1300.0, course_a=0.0, course_b=0.5 * math.pi, course_a_after=0.6,
+            speed_a_after=10.0, speed_b_after=0.0,
+        )
+    )  # fmt: skip
+    assert "after.b" not in vectors(axes)
+    assert "B\u2032: at rest after" in in_legend(axes)
+    many = crossing(speed_a_after=np.array([9.0, 10.0]))
+    with pytest.raises(col.ShapeError, match="takes one case"):
+        plot.momentum(many)
+
+
 @pytest.mark.parametrize("case", ["example 2", "wall in line", "head-on", "example 3", "sliding"])
 def test_momenta_along_one_line_do_not_hide_each_other(case):
     """Two that are parallel are apart, or follow each other."""

@@ -541,7 +541,9 @@ def answer_of(case: Case) -> Any:
 
 
 @fuzzes(
-    "left_out", "LeftOut", "LeftOutSide", "diagnose", "Findings", "diagnostics.Finding",
+    "left_out", "LeftOut", "LeftOutSide", "diagnose", "Findings", "Findings.to_dict", "Moves",
+    "Moves.summary", "diagnostics.Finding", "diagnostics.Move",
+    "diagnostics.Move.to_dict",
     "diagnostics.Limit", "explain", "report",
     "reporting.replay", "reporting.options", "impact_schema",
 )  # fmt: skip
@@ -571,9 +573,14 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
         **case.spoil({**known, "units": case.option(*UNIT_SYSTEMS)}),
     )
     if not isinstance(findings, Exception):
-        case.look(
-            findings, frozenset({"diagnostics.Finding.measured", "diagnostics.Finding.limit"})
-        )
+        numbers = "delta_v_a", "delta_v_b", "yaw_rate_a", "yaw_rate_b", "share"
+        without_answer = {f"diagnostics.Move.{name}" for name in numbers}
+        measures = {"diagnostics.Finding.measured", "diagnostics.Finding.limit"}
+        case.look(findings, frozenset(measures | without_answer))
+        json.dumps(case.must("Findings.to_dict", findings.to_dict), allow_nan=False)
+        assert str(case.must("Moves.summary", findings.moves.summary, case.choice(UNIT_SYSTEMS)))
+        for move in findings.moves:
+            case.must("diagnostics.Move.to_dict", move.to_dict)
         for finding in findings:
             assert finding.code in LIMITS
             case.look(
@@ -591,6 +598,9 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
         ("share_a", lambda: case.value("share_a")),
         ("uncertainty", lambda: uncertainties(case)),
         ("derivation", lambda: case.option(True, False)),
+        ("author", lambda: case.option("J. Doe", case.text())),
+        ("case", lambda: case.option("2026-11", case.text())),
+        ("date", lambda: case.option("25 November 2026", case.text())),
     ):
         if case.maybe(0.1):
             options[name] = draw()
@@ -770,6 +780,7 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
             "vb": case.uniform(-20.0, 5.0),
             "restitution": case.value("restitution"),
         }
+    given |= {name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.1)}
     if case.maybe(0.1):
         given |= (
             {"restitution": -case.random()} if "restitution" in given and case.maybe(0.5) else {}
@@ -802,6 +813,10 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         **masses,
         restitution=e,
         **{name: case.value(kind) for name, kind in known.items()},
+        **{
+            name: case.value("duration" if name == "duration" else "drag")
+            for name in case.choice(((), (), ("duration", "drag_a", "drag_b"), ("drag_a",)))
+        },
     )
     courses = {
         name: case.value("course")
@@ -840,6 +855,13 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         courses = {
             name: value for name, value in courses.items() if name[len("course_") :] not in gone
         }
+    if case.maybe(0.3):
+        more |= lasting(case)
+        for label in "ab":
+            if f"tyres_{label}" in more or case.maybe(0.05):
+                more[f"heading_{label}"] = case.value("heading")
+                if case.maybe(0.4):
+                    more[f"yaw_rate_{label}_after"] = case.value("yaw_rate")
     momentum = solved(case, "momentum", **masses, **courses, **speeds, **more)
     if isinstance(momentum, reconstruct.MomentumSolution) and case.maybe(0.2):
         explained(case, momentum)
@@ -914,6 +936,18 @@ def test_recorded_pulses(case: Case) -> None:
         case.call("reconstruct.RecordedPulse.inputs", pulse.inputs, case.option("a", "b"))
 
 
+def lasting(case: Case) -> dict[str, Any]:
+    """How long a contact lasts, and the wheels of one vehicle or of both."""
+    found: dict[str, Any] = {"duration": case.value("duration")} if case.maybe(0.95) else {}
+    for name in ("tyres_a", "tyres_b"):
+        locks = [case.uniform(0.0, 1.0) for _ in range(4)]
+        if case.maybe(0.8):
+            found[name] = travel.Tyres(case.uniform(0.0, 1.2), locks, 2.7, 1.5)
+        elif case.mood == "odd" and case.maybe(0.2):
+            found[name] = case.garbage()
+    return found
+
+
 @fuzzes("reconstruct.planar", "reconstruct.restitution", "reconstruct.friction")
 def test_reverse_solvers_of_motions(case: Case) -> None:
     """From the states that an impact ended with, or from any; what is answered leads to
@@ -936,6 +970,8 @@ def test_reverse_solvers_of_motions(case: Case) -> None:
         known["regime"] = case.option("sliding", "sticking", "frictionless", "given")
     if case.maybe(0.2):
         known["on_failure"] = case.option("nan", "raise")
+    if case.maybe(0.3):
+        known |= lasting(case)
     solved(case, "planar", *after, **keywords, **known)
     motions = [a, b, *after]
     if case.mood == "odd" and case.maybe(0.1):
@@ -1014,6 +1050,8 @@ def test_speeds(case: Case) -> None:
         known |= {f"recorder_{side}": case.option((0.5, 0.1), case.pair("x")) for side in sides}
         known |= {"duration": case.option(0.1, case.value("duration"))}
         known |= {"axes": case.option("turning", "fixed")} if case.maybe(0.5) else {}
+    if case.maybe(0.2):
+        known |= lasting(case)
     solved(case, "speeds", a, b, restitution=e, **keywords, **courses, **known)
 
 

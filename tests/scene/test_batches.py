@@ -66,6 +66,7 @@ def test_every_case_of_a_batch_is_as_it_is_alone(seed: int) -> None:
                 assert columns[path][i] == pytest.approx(
                     value[0], rel=1e-9, abs=1e-9, nan_ok=True
                 ), path
+        assert [bool(deep[i]) for deep in run.deepest[: len(one.times)]] == [*one.deepest]
         times = [columns[f"times[{k}]"][i] for k in range(len(one.times))]
         assert times == pytest.approx(one.times, abs=1e-12)
     assert len(orders) > 1

@@ -45,6 +45,7 @@ def crash(**more: Any) -> Scene:
     )
 
 
+@pytest.mark.slow
 def test_every_listed_input_can_be_replaced_and_every_result_has_a_value() -> None:
     scene = crash()
     same = scene.run()
@@ -157,6 +158,7 @@ def test_propagate_takes_a_scene_as_a_model() -> None:
         propagate(lambda vx: {"x": vx}, {"vx": Normal(20.0, 1.0)}, outputs=["x"], seed=1)
 
 
+@pytest.mark.slow
 def test_fit_and_posterior_take_a_scene_as_a_model() -> None:
     place = rest_of_b(20.0, 0.1)
     found = reconstruct.fit(DRAGGED, {"A.vx": 15.0}, {"B.rest.x": Normal(place, 0.1)})
@@ -169,6 +171,7 @@ def test_fit_and_posterior_take_a_scene_as_a_model() -> None:
     assert after["A.vx"].std == pytest.approx(0.1 / slope, rel=0.1)
 
 
+@pytest.mark.slow
 def test_a_batch_is_every_case_by_itself() -> None:
     rng = np.random.default_rng(5)
     count = 8

@@ -10,7 +10,16 @@ import numpy as np
 import numpy.typing as npt
 
 import collisions as col
-from collisions import plot, reconstruct, reference, reporting, scene, travel, uncertainty
+from collisions import (
+    diagnostics,
+    plot,
+    reconstruct,
+    reference,
+    reporting,
+    scene,
+    travel,
+    uncertainty,
+)
 from collisions.uncertainty import (
     Censored,
     Interval,
@@ -128,7 +137,8 @@ def around(impact: col.Impact) -> str:
     )
     sliders.save("page.html")
     assert_type(
-        reporting.replay(str(col.report(impact))), col.Impact | reconstruct.MomentumSolution
+        reporting.replay(str(col.report(impact))),
+        col.Impact | reconstruct.MomentumSolution | list[col.Impact | reconstruct.MomentumSolution],
     )
     known: dict[str, Any] = reporting.options(str(col.report(impact)))
     one: col.Impact = impact.case(0).again(restitution=0.2, friction="0.4")
@@ -146,6 +156,8 @@ def around(impact: col.Impact) -> str:
     beside = col.left_out(impact, duration="100 ms", drag=0.7)
     share: float = beside.b.tyre_share
     sentences = [finding.sentence for finding in col.diagnose(impact, duration=0.1, drag=0.7)]
+    moves: list[diagnostics.Move] = list(col.diagnose(impact).moves)
+    sentences += [move.what for move in moves if move.share > 0.1]
     page: str = str(
         col.report(
             impact,
@@ -154,8 +166,12 @@ def around(impact: col.Impact) -> str:
             units="metric",
             duration="100 ms",
             share_a=0.5,
+            author="J. Doe",
+            case="2026-11",
+            date="25 November 2026",
         )
     )
+    page += str(col.report([impact, impact], figures=False))
     derivation: str = page + str(col.explain(impact, units="us", form="text"))
     return derivation + str(share) + str(schema) + "".join(sentences)
 
@@ -195,6 +211,18 @@ def backwards() -> float:
         speed_b_after=speed,
     )
     before = reconstruct.planar(a, b, normal=0, point=(0, 0), restitution=0.2, friction=0.5)
+    wheels = travel.Tyres(0.7, 0.0, "2.7 m", 1.5)
+    before = reconstruct.planar(
+        a,
+        b,
+        normal=0,
+        point=(0, 0),
+        restitution=0.2,
+        friction=0.5,
+        duration="100 ms",
+        tyres_a=wheels,
+        tyres_b=wheels,
+    )
     several = reconstruct.speeds(
         a,
         b,

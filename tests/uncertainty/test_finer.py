@@ -167,6 +167,7 @@ def test_all_samples_may_be_asked():
     assert np.array_equal(near["z"].values, alone["z"].values)
     assert near.calls == {"model": 256, "finer": 256}
     assert near["z"].mean_standard_error == alone["z"].mean_standard_error
+    assert near["z"].contributions == alone["z"].contributions
 
 
 @pytest.mark.parametrize("method", ["quasi_random", "latin_hypercube", "monte_carlo"])

@@ -197,3 +197,84 @@ def test_refusals(code, values, sides):
         with pytest.raises(col.InputError) as caught:
             OneSided(values, sides)
     assert caught.value.code == code
+
+
+def test_a_condition_that_the_bounds_decide_has_its_probability():
+    """Uniform from 0 to 1, at least 0.8 above that: all of these are above 0.7."""
+    found = propagate(beyond(0.8, 1), UNIT, **OPTIONS)
+    known = found["known"].probability(lambda x: x > 0.7)
+    assert found["sided"].probability(lambda x: x > 0.7) == known
+    assert found["sided"].to("km/h").probability(lambda x: x > 0.7 * 3.6) == known
+    assert found.probability(lambda at: at["sided"] > 0.7) == known
+    assert known[0] == pytest.approx(0.3, abs=3e-3)
+    below = propagate(beyond(0.5, -1), UNIT, **OPTIONS)["sided"]
+    with pytest.raises(col.InputError):
+        below.probability(lambda x: x < 0.9)
+    most = propagate(lambda x: {"x": OneSided(x, np.where(x < 0.5, -1, 0))}, UNIT, **OPTIONS)["x"]
+    assert most.probability(lambda x: x < 0.6)[0] == pytest.approx(0.6, abs=3e-3)
+    # A condition that does not read it does not depend on it.
+    assert found.probability(lambda at: at["known"] > 0.9)[0] == pytest.approx(0.1, abs=3e-3)
+
+
+@pytest.mark.parametrize(
+    ("condition", "share"),
+    [
+        (lambda x: x > 0.9, 0.1),
+        (lambda x: x <= 0.9, 0.1),
+        # Both the bounds and infinity say no; between them it may hold.
+        (lambda x: (x > 1.5) & (x < 1.6), None),
+        (lambda x: np.abs(x - 3.0) < 0.01, None),
+        (lambda x: x < 1e6, 0.2),
+    ],
+)
+def test_a_condition_that_they_leave_open_is_refused(condition, share):
+    found = propagate(beyond(0.8, 1), UNIT, **OPTIONS)
+    for asked in (
+        lambda: found["sided"].probability(condition),
+        lambda: found.probability(lambda at: condition(at["sided"])),
+    ):
+        with pytest.raises(col.InputError, match=r"'sided' is known from one") as refused:
+            asked()
+        assert refused.value.code == "one_sided"
+        assert "reconstruct.posterior" in str(refused.value)
+        undecided = int(str(refused.value).split()[3])
+        if share is not None:
+            assert undecided / 1024 == pytest.approx(share, abs=3e-3)
+
+
+def test_two_outputs_known_from_one_side_are_not_compared():
+    """The first is larger at all bounds; each may lie anywhere above."""
+
+    def model(x):
+        sides = np.where(x > 0.5, 1, 0)
+        return {"high": OneSided(x + 2.0, sides), "low": OneSided(x, sides)}
+
+    found = propagate(model, UNIT, **OPTIONS)
+    with pytest.raises(col.InputError, match="'high' and 'low' are known") as refused:
+        found.probability(lambda at: at["high"] > at["low"])
+    assert refused.value.code == "one_sided"
+    # "At least" against "at most" is decided.
+    apart = propagate(
+        lambda x: {"high": OneSided(x + 2.0, 1), "low": OneSided(x, -1)}, UNIT, **OPTIONS
+    )
+    assert apart.probability(lambda at: at["high"] > at["low"]) == (1.0, 1 / 1024)
+    # Only together they reach it.
+    both = propagate(lambda x: {"one": OneSided(x, 1), "other": OneSided(x, 1)}, UNIT, **OPTIONS)
+    with pytest.raises(col.InputError, match="1024 of 1024"):
+        both.probability(lambda at: (at["one"] > 5.0) & (at["other"] > 5.0))
+    with pytest.raises(col.InputError, match="samples the condition may hold or not"):
+        both.probability(lambda at: (np.abs(at["one"] - 3.0) < 0.5) & (at["other"] > 9.0))
+
+
+@pytest.mark.filterwarnings("ignore:.*had no answer")
+def test_a_case_without_an_answer_stays_out_of_a_probability():
+    def model(x):
+        return {"x": OneSided(np.where(x < 0.5, np.nan, x), np.where(x > 0.8, 1, 0))}
+
+    found = propagate(model, UNIT, **OPTIONS)
+    for chance, error in (
+        found["x"].probability(lambda x: x > 0.75),
+        found.probability(lambda at: at["x"] > 0.75),
+    ):
+        assert chance == pytest.approx(0.5, abs=3e-3)
+        assert error > 0.0

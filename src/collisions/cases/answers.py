@@ -26,7 +26,7 @@ from ..quantities.tables import spoken_system
 from ..quantities.units import shown, to_quantity
 from ..reconstruct import MomentumSolution, Posterior
 from ..reporting import report
-from ..reporting.making import inputs_of
+from ..reporting.checking import inputs_of
 from ..reporting.record import record
 from ..reporting.what_if import starts, what_if
 from ..uncertainty import Interval

@@ -8,11 +8,14 @@ import math
 from collections.abc import Iterator
 
 from ..quantities.formatting import KIND_OF, in_words, percent
+from ..quantities.tables import as_sentence
 from ..reconstruct import Fit, MomentumSolution
+from ..reconstruct.momentum_tyres import left_as_one
 from .contact import pdof
 from .expressions import ZERO, Direction, Expression, Function, magnitude, signed_total, total
 from .page import Page
 from .symbols import Symbol, delta_v
+from .wheels import tyre_inputs
 
 # The results of planar momentum: vehicle, description and kind.
 MOMENTUM_ANSWERS = {
@@ -57,10 +60,19 @@ class _Momenta:
             course = getattr(solution, name.replace("speed", "course"))
             if course is not None:
                 self.course[name] = Symbol(rf"\theta_{index}", course, "angle")
-        outside = {axis: getattr(solution, f"outside_impulse_{axis}") for axis in "xy"}
-        self.outside = {
-            axis: Symbol(f"J_{axis}", j, "impulse") for axis, j in outside.items() if j is not None
-        }
+        self.pushes = {axis: list(self._pushes(axis)) for axis in "xy"}
+
+    def _pushes(self, axis: str) -> Iterator[tuple[str, Symbol]]:
+        """Where an impulse that is not the contact's comes from, and its part along an axis."""
+        stated = getattr(self.solution, f"outside_impulse_{axis}")
+        if stated is not None:
+            whence = "An impulse from outside was stated"
+            yield whence, Symbol(f"J_{axis}", stated, "impulse")
+        for label in self.solution.tyres:
+            of = label.upper()
+            found = getattr(self.solution, f"tyre_impulse_{axis}_{label}")
+            whence = f"The tyres of {of} give an impulse while the contact lasts"
+            yield whence, Symbol(rf"J_{{{of}{axis}}}", found, "impulse")
 
     def along(self, name: str, function: str, axis: Expression = ZERO) -> Expression:
         """The component of a velocity along x, or along an axis at another angle."""
@@ -73,7 +85,7 @@ def momentum_inputs(solution: MomentumSolution) -> Iterator[tuple[str, str, str,
     """The rows of given inputs: vehicle, description, argument, number and kind."""
     for label in "ab":
         yield label.upper(), "mass", f"mass_{label}", getattr(solution, f"mass_{label}"), "mass"
-    shared = "speed_a_after" in solution.unknowns and _together(solution)
+    shared = "speed_a_after" in solution.unknowns and left_as_one(solution)
     for name in _SPEEDS:
         label, when = name[6].upper(), _when(name)
         course = name.replace("speed", "course")
@@ -100,6 +112,42 @@ def momentum_inputs(solution: MomentumSolution) -> Iterator[tuple[str, str, str,
                 outside,
                 "impulse",
             )
+    if solution.duration is not None:
+        yield "both", "duration, for the tyres", "duration", solution.duration, "duration"
+    for label in "ab":
+        rate = getattr(solution, f"yaw_rate_{label}_after")
+        if rate is not None:
+            yield label.upper(), "yaw rate after", f"yaw_rate_{label}_after", rate, "yaw rate"
+    for what, name, value, kind in tyre_inputs(solution.tyres):
+        yield "contact", what, name, value, kind
+
+
+def momentum_assumption(solution: MomentumSolution) -> str:
+    """What planar momentum takes for granted, in sentences."""
+    found = (
+        "The momentum of both vehicles together is the same before and after, along x and along "
+        "y (1), (2), save for an impulse from outside that is stated. Nothing is assumed of "
+        "restitution, friction or rotation."
+    )
+    labels = [label.upper() for label in solution.tyres]
+    if not labels:
+        return found
+    lacking = [
+        label for label in labels if getattr(solution, f"yaw_rate_{label.lower()}_after") is None
+    ]
+    unturned = (
+        f"; after it, the yaw rate of {' and of '.join(lacking)} was not given and taken as 0"
+        if lacking
+        else ""
+    )
+    return (
+        f"{found} While the contact lasts the tyres of {' and of '.join(labels)} act: the mean of "
+        "their force before it, half-way through it and after it (Simpson's rule), times its "
+        "duration, is in the balance. That force follows from the velocities found, which were "
+        "found again with it until it changed no more. Before the contact no vehicle turns; "
+        "half-way through it 29 "
+        f"percent of the change of velocity have passed, as in a plastic contact{unturned}."
+    )
 
 
 def momentum(page: Page, solution: MomentumSolution) -> None:
@@ -114,13 +162,11 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
     page.heading("Planar momentum")
     whole = any(name.startswith("course") for name in solution.unknowns)
     sought = (
-        "one velocity, its speed and its course" if whole else "the two speeds along their courses"
+        "is one velocity, its speed and its course"
+        if whole
+        else "are the two speeds along their courses"
     )
-    page.say(
-        "The momentum of both vehicles together is the same before and after, along x and along "
-        "y (1), (2). Nothing is assumed of restitution, friction or rotation. Unknown "
-        f"{'is' if whole else 'are'} {sought}."
-    )
+    page.say(f"{momentum_assumption(solution)} Unknown {sought}.")
     for axis, function in (("x", "cos"), ("y", "sin")):
         _balance(page, m, axis, function)
     (_whole_velocity if whole else _two_speeds)(page, m)
@@ -138,6 +184,8 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
     )
     page.heading("Answers")
     page.table(momentum_answers(page, solution))
+    for sentence in solution.statements:
+        page.say(as_sentence(sentence))
 
 
 def _two_speeds(page: Page, m: _Momenta) -> None:
@@ -162,7 +210,7 @@ def _two_speeds(page: Page, m: _Momenta) -> None:
 def _whole_velocity(page: Page, m: _Momenta) -> None:
     """The velocity that the other momenta leave, and their sum over it."""
     name = m.solution.unknowns[0]
-    shared = name == "speed_a_after" and _together(m.solution)
+    shared = name == "speed_a_after" and left_as_one(m.solution)
     own = ("speed_a_after", "speed_b_after") if shared else (name,)
     mass: Expression = m.mass["a"] + m.mass["b"] if shared else m.mass[name[6]]
     when, label = _when(name), name[6].upper()
@@ -176,8 +224,7 @@ def _whole_velocity(page: Page, m: _Momenta) -> None:
             for other, course in m.course.items()
             if other not in own and m.speed[other].value
         ]
-        if axis in m.outside:
-            terms.append((1.0 if when == "after" else -1.0, m.outside[axis]))
+        terms += [(1.0 if when == "after" else -1.0, push) for _, push in m.pushes[axis]]
         left = signed_total(sorted(terms, key=lambda term: -term[0]))
         value = m.speed[name].value * getattr(math, function)(m.course[name].value)
         part = Symbol(f"v_{{{label}{axis}}}", value, "speed")
@@ -191,8 +238,8 @@ def _whole_velocity(page: Page, m: _Momenta) -> None:
         for other in m.course
         if other not in own and m.speed[other].value
     ]
-    if m.outside:
-        others.append(magnitude(m.outside["x"], m.outside["y"]))
+    for (_, x), (_, y) in zip(m.pushes["x"], m.pushes["y"], strict=True):
+        others.append(magnitude(x, y))
     condition = Symbol(r"\kappa", m.solution.condition, "number")
     page.equation(
         "Condition, the sum of the other momenta over what they leave",
@@ -213,11 +260,9 @@ def _balance(page: Page, m: _Momenta, axis: str, function: str) -> None:
         )
         for when in ("before", "after")
     )
-    if axis in m.outside:
-        page.say(
-            f"An impulse from outside was stated; along {axis} it is {page.shown(m.outside[axis])}."
-        )
-        left = left + m.outside[axis]
+    for whence, push in m.pushes[axis]:
+        page.say(f"{whence}; along {axis} it is {page.shown(push)}.")
+        left = left + push
     page.balance(f"Momentum along {axis} (2)", left, right, "impulse")
 
 
@@ -225,7 +270,7 @@ def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
     """One of the two speeds, from momentum across the course of the other."""
     mass: Expression = m.mass[name[6]]
     own, when = [name], _when(name)
-    if when == "after" and _together(m.solution):
+    if when == "after" and left_as_one(m.solution):
         own, mass = ["speed_a_after", "speed_b_after"], m.mass["a"] + m.mass["b"]
     # Terms on the other side of the balance count as positive, those on the side of the unknown as
     # negative.
@@ -238,8 +283,8 @@ def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
         if other not in own and course.value != across.value and m.speed[other].value
     ]
     found = signed_total(sorted(terms, key=lambda term: -term[0]))
-    if m.outside:
-        moment = m.outside["y"] * Function("cos", across) - m.outside["x"] * Function("sin", across)
+    for (_, x), (_, y) in zip(m.pushes["x"], m.pushes["y"], strict=True):
+        moment = y * Function("cos", across) - x * Function("sin", across)
         found = found.plus(1.0 if when == "after" else -1.0, moment)
     if found is ZERO:
         page.fact(
@@ -253,14 +298,6 @@ def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
 
 def _when(name: str) -> str:
     return "after" if name.endswith("after") else "before"
-
-
-def _together(solution: MomentumSolution) -> bool:
-    """Whether the vehicles left as one."""
-    return bool(
-        solution.speed_a_after == solution.speed_b_after
-        and solution.course_a_after == solution.course_b_after
-    )
 
 
 def _delta_v(page: Page, m: _Momenta, label: str) -> None:
@@ -307,6 +344,10 @@ def momentum_answers(page: Page, solution: MomentumSolution) -> Iterator[tuple[s
         value = getattr(solution, name)
         if _is_known(value) and (name in solution.unknowns or name not in (*_SPEEDS, *_COURSES)):
             yield of, what, page.answer(name, value, kind)
+    for label in solution.tyres:
+        for axis in "xy":
+            push = getattr(solution, f"tyre_impulse_{axis}_{label}")
+            yield label.upper(), f"impulse of the tyres, along {axis}", page.number(push, "impulse")
 
 
 def fit(page: Page, found: Fit) -> None:

@@ -32,6 +32,7 @@ from .page import Page
 from .reverse import state_before, why_this_model
 from .scene import scene_steps
 from .symbols import Symbols
+from .wheels import tyre_inputs
 
 Form: TypeAlias = Literal["markdown", "text"]
 _Ranges: TypeAlias = dict[str, tuple[float, float]]
@@ -59,19 +60,6 @@ _IN_TIME = {
     "drag": ("drag of the tyres", ("number",)),
     "wheelbase": ("wheelbase of both vehicles", ("length",)),
     "track": ("track of both vehicles", ("length",)),
-}
-_TYRES = {
-    "friction": ("friction on the ground", "number"),
-    "lock": ("braking (lock), as a share of what locks them", "number"),
-    "lock[0]": ("braking (lock), front left", "number"),
-    "lock[1]": ("braking (lock), front right", "number"),
-    "lock[2]": ("braking (lock), rear left", "number"),
-    "lock[3]": ("braking (lock), rear right", "number"),
-    "wheelbase": ("wheelbase", "length"),
-    "track": ("track", "length"),
-    "steer": ("steer angle of the front wheels", "angle"),
-    "cornering": ("cornering stiffness over the load, per radian", "number"),
-    "height": ("height of the centre of mass", "length"),
 }
 _VEHICLE = {
     "mass": ("mass", "mass"),
@@ -371,16 +359,8 @@ def impact_inputs(
             "duration",
         )
     if impact.inputs.model in (*PLACED, "solve"):
-        for label, tyres in impact.inputs.tyres.items():
-            for name, value in tyres.named.items():
-                what, kind = _TYRES[name]
-                yield (
-                    "contact",
-                    f"tyres of {label.upper()}: {what}",
-                    (f"tyres_{label}.{name}",),
-                    (value,),
-                    kind,
-                )
+        for what, name, value, kind in tyre_inputs(impact.inputs.tyres):
+            yield "contact", what, (name,), (value,), kind
 
 
 def _inputs(page: Page, impact: Impact) -> None:

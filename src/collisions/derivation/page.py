@@ -119,13 +119,16 @@ class Page:
 
     def answer(self, name: str, value: float, kind: str) -> str:
         """An answer, rounded to its standard deviation where one is known for the attribute of this
-        name, or with its range.
+        name; or with its range, and rounded to two figures of half its width.
         """
-        printed = self.system.answer(value, kind, self.deviations.get(name))
         if name not in self.ranges:
+            printed = self.system.answer(value, kind, self.deviations.get(name))
             return printed + clock(name, value)
-        low, high = (self.system.answer(end, kind) for end in self.ranges[name])
-        return f"{printed} ({low.removesuffix(self.system.unit(kind))} to {high})"
+        low, high = self.ranges[name]
+        half = 0.5 * (high - low)
+        printed = self.system.span(value, value, kind, half)
+        ends = (self.system.span(end, end, kind, half) for end in (low, high))
+        return f"{printed} ({next(ends).removesuffix(self.system.unit(kind))} to {next(ends)})"
 
     def equation(self, caption: str, left: Symbol, right: Expression) -> None:
         """Write symbol = formula = numbers = value: the result's own number, which the formula must

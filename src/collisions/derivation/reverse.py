@@ -61,6 +61,8 @@ def state_before(page: Page, s: Symbols) -> None:
         _planar(page, s, origin.known[0])
     elif origin.method == "speeds":
         _speeds(page, s, origin.known)
+    for sentence in s.impact.statements:
+        page.say(as_sentence(sentence))
     page.say("What follows is the same impact solved forwards; it must reproduce what was known.")
 
 
@@ -242,10 +244,25 @@ def _planar(page: Page, s: Symbols, kind: str) -> None:
         "to these motions after."
     )
     impulse_in_scene_axes(page, s)
+    if s.impact.inputs.tyres:
+        page.say(
+            "The tyres act meanwhile, with the mean of their force before, half-way through and "
+            "after the contact times its duration. That follows from the motions which are sought: "
+            "those of the instant were refined, by Newton's method, until the contact with its "
+            "tyres, solved forwards, ends in the motions after."
+        )
+        for body in levers:
+            if body.outside is not None:
+                page.say(
+                    f"Their impulse on {body.label}: {page.shown(body.pushed('x'))}, "
+                    f"{page.shown(body.pushed('y'))}, with {page.shown(body.moment)}."
+                )
     for body in levers:
         if not body.pinned and not body.fixed:
             for axis in "xy":
                 found = body.along(axis, AFTER).plus(-body.sign, s.impulse(axis) / body.mass)
+                if body.outside is not None:
+                    found = found - body.pushed(axis) / body.mass
                 page.equation(
                     f"Velocity of {body.label} before, along {axis}", body.along(axis), found
                 )
@@ -262,6 +279,11 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
         "known, and a pair of speeds was kept if the impact, solved forwards, is in that "
         "regime. For this one:"
     )
+    if s.impact.inputs.tyres:
+        page.say(
+            "Then they were refined, by Newton's method, until the contact with its tyres, solved "
+            "forwards, has what was known; delta-V is that of contact and tyres."
+        )
     for body in s.bodies:
         label = body.label
         if f"speed_{label.lower()}" in known:
@@ -279,6 +301,8 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
             )
         if f"delta_v_{label.lower()}" in known and not body.fixed:
             by_impulse = root(s.normal.squared() + s.tangential.squared()) / body.mass
+            if body.outside is not None:
+                by_impulse = root(body.delta_v("x").squared() + body.delta_v("y").squared())
             page.equation(f"Delta-V of {label}, known", body.delta_v(), by_impulse)
     for name, what in (
         ("energy_loss", "energy lost"),

@@ -4,5 +4,6 @@ source of the limit.
 
 from .diagnosis import LIMITS, diagnose
 from .finding import Finding, Limit
+from .moves import Move
 
-__all__ = ["LIMITS", "Finding", "Limit", "diagnose"]
+__all__ = ["LIMITS", "Finding", "Limit", "Move", "diagnose"]

@@ -21,10 +21,10 @@ from ..kernels.contact_laws import BRACH, FRICTION, LAWS
 from ..kernels.status import EPS
 from ..quantities.directions import from_degrees
 from ..quantities.formatting import decimals_of, in_words, places, rounded, scale_of, unit_of
-from ..quantities.formatting import percent as in_percent
 from ..reconstruct import MomentumSolution
 from ..vehicle.outlines import overlap, placed
 from ..vehicle.vehicle import Vehicle, with_name
+from .moves import Moves, moves
 
 # A computed ratio that equals its limit up to rounding has not passed it.
 RATIO_ROUNDING = 1e-9
@@ -200,6 +200,11 @@ class ImpactCase(_Case):
         ]
 
     @cached_property
+    def moves(self) -> Moves:
+        """What would move the answer, largest first."""
+        return moves(self)
+
+    @cached_property
     def turned_normals(self) -> list[tuple[str, Impact]]:
         """The results with the normal turned either way, each with a description."""
         if self.answer.inputs.model == "linear_central":
@@ -221,25 +226,9 @@ class ImpactCase(_Case):
 Case: TypeAlias = ImpactCase | MomentumCase
 
 
-def percent(share: float, decimals: int = 0) -> str:
-    """A share in percent; infinite for a share of zero."""
-    return (
-        in_percent(share, decimals)
-        if math.isfinite(share)
-        else f"a share that is {in_words(share)}"
-    )
-
-
 def plain(value: float) -> str:
     """A number without a unit, to three figures."""
     return f"{value:.3g}" if math.isfinite(value) else in_words(value)
-
-
-def share(part: float, whole: float) -> float:
-    """The quotient; infinite where the divisor is 0 or either is not a number."""
-    if part == 0.0:
-        return 0.0
-    return part / whole if whole > 0.0 and math.isfinite(part) else math.inf
 
 
 def off_by(*sizes: float) -> float:

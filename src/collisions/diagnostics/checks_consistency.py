@@ -11,17 +11,9 @@ from ..impact.side import Side
 from ..quantities.directions import from_radians
 from ..reference import restitution_range
 from ..vehicle.outlines import distance_outside, placed
-from .case import (
-    RATIO_ROUNDING,
-    Case,
-    ImpactCase,
-    MomentumCase,
-    off_by,
-    outline_off_by,
-    percent,
-    share,
-)
+from .case import RATIO_ROUNDING, Case, ImpactCase, MomentumCase, off_by, outline_off_by
 from .finding import MESSAGES, METHOD, Measured, above, finding
+from .numbers import percent, share
 
 # In metres, of positions and outlines together.
 _POSITION_ERROR = 0.3

@@ -10,13 +10,16 @@ from typing import Any
 
 from ..impact.impact import Impact
 from ..impact.inputs import PLACED
+from ..impact.instant import neglected
 from ..impact.provenance import bounds_of, how_many
 from ..impact.side import Side
+from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..reconstruct.speeds import if_it_slid, taken_to_stick
 from ..reference import INTER_VEHICLE_FRICTION
 from ..vehicle.drag import GRAVITY
-from .case import Case, ImpactCase, MomentumCase, off_by, percent, plain, share
+from .case import RATIO_ROUNDING, Case, ImpactCase, MomentumCase, off_by, plain
 from .finding import MESSAGES, METHOD, Measured, above, at_or_below, below, finding
+from .numbers import percent, share
 
 # In rad/s: a smaller difference of yaw rates shows in no rest position.
 _YAW_RATE_SEEN = 0.1
@@ -114,6 +117,8 @@ def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
     ),
 )
 def tyre_impulse(case: Case) -> Iterator[Measured]:
+    if isinstance(case, MomentumCase) and case.answer.tyres:
+        return
     for label, vehicle in case.vehicles.items():
         if isinstance(case, ImpactCase) and (
             case.answer.inputs.tyres or (case.answer.inputs.drag and case.left_out is None)
@@ -133,6 +138,23 @@ def tyre_impulse(case: Case) -> Iterator[Measured]:
             f"delta-V of {case.text(vehicle.delta_v, 'speed')}"
         )
         yield Measured(part, sentence, label)
+
+
+@finding(
+    "in a reconstruction without tyres, what an instant leaves out, as a share of delta-V, or of "
+    "a speed that momentum found",
+    above(0.1),
+    f"the 10 percent by which delta-V may differ between methods, {MESSAGES}",
+)
+def instant(case: Case) -> Iterator[Measured]:
+    if isinstance(case, MomentumCase):
+        left = momentum_neglect(case.answer, case.duration, case.drag, case.text)
+        if left is not None:
+            yield Measured(left.share, left.sentence)
+    elif case.left_out is not None:
+        neglect = neglected(case.answer, case.left_out)
+        if neglect is not None:
+            yield Measured(neglect.share, neglect.sentence)
 
 
 @finding(
@@ -273,6 +295,57 @@ def normal(case: ImpactCase) -> Iterator[Measured]:
 )
 def normal_yaw(case: ImpactCase) -> Iterator[Measured]:
     return _compare_yaw(case, case.turned_normals)
+
+
+@finding(
+    "largest change of delta-V in what would move the answer (diagnose(...).moves), as a share "
+    "of delta-V; inf if there is no answer then",
+    above(0.25),
+    (
+        "set here: a quarter; predictions of staged crashes from drawn contacts, made before their "
+        "measurements were read, scatter by about a fifth (documentation, validation, table 1)"
+    ),
+)
+def moves(case: ImpactCase) -> Iterator[Measured]:
+    if not case.moves:
+        return
+    most = case.moves[0]
+    if math.isinf(most.share):
+        yield Measured(math.inf, f"{most.what}: there is no answer")
+        return
+    changes = zip(case.sides, (most.delta_v_a, most.delta_v_b), strict=True)
+    parts = [
+        f"delta-V of {who} by {case.text(change, 'speed')} of {case.text(side.delta_v, 'speed')}"
+        for (_, who, side), change in changes
+        if side.delta_v > 0.0
+    ]
+    turns = [
+        f"the yaw rate of {who} by {case.text(turn, 'yaw rate')}"
+        for (_, who, _), turn in zip(case.sides, (most.yaw_rate_a, most.yaw_rate_b), strict=True)
+        if turn is not None and turn > _YAW_RATE_SEEN
+    ]
+    sentence = f"{most.what}: that moves {', '.join([*parts, *turns])}"
+    yield Measured(most.share, sentence, rounding=RATIO_ROUNDING)
+
+
+@finding(
+    "largest change of a yaw rate after in what would move the answer",
+    above(2.0, "rad/s"),
+    "set here: a third of a turn in a second of the way to rest, which a rest position shows",
+)
+def moves_yaw(case: ImpactCase) -> Iterator[Measured]:
+    turns = [
+        (turn, label, who, move.what)
+        for move in case.moves
+        for (label, who, _), turn in zip(
+            case.sides, (move.yaw_rate_a, move.yaw_rate_b), strict=True
+        )
+        if turn is not None and not math.isnan(turn)
+    ]
+    if turns:
+        turn, label, who, what = max(turns)
+        sentence = f"{what}: that moves the yaw rate of {who} by {case.text(turn, 'yaw rate')}"
+        yield Measured(turn, sentence, label)
 
 
 @finding(

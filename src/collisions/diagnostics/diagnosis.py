@@ -111,7 +111,10 @@ def diagnose(
     tuple of Finding
         In the order of ``LIMITS``, vehicle A before B, shown as a table; empty if nothing was
         found. Its ``measured`` holds the codes of all checks that were made, whether or not they
-        found anything.
+        found anything. Its ``moves`` are what would move the answer: a table of delta-V and yaw
+        rate with the contact point 0.25 m aside, the normal turned by 5 degrees, restitution,
+        friction, and what an impulse leaves out, largest first. An answer of planar momentum has
+        none.
 
     Raises
     ------
@@ -210,7 +213,7 @@ def diagnose(
             values = list(check.measure(case))
             findings += check.findings(values, allowed[check.code])
             measured += [check.code] if values else []
-    return Findings(findings, measured, units)
+    return Findings(findings, measured, units, getattr(case, "moves", None))
 
 
 def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:

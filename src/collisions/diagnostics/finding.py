@@ -12,7 +12,9 @@ from operator import gt, le, lt
 from typing import Any, NamedTuple, get_type_hints
 
 from ..quantities.attributes import OWN, Quantities
+from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary
+from .moves import Moves, table
 
 _NO_PROOF = "A finding is a reason to look again, not an error; no finding is no proof."
 # The source of a limit of what is a note: its count has no size to judge, and pages and tables show
@@ -96,18 +98,40 @@ def is_note(finding: Finding) -> bool:
 
 class Findings(tuple[Finding, ...], Summarized):
     """A tuple of findings; ``measured`` has the codes of all checks that were made, whether they
-    found anything or not.
+    found anything or not, ``moves`` what would move the answer.
     """
 
     measured: frozenset[str]
+    moves: Moves
     _system: str
 
     def __new__(
-        cls, found: Iterable[Finding] = (), measured: Iterable[str] = (), units: str = "metric"
+        cls,
+        found: Iterable[Finding] = (),
+        measured: Iterable[str] = (),
+        units: str = "metric",
+        moves: Moves | None = None,
     ) -> Findings:
         made = super().__new__(cls, found)
         made.measured, made._system = frozenset(measured), units
+        made.moves = Moves((), units) if moves is None else moves
         return made
+
+    def to_dict(self) -> dict[str, Any]:
+        """Findings, checks made and moves as strict JSON, numbers in SI.
+
+        Returns
+        -------
+        dict
+        """
+        return {
+            "findings": [
+                {name: strict(getattr(one, name)) for name in one.__dataclass_fields__}
+                for one in self
+            ],
+            "measured": sorted(self.measured),
+            "moves": [move.to_dict() for move in self.moves],
+        }
 
     def summary(self, units: str | None = None) -> Summary:
         """The findings as a table; measured values and limits in ``units``, by default those of the
@@ -124,9 +148,10 @@ class Findings(tuple[Finding, ...], Summarized):
             rows.append((f"{finding.code}{of}", finding.sentence, measured, limit))
         checks = f"{len(self.measured)} checks were made."
         title = f"{len(self) or 'No'} finding{'s' * (len(self) != 1)}"
-        return Summary(
-            title, [Part(rows, "", ("what was found", "measured", "limit"))], (checks, _NO_PROOF)
-        )
+        parts = [Part(rows, "", ("what was found", "measured", "limit"))]
+        if self.moves:
+            parts.append(table(self.moves, numbers))
+        return Summary(title, parts, (checks, _NO_PROOF))
 
     def __repr__(self) -> str:
         return str(self.summary())

@@ -587,13 +587,26 @@ def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
         f"chi-squared {one.chi_squared:.4g} at {listed(one.values)}" for one in fits
     )
     return AmbiguousSolutionError(
-        f"{len(fits)} answers fit the evidence about as well: {answers}. All are in .solutions. "
-        f"How probable each is, with one range over all of them, says reconstruct.posterior: write "
-        f"{_POSTERIOR}; or narrow the bounds of an unknown to "
-        "one, or add an observation that tells them apart",
+        f"{len(fits)} answers fit the evidence about as well: {answers}. {_agreeing(fits)}All "
+        "are in .solutions. How probable each is, with one range over all of them, says "
+        f"reconstruct.posterior: write {_POSTERIOR}; or narrow the bounds of an unknown to one, or "
+        "add an observation that tells them apart",
         code="ambiguous",
         solutions=tuple(fits),
     )
+
+
+def _agreeing(fits: list[Fit]) -> str:
+    """The unknowns on which all answers agree within a standard error of the best, if any."""
+    best, *others = fits
+    agree = []
+    for name, error in best.standard_errors.items():
+        apart = np.array([one.values[name] - best.values[name] for one in others])
+        if best.units[name] == "rad":
+            apart = folded(apart, math.pi)
+        if math.isfinite(error) and np.all(abs(apart) <= error):
+            agree.append(name)
+    return f"They agree on {', '.join(agree)} within a standard error. " if agree else ""
 
 
 def _answer(found: _Candidate) -> Fit:

@@ -107,7 +107,7 @@ class Posterior(Summarized):
         unknown is from the middle of its prior; NaN if every observation has sharp bounds.
     refused : float
         Share of the prior for which the model has no answer; the evidence counts as impossible
-        there.
+        there. With a finer model it is that of the other one, and points there were tried too.
     moved : float
         Share of the samples that the last steps of the sampling moved, in the island where it is
         smallest.

@@ -451,6 +451,16 @@ class Impact(Frozen, Summarized):
         }
         return cast(Kind, _labels(np.select(list(kinds.values()), list(kinds), "")))
 
+    @property
+    def statements(self) -> tuple[str, ...]:
+        """What has to be said beside the numbers: of an impact that was found backwards as an
+        instant, how much of delta-V that leaves out, as ``left_out`` estimates it.
+        """
+        from .instant import neglected
+
+        found = neglected(self)
+        return () if found is None else (found.sentence,)
+
     @derived()
     def complete(self) -> Any:
         """Whether the contact points reached a common velocity, as they do in every answered impact

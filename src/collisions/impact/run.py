@@ -5,7 +5,7 @@ cases and energy gains.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from functools import partial
@@ -39,7 +39,7 @@ from ..quantities.attributes import lock
 from ..quantities.tables import Sentences, said
 from ..quantities.units import shown
 from ..vehicle.tyres import DOMAINS as TYRE_DOMAINS
-from ..vehicle.tyres import could_lift
+from ..vehicle.tyres import Tyres, could_lift
 from ..vehicle.vehicle import DOMAINS, with_name
 from .inputs import Inputs, first_case, named_numbers, part_of_inputs
 from .models import TIME_RESOLVED, Model, float_function, model_of, read_again, variant_of
@@ -330,7 +330,7 @@ def _lasting_checks(inputs: Inputs) -> list[Any]:
     """The same of how the contact lasts, and of the tyres."""
     from ..engine.batch import Check
 
-    found = _tyre_checks(inputs)
+    found = tyre_checks(inputs.tyres)
     for name, domains in TIME_DOMAINS.items():
         given = getattr(inputs, name)
         parts = given if isinstance(given, tuple) else (given,)
@@ -340,12 +340,12 @@ def _lasting_checks(inputs: Inputs) -> list[Any]:
     return found
 
 
-def _tyre_checks(inputs: Inputs) -> list[Any]:
-    """The same of the tyres."""
+def tyre_checks(tyres_of: Mapping[str, Tyres]) -> list[Any]:
+    """The same of the tyres of each vehicle."""
     from ..engine.batch import Check
 
     found = []
-    for tyres in inputs.tyres.values():
+    for tyres in tyres_of.values():
         for name, value in tyres.named.items():
             domain = TYRE_DOMAINS[name.partition("[")[0]]
             if isinstance(value, np.ndarray):

@@ -5,7 +5,7 @@ the kernel.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
 from typing import Any, Literal, TypeAlias, get_args
@@ -244,19 +244,23 @@ def residual_crushes(inputs: Inputs, peak_force: Any) -> dict[str, Any]:
     return found
 
 
-def tyres_numbers(inputs: Inputs, label: str, cut: Callable[[Any], Any]) -> Any:
+def wheels_numbers(inputs: Inputs, label: str, cut: Callable[[Any], Any]) -> Any:
     """The tyres of a vehicle as the kernels take them; where there is only a drag, those of wheels
     that slide.
     """
     from ..kernels.tyre import Tyres as Numbers
 
     tyres = getattr(inputs, f"tyres_{label}")
-    if tyres is None:
-        drag, *sizes = (
-            0.0 if one is None else cut(one)
-            for one in (inputs.drag, inputs.wheelbase, inputs.track)
-        )
-        return Numbers((1.0,) * 4, drag, 0.0, *(0.5 * size for size in sizes))
+    if tyres is not None:
+        return tyres_numbers(tyres, cut)
+    drag, *sizes = (
+        0.0 if one is None else cut(one) for one in (inputs.drag, inputs.wheelbase, inputs.track)
+    )
+    return Numbers((1.0,) * 4, drag, 0.0, *(0.5 * size for size in sizes))
+
+
+def tyres_numbers(tyres: Tyres, cut: Callable[[Any], Any]) -> Any:
+    """These tyres as the kernels take them."""
     named = {name: cut(value) for name, value in tyres.named.items()}
     return kernel_numbers(
         named, np if any(isinstance(value, np.ndarray) for value in named.values()) else math
@@ -339,33 +343,47 @@ def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any
     tyres, body = inputs.tyres.get(label), getattr(inputs, label)
     if tyres is None or body.heading is None:
         return NO_IMPULSE
-    from ..kernels.held import held
-
     changes = [getattr(answer, f"delta_{name}_{label}") for name in ("vx", "vy", "yaw_rate")]
     inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
-    numbers = [
-        body.mass,
-        inertia,
-        *from_radians(body.heading),
-        body.vx,
-        body.vy,
-        body.yaw_rate,
-        *changes,
-    ]
-    # Refused cases of a batch are looked at like all others.
     with np.errstate(all="ignore"):
+        # Refused cases of a batch are looked at like all others.
         half = passed(inputs.restitution, 0.5)
-        own = tyres_numbers(inputs, label, lambda value: value)
-    numbers += [half, inputs.duration, GRAVITY, *own.locks, *own[1:]]
+    return impulse_of(
+        tyres,
+        (body.mass, inertia, body.heading),
+        (body.vx, body.vy, body.yaw_rate),
+        changes,
+        (half, inputs.duration),
+        single=inputs.shape is None,
+    )
+
+
+def impulse_of(
+    tyres: Tyres,
+    body: tuple[Any, Any, Any],
+    before: Sequence[Any],
+    changes: Sequence[Any],
+    times: tuple[Any, Any],
+    *,
+    single: bool,
+) -> tuple[Any, Any, Any]:
+    """The same from mass, yaw inertia and heading of a body, its motion before and what the contact
+    changes of it, and of the times the share of the change at half of the duration, and that.
+    """
+    from ..kernels.held import held
+
+    mass, inertia, heading = body
+    numbers = [mass, inertia, *from_radians(heading), *before, *changes, *times, GRAVITY]
+    with np.errstate(all="ignore"):
+        # Here too.
+        own = tyres_numbers(tyres, lambda value: value)
+    numbers += [*own.locks, *own[1:]]
     settings = tyres.steered, tyres.transfers
-    found = _held_function(*settings)(numbers) if inputs.shape is None else None
+    found = _held_function(*settings)(numbers) if single else None
     if found is None:
         with np.errstate(all="ignore"):
             found = held(
-                *(
-                    value if inputs.shape is None else np.asarray(value, np.float64)
-                    for value in numbers
-                ),
+                *(value if single else np.asarray(value, np.float64) for value in numbers),
                 *settings,
             )
     return tuple(found)
@@ -381,9 +399,17 @@ def _held_function(steered: bool, transfers: bool) -> Callable[[Any], Any]:
 
 
 def read_lasting(
-    reader: ArgumentReader, model: str, a: Any, b: Any, duration: Any, tyres: tuple[Any, Any]
+    reader: ArgumentReader,
+    model: str,
+    a: Any,
+    b: Any,
+    duration: Any,
+    tyres: tuple[Any, Any],
+    otherwise: str = ", or use time_resolved",
 ) -> dict[str, Any]:
-    """Duration and tyres of an impulse with those of its wheels: both, or neither."""
+    """Duration and tyres of an impulse with those of its wheels: both, or neither. ``otherwise`` is
+    what to do instead of giving tyres.
+    """
     given = dict(zip(TYRES, tyres, strict=True))
     found = read_tyres(reader, model, a, b, given)
     if duration is None:
@@ -393,7 +419,7 @@ def read_lasting(
     if all(one is None for one in tyres):
         text = (
             f"{model} takes a duration for tyres_a and tyres_b alone, and neither was given; "
-            "give travel.Tyres, or use time_resolved"
+            f"give travel.Tyres{otherwise}"
         )
         reader.refuse(InputError(text, code="bad_combination", argument="duration"))
     return found | read_times(reader, {"duration": duration})
@@ -528,7 +554,7 @@ def kernel_arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
         "friction": cut(inputs.rule_value),
         "point": tuple(map(cut, contact)),
         "gravity": GRAVITY,
-        "tyres": tuple(tyres_numbers(inputs, label, cut) for label in "ab"),
+        "tyres": tuple(wheels_numbers(inputs, label, cut) for label in "ab"),
         "spring": spring,
         "bodies": tuple(bodies),
         "settings": kernel.Settings(

@@ -5,13 +5,14 @@ head to tail.
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..impact.impact import Impact
 from ..messages.errors import InputError
 from ..messages.hints import hinted
 from ..quantities.formatting import UnitSystem
-from ..vehicle.vehicle import Vehicle
+from ..quantities.reading import need_one_case
+from ..reconstruct import MomentumSolution
 from .canvas import (
     COLOURS,
     FORCE,
@@ -23,10 +24,10 @@ from .canvas import (
     Units,
     begin,
     check_impact,
+    check_size,
     in_lines,
     legend_below,
     tidy,
-    who,
 )
 from .drawing import ALONG_ONE_LINE, Drawing, Place, beside, covers, cross
 
@@ -38,21 +39,39 @@ _NOTHING = 1e-9  # relative: a momentum or a speed this small is rounding
 _TITLE = 60  # characters on one line
 
 
+class _Body(NamedTuple):
+    """One body: its name, whether its own momentum is drawn, its momenta in SI, and when it
+    rests.
+    """
+
+    name: str
+    takes_part: bool
+    before: Place
+    after: Place
+    rests: set[str]
+
+
 @hinted
-def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
+def momentum(
+    impact: Impact | MomentumSolution,
+    *,
+    axes: Axes | None = None,
+    units: UnitSystem | None = None,
+) -> Axes:
     """The momentum diagram: A and B before head to tail, A and B after head to tail, and their
     common total.
 
     Momenta along one line, as in a linear impact, are drawn side by side, because they would
-    otherwise hide each other. What comes from outside, through a body of infinite mass, a pivot or
-    tyres, follows A and B before as an arrow of its own, and so ends where A and B after end; no
-    total is drawn then. If A or B after would hide one of these arrows, both are drawn to one side,
-    and thin lines join the points that coincide. A body of infinite mass has no momentum to draw.
+    otherwise hide each other. What comes from outside, through a body of infinite mass, a pivot,
+    tyres or a stated impulse, follows A and B before as an arrow of its own, and so ends where A
+    and B after end; no total is drawn then. If A or B after would hide one of these arrows, both
+    are drawn to one side, and thin lines join the points that coincide. A body of infinite mass
+    has no momentum to draw.
 
     Parameters
     ----------
-    impact : Impact
-        One case, of any solver.
+    impact : Impact or MomentumSolution
+        One case, of any solver; of planar momentum the momenta of the centres of mass.
     axes : matplotlib.axes.Axes, optional
         Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
@@ -83,9 +102,11 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     'momentum along x [kN·s]'
     """
     labels = Units(units, impact)
-    check_impact(impact, "momentum")
-    sides = impact.a, impact.b
-    takes_part = [math.isfinite(side.before.mass) for side in sides]
+    if isinstance(impact, MomentumSolution):
+        bodies, by_whom = _of_solution(impact)
+    else:
+        bodies, by_whom = _of_impact(impact)
+    takes_part = [body.takes_part for body in bodies]
     if not any(takes_part):
         raise InputError(
             "both vehicles have an infinite mass, so there is no momentum to draw",
@@ -95,7 +116,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     axes = begin(axes, (6.5, 6.2))
     factor = labels.factor("kg*m/s")
     chains = {
-        when: [_momentum(getattr(side, when), factor) for side in sides]
+        when: [beside((0.0, 0.0), getattr(body, when), factor) for body in bodies]
         for when in ("before", "after")
     }
     totals = {when: beside(of_a, of_b) for when, (of_a, of_b) in chains.items()}
@@ -103,9 +124,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     longest = max(
         math.hypot(*vector) for vector in (*chains["before"], *chains["after"], *totals.values())
     )
-    open_ended = not all(takes_part) or any(
-        side.tyre_loss or side.before.pivot is not None for side in sides
-    )
+    open_ended = by_whom != ""
 
     drawing = Drawing(axes, longest)
     across = _common_normal([*chains["before"], *chains["after"]], longest)
@@ -147,11 +166,11 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     for when, style, prime in (("before", (0, (4, 1.5)), ""), ("after", "-", "\u2032")):
         tail: Place = (0.0, 0.0) if when == "before" else aside
         for index, vector in enumerate(chains[when]):
-            tag, state = "AB"[index] + prime, getattr(sides[index], when)
+            tag = "AB"[index] + prime
             draw(tail, vector, f"{when}.{SIDES[index]}", tag, when, COLOURS[index], style)
             tail = beside(tail, vector)
             if takes_part[index] and math.hypot(*vector) <= _NOTHING * longest:
-                still = state.speed <= _NOTHING * impact.closing_speed and not state.yaw_rate
+                still = when in bodies[index].rests
                 axes.plot(
                     [],
                     [],
@@ -175,7 +194,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
             outside,
             "outside",
             "outside",
-            _by_whom(impact),
+            by_whom,
             FORCE,
             (0, (7, 2, 1, 2)),
         )
@@ -193,11 +212,10 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
         # Arrows along the other axis are drawn side by side, so distances along this one mean
         # nothing.
         axis.set_visible(across is None or math.dist(across, along) > ALONG_ONE_LINE)
-    vehicles = enumerate((impact.a.before, impact.b.before))
     named = [
-        in_lines(f"{'AB'[at]}: {vehicle.name}", _TITLE, 1)
-        for at, vehicle in vehicles
-        if who(at, vehicle) != "AB"[at]
+        in_lines(f"{letter}: {body.name}", _TITLE, 1)
+        for letter, body in zip("AB", bodies, strict=True)
+        if body.name not in ("", letter)
     ]
     together = ", ".join(named)
     title = [
@@ -221,11 +239,48 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     return axes
 
 
-def _momentum(state: Vehicle, factor: float) -> Place:
-    """The momentum of a body; 0 for an infinite mass, of which only the momentum it
-    gives is drawn.
-    """
-    return (0.0, 0.0) if math.isinf(state.mass) else beside((0.0, 0.0), state.momentum, factor)
+def _of_impact(impact: Impact) -> tuple[list[_Body], str]:
+    """Both bodies of an impact, and a phrase that names what gives them momentum from outside."""
+    check_impact(impact, "momentum")
+    nothing = _NOTHING * impact.closing_speed
+    bodies = []
+    for side in (impact.a, impact.b):
+        states = {"before": side.before, "after": side.after}
+        rests = {
+            when for when, state in states.items() if state.speed <= nothing and not state.yaw_rate
+        }
+        # Of an infinite mass only the momentum that it gives is drawn.
+        before, after = (
+            (0.0, 0.0) if math.isinf(state.mass) else beside((0.0, 0.0), state.momentum)
+            for state in states.values()
+        )
+        takes_part = math.isfinite(side.before.mass)
+        bodies.append(_Body(side.before.name, takes_part, before, after, rests))
+    return bodies, _by_whom(impact)
+
+
+def _of_solution(solution: MomentumSolution) -> tuple[list[_Body], str]:
+    """Both bodies of planar momentum, which has no names, and what was stated from outside."""
+    need_one_case(solution, (MomentumSolution,), "plot.momentum")
+    bodies = []
+    for label in "ab":
+        mass = getattr(solution, f"mass_{label}")
+        check_size("mass", mass)
+        found: list[Place] = []
+        rests = set()
+        for when, end in (("before", ""), ("after", "_after")):
+            speed = getattr(solution, f"speed_{label}{end}")
+            course = getattr(solution, f"course_{label}{end}")
+            check_size("speed", speed)
+            if speed == 0.0 or course is None:
+                rests.add(when)
+                found.append((0.0, 0.0))
+            else:
+                size = mass * speed
+                found.append((size * math.cos(course), size * math.sin(course)))
+        bodies.append(_Body("", True, found[0], found[1], rests))
+    pushed = solution.outside_impulse_x is not None
+    return bodies, "given by the impulse that was stated" if pushed else ""
 
 
 def _common_normal(vectors: list[Place], longest: float) -> Place | None:
@@ -265,8 +320,8 @@ def _chain(start: Place, vectors: list[Place]) -> list[tuple[Place, Place]]:
 
 
 def _by_whom(impact: Impact) -> str:
-    """A phrase naming the infinite masses, pivots and tyres that give momentum to the
-    bodies drawn.
+    """A phrase naming the infinite masses, pivots, tyres and stated impulses that give momentum
+    to the bodies drawn; "" if nothing does.
     """
     parts = []
     for index, side in enumerate((impact.a, impact.b)):
@@ -276,4 +331,6 @@ def _by_whom(impact: Impact) -> str:
             parts.append(f"the pivot of {'AB'[index]}")
     if any(side.tyre_loss for side in (impact.a, impact.b)):
         parts.append("the tyres")
-    return f"given by {' and '.join(parts)}"
+    if any(side.outside_x or side.outside_y for side in (impact.a, impact.b)):
+        parts.append("the impulse that was stated")
+    return f"given by {' and '.join(parts)}" if parts else ""

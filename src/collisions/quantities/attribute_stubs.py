@@ -65,14 +65,14 @@ class MomentumSolutionQuantities:
 
     closing_speed = condition = course_a = course_a_after = course_b = course_b_after = (
         delta_v_a
-    ) = _QUANTITY
-    delta_v_b = given = heading_a = heading_b = mass_a = mass_b = normal_angle = ok = (
-        outside_impulse_x
-    ) = _QUANTITY
-    outside_impulse_y = pdof_a = pdof_b = restitution = sensitivity = speed_a = speed_a_after = (
-        speed_b
-    ) = _QUANTITY
-    speed_b_after = status = translational_energy_loss = unknowns = _QUANTITY
+    ) = delta_v_b = duration = given = heading_a = heading_b = _QUANTITY
+    mass_a = mass_b = normal_angle = ok = outside_impulse_x = outside_impulse_y = pdof_a = (
+        pdof_b
+    ) = restitution = sensitivity = speed_a = speed_a_after = _QUANTITY
+    speed_b = speed_b_after = status = translational_energy_loss = tyre_impulse_x_a = (
+        tyre_impulse_x_b
+    ) = tyre_impulse_y_a = tyre_impulse_y_b = tyres = tyres_a = tyres_b = unknowns = _QUANTITY
+    yaw_rate_a_after = yaw_rate_b_after = _QUANTITY
 
 
 class RunOutQuantities:

@@ -13,11 +13,17 @@ from ..kernels.central import shares
 from ..kernels.elementwise import RESTITUTION
 from ..kernels.reverse import changing_speed, energy_of_speeds, losing_speed
 from ..kernels.status import Status
-from ..messages.errors import AmbiguousSolutionError, NoSolutionError
+from ..messages.errors import (
+    AmbiguousSolutionError,
+    InputError,
+    MissingInputError,
+    NoSolutionError,
+)
 from ..messages.hints import hinted
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Sentences
-from ..quantities.units import Input, Value
+from ..quantities.units import Input, Value, shown
+from ..vehicle.drag import GRAVITY, read_drag, read_duration
 from .common import ASK_ALONE, PAIRS, Cases, exactly, input_faults, read_amounts, read_masses
 from .restitution_roots import RestitutionOf, crossings
 
@@ -35,6 +41,9 @@ def inline_closing_speed(
     ees_b: Input | None = None,
     max_crush_speed_a: Input | None = None,
     max_crush_speed_b: Input | None = None,
+    duration: Input | None = None,
+    drag_a: Input | None = None,
+    drag_b: Input | None = None,
 ) -> Value:
     """Closing speed of an in-line central impact from one delta-V, the energy dissipated, or two
     equivalent speeds.
@@ -43,6 +52,11 @@ def inline_closing_speed(
     it. In two oblique crash tests this shortcut is 10 to 16 percent too high from the whole delta-V
     and 17 to 24 percent from the whole energy loss (NHTSA 4363 and 4474, on the documentation's
     page "Reverse reconstruction"): for anything else use ``speeds``.
+
+    With ``duration`` and a drag of one vehicle or both, tyres act as impulses from outside, as
+    ``eccentric`` takes them with ``outside_a`` and ``outside_b``: drag x weight x duration against
+    a motion that goes from A towards B all the while, as where A runs into the rear of B, which may
+    stand before. Met head-on, B moves the other way before, and this has no answer for it.
 
     Parameters
     ----------
@@ -62,6 +76,12 @@ def inline_closing_speed(
     max_crush_speed_a, max_crush_speed_b : float, str, Quantity or array [m/s], optional
         Speeds of maximum crush of both: they stand for the energy absorbed before restitution. That
         of an infinite mass is 0.
+    duration : float, str, Quantity or array [s], optional
+        How long the contact lasts, > 0, for the drags: 0.05 to 0.15 s for cars.
+    drag_a, drag_b : float, str, Quantity or array [-], optional
+        Drag factor of the tyres of a vehicle while the contact lasts, >= 0, or a deceleration: 0.7
+        is locked wheels on a dry road; 0 if not given. A known delta-V has their part in it, and
+        the energies are those of the contact alone.
 
     Returns
     -------
@@ -89,6 +109,13 @@ def inline_closing_speed(
     9.1
     >>> round(3.6 * reconstruct.inline_closing_speed(1500, 1500, low_speed, delta_v_a="5 km/h"), 1)
     7.2
+
+    A parked car with locked wheels, in a contact of 0.1 s, holds half of that delta-V back:
+
+    >>> held = {"duration": "100 ms", "drag_b": 0.7}
+    >>> speed = reconstruct.inline_closing_speed(1500, 1500, 0.1, delta_v_b="5 km/h", **held)
+    >>> round(3.6 * speed, 1)
+    11.3
     """
     known = {
         "delta_v_a": delta_v_a,
@@ -102,6 +129,7 @@ def inline_closing_speed(
     kind = next(iter(given))
     reader = ArgumentReader()
     numbers = read_masses(reader, mass_a, mass_b) | read_amounts(reader, given)
+    numbers |= _read_drags(reader, duration, {"drag_a": drag_a, "drag_b": drag_b})
     numbers["restitution"] = reader.number(
         0.0 if callable(restitution) else restitution, "", "restitution", RESTITUTION
     )
@@ -118,10 +146,43 @@ def inline_closing_speed(
     return _with_number(cases, kind, numbers)
 
 
+def _read_drags(reader: ArgumentReader, duration: Any, drags: dict[str, Any]) -> dict[str, Any]:
+    """Duration and drags: all of them, or none."""
+    given = {name: drag for name, drag in drags.items() if drag is not None}
+    if (duration is None) == bool(given):
+        lacking = "duration" if duration is None else "drag_a"
+        text = (
+            f"{' and '.join(given)} need a duration, over which tyres act; write duration='100 ms'"
+            if given
+            else "duration counts for drag_a and drag_b alone, and neither was given; write "
+            "drag_b=0.7, or leave it out"
+        )
+        reader.refuse(MissingInputError(text, code="bad_combination", argument=lacking))
+    if duration is None or not given:
+        return {}
+    found = {"duration": read_duration(reader, duration)}
+    if isinstance(found["duration"], float) and found["duration"] == 0.0:
+        text = f"duration must be > 0, got {shown(duration)}; leave it and the drags out instead"
+        reader.refuse(InputError(text, code="not_positive", argument="duration"))
+    return found | {
+        name: read_drag(reader, given.get(name, 0.0), name) for name in ("drag_a", "drag_b")
+    }
+
+
 def _closing_speed(kind: str, numbers: dict[str, Any]) -> Any:
     values = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
     with np.errstate(all="ignore"):
         share_a, share_b, reduced, _ = shares(values["mass_a"], values["mass_b"])
+        if "duration" in values:
+            slowed = {
+                label: np.where(
+                    np.isinf(values[f"mass_{label}"]),
+                    0.0,
+                    GRAVITY * values["duration"] * values[f"drag_{label}"],
+                )
+                for label in "ab"
+            }
+            return _held_closing_speed(kind, values, share_a, share_b, reduced, slowed)
         if kind == "energy_loss":
             return losing_speed(values["energy_loss"] / reduced, values["restitution"])
         if kind in PAIRS:
@@ -131,6 +192,34 @@ def _closing_speed(kind: str, numbers: dict[str, Any]) -> Any:
         return changing_speed(
             values[kind], share_a if kind == "delta_v_a" else share_b, values["restitution"]
         )
+
+
+def _held_closing_speed(
+    kind: str, values: dict[str, Any], share_a: Any, share_b: Any, reduced: Any, slowed: Any
+) -> Any:
+    """The same where tyres slow the vehicles by so much while the contact lasts.
+
+    The impulse of the contact, per reduced mass, is (1 + e) c + k: it turns the closing speed c
+    into the separation speed e c although tyres close the gap by -k, k = slowed B - slowed A. The
+    energy that it takes is its product with the mean of the closing speeds before and after.
+    """
+    e, more = values["restitution"], slowed["b"] - slowed["a"]
+    if kind.startswith("delta_v"):
+        by_contact = (
+            (values[kind] - slowed["a"]) / share_a
+            if kind == "delta_v_a"
+            else (values[kind] + slowed["b"]) / share_b
+        )
+        return np.where(by_contact > 0.0, (by_contact - more) / (1.0 + e), -1.0)
+    if kind == "energy_loss":
+        energy = values[kind] / reduced
+    else:
+        masses = [values[name] / reduced for name in ("mass_a", "mass_b")]
+        energy = energy_of_speeds(masses[0], values[kind], masses[1], values[PAIRS[kind]])
+    # Until a common velocity all of the approach is taken; restitution brings a part of it back.
+    taken = 1.0 if kind.startswith("max_crush") else (1.0 - e) * (1.0 + e)
+    half = 0.5 * more / (1.0 + e)
+    return np.sqrt(half * half + 2.0 * energy / taken) - half
 
 
 def _with_number(
@@ -146,6 +235,7 @@ def _with_number(
                 Status.INFINITE_MASS,
             ),
             *faults,
+            *_time_faults(numbers, speed),
             (~cases.beyond(speed), Status.OK),
             (
                 kind in ("energy_loss", "ees_a") and np.equal(numbers["restitution"], 1.0),
@@ -169,13 +259,28 @@ def _with_number(
         }.get(
             status,
             "these values give no finite closing speed; an infinite mass has an equivalent speed "
-            "of 0",
+            "of 0"
+            if "duration" not in numbers
+            else "these values give no closing speed above 0: tyres alone change the velocities by "
+            "as much; check duration, drag_a and drag_b",
         )
         raise error_of(status, text)
     if np.any(np.not_equal(status, Status.OK)):
         warn_of_refusals(status, ASK_ALONE)
     answer: Value = cases.where(np.equal(status, Status.OK), speed)
     return answer
+
+
+def _time_faults(numbers: dict[str, Any], speed: Any) -> list[tuple[Any, int]]:
+    """The faults of arrays of duration and drag, and of a delta-V that is not the contact's."""
+    if "duration" not in numbers:
+        return []
+    drags = [np.less(numbers[name], 0.0) for name in ("drag_a", "drag_b")]
+    return [
+        (np.less_equal(numbers["duration"], 0.0), Status.NOT_POSITIVE),
+        *((below, Status.NEGATIVE_SIZE) for below in drags),
+        (np.less_equal(speed, 0.0), Status.CONTRADICTORY),
+    ]
 
 
 def _with_function(

@@ -31,8 +31,10 @@ from ..quantities.directions import Angle, angle_of, course, direction
 from ..quantities.reading import ArgumentReader, amount
 from ..quantities.tables import said
 from ..quantities.units import Input, Pair, is_quantity, magnitude, shown, texts_of
+from ..vehicle.tyres import Tyres
 from .common import NEARLY_COLLINEAR, Cases, exactly, input_faults, raise_or_warn, read_masses
 from .momentum_solution import MomentumSolution, Sensitivity
+from .momentum_tyres import MOST_CORRECTIONS, Lasting, read_tyres
 from .momentum_vector import NEARLY_CANCELLING, Whole, sought_whole
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
@@ -60,6 +62,11 @@ def momentum(
     together: bool = False,
     normal: Input | tuple[Input, Input] | None = None,
     outside_impulse: Pair | None = None,
+    duration: Input | None = None,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
+    yaw_rate_a_after: Input | None = None,
+    yaw_rate_b_after: Input | None = None,
     on_failure: OnFailure | None = None,
 ) -> MomentumSolution:
     """Two unknown speeds of an impact from planar momentum, with all courses known; or one velocity
@@ -69,6 +76,14 @@ def momentum(
     Impulse Momentum Theory to Vehicle Collisions"), apart from a stated outside impulse. Nothing is
     assumed about restitution, friction or rotation. The method is good where the courses cross; the
     nearer they come to one line, the less momentum tells, whatever the algorithm.
+
+    A contact of 0.1 s gives tyres the time to take about a tenth of the momentum that the impact
+    moves. With ``duration`` and ``tyres_a``, ``tyres_b`` their impulse is in the balance: the force
+    of the wheels before the contact, half-way through it and after it (Simpson's rule), times the
+    duration, as ``eccentric`` takes it. It follows from the velocities that are found, so they are
+    found again with it until it changes no more; where it does not settle, the case is refused.
+    Before the contact no vehicle turns, and half-way through it 29 percent of the change of
+    velocity have passed, as in a plastic contact.
 
     Parameters
     ----------
@@ -89,7 +104,15 @@ def momentum(
         Direction from A into B for the closing speed and restitution, which are those of the
         centres of mass.
     outside_impulse : pair [N*s], optional
-        Impulse of the tyres or a kerb on both vehicles together, during the impact.
+        Impulse of a kerb, or of anything else from outside, on both vehicles together, during the
+        impact. That of tyres is worked out where ``tyres_a`` or ``tyres_b`` are given.
+    duration : float, str, Quantity or array [s], optional
+        How long the contact lasts, > 0, for the tyres: 0.05 to 0.15 s for cars.
+    tyres_a, tyres_b : travel.Tyres, optional
+        The wheels of each vehicle, which then needs its heading; one without has no tyre forces.
+    yaw_rate_a_after, yaw_rate_b_after : float, str, Quantity or array [rad/s], optional
+        Yaw rates just after, counter-clockwise, for the slip of the wheels; 0 if not given, which
+        ``explain`` and ``report`` then say. They count for nothing but the tyres.
     on_failure : {None, "raise", "nan"}, optional
         What to do with a refused case of a batch.
 
@@ -99,17 +122,19 @@ def momentum(
         All eight courses and speeds, delta-V, PDOF, ``condition`` = (1 + abs(cos)) / abs(sin) of
         the angle between the courses of the unknown speeds (1 at right angles), and the
         ``sensitivity`` of each answer to each input. With an unknown course the condition is the
-        sum of the other momenta over what they leave.
+        sum of the other momenta over what they leave. With tyres, delta-V and the energy lost have
+        their part in them, ``tyre_impulse_x_a`` and so on say which impulse that was, and the
+        sensitivities are those with that impulse as it is.
 
     Raises
     ------
     InputError
         An argument that cannot be used, or not exactly two unknown speeds.
     MissingInputError
-        The course of a moving vehicle was not given.
+        The course of a moving vehicle was not given, or what tyres need: a duration, a heading.
     NoSolutionError
         The courses of the two unknown speeds are parallel, or the momenta cancel that an unknown
-        course is to be found from.
+        course is to be found from; or the impulse of the tyres does not settle.
 
     Warns
     -----
@@ -156,6 +181,27 @@ def momentum(
     ... )
     >>> round(found.q.speed_a_after.m_as("km/h"), 1), round(found.q.course_a_after.m_as("deg"), 1)
     (41.9, -37.2)
+
+    The same where the contact takes 0.1 s, B rolls, and A brakes with all wheels locked:
+
+    >>> from collisions.travel import Tyres
+    >>> lasting = reconstruct.momentum(
+    ...     1200,
+    ...     1800,
+    ...     course_a="270 deg",
+    ...     course_b="0 deg",
+    ...     course_a_after="-30 deg",
+    ...     course_b_after="-40 deg",
+    ...     speed_a_after="30 km/h",
+    ...     speed_b_after="50 km/h",
+    ...     heading_a="270 deg",
+    ...     heading_b="0 deg",
+    ...     duration="100 ms",
+    ...     tyres_a=Tyres(0.7, 1.0, "2.6 m", "1.5 m"),
+    ...     tyres_b=Tyres(0.7, 0.0, "2.7 m", "1.5 m"),
+    ... )
+    >>> round(lasting.q.speed_a.m_as("km/h"), 2), round(lasting.q.speed_b.m_as("km/h"), 2)
+    (68.54, 56.02)
     """
     if not isinstance(together, bool):
         raise InputError(
@@ -182,8 +228,15 @@ def momentum(
     if normal is not None:
         x, y = direction(reader, normal, "normal", numbers.values())
         numbers |= {"normal[0]": x, "normal[1]": y}
+    lasting = read_tyres(
+        reader,
+        duration,
+        (tyres_a, tyres_b),
+        (yaw_rate_a_after, yaw_rate_b_after),
+        (heading_a, heading_b),
+    )
     reader.close()
-    cases = Cases.of(numbers)
+    cases = Cases.of(numbers if lasting is None else numbers | lasting.numbers)
     numbers = {
         name: value.astype(cases.dtype) if isinstance(value, np.ndarray) else value
         for name, value in numbers.items()
@@ -198,6 +251,13 @@ def momentum(
         given["outside_impulse"] = [
             reader.texts.get(name, numbers[name]) for name in numbers if name.startswith("outside")
         ]
+    if lasting is not None:
+        given |= {
+            name: reader.texts.get(name, value)
+            for name, value in lasting.numbers.items()
+            if "." not in name
+        }
+        given |= {f"tyres_{label}": tyres for label, tyres in lasting.tyres.items()}
     if normal is not None and cases.shape is None:
         given["normal"] = (
             [*map(_as_given, normal)] if isinstance(normal, tuple) else _as_given(normal)
@@ -218,7 +278,7 @@ def momentum(
             (numbers[f"{name}[0]"], numbers[f"{name}[1]"]) if f"{name}[0]" in numbers else None
             for name in ("outside_impulse", "normal")
         )
-        known = _Known(cases, numbers, angles, terms, impulse, normal, unlike)
+        known = _Known(cases, numbers, angles, terms, impulse, normal, unlike, lasting)
         return in_units_of(
             _solve(known, given if cases.shape is None else None, on_failure),
             texts_of(reader.texts),
@@ -316,32 +376,86 @@ class _Known(NamedTuple):
     impulse: tuple[Any, Any] | None
     normal: tuple[Any, Any] | None
     unlike: Any
+    lasting: Lasting | None
+
+    def velocities(self, speeds: dict[str, Any]) -> dict[str, tuple[Any, Any]]:
+        """By the names of speeds, along x and y; a vehicle at rest has no course."""
+        found = {}
+        for name, course_name in zip(_SPEEDS, _COURSES, strict=True):
+            c, s = self.angles[course_name].direction if course_name in self.angles else (0.0, 0.0)
+            found[name] = speeds[name] * c, speeds[name] * s
+        return found
+
+    def balanced(
+        self, pushes: list[tuple[Any, Any]]
+    ) -> tuple[_Known, dict[str, Any], Whole | None]:
+        """All speeds by name, those found with impulses from outside; where one is sought with its
+        course, that velocity, and what is known with its course.
+        """
+        found = {name: term.speed for name, term in self.terms.items()}
+        known, whole = self, None
+        if name := sought_whole(self.terms):
+            whole = Whole(self.terms, name, pushes)
+            found[name] = whole.speed
+            turned = dict.fromkeys(self.turned(whole), Angle(whole.angle, False))
+            known = self._replace(angles=self.angles | turned)
+        else:
+            x: Any = sum(push for push, _ in pushes)
+            y: Any = sum(push for _, push in pushes)
+            impulse = (x, y) if pushes else None
+            (first, one), (second, other) = self.unknown
+            found[first] = unknown_speed(self.terms.values(), impulse, one, other)
+            found[second] = unknown_speed(self.terms.values(), impulse, other, one)
+        found.setdefault("speed_b_after", found["speed_a_after"])
+        return known, found, whole
+
+    def turned(self, whole: Whole) -> list[str]:
+        """The courses that are found; vehicles that leave together have one."""
+        if len(self.terms) == 3 and whole.name == "speed_a_after":
+            return ["course_a_after", "course_b_after"]
+        return [whole.course]
+
+    def tyre_impulses(self, speeds: dict[str, Any]) -> dict[str, tuple[Any, Any]]:
+        """By vehicle, what its tyres give while the contact lasts."""
+        if self.lasting is None:
+            return {}
+        return self.lasting.impulses(
+            {label: self.numbers[f"mass_{label}"] for label in "ab"},
+            {label: self.numbers.get(f"heading_{label}") for label in "ab"},
+            self.velocities(speeds),
+            self.cases.shape is None,
+        )
+
+    @property
+    def unknown(self) -> list[tuple[str, Term]]:
+        """The two unknown terms with the names of their speeds."""
+        return [(name, term) for name, term in self.terms.items() if term.speed is None]
 
 
 def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> MomentumSolution:
     """Solve one case or many; raises for a refused single case."""
     cases, impulse, normal = known.cases, known.impulse, known.normal
     masses = known.numbers["mass_a"], known.numbers["mass_b"]
-    speeds = {name: term.speed for name, term in known.terms.items()}
-    whole: Whole | None = None
-    if name := sought_whole(known.terms):
-        whole = Whole(known.terms, name, impulse)
-        first, second = whole.name, whole.course
-        speeds[first], condition = whole.speed, whole.condition
-        turned = Angle(whole.angle, False)
-        # Vehicles that leave together have one course.
-        shared = len(known.terms) == 3 and first == "speed_a_after"
-        courses = ["course_a_after", "course_b_after"] if shared else [second]
-        known = known._replace(angles=known.angles | dict.fromkeys(courses, turned))
+    stated = [] if impulse is None else [impulse]
+    known, speeds, whole = known.balanced(stated)
+    tyres: dict[str, tuple[Any, Any]] = {}
+    unsettled: Any = False
+    if known.lasting is not None:
+        moving: Any = True
+        tyres = dict.fromkeys(known.lasting.tyres, (0.0, 0.0))
+        for _ in range(MOST_CORRECTIONS):
+            tyres, moving, unsettled = known.lasting.corrected(
+                tyres, known.tyre_impulses(speeds), moving
+            )
+            known, speeds, whole = known.balanced([*tyres.values(), *stated])
+            if not np.any(moving):
+                break
+    if whole is not None:
+        first, second, condition = whole.name, whole.course, whole.condition
     else:
-        (first, one), (second, other) = (
-            (name, term) for name, term in known.terms.items() if term.speed is None
-        )
+        (first, one), (second, other) = known.unknown
         cosine, sine = one.course.to(other.course)
-        speeds[first] = unknown_speed(known.terms.values(), impulse, one, other)
-        speeds[second] = unknown_speed(known.terms.values(), impulse, other, one)
         condition = np.divide(1.0 + abs(cosine), abs(sine))
-    speeds.setdefault("speed_b_after", speeds["speed_a_after"])
     outcome = _outcome(known, speeds)
     # Rounding error of the results, as a speed of the lighter vehicle.
     flow = sum(known.numbers[f"mass_{name[6]}"] * abs(speeds[name]) for name in _SPEEDS)
@@ -354,6 +468,7 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
             *((np.isposinf(mass), Status.INFINITE_MASS) for mass in masses),
             (normal is not None and (normal[0] == 0.0) & (normal[1] == 0.0), Status.ZERO_NORMAL),
             *input_faults(known.numbers),
+            *(() if known.lasting is None else known.lasting.faults()),
             (known.unlike, Status.CONTRADICTORY),
             (whole.speed <= rounding, Status.UNDETERMINED)
             if whole is not None
@@ -361,6 +476,7 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
                 abs(sine) <= _angle_rounding(one.course, other.course, cases.eps),
                 Status.PARALLEL_HEADINGS,
             ),
+            (unsettled, Status.UNDETERMINED),
             (cases.beyond(sum(speeds[name] for name in _SPEEDS) + loss), Status.OUT_OF_RANGE),
             (gains & (impulse is None), Status.ENERGY_GAIN),
         )
@@ -368,7 +484,12 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     raise_or_warn(
         status,
         on_failure,
-        lambda index: _refusal(Status(int(np.asarray(status)[index])), first, second),
+        lambda index: _refusal(
+            Status(int(np.asarray(status)[index])),
+            first,
+            second,
+            bool(np.broadcast_to(unsettled, np.shape(status))[index]),
+        ),
     )
     sure = np.less_equal(status, Status.ENERGY_GAIN)
     found = {"mass_a": masses[0], "mass_b": masses[1]} | {
@@ -380,10 +501,18 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
         found["outside_impulse_x"], found["outside_impulse_y"] = impulse
     answers = {**speeds, **outcome, "condition": condition}
     if whole is not None:
-        answers |= dict.fromkeys(courses, whole.angle)
-        by_input = whole.sensitivity()
+        answers |= dict.fromkeys(known.turned(whole), whole.angle)
+        by_input = whole.sensitivity(outside=impulse is not None)
     else:
         by_input = _sensitivity(known, answers)
+    if known.lasting is not None:
+        found["duration"] = known.lasting.duration
+        found |= {
+            f"yaw_rate_{label}_after": rate for label, rate in known.lasting.yaw_rates.items()
+        }
+        for label, push in tyres.items():
+            names = (f"tyre_impulse_{axis}_{label}" for axis in "xy")
+            answers |= dict(zip(names, push, strict=True))
     found |= {name: np.where(sure, value, np.nan) for name, value in answers.items()}
     solution = MomentumSolution(
         **{name: cases.values(value) for name, value in found.items()},
@@ -396,12 +525,14 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
         unknowns=(first, second),
         status=Status(status) if isinstance(status, int) else status,
         given=given,
+        tyres_a=None if known.lasting is None else known.lasting.tyres.get("a"),
+        tyres_b=None if known.lasting is None else known.lasting.tyres.get("b"),
     )
     _warn(known, sure, np.equal(status, Status.ENERGY_GAIN), found, solution, rounding)
     return solution
 
 
-def _refusal(status: Status, first: str, second: str) -> CollisionsError:
+def _refusal(status: Status, first: str, second: str, unsettled: bool) -> CollisionsError:
     """The error for a case with these unknowns."""
     if status is Status.PARALLEL_HEADINGS:
         return NoSolutionError(
@@ -409,6 +540,13 @@ def _refusal(status: Status, first: str, second: str) -> CollisionsError:
             "apart; for an in-line impact use reconstruct.central or "
             "reconstruct.inline_closing_speed, for one with known geometry reconstruct.speeds",
             code="parallel_headings",
+        )
+    if status is Status.UNDETERMINED and unsettled:
+        return NoSolutionError(
+            f"{first} and {second} do not settle while the tyres act: small changes of them turn "
+            "the force of the wheels too far; check the courses, or leave out duration, tyres_a "
+            "and tyres_b, and the answer is that of an instant",
+            code="undetermined",
         )
     if status is Status.UNDETERMINED:
         return NoSolutionError(
@@ -434,10 +572,7 @@ def _refusal(status: Status, first: str, second: str) -> CollisionsError:
 
 def _outcome(known: _Known, speeds: dict[str, Any]) -> dict[str, Any]:
     """The solution from all speeds and courses."""
-    velocity = {}
-    for name, course_name in zip(_SPEEDS, _COURSES, strict=True):
-        c, s = known.angles[course_name].direction if course_name in known.angles else (0.0, 0.0)
-        velocity[name] = speeds[name] * c, speeds[name] * s
+    velocity = known.velocities(speeds)
     found: dict[str, Any] = {}
     loss: Any = 0.0
     for side in "ab":

@@ -15,8 +15,11 @@ from ..kernels.status import Status
 from ..messages.errors import MissingInputError
 from ..quantities.attribute_stubs import MomentumSolutionQuantities
 from ..quantities.attributes import Shown, derived, same
-from ..quantities.tables import Cells, Part, Summary, all_numbers, sided
+from ..quantities.tables import Cells, Part, Sentences, Summary, all_numbers, as_sentence, sided
 from ..quantities.units import Value, to_quantity
+from ..vehicle.drag import USUAL_DURATION
+from ..vehicle.tyres import Tyres
+from .momentum_tyres import neglected
 
 # The arguments that give attributes which may be None.
 _NEEDED = {
@@ -24,6 +27,7 @@ _NEEDED = {
     "pdof_b": "heading_b",
     "closing_speed": "normal",
     "restitution": "normal",
+    **{f"tyre_impulse_{axis}_{label}": f"tyres_{label}" for label in "ab" for axis in "xy"},
 }
 _SENSITIVITY_UNITS = {"mass": "kg", "speed": "(m/s)", "course": "deg", "outside": "(N*s)"}
 
@@ -91,6 +95,15 @@ class MomentumSolution(Shown):
     normal_angle: Value | None = field(default=None, metadata={"unit": "rad"})
     outside_impulse_x: Value | None = field(default=None, metadata={"unit": "N*s"})
     outside_impulse_y: Value | None = field(default=None, metadata={"unit": "N*s"})
+    duration: Value | None = field(default=None, metadata={"unit": "s"})
+    yaw_rate_a_after: Value | None = field(default=None, metadata={"unit": "rad/s"})
+    yaw_rate_b_after: Value | None = field(default=None, metadata={"unit": "rad/s"})
+    tyre_impulse_x_a: Value | None = field(default=None, metadata={"unit": "N*s"})
+    tyre_impulse_y_a: Value | None = field(default=None, metadata={"unit": "N*s"})
+    tyre_impulse_x_b: Value | None = field(default=None, metadata={"unit": "N*s"})
+    tyre_impulse_y_b: Value | None = field(default=None, metadata={"unit": "N*s"})
+    tyres_a: Tyres | None = field(default=None)
+    tyres_b: Tyres | None = field(default=None)
     # The arguments as they were given, texts and numbers, from which one case can be solved again.
     given: Mapping[str, Any] | None = field(default=None)
 
@@ -135,7 +148,7 @@ class MomentumSolution(Shown):
         return Summary(
             self._title,
             [*sided(values, numbers), changes, all_numbers(self._rows())],
-            self._outcome(),
+            [*self._outcome(), *map(as_sentence, self.statements)],
         )
 
     def _outcome(self) -> list[str]:
@@ -155,8 +168,25 @@ class MomentumSolution(Shown):
         )
         return [f"{np.count_nonzero(which)} {many} {what}" for which, what in said if np.any(which)]
 
+    @property
+    def tyres(self) -> dict[str, Tyres]:
+        """The tyres by vehicle, "a" and "b", of those that have some."""
+        both = (("a", self.tyres_a), ("b", self.tyres_b))
+        return {label: one for label, one in both if one is not None}
+
+    @property
+    def statements(self) -> tuple[str, ...]:
+        """What has to be said beside the numbers: without tyres, by how much the speeds would
+        differ if all wheels slid for 0.1 s with a drag of 0.7.
+        """
+        say = Sentences(self._texts())
+        found = neglected(self, float(USUAL_DURATION), 0.7, lambda value, kind: say(value, kind, 2))
+        return () if found is None else (found.sentence,)
+
     def _texts(self) -> Iterable[Any]:
-        return (self.given or {}).values() or Shown._texts(self)
+        texts = [value for value in (self.given or {}).values() if not isinstance(value, Tyres)]
+        of_tyres = [text for one in self.tyres.values() for text in one.given.values()]
+        return [*texts, *of_tyres] or Shown._texts(self)
 
     @derived()
     def ok(self) -> Any:

@@ -5,7 +5,7 @@ other momenta leave.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -27,15 +27,14 @@ class Whole:
     """One velocity from the balance of momentum."""
 
     def __init__(
-        self, terms: Mapping[str, Term], name: str, impulse: tuple[Any, Any] | None
+        self, terms: Mapping[str, Term], name: str, pushes: Sequence[tuple[Any, Any]]
     ) -> None:
         self.name, self.course = name, name.replace("speed", "course")
-        self._terms, self._impulse, self._wanted = terms, impulse, terms[name]
+        self._terms, self._wanted = terms, terms[name]
         self._moving = {name: term for name, term in terms.items() if term.course is not None}
-        x: Any
-        y: Any
-        x, y = impulse or (0.0, 0.0)
-        size: Any = hypot(x, y)
+        x: Any = sum(push for push, _ in pushes)
+        y: Any = sum(push for _, push in pushes)
+        size: Any = sum(hypot(*push) for push in pushes)
         for term in self._moving.values():
             c, s = term.course.direction
             momentum = term.mass * term.speed
@@ -47,8 +46,10 @@ class Whole:
         self.angle = np.arctan2(self.y, self.x)
         self.condition = np.divide(size, self._wanted.mass * self.speed)
 
-    def sensitivity(self) -> dict[str, dict[str, Any]]:
-        """Derivatives of the speed and of the course by every input."""
+    def sensitivity(self, outside: bool) -> dict[str, dict[str, Any]]:
+        """Derivatives of the speed and of the course by every input, of which an impulse from
+        outside may be one.
+        """
         wanted = self._wanted
         scale = -wanted.sign / wanted.mass
         moved: dict[str, tuple[Any, Any]] = {}
@@ -68,7 +69,7 @@ class Whole:
             moved[name] = by * c, by * s
             across = by * term.speed
             moved[name.replace("speed", "course")] = -across * s, across * c
-        if self._impulse is not None:
+        if outside:
             moved |= {
                 "outside_impulse_x": (scale, 0.0 * scale),
                 "outside_impulse_y": (0.0 * scale, scale),

@@ -122,7 +122,7 @@ class End:
         one.
         """
         found: list[Origin] = []
-        for origin in self._candidates():
+        for origin in self.candidates():
             new = np.asarray(origin.fits) & (regime in (None, origin.regime))
             for earlier in found:
                 apart = abs(origin.normal - earlier.normal) + abs(
@@ -268,7 +268,7 @@ class End:
         finite = np.where(np.isinf(self.bound) | (self.bound == 0.0), np.nan, self.bound)
         return [self._along("sliding", sign * finite) for sign in (1.0, -1.0)]
 
-    def _candidates(self) -> list[Origin]:
+    def candidates(self) -> list[Origin]:
         """Every origin the law allows, whether it fits or not."""
         if self.rule == IMPULSE_RATIO:
             return [self._along("given", self.bound)]

@@ -16,9 +16,11 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 
 from ..impact.impact import Impact
-from ..impact.inputs import Inputs, Law, OnFailure, part_of, read_inputs
+from ..impact.inputs import TYRES, Inputs, Law, OnFailure, part_of, read_inputs
+from ..impact.models import ECCENTRIC
 from ..impact.provenance import Reconstruction
-from ..impact.run import error_of
+from ..impact.run import error_of, solve_inputs
+from ..impact.time_resolved_inputs import read_lasting
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR
 from ..kernels.status import Status
 from ..messages.errors import (
@@ -30,10 +32,11 @@ from ..messages.errors import (
     OutOfRangeWarning,
 )
 from ..messages.hints import hinted
-from ..messages.warning import warn_of_cases
+from ..messages.warning import quietly, warn_of_cases
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Sentences
 from ..quantities.units import Input, Pair, shown
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle, moved
 from .common import (
     Cases,
@@ -45,12 +48,17 @@ from .common import (
     run_forward,
     split_texts,
 )
+from .lasting import numbers_of_times, settle, tyre_faults
 from .origins import End, Origin
 from .speeds_algebra import shares_critical
 
 Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "given"]
 _REGIMES = get_args(Regime)
 _MOTION = ("vx", "vy", "speed", "course", "yaw_rate")
+# Below 0 by no more than this, a restitution that was solved for is 0.
+_NO_RESTITUTION = 1e-9
+# Of the speeds: motions that differ by no more are one.
+_ONE_ORIGIN = 1e-6
 _NEARLY_STICKING = (
     0.05  # of the difference between both directions of sliding: a smaller slip may be 0
 )
@@ -72,6 +80,9 @@ def planar(
     law: Law = "brach",
     regime: Regime | None = None,
     incomplete: bool = False,
+    duration: Input | None = None,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
     on_failure: OnFailure | None = None,
 ) -> Impact:
     """The impact that ended in these motions: ``eccentric`` backwards.
@@ -83,6 +94,11 @@ def planar(
     cases are refused, with any answers in ``solutions``; the message says what would decide. The
     theory is eqs 10 to 19 of "Application of Impulse Momentum Theory to Vehicle Collisions" with
     friction, solved for the motion before.
+
+    With ``duration`` and ``tyres_a``, ``tyres_b`` the answer is the one for which ``eccentric``
+    with the same arguments ends in these motions and has what else is known: the answer of the
+    instant, which decides between origins, is refined to it. What point and normal do while the
+    contact lasts is left out, as it is there.
 
     Parameters
     ----------
@@ -108,6 +124,9 @@ def planar(
     incomplete : bool, optional
         Whether the restitution may be negative (above -1), as for ``eccentric``: the contact points
         then go on approaching.
+    duration, tyres_a, tyres_b
+        As for ``eccentric``: how long the contact lasts, and the wheels that act on the ground
+        meanwhile. An ``energy_loss`` is then that of the contact, without what the tyres take.
     on_failure : {None, "raise", "nan"}, optional
         What to do with a refused case of a batch.
 
@@ -119,7 +138,8 @@ def planar(
         is 1 for a closing speed, and at most 2 for an energy loss. Where a slip may be zero (see
         below) it is the jump divided by that slip, or infinite. Impulse and energy keep all their
         digits even where the closing speed is tiny: they are computed from
-        ``reconstruction.contact_velocity``, not from the rounded motions before.
+        ``reconstruction.contact_velocity``, not from the rounded motions before. With tyres the
+        condition is that of the instant, and the contact velocity that of the motions found.
 
     Raises
     ------
@@ -129,7 +149,8 @@ def planar(
         More than one origin fits; all are in ``solutions``.
     NoSolutionError
         The contact points do not separate, or by no more than rounding; the contact stuck and says
-        nothing about the slip before; or no motion before the impact ends in these motions.
+        nothing about the slip before; or no motion before the impact ends in these motions, or
+        none was found from which the contact ends so while the tyres act.
 
     Warns
     -----
@@ -159,6 +180,9 @@ def planar(
     )
     (kind,) = given
     reader = ArgumentReader()
+    times: dict[str, Any] = {}
+    if duration is not None or tyres_a is not None or tyres_b is not None:
+        times = read_lasting(reader, "planar", a_after, b_after, duration, (tyres_a, tyres_b))
     amounts = {} if kind == "restitution" else read_amounts(reader, given)
     speed = amounts.get("closing_speed")
     if isinstance(speed, float) and speed == 0.0:
@@ -187,7 +211,9 @@ def planar(
         (friction, impulse_ratio, critical_fraction),
         law,
     )
-    inputs = read_inputs("eccentric", arguments, reader.problems, amounts.values(), incomplete)
+    beside = amounts | numbers_of_times(times)
+    inputs = read_inputs("eccentric", arguments, reader.problems, beside.values(), incomplete)
+    inputs = replace(inputs, **times)
     if inputs.law not in (BRACH, KUDLICH_SLIBAR):
         raise InputError(
             f"reconstruct.planar cannot go back under law {inputs.law!r}; give {BRACH!r} or "
@@ -204,7 +230,7 @@ def planar(
             argument="critical_fraction",
         )
     numbers = (amounts or {kind: inputs.restitution}) | numbers_by_name(inputs, "_after")
-    cases = Cases.of(numbers)
+    cases = Cases.of(numbers | numbers_of_times(times))
     arrays = {name: np.asarray(number, dtype=np.float64) for name, number in numbers.items()}
     pinned = a_after.pivot is not None, b_after.pivot is not None
     with np.errstate(all="ignore"):
@@ -223,14 +249,16 @@ def _answer(
     cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_failure: Any
 ) -> Impact:
     texts = dict(inputs.given or {})
-    staying = []
+    staying: list[Any] = []
     for label, body in (("a", inputs.a), ("b", inputs.b)):
         # The motion after differs from that of the vehicles before.
         of_body, of_motion = split_texts(body, _MOTION)
         staying.append(of_body)
         texts |= {f"{label}_after.{name}": text for name, text in of_motion.items()}
     inputs = replace(inputs, given=texts or None)
-    origins = end.origins(regime)
+    origins = instants = end.origins(regime)
+    if inputs.tyres:
+        origins = _while_tyres_act(end, inputs, regime, cases.shape or ())
     count = sum((one.fits.astype(int) for one in origins), np.zeros((), dtype=int))
     no_trace = end.forgets_slip() & ((regime != "sliding") | end.always_sticks())
     plastic = np.equal(end.known, 0.0) & (end.kind == "restitution")
@@ -243,6 +271,7 @@ def _answer(
     status = cases.first_status(
         (
             *input_faults(end.numbers, end.incomplete),
+            *tyre_faults(inputs.duration, inputs.tyres),
             (end.status == Status.IMMOVABLE, Status.IMMOVABLE),
             (
                 end.singular & (end.bound > 0.0) & (end.rule != IMPULSE_RATIO),
@@ -268,9 +297,8 @@ def _answer(
     condition = np.where(nearly, np.maximum(found.condition, jump / abs(end.slip)), found.condition)
 
     def origin_of(origin: Origin, condition: Any, count: Any, where: Any = True) -> Reconstruction:
-        return cases.provenance(
-            "planar", (end.kind, end.rule), condition, count, origin.contact_velocity, where
-        )
+        velocity = () if inputs.tyres else origin.contact_velocity
+        return cases.provenance("planar", (end.kind, end.rule), condition, count, velocity, where)
 
     def inputs_of(origin: Origin, keep: Any) -> Inputs:
         bodies = []
@@ -286,9 +314,14 @@ def _answer(
 
     def refusal() -> CollisionsError:
         stuck = status == Status.STICK_INVERSE
-        # The solutions of a range are its ends, whichever regime was given.
-        fitting = [one for one in end.origins(None if stuck else regime) if one.fits]
+        # The solutions of a range are its ends, whichever regime was given. With tyres they are
+        # none, as it is the range of the instant.
+        fitting = [one for one in (end.origins(None) if stuck else origins) if one.fits]
         count = math.inf if stuck else len(fitting)
+        if inputs.tyres and stuck:
+            fitting = []
+        elif status == Status.CONTRADICTORY and any(one.fits for one in instants):
+            return _unsettled()
         solutions = tuple(
             run_forward(partial(inputs_of, one), Status.OK, origin_of(one, one.condition, count))
             for one in fitting
@@ -305,11 +338,115 @@ def _answer(
             "point": tuple(map(take, end.p)),
         }
         contact |= {"regime": regime, "incomplete": end.incomplete}
+        contact |= {name: part_of(getattr(inputs, name), take) for name in ("duration", *TYRES)}
         return planar(part_of(inputs.a, take), part_of(inputs.b, take), **contact)
 
     _warn(cases, end, sure & end.pressed, nearly)
     origin = origin_of(found, condition, count, sure)
     return finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
+
+
+def _while_tyres_act(
+    end: End, inputs: Inputs, regime: str | None, shape: tuple[int, ...]
+) -> list[Origin]:
+    """The origins of the same end for a contact in which the tyres act, each once.
+
+    Every origin of the instant is refined, also those that do not quite lead to this end, as one
+    that slides may stick while the tyres act.
+    """
+    found: list[Origin] = []
+    for origin in end.candidates():
+        refined = _refined(origin, end, inputs, shape)
+        new = np.asarray(refined.fits)
+        if regime is not None:
+            new = new & np.equal(regime, refined.regime)
+        for earlier in found:
+            apart = sum(
+                abs(part - other)
+                for motion, another in zip(refined.motions, earlier.motions, strict=True)
+                for part, other in zip(motion, another, strict=True)
+            )
+            new = new & ~(earlier.fits & (apart <= _ONE_ORIGIN * end.size))
+        found.append(refined._replace(fits=new))
+    return found
+
+
+def _refined(origin: Origin, end: End, inputs: Inputs, shape: tuple[int, ...]) -> Origin:
+    """The origin next to this one for a contact in which the tyres act.
+
+    Unknown are the motions before and, where it was not given, the restitution; known the motions
+    after and what was given in place of the restitution.
+    """
+    speed = end.size + np.where(end.closing > 0.0, end.closing, 0.0)
+    start: list[Any] = []
+    sizes: list[Any] = []
+    for body, motion, pinned in zip(end.bodies, origin.motions, end.pinned, strict=True):
+        lever = np.hypot(end.p[0] - body[5], end.p[1] - body[6])
+        turning = speed / np.where(lever > 0.0, lever, 1.0)
+        start += motion[2:] if pinned else motion
+        sizes += [turning] if pinned else [speed, speed, turning]
+    free = end.kind != "restitution"
+    if free:
+        start, sizes = [*start, origin.restitution], [*sizes, 1.0]
+    start = [np.broadcast_to(part, shape) for part in start]
+
+    def inputs_at(values: Sequence[Any]) -> Inputs:
+        parts = iter(values)
+        a, b = (
+            moved(body, 0.0, 0.0, next(parts))
+            if pinned
+            else moved(body, next(parts), next(parts), next(parts))
+            for body, pinned in zip((inputs.a, inputs.b), end.pinned, strict=True)
+        )
+        e = next(parts) if free else inputs.restitution
+        # A restitution of 0 may come out a little below it.
+        return replace(inputs, a=a, b=b, restitution=e, incomplete=True, given=None)
+
+    def misses(tried: Inputs, answer: Any) -> list[Any]:
+        found: list[Any] = []
+        for label, body, pinned in zip("ab", end.bodies, end.pinned, strict=True):
+            before = getattr(tried, label)
+            for name, wanted in zip(("vx", "vy", "yaw_rate"), body[2:5], strict=True):
+                if name == "yaw_rate" or not pinned:
+                    change = getattr(answer, f"delta_{name}_{label}")
+                    found.append((getattr(before, name) + change - wanted) / sizes[len(found)])
+        if end.kind == "closing_speed":
+            found.append((answer.closing_speed - end.known) / speed)
+        elif free:
+            scale = np.where(end.known > 0.0, end.known, 1.0)
+            found.append((answer.energy_loss - end.known) / scale)
+        return found
+
+    highest = [math.inf] * (len(start) - 1) + [1.0] if free else None
+    values, fits = settle(inputs_at, start, sizes, misses, highest)
+    with quietly():
+        answer = solve_inputs(ECCENTRIC, inputs_at(values), "nan")
+    e = values[-1] if free else origin.restitution
+    if free and not end.incomplete:
+        fits = fits & (e >= -_NO_RESTITUTION)
+        e = np.where((e < 0.0) & (e >= -_NO_RESTITUTION), 0.0, e)
+    regime: Any = origin.regime
+    if end.rule == FRICTION:
+        how = np.where(answer.sticks, "sticking", "sliding")
+        regime = np.where(end.bound == 0.0, "frictionless", how)
+        regime = regime if regime.ndim else str(regime)
+    parts = iter(values)
+    still = 0.0 * speed
+    one, other = (
+        (still, still, next(parts)) if pinned else (next(parts), next(parts), next(parts))
+        for pinned in end.pinned
+    )
+    return origin._replace(regime=regime, motions=(one, other), restitution=e, fits=fits)
+
+
+def _unsettled() -> CollisionsError:
+    """The error for an instant that has an origin while the lasting contact has none."""
+    return error_of(
+        Status.CONTRADICTORY,
+        "as an instant the impact has an origin, but none was found from which it ends so while "
+        "the tyres act: check duration, the friction and the locks of tyres_a and tyres_b, and the "
+        "motions after; without duration and tyres the answer is that of the instant",
+    )
 
 
 def _first_that_fits(origins: Sequence[Origin]) -> Origin:

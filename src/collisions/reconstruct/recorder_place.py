@@ -67,8 +67,9 @@ def read_recorders(
     if not given and axes is None:
         if duration is not None:
             text = (
-                f"duration = {shown(duration)} is that over which recorders turn; write "
-                "axes='turning' (or 'fixed'), and recorder_a=(forward, left) for the place"
+                f"duration = {shown(duration)} is that over which recorders turn or tyres act; "
+                "write axes='turning' (or 'fixed'), and recorder_a=(forward, left) for the place; "
+                "or give tyres_a=travel.Tyres"
             )
             reader.refuse(InputError(text, code="bad_combination", argument="duration"))
         return None

@@ -17,6 +17,7 @@ from ..impact.inputs import Inputs, Law, check_flag, read_inputs
 from ..impact.provenance import KNOWN, bounds_of
 from ..impact.recorded import Axes
 from ..impact.run import error_of, warn_of_refusals
+from ..impact.time_resolved_inputs import read_lasting
 from ..kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from ..kernels.status import EPS, Status
 from ..messages.errors import (
@@ -33,6 +34,7 @@ from ..quantities.directions import Angle, course
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Sentences, said
 from ..quantities.units import Input, Pair, shown
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle, missing, moved
 from .common import (
     ASK_ALONE,
@@ -46,10 +48,12 @@ from .common import (
     run_forward,
     split_texts,
 )
+from .lasting import numbers_of_times, tyre_faults
 from .recorder_place import RecorderScene, read_recorders, texts_of
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import MAY_SLIDE, ComponentScene, friction_shown
+from .speeds_tyres import speeds_with_tyres
 
 # What may be known: any two, or else components of delta-V, with speeds or without.
 _TWO_OF = (
@@ -61,6 +65,8 @@ _TWO_OF = (
     *chain.from_iterable(PAIRS.items()),
 )
 _COMPONENTS = tuple(f"delta_v_{part}_{label}" for label in "ab" for part in ("forward", "left"))
+# Of the speeds: refined answers that differ by no more are one.
+_ONE_ANSWER = 1e-6
 # Above this restitution hardly any energy is lost along the normal.
 _ELASTIC = 1.0 - 1e-6
 # Distances of two answers whose ratio is less: the fold, quadratic, is as near as the samples are
@@ -100,6 +106,8 @@ def speeds(
     recorder_b: Pair | None = None,
     axes: Axes | None = None,
     duration: Input | None = None,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
     forward_only: bool = False,
     regime: Literal["sticking", "sliding"] | None = None,
     slid: Literal["bound"] | None = None,
@@ -107,7 +115,9 @@ def speeds(
     """Impact speeds of both vehicles from the geometry of the impact and two known quantities.
 
     The model is that of ``eccentric``: lever arms, rotation, friction and both laws. All pairs of
-    speeds that fit are returned.
+    speeds that fit are returned. With ``duration`` and ``tyres_a``, ``tyres_b`` each answer of the
+    instant is refined to the speeds for which ``eccentric`` with the same arguments has what is
+    known.
 
     Parameters
     ----------
@@ -171,10 +181,14 @@ def speeds(
         turning where a recorder is given; otherwise the contact is an instant, in which both are
         the same.
     duration : float, str, Quantity or array [s], optional
-        How long the contact lasts, during which the axes turn; needed with a recorder or axes, and
-        0 for a contact in which nothing turns. The force is taken to keep one direction and to
-        rise and fall like that of a spring, as in ``left_out``; headings are those of maximum
-        engagement, as everywhere in an impulse.
+        How long the contact lasts, during which axes turn and tyres act; needed with a recorder,
+        axes or tyres. For axes it may be 0, for a contact in which nothing turns: the force is
+        taken to keep one direction and to rise and fall like that of a spring, as in ``left_out``;
+        headings are those of maximum engagement, as everywhere in an impulse.
+    tyres_a, tyres_b : travel.Tyres, optional
+        The wheels that act on the ground meanwhile, as for ``eccentric``. A known delta-V has their
+        part in it; known energies are those of the contact. Not together with a recorder, axes or
+        ``slid``, whose readings and bounds are those of a contact without tyres.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
@@ -273,10 +287,15 @@ def speeds(
     components = {name: given[name] for name in _COMPONENTS if given[name] is not None}
     others = _known_beside(components, {name: given[name] for name in _TWO_OF})
     reader = ArgumentReader()
+    times: dict[str, Any] = {}
+    if tyres_a is not None or tyres_b is not None:
+        _refuse_with_tyres(given)
+        times = read_lasting(reader, "speeds", a, b, duration, (tyres_a, tyres_b))
     known = read_amounts(reader, others)
     known |= {name: reader.number(value, "m/s", name) for name, value in components.items()}
     places = {"a": recorder_a, "b": recorder_b}
-    recorders = read_recorders(reader, places, axes, duration, tuple(components))
+    turning_for = None if times else duration
+    recorders = read_recorders(reader, places, axes, turning_for, tuple(components))
     courses = {
         label: _course(reader, label, body, angle, known.get(f"speed_{label}", np.nan), components)
         for label, body, angle in (("a", a, course_a), ("b", b, course_b))
@@ -284,8 +303,17 @@ def speeds(
     check_flag(reader, "forward_only", forward_only)
     e = 0.0 if callable(restitution) else restitution
     arguments = a, b, e, normal, point, (friction, impulse_ratio, critical_fraction), law
-    beside = (*known.values(), *(angle.value for angle in courses.values()))
+    in_time = numbers_of_times(times)
+    beside = (*known.values(), *(angle.value for angle in courses.values()), *in_time.values())
     inputs = read_inputs("eccentric", arguments, reader.problems, beside, incomplete)
+    inputs = replace(inputs, **times)
+    if times and callable(restitution):
+        raise InputError(
+            "a function of restitution and tyres cannot be solved together; give a number for the "
+            "restitution",
+            code="bad_combination",
+            argument="restitution",
+        )
     numbers = {
         **known,
         "restitution": inputs.restitution,
@@ -298,7 +326,7 @@ def speeds(
         numbers |= {
             f"course_{label}[{i}]": part for i, part in enumerate(angle.beside(beside).direction)
         }
-    cases = Cases.of(numbers)
+    cases = Cases.of(numbers | in_time)
     with np.errstate(all="ignore"):
         _refuse_combinations(inputs, known, bool(components), callable(restitution))
         function = (
@@ -319,6 +347,14 @@ def speeds(
                 of_components, numbers, used_law, names, shape, regime
             )
             if ratio is not None:
+                if times:
+                    raise InputError(
+                        "friction=inf stands for the ratio of the components if the contact slid, "
+                        "and with tyres they do not show it; give the friction, or write "
+                        "regime='sticking' if it stuck",
+                        code="bad_combination",
+                        argument="friction",
+                    )
                 numbers[FRICTION] = cases.values(ratio)
                 inputs = _with_friction(inputs, numbers[FRICTION])
 
@@ -337,10 +373,31 @@ def speeds(
         inputs = replace(inputs, given={**texts, **(inputs.given or {})} or None)
 
         def again(**changes: Any) -> Impact:
+            # Bounds are those of a contact without tyres.
+            bare = {"duration": None, "tyres_a": None, "tyres_b": None} if times else {}
             with quietly():
-                return speeds(**{**given, **changes})[0]
+                return speeds(**{**given, **bare, **changes})[0]
 
         return _answers(cases, scene, found, inputs, known, function, forward_only, again)
+
+
+def _refuse_with_tyres(given: dict[str, Any]) -> None:
+    """Refuse what is known only of a contact without tyres."""
+    for name in ("recorder_a", "recorder_b", "axes", "slid"):
+        if given[name] is not None:
+            cure = (
+                "its bound is that of a contact without them; leave out tyres_a, tyres_b and "
+                "duration, or give a speed instead"
+                if name == "slid"
+                else "with tyres the components must be those of the centre of mass in the axes of "
+                "the heading; leave it out, or leave out tyres_a and tyres_b and carry the "
+                "readings over"
+            )
+            raise InputError(
+                f"{name} and tyres cannot be taken together: {cure}",
+                code="bad_combination",
+                argument=name,
+            )
 
 
 def taken_to_stick(impact: Impact) -> bool:
@@ -653,6 +710,9 @@ def _answers(
         e = inputs.restitution if function is None else cases.where(keep, root.restitution)
         return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
 
+    if inputs.tyres:
+        faults += tyre_faults(inputs.duration, inputs.tyres)
+        found = _while_tyres_act(cases, scene, found, inputs, known, forward_only)
     nowhere = np.zeros(scene.shape, dtype=bool)
     count = sum((there.astype(np.int64) for _, there in found), nowhere.astype(np.int64))
     # Stuck and slid.
@@ -664,7 +724,7 @@ def _answers(
         if isinstance(status, int) and status != Status.OK:
             say = Sentences(inputs.texts)
             if status == Status.AMBIGUOUS and isinstance(scene, ComponentScene):
-                raise _stuck_or_slid(scene, known, say, again)
+                raise _stuck_or_slid(scene, known, say, again, bool(inputs.tyres))
             raise _refusal(scene, status, known, function, forward_only, say)
         names = (*scene.names, *getattr(scene, "recorders", ()))
         origin = cases.provenance("speeds", names, root.condition, count)
@@ -769,7 +829,11 @@ def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
 
 
 def _stuck_or_slid(
-    scene: ComponentScene, known: dict[str, Any], say: Sentences, again: Callable[..., Impact]
+    scene: ComponentScene,
+    known: dict[str, Any],
+    say: Sentences,
+    again: Callable[..., Impact],
+    tyres: bool,
 ) -> AmbiguousSolutionError:
     """The error for a single case in which the contact either stuck or slid."""
     ratio = float(abs(scene.ratio))
@@ -790,8 +854,8 @@ def _stuck_or_slid(
         f"{speeds['speed_a']} and that of B {speeds['speed_b']}; if it slid at that ratio, "
         f"{bounds}. Write regime='sticking' or regime='sliding' if you know which, the latter "
         "with one of the speeds or the energy lost; or slid='bound' for this end of the speeds "
-        "that it may have had. "
-        "Both answers are in .solutions",
+        f"that it may have had{', without the tyres' if tyres else ''}. "
+        f"Both answers{', of an instant without tyres,' if tyres else ''} are in .solutions",
         code=Status.AMBIGUOUS.label,
         ratio=ratio,
         solutions=(stuck, slid),
@@ -801,6 +865,39 @@ def _stuck_or_slid(
 def _along(impact: Impact, label: str) -> float:
     """The speed of a vehicle before, below 0 where it goes backwards along its course."""
     return float(getattr(impact, label).before.speed)
+
+
+def _while_tyres_act(
+    cases: Cases,
+    scene: Scene,
+    found: list[tuple[Root, Any]],
+    inputs: Inputs,
+    known: dict[str, Any],
+    forward_only: bool,
+) -> list[tuple[Root, Any]]:
+    """Each root refined for a contact in which the tyres act, and where there is one; those that
+    come to another are left out.
+    """
+    directions = {
+        label: (scene.numbers[f"course_{label}[0]"], scene.numbers[f"course_{label}[1]"])
+        for label in "ab"
+    }
+    refined: list[tuple[Root, Any]] = []
+    for root, there in found:
+        instant = root.speed_a * scene.speed_unit, root.speed_b * scene.speed_unit
+        start = tuple(np.where(there, speed, np.nan) for speed in instant)
+        one, other, settled = speeds_with_tyres(
+            inputs, directions, (start[0], start[1]), known, cases.shape or ()
+        )
+        size = np.hypot(one, other)
+        if forward_only:
+            settled = settled & (np.minimum(one, other) >= -ROOT_TOL * size)
+        root = root._replace(speed_a=one / scene.speed_unit, speed_b=other / scene.speed_unit)
+        for earlier, before in refined:
+            apart = abs(earlier.speed_a - root.speed_a) + abs(earlier.speed_b - root.speed_b)
+            settled = settled & ~(before & (apart * scene.speed_unit <= _ONE_ANSWER * size))
+        refined.append((root, settled))
+    return [(root, settled) for root, settled in refined if np.any(settled)]
 
 
 def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> None:

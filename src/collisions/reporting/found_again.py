@@ -11,6 +11,7 @@ from operator import attrgetter
 from typing import Any
 
 from ..impact.impact import Impact
+from ..impact.inputs import TYRES
 from ..impact.provenance import KNOWN, Reconstruction
 from ..kernels.contact_laws import BRACH, RULES
 from ..messages.errors import AmbiguousSolutionError, CollisionsError
@@ -112,16 +113,17 @@ def _solved_again(impact: Impact, origin: Reconstruction) -> tuple[Any, ...]:
     contact |= {"law": inputs.law or BRACH, "incomplete": inputs.incomplete}
     if len(known) < len(origin.known):
         return ()
+    wheels = {name: getattr(inputs, name) for name in ("duration", *TYRES)}
     if origin.method == "central":
         return (central(inputs.a.mass, inputs.b.mass, **known, incomplete=inputs.incomplete),)
     if origin.method == "planar":
-        return (planar(impact.a.after, impact.b.after, **known, **contact),)
+        return (planar(impact.a.after, impact.b.after, **known, **contact, **wheels),)
     if any(name.startswith(("delta_v_forward", "delta_v_left")) for name in known):
         slid = None if origin.one_sided is None else "bound"
         contact |= {"regime": origin.regime, "slid": slid}
     courses = {f"course_{label}": getattr(inputs, label).course for label in "ab"}
     more: dict[str, Any] = {**courses, **contact, **known, inputs.rule: inputs.rule_value}
-    return speeds(inputs.a, inputs.b, restitution=inputs.restitution, **more)
+    return speeds(inputs.a, inputs.b, restitution=inputs.restitution, **more, **wheels)
 
 
 def _is_same(one: Impact, other: Impact) -> bool:

@@ -1,75 +1,49 @@
-"""``report``: the whole page of one result with its figures, from the first heading to
-the record.
+"""``report``: the whole page of one result, or of several, with its figures, from the first heading
+to the record.
 """
 
 from __future__ import annotations
 
-import io
 import re
-import warnings
-from collections.abc import Callable, Mapping, Sequence
-from html import escape
-from importlib import import_module
+from collections.abc import Mapping, Sequence
 from inspect import signature
-from typing import Any, Literal, TypeAlias, get_args
+from typing import Any, NamedTuple, TypeAlias
 
-from .. import plot
-from ..derivation.evidence import fit, momentum_inputs
-from ..derivation.explain import NOT_EXPLAINED, about_ranges, explain, impact_inputs, no_uncertainty
+from ..derivation.evidence import fit
+from ..derivation.explain import about_ranges, explain
 from ..diagnostics import diagnose
+from ..diagnostics.finding import Findings
 from ..impact.impact import Impact, with_vehicles
-from ..kernels.elementwise import UNIT_INTERVAL
-from ..messages.errors import InputError
 from ..plot.canvas import who
 from ..quantities.document import Document
 from ..quantities.formatting import UnitSystem
-from ..quantities.reading import ArgumentReader, need_one_case, single_number
 from ..quantities.settings import callers_options, computing
 from ..quantities.tables import cells
-from ..quantities.units import Input, Pair, shown
+from ..quantities.units import Input, Pair, kinds_in_degrees
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Propagation
-from ..uncertainty.result import Sampled, varies
 from ..vehicle.drag import USUAL_DURATION
-from ..vehicle.outlines import read_outline
+from . import figures as drawing
 from . import sections
-from .record import plain_options, record
-from .render import Html, Markdown, plain, visible
+from .answer import answer
+from .checking import FILED, Checked, Form, checked, results_of
+from .record import plain_options, record_of_all
+from .render import Html, Markdown, Printed, Sheet, plain
 from .sections import EVIDENCE
-from .uncertainty import Spread, shares_of
+from .uncertainty import Spread
 
-Form: TypeAlias = Literal["html", "markdown"]
+Result: TypeAlias = Impact | MomentumSolution | Fit | Posterior
 _SURROGATE = re.compile("[\ud800-\udfff]")
-# Options that do not apply to these results.
-_OTHER_PARTS: dict[type, tuple[str, ...]] = {
-    MomentumSolution: ("outline_a", "outline_b", "share_a"),
-    Fit: ("outline_a", "outline_b", "share_a", "duration", "drag", "limits", *EVIDENCE),
-}
-_OTHER_PARTS[Posterior] = (*_OTHER_PARTS[Fit], "derivation")
-_SIZES = {
-    "scene": (7.5, 6.5),
-    "momentum": (6.5, 6.2),
-    "impulse-plane": (7.5, 6.0),
-    "energy": (7.0, 4.2),
-    "pulse": (7.0, 7.0),
-}
-_SIZE = (6.5, 4.6)
-# Nothing in a file may depend on chance or on whoever runs it; its letters stay letters, and names
-# are no formulas.
-_SETTINGS: Any = {"svg.hashsalt": "collisions", "svg.fonttype": "none", "text.parse_math": False}
-_UNDATED = dict.fromkeys(("Creator", "Date", "Format", "Type"))
-_TAG = re.compile(r"<[^<>]*>")
-_ID = re.compile(r'(\bid="|url\(#|href="#)([^")]*)')
 
 
 @computing
 def report(
-    impact: Impact | MomentumSolution | Fit | Posterior,
+    impact: Result | list[Result],
     *,
     title: str | None = None,
     form: Form = "html",
     units: UnitSystem | None = None,
-    uncertainty: Propagation | None = None,
+    uncertainty: Propagation | list[Propagation | None] | None = None,
     outline_a: Any = None,
     outline_b: Any = None,
     duration: Input = USUAL_DURATION,
@@ -84,15 +58,19 @@ def report(
     notes: str | Mapping[str, str] | Sequence[str | Mapping[str, str]] | None = None,
     figures: bool = True,
     derivation: bool = False,
+    author: str | None = None,
+    case: str | None = None,
+    date: str | None = None,
 ) -> Document:
-    """One page about an answer: inputs, assumptions, results, uncertainty, findings, figures,
-    sources and the record.
+    """One page about a result: the answer with its range, then inputs, results, uncertainty,
+    findings, figures, assumptions, derivation, sources and the record.
 
-    An energy gain comes first. Every number comes from the result, from ``diagnose``, ``left_out``
-    or the propagation, rounded as in ``explain``. The page has one fact per line and no date; the
-    same arguments give the same page, byte for byte. From the record at its end
-    ``reporting.replay`` gives the impact again and ``reporting.options`` the options; with both,
-    ``report`` makes the same page again.
+    An energy gain comes before the answer. Every number comes from the result, from ``diagnose``,
+    ``left_out`` or the propagation, rounded as in ``explain``; where no range is stated, the page
+    says so. The page has one fact per line, and no date but the one that is given; the same
+    arguments give the same page, byte for byte. From the record at its end ``reporting.replay``
+    gives the impact again and ``reporting.options`` the options; with both, ``report`` makes the
+    same page again.
 
     A ``MomentumSolution`` has neither contact nor positions, and a ``Fit`` or a ``Posterior`` has
     only unknowns and observations: their pages have only the parts that apply, and options for
@@ -101,8 +79,10 @@ def report(
 
     Parameters
     ----------
-    impact : Impact, MomentumSolution, Fit or Posterior
-        One case that was answered, of any forward or reverse solver.
+    impact : Impact, MomentumSolution, Fit or Posterior, or list of these
+        One case that was answered, of any forward or reverse solver; or a list of several results,
+        such as the momentum and each impact of one case: a page with one answer of all, and a part
+        for each.
     title : str, optional
         By default the names of the vehicles.
     form : {"html", "markdown"}
@@ -111,7 +91,8 @@ def report(
     units : {"si", "metric", "us"}, optional
         By default those of the inputs, as for ``summary``.
     uncertainty : Propagation, optional
-        From ``uncertainty.propagate``. An output with the name of an answer, such as "b.after.vx"
+        From ``uncertainty.propagate``; for several results a list, with None for a result that has
+        none. An output with the name of an answer, such as "b.after.vx"
         or "b_after_vx", also sets the rounding of that answer.
     outline_a, outline_b, duration, drag, limits
         As for ``diagnose``; the outlines are also drawn.
@@ -128,7 +109,10 @@ def report(
     figures : bool
         Whether to draw figures. They need matplotlib; without it the report says so and goes on.
     derivation : bool
-        Whether to append the derivation of ``explain``; in HTML it is plain text.
+        Whether to append the derivation of ``explain``.
+    author, case, date : str, optional
+        Who made the page, the number or name of the case, and the day: printed below the title,
+        and at the foot of every page in print.
 
     Returns
     -------
@@ -162,71 +146,44 @@ def report(
     given = dict(locals())
     from .. import __version__
 
-    need_one_case(
-        impact, (Impact, MomentumSolution, Fit, Posterior), "report", instead=NOT_EXPLAINED
-    )
-    system: Any = cells(units, impact._texts()).name
+    results = results_of(impact, uncertainty)
+    texts = [text for one, _ in results for text in one._texts() if isinstance(text, str)]
+    system: Any = cells(units, texts).name
     given["units"] = system
     options = plain_options(given)
-    paragraphs, by_input, outlines = _checked(impact, options, uncertainty)
+    unusual = {name: value for name, value in options.items() if not _is_usual(name, value)}
+    found = checked(results, options, list(unusual))
+    printed = Printed(system, kinds_in_degrees(texts))
+    sheet: Sheet = Html(printed, {}, {}) if form == "html" else Markdown(printed, {}, {})
     looked_at = {
         name: given[name]
         for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units", *EVIDENCE)
     }
-    spread = Spread(impact, uncertainty)
-    sheet = (Html if form == "html" else Markdown)(system, spread.deviations, spread.ranges)
-    sheet.title(plain(title or _title(impact)))
-    # As they were given, so that it sees which have a unit.
-    with callers_options():
-        findings = None if isinstance(impact, (Fit, Posterior)) else diagnose(impact, **looked_at)
-    if isinstance(impact, Impact):
-        sections.gain(sheet, impact, impact.energy_loss)
-        sections.inputs(sheet, impact, options, by_input)
-        sections.assumptions(sheet, impact, options, outlines, by_input)
-        sections.results(sheet, impact, options["share_a"])
-    elif isinstance(impact, MomentumSolution):
-        sections.gain(sheet, impact, impact.translational_energy_loss)
-        sections.momentum(sheet, impact, options, by_input)
-    elif isinstance(impact, Fit):
-        fit(sheet, impact)
-    else:
-        sections.posterior(sheet, impact)
-    if uncertainty is not None:
-        if spread.ranges:
-            sheet.say(about_ranges(uncertainty))
-        spread.write(sheet, uncertainty)
-    if findings is not None:
-        sections.findings(sheet, findings)
-    if paragraphs:
-        sheet.heading("Notes")
-        for paragraph in paragraphs:
-            sheet.say(paragraph)
-    readable = _readable(impact) if isinstance(impact, Impact) else impact
-    if figures and (isinstance(impact, (Impact, Posterior)) or uncertainty is not None):
-        sheet.heading("Figures")
-        if isinstance(sheet, Html):
-            _figures(sheet, readable, spread, uncertainty, options)
-        else:
-            sheet.say("The figures are in the HTML form of this report.")
-    if derivation and not isinstance(readable, Posterior):
-        sheet.heading("Derivation")
-        known = uncertainty if spread.outputs else None
-        text = explain(
-            readable, units=system, form="text" if form == "html" else form, uncertainty=known
-        )
-        sheet.working(text)
-    if findings is not None and isinstance(impact, (Impact, MomentumSolution)):
-        sections.sources(sheet, impact, findings)
+    parts = [_part(one, its, looked_at, system) for one, its in results]
+    sheet.title(plain(title or (_title(results[0][0]) if len(results) == 1 else _SEVERAL)))
+    filed = [(name, plain(options[name])) for name in FILED if options[name] is not None]
+    if filed:
+        sheet.file([(name.capitalize(), text) for name, text in filed])
+    draws = figures and isinstance(sheet, Html) and drawing.can_draw()
+    _answers(sheet, parts, options, draws)
+    for number, part in enumerate(parts, 1):
+        if len(parts) > 1:
+            sheet.begin_part(_heading(number, part), f"{number}.")
+        _body(sheet, part, options, found, draws, alone=len(parts) == 1)
+    if len(parts) > 1:
+        sheet.end_parts()
+        _notes(sheet, found)
+    sections.sources(sheet, [(part.result, part.findings) for part in parts])
     sheet.say(f"Calculated with collisions {__version__}.")
     sheet.heading("Record")
-    unusual = {name: value for name, value in options.items() if not _is_usual(name, value)}
-    sheet.record(record(impact, unusual, uncertainty))
+    sheet.record(record_of_all(results, unusual))
     return Document(sheet.whole(__version__), form)
 
 
 _USUAL = plain_options(
     {name: parameter.default for name, parameter in signature(report).parameters.items()}
 )
+_SEVERAL = "Results of one case"
 
 
 def _is_usual(name: str, value: Any) -> bool:
@@ -236,108 +193,105 @@ def _is_usual(name: str, value: Any) -> bool:
     return type(value) is type(_USUAL[name]) and bool(value == _USUAL[name])
 
 
-def _checked(
-    impact: Any, options: Mapping[str, Any], uncertainty: Any
-) -> tuple[list[str], dict[str, str], dict[str, Any]]:
-    """The notes, as paragraphs and by input, and the outlines by vehicle; one error names every
-    option that cannot be used.
+class _Part(NamedTuple):
+    """A result with what the page says of it."""
+
+    result: Any
+    # The same with names that a file can hold.
+    readable: Any
+    uncertainty: Propagation | None
+    spread: Spread
+    findings: Findings | None
+    # None where the units of the page are those of its inputs.
+    units: UnitSystem | None
+
+
+def _part(
+    result: Any, uncertainty: Propagation | None, looked_at: Mapping[str, Any], system: UnitSystem
+) -> _Part:
+    findings = None
+    if isinstance(result, (Impact, MomentumSolution)):
+        # As they were given, so that it sees which have a unit.
+        with callers_options():
+            findings = diagnose(result, **looked_at)
+    readable = _readable(result) if isinstance(result, Impact) else result
+    own = None if cells(None, result._texts()).name == system else system
+    return _Part(result, readable, uncertainty, Spread(result, uncertainty), findings, own)
+
+
+def _answers(sheet: Sheet, parts: Sequence[_Part], options: Mapping[str, Any], draws: bool) -> None:
+    """An energy gain, and the box that has the answers, with the scene or the momenta beside
+    the only one.
     """
-    reader = ArgumentReader()
-
-    def refuse(argument: str, text: str, code: str = "bad_option") -> None:
-        reader.refuse(InputError(text, code=code, argument=argument))
-
-    form, title, notes, share_a = (options[name] for name in ("form", "title", "notes", "share_a"))
-    if not isinstance(form, str) or form not in get_args(Form):
-        refuse(
-            "form", f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}"
-        )
-    parts = (
-        notes
-        if isinstance(notes, (list, tuple))
-        else [notes]
-        if isinstance(notes, (str, Mapping))
-        else []
-    )
-    paragraphs = [part for part in parts if not isinstance(part, Mapping)]
-    beside = {
-        name: text for part in parts if isinstance(part, Mapping) for name, text in part.items()
-    }
-    # For an impulse, duration and drag are not inputs but options of the page, as the outlines are.
-    own = ["duration", "drag"] if isinstance(impact, Impact) and impact.pulse is None else []
-    own += (name for name in ("outline_a", "outline_b") if options[name] is not None)
-    known = list(dict.fromkeys([*inputs_of(impact), *own]))
-    for name in [name for name in beside if name not in known]:
-        refuse(
-            "notes",
-            f"notes has {shown(name)}, which is no input of this page; they are {', '.join(known)}",
-        )
-    texts = [] if title is None else [("title", title)]
-    for name, text in [*texts, *(("notes", text) for text in (*paragraphs, *beside.values()))]:
-        if not isinstance(text, str) or not plain(text):
-            refuse(
-                name, f"{name} must be a text that says something, got {shown(text)}", "not_a_text"
-            )
-    if notes is not None and not isinstance(notes, (str, list, tuple, Mapping)):
-        refuse(
-            "notes",
-            "notes must be a text, a list of texts, or a dict of them by input, got "
-            f"{type(notes).__name__}",
-            "not_a_text",
-        )
-    for name in ("figures", "derivation"):
-        if not isinstance(options[name], bool):
-            refuse(name, f"{name} must be True or False, got {shown(options[name])}")
-    if uncertainty is not None and not isinstance(uncertainty, Propagation):
-        refuse(
-            "uncertainty",
-            "uncertainty must be what uncertainty.propagate returned, got "
-            f"{type(uncertainty).__name__}; standard deviations by name go to explain(impact, "
-            "uncertainty=...)",
-        )
-    kind = type(impact)
-    for name in _OTHER_PARTS.get(kind, ()):
-        if not _is_usual(name, options[name]):
-            refuse(
-                name,
-                f"{name} is for an Impact, and a {kind.__name__} has no part for it; leave it "
-                "out, or report the impact itself",
-            )
-    if kind in (Fit, Posterior) and isinstance(uncertainty, Propagation):
-        reader.refuse(no_uncertainty(kind.__name__))
-    outlines = {
-        label: read_outline(reader, options[f"outline_{label}"], f"outline_{label}")
-        for label in "ab"
-        if options[f"outline_{label}"] is not None
-    }
-    if share_a is not None:
-        share = reader.number(share_a, "", "share_a", UNIT_INTERVAL)
-        single_number(reader, share, "share_a", "takes one value: a report is of one case")
-    reader.close()
-    return (
-        [plain(paragraph) for paragraph in paragraphs],
-        {name: plain(text) for name, text in beside.items()},
-        outlines,
-    )
+    for part in parts:
+        if isinstance(part.result, Impact):
+            sections.gain(sheet, part.result, part.result.energy_loss)
+        elif isinstance(part.result, MomentumSolution):
+            sections.gain(sheet, part.result, part.result.translational_energy_loss)
+    sheet.open_answer()
+    for number, part in enumerate(parts, 1):
+        if len(parts) > 1:
+            sheet.subheading(_heading(number, part))
+        answer(sheet, part.result, part.spread, part.uncertainty, part.findings, len(parts) == 1)
+    picture = None
+    if draws and len(parts) == 1 and isinstance(sheet, Html):
+        picture = drawing.beside_answer(sheet, parts[0].readable, options)
+    sheet.close_answer(picture)
 
 
-def inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
-    """The inputs that a note can stand beside, by name."""
-    if isinstance(impact, Impact):
-        found = [sections.key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
-        for label, vehicle in (("a", impact.a.before), ("b", impact.b.before)):
-            found += [f"{label}.{name}" for name, _ in sections.speed_rows(vehicle)]
-        found += (
-            []
-            if impact.law is None or impact.model in ("linear_central", "time_resolved")
-            else ["law"]
-        )
-        return [*found, *(impact.inputs.given or {}).keys() - set(found)]
-    rows = momentum_inputs(impact) if isinstance(impact, MomentumSolution) else ()
-    return [name.partition("[")[0] for _, _, name, _, _ in rows]
+def _body(
+    sheet: Sheet,
+    part: _Part,
+    options: Mapping[str, Any],
+    found: Checked,
+    draws: bool,
+    alone: bool,
+) -> None:
+    """Inputs, results, uncertainty, findings and the work of one result."""
+    result, uncertainty, spread = part.result, part.uncertainty, part.spread
+    sheet.deviations, sheet.ranges = spread.deviations, spread.ranges
+    if isinstance(result, Impact):
+        sections.inputs(sheet, result, options, found.by_input)
+        sections.results(sheet, result, options["share_a"])
+    elif isinstance(result, MomentumSolution):
+        sections.momentum_inputs_and_results(sheet, result, options, found.by_input)
+    elif isinstance(result, Fit):
+        fit(sheet, result)
+    else:
+        sections.posterior(sheet, result)
+    if uncertainty is not None:
+        spread.write(sheet, uncertainty)
+        if spread.ranges:
+            sheet.say(about_ranges(uncertainty))
+    if part.findings is not None:
+        sections.findings(sheet, part.findings)
+        sections.moves(sheet, part.findings.moves)
+    if alone:
+        _notes(sheet, found)
+    if options["figures"]:
+        drawing.figures(sheet, part.readable, spread, uncertainty, options, draws, alone)
+    if isinstance(result, Impact):
+        sections.assumptions(sheet, result, options, found.outlines, found.by_input)
+    elif isinstance(result, MomentumSolution):
+        sections.momentum_assumptions(sheet, result, options)
+    if options["derivation"] and not isinstance(result, Posterior):
+        sheet.heading("Derivation")
+        known = uncertainty if spread.outputs else None
+        sheet.working(explain(part.readable, units=part.units, uncertainty=known))
 
 
-def _title(impact: Impact | MomentumSolution | Fit | Posterior) -> str:
+def _notes(sheet: Sheet, found: Checked) -> None:
+    if found.paragraphs:
+        sheet.heading("Notes")
+        for paragraph in found.paragraphs:
+            sheet.say(paragraph)
+
+
+def _heading(number: int, part: _Part) -> str:
+    return f"{number}. {plain(_title(part.result))}"
+
+
+def _title(impact: Result) -> str:
     if isinstance(impact, Impact):
         return f"Impact of {who(0, impact.a.before)} and {who(1, impact.b.before)}"
     titles = {
@@ -355,147 +309,3 @@ def _readable(impact: Impact) -> Impact:
         return impact
     a, b = (vehicle.replace(name=plain(vehicle.name)) for vehicle in vehicles)
     return with_vehicles(impact, a, b)
-
-
-def _figures(
-    sheet: Html,
-    impact: Any,
-    spread: Spread,
-    uncertainty: Propagation | None,
-    options: Mapping[str, Any],
-) -> None:
-    """The figures of the impact and of its uncertainty, or a sentence where there can be none."""
-    try:
-        import_module("matplotlib.figure")
-    except ImportError:
-        sheet.say(
-            "None: matplotlib cannot be imported here. Install it with: python -m pip install "
-            "matplotlib"
-        )
-        return
-    units, before = options["units"], sheet.blocks[-1]
-    if isinstance(impact, Impact):
-        outlines = {name: options[name] for name in ("outline_a", "outline_b")}
-        _draw(
-            sheet,
-            "scene",
-            "The scene from above at the moment of impact.",
-            plot.scene,
-            impact,
-            units=units,
-            **outlines,
-        )
-        if impact.model != "linear_central":
-            _draw(
-                sheet,
-                "momentum",
-                "Momentum before and after, head to tail.",
-                plot.momentum,
-                impact,
-                units=units,
-            )
-            if impact.pulse is not None:
-                caption = "Force, crush and delta-V over the time of the contact."
-                _draw(sheet, "pulse", caption, plot.pulse, impact, units=units)
-            else:
-                caption = "Normal and tangential impulse, with the lines that decide them."
-                _draw(sheet, "impulse-plane", caption, plot.impulse_plane, impact, units=units)
-        _draw(sheet, "energy", "Where the kinetic energy went.", plot.energy, impact, units=units)
-    if isinstance(impact, Posterior):
-        _draw(
-            sheet,
-            "residuals",
-            "Each observation less its computed value, in stated errors.",
-            plot.residuals,
-            impact,
-        )
-    outputs = (
-        impact.unknowns
-        if isinstance(impact, Posterior)
-        else {}
-        if uncertainty is None
-        else uncertainty.outputs
-    )
-    for number, output in enumerate(outputs.values(), 1):
-        name = spread.heading(output)
-        if not varies(output):
-            sheet.say(f"{name} has no figures, because it is the same in every case.")
-            continue
-        if isinstance(output, Sampled):
-            caption = f"{name}, in the cases drawn, given {output.given}."
-            _draw(
-                sheet,
-                f"distribution-{number}",
-                caption,
-                plot.distribution,
-                output,
-                units=units,
-                words=name,
-            )
-        if not isinstance(impact, Posterior) and len(shares_of(output)) != 1:
-            caption = (
-                f"{name}, and the share of its variance that each input brings, by itself and in "
-                "all."
-            )
-            _draw(
-                sheet,
-                f"contributions-{number}",
-                caption,
-                plot.contributions,
-                output,
-                units=units,
-                words=name,
-            )
-    if not isinstance(impact, Impact) and sheet.blocks[-1] == before:
-        sheet.say("None: the variance is all of one input, and no cases were drawn.")
-
-
-def _draw(
-    sheet: Html,
-    name: str,
-    caption: str,
-    draw: Callable[..., Any],
-    result: Any,
-    words: str = "",
-    **options: Any,
-) -> None:
-    """One figure, drawn with default matplotlib settings, with words for its name; a sentence if
-    the numbers allow none.
-    """
-    from matplotlib import rc_context, rcdefaults, rcParams
-    from matplotlib.figure import Figure
-    from matplotlib.text import Text
-
-    with rc_context(), warnings.catch_warnings():
-        rcdefaults()
-        rcParams.update(_SETTINGS)
-        # A name may have letters that this font lacks, but that the reader's font has.
-        warnings.filterwarnings("ignore", message="Glyph .* missing from font")
-        figure = Figure(figsize=_SIZES.get(name, _SIZE), layout="constrained")
-        try:
-            draw(result, axes=figure.add_subplot(), **options)
-        except InputError as error:
-            sheet.say(f"{caption} Not drawn: {error}.")
-            return
-        for text in figure.findobj(Text):
-            found = text.get_text()
-            text.set_text(visible(found.replace(result.name, words) if words else found))
-        target = io.StringIO()
-        figure.savefig(
-            target, format="svg", metadata=_UNDATED, bbox_inches="tight", pad_inches=0.05
-        )
-    sheet.picture(caption, _standalone(target.getvalue(), name, caption))
-
-
-def _standalone(svg: str, name: str, caption: str) -> str:
-    """The svg element of a figure, its ids made unique on the page and its style left
-    to the page.
-    """
-    svg = visible(svg[svg.index("<svg") :].rstrip())
-    svg = re.sub(r"\n\s*<defs>\s*<style[^>]*>[^<]*</style>\s*</defs>", "", svg, count=1)
-
-    def with_name(tag: re.Match[str]) -> str:
-        return _ID.sub(lambda found: f"{found[1]}{name}.{found[2].replace(' ', '-')}", tag[0])
-
-    label = f'<svg role="img" aria-label="{escape(caption)}"'
-    return _TAG.sub(with_name, svg).replace("<svg", label, 1)

@@ -8,15 +8,17 @@ import json
 import math
 import sys
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields
 from functools import partial
 from html import unescape
 from itertools import chain
-from typing import Any
+from typing import Any, TypeAlias
 
 from ..diagnostics import LIMITS
 from ..impact.impact import Impact, with_vehicles
+from ..impact.inputs import TYRES
+from ..impact.records import tyres_of, tyres_record
 from ..kernels.elementwise import UNCHECKED
 from ..messages.errors import CollisionsError, CollisionsWarning, InputError
 from ..quantities.attributes import unit_of
@@ -28,11 +30,13 @@ from ..quantities.units import Texts, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior, momentum
 from ..uncertainty import Propagation
 from ..vehicle.outlines import read_outline
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import DOMAINS, Vehicle, with_given
 from .found_again import contradicted_origin
 from .render import FENCE, RECORD
 from .sections import EVIDENCE, contradicted
 
+Result: TypeAlias = Impact | MomentumSolution | Fit | Posterior
 _FORMAT = "collisions report 2"
 # The options that change the page, with the unit in which each is read; None for one that is not a
 # number.
@@ -48,6 +52,9 @@ _UNITS: dict[str, str | None] = {
             "notes",
             "figures",
             "derivation",
+            "author",
+            "case",
+            "date",
         )
     ),
     "duration": "s",
@@ -66,15 +73,25 @@ _OTHER_MACHINE = 1e-6
 _SENTENCES = ("choice.reason",)
 
 
-def record(
-    impact: Impact | MomentumSolution | Fit | Posterior,
-    options: Mapping[str, Any],
-    uncertainty: Propagation | None,
+def record(impact: Result, options: Mapping[str, Any], uncertainty: Propagation | None) -> str:
+    """The record of one result: its inputs as given, and the options of the report, as JSON."""
+    return record_of_all([(impact, uncertainty)], options)
+
+
+def record_of_all(
+    results: Sequence[tuple[Result, Propagation | None]], options: Mapping[str, Any]
 ) -> str:
-    """The record: result, inputs as given, and options of the report, as JSON."""
+    """The record of a page of one or several results."""
     from .. import __version__
 
     whole: dict[str, Any] = {"format": _FORMAT, "version": __version__, "options": strict(options)}
+    parts = [_one_record(*part) for part in results]
+    whole |= parts[0] if len(parts) == 1 else {"results": parts}
+    return json.dumps(whole, indent=1, allow_nan=False)
+
+
+def _one_record(impact: Result, uncertainty: Propagation | None) -> dict[str, Any]:
+    whole: dict[str, Any] = {}
     if uncertainty is not None:
         whole["uncertainty"] = {
             name: getattr(uncertainty, name) for name in ("method", "samples", "seed")
@@ -89,8 +106,12 @@ def record(
     elif isinstance(impact, (Fit, Posterior)):
         whole[type(impact).__name__.lower()] = impact.to_dict()
     else:
-        whole["momentum"] = {"inputs": impact.given, "results": _results(impact)}
-    return json.dumps(whole, indent=1, allow_nan=False)
+        given = {
+            name: tyres_record(value) if isinstance(value, Tyres) else value
+            for name, value in (impact.given or {}).items()
+        }
+        whole["momentum"] = {"inputs": given, "results": _results(impact)}
+    return whole
 
 
 def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
@@ -155,12 +176,16 @@ def _argument(find: Callable[[str], Any], name: str) -> Any:
 def _results(solution: MomentumSolution) -> Any:
     """The fields of a planar-momentum result."""
     return strict(
-        {f.name: getattr(solution, f.name) for f in fields(solution) if f.name != "given"}
+        {
+            f.name: getattr(solution, f.name)
+            for f in fields(solution)
+            if f.name not in ("given", *TYRES)
+        }
     )
 
 
 @computing
-def replay(text: str) -> Impact | MomentumSolution:
+def replay(text: str) -> Impact | MomentumSolution | list[Impact | MomentumSolution]:
     """The answer of a report, solved again from the record at its end.
 
     The record holds every input with all its digits. ``report`` with the same options makes the
@@ -174,8 +199,9 @@ def replay(text: str) -> Impact | MomentumSolution:
 
     Returns
     -------
-    Impact or MomentumSolution
-        Equal to the one reported, with the texts in which its inputs were given.
+    Impact or MomentumSolution, or list of these
+        Equal to the one reported, with the texts in which its inputs were given; a list of all for
+        a page of several results.
 
     Raises
     ------
@@ -194,6 +220,16 @@ def replay(text: str) -> Impact | MomentumSolution:
     True
     """
     found = _whole(text)
+    if "results" not in found:
+        return _replayed(found)
+    parts = found["results"]
+    if not isinstance(parts, list) or not all(isinstance(part, Mapping) for part in parts):
+        raise _bad("its results are no list of records")
+    return [_replayed(part) for part in parts]
+
+
+def _replayed(found: Mapping[str, Any]) -> Impact | MomentumSolution:
+    """One result solved again from its part of the record."""
     if kind := next((kind for kind in ("fit", "posterior") if kind in found), ""):
         raise InputError(
             f"text is the report of a {kind.capitalize()}, which cannot be made again from it: "
@@ -227,7 +263,10 @@ def _momentum(whole: Any) -> MomentumSolution:
     """Planar momentum solved again from a record."""
     try:
         inputs, results = dict(whole["inputs"]), whole["results"]
-        pairs = {name: tuple(value) for name, value in inputs.items() if isinstance(value, list)}
+        pairs: dict[str, Any] = {
+            name: tuple(value) for name, value in inputs.items() if isinstance(value, list)
+        }
+        pairs |= {name: tyres_of(inputs[name]) for name in TYRES if name in inputs}
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", CollisionsWarning)  # given when it was solved
             solution = momentum(**(inputs | pairs), on_failure="nan")

@@ -15,34 +15,65 @@ from ..derivation.expressions import System
 from ..derivation.page import HEAD, Page
 from ..quantities.formatting import SI_UNITS, number_with_unit, typeset
 from ..quantities.units import with_symbol
+from .mathml import mathml
 
 RECORD = "collisions-record"
 _STYLE = """\
-body { font: 12pt/1.4 Georgia, "Times New Roman", serif; color: #1a1a1a; max-width: 48em; margin: \
+body { font: 12pt/1.4 Georgia, "Times New Roman", serif; color: #1a1a1a; max-width: 54em; margin: \
 2em auto; padding: 0 1em; }
-h1 { font-size: 1.6em; margin: 0 0 .3em; }
-h2 { font-size: 1.15em; margin: 1.2em 0 .3em; border-bottom: 1px solid #6a6a6a; break-after: \
-avoid; }
-p, ul { margin: .4em 0; overflow-wrap: anywhere; }
+h1 { font-size: 1.6em; margin: 0 0 .2em; }
+h2 { font-size: 1.15em; margin: 1.2em 0 .3em; border-bottom: 1px solid #6a6a6a; }
+h3 { font-size: 1em; margin: 1em 0 .2em; }
+h4 { font-size: .95em; font-style: italic; margin: .8em 0 .2em; }
+h1, h2, h3, h4 { break-after: avoid; overflow-wrap: anywhere; }
+p, ul { margin: .4em 0; overflow-wrap: anywhere; orphans: 3; widows: 3; }
 ul { padding-left: 1.3em; }
+li { break-inside: avoid; }
+.filed { margin: 0 0 .6em; color: #444; }
 .stressed { font-weight: bold; border: 2px solid #a01040; padding: .4em .6em; }
-.tables { columns: 20em 2; column-gap: 2em; margin: .4em 0; }
-.tables > div { break-inside: avoid; }
+.answer { display: flex; flex-wrap: wrap; gap: 1em; align-items: flex-start; border: 2px solid \
+#1a1a1a; padding: .7em 1em; margin: .6em 0 1em; break-inside: avoid; }
+.answer > div { flex: 1.15 1 20em; min-width: 0; }
+.answer > figure { flex: 1 1 17em; margin: 0; min-width: 0; }
+.answer h2 { border: 0; margin: 0 0 .2em; }
+.answer table { font-size: 1em; }
+.answer th { width: 55%; }
+.answer td { font-weight: bold; white-space: nowrap; }
+.answer p, .answer li { font-size: .92em; }
+.tables { margin: .4em 0; }
+.tables > .wide { break-inside: avoid; }
 table { border-collapse: collapse; width: 100%; font-size: .92em; margin-bottom: .6em; }
 caption { text-align: left; font-weight: bold; padding-bottom: .1em; overflow-wrap: anywhere; }
+tr { break-inside: avoid; }
 th, td { text-align: left; vertical-align: top; padding: .1em .5em .1em 0; border-bottom: 1px \
-solid #d0d0d0; }
-th { font-weight: normal; width: 55%; }
-td { font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
-figure { margin: .8em 0; max-width: 38em; break-inside: avoid; }
+solid #d0d0d0; overflow-wrap: anywhere; }
+th { font-weight: normal; width: 40%; }
+.both table { table-layout: fixed; }
+.both thead td { width: 40%; }
+thead th { font-weight: bold; width: auto; }
+td { font-variant-numeric: tabular-nums; }
+.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(22em, 1fr)); gap: 1em \
+2em; }
+figure { margin: .6em 0; max-width: 38em; break-inside: avoid; }
 figcaption { font-size: .92em; }
 svg { display: block; max-width: 100%; height: auto; }
 svg * { stroke-linejoin: round; stroke-linecap: butt; }
+.line { margin: .2em 0 .6em 1.5em; break-inside: avoid; overflow: auto hidden; }
+p:has(+ .line), p:has(+ ul), p:has(+ .tables), summary { break-after: avoid; }
+.line mtd { text-align: left; padding: .2em .1em; }
+.line mtd:first-child { text-align: right; }
 pre { font-size: 8.5pt; line-height: 1.3; white-space: pre-wrap; overflow-wrap: anywhere; }
-@page { size: A4; margin: 15mm; }
+summary { cursor: pointer; margin: .4em 0; }
+@page { margin: 15mm 15mm 18mm; }
 @media print {
   body { font-size: 9pt; max-width: none; margin: 0; padding: 0; }
-  details pre { display: none; }
+  .answer { flex-wrap: nowrap; }
+  .figures { grid-template-columns: 1fr 1fr; gap: .6em 2em; }
+  .figures svg { max-height: 58mm; width: auto; }
+  summary { list-style: none; }
+  details::details-content { content-visibility: visible; block-size: auto; }
+  details.record pre, details.screen > :not(summary) { display: none; }
+  .line { overflow: visible; }
 }
 """
 FENCE = "```json\n"
@@ -51,6 +82,11 @@ _MARKS = re.compile(r"([\\`*_{}\[\]<>$|#~&])")
 _START = re.compile(r"^(\d*)([-+=.)])")
 # Joiners, which some scripts need; other invisible characters could change how a line reads.
 _JOINERS = "\u200c\u200d"
+# A slug is a pound-force times s²/ft: 0.45359237 kg x 9.80665 / 0.3048, both by definition.
+_SLUG, _PER_SLUG = "slug*ft**2", 1.0 / (0.45359237 * 9.80665 / 0.3048 * 0.3048**2)
+# A subject that is one of the two vehicles, which stand beside each other in one table.
+_VEHICLE = re.compile(r"[AB](?= \(|$)")
+_COLUMNS = 3  # subjects beside each other
 _AS_PRINTED = 1e-9  # relative: a number this near to its six figures is shown by them
 # numbers with no more digits are shown in full, as somebody typed them; the record has all digits
 # of the others
@@ -70,21 +106,39 @@ def visible(text: str) -> str:
 
 
 class Printed(System):
-    """Formats numbers with units as on a printed page."""
+    """Formats numbers with units as on a printed page; a US yaw inertia in slug·ft², as tables of
+    vehicles have it.
+    """
 
     typeset = True
+
+    def label(self, kind: str) -> str:
+        return _SLUG if self._is_slug(kind) else super().label(kind)
+
+    def scale(self, kind: str) -> float:
+        return _PER_SLUG if self._is_slug(kind) else super().scale(kind)
+
+    def _is_slug(self, kind: str) -> bool:
+        return kind == "inertia" and self.name == "us"
 
 
 class _Sheet(Page):
     """A derivation page with what both forms of a report have in common."""
 
     def __init__(
-        self, units: str, deviations: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]
+        self,
+        system: Printed,
+        deviations: Mapping[str, float],
+        ranges: Mapping[str, tuple[float, float]],
     ) -> None:
-        super().__init__(Printed(units), False, deviations, ranges)
+        super().__init__(system, False, deviations, ranges)
         # Apart from ``parts``, to which equations are written: a report has those in its derivation
         # alone.
         self.blocks: list[str] = []
+        # What stands at the top and in the footer of a print: case, author and date.
+        self.filed: tuple[str, ...] = ()
+        # Of the headings: one level down within a part, of which the ids of figures have a prefix.
+        self.level, self.prefix = 2, ""
 
     def name(self, text: str) -> str:
         return plain(text)
@@ -114,6 +168,40 @@ class _Sheet(Page):
         """A list of items, each with a lead-in that may be empty."""
         raise NotImplementedError
 
+    def subheading(self, text: str) -> None:
+        """A heading within a section."""
+        self.level += 1
+        self.heading(text)
+        self.level -= 1
+
+    def begin_part(self, text: str, prefix: str) -> None:
+        """Begin the part of one of several results."""
+        self.end_parts()
+        self.heading(text)
+        self.level, self.prefix = 3, prefix
+
+    def end_parts(self) -> None:
+        """What follows is of the whole page."""
+        self.level, self.prefix = 2, ""
+
+    def open_answer(self) -> None:
+        """Begin the box that has the answer."""
+        self.heading("Answer")
+
+    def close_answer(self, picture: tuple[str, str] | None) -> None:
+        """End the box, with a figure beside it: its caption and SVG."""
+
+    def figures_of_answer(self, rows: Sequence[tuple[str, str]]) -> None:
+        """The figures in the box: what each is, and its text."""
+        self.items([(f"{what}:", text) for what, text in rows])
+
+    def fold(self, summary: str, printed: bool = True) -> None:
+        """Begin what is read on demand, and perhaps not in print."""
+        self.say(summary)
+
+    def unfold(self) -> None:
+        """End it."""
+
 
 def given_as(value: str, text: str) -> str:
     """A number as it is printed, and as it was given; not if it has the digits of a conversion,
@@ -133,8 +221,13 @@ class Html(_Sheet):
         self._title = escape(text)
         self.blocks.append(f"<h1>{self._title}</h1>")
 
+    def file(self, entries: Sequence[tuple[str, str]]) -> None:
+        """Case, author and date, below the title and in the footer of a print."""
+        self.filed = tuple(f"{what}: {text}" for what, text in entries)
+        self.blocks.append(f'<p class="filed">{escape(" · ".join(self.filed))}</p>')
+
     def heading(self, text: str) -> None:
-        self.blocks.append(f"<h2>{escape(text)}</h2>")
+        self.blocks.append(f"<h{self.level}>{escape(text)}</h{self.level}>")
 
     def say(self, text: str) -> None:
         self.blocks.append(f"<p>{escape(text)}</p>")
@@ -143,19 +236,48 @@ class Html(_Sheet):
         self.blocks.append(f'<p class="stressed">{escape(text)}</p>')
 
     def table(self, rows: Iterable[tuple[str, str, str]]) -> None:
-        """One table per subject of the rows, side by side where there is room."""
+        """Both vehicles, or subjects of which the same is said, side by side in one table; any
+        other subject in its own.
+        """
+        subjects: dict[str, list[tuple[str, str]]] = {}
+        for of, *row in rows:
+            subjects.setdefault(of, []).append((row[0], row[1]))
         lines = ['<div class="tables">']
-        subjects: dict[str, list[tuple[str, str, str]]] = {}
-        for row in rows:
-            subjects.setdefault(row[0], []).append(row)
-        for of, parts in subjects.items():
-            lines += ["<div><table>", f"<caption>{escape(of)}</caption>", "<tbody>"]
-            lines += [
-                f'<tr><th scope="row">{escape(what)}</th><td>{escape(value)}</td></tr>'
-                for _, what, value in parts
-            ]
-            lines += ["</tbody>", "</table></div>"]
+        for group in _alike(subjects):
+            if len(group) > 1 and len(subjects[group[0]]) == 1 and not _VEHICLE.match(group[0]):
+                ((what, _),) = subjects[group[0]]
+                lines += _captioned(what, [(of, subjects[of][0][1]) for of in group])
+                continue
+            if len(group) > 1:
+                lines += _side_by_side(group, [subjects[of] for of in group])
+                continue
+            (of,) = group
+            lines += _captioned(of, subjects[of])
         self.blocks += [*lines, "</div>"]
+
+    def open_answer(self) -> None:
+        self.blocks += ['<section class="answer">', "<div>"]
+        self.heading("Answer")
+
+    def close_answer(self, picture: tuple[str, str] | None) -> None:
+        self.blocks.append("</div>")
+        if picture is not None:
+            self.picture(*picture)
+        self.blocks.append("</section>")
+
+    def figures_of_answer(self, rows: Sequence[tuple[str, str]]) -> None:
+        lines = [
+            f'<tr><th scope="row">{escape(what)}</th><td>{escape(text)}</td></tr>'
+            for what, text in rows
+        ]
+        self.blocks += ["<table><tbody>", *lines, "</tbody></table>"]
+
+    def fold(self, summary: str, printed: bool = True) -> None:
+        kind = "<details>" if printed else '<details class="screen">'
+        self.blocks += [kind, f"<summary>{escape(summary)}</summary>"]
+
+    def unfold(self) -> None:
+        self.blocks.append("</details>")
 
     def items(self, lines: Sequence[tuple[str, str]]) -> None:
         starts = [f"<strong>{escape(start)}</strong> " if start else "" for start, _ in lines]
@@ -170,12 +292,14 @@ class Html(_Sheet):
         self.blocks += ["<figure>", svg, f"<figcaption>{escape(caption)}</figcaption>", "</figure>"]
 
     def working(self, text: str) -> None:
-        self.blocks.append(f"<pre>{escape(text)}</pre>")
+        """The Markdown of a derivation, below a heading of the report: its title is left out."""
+        blocks = text.partition("\n")[2].strip().split("\n\n")
+        self.blocks += [_as_html(block, self.level + 1) for block in blocks]
 
     def record(self, text: str) -> None:
         summary = "<summary>Record with all digits (not printed)</summary>"
         self.blocks += [
-            "<details>",
+            '<details class="record">',
             summary,
             f'<pre id="{RECORD}">{escape(text)}</pre>',
             "</details>",
@@ -192,7 +316,7 @@ class Html(_Sheet):
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
             f'<meta name="generator" content="collisions {escape(version)}">',
             f"<title>{self._title}</title>",
-            f"<style>\n{_STYLE}</style>",
+            f"<style>\n{_STYLE}{_footer(self.filed)}</style>",
             "</head>",
             "<body>",
             *self.blocks,
@@ -208,8 +332,12 @@ class Markdown(_Sheet):
     def title(self, text: str) -> None:
         self.blocks.append(f"# {_escaped(text)}")
 
+    def file(self, entries: Sequence[tuple[str, str]]) -> None:
+        """Case, author and date, below the title."""
+        self.blocks.append(_line(" · ".join(f"{what}: {text}" for what, text in entries)))
+
     def heading(self, text: str) -> None:
-        self.blocks.append(f"## {_escaped(text)}")
+        self.blocks.append(f"{'#' * self.level} {_escaped(text)}")
 
     def say(self, text: str) -> None:
         self.blocks.append(_line(text))
@@ -230,7 +358,9 @@ class Markdown(_Sheet):
 
     def working(self, text: str) -> None:
         """Below a heading of the report, without the title."""
-        self.blocks.append(text.replace("\n## ", "\n### ").partition("\n")[2].strip("\n"))
+        self.blocks.append(
+            text.replace("\n## ", f"\n{'#' * (self.level + 1)} ").partition("\n")[2].strip("\n")
+        )
 
     def record(self, text: str) -> None:
         self.blocks.append(f"{FENCE}{text}\n```")
@@ -240,6 +370,88 @@ class Markdown(_Sheet):
 
 
 Sheet: TypeAlias = Html | Markdown
+
+
+def _as_html(block: str, level: int) -> str:
+    """A heading, formula, table, list or paragraph of a derivation in HTML."""
+    if block.startswith("## "):
+        return f"<h{level}>{_inline(block[3:])}</h{level}>"
+    if block.startswith("$$"):
+        return f'<div class="line">{mathml(block.strip("$"))}</div>'
+    lines = block.split("\n")
+    if block.startswith("- "):
+        return "\n".join(["<ul>", *(f"<li>{_inline(line[2:])}</li>" for line in lines), "</ul>"])
+    if block.startswith("| "):
+        rows = [re.split(r"(?<!\\) \| ", line[2:-2]) for line in lines[2:]]
+        cells = ("".join(f"<td>{_inline(part)}</td>" for part in row) for row in rows)
+        return "\n".join(
+            ["<table><tbody>", *(f"<tr>{row}</tr>" for row in cells), "</tbody></table>"]
+        )
+    if block.startswith("**"):
+        return f'<p class="stressed">{_inline(block.strip("*"))}</p>'
+    return f"<p>{_inline(block)}</p>"
+
+
+def _inline(text: str) -> str:
+    """A sentence of a derivation, with the symbols between dollar signs as formulas."""
+    parts = re.split(r"(?<!\\)\$", text)
+    return "".join(
+        mathml(part) if at % 2 else escape(re.sub(r"\\(.)", r"\1", part))
+        for at, part in enumerate(parts)
+    )
+
+
+def _alike(subjects: Mapping[str, Sequence[tuple[str, str]]]) -> list[list[str]]:
+    """The subjects of each table: both vehicles, and up to three of which the same is said."""
+    groups: list[list[str]] = []
+    for of, rows in subjects.items():
+        told = [what for what, _ in rows]
+        for group in groups:
+            same = told == [what for what, _ in subjects[group[0]]]
+            vehicles = all(_VEHICLE.match(one) for one in (of, *group))
+            if (same and (len(group) < _COLUMNS or len(told) == 1)) or vehicles:
+                group.append(of)
+                break
+        else:
+            groups.append([of])
+    return [sorted(group) if _VEHICLE.match(group[0]) else group for group in groups]
+
+
+def _captioned(caption: str, rows: Iterable[tuple[str, str]]) -> list[str]:
+    """A table of two columns below its caption."""
+    return [
+        '<div class="wide"><table>',
+        f"<caption>{escape(caption)}</caption>",
+        "<tbody>",
+        *(
+            f'<tr><th scope="row">{escape(what)}</th><td>{escape(value)}</td></tr>'
+            for what, value in rows
+        ),
+        "</tbody>",
+        "</table></div>",
+    ]
+
+
+def _side_by_side(subjects: Sequence[str], parts: Sequence[Sequence[tuple[str, str]]]) -> list[str]:
+    """The rows of several subjects in one table, each quantity once."""
+    columns = [dict(rows) for rows in parts]
+    heads = "".join(f'<th scope="col">{escape(of)}</th>' for of in subjects)
+    lines = ['<div class="both"><table>', f"<thead><tr><td></td>{heads}</tr></thead>", "<tbody>"]
+    for what in dict.fromkeys(what for rows in parts for what, _ in rows):
+        cells = "".join(f"<td>{escape(column.get(what, ''))}</td>" for column in columns)
+        lines.append(f'<tr><th scope="row">{escape(what)}</th>{cells}</tr>')
+    return [*lines, "</tbody>", "</table></div>"]
+
+
+def _footer(filed: Sequence[str]) -> str:
+    """The style of the print's footer: what the page is filed under, and the page number."""
+    text = "".join(f"\\{ord(letter):06x}" for letter in " · ".join(filed))
+    return (
+        '@page { @bottom-left { content: "'
+        + text
+        + '"; font: 8pt Georgia, serif; } @bottom-right { content: "Page " counter(page) " of " '
+        "counter(pages); font: 8pt Georgia, serif; } }\n"
+    )
 
 
 def _escaped(text: str) -> str:

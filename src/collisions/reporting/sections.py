@@ -10,12 +10,14 @@ from typing import Any
 
 from .. import reference
 from ..derivation import reverse
-from ..derivation.evidence import momentum_answers, momentum_inputs
+from ..derivation.evidence import momentum_answers, momentum_assumption, momentum_inputs
 from ..derivation.explain import impact_answers, impact_inputs
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note
+from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
+from ..impact.instant import neglected
 from ..impact.left_out import LeftOutSide, left_out
 from ..impact.models import BY_NAME
 from ..impact.provenance import KNOWN
@@ -23,13 +25,24 @@ from ..kernels.contact_laws import FRICTION, LAWS
 from ..messages.errors import Status
 from ..plot.canvas import who
 from ..quantities.directions import course
-from ..quantities.formatting import KIND_OF, SI_UNITS, percent, typeset
+from ..quantities.formatting import (
+    KIND_OF,
+    SI_UNITS,
+    percent,
+    places,
+    typeset,
+    with_decimals,
+)
 from ..quantities.reading import ArgumentReader
-from ..quantities.tables import label_of
+from ..quantities.tables import as_sentence, label_of
 from ..quantities.units import Input
 from ..reconstruct import MomentumSolution, Posterior
+from ..reconstruct.momentum_tyres import neglected as momentum_neglect
+from ..vehicle.drag import read_drag, read_duration
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle
 from .render import Sheet, given_as, plain
+from .words import Names
 
 # A reverse solver's result agrees with its inputs within this, relative to the speeds or energies
 # of the impact; end states that still approach by up to a hundredth of the closing speed are taken
@@ -38,7 +51,16 @@ _COMES_OUT, _TOGETHER = 1e-6, 0.02
 # Components of delta-V are measured: if more are given than are needed, they are met only as well
 # as they agree.
 _RECORDED = 0.3
+# The state before by its words among the results, as its names in ``notes``.
+_BEFORE = {
+    "velocity before, along x": "vx",
+    "velocity before, along y": "vy",
+    "speed before": "speed",
+    "yaw rate before": "yaw_rate",
+}
 _DEGREE = math.degrees(1.0)
+# In the units of the page: what moves a speed by less moves it only by the rounding of a sine.
+_ROUNDING = 1e-12
 # What the damage shows, by the option that says it: what it is of, in words, and its kind.
 EVIDENCE = {
     "crush_energy": ("damage", "crush energy, both vehicles", "energy"),
@@ -103,12 +125,14 @@ def inputs(
     """Write the inputs with the texts they were given as, and the choice of the model or how the
     state was found.
     """
-    backwards = impact.reconstruction is not None
-    sheet.heading("What was given and found" if backwards else "Inputs")
+    found_names = found_inputs(impact)
+    sheet.heading("Inputs")
     vehicles = {"A": impact.a.before, "B": impact.b.before}
     rows: list[tuple[str, str, str]] = []
     for of, quantity, names, numbers, kind in impact_inputs(impact):
         vehicle = vehicles.get(of)
+        if key_of(of, names) in found_names:
+            continue
         texts = (impact.inputs.given if vehicle is None else vehicle.given) or {}
         if names[0].startswith("tyres_"):
             wheels = impact.inputs.tyres.items()
@@ -128,6 +152,8 @@ def inputs(
         rows += [(name, what, text) for what, text in _published(impact, names[0])]
         if vehicle is not None and quantity == "mass":
             for what, number in speed_rows(vehicle):
+                if f"{of.lower()}.{what}" in found_names:
+                    continue
                 found = (
                     ""
                     if number is None
@@ -141,20 +167,35 @@ def inputs(
                 rows.append((name, what, _with(text, notes.get(f"{of.lower()}.{what}"))))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution", _with(impact.law.title(), notes.get("law"))))
+    rows += _known(sheet, impact, notes)
     rows += _damage(sheet, options)
     sheet.table(rows)
-    known = [] if impact.reconstruction is None else _known(sheet, impact, notes)
-    if any("given as" in text for *_, text in (*rows, *known)):
+    if any("given as" in text for *_, text in rows):
         sheet.say(
             "“Given as” repeats the text of an input that was given in another unit than that of "
             "this page."
         )
+    if found_names:
+        sheet.say("The rest was found, and stands under Results.")
     sheet.say("The record at the end has every digit.")
-    reverse.why_this_model(sheet, impact)
-    if impact.reconstruction is not None:
-        reverse.what_was_known(sheet, impact)
-        if known:
-            sheet.table(known)
+
+
+def found_inputs(impact: Impact) -> set[str]:
+    """The inputs of the model that a reverse solver found, by their names in ``notes``."""
+    origin = impact.reconstruction
+    if origin is None:
+        return set()
+    known = set(origin.known)
+    found = {
+        f"{label}.{name}"
+        for label in "ab"
+        for name in ("vx", "vy", "speed")
+        if not known & {f"v{label}", f"speed_{label}"}
+        and math.isfinite(getattr(impact, label).before.mass)
+    }
+    if origin.method == "planar":
+        found |= {"a.yaw_rate", "b.yaw_rate", "a.course", "b.course"}
+    return found if "restitution" in known or origin.method == "speeds" else found | {"restitution"}
 
 
 def key_of(of: str, names: Sequence[str]) -> str:
@@ -253,15 +294,30 @@ def speed_rows(vehicle: Vehicle) -> Iterator[tuple[str, float | None]]:
             yield name, None
 
 
-def _known(sheet: Sheet, impact: Impact, notes: Mapping[str, str]) -> list[tuple[str, str, str]]:
-    """Table rows with the texts of a reverse solver's known inputs."""
-    rows = []
-    for name, text in (impact.inputs.given or {}).items():
-        if name in KNOWN:
-            known = KNOWN[name]
-            value = sheet.as_given(_read(text, name), known.kind, text)
-            rows.append(("known", known.what, _with(value, notes.get(name))))
-    return rows
+def _known(
+    sheet: Sheet, impact: Impact, notes: Mapping[str, str]
+) -> Iterator[tuple[str, str, str]]:
+    """Table rows with what a reverse solver was given, as texts or as numbers."""
+    origin, names = impact.reconstruction, Names(impact)
+    if origin is None:
+        return
+    texts = impact.inputs.given or {}
+    given = dict.fromkeys([*(name for name in texts if name in KNOWN), *origin.known])
+    for name in given:
+        # Restitution and friction stand with the contact; va and vb with their vehicle.
+        if name not in KNOWN or (name in ("va", "vb") and name not in texts):
+            continue
+        known = KNOWN[name]
+        if name in texts:
+            value = sheet.as_given(_read(texts[name], name), known.kind, texts[name])
+        elif known.path:
+            number = float(attrgetter(known.path)(impact))
+            value = sheet.number(number, known.kind)
+            if name.startswith(("delta_v_forward", "delta_v_left")):
+                value += ", as the answer has it; given without a unit"
+        else:
+            value = "given without a unit, and kept only in what was found from it"
+        yield "evidence", names(known.what), _with(value, notes.get(name))
 
 
 def _read(text: str, name: str) -> float | None:
@@ -307,12 +363,26 @@ def contradicted(impact: Impact) -> Iterator[str]:
             )
 
 
-def momentum(
+def momentum_assumptions(
+    sheet: Sheet, solution: MomentumSolution, options: Mapping[str, Any]
+) -> None:
+    """Write what planar momentum rests on, and what it leaves out."""
+    sheet.heading("Assumptions")
+    together = " The vehicles leave together." if "together" in (solution.given or {}) else ""
+    sheet.say(f"{momentum_assumption(solution)}{together}")
+    for sentence in _momentum_neglect(sheet, solution, options):
+        sheet.say(as_sentence(sentence))
+
+
+def momentum_inputs_and_results(
     sheet: Sheet, solution: MomentumSolution, options: Mapping[str, Any], notes: Mapping[str, str]
 ) -> None:
-    """Inputs, assumptions and results of planar momentum, and how far each input moves them."""
+    """Write inputs and results of planar momentum, and how far each input moves them."""
     given: dict[str, Any] = {}
     for name, value in (solution.given or {}).items():
+        if isinstance(value, Tyres):
+            given |= {f"{name}.{one}": text for one, text in value.given.items()}
+            continue
         given |= (
             {f"{name}[{at}]": part for at, part in enumerate(value)}
             if isinstance(value, list)
@@ -325,27 +395,22 @@ def momentum(
         value = sheet.as_given(number, kind, text if isinstance(text, str) else None)
         rows.append((of, what, _with(value, note)))
     sheet.table([*rows, *_damage(sheet, options)])
-    sheet.heading("Assumptions")
-    together = " The vehicles leave together." if "together" in given else ""
-    sheet.say(
-        "The momentum of both vehicles together is the same before and after, along x and along "
-        "y (1), (2), save for an impulse from outside that is stated. Nothing is assumed of "
-        f"restitution, friction or rotation.{together}"
-    )
     sheet.heading("Results")
-    sheet.table(momentum_answers(sheet, solution))
-    system = sheet.system
     whole = any(name.startswith("course") for name in solution.unknowns)
     what = (
         "the sum of the other momenta over what they leave"
         if whole
         else "from the angle between the courses of the unknown speeds"
     )
-    rows = [("both", f"condition, {what}", f"{solution.condition:.3g}")]
+    rows = [
+        *momentum_answers(sheet, solution),
+        ("both", f"condition, {what}", f"{solution.condition:.3g}"),
+    ]
+    system = sheet.system
     for answer, row in solution.sensitivity.items():
         turns = answer.startswith("course")
         of_answer = _DEGREE if turns else system.scale("speed")
-        label = "°" if turns else f" {system.label('speed')}"
+        label = "°" if turns else f" {typeset(system.label('speed'))}"
         for name, value in row.items():
             kind = {"mass": "mass", "speed": "speed", "course": "angle", "outside": "impulse"}[
                 name.partition("_")[0]
@@ -357,9 +422,22 @@ def momentum(
                 else (system.scale(kind), typeset(system.label(kind)))
             )
             by = value * of_answer / scale
-            moved = f"{f'{by:+.3g}' if by else '0'}{label} per {unit}"
+            text = "0" if abs(by) < _ROUNDING else f"{by:+.3g}"
+            moved = f"{text}{label} per {unit}"
             rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
     sheet.table(rows)
+
+
+def _momentum_neglect(
+    sheet: Sheet, solution: MomentumSolution, options: Mapping[str, Any]
+) -> Iterator[str]:
+    """What planar momentum without tyres leaves out, for the duration and drag of the report."""
+    reader = ArgumentReader()
+    time = read_duration(reader, options["duration"])
+    drag = read_drag(reader, options["drag"], "drag")
+    found = momentum_neglect(solution, time, drag, sheet.system.answer)
+    if found is not None:
+        yield found.sentence
 
 
 def _in_words(name: str) -> str:
@@ -399,6 +477,12 @@ def assumptions(
         if impact.pulse is None
         else None
     )
+    reverse.why_this_model(sheet, impact)
+    if impact.reconstruction is not None:
+        reverse.what_was_known(sheet, impact)
+        neglect = None if found is None else neglected(impact, found)
+        if neglect is not None:
+            sheet.say(as_sentence(neglect.sentence))
     sheet.heading("Assumptions")
     lines = [("Model:", BY_NAME[impact.model].assumptions)]
     if impact.model != "linear_central":
@@ -488,7 +572,7 @@ def assumptions(
     tyres = (
         "beside the tyres, which are in it" if held else f"and tyres with a drag factor of {drag}"
     )
-    sheet.say(f"What the model leaves out, for a contact of {time} {tyres} (estimates{but}):")
+    sheet.fold(f"What the model leaves out, for a contact of {time} {tyres} (estimates{but}):")
     crush = "not known: the impact is incomplete"
     if impact.complete:
         crush = sheet.system.answer(float(found.mutual_crush), "length")
@@ -510,6 +594,7 @@ def assumptions(
                 for what, text in _left_out(sheet, side, impact.model, vehicle)
             ]
     sheet.table(rows)
+    sheet.unfold()
 
 
 def _pulse(sheet: Sheet, impact: Impact) -> None:
@@ -621,7 +706,26 @@ def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     rows.append(("contact", "kind", impact.kind))
     names = {"A": who(0, impact.a.before), "B": who(1, impact.b.before)}
     sheet.heading("Results")
-    sheet.table([(plain(names.get(of, of)), what, text) for of, what, text in rows])
+    found = found_inputs(impact)
+    sheet.table(
+        [
+            (plain(names.get(of, of)), what, text + _origin(impact, found, of, what))
+            for of, what, text in rows
+        ]
+    )
+
+
+def _origin(impact: Impact, found: set[str], of: str, what: str) -> str:
+    """Whether a number of the state before was given or found, on the page of a reverse solver."""
+    if impact.reconstruction is None:
+        return ""
+    if what == "restitution":
+        return ", found" if "restitution" in found else ", given"
+    name = _BEFORE.get(what)
+    # In line nothing moves along y: that is the model, and neither given nor found.
+    if name is None or (name == "vy" and impact.reconstruction.method == "central"):
+        return ""
+    return ", found" if f"{of.lower()}.{name}" in found else ", given"
 
 
 def posterior(sheet: Sheet, found: Posterior) -> None:
@@ -650,17 +754,13 @@ def findings(sheet: Sheet, found: Findings) -> None:
     and those that were not.
     """
     sheet.heading("Findings")
-    others = ", ".join(label_of(code) for code in LIMITS if code not in found.measured)
-    others = (
-        f" Not made, because they lack an input, do not apply or are switched off: {others}."
-        if others
-        else ""
-    )
+    others = [label_of(code) for code in LIMITS if code not in found.measured]
     if not found:
         sheet.say(
             f"None of the {len(found.measured)} checks that were made found anything, which "
-            f"proves nothing by itself.{others}"
+            "proves nothing by itself."
         )
+        _not_made(sheet, others)
         return
     lines = []
     for finding in found:
@@ -669,28 +769,83 @@ def findings(sheet: Sheet, found: Findings) -> None:
         end = "" if sentence.endswith("?") else "."
         judged = ""
         if not is_note(finding):
-            measured, limit = (
-                sheet.number(value, KIND_OF[finding.unit])
-                for value in (finding.measured, finding.limit)
-            )
+            kind = KIND_OF[finding.unit]
+            measured = sheet.number(finding.measured, kind)
+            limit = _round_limit(sheet, finding.limit, kind)
             judged = f" Measured {measured}, limit {limit}. Basis of the limit: {_basis(finding)}."
         lines.append((f"{label_of(finding.code)}{of}:", f"{sentence}{end}{judged}"))
     sheet.items(lines)
     sheet.say(
         f"{len(found.measured)} checks were made. A finding is a reason to look again, not an "
-        f"error.{others}"
+        "error."
     )
+    _not_made(sheet, others)
 
 
-def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Finding]) -> None:
-    """Write the sources of equations, limits and comparable values."""
-    sheet.heading("References")
-    lines = [
-        (
-            '"Application of Impulse Momentum Theory to Vehicle Collisions"; a number such as '
-            "(5) is an equation of it."
+def moves(sheet: Sheet, found: Moves) -> None:
+    """Write what would move the answer, largest first."""
+    if not found:
+        return
+    sheet.say(
+        "What would move this answer, the larger of both ways; the share is that of the vehicle's "
+        "own delta-V, of A or of B, whichever is larger:"
+    )
+    rows = []
+    for move in found:
+        if math.isinf(move.share):
+            rows.append((plain(move.what), "change", "there is no answer then"))
+            continue
+        for what, changes, kind in (
+            ("delta-V", (move.delta_v_a, move.delta_v_b), "speed"),
+            ("yaw rate after", (move.yaw_rate_a, move.yaw_rate_b), "yaw rate"),
+        ):
+            known = [change for change in changes if change is not None]
+            if known:
+                text = ", ".join(sheet.system.answer(change, kind) for change in known)
+                text += f" ({percent(move.share)})" if kind == "speed" else ""
+                rows.append((plain(move.what), f"change of the {what} of A, of B", text))
+    sheet.table(rows)
+
+
+def _round_limit(sheet: Sheet, limit: float, kind: str) -> str:
+    """A limit in the units of the page; one that is round in SI has no more digits there."""
+    number = sheet.system.converted(limit, kind)
+    if not math.isfinite(limit) or number == 0.0 or float(f"{limit:.2g}") != limit:
+        return sheet.number(limit, kind)
+    figures = places(number, 2)
+    rounded = with_decimals(number, figures)
+    if figures > 0:
+        rounded = rounded.rstrip("0").rstrip(".")
+    return rounded + sheet.system.unit(kind)
+
+
+def _not_made(sheet: Sheet, others: Sequence[str]) -> None:
+    """Name the checks that were not made, for those who ask."""
+    if others:
+        sheet.fold(
+            f"{len(others)} checks were not made: they lack an input, do not apply or are "
+            "switched off.",
+            printed=False,
         )
-    ]
+        sheet.say(f"{', '.join(others)}.")
+        sheet.unfold()
+
+
+def sources(sheet: Sheet, parts: Sequence[tuple[Any, Sequence[Finding] | None]]) -> None:
+    """Write the sources of equations, limits and comparable values, each once."""
+    lines = [line for result, found in parts for line in _sources(result, found or ())]
+    if lines:
+        sheet.heading("References")
+        sheet.listed(list(dict.fromkeys(lines)))
+
+
+def _sources(impact: Any, found: Sequence[Finding]) -> Iterator[str]:
+    if not isinstance(impact, (Impact, MomentumSolution)):
+        return
+    yield (
+        '"Application of Impulse Momentum Theory to Vehicle Collisions"; a number such as (5) is '
+        "an equation of it."
+    )
     if isinstance(impact, Impact):
         values = [("restitution", value) for value in _RANGE]
         if any(_published(impact, impact.inputs.rule)):
@@ -700,22 +855,19 @@ def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Fin
             for value in _DRAG
             if impact.pulse is None or impact.inputs.drag is not None
         ]
-        lines += [
-            f"For comparison with the {what}: {value.name}; {value.source}. {value.quality}"
-            for what, value in values
-        ]
+        for what, value in values:
+            yield f"For comparison with the {what}: {value.name}; {value.source}. {value.quality}"
     for finding in found:
         for name in _PUBLISHED.findall(finding.source):
             for value in _RANGE if name == "restitution_range" else (getattr(reference, name),):
-                lines.append(f"{value.name}: {value.source}. {value.quality}")
+                yield f"{value.name}: {value.source}. {value.quality}"
     if isinstance(impact, Impact):
         duration = reference.CONTACT_DURATION
         ends = f"{duration.low:g} to {duration.high:g} s"
-        lines.append(
+        yield (
             f"For comparison with the duration: {duration.name}, {ends}; {duration.source}. "
             f"{duration.quality}"
         )
-    sheet.listed(list(dict.fromkeys(lines)))
 
 
 def _basis(finding: Finding) -> str:

@@ -5,26 +5,26 @@ its own.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any
 
-from ..derivation.evidence import momentum_inputs
-from ..derivation.explain import impact_inputs, kinds_of_answers, spread_of, words_of_answers
+from ..derivation.explain import kinds_of_answers, spread_of, words_of_answers
 from ..impact.impact import Impact
 from ..kernels.contact_laws import RULES
 from ..messages.errors import InputError
-from ..quantities.formatting import SI_UNITS, Numbers, typeset, with_decimals
+from ..quantities.formatting import SI_UNITS, typeset, with_decimals
 from ..quantities.tables import as_sentence
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Interval, Output, Propagation
 from ..uncertainty.distribution import GivenUnit, from_numbers
 from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies
 from .render import Sheet, plain
+from .words import Names
 
-# Kind and number of inputs of the library that have no unit, and so are no more in SI than in any
-# other units; their number in this result is not known.
+# Inputs of the library that have no unit; their number in this result is not known.
 _UNITLESS = {
-    f"{name}{of}": ("number", math.nan)
+    f"{name}{of}"
     for name in ("restitution", "drag", "lock", "grade", "share", *RULES)
     for of in ("", "_a", "_b")
 }
@@ -36,19 +36,31 @@ class Spread:
     def __init__(
         self, impact: Impact | MomentumSolution | Fit | Posterior, uncertainty: Propagation | None
     ) -> None:
-        self.impact = impact
+        self.impact, self.names = impact, Names(impact)
         self.kinds = kinds_of_answers(impact)
         self.outputs, self.deviations, self.ranges = (
             ({}, {}, {}) if uncertainty is None else spread_of(impact, uncertainty)
         )
 
     def heading(self, output: Output) -> str:
-        """The result in words, such as "A: delta-V"; of any other output its name."""
+        """The result in words, such as "Golf: delta-V"; of any other output its name."""
         words = words_of_answers(self.impact)
         return next(
-            (words[name] for name, answer in self.outputs.items() if answer is output),
+            (self.names(words[name]) for name, answer in self.outputs.items() if answer is output),
             plain(output.name),
         )
+
+    def kind_of(self, output: Output) -> str | None:
+        """The kind of an output that is a result of the report."""
+        own = (self.kinds[name] for name, answer in self.outputs.items() if answer is output)
+        return next(own, None)
+
+    def words_of(self, uncertainty: Propagation | None) -> dict[str, str]:
+        """The inputs of a propagation in words, by name."""
+        return {
+            name: self.names.of_input(name, *_ends(value))
+            for name, value in (uncertainty.inputs if uncertainty is not None else {}).items()
+        }
 
     def write(self, sheet: Sheet, uncertainty: Propagation) -> None:
         """Write the figures of every output and the inputs they assume."""
@@ -58,7 +70,8 @@ class Spread:
         rows: list[tuple[str, str, str]] = []
         for output in uncertainty.outputs.values():
             rows += [
-                (self.heading(output), what, text) for what, text in self._figures(sheet, output)
+                (self.heading(output), what, text)
+                for what, text in self._figures(sheet, output, uncertainty)
             ]
         sheet.table(rows)
         if any(what.startswith("variance from") for _, what, _ in rows):
@@ -67,11 +80,7 @@ class Spread:
                 "with other inputs. Where the shares fall short of 100 % by more than their "
                 "errors, the rest comes from interactions."
             )
-        known = _UNITLESS | _inputs(self.impact)
-        stated = [
-            (plain(name), _stated(sheet.system, value, *known.get(name, ())))
-            for name, value in uncertainty.inputs.items()
-        ]
+        stated = [self._stated(sheet, *row) for row in uncertainty.inputs.items()]
         sheet.table([("Inputs as stated", *row) for row in stated])
         cases = (
             f"{uncertainty.samples} cases, "
@@ -106,51 +115,44 @@ class Spread:
                 "interval of the propagation: are both of the same case?"
             )
 
-    def _figures(self, sheet: Sheet, output: Output) -> list[tuple[str, str]]:
-        own = next(
-            (self.kinds[name] for name, answer in self.outputs.items() if answer is output), None
-        )
-        found = [(what, plain(text)) for what, text in figures(output, sheet.system, own)]
-        return found if output.bounds_only else [*found, *_shares(output)]
+    def _figures(
+        self, sheet: Sheet, output: Output, uncertainty: Propagation
+    ) -> list[tuple[str, str]]:
+        found = [
+            (what, plain(text))
+            for what, text in figures(output, sheet.system, self.kind_of(output))
+        ]
+        if output.bounds_only:
+            return found
+        return [*found, *_shares(output, self.words_of(uncertainty))]
 
-
-def _inputs(result: Any) -> dict[str, tuple[str, float]]:
-    """Kind and number of the inputs of a result, by the names of arguments: "mass_a", "speed_a",
-    "restitution".
-    """
-    if isinstance(result, MomentumSolution):
-        return {name: (kind, number) for _, _, name, number, kind in momentum_inputs(result)}
-    found = {
-        name if of == "contact" else f"{name}_{of.lower()}": (kind, number)
-        for of, _, names, numbers, kind in impact_inputs(result)
-        for name, number in zip(names, numbers, strict=True)
-    }
-    for label, vehicle in (("a", result.a.before), ("b", result.b.before)):
-        found |= {
-            f"speed_{label}": ("speed", vehicle.speed),
-            f"course_{label}": ("angle", vehicle.course),
-        }
-    return found
-
-
-def _stated(system: Numbers, value: Any, kind: str = "", number: float = math.nan) -> str:
-    """An input as stated; bare numbers in the unit of the page if they are about the result's own
-    input of that name.
-    """
-    if getattr(value, "unit", None) != "":
-        return plain(str(value))
-    low, high = (
-        (value.low, value.high)
-        if isinstance(value, Interval)
-        else map(value.quantile, (0.0005, 0.9995))
-    )
-    if kind != "number" and not low <= number <= high:
-        return f"{value}, in SI units"
-    if SI_UNITS[kind]:
+    def _stated(self, sheet: Sheet, name: str, value: Any) -> tuple[str, str]:
+        """An input and what was stated of it; bare numbers in the unit of the page if they are
+        about the result's own input of that name.
+        """
+        low, high = _ends(value)
+        words = self.names.of_input(name, low, high)
+        if getattr(value, "unit", None) != "":
+            return words, plain(str(value))
+        kind, number = self.names.number_of(name)
+        if name in _UNITLESS or kind in ("number", "ratio"):
+            return words, typeset(str(value))
+        if not low <= number <= high:
+            return words, f"{value}, given without a unit"
         unit = GivenUnit(SI_UNITS[kind])
-        unit.written, unit.factor = system.label(kind), 1.0 / system.scale(kind)
-        value = from_numbers(type(value), unit, value._parts, value._range)
-    return typeset(str(value))
+        unit.written = sheet.system.label(kind)
+        unit.factor = 1.0 / sheet.system.scale(kind)
+        return words, typeset(str(from_numbers(type(value), unit, value._parts, value._range)))
+
+
+def _ends(value: Any) -> tuple[float, float]:
+    """About the lowest and highest value of a stated input; NaN where numbers do not tell."""
+    if isinstance(value, Interval):
+        return value.low, value.high
+    if not hasattr(value, "quantile"):
+        return math.nan, math.nan
+    low, high = map(value.quantile, (0.0005, 0.9995))
+    return float(low), float(high)
 
 
 def shares_of(output: Output) -> dict[str, float]:
@@ -160,7 +162,7 @@ def shares_of(output: Output) -> dict[str, float]:
     return {}
 
 
-def _shares(output: Output) -> list[tuple[str, str]]:
+def _shares(output: Output, words: Mapping[str, str]) -> list[tuple[str, str]]:
     """Table rows with each input's share of the variance, by itself and in total.
 
     One share, of one input or of one group drawn together, says nothing.
@@ -171,7 +173,7 @@ def _shares(output: Output) -> list[tuple[str, str]]:
     whole, errors = output.total_contributions, output.contribution_standard_errors
     rows = [
         (
-            f"variance from {plain(name)}",
+            f"variance from {words.get(name, plain(name))}",
             (
                 f"{_share(_within(part), errors[name][0])}, in all "
                 f"{_share(_within(whole[name]), errors[name][1])}"

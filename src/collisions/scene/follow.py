@@ -119,8 +119,6 @@ class Followed:
         contacts: Sequence[Contact],
         ground: Ground,
         order: Sequence[tuple[str, str]] | None,
-        *,
-        watch: bool = True,
     ) -> None:
         self.movers, self.contacts, self.ground, self.order = movers, contacts, ground, order
         self.single = ground.single
@@ -135,10 +133,10 @@ class Followed:
         self.rules: Any = np.full((MOST_CONTACTS, self.count), -1)
         self.times: Any = np.full((MOST_CONTACTS, self.count), np.nan)
         self.many: Any = np.zeros(self.count, dtype=int)
-        self._pairs = self._all_pairs(watch)
+        self._pairs = self._all_pairs()
         self._follow()
 
-    def _all_pairs(self, watch: bool) -> list[_Between]:
+    def _all_pairs(self) -> list[_Between]:
         shapes = {
             name: Shape.of(mover.outline)
             for name, mover in self.movers.items()
@@ -153,13 +151,14 @@ class Followed:
             ]
             touching = [i for i in rules if self.contacts[i].touches]
             both = None
-            if one in shapes and other in shapes:
+            placed = all(_placed(self.movers[name]) for name in (one, other))
+            if one in shapes and other in shapes and (placed or touching):
                 both = shapes[one], shapes[other]
             pair = _Between(one, other, both, self.count)
             pair.rule = touching[0] if touching else None
             pair.timed = [i for i in rules if not self.contacts[i].touches]
             still = self.movers[one].fixed and self.movers[other].fixed
-            if touching or pair.timed or (watch and both is not None and not still):
+            if touching or pair.timed or (both is not None and not still):
                 found.append(pair)
         return found
 
@@ -273,7 +272,7 @@ class Followed:
         for name in pair.names:
             for part in ("x", "y", "heading"):
                 needed(self.movers[name].vehicle, part, "an outline in a scene", name)
-        met, *_ = self._pair(pair).at(np.zeros(self.count), every)
+        met, state_a, state_b = self._pair(pair).at(np.zeros(self.count), every)
         pair.apart = met.gap > TOUCHING
         begins = np.zeros(self.count, dtype=bool)
         for rule in pair.timed:
@@ -290,6 +289,11 @@ class Followed:
                 movers=pair.names,
             )
         self._fail(np.flatnonzero(wrong), "overlap_at_start")
+        # Two that touch as the scene begins, and close, have their contact then.
+        closing = closing_of(met, met.axis(met.widest), state_a, state_b)
+        at_once = ~pair.apart & ~wrong & ~begins & (closing >= _LEAST_CLOSING)
+        pair.touch[at_once], pair.closing[at_once] = 0.0, closing[at_once]
+        self._arrange(pair, np.flatnonzero(at_once))
 
     def _next(self, now: Any, alive: Any, left: Mapping[int, Any]) -> tuple[Any, Any]:
         """When the next contact of each case comes, and by which rule; infinite where none does."""
@@ -301,7 +305,8 @@ class Followed:
         # A contact that is due now needs no look ahead.
         looks = alive & ~(times <= now)
         for pair in self._pairs:
-            if pair.shapes is None:
+            # Of a batch, touches that no contact describes are not looked for.
+            if pair.shapes is None or (pair.rule is None and not self.single):
                 continue
             self._look_ahead(pair, now, looks)
             if pair.rule is not None:
@@ -706,6 +711,12 @@ def _closing_at(contact: Contact, states: Mapping[str, Any], normal: Any, point:
         vx = vx - a[5] * (py - a[1]) + b[5] * (py - b[1])
         vy = vy + a[5] * (px - a[0]) - b[5] * (px - b[0])
     return vx * normal[0] + vy * normal[1]
+
+
+def _placed(mover: Mover) -> bool:
+    """Whether a mover has a position and a heading."""
+    body = mover.vehicle
+    return body.x is not None and body.y is not None and body.heading is not None
 
 
 def _listed(pairs: Sequence[tuple[str, str]]) -> str:

@@ -114,9 +114,7 @@ class Run(Frozen, Summarized):
         ground = Ground(scene.surfaces, scene.slope, moments_for(tolerance), tolerance, scene.shape)
         # What cannot be answered is NaN, of which numpy need not warn.
         with np.errstate(all="ignore"):
-            found = Followed(
-                scene.movers, scene.contacts, ground, scene.order, watch=scene.shape is None
-            )
+            found = Followed(scene.movers, scene.contacts, ground, scene.order)
         vars(self).update(scene=scene, tolerance=tolerance, _followed=found)
         wrong = found.failed != ""
         if not found.single and wrong.any():
@@ -195,11 +193,14 @@ class Run(Frozen, Summarized):
         return tuple(sorted(notices, key=lambda one: one.time))
 
     @derived()
-    def deepest(self) -> tuple[bool, ...]:
+    def deepest(self) -> tuple[Any, ...]:
         """Of each impact, whether the vehicles parted before the depth or delay that was asked for,
         so that it acts at their deepest.
         """
-        return tuple(bool(hit.deepest[0]) for hit in self._followed.hits)
+        found = self._followed
+        if found.single:
+            return tuple(bool(hit.deepest[0]) for hit in found.hits)
+        return tuple(self._deepest(number) for number in range(self._most))
 
     @derived()
     def paths(self) -> Mapping[str, Track]:
@@ -406,6 +407,13 @@ class Run(Frozen, Summarized):
     @property
     def _most(self) -> int:
         return self._followed.most
+
+    def _deepest(self, number: int) -> Any:
+        """Of one impact of every case of a batch, whether it acts at the deepest."""
+        found = np.zeros(self._followed.count, dtype=bool)
+        for hit, some in self._hits(number):
+            found[hit.which[some]] = hit.deepest[some]
+        return lock(found)
 
     def _refuse_batch(self, what: str) -> None:
         if not self._followed.single:

@@ -187,7 +187,7 @@ def path(
     OutOfRangeWarning
         More than a quarter turn between two points, where one crab angle stands for all of it. A
         yaw rate at separation above 0.5 times the speed over 1.5 m: there the speed comes out 4 to
-        8 % too high, mostly 5 %, and beyond it soon more.
+        9 % too high, mostly 5 %, and beyond it soon more.
     SuspectUnitsWarning
         A bare friction above 1.5, grade beyond 0.5 or heading beyond a turn, which is probably in
         another unit.
@@ -438,7 +438,7 @@ def _warn_of_fast_yaw(yaw_rate: Any, speed: Any) -> None:
         warn(
             OutOfRangeWarning(
                 f"the yaw alone makes the wheels slip at more than {_MOST_YAW:g} of the speed at "
-                "separation, which the drag here leaves out: the speed is 4 to 8 % too high "
+                "separation, which the drag here leaves out: the speed is 4 to 9 % too high "
                 "there, more beyond; travel.simulate has the slip of each wheel",
                 code="fast_yaw",
                 cases=int(np.count_nonzero(fast)),

@@ -234,7 +234,9 @@ def simulate(
     at most the part of the friction that is its side slip over that side slip counted in the same
     way. At the default ``tolerance``, the place of rest is off by at most 1e-3 of the distance
     travelled, the heading by 1e-3 rad and the time by 1e-3 of it, mostly by a hundredth of that; at
-    1e-5, in two thirds of the time, by at most a few thousandths and mostly by 1e-4.
+    1e-5, in two thirds of the time, by at most a few thousandths and mostly by 1e-4. A scene on a
+    knife's edge, whose rest a change of the speed by 1e-5 moves by 5e-4 of the way, may be off by
+    more. Places of rest so scatter by some 1e-5 of the way from one scene to the next.
 
     Examples
     --------

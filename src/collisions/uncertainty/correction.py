@@ -140,7 +140,9 @@ def corrected(
         )
     values = {name: np.array(column) for name, column in answers.items()}
     changes = {name: np.zeros((_FOLDS, total)) for name in answers}
-    surrogate, scatter = model, dict.fromkeys(answers, 0.0)
+    scatter = dict.fromkeys(answers, 0.0)
+    # Where all samples were asked of the finer model, its shares of variance are its own too.
+    surrogate: Model = finer
     if count < total:
         names = tuple(name for name, column in inputs.items() if np.ptp(column) > 0.0)
         columns = _columns(inputs, answers, names)

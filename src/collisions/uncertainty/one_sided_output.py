@@ -43,6 +43,7 @@ class OneSidedOutput(Sampled):
         # What is unbounded is no direction on a circle.
         self._directions = None
         self.values, self.sides = values, sides
+        self._sides = sides
         sides.setflags(write=False)
 
     def may_wrap(self) -> bool:

@@ -293,7 +293,9 @@ class Output(Summarized):
         """The probability that a condition holds, and its standard error; only after sampling.
 
         The share of the samples, of those that have an answer. The standard error is that of
-        sampling, and no statement on the inputs.
+        sampling, and no statement on the inputs. A sample that is known from one side only counts
+        where the condition says the same of its bound and of all that lies beyond, which is looked
+        at in eighty places and at infinity.
 
         Parameters
         ----------
@@ -311,8 +313,10 @@ class Output(Summarized):
         Raises
         ------
         InputError
-            A condition that does not return a boolean for every sample (code "bad_condition"); or
-            nothing was sampled, or an ``Interval`` is among the inputs (code "not_sampled").
+            A condition that does not return a boolean for every sample (code "bad_condition"), or
+            that holds in some place where a sample known from one side only may lie and not in
+            another (code "one_sided"); or nothing was sampled, or an ``Interval`` is among the
+            inputs (code "not_sampled").
         NoSolutionError
             No sample has an answer.
 
@@ -466,6 +470,9 @@ class Sampled(Output):
     there was no answer.
     """
 
+    # For each case 1 (at least its value), -1 (at most) or 0; None where all are known both ways.
+    _sides: Any = None
+
     def __init__(
         self,
         name: str,
@@ -618,9 +625,10 @@ class Sampled(Output):
         Raises
         ------
         InputError
-            A condition that does not return a boolean for every sample.
+            A condition that does not return a boolean for every sample, or that samples known from
+            one side only leave open.
         """
-        return self._share(holds_of_one(condition, self.name, self.values))
+        return self._share(holds_of_one(condition, self.name, self.values, self._sides))
 
     def _share(self, held: Any) -> tuple[float, float]:
         """The share of the samples in which a condition was found to hold, and its error."""
@@ -789,8 +797,9 @@ class Propagation(Summarized):
         Raises
         ------
         InputError
-            A condition that does not return a boolean for every sample (code "bad_condition"); or
-            nothing was sampled, or an ``Interval`` is among the inputs (code "not_sampled").
+            A condition that does not return a boolean for every sample (code "bad_condition"), or
+            that samples known from one side only leave open (code "one_sided"); or nothing was
+            sampled, or an ``Interval`` is among the inputs (code "not_sampled").
         NoSolutionError
             No sample has an answer to all outputs that the condition reads.
 
@@ -813,7 +822,8 @@ class Propagation(Summarized):
         for name, output in self.outputs.items():
             if name not in samples:
                 return output.probability(condition)
-        held = holds(condition, {name: one.values for name, one in samples.items()})
+        sides = {name: one._sides for name, one in samples.items() if one._sides is not None}
+        held = holds(condition, {name: one.values for name, one in samples.items()}, sides)
         return next(iter(samples.values()))._share(held)
 
     def if_halved(self) -> Halved:

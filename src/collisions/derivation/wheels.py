@@ -1,0 +1,28 @@
+"""The rows of the inputs of tyres, as a page lists them."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ..vehicle.tyres import Tyres
+
+_NUMBERS = {
+    "friction": ("friction on the ground", "number"),
+    "lock": ("braking (lock), as a share of what locks them", "number"),
+    "lock[0]": ("braking (lock), front left", "number"),
+    "lock[1]": ("braking (lock), front right", "number"),
+    "lock[2]": ("braking (lock), rear left", "number"),
+    "lock[3]": ("braking (lock), rear right", "number"),
+    "wheelbase": ("wheelbase", "length"),
+    "track": ("track", "length"),
+    "steer": ("steer angle of the front wheels", "angle"),
+    "cornering": ("cornering stiffness over the load, per radian", "number"),
+    "height": ("height of the centre of mass", "length"),
+}
+
+
+def tyre_inputs(tyres_of: Mapping[str, Tyres]) -> Iterator[tuple[str, str, Any, str]]:
+    """Description, argument, number and kind of everything given of the tyres of each vehicle."""
+    for label, tyres in tyres_of.items():
+        for name, value in tyres.named.items():
+            what, kind = _NUMBERS[name]
+            yield f"tyres of {label.upper()}: {what}", f"tyres_{label}.{name}", value, kind

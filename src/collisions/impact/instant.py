@@ -1,0 +1,82 @@
+"""What an impact that was found backwards as an instant leaves out, in one sentence."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..messages.errors import CollisionsError
+from ..messages.warning import quietly
+from ..quantities.formatting import percent
+from ..vehicle.drag import USUAL_DURATION
+from .impact import Impact
+from .left_out import LeftOut, left_out
+
+# The reverse solvers that take a duration and tyres.
+TAKE_TYRES = ("planar", "speeds")
+
+
+class Neglect(NamedTuple):
+    """The larger share of delta-V that is left out, for tyres or for the motion, and the sentence
+    for it.
+    """
+
+    share: float
+    sentence: str
+
+
+def neglected(impact: Impact, found: LeftOut | None = None) -> Neglect | None:
+    """What a reconstruction as an instant leaves out, as ``left_out`` estimates it, of the worse of
+    both vehicles and in a batch in the median; None of an impact that was not reconstructed, or
+    that has tyres.
+    """
+    origin = impact.reconstruction
+    if origin is None or impact.inputs.tyres or np.all(impact.refused):
+        return None
+    if found is None:
+        try:
+            with quietly():
+                found = left_out(impact, duration=float(USUAL_DURATION))
+        except CollisionsError:
+            # Numbers at the end of what floats hold.
+            return None
+    tyres, motion = (
+        _worst(getattr(found.a, name), getattr(found.b, name))
+        for name in ("tyre_share", "geometry_share")
+    )
+    parts = [
+        f"{percent(share)} {what}"
+        for share, what in (
+            (tyres, f"for tyres that slide with a drag of {_middle(found.drag):.2g}"),
+            (motion, "for point and normal that move on"),
+        )
+        if math.isfinite(share)
+    ]
+    if not parts:
+        return None
+    advice = (
+        "give duration= and tyres_a=, tyres_b="
+        if origin.method in TAKE_TYRES
+        else "collisions.left_out says more of it"
+    )
+    median = " (medians)" if np.ndim(impact.closing_speed) else ""
+    sentence = (
+        f"found as an instant: of delta-V that leaves out about {' and '.join(parts)}, during "
+        f"{_middle(found.duration):.3g} s{median}; {advice}"
+    )
+    return Neglect(max(share for share in (tyres, motion) if math.isfinite(share)), sentence)
+
+
+def _worst(one: Any, other: Any) -> float:
+    """The larger of both vehicles' middle shares; NaN where neither has one."""
+    first, second = (math.nan if part is None else _middle(part) for part in (one, other))
+    return float(np.fmax(first, second))
+
+
+def _middle(values: Any) -> float:
+    """The median of the cases that have one."""
+    known = np.asarray(values, dtype=np.float64)
+    known = known[np.isfinite(known)]
+    return float(np.median(known)) if known.size else math.nan

@@ -1,0 +1,268 @@
+"""What tyres do to planar momentum while the contact lasts: read, worked out, and, where none were
+given, estimated as what was left out.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..impact.pulse import passed
+from ..impact.time_resolved_inputs import impulse_of, read_lasting
+from ..kernels.status import Status
+from ..messages.errors import InputError, MissingInputError
+from ..quantities.reading import ArgumentReader
+from ..vehicle.drag import GRAVITY
+from ..vehicle.tyres import Tyres
+from .lasting import numbers_of_times, tyre_faults
+
+if TYPE_CHECKING:
+    from .momentum_solution import MomentumSolution
+
+# Of a plastic contact, the share of the impulse that has passed at half of its time: momentum
+# knows no restitution, and one of 0.2 would make it 0.34 instead of 0.29.
+_HALF = passed(0.0, 0.5)
+MOST_CORRECTIONS = 64
+"""Each takes the force of the tyres from the motions that the one before has found; nearly all
+cases need fewer than 20.
+"""
+# Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
+# it has not settled.
+_MET, _SETTLED = 1e-12, 1e-9
+
+
+class Lasting(NamedTuple):
+    """The duration of a contact, the tyres that act in it, by vehicle, and the yaw rates after that
+    were given.
+    """
+
+    duration: Any
+    tyres: dict[str, Tyres]
+    yaw_rates: dict[str, Any]
+
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """Every number by its name."""
+        rates = {f"yaw_rate_{label}_after": rate for label, rate in self.yaw_rates.items()}
+        wheels = {f"tyres_{label}": tyres for label, tyres in self.tyres.items()}
+        return numbers_of_times({"duration": self.duration, **wheels}) | rates
+
+    def faults(self) -> Iterator[tuple[Any, Any]]:
+        """The faults of arrays, whose elements the reader does not check, with their status."""
+        for rate in self.yaw_rates.values():
+            yield ~np.isfinite(rate), Status.NOT_FINITE
+        yield from tyre_faults(self.duration, self.tyres)
+
+    def corrected(
+        self,
+        old: Mapping[str, tuple[Any, Any]],
+        new: Mapping[str, tuple[Any, Any]],
+        moving: Any,
+    ) -> tuple[dict[str, tuple[Any, Any]], Any, Any]:
+        """The newer impulses in the cases that still move; which of these move on, and which have
+        not settled.
+
+        A case that has settled stays, so that it comes out of a batch as alone.
+        """
+        size = sum(np.hypot(*push) for push in new.values())
+        change = sum(
+            np.hypot(*(now - was for now, was in zip(push, old[label], strict=True)))
+            for label, push in new.items()
+        )
+        found = {
+            label: (np.where(moving, x, old[label][0]), np.where(moving, y, old[label][1]))
+            for label, (x, y) in new.items()
+        }
+        return found, moving & (change > _MET * size), moving & (change > _SETTLED * size)
+
+    def impulses(
+        self,
+        masses: Mapping[str, Any],
+        headings: Mapping[str, Any],
+        velocities: Mapping[str, tuple[Any, Any]],
+        single: bool,
+    ) -> dict[str, tuple[Any, Any]]:
+        """Impulse of the tyres of each vehicle that has some, along x and y.
+
+        The force of the wheels before, half-way through and after the contact, by Simpson's rule.
+        Before it no vehicle turns. ``velocities`` are by the names of speeds.
+        """
+        found = {}
+        for label, tyres in self.tyres.items():
+            before, after = velocities[f"speed_{label}"], velocities[f"speed_{label}_after"]
+            changes = [now - was for was, now in zip(before, after, strict=True)]
+            numbers = [*before, 0.0, *changes, self.yaw_rates.get(label, 0.0)]
+            if single:
+                numbers = [float(number) for number in numbers]
+            x, y, _ = impulse_of(
+                tyres,
+                (masses[label], math.inf, headings[label]),
+                numbers[:3],
+                numbers[3:],
+                (_HALF, self.duration),
+                single=single,
+            )
+            found[label] = x, y
+        return found
+
+
+def read_tyres(
+    reader: ArgumentReader,
+    duration: Any,
+    tyres: tuple[Any, Any],
+    yaw_rates: tuple[Any, Any],
+    headings: tuple[Any, Any],
+) -> Lasting | None:
+    """Duration, tyres and yaw rates after, or None where the contact is taken as an instant."""
+    given = {label: rate for label, rate in zip("ab", yaw_rates, strict=True) if rate is not None}
+    found: dict[str, Any] = {"tyres_a": None, "tyres_b": None}
+    if duration is not None or tyres != (None, None):
+        found = read_lasting(reader, "momentum", None, None, duration, tyres, ", or leave it out")
+    own = {label: found[f"tyres_{label}"] for label in "ab" if found[f"tyres_{label}"] is not None}
+    for label, heading in zip("ab", headings, strict=True):
+        if label in own and heading is None:
+            text = (
+                f"heading_{label} is missing, and momentum with tyres_{label} needs it: wheels "
+                f"roll along it; write heading_{label}='30 deg'"
+            )
+            reader.refuse(
+                MissingInputError(text, code="missing_heading", argument=f"heading_{label}")
+            )
+    rates = {}
+    for label, rate in given.items():
+        name = f"yaw_rate_{label}_after"
+        rates[label] = reader.number(rate, "rad/s", name)
+        if tyres["ab".index(label)] is None:
+            text = (
+                f"{name} counts for the tyres of {label.upper()} alone, and there are none: give "
+                f"duration= and tyres_{label}=, or leave it out"
+            )
+            reader.refuse(InputError(text, code="bad_combination", argument=name))
+    return Lasting(found["duration"], own, rates) if own and "duration" in found else None
+
+
+class Neglect(NamedTuple):
+    """By how much tyres would change the speeds, or the speed and the course, that were found; the
+    largest change of a velocity as a share of its speed; and the sentence for it.
+    """
+
+    changes: dict[str, float]
+    share: float
+    sentence: str
+
+
+def neglected(
+    solution: MomentumSolution, duration: float, drag: float, say: Callable[[float, str], str]
+) -> Neglect | None:
+    """What an answer without tyres leaves out if all wheels slid: the change of both speeds found,
+    or of a speed and its course, in a batch in the median; None of an answer with tyres, and where
+    there is none.
+
+    ``say`` writes a number of a kind, "speed" or "angle".
+    """
+    if solution.tyres:
+        return None
+    push_x: Any = 0.0
+    push_y: Any = 0.0
+    with np.errstate(all="ignore"):
+        for label in "ab":
+            before, after = (_velocity(solution, f"speed_{label}{when}") for when in ("", "_after"))
+            mass = getattr(solution, f"mass_{label}")
+            x, y = sliding(mass, before, after, drag, duration)
+            push_x, push_y = push_x + x, push_y + y
+        moved = _whole if solution.unknowns[1].startswith("course") else _along
+        found = dict(moved(solution, push_x, push_y))
+        changes = {name: _middle(change) for name, (change, _) in found.items()}
+        shares = [_middle(share) for _, share in found.values()]
+    if not all(map(math.isfinite, (*changes.values(), *shares))):
+        return None
+    parts = [
+        f"{name} would be {say(abs(change), 'angle' if name.startswith('course') else 'speed')} "
+        f"{'more' if change > 0.0 else 'less'}"
+        for name, change in changes.items()
+    ]
+    sentence = (
+        f"found as an instant, which leaves out the tyres: if all wheels slid for {duration:.3g} s "
+        f"with a drag of {drag:.2g}, {' and '.join(parts)}; give duration= and tyres_a=, tyres_b="
+    )
+    return Neglect(changes, max(shares), sentence)
+
+
+def _along(
+    solution: MomentumSolution, push_x: Any, push_y: Any
+) -> Iterator[tuple[str, tuple[Any, Any]]]:
+    """By unknown speed along its course, its change, and that as a share of it."""
+    names = solution.unknowns
+    courses = [getattr(solution, name.replace("speed", "course")) for name in names]
+    for name, own, other in zip(names, courses, courses[::-1], strict=True):
+        across = push_x * np.sin(other) - push_y * np.cos(other)
+        change = -_taken(solution, name) * across / np.sin(other - own)
+        yield name, (change, abs(change / getattr(solution, name)))
+
+
+def _whole(
+    solution: MomentumSolution, push_x: Any, push_y: Any
+) -> Iterator[tuple[str, tuple[Any, Any]]]:
+    """Of a speed and its course the change, and for both that of the velocity as a share of it."""
+    name, course = solution.unknowns
+    speed, angle = getattr(solution, name), getattr(solution, course)
+    by = -_taken(solution, name)
+    along = by * (push_x * np.cos(angle) + push_y * np.sin(angle))
+    across = by * (push_y * np.cos(angle) - push_x * np.sin(angle))
+    share = np.hypot(along, across) / speed
+    yield name, (np.hypot(speed + along, across) - speed, share)
+    yield course, (np.arctan2(across, speed + along), share)
+
+
+def _taken(solution: MomentumSolution, name: str) -> Any:
+    """What an impulse from outside takes from a velocity that is sought, by unit of it."""
+    mass = getattr(solution, f"mass_{name[6]}")
+    if name == "speed_a_after" and left_as_one(solution):
+        mass = solution.mass_a + solution.mass_b
+    return (-1.0 if name.endswith("after") else 1.0) / mass
+
+
+def left_as_one(solution: MomentumSolution) -> bool:
+    """Whether both vehicles have one velocity after, in every case of a batch."""
+    pairs = (
+        (getattr(solution, f"{what}_a_after"), getattr(solution, f"{what}_b_after"))
+        for what in ("speed", "course")
+    )
+    return all(
+        one is other if one is None or other is None else np.array_equal(one, other, equal_nan=True)
+        for one, other in pairs
+    )
+
+
+def _velocity(solution: MomentumSolution, name: str) -> tuple[Any, Any]:
+    """Along x and y; a vehicle at rest has no course."""
+    speed, course = getattr(solution, name), getattr(solution, name.replace("speed", "course"))
+    if course is None:
+        return 0.0 * speed, 0.0 * speed
+    return speed * np.cos(course), speed * np.sin(course)
+
+
+def _middle(values: Any) -> float:
+    known = np.asarray(values, dtype=np.float64)
+    known = known[np.isfinite(known)]
+    return float(np.median(known)) if known.size else math.nan
+
+
+def sliding(
+    mass: Any, before: tuple[Any, Any], after: tuple[Any, Any], drag: Any, duration: Any
+) -> tuple[Any, Any]:
+    """Impulse of tyres that slide against the motion of a vehicle all the while, as ``left_out``
+    takes them where none were given: Simpson's rule over before, half-way and after.
+    """
+    x: Any = 0.0
+    y: Any = 0.0
+    for weight, share in ((1.0, 0.0), (4.0, _HALF), (1.0, 1.0)):
+        vx, vy = (was + share * (now - was) for was, now in zip(before, after, strict=True))
+        speed = np.hypot(vx, vy)
+        speed = np.where(speed > 0.0, speed, 1.0)
+        x, y = x - weight / 6.0 * vx / speed, y - weight / 6.0 * vy / speed
+    most = mass * drag * GRAVITY * duration
+    return most * x, most * y

@@ -1,0 +1,198 @@
+"""``answer``: what a report says first: the figures that were asked for with their range, what they
+rest on, and the findings that matter.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from operator import attrgetter
+from typing import Any, NamedTuple
+
+from ..derivation.explain import kinds_of_answers, words_of_answers
+from ..diagnostics.finding import Finding, is_note
+from ..impact.impact import Impact
+from ..impact.provenance import KNOWN, how_many
+from ..quantities.formatting import KIND_OF, Numbers
+from ..quantities.tables import as_sentence, label_of
+from ..reconstruct import Fit, MomentumSolution, Posterior
+from ..uncertainty import Output, Propagation
+from ..uncertainty.result import figures
+from .render import Sheet, plain
+from .sections import found_inputs
+from .uncertainty import Spread
+from .words import Names, listed
+
+_NO_RANGE = (
+    "give uncertainty= what uncertainty.propagate makes of the errors of the inputs, and each "
+    "figure has its range here."
+)
+_BOTH = {
+    "ees_a": "the EES of both vehicles (ISO 12353)",
+    "max_crush_speed_a": "the speeds of maximum crush of both vehicles",
+}
+# Given for both vehicles at once, under the name of the one of A.
+_WITH_A = ("ees_b", "max_crush_speed_b")
+
+
+class Figure(NamedTuple):
+    """One figure of an answer: what it is, its text, and whether that is a range."""
+
+    what: str
+    text: str
+    ranged: bool
+
+
+def answer(
+    sheet: Sheet,
+    result: Impact | MomentumSolution | Fit | Posterior,
+    spread: Spread,
+    uncertainty: Propagation | None,
+    found: Sequence[Finding] | None,
+    alone: bool,
+) -> None:
+    """Write the figures, what they rest on and the findings, into the box that is open."""
+    names = spread.names
+    shown = list(_figures(sheet, result, spread, uncertainty))
+    sheet.figures_of_answer([(figure.what, figure.text) for figure in shown])
+    sheet.say(_rests_on(result, names))
+    bare = [figure for figure in shown if not figure.ranged]
+    if bare and len(bare) == len(shown):
+        sheet.say(f"No range is stated for these figures{f': {_NO_RANGE}' if alone else '.'}")
+    elif bare:
+        sheet.say("No range is stated for the figures above that have only one number.")
+    lines = [
+        (f"{label_of(finding.code)}:", as_sentence(names(plain(finding.sentence))))
+        for finding in found or ()
+        if not is_note(finding)
+    ]
+    origin = result.reconstruction if isinstance(result, Impact) else None
+    if origin is not None and origin.answers > 1:
+        lines.insert(
+            0, ("", f"Not the only answer: {how_many(origin.answers)} fit what was known.")
+        )
+    if lines:
+        sheet.items(lines)
+
+
+def _figures(
+    sheet: Sheet, result: Any, spread: Spread, uncertainty: Propagation | None
+) -> Iterator[Figure]:
+    system = sheet.system
+    if isinstance(result, Fit):
+        for name in result.names:
+            yield Figure(plain(name), _estimate(system, result[name]), True)
+        return
+    outputs: dict[str, Output] = {}
+    if isinstance(result, Posterior):
+        outputs = dict(result.unknowns)
+    elif uncertainty is not None:
+        outputs = dict(uncertainty.outputs)
+    for output in outputs.values():
+        text, ranged = ranged_text(system, output, spread.kind_of(output))
+        own = spread.kind_of(output) is not None
+        heading = spread.heading(output)
+        yield Figure(_begun(heading) if own else heading, text, ranged)
+    if isinstance(result, Posterior):
+        return
+    words, kinds = words_of_answers(result), kinds_of_answers(result)
+    for name in _asked(result):
+        value = attrgetter(name)(result)
+        if name not in spread.outputs and value is not None and math.isfinite(value):
+            text = system.answer(float(value), kinds[name])
+            yield Figure(_begun(spread.names(words[name])), text, False)
+
+
+def _begun(text: str) -> str:
+    """Words as they begin a line."""
+    return text[:1].upper() + text[1:]
+
+
+def _asked(result: Impact | MomentumSolution) -> Iterator[str]:
+    """The results that a reader looks for, by name: those that the solver found, and the
+    delta-V.
+    """
+    if isinstance(result, MomentumSolution):
+        yield from (*result.unknowns, "delta_v_a", "delta_v_b")
+        return
+    origin = result.reconstruction
+    known = () if origin is None else origin.known
+    sides = [
+        label
+        for label, side in (("a", result.a), ("b", result.b))
+        if math.isfinite(side.before.mass)
+    ]
+    if origin is not None:
+        for label in sides:
+            if not {f"speed_{label}", f"v{label}"} & set(known):
+                yield f"{label}.before.speed"
+    if "restitution" in found_inputs(result):
+        yield "restitution"
+    for label in sides:
+        if f"delta_v_{label}" not in known:
+            yield f"{label}.delta_v"
+    if origin is None:
+        yield from (f"{label}.after.speed" for label in sides)
+    if "energy_loss" not in known:
+        yield "energy_loss"
+
+
+def ranged_text(system: Numbers, output: Output, kind: str | None) -> tuple[str, bool]:
+    """The range of an output, to two figures of its half-width; what there is where it has none."""
+    kind = kind or KIND_OF.get(output.unit or "", system.unlisted)
+    low, high = output.interval()
+    rows = figures(output, system, kind)
+    if kind is None or not math.isfinite(low + high) or rows[-1][0].startswith(("the same", "in ")):
+        return plain(rows[-1][1]), kind is None
+    means = "every value of the stated intervals" if output.bounds_only else "95 %"
+    return f"{system.span(low, high, kind, 0.5 * (high - low))} ({means})", True
+
+
+def _estimate(system: Numbers, one: Any) -> str:
+    """The 95 percent interval of an unknown of a fit."""
+    if not one.determined:
+        return "not determined"
+    low, high = one.interval(0.95)
+    kind = KIND_OF.get(one.unit, "number")
+    unit = "" if one.unit in KIND_OF else f" {one.unit}"
+    return f"{system.span(low, high, kind, 0.5 * (high - low))}{unit} (95 %)"
+
+
+def _rests_on(result: Any, names: Names) -> str:
+    """What an answer rests on, in one sentence."""
+    if isinstance(result, Fit):
+        count = len(result.residuals)
+        return (
+            f"The values that fit {count} observations and prior values best, each weighed by its "
+            "stated error."
+        )
+    if isinstance(result, Posterior):
+        return (
+            f"What {len(result.observed)} observations leave of the ranges that were stated "
+            "before them."
+        )
+    if isinstance(result, MomentumSolution):
+        outside = "" if result.outside_impulse_x is None else " and the stated impulse from outside"
+        return (
+            "Worked back by the momentum of both vehicles, from their masses, courses and the "
+            f"speeds that were known{outside}; nothing is assumed of restitution or friction."
+        )
+    origin, model = result.reconstruction, result.model.replace("_", "-")
+    if origin is None:
+        return (
+            f"Worked out forwards by momentum and restitution ({model} impact), from the "
+            "velocities before, the masses and the contact that were given."
+        )
+    known = [_known(name, names) for name in origin.known if name not in _WITH_A]
+    return (
+        f"Worked back by momentum and restitution ({model} impact), from {listed(known)}, with "
+        "the masses and the contact that were given."
+    )
+
+
+def _known(name: str, names: Names) -> str:
+    if name in _BOTH:
+        return _BOTH[name]
+    if name in KNOWN:
+        return f"the {names(KNOWN[name].what)}"
+    return f"the {name.replace('_', ' ')}"

@@ -1,0 +1,181 @@
+"""Checks the arguments of a report: one error names every option that cannot be used."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, NamedTuple, TypeAlias, get_args
+
+from ..derivation.evidence import momentum_inputs
+from ..derivation.explain import NOT_EXPLAINED, impact_inputs, no_uncertainty
+from ..impact.impact import Impact
+from ..kernels.elementwise import UNIT_INTERVAL
+from ..messages.errors import InputError
+from ..quantities.reading import ArgumentReader, need_one_case, single_number
+from ..quantities.units import shown
+from ..reconstruct import Fit, MomentumSolution, Posterior
+from ..uncertainty import Propagation
+from ..vehicle.outlines import read_outline
+from . import sections
+from .render import plain
+from .sections import EVIDENCE
+
+Form: TypeAlias = Literal["html", "markdown"]
+# What a page is filed under.
+FILED = ("case", "author", "date")
+_RESULTS = (Impact, MomentumSolution, Fit, Posterior)
+# Options of one impact.
+_OF_ONE = ("outline_a", "outline_b", "share_a", *EVIDENCE)
+# Options that do not apply to these results.
+_OTHER_PARTS: dict[type, tuple[str, ...]] = {
+    MomentumSolution: ("outline_a", "outline_b", "share_a"),
+    Fit: ("outline_a", "outline_b", "share_a", "duration", "drag", "limits", *EVIDENCE),
+}
+_OTHER_PARTS[Posterior] = (*_OTHER_PARTS[Fit], "derivation")
+
+
+class Checked(NamedTuple):
+    """The notes, as paragraphs and by input, and the outlines by vehicle."""
+
+    paragraphs: list[str]
+    by_input: dict[str, str]
+    outlines: dict[str, Any]
+
+
+def results_of(impact: Any, uncertainty: Any) -> list[tuple[Any, Any]]:
+    """Each result of a report with its propagation, if any."""
+    if not isinstance(impact, list):
+        need_one_case(impact, _RESULTS, "report", instead=NOT_EXPLAINED)
+        return [(impact, uncertainty)]
+    if not impact:
+        raise InputError(
+            "impact is an empty list; give the results that the page is about",
+            code="not_an_impact",
+            argument="impact",
+        )
+    for one in impact:
+        need_one_case(one, _RESULTS, "report", instead=NOT_EXPLAINED)
+    if uncertainty is None:
+        return [(one, None) for one in impact]
+    if not isinstance(uncertainty, list) or len(uncertainty) != len(impact):
+        raise InputError(
+            f"uncertainty must be a list of {len(impact)} for as many results, each what "
+            "uncertainty.propagate returned or None, got "
+            + (
+                f"a list of {len(uncertainty)}"
+                if isinstance(uncertainty, list)
+                else type(uncertainty).__name__
+            ),
+            code="bad_option",
+            argument="uncertainty",
+        )
+    return list(zip(impact, uncertainty, strict=True))
+
+
+def checked(
+    results: Sequence[tuple[Any, Any]], options: Mapping[str, Any], unusual: Sequence[str]
+) -> Checked:
+    """What the options say; one error names every one that cannot be used."""
+    reader = ArgumentReader()
+
+    def refuse(argument: str, text: str, code: str = "bad_option") -> None:
+        reader.refuse(InputError(text, code=code, argument=argument))
+
+    form, notes, share_a = (options[name] for name in ("form", "notes", "share_a"))
+    if not isinstance(form, str) or form not in get_args(Form):
+        refuse(
+            "form", f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}"
+        )
+    parts = (
+        notes
+        if isinstance(notes, (list, tuple))
+        else [notes]
+        if isinstance(notes, (str, Mapping))
+        else []
+    )
+    paragraphs = [part for part in parts if not isinstance(part, Mapping)]
+    beside = {
+        name: text for part in parts if isinstance(part, Mapping) for name, text in part.items()
+    }
+    several = len(results) > 1
+    impact = results[0][0]
+    # For an impulse, duration and drag are not inputs but options of the page, as the outlines are.
+    own = ["duration", "drag"] if isinstance(impact, Impact) and impact.pulse is None else []
+    own += (name for name in ("outline_a", "outline_b") if options[name] is not None)
+    known = list(dict.fromkeys([*inputs_of(impact), *own]))
+    for name in [name for name in beside if name not in known or several]:
+        instead = (
+            "a page of several results has notes that are texts alone"
+            if several
+            else f"they are {', '.join(known)}"
+        )
+        refuse("notes", f"notes has {shown(name)}, which is no input of this page; {instead}")
+    texts = [(name, options[name]) for name in ("title", *FILED) if options[name] is not None]
+    for name, text in [*texts, *(("notes", text) for text in (*paragraphs, *beside.values()))]:
+        if not isinstance(text, str) or not plain(text):
+            refuse(
+                name, f"{name} must be a text that says something, got {shown(text)}", "not_a_text"
+            )
+    if notes is not None and not isinstance(notes, (str, list, tuple, Mapping)):
+        refuse(
+            "notes",
+            "notes must be a text, a list of texts, or a dict of them by input, got "
+            f"{type(notes).__name__}",
+            "not_a_text",
+        )
+    for name in ("figures", "derivation"):
+        if not isinstance(options[name], bool):
+            refuse(name, f"{name} must be True or False, got {shown(options[name])}")
+    for one, uncertainty in results:
+        if uncertainty is not None and not isinstance(uncertainty, Propagation):
+            refuse(
+                "uncertainty",
+                "uncertainty must be what uncertainty.propagate returned, got "
+                f"{type(uncertainty).__name__}; standard deviations by name go to explain(impact, "
+                "uncertainty=...)",
+            )
+        if isinstance(one, (Fit, Posterior)) and isinstance(uncertainty, Propagation):
+            reader.refuse(no_uncertainty(type(one).__name__))
+    kinds = [type(one) for one, _ in results]
+    for name in unusual:
+        if all(name in _OTHER_PARTS.get(kind, ()) for kind in kinds):
+            refuse(
+                name,
+                f"{name} is for an Impact, and a {kinds[0].__name__} has no part for it; leave it "
+                "out, or report the impact itself",
+            )
+        elif several and name in _OF_ONE:
+            refuse(
+                name,
+                f"{name} is of one impact, and this page has {len(results)} results; leave it "
+                "out, or report that impact alone",
+            )
+    outlines = {
+        label: read_outline(reader, options[f"outline_{label}"], f"outline_{label}")
+        for label in "ab"
+        if options[f"outline_{label}"] is not None
+    }
+    if share_a is not None:
+        share = reader.number(share_a, "", "share_a", UNIT_INTERVAL)
+        single_number(reader, share, "share_a", "takes one value: a report is of one case")
+    reader.close()
+    return Checked(
+        [plain(paragraph) for paragraph in paragraphs],
+        {name: plain(text) for name, text in beside.items()},
+        outlines,
+    )
+
+
+def inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
+    """The inputs that a note can stand beside, by name."""
+    if isinstance(impact, Impact):
+        found = [sections.key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
+        for label, vehicle in (("a", impact.a.before), ("b", impact.b.before)):
+            found += [f"{label}.{name}" for name, _ in sections.speed_rows(vehicle)]
+        found += (
+            []
+            if impact.law is None or impact.model in ("linear_central", "time_resolved")
+            else ["law"]
+        )
+        return [*found, *(impact.inputs.given or {}).keys() - set(found)]
+    rows = momentum_inputs(impact) if isinstance(impact, MomentumSolution) else ()
+    return [name.partition("[")[0] for _, _, name, _, _ in rows]

@@ -1,0 +1,138 @@
+"""What would move an answer: each change is that of a second call with the input moved, the table
+has the largest first, and it stands in the diagnosis, its dict and the report.
+"""
+
+import json
+import math
+
+import pytest
+
+import collisions as col
+from collisions.diagnostics import Move, diagnose
+from collisions.travel import Tyres
+
+A = col.Vehicle(mass=1437.0, yaw_inertia=2311.0, vx=14.0, vy=3.0, x=-2.0, y=0.4, heading=0.1)
+B = col.Vehicle(mass=1213.0, yaw_inertia=1877.0, vy=6.0, x=1.0, y=-0.3, heading=1.3)
+CONTACT = {"normal": 0.2, "point": (0.1, 0.05), "friction": 0.3}
+
+
+def impact(restitution=0.15, a=A, b=B, **changes):
+    return col.eccentric(a, b, restitution, **(CONTACT | changes))
+
+
+def by_name(answer, **options):
+    return {move.name: move for move in diagnose(answer, **options).moves}
+
+
+def larger(answer, others):
+    """The larger change of each number, and the larger share, from whole answers."""
+    found = {}
+    for label in "ab":
+        old = getattr(answer, label)
+        news = [getattr(other, label) for other in others]
+        found[f"delta_v_{label}"] = max(
+            math.hypot(new.after.vx - old.after.vx, new.after.vy - old.after.vy) for new in news
+        )
+        found[f"yaw_rate_{label}"] = max(
+            abs(new.after.yaw_rate - old.after.yaw_rate) for new in news
+        )
+    found["share"] = max(
+        found["delta_v_a"] / answer.a.delta_v, found["delta_v_b"] / answer.b.delta_v
+    )
+    return found
+
+
+@pytest.mark.parametrize(
+    ("name", "ways"),
+    [
+        (
+            "point",
+            [
+                {"point": (0.1 + by * math.sin(0.2), 0.05 - by * math.cos(0.2))}
+                for by in (0.25, -0.25)
+            ],
+        ),
+        ("normal", [{"normal": 0.2 + math.radians(by)} for by in (5.0, -5.0)]),
+        ("restitution", [{"restitution": 0.25}, {"restitution": 0.05}]),
+        ("friction", [{"friction": 0.5}, {"friction": 0.1}]),
+    ],
+)
+def test_a_move_is_the_difference_of_two_calls(name, ways):
+    answer = impact()
+    move = by_name(answer)[name]
+    expected = larger(answer, [impact(**way) for way in ways])
+    for number, value in expected.items():
+        assert getattr(move, number) == pytest.approx(value, rel=1e-9), number
+
+
+def test_what_an_impulse_leaves_out_is_what_left_out_says():
+    answer = impact()
+    moves = by_name(answer, duration=0.08, drag=0.5)
+    left = col.left_out(answer, duration=0.08, drag=0.5)
+    for name, inner in (("geometry", "geometry"), ("tyres", "tyre")):
+        assert moves[name].delta_v_a == getattr(left.a, f"{inner}_delta_v")
+        assert moves[name].share == max(
+            getattr(left.a, f"{inner}_share"), getattr(left.b, f"{inner}_share")
+        )
+        assert moves[name].yaw_rate_a is None
+    assert "0.08 s with a drag of 0.5" in moves["tyres"].what
+
+
+def test_the_largest_is_first():
+    shares = [move.share for move in diagnose(impact()).moves]
+    assert len(shares) == 6
+    assert shares == sorted(shares, reverse=True)
+
+
+def test_each_model_has_what_it_can_be_moved_by():
+    line = col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.95)
+    assert set(by_name(line)) == {"restitution", "tyres"}
+    assert by_name(line)["restitution"].share == pytest.approx(0.1 / 1.95)
+    oblique = col.oblique_central(A.replace(yaw_rate=0.0), B, 0.1, normal=0.0, impulse_ratio=0.2)
+    assert set(by_name(oblique)) == {"normal", "restitution", "impulse_ratio", "tyres"}
+    tyres = Tyres(0.7, 0.2, 2.7, 1.5)
+    assert "tyres" not in by_name(impact(duration=0.1, tyres_a=tyres))
+    stuck = by_name(impact(friction=math.inf))["friction"]
+    assert stuck.what == "friction 0.55, the usual one, instead of sticking"
+    timed = col.time_resolved(A, B, 0.15, **CONTACT, duration=0.1)
+    assert set(by_name(timed)) == {"point", "normal", "restitution", "friction"}
+
+
+def test_where_there_is_no_answer_it_says_so():
+    """Turned by five degrees the bodies part."""
+    answer = col.oblique_central(
+        col.Vehicle(mass=1500.0, vx=1.0, vy=20.0), col.Vehicle(mass=1200.0), 0.1,
+        normal=0.0, friction=0.0,
+    )  # fmt: skip
+    found = diagnose(answer)
+    move = found.moves[0]
+    assert (move.name, move.share) == ("normal", math.inf)
+    assert math.isnan(move.delta_v_a)
+    assert math.isnan(move.delta_v_b)
+    (finding,) = [one for one in found if one.code == "moves"]
+    assert finding.measured == math.inf
+    assert "there is no answer then" in col.report(answer, form="markdown", figures=False)
+    json.dumps(found.to_dict(), allow_nan=False)
+
+
+def test_it_is_shown_and_recorded():
+    answer = impact()
+    found = diagnose(answer, units="si")
+    texts = str(found), found._repr_html_(), str(found.moves), repr(found.moves)
+    for text in (*texts, col.report(answer, form="markdown", units="si", figures=False)):
+        for move in found.moves:
+            assert move.what.partition(" (")[0] in text
+    first = found.moves[0]
+    assert isinstance(first, Move)
+    assert found.to_dict()["moves"][0]["share"] == first.share
+    assert found.to_dict()["measured"] == sorted(found.measured)
+    assert first.q.delta_v_a.m_as("m/s") == first.delta_v_a
+    assert found.moves.summary("us").parts[0].rows
+
+
+def test_momentum_has_none():
+    answer = col.reconstruct.momentum(
+        1500, 1200, course_a=0.0, course_b=1.5, course_a_after=0.5, course_b_after=1.0,
+        speed_a_after=8.0, speed_b_after=9.0,
+    )  # fmt: skip
+    assert diagnose(answer).moves == ()

@@ -1,0 +1,302 @@
+"""``planar`` with tyres: the forward solver is found again to rounding, in single cases, batches
+and studies, and everything that prints or records an input has the tyres.
+"""
+
+import json
+import math
+import random
+import warnings
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions import reconstruct
+from collisions.derivation import explain
+from collisions.reporting import replay
+from collisions.travel import Tyres
+from collisions.uncertainty import Normal, propagate
+
+MOTION = ("vx", "vy", "yaw_rate")
+A = col.Vehicle(mass=1437.0, yaw_inertia=2311.0, vx=14.0, vy=1.0, x=-2.0, y=0.4, heading=0.1)
+B = col.Vehicle(mass=1213.0, yaw_inertia=1877.0, vy=6.0, yaw_rate=0.3, x=2.0, y=0.0, heading=1.3)
+CONTACT = {"normal": 0.0713, "point": (0.0531, 0.0917), "friction": 0.0837}
+WHEELS = {
+    "duration": 0.1013,
+    "tyres_a": Tyres(0.6713, (0.1719, 0.2317, 0.3137, 0.4179), 2.7139, 1.5317, steer=0.0917),
+    "tyres_b": Tyres(0.5713, 1.0, 2.6319, 1.4731, height=0.5179),
+}
+
+
+def drawn(rng):
+    """Two cars, their contact and their tyres; it may be that they part."""
+    cars = [
+        col.Vehicle(
+            mass=rng.uniform(800.0, 2500.0),
+            yaw_inertia=rng.uniform(1500.0, 4000.0),
+            vx=rng.uniform(0.0, 20.0) * side,
+            vy=rng.uniform(-15.0, 15.0),
+            yaw_rate=rng.choice((0.0, rng.uniform(-2.0, 2.0))),
+            x=-2.0 * side,
+            y=rng.uniform(-1.0, 1.0),
+            heading=rng.uniform(-math.pi, math.pi),
+        )
+        for side in (1.0, -1.0)
+    ]
+    tyres = [
+        Tyres(
+            rng.uniform(0.3, 0.9),
+            [rng.choice((0.0, 0.3, 1.0)) for _ in range(4)],
+            2.7,
+            1.5,
+            height=rng.choice((None, 0.5)),
+        )
+        for _ in range(2)
+    ]
+    rule = rng.choice(
+        (
+            {"friction": rng.uniform(0.05, 0.8)},
+            {"impulse_ratio": rng.uniform(-0.3, 0.3)},
+            {"critical_fraction": rng.choice((0.0, rng.uniform(0.2, 0.9)))},
+        )
+    )
+    contact = {
+        "normal": rng.uniform(-0.3, 0.3),
+        "point": (rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3)),
+        "law": rng.choice(("brach", "kudlich-slibar")),
+        "duration": rng.uniform(0.03, 0.15),
+        "tyres_a": tyres[0],
+        "tyres_b": rng.choice((tyres[1], None)),
+        **rule,
+    }
+    return cars, rng.choice((0.0, rng.uniform(0.05, 0.5))), contact
+
+
+def ends_so(found, impact):
+    """The largest difference of a motion after."""
+    return max(
+        abs(getattr(one.after, name) - getattr(other.after, name))
+        for one, other in ((found.a, impact.a), (found.b, impact.b))
+        for name in MOTION
+    )
+
+
+def begins_so(found, impact):
+    return max(
+        abs(getattr(one.before, name) - getattr(other.before, name))
+        for one, other in ((found.a, impact.a), (found.b, impact.b))
+        for name in MOTION
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["restitution", "closing_speed", "energy_loss"])
+def test_the_forward_answer_is_found_again(kind):
+    """Every answer leads to the motions it was made from, and all but a few are the motions that
+    they came from: two origins are refused, and solutions have the one.
+    """
+    rng = random.Random(3901)
+    answers, same, several, lost, refused = 0, 0, 0, 0, 0
+    codes = set()
+    while answers < 60:
+        (a, b), e, contact = drawn(rng)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.CollisionsWarning)
+            try:
+                impact = col.eccentric(a, b, e, **contact)
+            except (col.NoImpactError, col.NoSolutionError):
+                continue
+            known = e if kind == "restitution" else getattr(impact, kind)
+            if impact.normal_impulse < 500.0 or (kind == "energy_loss" and known < 0.0):
+                continue
+            try:
+                found = reconstruct.planar(
+                    impact.a.after, impact.b.after, **{kind: known}, **contact
+                )
+            except col.AmbiguousSolutionError as error:
+                several += 1
+                lost += min(begins_so(one, impact) for one in error.solutions) > 1e-6
+                continue
+            except col.NoSolutionError as error:
+                # What the impact has erased, and not whether it was found.
+                refused += error.code not in ("stick_inverse", "inverse_e0")
+                continue
+            except col.InputError as error:
+                codes.add(error.code)
+                continue
+        answers += 1
+        same += begins_so(found, impact) < 1e-6
+        assert ends_so(found, impact) < 1e-9
+        assert found.inputs.duration == contact["duration"]
+        if kind != "restitution":
+            assert getattr(found, kind) == pytest.approx(known, rel=1e-9)
+        else:
+            assert found.restitution == known
+    assert same >= answers - 1
+    assert several > 0
+    assert codes <= {"bad_combination"}
+    assert lost <= 2
+    assert refused <= 2
+
+
+def known_ends(**changes):
+    return col.eccentric(A, B, 0.1531, **(CONTACT | WHEELS | changes))
+
+
+def test_one_scene_is_found_again_and_differs_from_the_instant():
+    end = known_ends()
+    found = reconstruct.planar(end.a.after, end.b.after, restitution=0.1531, **CONTACT, **WHEELS)
+    assert begins_so(found, end) < 1e-9
+    assert found.a.tyre_impulse_x == pytest.approx(end.a.tyre_impulse_x, rel=1e-9)
+    instant = reconstruct.planar(end.a.after, end.b.after, restitution=0.1531, **CONTACT)
+    assert begins_so(instant, end) > 0.2
+    assert found.reconstruction.method == "planar"
+    assert found.reconstruction.answers == 1
+
+
+@pytest.mark.parametrize("kind", ["closing_speed", "energy_loss"])
+def test_a_plastic_contact_is_found_with_a_restitution_of_0(kind):
+    end = col.eccentric(A, B, 0.0, **CONTACT, **WHEELS)
+    found = reconstruct.planar(
+        end.a.after, end.b.after, **{kind: getattr(end, kind)}, **CONTACT, **WHEELS
+    )
+    assert begins_so(found, end) < 1e-8
+    assert 0.0 <= found.restitution < 1e-9
+
+
+def test_a_barrier_and_a_pinned_body():
+    wall = col.Vehicle.barrier()
+    contact = {"normal": 0.2, "point": (0.0, 0.0), "friction": 0.2}
+    wheels = {"duration": 0.1, "tyres_a": WHEELS["tyres_a"]}
+    end = col.eccentric(A, wall, 0.2, **contact, **wheels)
+    found = reconstruct.planar(end.a.after, end.b.after, restitution=0.2, **contact, **wheels)
+    assert begins_so(found, end) < 1e-9
+    pinned = col.Vehicle(
+        mass=1200.0, yaw_inertia=1900.0, x=2.0, y=0.0, heading=1.3, pivot=(2.0, 1.2)
+    )
+    contact = {"normal": 0.0713, "point": (0.0531, 0.0917), "impulse_ratio": 0.05}
+    end = col.eccentric(A, pinned, 0.2, **contact, **wheels)
+    found = reconstruct.planar(end.a.after, end.b.after, restitution=0.2, **contact, **wheels)
+    assert begins_so(found, end) < 1e-9
+
+
+def test_a_batch_has_the_answers_of_its_cases():
+    durations = np.array([0.05, 0.1, 0.14])
+    tyres = Tyres(np.array([0.4, 0.6, 0.8]), 1.0, 2.7, 1.5)
+    end = known_ends(duration=durations, tyres_b=tyres)
+    known = {"restitution": 0.1531, **CONTACT}
+    many = reconstruct.planar(
+        end.a.after,
+        end.b.after,
+        **known,
+        duration=durations,
+        tyres_a=WHEELS["tyres_a"],
+        tyres_b=tyres,
+    )
+    assert np.max(abs(many.a.before.vx - 14.0)) < 1e-9
+    for i in range(3):
+        one = reconstruct.planar(
+            end.case(i).a.after,
+            end.case(i).b.after,
+            **known,
+            duration=durations[i],
+            tyres_a=WHEELS["tyres_a"],
+            tyres_b=tyres.replace(friction=float(tyres.friction[i])),
+        )
+        assert many.a.before.vx[i] == pytest.approx(one.a.before.vx, rel=1e-12)
+        assert many.b.before.yaw_rate[i] == pytest.approx(one.b.before.yaw_rate, rel=1e-9)
+
+
+def test_a_batch_refuses_what_cannot_be():
+    end = known_ends()
+    with pytest.warns(col.CollisionsWarning, match="1 not_positive, 1 bad_friction"):
+        many = reconstruct.planar(
+            end.a.after,
+            end.b.after,
+            restitution=0.1531,
+            **CONTACT,
+            duration=np.array([0.1, -0.1, 0.1]),
+            tyres_a=Tyres(np.array([0.7, 0.7, -0.7]), 1.0, 2.7, 1.5),
+        )
+    assert np.isnan(many.a.before.vx).tolist() == [False, True, True]
+
+
+def test_distributions_go_through():
+    end = known_ends()
+
+    def model(duration, friction):
+        found = reconstruct.planar(
+            end.a.after,
+            end.b.after,
+            restitution=0.1531,
+            **CONTACT,
+            duration=duration,
+            tyres_a=WHEELS["tyres_a"],
+            tyres_b=Tyres(friction, 1.0, 2.6319, 1.4731, height=0.5179),
+            on_failure="nan",
+        )
+        return {"speed": found.a.before.speed}
+
+    inputs = {"duration": Normal(0.1013, 0.01), "friction": Normal(0.5713, 0.05)}
+    study = propagate(model, inputs, samples=128, seed=3)
+    low, high = study["speed"].interval()
+    assert low < A.speed < high
+    assert high - low < 0.2 * A.speed
+
+
+def test_it_is_explained_reported_and_recorded():
+    end = known_ends()
+    wheels = WHEELS | {"duration": "101.3 ms"}
+    found = reconstruct.planar(
+        end.a.after, end.b.after, closing_speed=end.closing_speed, **CONTACT, **wheels
+    )
+    numbers = ["0.1013", *(f"{value:.6g}" for value in WHEELS["tyres_a"].named.values())]
+    page = col.report(found, form="markdown", units="si", figures=False)
+    for text in (explain(found, units="si", form="text"), page.partition("## Record")[0]):
+        assert [number for number in numbers if number not in text] == []
+    assert "given as 101.3 ms" in page
+    assert replay(page) == found
+    assert col.report(replay(page), form="markdown", units="si", figures=False) == page
+    record = json.loads(json.dumps(found.to_dict()))
+    assert col.Impact.from_dict(record) == found
+
+
+@pytest.mark.slow
+def test_what_decides_is_said_for_the_lasting_contact():
+    """A slow slip: sliding either way or not at all ends so, and each of the solutions leads to
+    this end while the tyres act.
+    """
+    rng, met = random.Random(7), []
+    while len(met) < 3:
+        (a, b), e, contact = drawn(rng)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.CollisionsWarning)
+            try:
+                end = col.eccentric(a, b, e, **contact)
+                reconstruct.planar(end.a.after, end.b.after, restitution=e, **contact)
+            except col.AmbiguousSolutionError as error:
+                met.append((end, error.solutions))
+            except (col.NoImpactError, col.NoSolutionError):
+                continue
+    for end, solutions in met:
+        assert len(solutions) > 1
+        assert max(ends_so(one, end) for one in solutions) < 1e-9
+        assert {one.reconstruction.answers for one in solutions} == {len(solutions)}
+
+
+@pytest.mark.parametrize(
+    ("changes", "code", "argument"),
+    [
+        ({"tyres_a": None, "tyres_b": None}, "bad_combination", "duration"),
+        ({"duration": None}, "one_stiffness", "duration"),
+        ({"tyres_b": "locked"}, "not_tyres", "tyres_b"),
+    ],
+)
+def test_what_cannot_be_used_is_refused(changes, code, argument):
+    end = known_ends()
+    with pytest.raises(col.InputError) as refused:
+        reconstruct.planar(
+            end.a.after, end.b.after, restitution=0.1531, **CONTACT, **(WHEELS | changes)
+        )
+    assert refused.value.code == code
+    assert refused.value.fields["argument"] == argument

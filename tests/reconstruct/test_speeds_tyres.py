@@ -1,0 +1,287 @@
+"""Speeds of an instant refined for tyres that act: forward answers are found again from every pair
+of what may be known.
+"""
+
+import math
+import random
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions import reconstruct
+from collisions.derivation import explain
+from collisions.reconstruct.speeds_tyres import speeds_with_tyres
+from collisions.reporting import replay
+from collisions.travel import Tyres
+
+COMPONENTS = ("delta_v_forward_a", "delta_v_left_a", "delta_v_forward_b", "delta_v_left_b")
+PAIRS = [
+    ("speed_b", "delta_v_a"),
+    ("speed_a", "energy_loss"),
+    ("delta_v_b", "energy_loss"),
+    ("speed_b", "ees_a"),
+    ("speed_a", "max_crush_speed_a"),
+    COMPONENTS[:2],
+    COMPONENTS,
+]
+
+
+def drawn(rng, stuck):
+    """Two cars that meet at an angle, their contact and their wheels."""
+    courses = rng.uniform(-0.3, 0.3), rng.uniform(1.1, 2.0)
+    a, b = (
+        col.Vehicle.from_speed(
+            mass=rng.uniform(900.0, 2200.0),
+            yaw_inertia=rng.uniform(1500.0, 3500.0),
+            speed=rng.uniform(8.0, 22.0),
+            course=course,
+            heading=course + rng.uniform(-0.05, 0.05),
+            x=x,
+            y=y,
+        )
+        for course, x, y in zip(
+            courses, (-2.0, 0.9), (rng.uniform(-0.5, 0.5), rng.uniform(-1.0, 1.0)), strict=True
+        )
+    )
+    wheels = {
+        "duration": rng.uniform(0.05, 0.15),
+        "tyres_a": Tyres(rng.uniform(0.4, 0.9), rng.choice((0.0, 0.4, 1.0)), 2.7, 1.5),
+        "tyres_b": Tyres(rng.uniform(0.4, 0.9), rng.choice((0.0, 0.4, 1.0)), 2.7, 1.5),
+    }
+    contact = {
+        "normal": rng.uniform(-0.2, 0.2),
+        "point": (0.0, 0.0),
+        "friction": math.inf if stuck else rng.uniform(0.3, 0.6),
+    }
+    return a, b, rng.uniform(0.05, 0.3), contact, wheels
+
+
+def read(impact, name):
+    """What is known of an answer, by the argument of speeds."""
+    label = name[-1]
+    if name.startswith("ees"):
+        return impact.ees(0.4)["ab".index(label)]
+    if name.startswith("max_crush"):
+        return impact.max_crush_speeds(0.4)["ab".index(label)]
+    if name == "energy_loss":
+        return impact.energy_loss
+    side = getattr(impact, label)
+    return side.before.speed if name.startswith("speed") else getattr(side, name[:-2])
+
+
+def refined(impact, known, contact, wheels, e):
+    """The refined speeds next to each answer of the instant."""
+    courses = {label: getattr(impact, label).before.course for label in "ab"}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        instants = reconstruct.speeds(
+            impact.a.before,
+            impact.b.before,
+            **{f"course_{label}": course for label, course in courses.items()},
+            **known,
+            **contact,
+            restitution=e,
+        )
+    directions = {label: (math.cos(at), math.sin(at)) for label, at in courses.items()}
+    for instant in instants:
+        start = [
+            side.before.vx * directions[label][0] + side.before.vy * directions[label][1]
+            for label, side in (("a", instant.a), ("b", instant.b))
+        ]
+        inputs = replace(instant.inputs, **wheels)
+        yield start, speeds_with_tyres(inputs, directions, tuple(start), known, ())
+
+
+@pytest.mark.parametrize("names", PAIRS, ids=lambda names: "-".join(names))
+def test_the_speeds_of_a_forward_answer_are_found_again(names):
+    rng, met, moved = random.Random(41), 0, []
+    while met < 5:
+        a, b, e, contact, wheels = drawn(rng, stuck=names[0] in COMPONENTS)
+        try:
+            impact = col.eccentric(a, b, e, **contact, **wheels)
+        except (col.NoImpactError, col.NoSolutionError):
+            continue
+        if impact.normal_impulse < 3000.0:
+            continue
+        known = {name: read(impact, name) for name in names}
+        if "ees_a" in known or "max_crush_speed_a" in known:
+            other = next(name for name in known if name[:3] in ("ees", "max")).removesuffix("a")
+            known[f"{other}b"] = read(impact, f"{other}b")
+        truth = [impact.a.before.speed, impact.b.before.speed]
+        try:
+            found = list(refined(impact, known, contact, wheels, e))
+        except col.NoSolutionError:
+            # An instant with these values does not exist.
+            continue
+        apart = [
+            (max(abs(np.subtract(speeds, truth))), max(abs(np.subtract(start, truth))))
+            for start, (*speeds, settled) in found
+            if settled
+        ]
+        if not apart:
+            continue
+        met += 1
+        nearest, instant = min(apart)
+        moved.append(instant)
+        assert nearest < 1e-6
+    # The instant was off.
+    assert np.median(moved) > 0.05
+
+
+def test_a_batch_has_the_answers_of_its_cases():
+    rng = random.Random(43)
+    while True:
+        a, b, e, contact, wheels = drawn(rng, stuck=False)
+        try:
+            impact = col.eccentric(a, b, e, **contact, **wheels)
+            break
+        except (col.NoImpactError, col.NoSolutionError):
+            continue
+    known = {"speed_b": read(impact, "speed_b"), "delta_v_a": read(impact, "delta_v_a")}
+    ((start, one),) = list(refined(impact, known, contact, wheels, e))[:1]
+    durations = np.array([wheels["duration"], 0.5 * wheels["duration"]])
+    inputs = replace(impact.inputs, duration=durations)
+    courses = {label: getattr(impact, label).before.course for label in "ab"}
+    directions = {label: (math.cos(at), math.sin(at)) for label, at in courses.items()}
+    many = speeds_with_tyres(inputs, directions, tuple(start), known, (2,))
+    assert many[0][0] == pytest.approx(one[0], rel=1e-11)
+    assert many[2].tolist() == [True, True]
+    assert abs(many[0][1] - one[0]) > 0.01
+
+
+A = col.Vehicle(mass=1437.0, yaw_inertia=2311.0, vx=14.0, vy=1.0, x=-2.0, y=0.4, heading=0.1)
+B = col.Vehicle(mass=1213.0, yaw_inertia=1877.0, vy=6.0, x=2.0, y=0.0, heading=1.3)
+CONTACT = {"normal": 0.0713, "point": (0.0531, 0.0917), "friction": 0.4137}
+WHEELS = {
+    "duration": 0.1013,
+    "tyres_a": Tyres(0.6713, (0.1719, 0.2317, 0.3137, 0.4179), 2.7139, 1.5317, steer=0.0917),
+    "tyres_b": Tyres(0.5713, 1.0, 2.6319, 1.4731, height=0.5179),
+}
+COURSES = {"course_a": A.course, "course_b": B.course}
+
+
+def ended(**changes):
+    return col.eccentric(A, B, 0.1531, **(CONTACT | WHEELS | changes))
+
+
+def asked(known, **changes):
+    return reconstruct.speeds(
+        A,
+        B,
+        **COURSES,
+        restitution=0.1531,
+        **known,
+        **(CONTACT | WHEELS | {"forward_only": True} | changes),
+    )
+
+
+def apart_from_truth(found):
+    return max(abs(found.a.before.speed - A.speed), abs(found.b.before.speed - B.speed))
+
+
+@pytest.mark.parametrize("names", PAIRS, ids=lambda names: "-".join(names))
+def test_speeds_takes_tyres(names):
+    friction = {"friction": math.inf} if names[0] in COMPONENTS else {}
+    stuck = {"regime": "sticking"} if friction else {}
+    end = ended(**friction)
+    known = {name: read(end, name) for name in names}
+    for name in list(known):
+        if name in ("ees_a", "max_crush_speed_a"):
+            known[f"{name[:-1]}b"] = read(end, f"{name[:-1]}b")
+    answers = asked(known, **friction, **stuck)
+    off = [apart_from_truth(one) for one in answers]
+    assert min(off) < 1e-8
+    best = answers[int(np.argmin(off))]
+    assert best.inputs.duration == WHEELS["duration"]
+    assert best.statements == ()
+    for name, value in known.items():
+        if not name.startswith(("ees", "max")):
+            assert read(best, name) == pytest.approx(value, rel=1e-8)
+    instants = reconstruct.speeds(
+        A,
+        B,
+        **COURSES,
+        restitution=0.1531,
+        **known,
+        **(CONTACT | friction | stuck),
+        forward_only=True,
+    )
+    assert min(apart_from_truth(one) for one in instants) > 0.01
+    assert len(instants[0].statements) == 1
+
+
+def test_an_answer_is_explained_reported_and_recorded():
+    end = ended()
+    (found, *_) = asked({"speed_b": B.speed, "delta_v_a": end.a.delta_v}, duration="101.3 ms")
+    page = col.report(found, form="markdown", units="si", figures=False)
+    for text in (explain(found, units="si", form="text"), page.partition("## Record")[0]):
+        for number in (0.1013, *WHEELS["tyres_a"].named.values()):
+            assert f"{number:.6g}" in text
+    assert replay(page) == found
+    assert col.report(replay(page), form="markdown", units="si", figures=False) == page
+
+
+def test_a_batch_of_speeds_with_tyres():
+    end = ended()
+    known = {"speed_b": B.speed, "delta_v_a": end.a.delta_v}
+    durations = np.array([0.05, 0.1013, -0.1])
+    with pytest.warns(col.CollisionsWarning, match="not_positive"):
+        many = asked(known, duration=durations)
+    speeds = many[0].a.before.vx
+    assert np.isnan(speeds).tolist() == [False, False, True]
+    (one, *_) = asked(known, duration=0.05)
+    assert speeds[0] == pytest.approx(one.a.before.vx, rel=1e-10)
+
+
+def test_what_speeds_cannot_use_with_tyres_is_refused():
+    known = {"speed_b": 6.0, "delta_v_a": 5.0}
+    with pytest.raises(col.InputError, match="a function of restitution and tyres"):
+        reconstruct.speeds(
+            A, B, **COURSES, restitution=lambda speed: 0.1, **known, **CONTACT, **WHEELS
+        )
+    with pytest.raises(col.InputError, match="tyres need a duration"):
+        asked(known, duration=None)
+
+
+def test_a_speed_beside_components_is_met_exactly():
+    """As without tyres, readings that disagree with it by their errors leave it as it was given."""
+    end = ended()
+    known = {name: 1.02 * read(end, name) for name in COMPONENTS[:2]} | {"speed_b": B.speed}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.IllConditionedWarning)
+        (found, *_) = asked(known)
+        (instant, *_) = asked(known, duration=None, tyres_a=None, tyres_b=None)
+    for one in (found, instant):
+        assert one.b.before.speed == pytest.approx(B.speed, rel=1e-9)
+    # The readings are two percent too large, and so is what they tell of A's speed beyond B's.
+    assert found.a.before.speed == pytest.approx(A.speed, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("beside", "argument"),
+    [
+        ({"recorder_a": (0.5, 0.1)}, "recorder_a"),
+        ({"axes": "turning"}, "axes"),
+        ({"slid": "bound"}, "slid"),
+        ({"friction": math.inf, "regime": "sliding", "speed_b": B.speed}, "friction"),
+    ],
+)
+def test_what_is_known_of_contacts_without_tyres_is_refused_with_them(beside, argument):
+    known = {name: read(ended(), name) for name in COMPONENTS[:2]}
+    with pytest.raises(col.InputError) as refused:
+        asked(known, **beside)
+    assert refused.value.code == "bad_combination"
+    assert refused.value.fields["argument"] == argument
+    # A duration alone is that of nothing.
+    with pytest.raises(col.InputError, match="or give tyres_a"):
+        asked(known, tyres_a=None, tyres_b=None)
+
+
+def test_what_leaves_open_whether_it_stuck_has_the_answers_of_an_instant():
+    known = {name: read(ended(friction=math.inf), name) for name in COMPONENTS[:2]}
+    with pytest.raises(col.AmbiguousSolutionError, match="of an instant without tyres") as open_:
+        asked(known, friction=math.inf)
+    assert all(one.inputs.duration is None for one in open_.value.solutions)
