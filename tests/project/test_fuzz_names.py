@@ -1714,6 +1714,10 @@ def ran(case: Case, run: scene.Run) -> None:
     checked = case.call("diagnose", col.diagnose, run, **case.spoil({"drag": case.value("drag")}))
     assert isinstance(checked, Exception) or str(checked)
     explained(case, run)
+    form = {"form": case.option("markdown"), "figures": False}
+    whole = case.call("report", col.report, run, **case.spoil(form))
+    if not isinstance(whole, Exception):
+        case.call("reporting.replay", reporting.replay, whole)
     page = case.call("play", col.play, run, **case.spoil({"units": case.option(*UNIT_SYSTEMS)}))
     assert isinstance(page, Exception) or page.startswith("<!DOCTYPE html>")
     case.look(run, None, thorough=False)

@@ -383,6 +383,7 @@ def whole_crash() -> float:
     x = float(run["A"].rest.q.x.m_as("m") + run.rest["B"].speed + again.at("1 s")["B"].speed)
     played: str = col.play(run, units="us")
     col.play(run).save("crash.html")
+    col.report(run, title="The crash", case="2026-11").save("report.html")
     print(col.explain(run, form="text"), [found.impact for found in col.diagnose(run)])
     print(played)
     print([*run.rest.keys()], struck.energy_loss, float(run.energy["ground"]))

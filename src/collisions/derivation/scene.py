@@ -30,7 +30,7 @@ def scene_steps(page: Page, run: Run, steps: Callable[[Page, Impact], None]) -> 
         with page.one_level_down():
             steps(page, impact)
     page.heading("Places of rest")
-    page.table(_rests(page, run))
+    page.table(rests(page, run))
     page.heading("Where the kinetic energy went")
     page.table(ledger(page, run))
     page.say(
@@ -39,7 +39,8 @@ def scene_steps(page: Page, run: Run, steps: Callable[[Page, Impact], None]) -> 
     )
 
 
-def _rests(page: Page, run: Run) -> list[tuple[str, str, str]]:
+def rests(page: Page, run: Run) -> list[tuple[str, str, str]]:
+    """The rows of the places and headings of rest."""
     rows = []
     for name in run.scene.movers:
         of = page.name(name)
