@@ -46,6 +46,7 @@ if TYPE_CHECKING:
         time_resolved,
     )
     from .reporting import report
+    from .reporting.play import play
     from .reporting.what_if import what_if
 
 __version__ = "0.2.0"
@@ -77,6 +78,7 @@ __all__ = [
     "linear_central",
     "oblique_central",
     "options",
+    "play",
     "plot",
     "reconstruct",
     "reference",
@@ -99,6 +101,7 @@ _LATER = {
     "explain": "derivation",
     "impact_schema": "impact.schema",
     "left_out": "impact.left_out",
+    "play": "reporting.play",
     "report": "reporting",
     "what_if": "reporting.what_if",
     **dict.fromkeys(

@@ -1132,7 +1132,7 @@ NOT_TO_RAISE = (
 )
 # Of the public functions those that take one case, or none.
 ONE_CASE = {
-    col: {"diagnose", "explain", "impact_schema", "report", "what_if"},
+    col: {"diagnose", "explain", "impact_schema", "play", "report", "what_if"},
     reconstruct: {"fit", "recorded_pulse", "posterior", "compare"},
     reference: {"drag_factor", "restitution_by_overlap"},
     travel: set(),

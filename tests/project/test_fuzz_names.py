@@ -1477,7 +1477,7 @@ def speed_error(points: list[Any], path: dict[str, Any]) -> float:
 
 
 @fuzzes(
-    "travel.Tyres", "travel.Tyres.replace", "travel.Tyres.summary", "travel.Tyres.as_given",
+    "travel.Tyres", "travel.Tyres.replace", "travel.Tyres.summary",
     "travel.simulate",
     "travel.SimulatedPath",
     "travel.SimulatedPath.at", "travel.SimulatedPath.summary", "plot.path", share=0.2,
@@ -1632,6 +1632,7 @@ def known_scene() -> scene.Scene:
 
 
 @fuzzes(
+    "play", "plot.timeline",
     "Moved", "Moved.summary", "Notice", "Rests", "Rests.keys", "Track", "Track.summary",
     "scene.Contact", "scene.Contact.as_given", "scene.Contact.replace", "scene.Contact.summary",
     "scene.Mover", "scene.Mover.as_given", "scene.Mover.replace", "scene.Mover.summary",
@@ -1708,6 +1709,17 @@ def ran(case: Case, run: scene.Run) -> None:
     case.call("Moved", lambda: one.rest)
     assert list(case.must("Rests.keys", run.rest.keys)) == list(run.scene.movers)
     case.call("scene.Run", lambda: run.energy)
+    drawn(case, "timeline", run)
+    drawn(case, "scene", run)
+    checked = case.call("diagnose", col.diagnose, run, **case.spoil({"drag": case.value("drag")}))
+    assert isinstance(checked, Exception) or str(checked)
+    explained(case, run)
+    form = {"form": case.option("markdown"), "figures": False}
+    whole = case.call("report", col.report, run, **case.spoil(form))
+    if not isinstance(whole, Exception):
+        case.call("reporting.replay", reporting.replay, whole)
+    page = case.call("play", col.play, run, **case.spoil({"units": case.option(*UNIT_SYSTEMS)}))
+    assert isinstance(page, Exception) or page.startswith("<!DOCTYPE html>")
     case.look(run, None, thorough=False)
     apart = known_scene().replace({"A.vx": 8.0, "A.x": 1.0})
     case.look(scene.Scene(movers=apart.movers, contacts=[]).run().findings)

@@ -381,6 +381,11 @@ def whole_crash() -> float:
     print(scene.Scene.from_dict(crash.to_dict()).case(0).run().case(0), crash.movers["A"].reach)
     struck: col.Impact = run.impacts[0]
     x = float(run["A"].rest.q.x.m_as("m") + run.rest["B"].speed + again.at("1 s")["B"].speed)
+    played: str = col.play(run, units="us")
+    col.play(run).save("crash.html")
+    col.report(run, title="The crash", case="2026-11").save("report.html")
+    print(col.explain(run, form="text"), [found.impact for found in col.diagnose(run)])
+    print(played)
     print([*run.rest.keys()], struck.energy_loss, float(run.energy["ground"]))
     mean: float = found["B.rest.x"].mean
     return x + mean
@@ -447,6 +452,7 @@ def pictures(
     known: uncertainty.Propagation,
     sampled: reconstruct.Posterior,
     path: travel.SimulatedPath,
+    run: scene.Run,
 ) -> None:
     """Every picture."""
     plot.pulse(impact)
@@ -458,6 +464,8 @@ def pictures(
     plot.force_time(impact, "100 ms")
     plot.impulse_plane(impact)
     plot.scene(impact)
+    plot.scene(run, units="us")
+    plot.timeline(run, axes=axes, units="metric")
     plot.contributions(known, "speed")
     plot.distribution(known["speed"], bins=20)
 

@@ -20,6 +20,8 @@ from ..quantities.reading import ArgumentReader, at_least_zero, need_one_case, s
 from ..quantities.settings import callers_options, computing
 from ..quantities.units import kinds_in_degrees, shown, system_given
 from ..reconstruct import Fit, MomentumSolution, Posterior
+from ..scene.one_run import need_one_run
+from ..scene.run import Run
 from ..uncertainty.distributions import Interval
 from ..uncertainty.result import Output, Propagation, ends_of, varies
 from .contact import motions, normal
@@ -28,6 +30,7 @@ from .expressions import System
 from .models import eccentric, linear, oblique, time_resolved
 from .page import Page
 from .reverse import state_before, why_this_model
+from .scene import scene_steps
 from .symbols import Symbols
 from .wheels import tyre_inputs
 
@@ -111,7 +114,7 @@ _IMPACT_ANSWERS |= {name: ("contact", *row) for name, row in _CONTACT.items()}
 
 @computing
 def explain(
-    impact: Impact | MomentumSolution | Fit,
+    impact: Impact | MomentumSolution | Fit | Run,
     *,
     units: UnitSystem | None = None,
     form: Form = "markdown",
@@ -137,8 +140,10 @@ def explain(
 
     Parameters
     ----------
-    impact : Impact, MomentumSolution or Fit
-        One case, of any forward or reverse solver. For a ``Fit`` the page has the misfit of every
+    impact : Impact, MomentumSolution, Fit or scene.Run
+        One case, of any forward or reverse solver. For a ``Run`` the page has every impact in
+        order, the places of rest, and where the kinetic energy went; the motion in between, which
+        is integrated step by step, is not written out. For a ``Fit`` it has the misfit of every
         observation, the estimates and the sources of their errors, but not the model, which is
         code. The numbers that ``crush_energy`` and ``travel`` return do not hold what they were
         worked out from; for their formulas see ``help(collisions.travel.speed)`` and so on.
@@ -196,6 +201,11 @@ def explain(
             code="bad_option",
             argument="form",
         )
+    if isinstance(impact, Run):
+        need_one_run(impact, "explain", "impact")
+        if uncertainty is not None:
+            raise no_uncertainty("Run")
+        return _run(impact, units, form)
     need_one_case(
         impact, (Impact, MomentumSolution, Fit), "explain", instead=NOT_EXPLAINED, refused=error_of
     )
@@ -219,6 +229,19 @@ def explain(
     return page.text()
 
 
+def _run(run: Run, units: UnitSystem | None, form: Form) -> Document:
+    page = Page(_system(units, run._texts()), form == "markdown", {}, {})
+    page.title("The scene, step by step")
+    scene_steps(page, run, _with_gain)
+    _notes(page, None, of_impact=True)
+    return page.text()
+
+
+def _with_gain(page: Page, impact: Impact) -> None:
+    _energy_gain(page, impact.status, impact.energy_loss)
+    _impact(page, impact)
+
+
 def _system(units: UnitSystem | None, texts: Iterable[Any]) -> System:
     """How numbers are written: in the system named or, for None, as the inputs were given."""
     if units is not None:
@@ -228,7 +251,16 @@ def _system(units: UnitSystem | None, texts: Iterable[Any]) -> System:
 
 
 def no_uncertainty(kind: str = "Fit") -> InputError:
-    """The error for an ``uncertainty`` given with a result that has errors of its own."""
+    """The error for an ``uncertainty`` given with a result that has errors of its own, or with a
+    run, of whose impacts it would have to say of which it is.
+    """
+    if kind == "Run":
+        return InputError(
+            "uncertainty is of one impact, and this is a run; write "
+            "explain(run.impacts[0], uncertainty=...) for the first",
+            code="bad_option",
+            argument="uncertainty",
+        )
     return InputError(
         f"uncertainty is none of a {kind}, which has the standard errors of its unknowns; leave "
         "it out, or explain the impact at the values found, with a propagation of "

@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 
 from ..messages.errors import InternalError
 from ..quantities.document import Document
@@ -38,6 +39,7 @@ class Page:
         self.system, self.latex, self.deviations, self.ranges = system, latex, deviations, ranges
         self.parts: list[str] = []
         self.conversions: dict[tuple[str, str], str] = {}
+        self._deeper = False
 
     def title(self, text: str) -> None:
         """The heading of the page."""
@@ -45,7 +47,19 @@ class Page:
 
     def heading(self, text: str) -> None:
         """The heading of a part."""
-        self.parts.append(f"## {text}" if self.latex else f"{text}\n{'-' * len(text)}")
+        if self._deeper:
+            self.parts.append(f"### {text}" if self.latex else f"{text}\n{'.' * len(text)}")
+        else:
+            self.parts.append(f"## {text}" if self.latex else f"{text}\n{'-' * len(text)}")
+
+    @contextmanager
+    def one_level_down(self) -> Iterator[None]:
+        """What is written meanwhile has its headings one level below that of a part."""
+        self._deeper = True
+        try:
+            yield
+        finally:
+            self._deeper = False
 
     def say(self, text: str) -> None:
         """Write one or more sentences."""

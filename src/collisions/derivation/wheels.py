@@ -23,6 +23,12 @@ _NUMBERS = {
 def tyre_inputs(tyres_of: Mapping[str, Tyres]) -> Iterator[tuple[str, str, Any, str]]:
     """Description, argument, number and kind of everything given of the tyres of each vehicle."""
     for label, tyres in tyres_of.items():
-        for name, value in tyres.named.items():
-            what, kind = _NUMBERS[name]
+        for name, what, value, kind in wheel_rows(tyres):
             yield f"tyres of {label.upper()}: {what}", f"tyres_{label}.{name}", value, kind
+
+
+def wheel_rows(tyres: Tyres) -> Iterator[tuple[str, str, Any, str]]:
+    """Argument, description, number and kind of everything given of some tyres."""
+    for name, value in tyres.named.items():
+        what, kind = _NUMBERS[name]
+        yield name, what, value, kind

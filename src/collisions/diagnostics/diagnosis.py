@@ -19,12 +19,14 @@ from ..quantities.settings import callers_options, computing, units_required
 from ..quantities.tables import spoken_system
 from ..quantities.units import Input, Pair, shown
 from ..reconstruct import MomentumSolution
+from ..scene.run import Run
 from ..vehicle.drag import USUAL_DURATION, read_drag, read_duration
 from ..vehicle.outlines import read_outline
 from ..vehicle.vehicle import Vehicle, missing
 from . import checks_consistency, checks_inputs, checks_reliability
 from .case import Case, Damage, ImpactCase, MomentumCase
 from .finding import Check, Findings, Limit
+from .scene import diagnose_run
 
 _MODULES = (checks_consistency, checks_reliability, checks_inputs)
 _CHECKS = [
@@ -44,7 +46,7 @@ _single = partial(single_number, text="takes one value: diagnose takes one case"
 
 @computing
 def diagnose(
-    impact: Impact | MomentumSolution,
+    impact: Impact | MomentumSolution | Run,
     *,
     outline_a: Any = None,
     outline_b: Any = None,
@@ -67,9 +69,12 @@ def diagnose(
 
     Parameters
     ----------
-    impact : Impact or MomentumSolution
+    impact : Impact, MomentumSolution or scene.Run
         One case, of any solver, including one that ``reconstruct`` found; or the answer of
-        ``reconstruct.momentum``, whose courses, speeds, energy and evidence are judged.
+        ``reconstruct.momentum``, whose courses, speeds, energy and evidence are judged; or a scene
+        as it went: the findings of each impact in order, with its number and time and the outlines
+        of its movers, and then what the scene itself leaves open. What shows the damage of one
+        impact is then refused.
     outline_a, outline_b : tuple or list, optional
         For an Impact only: the outline of a vehicle, measured from its centre of mass, for
         ``point_outside`` and, if both are given, ``outlines_overlap``, ``outlines_gap`` and
@@ -146,9 +151,14 @@ def diagnose(
     >>> len(found), found.moves[0].what
     (0, 'contact point 0.25 m aside')
     """
+    given = dict(locals())
     # An implausible limit is intended, so it is not warned of; where units are required, it has
     # one.
     implausible = "limits['suspect_yaw_rate']", "limits['suspect_angle']"
+    if isinstance(impact, Run):
+        with callers_options():
+            spoken = cast(UnitSystem, spoken_system(impact._texts())) if units is None else units
+            return diagnose_run(impact, given, spoken, diagnose)
     need_one_case(impact, (Impact, MomentumSolution), "diagnose")
     with callers_options():
         reader = ArgumentReader(trusted=() if units_required.get() else implausible)

@@ -55,7 +55,8 @@ class Finding:
     Parameters
     ----------
     code : str
-        Label that does not change between versions; a key of ``LIMITS``.
+        Label that does not change between versions; a key of ``LIMITS``, or of a run what the
+        scene leaves open.
     sentence : str
         What was found, with its numbers.
     measured : float
@@ -66,6 +67,10 @@ class Finding:
         SI unit, "" for a plain number. ``.q`` gives both numbers as Quantities.
     vehicle : str
         "a" or "b" where the finding is about one vehicle, else "".
+    impact : int, optional
+        Of a run, the place of the impact in ``run.impacts``; None where it is of the scene.
+    time : float, optional [s]
+        Of a run, when it is.
     source : str
         Where the limit comes from.
     """
@@ -76,6 +81,8 @@ class Finding:
     limit: float = field(metadata={"unit": OWN})
     unit: str
     vehicle: str = ""
+    impact: int | None = None
+    time: float | None = field(default=None, metadata={"unit": "s"})
     source: str
 
     @property

@@ -13,6 +13,7 @@ from .impulse_plane import impulse_plane
 from .momentum import momentum
 from .path import path
 from .scene import scene
+from .timeline import timeline
 from .uncertainty import contributions, distribution
 
 __all__ = [
@@ -27,4 +28,5 @@ __all__ = [
     "pulse",
     "residuals",
     "scene",
+    "timeline",
 ]

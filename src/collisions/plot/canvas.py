@@ -42,6 +42,7 @@ THIN, MINUS = "\u2009", "\u2212"  # between thousands, and before a number
 _WIDTH = 26  # characters of a name on one line
 _MOST_DECIMALS = 6
 SMALLEST, LARGEST = 1e-100, 1e100
+_RESOLVED = 1e-12  # of the coordinates: a picture smaller than this is made of their rounding
 
 
 class Units:
@@ -130,6 +131,22 @@ def check_size(name: str, value: float, least: float = 0.0) -> None:
             code="out_of_range",
             argument=name,
         )
+
+
+def size_of(known: list[tuple[float, float]], labels: Units, sketched: bool) -> float:
+    """The larger extent of the places, or of vehicles where all the places coincide."""
+    size = max(max(place[i] for place in known) - min(place[i] for place in known) for i in (0, 1))
+    farthest = max(abs(part) for place in known for part in place)
+    length = labels.factor("m")
+    if max(size, 4.0 * length) < _RESOLVED * farthest or size > LARGEST:
+        raise InputError(
+            f"there is no picture of {labels.text(size / length, 'm')} that lies "
+            f"{labels.text(farthest / length, 'm')} from the origin of its coordinates; count x "
+            "and y from a place near the contact, and check positions and outlines",
+            code="out_of_range",
+            argument="impact",
+        )
+    return max(size, 4.0 * length) if sketched or size <= 1e-6 * farthest else size
 
 
 def who(index: int, vehicle: Vehicle) -> str:

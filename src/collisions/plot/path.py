@@ -15,9 +15,9 @@ from ..quantities.formatting import UnitSystem
 from ..quantities.units import shown
 from ..travel import SimulatedPath
 from ..vehicle.vehicle import Vehicle
-from .canvas import COLOURS, INK, Axes, Units, begin, tidy, who
+from .canvas import COLOURS, INK, Axes, Units, begin, size_of, tidy, who
 from .drawing import Place, beside
-from .scene import Picture, corners_of, size_of
+from .scene import Picture, corners_of
 
 _BETWEEN = 3  # outlines on the way, at equal parts of it
 _ROOM = 2.0  # m, shown about a vehicle at rest

@@ -15,6 +15,7 @@ from ..messages.hints import hinted
 from ..quantities.formatting import UnitSystem
 from ..quantities.reading import ArgumentReader
 from ..quantities.units import shown
+from ..scene.run import Run
 from ..vehicle.outlines import placed, read_outline
 from ..vehicle.vehicle import Vehicle, missing
 from .canvas import (
@@ -22,17 +23,18 @@ from .canvas import (
     FORCE,
     GREY,
     INK,
-    LARGEST,
     SIDES,
     THIN,
     Axes,
     Units,
     begin,
     check_impact,
+    size_of,
     tidy,
     who,
 )
 from .drawing import APART, Drawing, Place, beside
+from .run import draw_run
 
 _MOMENTS = {"before": ("before",), "after": ("after",), "both": ("before", "after")}
 _TITLES = {
@@ -40,14 +42,13 @@ _TITLES = {
     "after": "After the impact, at the place of it",
     "both": "Velocities before (dashed, arriving) and after (solid, leaving)",
 }
-_RESOLVED = 1e-12  # of the coordinates: a picture smaller than this is made of their rounding
 _NOTHING = 1e-9  # of the impulse: a smaller one is rounding
 _SKETCHED = 2.5  # metres from the contact to a centre that has no position
 
 
 @hinted
 def scene(
-    impact: Impact,
+    impact: Impact | Run,
     *,
     moment: str = "both",
     outline_a: Any = None,
@@ -55,9 +56,10 @@ def scene(
     axes: Axes | None = None,
     units: UnitSystem | None = None,
 ) -> Axes:
-    """The scene from above at the moment of impact, to scale.
+    """The scene from above, to scale: an impact at its moment, or a whole run.
 
-    Velocities before point to the centre of mass, those after point away from it; the vehicles stay
+    Of an impact:
+    velocities before point to the centre of mass, those after point away from it; the vehicles stay
     where they were, because an impulse takes no time. The impulse acts at the contact point, or in
     a central impact at the centres of mass; that of a pivot on its vehicle acts at the pivot.
     Arrows that would hide each other, as in an in-line impact, are drawn side by side; a note below
@@ -65,16 +67,20 @@ def scene(
     model does not need are never made up: without them the picture is a sketch without a scale of
     length, and says so.
 
+    Of a run: each vehicle at the start (dashed), at its contacts (thin) and at rest (filled), the
+    heavy edge its front; the tracks of the centres of mass, the marks of sliding tyres in grey, the
+    contacts by number, the surfaces of another friction, and a scale bar.
+
     Parameters
     ----------
-    impact : Impact
-        One case, of any solver.
+    impact : Impact or scene.Run
+        One case, of any solver; or a scene as it went.
     moment : "before", "after" or "both"
-        Which velocities are drawn; "before" leaves out the impulse.
+        Which velocities of an impact are drawn; "before" leaves out the impulse.
     outline_a, outline_b : tuple or corners [m], optional
         As for ``diagnose``: (length, width), (length, width, how far the centre of mass is ahead of
         the middle), or the corners (forward, left) of a convex outline. Without it only the centre
-        of mass is marked.
+        of mass is marked. Those of a run are those of its movers.
     axes : matplotlib.axes.Axes, optional
         Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
@@ -86,14 +92,18 @@ def scene(
     matplotlib.axes.Axes
         Arrows by gid: "a.before", "a.after", "b.before", "b.after", "normal", "tangent",
         "impulse.a", "impulse.b", "pivot_impulse.a", "pivot_impulse.b"; and "a.centre", "b.centre",
-        "a.outline", "b.outline", "a.wall", "b.wall", "a.pivot", "b.pivot", "contact".
+        "a.outline", "b.outline", "a.wall", "b.wall", "a.pivot", "b.pivot", "contact". Of a run, by
+        the name of the vehicle: "Civic.track", "Civic.mark" for each tyre that left one, and the
+        outlines "Civic.start", "Civic.contact", "Civic.rest"; "contact.0" and so on, "surface.0"
+        and so on, and "scale".
 
     Raises
     ------
     InputError
-        An unknown option, or anything but one answered impact.
+        An unknown option, or anything but one answered impact or run.
     MissingInputError
-        An outline for a vehicle without position or heading, or matplotlib is missing.
+        A vehicle of a run without position or heading, or an outline for such a one; or matplotlib
+        is missing.
 
     Examples
     --------
@@ -113,6 +123,9 @@ def scene(
             code="bad_option",
             argument="moment",
         )
+    if isinstance(impact, Run):
+        _refuse_for_runs(moment, outline_a, outline_b)
+        return draw_run(impact, axes, units)
     check_impact(impact, "scene")
     sides = impact.a, impact.b
     corners = [
@@ -183,6 +196,25 @@ def scene(
     return axes
 
 
+def _refuse_for_runs(moment: str, outline_a: Any, outline_b: Any) -> None:
+    """Refuse the options that are for one impact."""
+    given = {"outline_a": outline_a, "outline_b": outline_b}
+    for name in (name for name, outline in given.items() if outline is not None):
+        raise InputError(
+            f"{name} is for an Impact; the vehicles of a run have the outlines of their movers: "
+            "write Mover(vehicle, outline=...)",
+            code="bad_option",
+            argument=name,
+        )
+    if moment != "both":
+        raise InputError(
+            "moment is for an Impact, and a run is drawn from the start to rest; write "
+            f"plot.scene(run.impacts[0], moment={moment!r}) for one of its impacts",
+            code="bad_option",
+            argument="moment",
+        )
+
+
 def _places(impact: Impact) -> tuple[list[Place | None], Place, bool]:
     """Both centres of mass (None if unknown), the contact, and whether they are only a sketch."""
     states = impact.a.before, impact.b.before
@@ -212,22 +244,6 @@ def corners_of(vehicle: Vehicle, outline: Any, name: str, letter: str) -> list[P
     forward = read[:, 0] + np.roll(read[:, 0], -1)
     x, y, corners = placed(np.roll(read, -int(np.argmax(forward)), axis=0), vehicle, letter)
     return [(x + float(ahead), y + float(left)) for ahead, left in corners]
-
-
-def size_of(known: list[Place], labels: Units, sketched: bool) -> float:
-    """The larger extent of the places, or of vehicles where all the places coincide."""
-    size = max(max(place[i] for place in known) - min(place[i] for place in known) for i in (0, 1))
-    farthest = max(abs(part) for place in known for part in place)
-    length = labels.factor("m")
-    if max(size, 4.0 * length) < _RESOLVED * farthest or size > LARGEST:
-        raise InputError(
-            f"there is no picture of {labels.text(size / length, 'm')} that lies "
-            f"{labels.text(farthest / length, 'm')} from the origin of its coordinates; count x "
-            "and y from a place near the contact, and check positions and outlines",
-            code="out_of_range",
-            argument="impact",
-        )
-    return max(size, 4.0 * length) if sketched or size <= 1e-6 * farthest else size
 
 
 def _scale(values: list[float], factor: float, most: float) -> float:

@@ -21,6 +21,8 @@ from ..quantities.settings import callers_options, computing
 from ..quantities.tables import cells
 from ..quantities.units import Input, Pair, kinds_in_degrees
 from ..reconstruct import Fit, MomentumSolution, Posterior
+from ..scene.one_run import need_one_run
+from ..scene.run import Run
 from ..uncertainty import Propagation
 from ..vehicle.drag import USUAL_DURATION
 from . import figures as drawing
@@ -29,6 +31,7 @@ from .answer import answer
 from .checking import FILED, Checked, Form, checked, results_of
 from .record import plain_options, record_of_all
 from .render import Html, Markdown, Printed, Sheet, plain
+from .run_page import report_run, units_of_run
 from .sections import EVIDENCE
 from .uncertainty import Spread
 
@@ -38,7 +41,7 @@ _SURROGATE = re.compile("[\ud800-\udfff]")
 
 @computing
 def report(
-    impact: Result | list[Result],
+    impact: Result | Run | list[Result],
     *,
     title: str | None = None,
     form: Form = "html",
@@ -79,8 +82,9 @@ def report(
 
     Parameters
     ----------
-    impact : Impact, MomentumSolution, Fit or Posterior, or list of these
-        One case that was answered, of any forward or reverse solver; or a list of several results,
+    impact : Impact, MomentumSolution, Fit, Posterior or scene.Run, or list of all but the last
+        One case that was answered, of any forward or reverse solver; a scene as it went, with a
+        part for each impact and where its kinetic energy went; or a list of several results,
         such as the momentum and each impact of one case: a page with one answer of all, and a part
         for each.
     title : str, optional
@@ -146,6 +150,12 @@ def report(
     given = dict(locals())
     from .. import __version__
 
+    if isinstance(impact, Run):
+        need_one_run(impact, "report", "impact")
+        given["units"] = units_of_run(impact, units)
+        held = plain_options(given)
+        changed = {name: value for name, value in held.items() if not _is_usual(name, value)}
+        return report_run(impact, given, changed)
     results = results_of(impact, uncertainty)
     texts = [text for one, _ in results for text in one._texts() if isinstance(text, str)]
     system: Any = cells(units, texts).name

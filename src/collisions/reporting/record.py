@@ -28,6 +28,7 @@ from ..quantities.settings import computing, units_required
 from ..quantities.strict_json import strict
 from ..quantities.units import Texts, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior, momentum
+from ..scene.run import Run
 from ..uncertainty import Propagation
 from ..vehicle.outlines import read_outline
 from ..vehicle.tyres import Tyres
@@ -37,7 +38,7 @@ from .render import FENCE, RECORD
 from .sections import EVIDENCE, contradicted
 
 Result: TypeAlias = Impact | MomentumSolution | Fit | Posterior
-_FORMAT = "collisions report 2"
+REPORT_FORMAT = "collisions report 2"
 # The options that change the page, with the unit in which each is read; None for one that is not a
 # number.
 _UNITS: dict[str, str | None] = {
@@ -84,7 +85,11 @@ def record_of_all(
     """The record of a page of one or several results."""
     from .. import __version__
 
-    whole: dict[str, Any] = {"format": _FORMAT, "version": __version__, "options": strict(options)}
+    whole: dict[str, Any] = {
+        "format": REPORT_FORMAT,
+        "version": __version__,
+        "options": strict(options),
+    }
     parts = [_one_record(*part) for part in results]
     whole |= parts[0] if len(parts) == 1 else {"results": parts}
     return json.dumps(whole, indent=1, allow_nan=False)
@@ -185,7 +190,7 @@ def _results(solution: MomentumSolution) -> Any:
 
 
 @computing
-def replay(text: str) -> Impact | MomentumSolution | list[Impact | MomentumSolution]:
+def replay(text: str) -> Impact | MomentumSolution | Run | list[Impact | MomentumSolution]:
     """The answer of a report, solved again from the record at its end.
 
     The record holds every input with all its digits. ``report`` with the same options makes the
@@ -199,7 +204,7 @@ def replay(text: str) -> Impact | MomentumSolution | list[Impact | MomentumSolut
 
     Returns
     -------
-    Impact or MomentumSolution, or list of these
+    Impact, MomentumSolution or scene.Run, or list of the first two
         Equal to the one reported, with the texts in which its inputs were given; a list of all for
         a page of several results.
 
@@ -220,6 +225,8 @@ def replay(text: str) -> Impact | MomentumSolution | list[Impact | MomentumSolut
     True
     """
     found = _whole(text)
+    if "run" in found:
+        return _run(found["run"])
     if "results" not in found:
         return _replayed(found)
     parts = found["results"]
@@ -257,6 +264,17 @@ def _replayed(found: Mapping[str, Any]) -> Impact | MomentumSolution:
         for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b))
     )
     return with_vehicles(impact, a, b)
+
+
+def _run(whole: Any) -> Run:
+    """A scene run again from a record."""
+    try:
+        run = Run.from_dict(whole)
+        results = whole["columns"]
+    except (CollisionsError, LookupError, TypeError) as error:
+        raise _bad(str(error)) from error
+    _check(results, json.loads(json.dumps(strict(run.to_columns()))))
+    return run
 
 
 def _momentum(whole: Any) -> MomentumSolution:
@@ -383,8 +401,8 @@ def _whole(text: Any) -> Mapping[str, Any]:
         found = json.loads(inside)
     except (ValueError, RecursionError) as error:
         raise _bad(f"it is no JSON ({error})") from error
-    if not isinstance(found, Mapping) or found.get("format") != _FORMAT:
-        raise _bad(f"it is not of the format {_FORMAT!r}")
+    if not isinstance(found, Mapping) or found.get("format") != REPORT_FORMAT:
+        raise _bad(f"it is not of the format {REPORT_FORMAT!r}")
     return found
 
 

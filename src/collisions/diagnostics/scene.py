@@ -1,0 +1,87 @@
+"""The findings of a whole scene: those of each of its impacts, and what the scene leaves open."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from ..messages.errors import InputError
+from ..scene.one_run import need_one_run
+from ..scene.run import Run
+from .finding import NOTE, Finding, Findings
+
+# What is said of a single impact, with what to write in its place.
+_OF_ONE = (
+    "outline_a",
+    "outline_b",
+    "crush_energy",
+    "damage_pdof_a",
+    "damage_pdof_b",
+    "damage_delta_v_a",
+    "damage_delta_v_b",
+)
+_PLACED = ("x", "y", "heading")
+
+
+def diagnose_run(
+    run: Run, options: Mapping[str, Any], units: str, diagnose: Callable[..., Findings]
+) -> Findings:
+    """The findings of every impact in order, each with its number and time, and then those of the
+    scene.
+    """
+    need_one_run(run, "diagnose", "impact")
+    for name in _OF_ONE:
+        if options[name] is not None:
+            instead = (
+                "the vehicles of a run have the outlines of their movers"
+                if name.startswith("outline")
+                else f"write diagnose(run.impacts[0], {name}=...) for the impact that it is of"
+            )
+            raise InputError(
+                f"{name} is for one impact, and this is a run: {instead}",
+                code="bad_option",
+                argument=name,
+            )
+    shared = {name: options[name] for name in ("duration", "drag", "limits")}
+    found: list[Finding] = []
+    measured: set[str] = set()
+    for number, (time, pair, impact) in enumerate(
+        zip(run.times, run.pairs, run.impacts, strict=True)
+    ):
+        own = diagnose(impact, units=units, **shared, **_outlines(run, number))
+        measured |= own.measured
+        where = f"impact {number + 1}, {' and '.join(pair)} at {time:.2f} s"
+        found += [
+            replace(one, sentence=f"{where}: {one.sentence}", impact=number, time=time)
+            for one in own
+        ]
+    found += [
+        Finding(
+            code=notice.code,
+            sentence=notice.sentence,
+            measured=1.0,
+            limit=0.0,
+            unit="",
+            time=notice.time,
+            source=NOTE,
+        )
+        for notice in run.findings
+    ]
+    return Findings(found, measured, units)
+
+
+def _outlines(run: Run, number: int) -> dict[str, Any]:
+    """The outlines of both vehicles of an impact, where its point was given: one from the outlines
+    lies in both of them by itself.
+    """
+    if run.scene.contacts[run.rules[number]].from_outlines:
+        return {}
+    impact = run.impacts[number]
+    found = {}
+    for label, name in zip("ab", run.pairs[number], strict=True):
+        outline = run.scene.movers[name].outline
+        before = getattr(impact, label).before
+        if outline is not None and all(getattr(before, part) is not None for part in _PLACED):
+            found[f"outline_{label}"] = [tuple(corner) for corner in outline.tolist()]
+    return found

@@ -1,0 +1,261 @@
+"""``play``: one HTML page that plays a scene, with the numbers of the run at every moment."""
+
+from __future__ import annotations
+
+import json
+import math
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..messages.hints import hinted
+from ..plot.canvas import SMALLEST
+from ..plot.run import COLOURS, tracks_of
+from ..quantities.document import Document
+from ..quantities.formatting import UnitSystem, decimals_of, typeset
+from ..quantities.tables import Cells, cells
+from ..scene.frames import Frames, frames_of
+from ..scene.mover import Mover
+from ..scene.run import Run, Track
+from .render import plain
+
+_PAGE = Path(__file__).with_name("play.html")
+_STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate")
+# Parts of the dashes of a track, by vehicle, as in the pictures.
+_DASHES: tuple[list[float], ...] = ([], [6, 2], [6, 2, 1, 2], [2, 1.5])
+# As shares of the larger extent of the view: its margin, and the longest arrow and scale bar.
+_MARGIN, _ARROW, _BAR = 0.06, 0.16, 0.2
+_LEAST = 8.0  # m, of the view
+_ROOM = 2.5  # m, about a vehicle without an outline
+
+
+@hinted
+def play(run: Run, *, units: UnitSystem | None = None) -> Document:
+    """One offline HTML page that plays a scene: a slider of time, and a button that moves it.
+
+    At every moment it has the outlines, the tracks and tyre marks so far, the velocities, and a
+    table with speed, yaw rate, place and heading; below it the speeds over time. The numbers are
+    those of the run, written into the page in equal steps of time, with each contact twice, before
+    and after: the browser only draws them. It loads nothing from outside, and works by keyboard and
+    with screen readers.
+
+    Parameters
+    ----------
+    run : scene.Run
+        A scene as it went, of one case.
+    units : {"si", "metric", "us"}, optional
+        Units of the page; by default those that the inputs were given in, where they agree, else
+        SI.
+
+    Returns
+    -------
+    Document
+        The page, a ``str`` that a notebook shows and that ``.save("crash.html")`` writes to a file.
+
+    Raises
+    ------
+    InputError
+        Anything but one run, or numbers that cannot be drawn.
+    ShapeError
+        A batch: play one case of it.
+    MissingInputError
+        A vehicle without x, y or heading.
+
+    Examples
+    --------
+    >>> import collisions as col
+    >>> from collisions.scene import Contact, Mover, Scene
+    >>> a = col.Vehicle(mass=1500, yaw_inertia=2600, vx="60 km/h", x=-2.2, y=0, heading=0)
+    >>> b = col.Vehicle(mass=1200, yaw_inertia=2000, x=2.2, y=0, heading=0)
+    >>> crash = Scene(
+    ...     movers={"Golf": Mover(a, drag=0.7), "Polo": Mover(b, drag=0.7)},
+    ...     contacts=[Contact("Golf", "Polo", restitution=0.1, normal=0, point=(0, 0), friction=0)],
+    ... )
+    >>> page = col.play(crash.run())
+    >>> page[:15], page.count('type="range"')
+    ('<!DOCTYPE html>', 1)
+    """
+    system = cells(units, run._texts() if isinstance(run, Run) else ())
+    tracks = tracks_of(run, "collisions.play")
+    return Document(_written(run, tracks, frames_of(run), system), "html")
+
+
+def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) -> str:
+    """The page: the numbers of every moment as JSON, and what they are called."""
+    from .. import __version__
+
+    names = {name: plain(name) for name in tracks}
+    units = {
+        kind: {
+            "unit": typeset(system.label(kind)),
+            "scale": system.scale(kind),
+            "decimals": decimals_of(kind, system.name),
+        }
+        for kind in ("speed", "yaw rate", "length", "angle")
+    }
+    view = _view(run, frames)
+    extent = max(view[2:])
+    speeds = [np.hypot(state[3], state[4]).max() for state in frames.states.values()]
+    fastest = max(max(map(float, speeds)), SMALLEST)
+    contacts = [
+        {
+            "time": run.times[number],
+            "after": frames.after[number],
+            "place": _place(run, number, frames),
+            "said": _said(run, number, names, system),
+        }
+        for number in range(len(run.impacts))
+    ]
+    data = {
+        "units": units,
+        "times": frames.times.tolist(),
+        "movers": [
+            {
+                "name": names[name],
+                "label": escape(names[name]),
+                "colour": COLOURS[index % len(COLOURS)],
+                "dash": _DASHES[index % len(_DASHES)],
+                "outline": _outline(run.scene.movers[name]),
+                "marks": _marks(tracks[name]),
+                "speed": np.hypot(*frames.states[name][3:5]).tolist(),
+                **{
+                    part: row.tolist()
+                    for part, row in zip(_STATE, frames.states[name], strict=True)
+                },
+            }
+            for index, name in enumerate(tracks)
+        ],
+        "contacts": contacts,
+        "surfaces": [
+            {"corners": np.asarray(corners).tolist(), "friction": f"{float(friction):.3g}"}
+            for corners, friction in run.scene.surfaces
+        ],
+        "view": view,
+        "bar": _bar(extent, system),
+        "arrow": {"scale": _ARROW * extent / fastest},
+        "caption": _caption(run, fastest, system),
+    }
+    buttons = "\n".join(
+        f'<button type="button" id="contact-{number}" data-frame="{frames.after[number]}">'
+        f"Contact {number + 1}: {escape(' and '.join(names[name] for name in pair))}</button>"
+        for number, pair in enumerate(run.pairs)
+    )
+    rows = "\n".join(
+        f'<tr><th scope="row" style="color:{COLOURS[index % len(COLOURS)]}">{escape(name)}</th>'
+        + "".join(
+            f'<td id="{index}.{part}" data-kind="{kind}"></td>'
+            for part, kind in (
+                ("speed", "speed"),
+                ("yaw", "yaw rate"),
+                ("x", "length"),
+                ("y", "length"),
+                ("heading", "angle"),
+            )
+        )
+        + "</tr>"
+        for index, name in enumerate(names.values())
+    )
+    text = _PAGE.read_text(encoding="utf-8")
+    for name, part in {
+        "title": escape(f"The crash of {', '.join(names.values())}"),
+        "last": str(len(frames.times) - 1),
+        "contacts": buttons,
+        "rows": rows,
+        "version": __version__,
+        "data": json.dumps(data, allow_nan=False).replace("<", "\\u003c"),
+    }.items():
+        text = text.replace(f"<!--{name}-->", part)
+    return text
+
+
+def _outline(mover: Mover) -> list[list[float]] | None:
+    """The corners (forward, left) [m], from the front edge on."""
+    if mover.outline is None:
+        return None
+    ahead = mover.outline[:, 0] + np.roll(mover.outline[:, 0], -1)
+    found: list[list[float]] = np.roll(mover.outline, -int(np.argmax(ahead)), axis=0).tolist()
+    return found
+
+
+def _marks(track: Track) -> list[dict[str, Any]]:
+    """The marks by wheel, with the time at which each place was passed; None between stretches."""
+    found = []
+    for x, y in track.marks.values():
+        slid = np.isfinite(x)
+        if not slid.any():
+            continue
+        # What lies within a gap is of no use, but for one moment that ends the stretch.
+        kept = slid | np.roll(slid, 1)
+        kept[0] = slid[0]
+        found.append(
+            {
+                "t": track.time[kept].tolist(),
+                "x": [one if math.isfinite(one) else None for one in x[kept].tolist()],
+                "y": [one if math.isfinite(one) else None for one in y[kept].tolist()],
+            }
+        )
+    return found
+
+
+def _view(run: Run, frames: Frames) -> list[float]:
+    """Left, top, width and height of what is seen [m], y downwards as in SVG."""
+    low, high = np.full(2, np.inf), np.full(2, -np.inf)
+    for name, state in frames.states.items():
+        reach = run.scene.movers[name].reach or _ROOM
+        low = np.minimum(low, state[:2].min(axis=1) - reach)
+        high = np.maximum(high, state[:2].max(axis=1) + reach)
+    middle, extent = 0.5 * (low + high), np.maximum(high - low, 0.0)
+    most = max(float(extent.max()), _LEAST)
+    half = np.maximum(0.5 * extent + _MARGIN * most, 0.28 * most)
+    return [
+        float(number)
+        for number in (middle[0] - half[0], -(middle[1] + half[1]), 2.0 * half[0], 2.0 * half[1])
+    ]
+
+
+def _place(run: Run, number: int, frames: Frames) -> list[float]:
+    """The point of an impact, or of a central one the middle between both vehicles."""
+    point = run.impacts[number].point
+    if point is not None:
+        return [float(point[0]), float(point[1])]
+    at = frames.after[number]
+    one, other = (frames.states[name][:2, at] for name in run.pairs[number])
+    middle: list[float] = (0.5 * (one + other)).tolist()
+    return middle
+
+
+def _said(run: Run, number: int, names: dict[str, str], system: Cells) -> str:
+    """One sentence about an impact."""
+    impact = run.impacts[number]
+    each = [
+        f"delta-V of {names[name]} {typeset(system.text(side.delta_v, 'm/s'))}"
+        for name, side in zip(run.pairs[number], (impact.a, impact.b), strict=True)
+    ]
+    closing = typeset(system.text(impact.closing_speed, "m/s"))
+    pair = " and ".join(names[name] for name in run.pairs[number])
+    return (
+        f"Contact {number + 1}, {pair} at {run.times[number]:.2f} s: closing speed {closing}, "
+        f"{', '.join(each)}."
+    )
+
+
+def _bar(extent: float, system: Cells) -> dict[str, Any]:
+    """A scale bar: 1, 2 or 5 times a power of ten of the unit of length."""
+    most = _BAR * extent * system.scale("length")
+    power = 10.0 ** math.floor(math.log10(most))
+    length = next(power * step for step in (5.0, 2.0, 1.0) if power * step <= most)
+    text = f"{length:g} {typeset(system.label('length'))}"
+    return {"length": length / system.scale("length"), "text": text}
+
+
+def _caption(run: Run, fastest: float, system: Cells) -> str:
+    marks = any(mover.tyres is not None for mover in run.scene.movers.values())
+    unsized = [plain(name) for name, one in run.scene.movers.items() if one.outline is None]
+    speed = typeset(system.text(fastest, "m/s"))
+    return (
+        "Dashed outlines: the start. Heavy edges: fronts. Arrows: velocities, the longest "
+        f"{speed}." + " Grey lines: tyre marks so far." * marks
+        + (f" Without an outline: {', '.join(unsized)}." if unsized else "")
+    )  # fmt: skip

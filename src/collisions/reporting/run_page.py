@@ -1,0 +1,242 @@
+"""The report of a whole scene: the answer with its picture, each impact, findings, the ledger of
+energy and the record.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any, get_args
+
+import numpy as np
+
+from .. import plot
+from ..derivation.explain import explain
+from ..derivation.scene import ledger, rests
+from ..derivation.wheels import wheel_rows
+from ..diagnostics import diagnose
+from ..diagnostics.finding import Findings, is_note
+from ..messages.errors import CollisionsError, InputError
+from ..quantities.document import Document
+from ..quantities.reading import ArgumentReader
+from ..quantities.settings import callers_options
+from ..quantities.strict_json import strict
+from ..quantities.tables import as_sentence, cells, label_of
+from ..quantities.units import kinds_in_degrees, shown
+from ..scene.run import Run
+from . import figures as drawing
+from . import sections
+from .checking import FILED, Form
+from .record import REPORT_FORMAT
+from .render import Html, Markdown, Printed, Sheet, plain
+from .sections import EVIDENCE
+
+# What is said of one impact, and not of a scene.
+_OF_ONE = ("uncertainty", "outline_a", "outline_b", "share_a", *EVIDENCE)
+_LOOKED_AT = ("duration", "drag", "limits", "units")
+
+
+def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -> Document:
+    """The page of one run; ``given`` has the arguments of ``report`` with its units known,
+    ``unusual`` those that are not at their defaults, as the record holds them.
+    """
+    from .. import __version__
+
+    paragraphs = _checked(given)
+    texts = [text for text in run._texts() if isinstance(text, str)]
+    system = given["units"]
+    printed = Printed(system, kinds_in_degrees(texts))
+    sheet: Sheet = (Html if given["form"] == "html" else Markdown)(printed, {}, {})
+    with callers_options():
+        found = diagnose(run, **{name: given[name] for name in _LOOKED_AT} | {"units": system})
+    draws = given["figures"] and isinstance(sheet, Html) and drawing.can_draw()
+    names = ", ".join(run.scene.movers)
+    sheet.title(plain(given["title"] or f"The crash of {names}"))
+    filed = [(name, plain(given[name])) for name in FILED if given[name] is not None]
+    if filed:
+        sheet.file([(name.capitalize(), text) for name, text in filed])
+    _answer(sheet, run, found, draws)
+    _vehicles(sheet, run)
+    for number, (time, pair, impact) in enumerate(
+        zip(run.times, run.pairs, run.impacts, strict=True)
+    ):
+        title = f"Impact {number + 1}: {' and '.join(pair)} at {time:.2f} s"
+        sheet.begin_part(plain(title), f"{number + 1}.")
+        sections.gain(sheet, impact, impact.energy_loss)
+        sections.inputs(sheet, impact, dict.fromkeys(EVIDENCE), {})
+        sections.results(sheet, impact, None)
+    sheet.end_parts()
+    sheet.heading("Places of rest")
+    sheet.table(rests(sheet, run))
+    sheet.heading("Where the kinetic energy went")
+    sheet.table(ledger(sheet, run))
+    sheet.say(
+        "What the ground took is worked out from the forces along the way, and not as the rest: "
+        "the last line says how far the account closes."
+    )
+    sections.findings(sheet, found)
+    if paragraphs:
+        sheet.heading("Notes")
+        for paragraph in paragraphs:
+            sheet.say(paragraph)
+    _figures(sheet, run, system, given["figures"], draws)
+    if given["derivation"]:
+        sheet.heading("Derivation")
+        own = None if cells(None, texts).name == system else system
+        sheet.working(explain(run, units=own))
+    sections.sources(
+        sheet,
+        [
+            (impact, [one for one in found if one.impact == number])
+            for number, impact in enumerate(run.impacts)
+        ],
+    )
+    sheet.say(f"Calculated with collisions {__version__}.")
+    sheet.heading("Record")
+    whole = {
+        "format": REPORT_FORMAT,
+        "version": __version__,
+        "options": strict(unusual),
+        "run": run.to_dict(),
+    }
+    sheet.record(json.dumps(whole, indent=1, allow_nan=False))
+    return Document(sheet.whole(__version__), given["form"])
+
+
+def units_of_run(run: Run, units: Any) -> Any:
+    """The units of the page: those asked for, or of the inputs."""
+    return cells(units, [text for text in run._texts() if isinstance(text, str)]).name
+
+
+def _checked(given: Mapping[str, Any]) -> list[str]:
+    """The notes as paragraphs; one error names every option that cannot be used."""
+    reader = ArgumentReader()
+
+    def refuse(argument: str, text: str, code: str = "bad_option") -> None:
+        reader.refuse(InputError(text, code=code, argument=argument))
+
+    for name in _OF_ONE:
+        if given[name] is not None:
+            refuse(
+                name,
+                f"{name} is for one impact, and this is a run; leave it out, or write "
+                f"report(run.impacts[0], {name}=...) for the impact that it is of",
+            )
+    if not isinstance(given["form"], str) or given["form"] not in get_args(Form):
+        forms = ", ".join(map(repr, get_args(Form)))
+        refuse("form", f"form must be one of {forms}, got {shown(given['form'])}")
+    for name in ("figures", "derivation"):
+        if not isinstance(given[name], bool):
+            refuse(name, f"{name} must be True or False, got {shown(given[name])}")
+    notes = given["notes"]
+    listed = [] if notes is None else list(notes) if isinstance(notes, (list, tuple)) else [notes]
+    texts = [(name, given[name]) for name in ("title", *FILED) if given[name] is not None]
+    for name, text in [*texts, *(("notes", note) for note in listed)]:
+        if not isinstance(text, str) or not plain(text):
+            more = ": the report of a run has notes that are texts" if name == "notes" else ""
+            refuse(
+                name,
+                f"{name} must be a text that says something, got {shown(text)}{more}",
+                "not_a_text",
+            )
+    reader.close()
+    return [plain(note) for note in listed]
+
+
+def _answer(sheet: Sheet, run: Run, found: Findings, draws: bool) -> None:
+    """The box that has the speeds before, what each impact did, and where all came to rest."""
+    sheet.open_answer()
+    rows = []
+    for name, mover in run.scene.movers.items():
+        speed = mover.vehicle.speed
+        text = sheet.system.answer(speed, "speed") if speed else "standing"
+        rows.append((f"{plain(name)} at the start", text))
+    for number, (time, pair, impact) in enumerate(
+        zip(run.times, run.pairs, run.impacts, strict=True)
+    ):
+        for name, side in zip(pair, (impact.a, impact.b), strict=True):
+            what = f"delta-V of {plain(name)}, impact {number + 1} ({time:.2f} s)"
+            rows.append((what, sheet.system.answer(side.delta_v, "speed")))
+    rows += [
+        (f"{plain(name)} at rest, x and y", _rest(sheet, run, name)) for name in run.scene.movers
+    ]
+    sheet.figures_of_answer(rows)
+    sheet.say(
+        "Calculated forward from the stated start, from contact to contact until all rest. No "
+        "range is stated for these figures: uncertainty.propagate and reconstruct.posterior take "
+        "the scene with the errors of its inputs."
+    )
+    lines = [
+        (f"{label_of(finding.code)}:", as_sentence(plain(finding.sentence)))
+        for finding in found
+        if not is_note(finding) or finding.impact is None
+    ]
+    if lines:
+        sheet.items(lines)
+    picture = None
+    if draws and isinstance(sheet, Html):
+        caption = (
+            "The scene from above, to scale: vehicles at the start, at the contacts and at rest."
+        )
+        picture = drawing.drawn(sheet, "scene", caption, plot.scene, run, units=sheet.system.name)
+    sheet.close_answer(picture)
+
+
+def _rest(sheet: Sheet, run: Run, name: str) -> str:
+    try:
+        rest = run.rest[name]
+    except CollisionsError:
+        return "none: nothing slows it"
+    if rest.x is None or rest.y is None:
+        return "not known"
+    return ", ".join(sheet.system.answer(float(part), "length") for part in (rest.x, rest.y))
+
+
+def _vehicles(sheet: Sheet, run: Run) -> None:
+    """What each vehicle moves on, and the surfaces."""
+    rows = []
+    for name, mover in run.scene.movers.items():
+        of = plain(name)
+        if mover.outline is not None:
+            length, width = (
+                sheet.number(float(size), "length") for size in np.ptp(mover.outline, axis=0)
+            )
+            rows.append((of, "outline", f"{length} by {width}"))
+        if mover.drag is not None:
+            rows.append((of, "drag factor", sheet.number(float(mover.drag), "number")))
+        if mover.tyres is not None:
+            for _, what, value, kind in wheel_rows(mover.tyres):
+                rows.append((of, what, sheet.number(float(value), kind)))
+        if mover.drag is None and mover.tyres is None:
+            rows.append((of, "slowed by", "nothing"))
+    for number, (corners, friction) in enumerate(run.scene.surfaces):
+        places = "; ".join(
+            f"({', '.join(sheet.number(float(part), 'length') for part in corner)})"
+            for corner in np.asarray(corners).tolist()
+        )
+        of = f"surface {number + 1}"
+        rows.append((of, "corners", places))
+        rows.append((of, "friction", sheet.number(float(friction), "number")))
+    slopes = [float(part) for part in run.scene.slope]
+    if any(slopes):
+        rows.append(("ground", "slope along x, y", ", ".join(f"{part:.4g}" for part in slopes)))
+    sheet.heading("Vehicles and ground")
+    sheet.table(rows)
+
+
+def _figures(sheet: Sheet, run: Run, units: str, wanted: bool, draws: bool) -> None:
+    if not wanted:
+        return
+    sheet.heading("Figures")
+    if not isinstance(sheet, Html):
+        sheet.say("The figures are in the HTML form of this report.")
+    elif not draws:
+        sheet.say(
+            "None: matplotlib cannot be imported here. Install it with: python -m pip install "
+            "matplotlib"
+        )
+    else:
+        caption = "Speeds over time, with the contacts."
+        picture = drawing.drawn(sheet, "timeline", caption, plot.timeline, run, units=units)
+        if picture is not None:
+            sheet.picture(*picture)

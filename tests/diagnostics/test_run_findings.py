@@ -1,0 +1,69 @@
+"""The findings of a whole scene: those of each impact, told apart, and what the scene leaves
+open.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+import collisions as col
+from collisions.scene import Scene
+from crashes import three_cars
+
+
+def test_each_impact_has_its_own_findings_with_its_number_and_time() -> None:
+    run = three_cars()
+    found = col.diagnose(run, units="us")
+    for number, (impact, pair, time) in enumerate(
+        zip(run.impacts, run.pairs, run.times, strict=True)
+    ):
+        outlines = {}
+        if number == 0:  # whose normal and point were given
+            outlines = {"outline_a": (4.8, 1.8), "outline_b": (4.5, 1.7)}
+        alone = col.diagnose(impact, units="us", **outlines)
+        here = [one for one in found if one.impact == number]
+        assert [one.code for one in here] == [one.code for one in alone]
+        for one, other in zip(here, alone, strict=True):
+            where = f"impact {number + 1}, {' and '.join(pair)} at {time:.2f} s: "
+            assert one.sentence == where + other.sentence
+            assert (one.measured, one.limit, one.vehicle) == (
+                pytest.approx(other.measured, rel=1e-12), other.limit, other.vehicle
+            )  # fmt: skip
+            assert one.time == time
+        assert alone.measured <= found.measured
+    # The front of the Camry is at -0.2 m and the side of the Civic at 0.15 m.
+    (gap,) = [one for one in found if one.code == "outlines_gap"]
+    assert gap.measured == pytest.approx(0.35, abs=1e-9)
+
+
+def test_what_the_scene_leaves_open_comes_last() -> None:
+    scene = three_cars().scene
+    run = Scene(
+        movers=scene.movers, contacts=scene.contacts[:2], surfaces=[([*scene.surfaces[0][0]], 0.3)]
+    ).run()
+    (notice,) = run.findings
+    last = col.diagnose(run)[-1]
+    assert (last.code, last.sentence, last.time) == (notice.code, notice.sentence, notice.time)
+    assert last.code == "touch_without_contact"
+    assert last.impact is None
+
+
+def test_limits_count_for_every_impact() -> None:
+    codes = ("outlines_gap", "point_outside", "tyre_impulse", "friction_gain")
+    found = col.diagnose(three_cars(), limits=dict.fromkeys(codes, float("inf")))
+    assert not {one.code for one in found} & set(codes)
+
+
+def test_evidence_of_one_impact_is_refused() -> None:
+    run = three_cars()
+    with pytest.raises(col.InputError, match=r"diagnose\(run.impacts\[0\], crush_energy=...\)"):
+        col.diagnose(run, crush_energy="10 kJ")
+    with pytest.raises(col.InputError, match="outlines of their movers"):
+        col.diagnose(run, outline_b=(4.5, 1.8))
+    with pytest.raises(col.InputError, match="units"):
+        col.diagnose(run, units="imperial")
+    many = run.scene.replace({"Camry.vx": [17.0, 18.0]}).run(tolerance=1e-3)
+    with pytest.raises(col.ShapeError, match=r"diagnose\(run.case\(0\)\)"):
+        col.diagnose(many)
+    with pytest.raises(col.ShapeError, match=r"explain\(run.case\(0\)\)"):
+        col.explain(many)

@@ -1,0 +1,186 @@
+"""The page that plays a scene: what it draws and says at each moment is what the run has there."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions.scene.frames import frames_of
+from crashes import NAMES, coasting, three_cars
+from javascript import moved
+
+FOOT, MPH = 0.3048, 0.44704
+
+
+def data_of(page: str) -> dict:
+    """The numbers that stand in the page."""
+    return json.loads(re.search(r"const data = (\{.*\});\n", page)[1])
+
+
+def places(svg: str, kind: str) -> list[np.ndarray]:
+    """The points of every element of a class, y upwards."""
+    found = re.findall(
+        rf'points="([^"]*)"[^>]* class="{kind}"|class="{kind}" points="([^"]*)"', svg
+    )
+    return [
+        np.array([[float(one) for one in pair.split(",")] for pair in (a or b).split()]) * [1, -1]
+        for a, b in found
+    ]
+
+
+def test_every_moment_has_the_numbers_of_the_run() -> None:
+    run = three_cars()
+    data = data_of(col.play(run))
+    frames = frames_of(run)
+    assert data["times"] == frames.times.tolist()
+    assert data["times"][0] == 0.0
+    assert data["times"][-1] == run.end
+    after = [contact["after"] for contact in data["contacts"]]
+    before = {number - 1 for number in after}
+    rows = ("x", "y", "heading", "vx", "vy", "yaw_rate", "speed")
+    for at in [0, 1, 2, 30, *after, 100, 200, len(data["times"]) - 1]:
+        states = run.at(data["times"][at])
+        for name, mover in zip(NAMES, data["movers"], strict=True):
+            for row in rows[:3] if at in before else rows:
+                assert mover[row][at] == getattr(states[name], row), (name, row, at)
+    for impact, pair, at in zip(run.impacts, run.pairs, after, strict=True):
+        for side, name in zip((impact.a, impact.b), pair, strict=True):
+            mover = data["movers"][NAMES.index(name)]
+            for row in rows[3:]:
+                assert mover[row][at - 1] == pytest.approx(getattr(side.before, row), abs=1e-12)
+                assert mover[row][at] == pytest.approx(getattr(side.after, row), abs=1e-12)
+
+
+def test_steps_of_time_are_equal_between_contacts() -> None:
+    frames = frames_of(three_cars())
+    steps = np.diff(frames.times)
+    assert steps.min() == 0.0
+    assert steps.max() < 0.02 + 1e-12
+    assert (steps == 0.0).sum() == 3
+    assert [frames.times[at] for at in frames.after] == list(three_cars().times)
+
+
+def test_what_is_drawn_is_what_the_run_has() -> None:
+    run = three_cars()
+    page = col.play(run, units="us")
+    data = data_of(page)
+    moments = [0, 1, 60, 150, len(data["times"]) - 1]
+    seen = moved(page, *(("move", "time", at) for at in moments))[1:]
+    sizes = ((4.8, 1.8), (4.5, 1.7), (6.2, 2.3))
+    for at, state in zip(moments, seen, strict=True):
+        time = data["times"][at]
+        bodies = run.at(time)
+        assert state["outputs"]["time-value"] == f"{time:.2f} s"
+        assert state["aria"]["time"] == f"{time:.2f} s"
+        outlines = places(state["scene"], "now")[::2]
+        tracks = places(state["scene"], "track")
+        for i, (name, size) in enumerate(zip(NAMES, sizes, strict=True)):
+            body = bodies[name]
+            turn = complex(math.cos(body.heading), math.sin(body.heading))
+            middle = complex(body.x, body.y)
+            for one, two in ((1, 1), (1, -1), (-1, -1), (-1, 1)):
+                corner = middle + turn * complex(one * size[0], two * size[1]) / 2.0
+                off = np.hypot(*(outlines[i] - [corner.real, corner.imag]).T)
+                assert off.min() < 1e-9
+            assert len(tracks[i]) == at + 1
+            assert tracks[i][-1] == pytest.approx([body.x, body.y], abs=1e-12)
+            cells = {key.partition(".")[2]: text for key, text in state["cells"].items()
+                     if key.startswith(f"{i}.")}  # fmt: skip
+            if at:
+                assert float(cells["speed"].split()[0]) == pytest.approx(
+                    body.speed / MPH, abs=0.0501
+                )
+                assert float(cells["yaw"].rstrip("°/s")) == pytest.approx(
+                    math.degrees(body.yaw_rate), abs=0.501
+                )
+            assert float(cells["x"].split()[0]) == pytest.approx(body.x / FOOT, abs=0.00501)
+            assert cells["x"].endswith(" ft")
+            assert float(cells["heading"].rstrip("°")) == pytest.approx(
+                math.degrees(body.heading), abs=0.501
+            )
+        assert state["scene"].count('class="contact"') == sum(
+            at >= contact["after"] for contact in data["contacts"]
+        )
+
+
+def test_marks_grow_to_those_of_the_run() -> None:
+    run = three_cars()
+    page = col.play(run)
+    last = len(data_of(page)["times"]) - 1
+    first, at_end = moved(page, ("move", "time", last))
+    drawn = np.concatenate(places(at_end["scene"], "mark"))
+    for name in NAMES:
+        for x, y in run.paths[name].marks.values():
+            for place in np.stack([x, y], axis=1)[np.isfinite(x)][::7]:
+                assert np.hypot(*(drawn - place).T).min() < 1e-12
+    total = sum(
+        int(np.isfinite(x).sum()) for name in NAMES for x, _ in run.paths[name].marks.values()
+    )
+    assert len(drawn) == total
+    assert not any(len(stretch) > 3 for stretch in places(first["scene"], "mark"))
+
+
+def test_what_is_said_of_contacts() -> None:
+    run = three_cars()
+    page = col.play(run, units="us")
+    second = data_of(page)["contacts"][1]["after"]
+    start, before, after = moved(page, ("move", "time", second - 1), ("move", "time", second))
+    assert start["status"] == "Right before contact 1."
+    assert before["status"] == "Right before contact 2."
+    impact = run.impacts[1]
+    assert after["status"] == (
+        "Contact 2, Civic and Truck at 0.70 s: "
+        f"closing speed {impact.closing_speed / MPH:.1f} mph, "
+        f"delta-V of Civic {impact.a.delta_v / MPH:.1f} mph, "
+        f"delta-V of Truck {impact.b.delta_v / MPH:.1f} mph."
+    )
+    assert "Camry" in after["said"]
+
+
+class _Loads(HTMLParser):
+    """What a page would load."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.found: list[tuple[str, str]] = []
+
+    def handle_starttag(self, tag, attrs) -> None:
+        self.found += [
+            (tag, key) for key, _ in attrs if key in ("src", "href", "data", "srcset", "action")
+        ]
+
+
+def test_the_page_loads_nothing_and_saves(tmp_path) -> None:
+    page = col.play(three_cars())
+    loads = _Loads()
+    loads.feed(page)
+    assert not loads.found
+    assert "<!--" not in page.replace("<!DOCTYPE", "")
+    assert "default-src 'none'" in page
+    assert page.save(tmp_path / "crash.html").read_text(encoding="utf-8") == page
+    assert page == col.play(three_cars())
+
+
+def test_names_are_no_markup_and_what_moves_on_goes_on_for_a_second() -> None:
+    run = coasting()
+    page = col.play(run)
+    assert "<A & co>" not in page
+    data = data_of(page)
+    assert data["movers"][0]["label"] == "&lt;A &amp; co&gt;"
+    assert data["times"][-1] == run.times[0] + 1.0
+    assert data["movers"][1]["x"][-1] == pytest.approx(2.0 + 6.0 * 1.0)
+    (state,) = moved(page)
+    assert "&lt;A &amp; co&gt;" in state["scene"]
+
+
+def test_what_cannot_be_played_is_refused() -> None:
+    with pytest.raises(col.InputError, match=r"write collisions.play\(scene.run\(\)\)"):
+        col.play(three_cars().scene)
+    with pytest.raises(col.InputError, match="units"):
+        col.play(three_cars(), units="imperial")

@@ -1,0 +1,114 @@
+"""The report of a whole scene: its numbers are those of the run, and it can be made again from its
+record.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from html import unescape
+
+import pytest
+
+import collisions as col
+from collisions.reporting import options, replay
+from crashes import NAMES, coasting, three_cars
+
+FOOT, MPH = 0.3048, 0.44704
+
+
+def test_the_answer_comes_first_with_the_numbers_of_the_run() -> None:
+    run = three_cars()
+    page = col.report(run, form="markdown", units="us")
+    answer = page[: page.index("## Vehicles and ground")]
+    assert page.startswith("# The crash of Camry, Civic, Truck\n\n## Answer\n")
+    assert "**Camry at the start:** 40.0 mph" in answer
+    assert "**Truck at the start:** standing" in answer
+    for number, (impact, pair) in enumerate(zip(run.impacts, run.pairs, strict=True), 1):
+        for side, name in zip((impact.a, impact.b), pair, strict=True):
+            (found,) = re.findall(
+                rf"delta-V of {name}, impact {number} \S+ s.?\):\*\* ([\d.]+) mph", answer
+            )
+            assert float(found) == pytest.approx(side.delta_v / MPH, abs=0.0501)
+    for name in NAMES:
+        x, y = re.search(
+            rf"{name} at rest, x and y:\*\* (-?[\d.]+) ft, (-?[\d.]+) ft", answer
+        ).groups()
+        assert float(x) == pytest.approx(run.rest[name].x / FOOT, abs=0.00501)
+        assert float(y) == pytest.approx(run.rest[name].y / FOOT, abs=0.00501)
+    assert "No range is stated" in answer
+
+
+def test_each_impact_the_ledger_and_the_findings_have_their_parts() -> None:
+    run = three_cars()
+    page = col.report(run, form="markdown", units="us")
+    headings = re.findall(r"^#+ (.*)$", page, flags=re.MULTILINE)
+    order = [
+        "Impact 1: Camry and Civic at 0.00 s",
+        "Impact 2: Civic and Truck at 0.70 s",
+        "Impact 3: Camry and Civic at 0.93 s",
+        "Places of rest",
+        "Where the kinetic energy went",
+        "Findings",
+        "Record",
+    ]
+    assert [one for one in headings if one in order] == order
+    assert page.count("## Results") == 3
+    for finding in col.diagnose(run, units="us"):
+        assert finding.sentence.split(": ", 1)[1][:30] in page
+    for area in ("| surface 1 | friction | 0.3 |", "| Camry | outline | 15.75 ft by 5.906 ft |"):
+        assert area in page
+
+
+@pytest.mark.slow
+def test_the_page_can_be_made_again_from_its_record() -> None:
+    run = three_cars()
+    given = {"author": "J. Doe", "case": "2026-11", "derivation": True, "notes": ["Seen <b>."]}
+    page = col.report(run, **given)
+    assert replay(page) == run
+    assert options(page) == {**given, "units": "us"}
+    assert col.report(replay(page), **options(page)) == page
+    assert page.count("<svg") == 2
+    assert "<b>" not in page
+    assert "Seen &lt;b&gt;." in page
+    assert not re.search(r'(src|href)="(?!#)', page)
+
+
+def test_a_record_that_was_changed_is_refused() -> None:
+    run = coasting()
+    page = col.report(run, form="markdown", figures=False)
+    assert replay(page) == run
+    record = json.loads(page[page.index("```json\n") + 8 : page.rindex("```")])
+    columns = record["run"]["columns"]
+    name = next(one for one in columns if one.endswith("delta_v"))
+    columns[name] = [2.0 * value for value in columns[name]]
+    head = page[: page.index("```json\n") + 8]
+    changed = f"{head}{json.dumps(record)}\n```\n"
+    with pytest.raises(col.InputError, match="its inputs do not give its"):
+        replay(changed)
+
+
+def test_html_of_what_moves_on_and_has_a_name_like_markup() -> None:
+    page = col.report(coasting(), figures=False)
+    assert "<A & co>" not in page
+    assert "<A & co>" in unescape(page)
+    assert "none: nothing slows it" in page
+    assert "slowed by" in page
+
+
+def test_options_of_one_impact_are_refused_together() -> None:
+    with pytest.raises(col.CollisionsError) as caught:
+        col.report(
+            three_cars(), outline_a=(4.5, 1.8), share_a=0.5, notes={"a.mass": "Weighed"}, form="pdf"
+        )
+    text = str(caught.value)
+    for part in (
+        "outline_a is for one impact",
+        "share_a is for one",
+        "notes that are texts",
+        "form",
+    ):
+        assert part in text
+    many = three_cars().scene.replace({"Camry.vx": [17.0, 18.0]}).run(tolerance=1e-3)
+    with pytest.raises(col.ShapeError, match=r"report\(run.case\(0\)\)"):
+        col.report(many)
