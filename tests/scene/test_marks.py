@@ -1,4 +1,4 @@
-"""Where tyres leave marks: from 90 percent of the friction on, under the wheel, and nowhere else."""
+"""Where tyres leave marks: from 90 percent of the friction on, and under the wheel."""
 
 from __future__ import annotations
 
