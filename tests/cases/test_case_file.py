@@ -1169,3 +1169,57 @@ def test_the_text_says_what_stands_for_a_range():
     )
     assert first.startswith("Of what is not known exactly the mean")
     assert answers(read_text(REAR_END.encode())).text().startswith("Impact of A and B")
+
+
+def test_the_units_of_a_file_are_those_of_its_answer_unless_the_command_says_otherwise(
+    tmp_path, capsys
+):
+    """Its numbers are in km/h; [report] asks for US units, and --units goes before that."""
+    file = tmp_path / "case.toml"
+    file.write_text(REAR_END + '[report]\nunits = "us"\n', encoding="utf-8")
+    code, said, _ = run(capsys, file)
+    assert code == 0
+    assert "mph" in said
+    assert "km/h" not in said
+    said = run(capsys, file, "--units", "metric")[1]
+    assert "km/h" in said
+    assert "mph" not in said
+
+
+def test_shares_of_a_variance_begin_with_the_largest_and_tell_those_below_five_percent():
+    """Of equal masses, one at rest, delta-V is (1 + e) vx / 2: an error of 10 % in vx and one of 2
+    % in 1 + e, so shares of 100 and 4 out of 104.
+    """
+    text = (
+        '[a]\nmass = 1000\nvx = "20 m/s +/- 2 m/s"\n\n[b]\nmass = 1000\n\n[linear_central]\n'
+        'restitution = "0.25 +/- 0.025"\n\n[propagate]\nmethod = "first_order"\n'
+        'outputs = ["a.delta_v"]\n'
+    )
+    (line,) = [
+        one
+        for one in answers(read_text(text.encode())).text().splitlines()
+        if one.startswith("Variance of")
+    ]
+    assert re.findall(r"([\w.]+) (\d+)", line.split(": ")[1]) == [
+        ("a.vx", "96"),
+        ("restitution", "4"),
+    ]
+
+
+def test_sliders_of_what_is_uncertain_reach_three_deviations_or_its_bounds():
+    """Of a normal distribution three to either side, of a range its ends; a restitution ends at
+    1.
+    """
+    text = ECCENTRIC.replace('vx = "50 km/h"', 'vx = "14 m/s +/- 1.5 m/s"')
+    text = text.replace("mass = 1200", 'mass = "1100 kg .. 1350 kg"')
+    text = text.replace("restitution = 0.1", 'restitution = "0.8 +/- 0.1"')
+    page = answers(read_text(text.encode())).what_if("si")
+    ends = {
+        name: (float(low), float(high))
+        for name, low, high in re.findall('id="(\\w+)" min="(.*?)" max="(.*?)"', page)
+    }
+    assert ends == {
+        "vx_a": pytest.approx((9.5, 18.5)),
+        "mass_b": pytest.approx((1100.0, 1350.0)),
+        "restitution": pytest.approx((0.5, 1.0)),
+    }

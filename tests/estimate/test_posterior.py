@@ -21,6 +21,9 @@ import pytest
 import collisions as col
 from collisions import reconstruct
 from collisions.estimate import readings
+from collisions.estimate.evidence import read_evidence, read_reading
+from collisions.estimate.islands import Island
+from collisions.estimate.posterior import _Problem
 from collisions.estimate.readings import CensoredReading
 from collisions.reconstruct import posterior
 from collisions.uncertainty import (
@@ -35,6 +38,7 @@ from collisions.uncertainty import (
 )
 from collisions.uncertainty.distribution import Stated
 from collisions.uncertainty.normal import log_survival
+from collisions.uncertainty.sampling import Joint
 
 SIGMAS = 5.0
 
@@ -902,3 +906,68 @@ def test_a_kind_of_evidence_is_one_class(monkeypatch):
     assert codes == []
     assert found.residuals["read"].observed == pytest.approx(13.0)
     assert "dof=3" in repr(found.observed["read"])
+
+
+def test_what_is_shown_as_computed_is_the_mean_of_what_the_model_gives():
+    """A prior of 20 +/- 2 and a reading of 23 +/- 1: the mean is 22.4, less than was read."""
+    found, _ = sampled(lambda v: {"v": v}, {"v": Normal(20, 2)}, {"v": (23.0, 1.0)})
+    shown = found.residuals["v"]
+    assert shown.computed == pytest.approx(found.predicted["v"].mean, rel=1e-12)
+    assert shown.observed == 23.0
+    assert shown.residual == pytest.approx(shown.observed - shown.computed, rel=1e-12)
+    close(shown.computed, found["v"].mean_standard_error, 22.4)
+
+
+@pytest.mark.parametrize(("apart", "agrees"), [(3.2, True), (3.55, True), (3.75, False)])
+def test_evidence_contradicts_itself_from_a_chance_of_one_in_a_hundred_on(apart, agrees):
+    """Chi-squared of a prior and a reading that far apart, of variance 1 each, is half the square:
+    chances of 0.024, 0.012 and 0.008.
+    """
+    found, codes = sampled(
+        lambda v: {"v": v}, {"v": Normal(20, 1)}, {"v": (20.0 + apart, 1.0)}, samples=1024
+    )
+    assert found.p_value == pytest.approx(math.erfc(apart / 2.0), rel=0.05)
+    assert found.consistent is agrees
+    assert codes == ([] if agrees else ["contradictory"])
+
+
+def test_an_unknown_that_the_evidence_moved_or_narrowed_does_not_rest_on_its_prior():
+    """A speed of 0 +/- 1 that is the root of an energy is a likelihood of exp(-energy/2): it moves
+    a normal prior by half its variance and leaves the spread as it was.
+    """
+    found, _ = sampled(
+        lambda energy: {"speed": np.sqrt(np.maximum(5.0 + energy, 0.0))},
+        {"energy": Normal(0, 1)},
+        {"speed": (0.0, 1.0)},
+    )
+    close(found["energy"].mean, found["energy"].mean_standard_error, -0.5)
+    close(found.shrinkage["energy"], 0.0, 0.0, 0.06)
+    assert found.prior_only == ()
+    # Narrowed by a sixth, about the same mean: 1 / sqrt(1 + 4/9) = 0.832.
+    found, _ = sampled(lambda v: {"v": v}, {"v": Normal(20, 2)}, {"v": (20.0, 3.0)})
+    close(found["v"].mean, found["v"].mean_standard_error, 20.0)
+    assert found.prior_only == ()
+
+
+def test_an_island_counts_by_its_evidence():
+    """Eight islands that found the values 1 to 8, and an evidence in the ratio of these: the mean
+    over all is the sum of squares over the sum, 204 / 36, and the evidence their mean.
+    """
+    unknowns, observed = {"v": Normal(0, 1)}, {"v": (0.0, 1.0)}
+    called, priors, rows = read_evidence(
+        lambda v: {"v": v}, unknowns, observed, "", lambda _, given: given, read_reading
+    )
+    problem = _Problem(called, Joint(priors, None), rows)
+    islands = [
+        Island(np.full((1024, 1), float(found)), math.log(found), 0.0, 1.0, 10, 0, 0.0)
+        for found in range(1, 9)
+    ]
+    called({"v": np.zeros(2)}, 2, True)
+    found = problem.result(islands, 8192, 1)
+    assert found.samples == 8192
+    assert found["v"].mean == pytest.approx(204.0 / 36.0, abs=2e-3)
+    assert found.log_evidence == pytest.approx(math.log(36.0 / 8.0), rel=1e-12)
+    # Of a mean of eight: the standard deviation of the values over the root of eight, over the
+    # mean, to first order.
+    first_order = np.std(np.arange(1.0, 9.0), ddof=1) / math.sqrt(8.0) / 4.5
+    assert found.log_evidence_error == pytest.approx(first_order, rel=0.05)

@@ -501,3 +501,33 @@ def test_a_place_that_is_none_is_refused(place, code, said):
     with pytest.raises(col.InputError, match=said) as caught:
         recorded_pulse(TIME, SHAPE, polarity="49 CFR 563", **place)
     assert caught.value.code == code
+
+
+def test_a_record_that_begins_before_or_after_its_zero_has_the_same_duration():
+    """The time from its first sample to the greatest delta-V, wherever the recorder counts from."""
+    shape = -10.0 * haversine(TIME)
+    for start in (-0.05, 0.0, 0.2):
+        pulse = recorded_pulse(TIME + start, shape, polarity="ISO 8855")
+        assert pulse.duration == pytest.approx(0.11, rel=1e-9), start
+
+
+def test_the_bound_of_a_record_that_stops_early_is_told_in_km_per_hour():
+    """10 m/s are 36 km/h; the time is that of the last sample."""
+    time = np.arange(0.0, 0.0601, 0.01)
+    with pytest.warns(
+        col.OutOfRangeWarning,
+        match=re.escape(
+            "the record stops at 0.06 s while delta-V still changes: 36.0 km/h is a lower bound"
+        ),
+    ):
+        pulse = recorded_pulse(time, -10.0 * time / 0.06, polarity="ISO 8855")
+    with pytest.raises(col.InputError, match=r"36\.0 km/h is a lower bound"):
+        pulse.inputs("a")
+
+
+def test_the_evidence_of_a_reading_has_the_deviation_of_its_range():
+    """10 % of 36 km/h either way: as a uniform distribution, 1 m/s over the root of three."""
+    pulse = recorded_pulse(TIME, -10.0 * haversine(TIME), polarity="ISO 8855")
+    given, aside = pulse.evidence
+    assert aside is None
+    assert (given.mean, given.sd) == pytest.approx((-10.0, 1.0 / math.sqrt(3.0)), rel=1e-12)

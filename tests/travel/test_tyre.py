@@ -282,3 +282,35 @@ def test_the_size_of_the_vehicle_is_asked_for():
         travel.Tyres(mu=0.7, lock=1, wheelbase=2.7, track=1.5, friction=0.7)
     with pytest.warns(col.SuspectUnitsWarning, match="106"):
         travel.Tyres(0.7, 1, 106, 1.5)
+
+
+def test_the_height_from_which_a_wheel_lifts_off_is_that_of_its_load():
+    """The load of the wheel that lifts is W/4 - mu W h (cos/wheelbase + sin/track)/2; over all
+    directions the least is 0 at h = 1 / (2 mu hypot(1/wheelbase, 1/track)).
+    """
+    highest = 1.0 / (2.0 * 0.7 * math.hypot(1.0 / 2.7, 1.0 / 1.5))
+    assert highest == pytest.approx(0.9366, abs=1e-4)
+    assert travel.Tyres(0.7, 1, 2.7, 1.5, height=0.999 * highest).transfers
+    with pytest.raises(col.InputError, match=r"height is 0\.93\d* m, and from 0\.937 m on"):
+        travel.Tyres(0.7, 1, 2.7, 1.5, height=1.001 * 0.9366)
+
+
+def test_four_locks_stay_as_they_were_given_when_something_else_changes():
+    tyres = travel.Tyres(0.7, ["100 %", 0.05, "5 %", 0.0], 2.7, 1.5).replace(friction=0.5)
+    assert tyres.locks == (1.0, 0.05, 0.05, 0.0)
+    assert [tyres.given[f"lock[{wheel}]"] for wheel in (0, 2)] == ["100 %", "5 %"]
+
+
+def test_of_many_vehicles_one_that_steers_has_its_steer():
+    """Beside others that do not, it has the path that it has alone."""
+    car = {"mass": 1500.0, "yaw_inertia": 2400.0, "x": 0.0, "y": 0.0, "heading": 0.0, "vx": 12.0}
+    steer = np.array([0.0, 0.05])
+    both = travel.simulate(
+        col.Vehicle(**car), travel.Tyres(0.7, 0.3, 2.7, 1.5, steer=steer), tolerance=1e-5
+    )
+    for case, angle in enumerate(steer):
+        alone = travel.simulate(
+            col.Vehicle(**car), travel.Tyres(0.7, 0.3, 2.7, 1.5, steer=angle), tolerance=1e-5
+        )
+        assert both.rest.y[case] == pytest.approx(alone.rest.y, rel=1e-9, abs=1e-9)
+    assert abs(both.rest.y[1]) > 1.0
