@@ -257,6 +257,12 @@ def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
     """
     if type(value) is float:
         return value, ""
+    if (
+        type(value) is np.ndarray
+        and value.dtype == np.float64
+        and 0 < value.ndim <= _MOST_DIMENSIONS
+    ):
+        return np.array(value), ""
     if isinstance(value, str):
         quantity = parse(value, unit, argument)
         return _convert(quantity, unit, argument, value)[0], value.strip() if has_unit(
