@@ -3,9 +3,10 @@
 #
 # A study like "A large study over several processes", for those who use dask: `delayed` puts solver
 # calls into a graph, and dask runs them on threads, on processes or on a cluster. Each block is an
-# ordinary batch; vehicles and answers are passed as pickles. The steps that follow, here three
-# quantiles, are part of the graph. The answers are those of one batch in one process, to the last
-# bit.
+# ordinary batch; vehicles and outputs are passed as pickles. Reading the outputs is a step of the
+# graph, so that no impact, which holds all its inputs and every output, leaves its worker. The
+# steps that follow, here three quantiles, are part of the graph, too. The answers are those of one
+# batch in one process, to the last bit.
 
 # %%
 from operator import attrgetter
@@ -53,6 +54,15 @@ def part(values, block):
     return values[block] if isinstance(values, np.ndarray) else values
 
 
+NAMES = (
+    "status",
+    "normal_impulse",
+    "tangential_impulse",
+    "energy_loss",
+    "b.delta_v",
+    "b.delta_yaw_rate",
+)
+outputs = attrgetter(*NAMES)
 SCENE = {"normal": 0.0, "point": (0.0, 0.2), "on_failure": "nan"}
 whole = slice(None)
 
@@ -64,17 +74,21 @@ whole = slice(None)
 if __name__ == "__main__":
     rear, front, restitution, friction = drawn(CASES, seed=8)
     tasks = [
-        dask.delayed(col.eccentric)(
-            part(rear, block),
-            part(front, block),
-            restitution[block],
-            friction=friction[block],
-            **SCENE,
+        dask.delayed(outputs)(
+            dask.delayed(col.eccentric)(
+                part(rear, block),
+                part(front, block),
+                restitution[block],
+                friction=friction[block],
+                **SCENE,
+            )
         )
         for block in (slice(start, start + BLOCK) for start in range(0, CASES, BLOCK))
     ]
     quantiles = dask.delayed(np.quantile)(
-        dask.delayed(np.concatenate)([task.b.delta_v for task in tasks]),
+        dask.delayed(np.concatenate)(
+            [task[NAMES.index("b.delta_v")] for task in tasks]
+        ),
         [0.05, 0.5, 0.95],
     )
     on_threads = dask.compute(*tasks, scheduler="threads", num_workers=2)
@@ -99,18 +113,8 @@ if __name__ == "__main__":
         part(rear, whole), part(front, whole), restitution, friction=friction, **SCENE
     )
     for way, blocks in (("threads", on_threads), ("processes", on_processes)):
-        for name in (
-            "status",
-            "normal_impulse",
-            "tangential_impulse",
-            "energy_loss",
-            "b.delta_v",
-            "b.delta_yaw_rate",
-        ):
-            column = attrgetter(name)
-            if not np.array_equal(
-                np.concatenate([column(impact) for impact in blocks]), column(one)
-            ):
+        for name, *parts, column in zip(NAMES, *blocks, outputs(one), strict=True):
+            if not np.array_equal(np.concatenate(parts), column):
                 raise AssertionError(f"{name} differs on {way}")
     if not np.array_equal(found, np.quantile(one.b.delta_v, [0.05, 0.5, 0.95])):
         raise AssertionError("the quantiles differ")

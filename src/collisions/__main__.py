@@ -5,19 +5,21 @@ from.
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Sequence
 from os import getpid
 from os.path import realpath
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from . import __version__
-from .cases.answers import Answers, answers
-from .cases.read import CaseError, read
-from .cases.schema import case_schema
 from .quantities.formatting import SYSTEMS
+
+if TYPE_CHECKING:
+    from .cases.answers import Answers
+    from .cases.read import CaseError
+
+# What answers cases is imported where it is used: ``new`` prints a text and needs none of it.
 
 _CASES = Path(__file__).with_name("cases")
 _TEMPLATE, _US_TEMPLATE = _CASES / "case_template.toml", _CASES / "case_template_us.toml"
@@ -47,6 +49,9 @@ def _run(options: Any) -> int:
     """Do what the command line asks for; gives the exit code."""
     if options.case in ("new", "schema"):
         return _printed(options)
+    from .cases.answers import answers
+    from .cases.read import CaseError, read
+
     try:
         _check_names(options)
         found = answers(read(options.case))
@@ -63,7 +68,7 @@ def _run(options: Any) -> int:
     if isinstance(whole, str):
         print(whole, end="")
     elif not code:
-        print(json.dumps(whole, indent=1, allow_nan=False))
+        print(_as_json(whole))
     return code
 
 
@@ -83,7 +88,9 @@ def _printed(options: Any) -> int:
         print(f"{options.case}: {takes}; leave out {' and '.join(given)}", file=sys.stderr)
         return 2
     if options.case == "schema":
-        print(json.dumps(case_schema(), indent=1))
+        from .cases.schema import case_schema
+
+        print(_as_json(case_schema()))
         return 0
     text = (_US_TEMPLATE if options.units == "us" else _TEMPLATE).read_text(encoding="utf-8")
     if options.units == "si":
@@ -108,6 +115,8 @@ def _pages(options: Any, found: Answers) -> dict[Path, str]:
 
 def _write(pages: dict[Path, str]) -> None:
     """Write all of these files, or none: first under names beside their own."""
+    from .cases.read import CaseError
+
     parts: dict[Path, Path] = {}
     try:
         for path, text in pages.items():
@@ -136,6 +145,8 @@ def _check_names(options: Any) -> None:
     """Refuse to write over the case file, one page over the other, or a page under a name that says
     something else.
     """
+    from .cases.read import CaseError
+
     taken = {realpath(options.case)}
     for option, name, endings in (
         ("--report", options.report, _HTML + _MARKDOWN),
@@ -162,12 +173,17 @@ def _refused(options: Any, error: CaseError, whole: Any) -> int:
         problems = [
             {"file": options.case, "key": key, "text": text} for key, text in error.problems
         ]
-        print(
-            json.dumps({"code": error.code, "errors": problems, **whole}, indent=1, allow_nan=False)
-        )
+        print(_as_json({"code": error.code, "errors": problems, **whole}))
     for key, text in error.problems:
         print(": ".join(filter(None, (options.case, key, text))), file=sys.stderr)
     return 1 if error.refused else 2
+
+
+def _as_json(whole: Any) -> str:
+    """A document as it is printed; no number in it is NaN or infinite."""
+    import json
+
+    return json.dumps(whole, indent=1, allow_nan=False)
 
 
 class _Parser(argparse.ArgumentParser):

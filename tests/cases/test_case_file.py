@@ -995,7 +995,7 @@ def test_one_file_by_two_names_and_a_key_that_stops(tmp_path, capsys, monkeypatc
     def stopped(case):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("collisions.__main__.answers", stopped)
+    monkeypatch.setattr("collisions.cases.answers.answers", stopped)
     assert run(capsys, file) == (130, "", "stopped; nothing more was written\n")
 
 

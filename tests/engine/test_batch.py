@@ -212,6 +212,50 @@ def test_progress_counts_up_and_can_interrupt(threads):
         solve(v, threads=threads, progress=stop)
 
 
+FAULTS = {
+    "mass": [-1.0, 0.0, np.nan],
+    "yaw_inertia": [-1.0, np.nan],
+    **dict.fromkeys(("vx", "vy", "yaw_rate", "x", "y"), (np.inf, -np.inf, np.nan)),
+    "restitution": [-0.1, 1.5, np.nan],
+    "friction": [-0.1, np.nan],
+    "normal": [np.inf, np.nan],
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_fault_among_a_few_cases_has_the_status_it_has_among_many(name):
+    """In a few cases the checks that an answer implies are passed over, as in blocks of many."""
+    plain = {"mass": 1100.0, "yaw_inertia": 1800.0, "vx": 20.0, "vy": 1.0, "yaw_rate": 0.1}
+    plain |= {"x": 0.0, "y": 0.1, "restitution": 0.2, "friction": 0.3, "normal": 0.1}
+    for fault in FAULTS[name]:
+
+        def answers(count, fault=fault):
+            values = {key: np.full(count, value) for key, value in plain.items()}
+            values[name][3] = fault
+            contact = {key: values.pop(key) for key in ("restitution", "friction", "normal")}
+            seen = []
+            found = col.eccentric(
+                col.Vehicle(**values),
+                B,
+                contact.pop("restitution"),
+                **contact,
+                point=(1.7, 0.3),
+                on_failure="nan",
+                progress=lambda *done: seen.append(done),
+            )
+            assert seen == [(count, count)]
+            return answer_of(found)
+
+        few, many = answers(10), answers(10 * SCALAR_LIMIT)
+        assert few.status[3] == many.status[3] > 1
+        assert np.count_nonzero(few.status) == np.count_nonzero(many.status) == 1
+        for field in Answer._fields:
+            one, other = getattr(few, field), getattr(many, field)
+            assert np.array_equal(one, other[:10], equal_nan=True), field
+            assert one.dtype == other.dtype
+            assert not one.flags.writeable
+
+
 def test_results_are_locked():
     """Nobody changes an answer by accident."""
     impact = solve(np.array([10.0, 20.0]))

@@ -21,7 +21,7 @@ from ..kernels.status import Answer, Status
 from .blocks import BLOCK, Progress, block_length, each_block, flat
 from .buffers import Program, aligned_arrays
 from .flattening import flattened, form_of, numbers_of
-from .floats import compile_for_floats
+from .floats import compiled
 from .replay import input_kind, record, replay
 
 # Of cases with models of their own, so many are looked at together: about a block of each of three
@@ -49,6 +49,7 @@ LAZY = ("status", *(name for name in Answer._fields if name not in EAGER))
 # With plain numbers in this range no output overflows float32: slip, coupling and impulse without
 # slip are at most 1e30.
 _SMALL, _LARGE = 1e-18, 1e6
+_STICKS = Answer._fields.index("sticks")
 
 
 class Check(NamedTuple):
@@ -261,6 +262,8 @@ def _solved(
 ) -> dict[str, Any]:
     """The outputs of these names, the status always included; locked."""
     dtype, size = np.dtype(batch.dtype), batch.size
+    if 0 < size <= SCALAR_LIMIT and dtype == np.float64:
+        return _few_solved(call, batch, names, progress)
     kinds = _kinds(tuple(names), dtype)
     program = _program(call, kinds, batch)
     constant_outputs = {} if program is None else program.outputs
@@ -284,6 +287,62 @@ def _solved(
             )
             outputs[at] = np.where(refused, none, number) if some else np.broadcast_to(number, size)
     return _shaped(dict(zip(Answer._fields, outputs, strict=True)), batch.shape)
+
+
+def _few_solved(
+    call: KernelCall, batch: Batch, names: Sequence[str], progress: Progress | None
+) -> dict[str, Any]:
+    """The same for a few cases, whose outputs are the rows of one array."""
+    checks, shape, _, _ = batch
+    inputs = [_in_a_row(value, shape) for value in call.inputs]
+    found, judged = _one_by_one(call, inputs, batch.size)
+    ok = None not in found
+    with np.errstate(all="ignore"):
+        # Into the rows by case, a status of 0 and a truth as numbers, all of them to be told apart
+        # again.
+        rows = (
+            np.array(found, dtype=np.float64).T.copy()
+            if ok
+            else _rows(call.kernel(*inputs, *call.settings), batch.size)
+        )
+        read = {id(call.inputs[at]) for at in judged} if ok else set()
+        open_checks = _not_implied(checks, read)
+        cut = dict(zip(map(id, call.inputs), inputs, strict=True))
+        for value in chain.from_iterable(check.values for check in open_checks):
+            if id(value) not in cut:
+                cut[id(value)] = _in_a_row(value, shape)
+        faults = _faults(open_checks, cut)
+    status, sticks = rows[0].astype(np.uint8), rows[_STICKS] != 0.0
+    if faults or not ok:
+        outputs: list[Any] = list(rows)
+        outputs[0], outputs[_STICKS] = status, sticks
+        refuse_cases(faults, outputs)
+    for whole in (rows, status, sticks):
+        # Before they are taken apart: what is a part of a locked array is locked.
+        whole.setflags(write=False)
+    if progress is not None:
+        progress(batch.size, batch.size)
+    shaped = dict(zip(Answer._fields, rows.reshape(-1, *shape), strict=True))
+    shaped |= {"status": status.reshape(shape), "sticks": sticks.reshape(shape)}
+    return shaped if names is Answer._fields else {name: shaped[name] for name in names}
+
+
+def _in_a_row(value: Any, shape: tuple[int, ...]) -> Any:
+    """The cases of an array in a row, in float64; a plain number as it is."""
+    if isinstance(value, float):
+        return value
+    if value.shape == shape and value.dtype == np.float64:
+        return value.reshape(-1)
+    whole = value if value.shape == shape else np.broadcast_to(value, shape)
+    return whole.reshape(-1).astype(np.float64, copy=False)
+
+
+def _rows(answers: Sequence[Any], size: int) -> Any:
+    """The outputs of a kernel, each an array or one number for all cases, as rows of an array."""
+    rows = np.empty((len(answers), size))
+    for row, answer in zip(rows, answers, strict=True):
+        row[...] = answer
+    return rows
 
 
 def _shaped(outputs: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
@@ -355,11 +414,7 @@ def _in_blocks(
     length = min(block_length(size, threads, 0 if program is None else program.scratch), size or 1)
     # What the kernel reads to find out whether a case has an answer.
     judged = set() if program is None else {id(call.inputs[at]) for at in program.judged}
-    open_checks = [
-        check
-        for check in checks
-        if not (check.implied and judged.issuperset(map(id, check.values)))
-    ]
+    open_checks = _not_implied(checks, judged)
 
     def solve(start: int) -> int:
         block = slice(start, min(start + length, size))
@@ -380,6 +435,15 @@ def _in_blocks(
         return block.stop - block.start
 
     each_block(solve, range(0, size, length), size, threads, progress)
+
+
+def _not_implied(checks: Sequence[Check], judged: set[int]) -> list[Check]:
+    """The checks that an answer does not imply, of a kernel that judged the values of these ids."""
+    return [
+        check
+        for check in checks
+        if not (check.implied and judged.issuperset(map(id, check.values)))
+    ]
 
 
 def _faults(checks: Sequence[Check], cut: dict[int, Any]) -> list[Any]:
@@ -407,9 +471,7 @@ def run_one_by_one(call: KernelCall, inputs: Sequence[Any], outputs: Sequence[An
     """Answer each case by the kernel compiled for floats; all by the kernel itself if one of them
     has no plain answer.
     """
-    count, function = len(outputs[0]), _for_floats(call.kernel, call.settings, len(inputs))
-    columns = [[value] * count if isinstance(value, float) else value.tolist() for value in inputs]
-    answers = [*map(function, zip(*columns, strict=True))]
+    answers, _ = _one_by_one(call, inputs, len(outputs[0]))
     found = call.kernel(*inputs, *call.settings) if None in answers else zip(*answers, strict=True)
     for output, answer in zip(outputs, found, strict=True):
         if output is not None:
@@ -417,8 +479,19 @@ def run_one_by_one(call: KernelCall, inputs: Sequence[Any], outputs: Sequence[An
     return not outputs[0].any()
 
 
+def _one_by_one(
+    call: KernelCall, inputs: Sequence[Any], count: int
+) -> tuple[list[Any], frozenset[int]]:
+    """What the kernel compiled for floats gives for each case, None without a plain answer; and
+    which inputs it judges.
+    """
+    function, judged = _for_floats(call.kernel, call.settings, len(inputs))
+    columns = [[value] * count if isinstance(value, float) else value.tolist() for value in inputs]
+    return [*map(function, zip(*columns, strict=True))], judged
+
+
 @lru_cache(maxsize=64)
 def _for_floats(
     kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...], count: int
-) -> Callable[[Any], Any]:
-    return compile_for_floats(kernel, tuple(f"[{at}]" for at in range(count)), settings)
+) -> tuple[Callable[[Any], Any], frozenset[int]]:
+    return compiled(kernel, tuple(f"[{at}]" for at in range(count)), settings)

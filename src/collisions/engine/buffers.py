@@ -54,6 +54,13 @@ def _needs(steps: Sequence[Step], wanted: set[int]) -> set[int]:
     return {index for index in needed if steps[index].function is not None}
 
 
+def judged_by(steps: Sequence[Step], ok: int | None) -> frozenset[int]:
+    """The inputs that are read to find out whether a case has an answer."""
+    judging = set() if ok is None else _needs(steps, {ok})
+    read = (steps[one] for index in judging for one in steps[index].operands)
+    return frozenset(step.operands[0] for step in read if step.function is None and step.operands)
+
+
 def allocate(
     tape: Tape, written: dict[int, int], inputs: int, outputs: int, constant_outputs: dict[int, Any]
 ) -> Program:
@@ -61,7 +68,6 @@ def allocate(
     steps = tape.steps
     (status,) = (index for index, which in written.items() if which == 0)
     ok = tape.ok(status)
-    judging = set() if ok is None else _needs(steps, {ok})
     early = _needs(steps, set(written) if ok is None else (written.keys() - {status}) | {ok})
     needed = _needs(steps, set(written))
     numbers = [index for index in sorted(needed) if not steps[index].sample.ndim]
@@ -117,12 +123,11 @@ def allocate(
         for i in (*numbers, *order)
     ]
     at_once = len(numbers) + len(early)
-    read = (steps[one] for index in judging for one in steps[index].operands)
     return Program(
         tuple(calls[:at_once]),
         tuple(calls[at_once:]),
         None if ok is None else places[ok],
-        frozenset(step.operands[0] for step in read if step.function is None and step.operands),
+        judged_by(steps, ok),
         tuple(np.asarray(steps[index].sample) for index in constants),
         tuple(steps[index].sample.dtype for index in numbers),
         tuple(buffers),

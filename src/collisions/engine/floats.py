@@ -12,6 +12,7 @@ import numpy as np
 
 from ..kernels.elementwise import larger
 from ..kernels.status import Answer, Status
+from .buffers import judged_by
 from .tracing import TextTape, statements
 
 WRITTEN: dict[Any, str] = {
@@ -29,13 +30,20 @@ WRITTEN: dict[Any, str] = {
 def compile_for_floats(
     kernel: Callable[..., tuple[Any, ...]], takes: tuple[str, ...], settings: tuple[Any, ...]
 ) -> Callable[[Any], Any]:
+    """The function of ``compiled`` alone."""
+    return compiled(kernel, takes, settings)[0]
+
+
+def compiled(
+    kernel: Callable[..., tuple[Any, ...]], takes: tuple[str, ...], settings: tuple[Any, ...]
+) -> tuple[Callable[[Any], Any], frozenset[int]]:
     """A kernel with these settings compiled to one plain function, which reads its numbers at the
     paths in ``takes``.
 
     A path is such as "restitution", "a.mass" or "normal[0]" of a dict, or "[3]" of a sequence. Of a
     kernel that gives an ``Answer`` it answers only cases whose status is plainly OK. For any other
     case, and where Python raises, as in a division by 0, it returns None, and the caller runs the
-    kernel itself.
+    kernel itself. Beside the function stands which of the numbers it reads to find that out.
     """
     tape = TextTape()
     with np.errstate(all="ignore"):
@@ -65,7 +73,7 @@ def compile_for_floats(
         f"def function(inputs):\n    try:\n        {body}\n            return {returned}\n"
         f"    except (ArithmeticError, TypeError, ValueError):\n        pass\n    return None\n"
     )
-    return _made(source, kernel.__name__, type(given))
+    return _made(source, kernel.__name__, type(given)), judged_by(tape.steps, ok)
 
 
 def compile_loop(

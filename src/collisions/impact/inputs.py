@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cached_property
 from itertools import chain
+from operator import attrgetter
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -25,6 +26,7 @@ from ..quantities.units import Value, has_unit, is_quantity, shown, texts_of
 from ..vehicle.tyres import NAMES as TYRE_NUMBERS
 from ..vehicle.tyres import Tyres, tyres_with
 from ..vehicle.vehicle import (
+    DOMAINS,
     NAMES,
     Vehicle,
     missing,
@@ -41,6 +43,7 @@ OnFailure: TypeAlias = Literal["raise", "nan"]
 # Of an impulse, as given: both vehicles, restitution, normal, point, values of ``RULES``, and law.
 Arguments: TypeAlias = tuple[Any, Any, Any, Any, Any, tuple[Any, ...], Any]
 
+_numbers = attrgetter(*DOMAINS)
 _ALONG_X = (1.0, 0.0)
 _new = object.__new__
 # Of a crush stiffness: force at no crush and its growth with crush, each for a width, and the
@@ -144,7 +147,9 @@ class Inputs:
     @cached_property
     def shape(self) -> tuple[int, ...] | None:
         """That of the arrays among the numbers; None for a single case."""
-        return broadcast(named_numbers(self))
+        shapes = {value.shape for value in numbers_in(self) if isinstance(value, np.ndarray)}
+        # Names are for the error of arrays that do not go together.
+        return shapes.pop() if len(shapes) == 1 else broadcast(named_numbers(self))
 
     @property
     def bare_normal(self) -> Any:
@@ -193,6 +198,25 @@ class Inputs:
 
 # The numbers and pairs with their units: records and their schema list each by name.
 UNITS: dict[str, Any] = {f.name: f.metadata["unit"] for f in fields(Inputs) if "unit" in f.metadata}
+
+
+_parts = attrgetter("restitution", "rule_value", "normal", *UNITS, "contact_velocity")
+
+
+def numbers_in(inputs: Inputs) -> list[Any]:
+    """Every number of the inputs, in the order of ``named_numbers``, without their names."""
+    found: list[Any] = []
+    for value in _parts(inputs):
+        if isinstance(value, tuple):
+            found += value
+        elif value is not None:
+            found.append(value)
+    for vehicle in (inputs.a, inputs.b):
+        found += [value for value in _numbers(vehicle) if value is not None]
+        found += vehicle.pivot or ()
+    for tyres in inputs.tyres.values():
+        found += tyres.named.values()
+    return found
 
 
 def named_numbers(inputs: Inputs) -> dict[str, Any]:

@@ -41,7 +41,7 @@ from ..quantities.units import shown
 from ..vehicle.tyres import DOMAINS as TYRE_DOMAINS
 from ..vehicle.tyres import Tyres, could_lift
 from ..vehicle.vehicle import DOMAINS, with_name
-from .inputs import Inputs, first_case, named_numbers, part_of_inputs
+from .inputs import Inputs, first_case, numbers_in, part_of_inputs
 from .models import TIME_RESOLVED, Model, float_function, model_of, read_again, variant_of
 from .time_resolved_inputs import DOMAINS as TIME_DOMAINS
 from .time_resolved_inputs import solve_case_in_time, solve_cases_in_time, with_tyres
@@ -128,7 +128,7 @@ def cases_of(inputs: Inputs, shape: tuple[int, ...], threads: int) -> tuple[Any,
     from ..engine.batch import Batch
     from ..quantities.precision import precision
 
-    dtype = precision(named_numbers(inputs).values())
+    dtype = precision(numbers_in(inputs))
     eps = float(np.finfo(dtype).eps)
     return Batch(_value_checks(inputs, eps), shape, dtype, threads), eps
 

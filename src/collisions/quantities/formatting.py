@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 from ..messages.errors import InputError
-from .units import shown, to_quantity
+from .units import scale, shown
 
 _FIGURES = 3  # of results without a fixed number of decimals: impulses and energies
 _NO_SPREAD = 1e-12  # relative: a standard deviation this small is rounding
@@ -215,7 +215,7 @@ def scale_of(kind: str, system: str) -> float:
     inside, label = SI_UNITS[kind], unit_of(kind, system)
     if inside == label:
         return 1.0
-    return float(to_quantity(1.0, inside).m_as(to_quantity(1.0, label).units))
+    return scale(inside, label)
 
 
 def check_system(units: Any) -> None:

@@ -47,6 +47,7 @@ from .units import (
     unit_as_written,
     without_commas,
 )
+from .usual_units import Usual
 
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is
 # three turns a second).
@@ -256,12 +257,18 @@ def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
     """
     if type(value) is float:
         return value, ""
+    if (
+        type(value) is np.ndarray
+        and value.dtype == np.float64
+        and 0 < value.ndim <= _MOST_DIMENSIONS
+    ):
+        return np.array(value), ""
     if isinstance(value, str):
         quantity = parse(value, unit, argument)
         return _convert(quantity, unit, argument, value)[0], value.strip() if has_unit(
             quantity
         ) else ""
-    if is_quantity(value):
+    if is_quantity(value) or isinstance(value, Usual):
         return _convert(value, unit, argument, value)
     return _plain(value, argument, unit), ""
 

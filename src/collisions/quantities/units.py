@@ -1,7 +1,8 @@
 """Units: reads texts and Quantities (``parse``, ``magnitude``), and makes Quantities
 (``to_quantity``).
 
-The only file that names pint, which it loads when a unit first appears.
+The only file that names pint, which it loads when a Quantity is asked for, or a unit appears that
+is not in the table of usual ones.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from ..messages.errors import InputError, UnitsError
+from .usual_units import SCALES, USUAL, Usual, usual
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -195,14 +197,16 @@ def has_unit(value: Any) -> bool:
     if isinstance(value, str):
         return re.fullmatch(_NUMBER, value.strip()) is None
     # Decided by the units alone: a Decimal registry cannot convert a float to find out.
-    return is_quantity(value) and bool(value._units)
+    return (isinstance(value, Usual) or is_quantity(value)) and bool(value._units)
 
 
 def in_degrees(value: Any) -> bool:
     """Whether this is an angle to be read in degrees, which can be reduced exactly;
     radians cannot.
     """
-    return is_quantity(value) and dict(value._units) in [{name: 1} for name in _ANGLES]
+    return (isinstance(value, Usual) or is_quantity(value)) and dict(value._units) in [
+        {name: 1} for name in _ANGLES
+    ]
 
 
 def si_unit(value: Any, argument: str = "value", per_angle: bool = False) -> str:
@@ -222,6 +226,8 @@ def si_unit(value: Any, argument: str = "value", per_angle: bool = False) -> str
     if not has_unit(value):
         return ""
     quantity = parse(value, _ANY_KIND, argument) if isinstance(value, str) else value
+    if isinstance(quantity, Usual):
+        return quantity.si
     try:
         roots = dict(quantity._REGISTRY.get_root_units(quantity._units)[1]._units)
     except Exception as error:
@@ -270,15 +276,13 @@ def with_symbol(text: str) -> str:
     Quantity's.
     """
     try:
-        units = parse(text, _ANY_KIND, "").units
+        quantity = parse(text, _ANY_KIND, "")
     except UnitsError:
         return text
-    named = f"{units}"
-    return (
-        text.replace(named, unit_as_written(units)).replace(".0 ", " ", 1)
-        if f" {named}" in text
-        else text
-    )
+    named = quantity.name if isinstance(quantity, Usual) else f"{quantity.units}"
+    if f" {named}" not in text:
+        return text
+    return text.replace(named, unit_as_written(_of_pint(quantity).units)).replace(".0 ", " ", 1)
 
 
 class Texts(dict[str, str]):
@@ -360,6 +364,7 @@ def _systems(text: str) -> set[str]:
 
 def parse(text: str, unit: str, argument: str) -> Any:
     """A Quantity from one plain number and one unit: float reads the number, pint only the unit.
+    A ``Usual`` where the table has the unit and no registry has been made that may know another.
 
     Whole strings are never handed to pint, which reads "80 km/h 5" as 400 km/h and "1 500 kg" as
     500 kg.
@@ -367,8 +372,7 @@ def parse(text: str, unit: str, argument: str) -> Any:
     stripped = text.strip()
     number = re.match(_NUMBER, stripped) if len(stripped) <= _LONGEST_TEXT else None
     name = stripped[number.end() :].strip() if number else ""
-    registry, read = _registry()
-    readable = (name in read or re.fullmatch(_UNIT, name)) if name else not unit
+    readable = (name in USUAL or re.fullmatch(_UNIT, name)) if name else not unit
     if number is None or not readable:
         how = "one plain number and one unit" if unit else "one plain number"
         raise UnitsError(
@@ -383,12 +387,24 @@ def parse(text: str, unit: str, argument: str) -> Any:
         raise InputError(
             f"{argument} is too large: {shown(text)}", code="out_of_range", argument=argument
         )
+    listed = usual(value, name) if _is_unused() else None
+    if listed is not None:
+        return listed
+    registry, read = _registry()
     try:
         return registry.Quantity(value, _units_of(registry, read, name))
     except UnitsError as error:
         raise _bad_units(text, unit, argument, None, f"; {error}") from None
     except Exception as error:
         raise _bad_units(text, unit, argument, error) from None
+
+
+def _of_pint(quantity: Any) -> Any:
+    """The Quantity of pint, also of a number in a unit from the table."""
+    if not isinstance(quantity, Usual):
+        return quantity
+    registry, read = _registry()
+    return registry.Quantity(quantity.magnitude, _units_of(registry, read, quantity.written))
 
 
 def _units_of(registry: Any, read: dict[str, Any], name: str) -> Any:
@@ -481,6 +497,12 @@ def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, 
     """The factor to SI and the unit's name, cached for each registry: pint takes 60 us
     to find out.
     """
+    if isinstance(quantity, Usual):
+        by = quantity.factor(unit)
+        if by is not None:
+            return by, quantity.name if quantity.si else ""
+        made = _of_pint(quantity)
+        quantity, given = made, made if given is quantity else given
     registry = quantity._REGISTRY
     known = _known.get(registry)
     if known is None:
@@ -495,6 +517,14 @@ def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, 
         if not in_context:
             known[key] = found
     return found
+
+
+def scale(inside: str, label: str) -> float:
+    """The factor from an SI unit to the unit that numbers are printed in."""
+    found = SCALES.get((inside, label)) if _is_unused() else None
+    if found is not None:
+        return found
+    return float(to_quantity(1.0, inside).m_as(to_quantity(1.0, label).units))
 
 
 def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, str]:
@@ -631,6 +661,20 @@ def _written(powers: Mapping[str, Any]) -> str:
 
 def _to_the_power(unit: str, power: Any) -> str:
     return unit if power == 1 else f"{unit}**{power:g}"
+
+
+def _is_unused() -> bool:
+    """Whether pint's application registry is its own and not made yet, so that nothing in it can
+    differ from the table of usual units.
+    """
+    pint: Any = sys.modules.get("pint")
+    if pint is None:
+        return True
+    # While another thread imports pint it may have no such function yet.
+    ask = getattr(pint, "get_application_registry", None)
+    registry = None if ask is None else ask().get()
+    made_without = vars(registry).get("params") if registry is not None else None
+    return type(registry).__name__ == "LazyRegistry" and made_without == ((), {})
 
 
 def _registry() -> tuple[Any, dict[str, Any]]:
