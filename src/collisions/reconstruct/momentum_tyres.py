@@ -154,6 +154,11 @@ class Neglect(NamedTuple):
     sentence: str
 
 
+def _kind(name: str) -> str:
+    """The kind of quantity of a speed or course."""
+    return "angle" if name.startswith("course") else "speed"
+
+
 def _in_words(name: str) -> str:
     """A speed or course of planar momentum in words: ``speed_a_after`` as "speed of A after"."""
     kind, label, *after = name.split("_")
@@ -186,7 +191,7 @@ def neglected(
     if not all(map(math.isfinite, (*changes.values(), *shares))):
         return None
     parts = [
-        f"the {_in_words(name)} would be {say(abs(change), 'angle' if name.startswith('course') else 'speed')} "
+        f"the {_in_words(name)} would be {say(abs(change), _kind(name))} "
         f"{'more' if change > 0.0 else 'less'}"
         for name, change in changes.items()
     ]
