@@ -140,7 +140,7 @@ def around(impact: col.Impact) -> str:
         reporting.replay(str(col.report(impact))),
         col.Impact
         | reconstruct.MomentumSolution
-        | Run
+        | scene.Run
         | list[col.Impact | reconstruct.MomentumSolution],
     )
     known: dict[str, Any] = reporting.options(str(col.report(impact)))
