@@ -138,7 +138,10 @@ def around(impact: col.Impact) -> str:
     sliders.save("page.html")
     assert_type(
         reporting.replay(str(col.report(impact))),
-        col.Impact | reconstruct.MomentumSolution | list[col.Impact | reconstruct.MomentumSolution],
+        col.Impact
+        | reconstruct.MomentumSolution
+        | scene.Run
+        | list[col.Impact | reconstruct.MomentumSolution],
     )
     known: dict[str, Any] = reporting.options(str(col.report(impact)))
     one: col.Impact = impact.case(0).again(restitution=0.2, friction="0.4")
