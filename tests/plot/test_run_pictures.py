@@ -133,6 +133,13 @@ def test_vehicles_without_outline_that_nothing_slows_are_drawn_too() -> None:
     assert plot.timeline(coasting()).get_xlim()[1] > 0.0
 
 
+def test_one_vehicle_that_stands_has_room_about_it() -> None:
+    parked = col.Vehicle(mass=1000, x=5, y=3, heading=0)
+    axes = plot.scene(Scene(movers={"A": Mover(parked)}, contacts=[]).run())
+    assert axes.get_xlim()[0] < 4.0 < 6.0 < axes.get_xlim()[1]
+    assert plot.timeline(Scene(movers={"A": Mover(parked)}, contacts=[]).run()).get_ylim()[1] > 0.0
+
+
 def test_what_does_not_go_with_a_run_is_refused() -> None:
     run = three_cars()
     with pytest.raises(col.InputError, match=r"outline_a is for an Impact.*Mover\(vehicle"):

@@ -14,7 +14,7 @@ from ..quantities.formatting import UnitSystem
 from ..scene.one_run import need_one_run
 from ..scene.run import Run, Track
 from .canvas import GREY, INK, Axes, Units, begin, check_size, in_lines, size_of, tidy
-from .drawing import Drawing, Place
+from .drawing import Drawing, Place, beside
 
 # Of vehicles in their order, again from the first after the last; lines differ in black and white.
 COLOURS = ("#1f5fa8", "#b3541e", "#2f7d4f", "#7a3d8f", "#8a6d00", "#a01040")
@@ -140,15 +140,15 @@ def rests_at(run: Run, name: str) -> bool:
 def _stops(run: Run, name: str, index: int, drawing: Drawing, labels: Units) -> None:
     """The outlines of one vehicle at the start, at its contacts and at rest, with what they are."""
     metre, colour = labels.factor("m"), COLOURS[index % len(COLOURS)]
-    axes, body = drawing.axes, run.scene.movers[name].vehicle
+    axes, body, room = drawing.axes, run.scene.movers[name].vehicle, _ROOM * metre
     times = [time for time, pair in zip(run.times, run.pairs, strict=True) if name in pair]
     start, last = _stop_at(run, name, 0.0, metre), _stop_at(run, name, math.inf, metre)
     moves = math.dist(start.place, last.place) > 0.02 * metre or start.corners != last.corners
     for stop in (_stop_at(run, name, time, metre) for time in times if time > 0.0):
-        _outline(drawing, stop, colour, f"{name}.contact", 0.0, 0.8)
+        _outline(drawing, stop, colour, f"{name}.contact", 0.0, 0.8, room)
     if moves:
-        _outline(drawing, start, colour, f"{name}.start", 0.0, 1.2, dashed=True)
-    _outline(drawing, last, colour, f"{name}.rest", 0.16, 1.5)
+        _outline(drawing, start, colour, f"{name}.start", 0.0, 1.2, room, dashed=True)
+    _outline(drawing, last, colour, f"{name}.rest", 0.16, 1.5, room)
     if last.corners:
         drawing.area(index, last.corners)
     short = in_lines(name)
@@ -183,13 +183,14 @@ def _outline(
     gid: str,
     filled: float,
     width: float,
+    room: float,
     dashed: bool = False,
 ) -> None:
     """An outline with its heavy front, or room for a vehicle that has none."""
     from matplotlib.colors import to_rgba
 
     if not stop.corners:
-        drawing.include(stop.place)
+        drawing.include(*(beside(stop.place, (side, side), room) for side in (-1.0, 1.0)))
         return
     drawing.include(*stop.corners)
     drawing.axes.fill(
