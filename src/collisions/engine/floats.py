@@ -1,5 +1,7 @@
 """Prints a tape as one plain Python function of floats, which answers one case."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from typing import Any
