@@ -30,7 +30,7 @@ if str(SOURCE) not in sys.path:
     sys.path.insert(0, str(SOURCE))
 
 import collisions as col
-from collisions.engine.floats import compile_loop
+from collisions.engine.float_loops import compile_loop
 from collisions.impact.time_resolved_inputs import kernel_arguments as arguments
 from collisions.kernels.contact_step import Motion, Passing
 from collisions.kernels.time_resolved import float_run, time_resolved

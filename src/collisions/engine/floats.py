@@ -1,6 +1,4 @@
-"""Prints a tape as one plain Python function of floats, which answers one case, or repeats a step
-of one.
-"""
+"""Prints a tape as one plain Python function of floats, which answers one case."""
 
 from __future__ import annotations
 
@@ -35,15 +33,20 @@ def compile_for_floats(
 
 
 def compiled(
-    kernel: Callable[..., tuple[Any, ...]], takes: tuple[str, ...], settings: tuple[Any, ...]
+    kernel: Callable[..., tuple[Any, ...]],
+    takes: tuple[str, ...],
+    settings: tuple[Any, ...],
+    refused: bool = False,
 ) -> tuple[Callable[[Any], Any], frozenset[int]]:
     """A kernel with these settings compiled to one plain function, which reads its numbers at the
     paths in ``takes``.
 
     A path is such as "restitution", "a.mass" or "normal[0]" of a dict, or "[3]" of a sequence. Of a
-    kernel that gives an ``Answer`` it answers only cases whose status is plainly OK. For any other
-    case, and where Python raises, as in a division by 0, it returns None, and the caller runs the
-    kernel itself. Beside the function stands which of the numbers it reads to find that out.
+    kernel that gives an ``Answer`` it answers only cases whose status is plainly OK; with
+    ``refused`` those of any status, of which a refused one has its status, closing speed, coupling
+    and effective mass. For any other case, and where Python raises, as in a division by 0, it
+    returns None, and the caller runs the kernel itself. Beside the function stands which of the
+    numbers it reads to find out whether a case has an answer.
     """
     tape = TextTape()
     with np.errstate(all="ignore"):
@@ -56,6 +59,8 @@ def compiled(
             f"{kernel.__name__} does not end by choosing whether its case has an answer"
         )
     wanted = [ok, *(answers[1:] if isinstance(given, Answer) else answers)]
+    if refused:
+        wanted = [tape.operand(True).index, *answers]
     paths = [
         f"inputs[{path!r}]" if path.isidentifier() else f"inputs{path}" if path[0] == "[" else path
         for path in takes
@@ -63,62 +68,24 @@ def compiled(
     heads = dict.fromkeys(
         path.partition(".")[0].partition("[")[0] for path in takes if not path.isidentifier()
     )
-    lines, (condition, *found) = statements(
-        tape, wanted, paths, WRITTEN, _constant, kernel.__name__
-    )
-    returned = f"new(made, ({', '.join((['OK'] if isinstance(given, Answer) else []) + found)}))"
+    lines, (condition, *found) = statements(tape, wanted, paths, WRITTEN, constant, kernel.__name__)
+    if isinstance(given, Answer):
+        found[:refused] = [f"Status({found[0]})" if refused else "OK"]
+    returned = f"new(made, ({', '.join(found)}))"
     read = [f"{head} = inputs[{head!r}]" for head in heads if head]
     body = "\n        ".join([*read, *lines, f"if {condition}:"])
     source = (
         f"def function(inputs):\n    try:\n        {body}\n            return {returned}\n"
         f"    except (ArithmeticError, TypeError, ValueError):\n        pass\n    return None\n"
     )
-    return _made(source, kernel.__name__, type(given)), judged_by(tape.steps, ok)
+    return made_of(source, kernel.__name__, type(given)), judged_by(tape.steps, ok)
 
 
-def compile_loop(
-    step: Callable[..., tuple[Any, ...]],
-    fixed: tuple[Any, ...],
-    moving: tuple[Any, ...],
-    settings: tuple[Any, ...],
-) -> Callable[..., Any]:
-    """A step compiled to a function of floats (fixed, moving, most, note) that repeats it, and
-    gives what moves at the end.
-
-    ``fixed`` and ``moving`` are the NamedTuple types of what the step is given and of what it gives
-    again; their numbers go in and out as flat tuples, of which the fields "sticks" and "active" are
-    truths. It ends where the last one is false, or after ``most`` steps; ``note`` gets the numbers
-    after each.
-    """
-    tape, kinds = TextTape(), (*fixed, *moving)
-    fields = [field for kind in kinds for field in kind._fields]
-    truths = ("sticks", "active")
-    numbers = iter(
-        [
-            tape.input(at, np.bool_ if field in truths else np.float64)
-            for at, field in enumerate(fields)
-        ]
-    )
-    with np.errstate(all="ignore"):
-        given = [kind(*(next(numbers) for _ in kind._fields)) for kind in kinds]
-        wanted = [tape.operand(value).index for part in step(*given, *settings) for value in part]
-    held = [f"f{at}" for at in range(len(fields) - len(wanted))]
-    state = [f"s{at}" for at in range(len(wanted))]
-    lines, found = statements(tape, wanted, held + state, WRITTEN, _constant, step.__name__)
-    whole = f"({', '.join(state)},)"
-    ends = ["if note is not None:", f"    note({whole})", f"if not {state[-1]}:", "    break"]
-    body = "\n        ".join([*lines, f"{whole} = ({', '.join(found)},)", *ends])
-    source = (
-        f"def function(fixed, moving, most, note=None):\n    ({', '.join(held)},) = fixed\n    "
-        f"{whole} = moving\n    for _ in range(most):\n        {body}\n    return {whole}\n"
-    )
-    return _made(source, step.__name__)
-
-
-def _made(source: str, name: str, kind: type = tuple) -> Callable[..., Any]:
+def made_of(source: str, name: str, kind: type = tuple) -> Callable[..., Any]:
     names: dict[str, Any] = {
         "larger": larger,
         "OK": Status.OK,
+        "Status": Status,
         "made": kind,
         "new": tuple.__new__,
         "sqrt": math.sqrt,
@@ -128,6 +95,6 @@ def _made(source: str, name: str, kind: type = tuple) -> Callable[..., Any]:
     return made
 
 
-def _constant(value: Any) -> str:
+def constant(value: Any) -> str:
     value = int(value) if isinstance(value, Status) else value
     return repr(value) if math.isfinite(value) else f"float('{value}')"

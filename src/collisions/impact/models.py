@@ -259,17 +259,19 @@ def paths_of(
 
 
 @cache
-def float_function(model: Model, *variant: Any) -> Callable[[Mapping[str, Any]], Answer | None]:
+def float_function(
+    model: Model, *variant: Any, refused: bool = False
+) -> Callable[[Mapping[str, Any]], Answer | None]:
     """The kernel of a model compiled for plain floats, of ``vars(inputs)``; None where the kernel
-    itself has to decide.
+    itself has to decide, which with ``refused`` is hardly anywhere.
     """
     # Like all that not every caller needs, loaded at its first use.
-    from ..engine.floats import compile_for_floats
+    from ..engine.floats import compiled
 
     arguments = (paths_of(model, *variant),)
     kernel = flattened(model.kernel, form_of(arguments))
     settings = variant[:2] if model.ruled else ()
-    return compile_for_floats(kernel, tuple(numbers_of(arguments)), settings)
+    return compiled(kernel, tuple(numbers_of(arguments)), settings, refused)[0]
 
 
 def model_of(inputs: Inputs) -> Model:

@@ -87,10 +87,11 @@ def solve_inputs(
     if model is TIME_RESOLVED:
         raw = solve_case_in_time(inputs)
     else:
-        raw = float_function(model, *variant_of(inputs))(vars(inputs))
+        variant, given = variant_of(inputs), vars(inputs)
+        raw = float_function(model, *variant)(given)
         if raw is not None:
             return raw
-        raw = model.answer(inputs)
+        raw = float_function(model, *variant, refused=True)(given) or model.answer(inputs)
     if raw.status > Status.ENERGY_GAIN:
         if on_failure != "nan":
             raise refusal(inputs, raw)

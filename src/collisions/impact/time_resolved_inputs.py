@@ -456,7 +456,7 @@ def follow_case(
 ) -> Passed:
     """Step through one case; ``rows`` keeps what moved in every step."""
     # A twentieth of the import of the package, and impulses need none of it.
-    from ..engine.floats import compile_loop
+    from ..engine.float_loops import compile_loop
     from ..kernels import time_resolved as kernel
 
     try:
@@ -474,7 +474,7 @@ def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
     is NaN.
     """
     from ..engine.blocks import each_block, flat
-    from ..engine.floats import compile_loop
+    from ..engine.float_loops import compile_loop
     from ..kernels import time_resolved as kernel
 
     shape, size = cases.shape, cases.size
