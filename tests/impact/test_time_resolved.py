@@ -1495,4 +1495,6 @@ def test_nothing_pushes_any_more_as_the_bodies_part(restitution):
     if restitution >= 0.3:
         assert pulse.force[-2] < 0.1 * pulse.peak_force
     assert pulse.force[0] == 0.0
-    assert pulse.force.max() == pytest.approx(pulse.peak_force, rel=1e-12)
+    # A plastic contact parts where it is greatest, which leaves the step before that.
+    close = 1e-12 if restitution else 1e-3
+    assert pulse.force.max() == pytest.approx(pulse.peak_force, rel=close)
