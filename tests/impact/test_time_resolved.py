@@ -1483,3 +1483,18 @@ def test_a_wall_is_not_the_limit_of_a_heavy_vehicle_while_the_geometry_moves():
     assert mass / wall == pytest.approx(1.25, abs=0.05)
     assert "the yaw rate by a quarter in some cases" in " ".join(col.time_resolved.__doc__.split())
     assert "not the limit of a very heavy vehicle" in " ".join(col.time_resolved.__doc__.split())
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.001, 0.3, 1.0])
+def test_nothing_pushes_any_more_as_the_bodies_part(restitution):
+    """Plastic or elastic, the last force of a pulse is none, and the one before it no jump away
+    where the way back has a length.
+    """
+    pulse = t_bone(restitution).pulse
+    assert pulse.force[-1] == 0.0
+    if restitution >= 0.3:
+        assert pulse.force[-2] < 0.1 * pulse.peak_force
+    assert pulse.force[0] == 0.0
+    # A plastic contact parts where it is greatest, which leaves the step before that.
+    close = 1e-12 if restitution else 1e-3
+    assert pulse.force.max() == pytest.approx(pulse.peak_force, rel=close)

@@ -49,3 +49,17 @@ def test_no_motion_changes_faster_than_its_bounds(
     assert np.max(pushes) <= push * (1.0 + 1e-6)
     assert np.max(spins) <= spin * (1.0 + 1e-6)
     assert max(np.max(pushes) / push, np.max(spins) / spin) > 0.66
+
+
+def test_bounds_hold_on_the_area_with_the_most_friction() -> None:
+    """From ice onto dry ground: what the tyres do there is within the bounds of the whole way."""
+    car = col.Vehicle(**BARE, vx=15.0, vy=0.0, yaw_inertia=2400.0)
+    dry = ([(8.0, -10.0), (60.0, -10.0), (60.0, 10.0), (8.0, 10.0)], 0.9)
+    tyres = Tyres(0.1, 1.0, 2.7, 1.5)
+    scene = Scene(movers={"A": Mover(car, tyres=tyres)}, contacts=[], surfaces=[dry])
+    run = scene.run()
+    path = run["A"].path
+    push, _ = run._followed.courses["A"].bounds(np.array([0]))
+    slowing = np.max(np.abs(np.diff(path.vx)) / np.diff(path.time))
+    assert slowing == pytest.approx(0.9 * col.travel.GRAVITY, rel=1e-2)
+    assert slowing <= float(push[0]) * (1.0 + 1e-6)

@@ -314,3 +314,14 @@ def test_of_many_vehicles_one_that_steers_has_its_steer():
         )
         assert both.rest.y[case] == pytest.approx(alone.rest.y, rel=1e-9, abs=1e-9)
     assert abs(both.rest.y[1]) > 1.0
+
+
+def test_a_locked_wheel_has_its_whole_force_from_two_percent_of_the_speed_on():
+    """In units of the speed of the vehicle; below that it grows from none, with no jump in slope:
+    s / (1 + s^2) * 2 of the whole where s is the speed over that of a standing wheel.
+    """
+    for speed in (0.0201, 0.1, 1.0):
+        assert tyre_force(speed, 0.0, 1.0, 0.7, 9.5)[0] == -1.0
+    for share in (0.25, 0.5, 0.9):
+        force, _ = tyre_force(0.02 * share, 0.0, 1.0, 0.7, 9.5)
+        assert force == pytest.approx(-2.0 * share / (1.0 + share * share), rel=1e-12)

@@ -525,3 +525,29 @@ def test_tyres_or_a_drag():
         col.solve(A, B, 0.1, **CONTACT, duration=0.1, drag=0.7, **TYRES)
     with pytest.raises(col.InputError, match="neither was given"):
         col.eccentric(A, B, 0.1, **CONTACT, duration=0.1)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.3])
+def test_the_wheels_of_a_car_that_is_pushed_aside_drag_along_its_course_at_three_moments(
+    restitution,
+):
+    """Locked wheels of a car that does not turn drag against its motion: by Simpson's rule before,
+    after, and at half of the time. By then the spring pulse has passed 1 - cos of its phase, over
+    1 + e, where a quarter of a sine takes 1 / (1 + e) of the time: not half of the impulse.
+    """
+    a = col.Vehicle(mass=1500.0, yaw_inertia=math.inf, vx=10.0, x=0.0, y=0.0, heading=0.0)
+    b = col.Vehicle(mass=1500.0, yaw_inertia=math.inf, vy=20.0, x=0.0, y=-2.5, heading="90 deg")
+    impact = col.eccentric(
+        a, b, restitution, normal="-90 deg", point=(0.0, -1.0), friction=0.0, duration=0.1,
+        tyres_a=Tyres(0.7, 1.0, 2.7, 1.5),
+    )  # fmt: skip
+    before = np.array([impact.a.before.vx, impact.a.before.vy])
+    after = np.array([impact.a.after.vx, impact.a.after.vy])
+    passed = (1.0 - math.cos(0.25 * math.pi * (1.0 + restitution))) / (1.0 + restitution)
+    moments = before, before + passed * (after - before), after
+    drags = [-one / np.hypot(*one) for one in moments]
+    whole = 0.7 * 1500.0 * GRAVITY * 0.1
+    exact = whole * (drags[0] + 4.0 * drags[1] + drags[2]) / 6.0
+    found = impact.a.tyre_impulse_x, impact.a.tyre_impulse_y
+    # The velocities at these moments are those without the tyres, which change them by one percent.
+    assert found == pytest.approx(exact, rel=0.02)

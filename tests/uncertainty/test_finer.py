@@ -279,3 +279,22 @@ def test_the_scatter_is_told_with_its_share_of_the_spread_of_the_output():
     share = float(said.split(" z ")[1].split("(")[1].split(" %")[0])
     assert share == pytest.approx(100.0 * near.scatter["z"] / near["z"].std, rel=0.05)
     assert share == pytest.approx(20.8, rel=0.1)
+
+
+def test_the_error_of_a_mean_is_mostly_that_of_the_few_cases_asked():
+    """Evenly drawn, samples know the mean of the model far better than 256 cases know that of a
+    ripple of 0.3: 0.3 / sqrt(2) / 16. An error from eight parts is known to a quarter, the mean
+    over eight seeds to a tenth.
+    """
+    squares = []
+    for seed in range(8):
+        found = propagate(
+            lambda x: {"z": x},
+            {"x": Normal(0.0, 1.0)},
+            finer=lambda x: {"z": x + 0.3 * np.sin(1e4 * x)},
+            seed=seed,
+            finer_samples=256,
+            method="latin_hypercube",
+        )
+        squares.append(found["z"].mean_standard_error ** 2)
+    assert math.sqrt(np.mean(squares)) == pytest.approx(0.3 / math.sqrt(2.0) / 16.0, rel=0.3)

@@ -176,10 +176,10 @@ class Course:
                 found[:, some] = leg.at(time[some], at[some])
         return found
 
-    def leg_at(self, time: float, *, before: bool = False) -> Leg:
+    def leg_at(self, time: float) -> Leg:
         """The leg of the one case of a scene that is no batch."""
         legs = self.settled()
-        begun = [leg for leg in legs if (leg.start[0] < time if before else leg.start[0] <= time)]
+        begun = [leg for leg in legs if leg.start[0] <= time]
         return (begun or legs[:1])[-1]
 
     @property
