@@ -1,14 +1,15 @@
 """Two impacts as a commercial program, PC-Crash, ran them, beside the library's impact by the law
 that the program states.
 
-Compared here is the impact alone. What the vehicles do after it is in ``commercial/*.csv``, row by
-row; a comparison of it with ``travel.simulate`` belongs in ``motion_after``.
+Then what the vehicles do after it, which is in ``commercial/*.csv`` row by row, beside ``Scene``
+(in line) and ``travel.simulate`` (into the side).
 """
 
 from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from published_records import LAWS, rounded
 
 import collisions as col
 from collisions import travel
+from collisions.scene import Contact, Mover, Scene
 
 DATA = Path(__file__).resolve().parent / "commercial"
 SOURCE = "PC-Crash, in the public history of https://github.com/joe-cormier/pycrash"
@@ -30,15 +32,18 @@ def path_of(name: str) -> list[dict[str, float]]:
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
-def into_the_side(law: str) -> dict[str, float]:
-    """The T: both cars after it, in the units of the program; its plane of contact lies along
-    138.94 deg.
-    """
-    a = col.Vehicle(**CAR, vx="30 mph", x="33.22 ft", y=0.0)
+def side_impact(law: str) -> col.Impact:
+    """The T; its plane of contact lies along 138.94 deg."""
+    a = col.Vehicle(**CAR, vx="30 mph", x="33.22 ft", y=0.0, heading=0.0)
     b = col.Vehicle(**CAR, x="40 ft", y="10 ft", heading="90 deg")
-    impact = col.eccentric(
+    return col.eccentric(
         a, b, **HOW, normal=f"{138.94 - 90.0} deg", point=("38.32 ft", "1.84 ft"), law=law
     )
+
+
+def into_the_side(law: str) -> dict[str, float]:
+    """The T: both cars after it, in the units of the program."""
+    impact = side_impact(law)
     found = {}
     for name, side in (("vehicle 1", impact.a), ("vehicle 2", impact.b)):
         found[f"{name}, speed after"] = side.after.q.speed.m_as("mph")
@@ -148,9 +153,124 @@ def below_the_centres() -> float:
     return rounded(100 * car.x**2 * car.mass / car.yaw_inertia)
 
 
+State = Callable[[float], col.Vehicle]
+SIDE_FROM = 0.755
+"""When the cars of the T strike each other, on the clock of the program [s]."""
+TIMES = {
+    "in line": (0.7, 1.0, 1.5, 2.0, 2.5, 3.0, 5.0),
+    "into the side": (0.8, 1.0, 1.2, 1.4, 1.6, 2.0, 3.0, 5.0),
+}
+FILES = {"in line": "pccrash_30mph_inline.csv", "into the side": "pccrash_30mph_t.csv"}
+LINEAR = 1 / math.radians(10)
+"""Side force over load of the program, per radian and per friction: linear up to 10 degrees."""
+GROUNDS = {
+    "friction 0.8": (0.8, 9.5),
+    "friction 0.6": (0.6, 9.5),
+    "friction 0.6, slope of the program": (0.6, 0.6 * LINEAR),
+}
+"""Friction and cornering stiffness. The friction of the program's ground is not in the data, so two
+guesses; 9.5 is the library's own stiffness.
+"""
+
+
+def in_line_motion() -> tuple[float, dict[str, State]]:
+    """A ``Scene`` from the impact on: vehicle 1 brakes at 0.3 g, vehicle 2 rolls; and when it
+    starts, on the clock of the program.
+
+    The time is that at which vehicle 2 must have set off to be where it is in the first row after.
+    The size of the wheels does not matter in a straight line.
+    """
+    rows = path_of(FILES["in line"])
+    after = next(row for row in rows if row["vx2_mph"] > 0.0)
+    before = rows[rows.index(after) - 1]
+    per_second = col.Vehicle(mass=1.0, vx="1 mph").vx / col.Vehicle(mass=1.0, x="1 ft").x
+    start = after["time_s"] - (after["x2_ft"] - before["x2_ft"]) / (per_second * after["vx2_mph"])
+    x = before["x1_ft"] + per_second * before["vx1_mph"] * (start - before["time_s"])
+    cars = (
+        col.Vehicle(**CAR, vx="29.3 mph", x=f"{x} ft", y=0.0, heading=0.0),
+        col.Vehicle(**CAR, x=f"{before['x2_ft']} ft", y=0.0, heading=0.0),
+    )
+    wheels = [travel.Tyres(0.8, lock, "9.2 ft", "5 ft") for lock in (0.3 / 0.8, 0.0)]
+    names = ("vehicle 1", "vehicle 2")
+    run = Scene(
+        movers={
+            name: Mover(car, tyres=own) for name, car, own in zip(names, cars, wheels, strict=True)
+        },
+        contacts=[
+            Contact(*names, **HOW, normal=0.0, point=(cars[1].x, 0.0), law=PROGRAM_LAW, at=0.0)
+        ],
+    ).run()
+    return start, {name: lambda time, name=name: run.at(time - start)[name] for name in names}
+
+
+def side_motion(friction: float, cornering: float) -> dict[str, State]:
+    """``travel.simulate`` from the impact on: both cars roll.
+
+    Wheelbase and track are a guess. ``simulate`` asks for something that stops a car: a drag of
+    0.001 of the weight on the tyres, 0.1 mph in the time that is compared, and so many moments
+    because such a car comes to rest only after minutes.
+    """
+    impact = side_impact(PROGRAM_LAW)
+    tyres = travel.Tyres(friction, 0.001 / friction, "9.2 ft", "5 ft", cornering=cornering)
+    found: dict[str, State] = {}
+    for name, side in (("vehicle 1", impact.a), ("vehicle 2", impact.b)):
+        path = travel.simulate(side.after, tyres, moments=50000)
+        found[name] = lambda time, path=path: path.at(time - SIDE_FROM)
+    return found
+
+
+def place(vehicle: col.Vehicle) -> dict[str, float]:
+    """Where a vehicle is, in the units of the program."""
+    foot, mph = col.Vehicle(mass=1.0, x="1 ft").x, col.Vehicle(mass=1.0, vx="1 mph").vx
+    return {
+        "x": vehicle.x / foot,
+        "y": vehicle.y / foot,
+        "heading": math.degrees(vehicle.heading),
+        "speed": math.hypot(vehicle.vx, vehicle.vy) / mph,
+    }
+
+
+def theirs(row: dict[str, float], number: str) -> dict[str, float]:
+    """The same of a row of the program."""
+    return {
+        "x": row[f"x{number}_ft"],
+        "y": row[f"y{number}_ft"],
+        "heading": row[f"yaw{number}_deg"],
+        "speed": math.hypot(row[f"vx{number}_mph"], row[f"vy{number}_mph"]),
+    }
+
+
+def by_time(run: str, ground: str, states: dict[str, State]) -> list[dict[str, Any]]:
+    """The program's place and speed of each car, and by how much ours differ, to a hundredth."""
+    rows = {row["time_s"]: row for row in path_of(FILES[run])}
+    found = []
+    for name, state in states.items():
+        for time in TIMES[run]:
+            printed = theirs(rows[time], name[-1])
+            ours = place(state(time))
+            differences = {key: ours[key] - printed[key] for key in printed}
+            differences["heading"] = (differences["heading"] + 180.0) % 360.0 - 180.0
+            found.append(
+                {
+                    "run": run,
+                    "ground": ground,
+                    "name": name,
+                    "time": time,
+                    "printed": {key: round(value, 2) for key, value in printed.items()},
+                    "difference": {
+                        key: round(value, 2) + 0.0 for key, value in differences.items()
+                    },
+                }
+            )
+    return found
+
+
 def motion_after() -> list[dict[str, Any]]:
-    """The motion after the impact beside that of ``travel.simulate``: none is compared."""
-    return []
+    """The motion after both impacts beside that of ``Scene`` and of ``travel.simulate``."""
+    found = by_time("in line", "0.3 g", in_line_motion()[1])
+    for ground, (friction, cornering) in GROUNDS.items():
+        found += by_time("into the side", ground, side_motion(friction, cornering))
+    return found
 
 
 def everything() -> dict[str, Any]:

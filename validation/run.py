@@ -19,6 +19,7 @@ sys.path.insert(0, str(HERE))
 
 import agreement
 import blind_tables
+import commercial_figure
 import commercial_program
 import measured_fits
 import other_lists
@@ -93,6 +94,7 @@ def main() -> None:
     )
     for name in ("agreement", "fits", "predictions"):
         validation_figures.draw(found, name, DOCS / "_static" / f"validation_{name}.svg")
+    commercial_figure.draw(DOCS / "_static" / "validation_commercial.svg")
     print(
         tables.TITLES["blind"], blind_tables.everything(found), tables.everything(found), sep="\n\n"
     )

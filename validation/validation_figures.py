@@ -45,12 +45,9 @@ def factor(figure: dict[str, Any]) -> float:
     return 1.0
 
 
-def draw(found: dict[str, Any], name: str, path: Path) -> None:
-    """One figure for one table."""
-    import matplotlib as mpl
-
-    mpl.use("agg")
-    style = {
+def style() -> dict[str, Any]:
+    """What all figures of the page look like."""
+    return {
         "font.size": 9,
         "font.family": "DejaVu Sans",
         "figure.facecolor": "white",
@@ -58,7 +55,14 @@ def draw(found: dict[str, Any], name: str, path: Path) -> None:
         "svg.fonttype": "path",
         "svg.hashsalt": "collisions",
     }
-    with mpl.rc_context(style):
+
+
+def draw(found: dict[str, Any], name: str, path: Path) -> None:
+    """One figure for one table."""
+    import matplotlib as mpl
+
+    mpl.use("agg")
+    with mpl.rc_context(style()):
         _draw(found[name], name, path)
 
 

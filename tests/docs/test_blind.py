@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import collisions as col
+from collisions import travel
 from collisions.__main__ import main
 from collisions.uncertainty import Uniform
 
@@ -42,6 +43,7 @@ def blind():
             "levels",
             "measured",
             "predict",
+            "to_rest",
         )
         found = {name: importlib.import_module(f"blind.{name}") for name in names}
         yield found | {
@@ -243,7 +245,8 @@ def same_table(ours, table):
 
 
 def test_the_impacts_of_the_page_are_predicted_again(blind, committed):
-    compare, predicted = blind["compare"], blind["predict"].predictions(["impact"])
+    compare = blind["compare"]
+    predicted = blind["predict"].predictions(["impact", "impact with tyres"])
     same_table(compare.entries(predicted), committed["blind"]["rows"])
     for mine, check in zip(
         compare.self_checks(predicted), committed["blind"]["self_checks"], strict=True
@@ -276,7 +279,7 @@ def test_every_reading_is_in_the_table_with_its_source(blind, committed):
     """
     rows = blind["measured"].rows()
     table = {(row["case"], row["quantity"]): row for row in committed["blind"]["rows"]}
-    shown = [row for row in rows if not row["quantity"].startswith("velocity_after")]
+    shown = [row for row in rows if not row["quantity"].startswith(("velocity_after", "rest_"))]
     assert len(shown) == len(table) == 55
     clockwise = next(
         row for row in rows if row["case"] == "ricsac_06" and row["quantity"] == "yaw_rate_b"
@@ -296,6 +299,11 @@ def test_every_reading_is_in_the_table_with_its_source(blind, committed):
         assert table[row["case"], row["quantity"]]["source"] == row["source"]
 
 
+def half_digit(value):
+    """Half a unit in the fourth digit, as a share of the value."""
+    return 0.5 * 10.0 ** (math.floor(math.log10(abs(value))) - 3) / abs(value)
+
+
 def test_held_is_what_it_says(committed):
     for row in committed["blind"]["rows"]:
         for answer in row["levels"].values():
@@ -305,8 +313,12 @@ def test_held_is_what_it_says(committed):
                 assert low - slack <= row["measured"] <= high + slack
                 assert answer["outside"] == 0
             else:
-                beyond = row["measured"] - (low if row["measured"] < low else high)
-                assert answer["outside"] == pytest.approx(beyond, abs=2 * slack + 1e-3)
+                end = low if row["measured"] < low else high
+                figures = row["measured"], end, answer["outside"]  # each of four digits
+                rounding = sum(half_digit(figure) * abs(figure) for figure in figures)
+                assert answer["outside"] == pytest.approx(
+                    row["measured"] - end, abs=rounding + 1e-9
+                )
 
 
 def test_statistics_of_the_blind_cases_are_those_of_the_rows(committed):
@@ -336,7 +348,12 @@ def test_statistics_of_the_blind_cases_are_those_of_the_rows(committed):
         assert [entry["mean"], entry["sd"]] == pytest.approx(
             [errors.mean(), errors.std(ddof=1)], abs=0.06
         )
-        assert abs(entry["worst"]) == pytest.approx(np.abs(errors).max(), abs=0.06)
+        worst = int(np.argmax(np.abs(errors)))
+        slack = 0.06
+        if entry["kind"] != "yaw rate":  # of two figures of four digits
+            predicted, measured = answers[worst]["predicted"], rows[worst]["measured"]
+            slack = 100 * abs(predicted / measured) * (half_digit(predicted) + half_digit(measured))
+        assert abs(entry["worst"]) == pytest.approx(abs(errors[worst]), abs=slack + 0.006)
         assert entry["held"] == sum(answer["held"] for answer in answers)
         assert entry["readings"] == len(rows)
 
@@ -372,6 +389,12 @@ def test_every_miss_has_a_cause_that_its_test_bears_out(blind, committed):
     assert round(twelve["lever_a"] - twelve["lever_drawn_a"], 2) == 0.13
     assert (round(twelve["lever_b"], 2), twelve["lever_drawn_b"] < 0) == (0.21, True)
     assert checks["RICSAC 10"]["unclosed"] == pytest.approx(1 / 3, abs=0.01)
+    # What the cars of RICSAC 3 lost on their way to rest: v^2 / (2 g d), from the printed figures.
+    row, read = source_row("3"), blind["measured"].readings()["ricsac_03"]
+    for side, start in (("a", 0.0), ("b", row["cg2_fwd1_cm"] / 100)):
+        speed2 = sum(read[f"velocity_after_{axis}_{side}"] ** 2 for axis in ("forward", "left"))
+        drag = speed2 / (2 * 9.81 * (read[f"rest_forward_{side}"] - start))
+        assert 0.04 < drag < 0.05
     row, read = source_row("4"), blind["measured"].readings()["ricsac_04"]
     lost = row["m1_kg"] * read["delta_v_a"], row["m2_kg"] * read["delta_v_b"]
     assert lost[0] / lost[1] == pytest.approx(1.34, abs=0.01)
@@ -420,6 +443,115 @@ def test_first_predictions_are_those_of_the_inputs(blind, committed):
         blind["predict"].write_first()
 
 
+def middles(blind, test):
+    """The middle of every number of a case, with wheels."""
+    _, numbers = blind["inputs"].case(BLIND / "cases" / f"ricsac_{int(test):02d}.toml")
+    return {name: blind["inputs"].middle(stated) for name, stated in numbers.items()} | {
+        name: float(stated.mean) for name, stated in blind["levels"].WHEELS.items()
+    }
+
+
+def test_tyres_take_what_locked_wheels_can_take(blind):
+    """By hand: a car that slides straight on takes friction m g for as long as the contact lasts.
+    Without friction the impact is that without tyres.
+    """
+    levels, numbers = blind["levels"], middles(blind, "1")
+    numbers |= {"wheels.lock_a": 1.0, "b.speed": 0.0, "wheels.lock_b": 1.0}
+    found = levels.impact_with_tyres(numbers)
+    duration = numbers["contact_in_time.duration"]
+    most = numbers["wheels.friction"] * 9.80665 * duration
+    for side in (found.a, found.b):
+        taken = math.hypot(side.tyre_impulse_x, side.tyre_impulse_y)
+        assert 0.5 * most < taken / side.before.mass < most * (1 + 1e-9)
+    impulse = [
+        sum(
+            side.before.mass * (getattr(side.after, v) - getattr(side.before, v))
+            for side in (found.a, found.b)
+        )
+        for v in ("vx", "vy")
+    ]
+    assert impulse == pytest.approx(
+        [
+            found.a.tyre_impulse_x + found.b.tyre_impulse_x,
+            found.a.tyre_impulse_y + found.b.tyre_impulse_y,
+        ]
+    )
+    smooth = levels.impact_with_tyres(numbers | {"wheels.friction": 0.0})
+    assert smooth.a.delta_v == pytest.approx(levels.impact(numbers).a.delta_v, rel=1e-12)
+
+
+def test_wheels_are_guesses_of_their_own(blind):
+    """None of them is among the fixed inputs, and no level that was first committed takes one."""
+    levels = blind["levels"]
+    text = (BLIND / "levels.py").read_text(encoding="utf-8")
+    given = text[text.index("WHEELS: ") : text.index('"""What wheels')]
+    assert given.count("# Guess") == 4
+    for _, numbers in blind["inputs"].cases().values():
+        assert not set(levels.WHEELS) & set(numbers)
+        for name in ("impact", "contact in time"):
+            assert not set(levels.WHEELS) & set(levels.LEVELS[name].numbers(numbers))
+        taken = levels.LEVELS["impact with tyres"].numbers(numbers)
+        assert set(levels.WHEELS) <= set(taken)
+        assert "contact_in_time.duration" in taken
+        assert "contact_in_time.drag" not in taken
+
+
+@pytest.mark.parametrize("test", ["3", "6", "10"])
+def test_a_scene_to_rest_is_the_impact_and_the_way_after_it(blind, test):
+    numbers = middles(blind, test)
+    impact = blind["levels"].impact(numbers)
+    places = blind["to_rest"].places(**numbers)
+    for side in ("a", "b"):
+        rest = travel.simulate(
+            getattr(impact, side).after, blind["levels"].wheels(numbers, side)
+        ).rest
+        found = [places[f"rest_{axis}_{side}"] for axis in ("forward", "left")]
+        assert found == pytest.approx([rest.x, rest.y], abs=0.02)
+
+
+@pytest.mark.slow
+def test_places_of_rest_are_predicted_again(blind, committed):
+    """Every one; a miss has its cause, and a range that holds has none."""
+    rows, table = blind["to_rest"].rows(), committed["blind"]["at_rest"]
+    assert len(rows) == len(table) == 12
+    for mine, row in zip(rows, table, strict=True):
+        assert list(mine) == list(row)
+        span = row["range"][1] - row["range"][0]
+        assert [mine["predicted"], *mine["range"]] == pytest.approx(
+            [row["predicted"], *row["range"]], abs=0.01 * span
+        )
+        for name in ("case", "quantity", "measured", "held", "cause"):
+            assert mine[name] == row[name]
+    missed = {(row["case"], row["quantity"]) for row in table if not row["held"]}
+    assert missed == set(blind["causes"].AT_REST)
+
+
+def test_causes_of_missed_places_of_rest_are_borne_out(blind, committed):
+    """From the printed figures: RICSAC 3 has the other sense, and B of RICSAC 10 lies where it did
+    not go.
+    """
+    table = {(row["case"], row["quantity"]): row for row in committed["blind"]["at_rest"]}
+    for row in table.values():
+        low, high = row["range"]
+        assert row["held"] == (low <= row["measured"] <= high) == (row["cause"] == "")
+    printed = blind["measured"].readings()
+    three, six = printed["ricsac_03"], printed["ricsac_06"]
+    starts = {"a": 0.0, "b": -source_row("3")["cg2_right1_cm"] / 100}
+    for side in ("a", "b"):
+        assert three[f"yaw_rate_{side}"] * three[f"rest_turn_{side}"] < 0
+        assert six[f"yaw_rate_{side}"] * six[f"rest_turn_{side}"] > 0
+        aside = three[f"rest_left_{side}"] - starts[side]
+        assert three[f"velocity_after_left_{side}"] * aside < 0
+        assert six[f"velocity_after_left_{side}"] * six[f"rest_left_{side}"] > 0
+    low, high = table["ricsac_03", "rest_left_a"]["range"]
+    assert low < -three["rest_left_a"] < high
+    (_, high) = table["ricsac_03", "rest_left_b"]["range"]
+    assert -three["rest_left_b"] - high == pytest.approx(0.2, abs=0.05)
+    ten = printed["ricsac_10"]
+    assert round(ten["velocity_after_forward_b"], 1) == 4.4
+    assert round(source_row("10")["cg2_fwd1_cm"] / 100 - ten["rest_forward_b"], 1) == 2.6
+
+
 def test_nothing_that_predicts_reads_a_measurement():
     for name in ("axes", "inputs", "levels", "predict"):
         text = (BLIND / f"{name}.py").read_text(encoding="utf-8")
@@ -447,11 +579,17 @@ def test_the_page_has_the_blind_table_first(blind, committed):
         "misses",
         "self_checks",
         "lever_words",
+        "at_rest_words",
+        "at_rest",
         "backwards",
         "backwards_summary",
         "sources",
+        "commercial_motion",
+        "commercial_motion_words",
     ):
         assert f"show(blind.{call}(found))" in page
+    assert "_static/validation_commercial.svg" in page
+    assert (ROOT / "docs" / "_static" / "validation_commercial.svg").is_file()
     text = blind["blind_tables"].everything(committed)
     for row in committed["blind"]["rows"]:
         assert f"| {row['test']} | {row['name']} |" in text
@@ -570,3 +708,65 @@ def test_what_was_tried_afterwards_is_found_again(blind, committed):
     }  # what the page advises
     assert half_a_metre["delta-V"] >= 12
     assert half_a_metre["yaw rate"] == 14
+
+
+def test_braking_in_line_ends_where_a_hand_has_it(blind, committed):
+    """v^2 / (2 a) on from where vehicle 1 strikes, with v from restitution and equal masses."""
+    start, states = blind["commercial_program"].in_line_motion()
+    foot, mph = 0.3048, 0.44704
+    speed, struck = 29.3 * mph * (1 - 0.1) / 2, 29.3 * mph * (1 + 0.1) / 2
+    assert start == pytest.approx(0.7 - 2 * foot / (16.02 * mph), rel=1e-9)
+    place = 26.36 * foot + 29.39 * mph * (start - 0.6)
+    rest = place + speed**2 / (2 * 0.3 * 9.80665)
+    assert states["vehicle 1"](5.0).x == pytest.approx(rest, abs=0.01)
+    assert states["vehicle 2"](5.0).x == pytest.approx(40 * foot + struck * (5.0 - start), rel=1e-9)
+    (row,) = (
+        row
+        for row in committed["commercial"]["motion"]
+        if (row["run"], row["name"], row["time"]) == ("in line", "vehicle 1", 5.0)
+    )
+    assert row["printed"]["x"] == 46.81
+    assert row["difference"]["x"] == pytest.approx(rest / foot - 46.81, abs=0.04)
+
+
+def turned_by(force, friction):
+    """The heading [deg] at which vehicle 2 of the T turns no more, on four wheels that roll freely
+    and have this side force over their load: Newton's and Euler's equations, by steps of 1 ms.
+    """
+    mass, inertia, gravity = 3296 * 0.45359237, 1789 * 1.3558179483, 9.80665
+    speed, course = 6.35 * 0.44704, math.radians(19.91)
+    heading, rate = math.pi / 2, math.radians(216.93)
+    vx, vy = speed * math.cos(course), speed * math.sin(course)
+    for _ in range(1300):
+        c, s = math.cos(heading), math.sin(heading)
+        across, moment = 0.0, 0.0
+        for ahead in (4.6 * 0.3048, -4.6 * 0.3048):
+            for left in (2.5 * 0.3048, -2.5 * 0.3048):
+                forward = c * vx + s * vy - rate * left
+                aside = c * vy - s * vx + rate * ahead
+                slip = math.atan2(abs(aside), abs(forward))
+                side = -math.copysign(force(slip, friction), aside) * mass * gravity / 4
+                across, moment = across + side, moment + ahead * side
+        vx, vy = vx - s * across / mass * 1e-3, vy + c * across / mass * 1e-3
+        rate += moment / inertia * 1e-3
+        heading += rate * 1e-3
+    return math.degrees(heading)
+
+
+def linear(slip, friction):
+    """The program's: linear up to 10 degrees."""
+    return friction * min(1.0, slip / math.radians(10))
+
+
+def fiala(slip, friction):
+    """The library's, with its own stiffness."""
+    return friction * (1 - (1 - min(1.0, 9.5 * math.tan(slip) / (3 * friction))) ** 3)
+
+
+@pytest.mark.parametrize("friction", [0.6, 0.8])
+def test_the_tyre_model_is_not_what_the_heading_differs_by(blind, friction):
+    """Integrated here: with either force vehicle 2 ends within a degree; ``simulate`` agrees."""
+    theirs, ours = turned_by(linear, friction), turned_by(fiala, friction)
+    assert theirs == pytest.approx(ours, abs=1.0)
+    state = blind["commercial_program"].side_motion(friction, 9.5)["vehicle 2"](2.0)
+    assert math.degrees(state.heading) == pytest.approx(ours, abs=0.5)

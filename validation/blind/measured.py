@@ -21,6 +21,8 @@ UNITS = {
     "rad/s": 1.0,
     "deg/s": math.pi / 180,
     "J": 1.0,
+    "ft": 0.3048,
+    "deg": math.pi / 180,
 }
 TURNED = {"clockwise": axes.angle, "right": axes.angle, "rearward": lambda value: -value}
 """Senses that the library counts the other way round; a component changes its sign as an angle

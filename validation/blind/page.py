@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import afterwards, backwards, compare, predict
+from . import afterwards, backwards, compare, predict, to_rest
 
 
 def everything() -> dict[str, Any]:
@@ -28,6 +28,7 @@ def everything() -> dict[str, Any]:
             if answer["without_answer"]
         ],
         "changed_since_first": compare.changed_since_first(predicted),
+        "at_rest": to_rest.rows(),
         "backwards": {"rows": speeds, "summaries": backwards.summaries(speeds)},
         "afterwards": afterwards.rows(),
     }

@@ -26,11 +26,7 @@ def predict(level: str, numbers: dict[str, Any]) -> dict[str, Any]:
         warnings.simplefilter("ignore", col.CollisionsWarning)  # kept, as statements of the answer
         found = propagate(
             lambda **given: levels.outputs(how.solve(given)),
-            {
-                name: value
-                for name, value in numbers.items()
-                if name.partition(".")[0] in how.tables
-            },
+            how.numbers(numbers),
             method="quasi_random",
             samples=how.samples,
             seed=SEED,
