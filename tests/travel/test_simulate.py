@@ -826,3 +826,14 @@ def test_what_is_documented():
         assert f"\n{section}\n{'-' * len(section)}\n" in text
     for name in inspect.signature(travel.simulate).parameters:
         assert name in text.split("Parameters\n")[1].split("Returns\n")[0]
+
+
+@pytest.mark.parametrize("lock", [0.001, 0.01, 0.3])
+def test_at_follows_a_car_that_recovers_and_then_rolls_for_minutes(lock):
+    """Its sideways motion ends within a second: the states there are those of many moments."""
+    car = CAR.replace(vx=10.0, vy=-1.0)
+    few, many = (drive(car, lock=lock, moments=moments) for moments in (101, 20_001))
+    for time in (0.05, 0.2, 0.5, 1.0, 3.0):
+        one, other = few.at(time), many.at(time)
+        for name in ("x", "y", "heading", "vx", "vy", "yaw_rate"):
+            assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-3, abs=2e-3)

@@ -80,10 +80,12 @@ class Leg(NamedTuple):
 
 def _between(table: Any, time: Any, cases: Any) -> Any:
     """States between the moments of a table: cubics with their places and velocities."""
-    last, count = table[0, -1, cases], table.shape[1] - 1
-    share = np.clip(time / np.where(last > 0.0, last, 1.0), 0.0, 1.0) * count
-    before = np.minimum(share.astype(int), count - 1)
-    part, width = share - before, last / count
+    moments = table[0][:, cases]
+    last = moments[-1]
+    before = np.clip(np.sum(moments <= time, axis=0) - 1, 0, len(moments) - 2)
+    start, end = (table[0, at, cases] for at in (before, before + 1))
+    width = end - start
+    part = np.clip((time - start) / np.where(width > 0.0, width, 1.0), 0.0, 1.0)
     one, two = table[1:, before, cases], table[1:, before + 1, cases]
     p, q = one[_PLACES], two[_PLACES]
     v, w = width * one[_RATES], width * two[_RATES]

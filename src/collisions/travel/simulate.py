@@ -103,12 +103,12 @@ class SimulatedPath(Shown):
                 f"case: {cases}"
             )
             raise ShapeError(text, code="bad_shape", argument="time")
-        last, count = self.time[-1], len(self.time) - 1
+        last = self.time[-1]
         with np.errstate(all="ignore"):
-            share = np.clip(np.where(last > 0.0, wanted / last, 1.0), 0.0, 1.0) * count
-            before = np.minimum(np.where(share == share, share, 0.0).astype(int), count - 1)
-            part = share - before
-            width = last / count
+            before = np.clip(np.sum(self.time <= wanted, axis=0) - 1, 0, len(self.time) - 2)
+            start = _at(self.time, before)
+            width = _at(self.time, before + 1) - start
+            part = np.clip((wanted - start) / np.where(width > 0.0, width, 1.0), 0.0, 1.0)
             state = dict.fromkeys(NAMES, 0.0) | {name: getattr(self.rest, name) for name in NAMES}
             for place, rate in (("x", "vx"), ("y", "vy"), ("heading", "yaw_rate")):
                 (p, q), (v, w) = (
@@ -436,7 +436,7 @@ def _prepared(
 
 
 def _way(motion: Motion, units: Any, moments: int) -> tuple[Any, Any]:
-    """Time, place, motion and marks of some cases at equal steps of time; and how each ended."""
+    """Time, place, motion and marks of some cases at their moments; and how each ended."""
     found, ended = follow(motion)
     count = len(found)
     before, after = np.empty((2, ROWS, moments, count))
@@ -444,7 +444,7 @@ def _way(motion: Motion, units: Any, moments: int) -> tuple[Any, Any]:
     for case, rows in enumerate(found):
         if not rows.shape[1]:
             rows = np.full((ROWS, 1), np.nan)
-        at = time[:, case] = np.linspace(0.0, 1.0, moments) * rows[0, -1]
+        at = time[:, case] = _moments(rows[0], moments)
         step = np.clip(np.searchsorted(rows[0], at, side="right"), 1, max(rows.shape[1] - 1, 1))
         before[:, :, case] = rows[:, np.minimum(step - 1, rows.shape[1] - 1)]
         after[:, :, case] = rows[:, np.minimum(step, rows.shape[1] - 1)]
@@ -487,6 +487,19 @@ def _way(motion: Motion, units: Any, moments: int) -> tuple[Any, Any]:
     return np.array(
         [second * time, x, y, heading, rate * vx, rate * vy, turning / second, *tracks]
     ), ended
+
+
+def _moments(steps: Any, count: int) -> Any:
+    """Moments from the first step to the last: half of them by time, half by steps, which are short
+    where the motion bends. A car that nearly rolls bends in its first second and rolls for minutes.
+    """
+    last = steps[-1]
+    if not last > 0.0:
+        return np.linspace(0.0, 1.0, count) * last
+    passed = 0.5 * steps / last + 0.5 * np.arange(len(steps)) / max(len(steps) - 1, 1)
+    found = np.interp(np.linspace(0.0, 1.0, count), passed, steps)
+    found[-1] = last
+    return found
 
 
 def _corners(ground: Any, reach: Any) -> list[tuple[Any, Any]]:
