@@ -216,7 +216,7 @@ def test_speeds_that_do_not_settle_are_refused():
 
 
 def test_what_an_instant_leaves_out_of_a_course_has_its_size_and_side():
-    """More or less, in the unit of the inputs, as tyres that slide change it; of a common velocity after."""
+    """More or less, as tyres that slide change the speed and the course of the velocity after."""
     known = {name: TRUE[name] for name in ("speed_a", "course_a", "course_b")}
     known |= {"speed_b": 12.0}
     sliding = Tyres(0.7, 1.0, 2.7, 1.5)
@@ -227,3 +227,5 @@ def test_what_an_instant_leaves_out_of_a_course_has_its_size_and_side():
     said = re.search(r"course_a_after would be ([0-9.]+) rad (more|less)", sentence)
     assert float(said[1]) == pytest.approx(abs(change), rel=0.1)
     assert (said[2] == "more") == (change > 0.0)
+    side = "more" if lasting.speed_a_after > instant.speed_a_after else "less"
+    assert re.search(rf"speed_a_after would be [0-9.]+ m/s {side}", sentence)
