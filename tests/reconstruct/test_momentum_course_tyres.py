@@ -4,6 +4,7 @@ made here, the forward solver, and the same impact with other unknowns.
 
 import math
 import random
+import re
 
 import numpy as np
 import pytest
@@ -212,3 +213,19 @@ def test_speeds_that_do_not_settle_are_refused():
     assert np.isnan(many.speed_a).tolist() == [True, False]
     with pytest.raises(col.NoSolutionError, match=r"case 0: .*do not settle"):
         reconstruct.momentum(1437.0, 1823.0, **known, **times, on_failure="raise")
+
+
+def test_what_an_instant_leaves_out_of_a_course_has_its_size_and_side():
+    """More or less, as tyres that slide change the speed and the course of the velocity after."""
+    known = {name: TRUE[name] for name in ("speed_a", "course_a", "course_b")}
+    known |= {"speed_b": 12.0}
+    sliding = Tyres(0.7, 1.0, 2.7, 1.5)
+    lasting = momentum(known, together=True, duration=0.1, tyres_a=sliding, tyres_b=sliding)
+    instant = momentum(known, together=True)
+    (sentence,) = instant.statements
+    change = lasting.course_a_after - instant.course_a_after
+    said = re.search(r"course_a_after would be ([0-9.]+) rad (more|less)", sentence)
+    assert float(said[1]) == pytest.approx(abs(change), rel=0.1)
+    assert (said[2] == "more") == (change > 0.0)
+    side = "more" if lasting.speed_a_after > instant.speed_a_after else "less"
+    assert re.search(rf"speed_a_after would be [0-9.]+ m/s {side}", sentence)

@@ -325,3 +325,17 @@ def test_a_locked_wheel_has_its_whole_force_from_two_percent_of_the_speed_on():
     for share in (0.25, 0.5, 0.9):
         force, _ = tyre_force(0.02 * share, 0.0, 1.0, 0.7, 9.5)
         assert force == pytest.approx(-2.0 * share / (1.0 + share * share), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("locks", "moment"),
+    [((1.0, 0.0, 1.0, 0.0), 0.2625), ((0.0, 1.0, 0.0, 1.0), -0.2625), ((1.0, 0.0, 0.0, 1.0), 0.0)],
+    ids=["left", "right", "across"],
+)
+def test_a_car_that_brakes_on_one_side_turns_to_it(locks, moment):
+    """Two wheels of a quarter of the weight each drag with 0.7 of it, 0.75 m beside the centre of
+    mass: 0.35 of the weight, and 0.2625 m of it to the left.
+    """
+    tyres = Tyres(locks, 0.7, 9.5, 1.35, 0.75)
+    x, y, yaw = tyre_forces(tyres, (0.7,) * 4, 1.0, 0.0, 0.0)
+    assert (x, y, yaw) == pytest.approx((-0.35, 0.0, moment), abs=1e-15)

@@ -298,3 +298,25 @@ def test_the_error_of_a_mean_is_mostly_that_of_the_few_cases_asked():
         )
         squares.append(found["z"].mean_standard_error ** 2)
     assert math.sqrt(np.mean(squares)) == pytest.approx(0.3 / math.sqrt(2.0) / 16.0, rel=0.3)
+
+
+@pytest.mark.parametrize(("ripple", "refused"), [(0.42, False), (0.58, True)])
+def test_a_correction_that_leaves_more_than_a_third_of_the_spread_is_refused(ripple, refused):
+    """A ripple of a on a spread of 1 leaves a / sqrt(2 + a^2) of the whole: 0.28 and 0.38."""
+
+    def corrected():
+        return propagate(
+            lambda x: {"z": x},
+            {"x": Normal(0.0, 1.0)},
+            finer=lambda x: {"z": x + ripple * np.sin(1e4 * x)},
+            seed=1,
+            finer_samples=512,
+            method="monte_carlo",
+        )
+
+    if refused:
+        with pytest.raises(col.NoSolutionError, match="more than a third of its spread") as caught:
+            corrected()
+        assert caught.value.code == "too_different"
+    else:
+        assert corrected()["z"].std == pytest.approx(math.sqrt(1.0 + ripple**2 / 2.0), rel=0.05)
