@@ -224,8 +224,8 @@ def test_what_an_instant_leaves_out_of_a_course_has_its_size_and_side():
     instant = momentum(known, together=True)
     (sentence,) = instant.statements
     change = lasting.course_a_after - instant.course_a_after
-    said = re.search(r"course_a_after would be ([0-9.]+) rad (more|less)", sentence)
+    said = re.search(r"course of A after would be ([0-9.]+) rad (more|less)", sentence)
     assert float(said[1]) == pytest.approx(abs(change), rel=0.1)
     assert (said[2] == "more") == (change > 0.0)
     side = "more" if lasting.speed_a_after > instant.speed_a_after else "less"
-    assert re.search(rf"speed_a_after would be [0-9.]+ m/s {side}", sentence)
+    assert re.search(rf"speed of A after would be [0-9.]+ m/s {side}", sentence)

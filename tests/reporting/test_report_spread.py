@@ -58,7 +58,7 @@ def test_bounds_have_no_shares_of_a_variance():
     )
     # (1/20)^2 to (0.02/1.2)^2: nine tenths and one.
     page = page_of(normal)
-    assert re.match(r"90( ± \d+)? %", text_of(page, "variance from speed_a"))
+    assert re.match(r"90( ± \d+)? %", text_of(page, "variance from speed of A before"))
     assert re.match(r"10( ± \d+)? %", text_of(page, "variance from restitution"))
     assert text_of(page, "sum of the shares") == "100 %"
 
@@ -71,10 +71,10 @@ def test_a_bare_input_is_in_the_units_of_the_page_where_it_may_be_that_of_the_im
     spread = propagate(
         lambda speed_a: {"a.delta_v": 0.6 * speed_a}, {"speed_a": Normal(mean, 1.0)}, seed=1
     )
-    stated = text_of(page_of(spread), "speed_a")
+    stated = text_of(page_of(spread), "speed of A before")
     if known:
         assert float(stated.split(" ")[0]) == pytest.approx(3.6 * mean, rel=1e-3)
         assert stated.endswith(" 3.6 km/h")
     else:
-        assert stated.endswith("in SI units")
+        assert stated.endswith("given without a unit")
         assert f"{mean:g}" in stated

@@ -198,12 +198,16 @@ def test_what_a_yaw_takes_from_the_drag_is_as_the_docstring_has_it(yaw, low, hig
                 vx=speed,
                 yaw_rate=yaw * speed / 1.5,
             )
-            way = travel.simulate(car, travel.Tyres(0.7, lock, 2.7, 1.5), moments=41)
+            way = travel.simulate(car, travel.Tyres(0.7, lock, 2.7, 1.5), moments=401)
+            at = [way.at(float(time)) for time in np.linspace(0.0, way.time[-1], 41)]
             with warnings.catch_warnings():
                 # The yaw that is read at separation is off a little, to both sides of the limit.
                 warnings.simplefilter("ignore", col.OutOfRangeWarning)
                 run = travel.path(
-                    np.column_stack([way.x, way.y]), way.heading, friction=0.7, lock=lock
+                    [(one.x, one.y) for one in at],
+                    [one.heading for one in at],
+                    friction=0.7,
+                    lock=lock,
                 )
             off.append(run.speed / speed - 1.0)
     assert low < min(off)
