@@ -131,7 +131,7 @@ EDGES = np.linspace(0.0, 100.0, 2001) * KMH
 
 
 def counted(blocks):
-    """The delta-V of B in so many blocks, as counts between the edges; the rest has no answer."""
+    """Delta-V of B in so many blocks, counted; the rest has no answer."""
     counts = np.zeros(EDGES.size - 1, dtype=np.int64)
     for number in range(blocks):
         block = crash(**draw(BLOCK, seed=(8, number)), on_failure="nan")

@@ -20,7 +20,7 @@ LENGTH, NAMES = 4.4, ("rear", "middle", "front")
 
 
 def row(behind, ahead, restitution=0.2, masses=(1500, 1200, 1400), speeds=(60, 30, 0)):
-    """Three cars that roll, the front one at 0; gaps behind and ahead of the middle one in m."""
+    """Three cars that roll, the front one at 0; gaps in m from rear to front."""
     xs = (-2 * LENGTH - behind - ahead, -LENGTH - ahead, 0.0)
     movers = {
         name: Mover(

@@ -750,6 +750,16 @@ def a_bent_reading(share):
     )
 
 
+def nearly_cancelling(condition):
+    """Two equal cars head on, of which A stops: B goes on with the difference of their speeds, and
+    the condition is their sum over that.
+    """
+    slower = 10.0 * (condition - 1.0) / (condition + 1.0)
+    return reconstruct.momentum(
+        1e3, 1e3, course_a=0.0, course_b=math.pi, speed_a=10.0, speed_b=slower, speed_a_after=0.0
+    )
+
+
 STUCK = {
     "course_a": 0.0, "course_b": 1.6, "restitution": 0.0, "normal": 0.0, "point": (0.0, 0.0),
 }  # fmt: skip
@@ -916,6 +926,8 @@ WARNINGS = [
         below=True),
     Warned("courses of two speeds by a recorder", math.radians(10.0), CONDITION,
         "nearly_collinear", by_courses_apart, below=True),
+    Warned("momenta that nearly cancel", 1.0 / math.tan(math.radians(5.0)), CONDITION,
+        "momenta_cancel", nearly_cancelling),
     Warned("separation after, of rounding", 1e6, CONDITION, "ill_conditioned", separating_slowly),
     Warned("impulses of A and B", 0.1, CONDITION, "momentum_mismatch", unequal_impulses),
     Warned("slip after of a slide", 0.05, CONDITION, "nearly_sticking", nearly_stuck, below=True),
@@ -970,7 +982,7 @@ def test_every_warning_has_its_rows():
                 words = [part.value for part in call.args if isinstance(part, ast.Constant)]
                 found |= set([word for word in words if re.fullmatch("[a-z_]+", word)][:1])
     elsewhere = {"nearly_plastic", "undetermined", "fold", "islands_disagree", "collapsed"}
-    elsewhere |= {"stuck_or_slid"}
+    elsewhere |= {"stuck_or_slid", "beyond_model"}
     assert found == {row.code for row in WARNINGS if row.code != "contradictory"} | elsewhere
 
 
