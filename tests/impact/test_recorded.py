@@ -214,7 +214,7 @@ def test_samples_of_a_curve_are_evidence():
             "duration": Uniform(0.06, 0.15),
         },
         observed,
-        samples=512,
+        samples=2048,
         seed=1,
     )
     for name, value, most in (("speed_a", 15.0, 0.5), ("duration", 0.1, 0.003)):

@@ -788,7 +788,7 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         solved(case, "central", **masses, **given, **failing, incomplete=case.option(True, False))
     else:
         headings = {name: case.value("heading") for name in ("heading_a", "heading_b")}
-        solved(case, "central", **masses, **given, **failing, **headings)
+        solved(case, "central", **masses, **(given | headings), **failing)
     known = case.choice(
         (
             {"delta_v_a": "speed"},
@@ -972,7 +972,7 @@ def test_reverse_solvers_of_motions(case: Case) -> None:
         known["on_failure"] = case.option("nan", "raise")
     if case.maybe(0.3):
         known |= lasting(case)
-    solved(case, "planar", *after, **keywords, **known)
+    solved(case, "planar", *after, **{**keywords, **known})
     motions = [a, b, *after]
     if case.mood == "odd" and case.maybe(0.1):
         motions[case.randrange(4)] = case.garbage()
@@ -1052,7 +1052,7 @@ def test_speeds(case: Case) -> None:
         known |= {"axes": case.option("turning", "fixed")} if case.maybe(0.5) else {}
     if case.maybe(0.2):
         known |= lasting(case)
-    solved(case, "speeds", a, b, restitution=e, **keywords, **courses, **known)
+    solved(case, "speeds", a, b, restitution=e, **{**keywords, **courses, **known})
 
 
 def _known_of(impact: col.Impact, name: str) -> Any:
@@ -1495,6 +1495,8 @@ def test_simulated_travel(case: Case) -> None:
     given |= {"wheelbase": case.value(size), "track": case.value(size)}
     if case.maybe(0.3):
         given |= {"steer": case.value("heading"), "height": case.option(None, 0.4)}
+    if case.maybe(0.3):
+        given["cornering"] = case.option(8.0, 9.5, case.value("drag"))
     tyres = case.call("travel.Tyres", travel.Tyres, **case.spoil(given))
     if isinstance(tyres, travel.Tyres):
         case.must("travel.Tyres.replace", tyres.replace)

@@ -79,7 +79,7 @@ class Model:
     @property
     def paths(self) -> frozenset[str]:
         """Those in ``takes``."""
-        return frozenset(numbers_of(self.takes))
+        return frozenset() if self.takes is None else frozenset(numbers_of(self.takes))
 
     def problem(self, inputs: Inputs) -> Problem:
         """What the kernel is given; an unknown position or inertia is filled in so that it makes no
