@@ -315,7 +315,6 @@ def test_fit_of_what_was_observed():
     assert "a.vx" in answers(read_text(text.encode())).text()
 
 
-@pytest.mark.slow
 def test_posterior_of_what_was_observed():
     """A flat prior cut by a reading and by a bound: the mean of a normal distribution, truncated;
     in closed form.
@@ -340,7 +339,6 @@ def test_posterior_of_what_was_observed():
     assert json.dumps(answers(read_text(text.encode())).to_dict(), allow_nan=False)
 
 
-@pytest.mark.slow
 def test_report_of_a_posterior(tmp_path, capsys):
     """From a file to a page in one command: what was found, observed and known before, what is
     known exactly, figures.
@@ -602,7 +600,6 @@ def test_what_is_wrong_inside_a_function_is_named_with_its_table(distance):
     assert line.startswith("reconstruct.momentum.speed_a_after.travel.speed.distance: ")
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["paper_example_3", "intersection_with_recorder", "us_units", "run_out"]
 )

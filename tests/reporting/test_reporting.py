@@ -694,7 +694,6 @@ def test_an_uncertainty_of_another_case_is_seen():
     assert re.search(r"Polo: delta-V, \d+\.\d+ \S+ in this impact, lies outside", text)
 
 
-@pytest.mark.slow
 def test_intervals_and_local_methods():
     interval = spread("b.delta_v", restitution=uncertainty.Interval(0.05, 0.15))
     ranges = report(crash(), form="markdown", uncertainty=interval)
@@ -712,7 +711,6 @@ def test_intervals_and_local_methods():
     assert any("Not drawn: " in text for text in pictured.of("p"))
 
 
-@pytest.mark.slow
 def test_figures_show_this_impact(impacts):
     drawn = Page(
         report(impacts["eccentric"], units="metric", outline_a=(4.2, 1.8), outline_b=(4.0, 1.7))
@@ -740,7 +738,6 @@ def test_every_letter_of_a_figure_can_be_read(name, impacts):
     assert not set("".join(printed)) & set("$\\{}")
 
 
-@pytest.mark.slow
 def test_figures_leave_nothing_open_and_the_least_are_two(impacts):
     import matplotlib.pyplot as plt
 
@@ -1236,7 +1233,6 @@ def sliding(speed):
     return {"impulse_ratio": answer.impulse_ratio, "a.pdof": answer.a.q.pdof}
 
 
-@pytest.mark.slow
 def test_an_interval_has_a_range_and_no_deviation():
     """The deviation within leaves out how far the interval goes."""
     inputs = {
@@ -1691,7 +1687,6 @@ def test_inputs_and_answers_of_planar_momentum_are_shown():
     assert "A: speed before" in Page(page).of("caption")
 
 
-@pytest.mark.slow
 def test_samples_drawn_together_are_told_without_shares():
     """A joint group has all variance; bare numbers are SI, and in the unit of the page where their
     input is the impact's.
