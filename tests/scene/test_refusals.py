@@ -520,8 +520,7 @@ def test_a_contact_names_its_rule() -> None:
 
 
 def test_a_mover_reaches_to_its_farthest_corner() -> None:
-    # 3, 4, 5.
-    assert Mover(CAR, outline=[(3, 4), (-3, 4), (-1, -1), (2, -1)]).reach == 5.0
+    assert Mover(CAR, outline=[(2, -1.5), (-1, 1), (-2, 0)]).reach == 2.5
     assert Mover(CAR).reach == 0.0
 
 
@@ -532,5 +531,13 @@ def test_a_case_of_a_batch_is_a_scene_with_its_numbers() -> None:
     assert batch.case(1) == whole().replace({"A.vx": 9.0})
     with pytest.raises(col.CollisionsError) as refused:
         batch.case(3)
-    assert refused.value.code == "no_such_case"
-    assert "3" in str(refused.value)
+    says = "that of one case in a batch of shape (3,), a whole number below 3, got 3"
+    check(refused.value, InputError, "bad_index", says)
+
+
+def test_the_inputs_of_a_scene_are_listed_with_their_units() -> None:
+    listed = whole().inputs()
+    assert listed["A.vx"] == "m/s"
+    assert listed["A.tyres.friction"] == listed["B.drag"] == listed["surfaces[0]"] == ""
+    assert listed["contacts[1].at"] == "s"
+    assert "C.drag" not in listed
