@@ -531,8 +531,12 @@ def test_a_case_of_a_batch_is_a_scene_with_its_numbers() -> None:
     assert batch.case(1) == whole().replace({"A.vx": 9.0})
     with pytest.raises(col.CollisionsError) as refused:
         batch.case(3)
-    says = "that of one case in a batch of shape (3,), a whole number below 3, got 3"
+    says = "one case in a batch of shape (3,), a whole number below 3, got 3; write scene.case(0)"
     check(refused.value, InputError, "bad_index", says)
+    with pytest.raises(col.CollisionsError) as refused:
+        whole().case(0)
+    says = "scene is one case, and case() takes one of a batch; use it as it is"
+    check(refused.value, ShapeError, "bad_shape", says)
 
 
 def test_the_inputs_of_a_scene_are_listed_with_their_units() -> None:
