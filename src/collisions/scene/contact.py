@@ -318,8 +318,10 @@ def _tyres_after(reader: ArgumentReader, given: Any, pair: tuple[Any, Any]) -> M
         )
         reader.refuse(InputError(text, code="bad_shape", argument="tyres_after"))
         return {}
+    # What is no text is refused already, and may not be comparable, as an array is.
+    names = [name for name in pair if isinstance(name, str)]
     for name, tyres in given.items():
-        if name not in pair:
+        if name not in names:
             text = (
                 f"tyres_after names {shown(name)}, and this contact is between {pair[0]!r} and "
                 f"{pair[1]!r}"
@@ -384,7 +386,7 @@ def _check(
             "yet)",
             "duration",
         )
-    if found["duration"] is not None and model not in ("eccentric", "solve"):
+    if found["duration"] is not None and model in _NO_POINT:
         refuse(f"model {model!r} takes no time; leave duration out, or use eccentric", "duration")
     law = found["law"]
     if (
@@ -393,4 +395,5 @@ def _check(
         and LAWS[law].followed
         and given not in ([], [FRICTION])
     ):
-        refuse(f"law {law!r} works with friction= alone, got {given[0]}=", given[0])
+        other = next(name for name in given if name != FRICTION)
+        refuse(f"law {law!r} works with friction= alone, got {other}=", other)

@@ -278,7 +278,7 @@ def _moving(name: str, body: Vehicle, parts: dict[str, Any]) -> Vehicle:
 def case_of(scene: Scene, index: Any) -> Scene:
     """One case of a batch as a single scene."""
     shape = scene.shape
-    place = index_of(index, shape)
+    place = index_of(index, shape, "scene")
 
     def take(value: Any) -> Any:
         return np.broadcast_to(value, shape or ())[place].item()

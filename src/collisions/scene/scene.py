@@ -449,13 +449,19 @@ def _read_contacts(
     reader: ArgumentReader, contacts: Any, movers: Mapping[str, Mover]
 ) -> tuple[Contact, ...]:
     if not isinstance(contacts, (list, tuple)):
-        text = f"contacts must be a list of Contacts, got {shown(contacts)}"
+        text = (
+            "contacts must be a list of Contacts, such as [Contact('Camry', 'Civic', ...)], got "
+            f"{shown(contacts)}"
+        )
         reader.refuse(ShapeError(text, code="bad_shape", argument="contacts"))
         return ()
     found, rules = [], set()
     for i, contact in enumerate(contacts):
         if not isinstance(contact, Contact):
-            text = f"contacts[{i}] must be a Contact, got {type(contact).__name__}"
+            text = (
+                f"contacts[{i}] must be a Contact, got {type(contact).__name__}; write "
+                "Contact('Camry', 'Civic', restitution=..., friction=...)"
+            )
             reader.refuse(InputError(text, code="not_a_contact", argument="contacts"))
             continue
         found.append(contact)
@@ -483,7 +489,10 @@ def _read_contacts(
                     )
             pair = frozenset(names)
             if pair in rules:
-                text = f"contacts[{i}] is a second rule at 'touch' for {names[0]} and {names[1]}"
+                text = (
+                    f"contacts[{i}] is a second rule at 'touch' for {names[0]} and {names[1]}; "
+                    "leave it out, as one rule holds for every touch of the two"
+                )
                 reader.refuse(InputError(text, code="rule_twice", argument="contacts"))
             rules.add(pair)
         if contact.duration is not None and not any(

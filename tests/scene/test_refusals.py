@@ -1,0 +1,547 @@
+"""Arguments of a scene, its movers and its contacts that are refused, and what the refusal says to
+write; and how the three compare, show and pickle.
+"""
+
+from __future__ import annotations
+
+import pickle
+from typing import Any
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions.scene import Contact, Mover, Scene
+from collisions.travel import Tyres
+
+InputError, MissingInputError = col.InputError, col.MissingInputError
+ShapeError, UnitsError = col.ShapeError, col.UnitsError
+
+OUTLINE = ("4.5 m", "1.8 m")
+WHEELS = Tyres(0.7, 1.0, "2.7 m", "1.5 m")
+CAR = col.Vehicle(mass="1500 kg", yaw_inertia=2500, x=0, y=0, heading=0, vx="36 km/h")
+PARKED = col.Vehicle(mass=1200, yaw_inertia=2000, x=6, y=0, heading=0)
+MOVERS = {"A": Mover(CAR, outline=OUTLINE), "B": Mover(PARKED, outline=OUTLINE)}
+AREA = [(0, 0), (9, 0), (9, 9)]
+EXACTLY_ONE = "give exactly one of friction=, impulse_ratio=, critical_fraction=; got "
+PAIR = "must be a pair of corners, three or more (x, y) in a list, and friction; got "
+
+
+def contact(*, a: Any = "A", b: Any = "B", **given: Any) -> Contact:
+    return Contact(a, b, **{"restitution": 0.1, "friction": 0.5, **given})
+
+
+def scene(**given: Any) -> Scene:
+    return Scene(**{"movers": MOVERS, "contacts": [contact()], **given})
+
+
+def check(problem: Any, kind: type[Exception], code: str, says: str) -> None:
+    assert type(problem) is kind
+    assert problem.code == code
+    assert says in str(problem)
+
+
+CONTACT_REFUSALS = [
+    # Names.
+    ({"a": ""}, InputError, "not_a_text", "a must be the name of a vehicle of the scene, got ''"),
+    ({"b": 7}, InputError, "not_a_text", "b must be the name of a vehicle of the scene, got 7"),
+    ({"b": "A"}, InputError, "bad_combination", "a and b are both 'A'"),
+    (
+        {"a": np.array([1, 2]), "tyres_after": {"B": WHEELS}},
+        InputError,
+        "not_a_text",
+        "a must be the name of a vehicle of the scene, got array([1, 2])",
+    ),
+    # Options.
+    ({"plane": "edge"}, InputError, "bad_option", "plane must be one of face, crossings, got"),
+    (
+        {"model": ["eccentric"]},
+        InputError,
+        "bad_option",
+        "model must be one of linear_central, oblique_central, eccentric, time_resolved, solve",
+    ),
+    (
+        {"model": "central", "duration": "0.1 s"},
+        InputError,
+        "bad_option",
+        "model must be one of linear_central, oblique_central, eccentric, time_resolved, solve",
+    ),
+    (
+        {"law": None},
+        InputError,
+        "bad_option",
+        "law must be one of brach, kudlich-slibar, stronge, got None",
+    ),
+    ({"incomplete": 1}, InputError, "bad_option", "incomplete must be True or False, got 1"),
+    (
+        {"model": "time_resolved", "duration": "0.1 s"},
+        InputError,
+        "not_offered",
+        "write model='eccentric' and duration=, which has the impulse of the tyres",
+    ),
+    # Times and lengths.
+    ({"at": "soon"}, InputError, "bad_option", "such as '0.8 s', or 'touch', got 'soon'"),
+    ({"at": "-1 s"}, InputError, "negative_time", "at must be >= 0, got '-1 s'; a scene starts"),
+    ({"at": [0, 1]}, ShapeError, "bad_shape", "at is a list, and takes one value; many cases go"),
+    (
+        {"at": "touch", "depth": -0.1},
+        InputError,
+        "negative_length",
+        "depth must be >= 0, got -0.1; it is the overlap along the normal",
+    ),
+    (
+        {"at": "touch", "delay": "-30 ms"},
+        InputError,
+        "negative_duration",
+        "delay must be >= 0, got '-30 ms'; it is counted from first touch",
+    ),
+    (
+        {"model": "solve", "tolerance": -1},
+        InputError,
+        "negative_speed",
+        "tolerance must be >= 0, got -1; it bounds an error",
+    ),
+    (
+        {"model": "eccentric", "duration": "-0.1 s"},
+        InputError,
+        "negative_duration",
+        "duration must be >= 0, got '-0.1 s'",
+    ),
+    # Tyres after the contact.
+    (
+        {"tyres_after": [WHEELS]},
+        InputError,
+        "bad_shape",
+        "tyres_after must be a dict from names to Tyres, such as {'A': Tyres(...)}, got [Tyres(",
+    ),
+    (
+        {"tyres_after": {"C": WHEELS}},
+        InputError,
+        "unknown_name",
+        "tyres_after names 'C', and this contact is between 'A' and 'B'",
+    ),
+    (
+        {"tyres_after": {"A": 0.7}},
+        InputError,
+        "not_tyres",
+        "tyres_after['A'] must be Tyres, got float; write collisions.travel.Tyres(friction, lock,",
+    ),
+    # What does not go together.
+    ({"friction": None}, InputError, "one_tangential", EXACTLY_ONE + "none."),
+    (
+        {"impulse_ratio": 0.2},
+        InputError,
+        "one_tangential",
+        EXACTLY_ONE + "friction= and impulse_ratio=.",
+    ),
+    (
+        {"model": "linear_central"},
+        InputError,
+        "bad_combination",
+        "model 'linear_central' has no friction; leave it out, or use another",
+    ),
+    (
+        {"point": (1, 0)},
+        MissingInputError,
+        "missing_normal",
+        "point is given without normal; give both, or neither where they come from the outlines",
+    ),
+    (
+        {"at": "touch", "depth": 0.1, "delay": 0.02},
+        InputError,
+        "bad_combination",
+        "give depth= or delay=, not both",
+    ),
+    (
+        {"depth": 0.1},
+        InputError,
+        "bad_combination",
+        "depth is counted from first touch; write at='touch' with it",
+    ),
+    (
+        {"at": "touch", "delay": 0.02, "normal": 0, "point": (1, 0)},
+        InputError,
+        "bad_combination",
+        "so the impulse acts at first touch; leave delay out",
+    ),
+    (
+        {"at": "touch", "depth": 0.1, "normal": 0, "model": "oblique_central"},
+        InputError,
+        "bad_combination",
+        "so the impulse acts at first touch; leave depth out",
+    ),
+    (
+        {"plane": "crossings", "normal": 0},
+        InputError,
+        "bad_combination",
+        "plane says how the normal comes from the outlines; leave it or normal out",
+    ),
+    ({"tolerance": 0.5}, InputError, "bad_combination", "tolerance is for model='solve'"),
+    (
+        {"duration": 0.1},
+        InputError,
+        "bad_combination",
+        "duration is given without a model; write model='eccentric'",
+    ),
+    (
+        {"duration": 0.1, "model": "oblique_central"},
+        InputError,
+        "bad_combination",
+        "model 'oblique_central' takes no time; leave duration out, or use eccentric",
+    ),
+    (
+        {"friction": None, "critical_fraction": 1, "law": "stronge"},
+        InputError,
+        "bad_combination",
+        "law 'stronge' works with friction= alone, got critical_fraction=",
+    ),
+]
+
+
+@pytest.mark.parametrize(("given", "kind", "code", "says"), CONTACT_REFUSALS)
+def test_a_contact_refuses_with_what_to_write(
+    given: dict[str, Any], kind: type[Exception], code: str, says: str
+) -> None:
+    with pytest.raises(col.CollisionsError) as refused:
+        contact(**given)
+    # One thing is wrong, and one thing is said.
+    assert "problems" not in refused.value.fields
+    check(refused.value, kind, code, says)
+
+
+def test_a_contact_with_two_rules_and_a_law_of_one_names_the_other() -> None:
+    with pytest.raises(InputError) as refused:
+        contact(law="stronge", impulse_ratio=0.2)
+    one, other = refused.value.fields["problems"]
+    check(one, InputError, "one_tangential", EXACTLY_ONE + "friction= and impulse_ratio=.")
+    says = "law 'stronge' works with friction= alone, got impulse_ratio="
+    check(other, InputError, "bad_combination", says)
+    assert other.fields["argument"] == "impulse_ratio"
+
+
+@pytest.mark.parametrize(
+    ("given", "kind", "code", "says"),
+    [
+        (
+            {"vehicle": 1500},
+            InputError,
+            "not_a_vehicle",
+            "vehicle must be a Vehicle, got int; write collisions.Vehicle(mass=...)",
+        ),
+        (
+            {"vehicle": col.Vehicle(mass=1500, yaw_inertia=2500, x=0, y=0, pivot=(1, 0))},
+            InputError,
+            "pinned",
+            "write vehicle.replace(pivot=None), or solve its impact by eccentric",
+        ),
+        (
+            {"outline": ("12 km", "2 m")},
+            InputError,
+            "bad_outline",
+            "outline is 1.2e+04 m long and 2 m wide, and may be from 0.01 to 10000 m; give metres",
+        ),
+        (
+            {"outline": ("4.5 m", "1.8 mm")},
+            InputError,
+            "bad_outline",
+            "outline is 4.5 m long and 0.0018 m wide, and may be from 0.01 to 10000 m",
+        ),
+        ({"outline": 4.5}, ShapeError, "bad_shape", "outline must be (length, width), (length,"),
+        (
+            {"tyres": 0.7},
+            InputError,
+            "not_tyres",
+            "tyres must be Tyres, got float; write collisions.travel.Tyres(friction, lock,",
+        ),
+        (
+            {"tyres": WHEELS, "drag": 0.7},
+            InputError,
+            "bad_combination",
+            "give tyres= or drag=, not both: each says what slows the vehicle",
+        ),
+        ({"drag": -0.3}, InputError, "negative_drag", "drag must be >= 0, got -0.3"),
+        ({"drag": "wet"}, UnitsError, "bad_units", "write 0.7, '70 %', '6.9 m/s**2'"),
+    ],
+)
+def test_a_mover_refuses_with_what_to_write(
+    given: dict[str, Any], kind: type[Exception], code: str, says: str
+) -> None:
+    with pytest.raises(col.CollisionsError) as refused:
+        Mover(**{"vehicle": CAR, **given})
+    assert "problems" not in refused.value.fields
+    check(refused.value, kind, code, says)
+
+
+BARE = Mover(PARKED)
+SCENE_REFUSALS = [
+    (
+        {"movers": list(MOVERS.values())},
+        InputError,
+        "bad_shape",
+        "movers must be a dict from names to Movers, such as {'Camry': Mover(camry)}, got [Mover(",
+    ),
+    ({"movers": {}}, InputError, "bad_shape", "such as {'Camry': Mover(camry)}, got {}"),
+    (
+        {"movers": {**MOVERS, 3: BARE}},
+        InputError,
+        "bad_name",
+        "movers has the name 3; names are texts without dots and brackets, and not one of contacts",
+    ),
+    ({"movers": {**MOVERS, " ": BARE}}, InputError, "bad_name", "movers has the name ' '"),
+    ({"movers": {**MOVERS, "a.b": BARE}}, InputError, "bad_name", "movers has the name 'a.b'"),
+    ({"movers": {**MOVERS, "slope": BARE}}, InputError, "bad_name", "movers has the name 'slope'"),
+    (
+        {"movers": {**MOVERS, "C": CAR}},
+        InputError,
+        "not_a_mover",
+        "movers['C'] must be a Mover, got Vehicle; write Mover(vehicle, outline=..., tyres=...)",
+    ),
+    (
+        {"movers": {"A": MOVERS["A"], "B": Mover(CAR.replace(vx=np.ones((2, 2))))}},
+        ShapeError,
+        "bad_shape",
+        "have the shape (2, 2), and must have one axis, over the cases, of one or more; give",
+    ),
+    (
+        {"slope": (np.zeros(0), 0)},
+        ShapeError,
+        "bad_shape",
+        "have the shape (0,), and must have one axis, over the cases, of one or more",
+    ),
+    # Contacts.
+    (
+        {"contacts": contact()},
+        ShapeError,
+        "bad_shape",
+        "a list of Contacts, such as [Contact('Camry', 'Civic', ...)], got Contact(",
+    ),
+    (
+        {"contacts": [("A", "B")]},
+        InputError,
+        "not_a_contact",
+        "contacts[0] must be a Contact, got tuple; write Contact('Camry', 'Civic', restitution=",
+    ),
+    (
+        {"contacts": [contact(b="C")]},
+        InputError,
+        "unknown_name",
+        "contacts[0] names 'C', and the movers are A, B",
+    ),
+    (
+        {
+            "movers": {**MOVERS, "A": MOVERS["A"].replace(drag=0.3)},
+            "contacts": [contact(tyres_after={"A": WHEELS})],
+        },
+        InputError,
+        "bad_combination",
+        "contacts[0] gives 'A' tyres, which moves by a drag before; give its Mover tyres= too",
+    ),
+    (
+        {"movers": {**MOVERS, "B": BARE}, "contacts": [contact(at="touch")]},
+        MissingInputError,
+        "missing_outline",
+        "'B' has no outline; give outline=(length, width) to its Mover, or a time as at=",
+    ),
+    (
+        {"contacts": [contact(at="touch"), contact(a="B", b="A", at="touch")]},
+        InputError,
+        "rule_twice",
+        "contacts[1] is a second rule at 'touch' for B and A; leave it out",
+    ),
+    (
+        {"contacts": [contact(model="eccentric", duration="0.1 s")]},
+        InputError,
+        "missing_tyres",
+        "neither A nor B has tyres; give tyres= to a Mover, or leave duration out",
+    ),
+    # Areas.
+    ({"surfaces": 0.3}, ShapeError, "bad_shape", f"surfaces[0] {PAIR}0.3"),
+    ({"surfaces": [(AREA[:2], 0.3)]}, ShapeError, "bad_shape", f"surfaces[0] {PAIR}([(0, 0), (9,"),
+    ({"surfaces": [(AREA, 0.3), AREA]}, ShapeError, "bad_shape", f"surfaces[1] {PAIR}[(0, 0)"),
+    (
+        {"surfaces": [([*AREA, (np.array([0.0, 1.0]), 9)], 0.3)]},
+        ShapeError,
+        "bad_shape",
+        "surfaces[0] has an array among its corners; they are the same for every case",
+    ),
+    ({"surfaces": [(AREA, -0.3)]}, InputError, "bad_friction", "surfaces[0] must be >= 0, got"),
+    # The order.
+    (
+        {"order": "AB"},
+        ShapeError,
+        "bad_shape",
+        "order must be a list of pairs of names, such as [('A', 'B')], got 'AB'",
+    ),
+    ({"order": [("A", "B", "A")]}, ShapeError, "bad_shape", "such as [('A', 'B')], got [('A',"),
+    ({"order": [("A", 2)]}, ShapeError, "bad_shape", "such as [('A', 'B')], got [('A', 2)]"),
+    (
+        {"order": [("A", "B"), ("B", "C")]},
+        InputError,
+        "unknown_name",
+        "order has 'B' and 'C', and no contact is between these two",
+    ),
+    # Shared inputs.
+    (
+        {"shared": {"speed": "A.vx"}},
+        ShapeError,
+        "bad_shape",
+        "such as {'ground': ('A.tyres.friction', 'B.tyres.friction')}, got {'speed': 'A.vx'}",
+    ),
+    ({"shared": [("A.vx",)]}, ShapeError, "bad_shape", "shared must be a dict from new names to"),
+    (
+        {"shared": {"B": ("A.vx",)}},
+        InputError,
+        "bad_name",
+        "shared has the name 'B', which is taken",
+    ),
+    (
+        {"shared": {"times": ("A.vx",)}},
+        InputError,
+        "bad_name",
+        "shared has the name 'times', which is taken",
+    ),
+]
+
+
+@pytest.mark.parametrize(("given", "kind", "code", "says"), SCENE_REFUSALS)
+def test_a_scene_refuses_with_what_to_write(
+    given: dict[str, Any], kind: type[Exception], code: str, says: str
+) -> None:
+    with pytest.raises(col.CollisionsError) as refused:
+        scene(**given)
+    assert "problems" not in refused.value.fields
+    check(refused.value, kind, code, says)
+
+
+@pytest.mark.parametrize("tolerance", [1, 1e-11, np.array([1e-5, 1e-4])])
+def test_the_tolerance_of_a_run_is_one_small_number(tolerance: Any) -> None:
+    says = "tolerance must be one number from 1e-10 to 0.01, got "
+    with pytest.raises(col.CollisionsError) as refused:
+        scene().run(tolerance=tolerance)
+    check(refused.value, InputError, "bad_option", says)
+    with pytest.raises(col.CollisionsError) as refused:
+        scene().as_model(["A.vx"], ["impacts[0].a.delta_v"], tolerance=tolerance)
+    check(refused.value, InputError, "bad_option", says)
+
+
+def whole() -> Scene:
+    """A scene with something in every argument."""
+    return Scene(
+        movers={
+            "A": Mover(CAR, outline=OUTLINE, tyres=WHEELS),
+            "B": Mover(PARKED, outline=[(2, 1), (-2, 1), (-2, -1), (2, -1)], drag="50 %"),
+            "C": Mover(col.Vehicle(mass=9000, x=60, y=0)),
+        },
+        contacts=[
+            contact(at="touch", tyres_after={"A": WHEELS}),
+            contact(a="B", b="C", at="2 s", normal=0, point=("58 m", 0)),
+        ],
+        surfaces=[(AREA, "30 %")],
+        slope=("2 %", 0),
+        order=[("A", "B")],
+        shared={"speed": ("A.vx",)},
+    )
+
+
+def test_a_pickled_scene_is_equal_and_keeps_the_texts() -> None:
+    one = whole()
+    two = pickle.loads(pickle.dumps(one))
+    assert two == one
+    assert repr(two) == repr(one)
+    assert two.movers["A"].vehicle.given == {"mass": "1500 kg", "vx": "36 km/h"}
+    assert two.to_dict() == one.to_dict()
+    assert two.contacts[1].as_given("point") == ("58 m", 0.0)
+    assert two.contacts[0] == one.contacts[0]
+    assert two.movers["B"] == one.movers["B"]
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        whole().replace({"A.vx": 11}),
+        whole().replace({"contacts[0].friction": 0.4}),
+        whole().replace({"surfaces[0]": 0.4}),
+        whole().replace({"slope[1]": 0.01}),
+        scene(),
+    ],
+)
+def test_a_scene_is_another_where_one_number_is(other: Scene) -> None:
+    assert whole() != other
+    assert whole() != other.to_dict()
+
+
+def test_a_scene_is_shown_by_its_movers_and_contacts() -> None:
+    text = repr(whole())
+    assert text.startswith("Scene(movers=A, B, C, contacts[0]=Contact(a='A', b='B', at='touch'")
+    assert text.endswith("surfaces=1)")
+    assert repr(scene()) == f"Scene(movers=A, B, contacts[0]={contact()!r})"
+
+
+def test_a_summary_of_a_scene_has_a_row_for_each_mover_and_contact() -> None:
+    rows = [line.split() for line in str(whole().summary()).splitlines()]
+    assert rows[2:5] == [
+        ["A", "1500", "kg", "36.0", "km/h", "0°", "tyres"],
+        ["B", "1200", "kg", "0.0", "km/h", "0°", "drag"],
+        ["C", "9000", "kg", "0.0", "km/h", "–", "nothing"],
+    ]
+    assert rows[6:] == [
+        ["A", "and", "B", "touch", "eccentric", "0.10"],
+        ["B", "and", "C", "2.00", "s", "eccentric", "0.10"],
+    ]
+
+
+def test_a_summary_of_a_mover_has_its_outline_and_what_slows_it() -> None:
+    tyred, dragged = whole().movers["A"], whole().movers["B"]
+    rows = [line.split() for line in str(tyred.summary()).splitlines()]
+    assert ["outline", "4.50", "m", "by", "1.80", "m"] in rows
+    assert rows[rows.index(["Tyres"]) + 1] == ["friction", "0.70"]
+    rows = [line.split() for line in str(dragged.summary()).splitlines()]
+    assert rows[-2:] == [["outline", "4.00", "m", "by", "2.00", "m"], ["drag", "0.50"]]
+    assert "outline" not in str(Mover(PARKED, drag=0.5).summary())
+
+
+def test_a_mover_is_shown_by_what_it_was_given() -> None:
+    tyred, dragged = whole().movers["A"], whole().movers["B"]
+    assert repr(tyred).endswith(f"tyres={WHEELS!r})")
+    assert repr(dragged).endswith("outline=[(2, 1), (-2, 1), (-2, -1), (2, -1)], drag=0.5)")
+    assert repr(Mover(PARKED)) == f"Mover(vehicle={PARKED!r})"
+
+
+def test_a_summary_of_a_contact_has_its_numbers() -> None:
+    lines = str(contact(at="touch", depth="10 cm").summary()).splitlines()
+    rows = [["Contact"], ["restitution", "0.10"], ["depth", "0.10", "m"], ["friction", "0.50"]]
+    assert [line.split() for line in lines] == rows
+
+
+def test_a_contact_names_its_rule() -> None:
+    assert contact().rule == "friction"
+    assert contact(friction=None, critical_fraction=1).rule == "critical_fraction"
+    assert contact(friction=None, model="linear_central", normal=0).rule is None
+
+
+def test_a_mover_reaches_to_its_farthest_corner() -> None:
+    assert Mover(CAR, outline=[(2, -1.5), (-1, 1), (-2, 0)]).reach == 2.5
+    assert Mover(CAR).reach == 0.0
+
+
+def test_a_case_of_a_batch_is_a_scene_with_its_numbers() -> None:
+    speeds = np.array([8.0, 9.0, 10.0])
+    batch = whole().replace({"A.vx": speeds})
+    assert batch.shape == (3,)
+    assert batch.case(1) == whole().replace({"A.vx": 9.0})
+    with pytest.raises(col.CollisionsError) as refused:
+        batch.case(3)
+    says = "one case in a batch of shape (3,), a whole number below 3, got 3; write scene.case(0)"
+    check(refused.value, InputError, "bad_index", says)
+    with pytest.raises(col.CollisionsError) as refused:
+        whole().case(0)
+    says = "scene is one case, and case() takes one of a batch; use it as it is"
+    check(refused.value, ShapeError, "bad_shape", says)
+
+
+def test_the_inputs_of_a_scene_are_listed_with_their_units() -> None:
+    listed = whole().inputs()
+    assert listed["A.vx"] == "m/s"
+    assert listed["A.tyres.friction"] == listed["B.drag"] == listed["surfaces[0]"] == ""
+    assert listed["contacts[1].at"] == "s"
+    assert "C.drag" not in listed
