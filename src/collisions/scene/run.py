@@ -16,6 +16,7 @@ from ..messages.errors import (
     CollisionsError,
     CollisionsWarning,
     InputError,
+    ShapeError,
 )
 from ..messages.warning import warn_of_cases
 from ..quantities.attributes import Frozen, Quantities, Shown, derived, lock, show
@@ -279,8 +280,8 @@ class Run(Frozen, Summarized):
         Parameters
         ----------
         time : float, str, Quantity or array [s]
-            From the start; for a batch also one for each case. Later than the end, vehicles that
-            rest stay, and others go on.
+            From the start; for a batch also one for each case, NaN where there is none, as in
+            ``times``. Later than the end, vehicles that rest stay, and others go on.
 
         Returns
         -------
@@ -290,28 +291,37 @@ class Run(Frozen, Summarized):
         Raises
         ------
         InputError
-            A time before the start.
+            A time before the start or infinite, or times that are not one for each case.
         """
         reader = ArgumentReader()
         read = one_value(reader, time, "s", "time")
         if np.any(np.less(read, 0.0)):
             text = "time must be >= 0: a scene starts at 0"
             reader.refuse(InputError(text, code="negative_time", argument="time"))
+        if isinstance(read, np.ndarray) and np.any(np.isinf(read)):
+            text = "time must be finite in every case"
+            reader.refuse(InputError(text, code="not_finite", argument="time"))
         reader.close()
         found = self._followed
-        if found.single:
-            reader.close()
-            if isinstance(read, np.ndarray):
-                raise InputError(
-                    "time is an array, and this run is one case; run.paths has all moments",
-                    code="bad_shape",
-                    argument="time",
-                )
+        if found.single and isinstance(read, np.ndarray):
+            raise InputError(
+                "time is an array, and this run is one case; run.paths has all moments",
+                code="bad_shape",
+                argument="time",
+            )
+        if isinstance(read, np.ndarray) and read.shape not in ((), (1,), self._shape):
+            raise ShapeError(
+                f"time has the shape {read.shape}, and this batch has {found.count} cases; give "
+                "one time, or one for each case",
+                code="bad_shape",
+                argument="time",
+            )
         wanted = np.array(np.broadcast_to(read, self._shape), dtype=float).reshape(-1)
+        unknown = np.where(np.isnan(wanted), np.nan, 0.0)
         every = np.arange(found.count)
         with np.errstate(all="ignore"):
             states = {name: course.at(wanted, every) for name, course in found.courses.items()}
-        return {name: self._body(name, state) for name, state in states.items()}
+        return {name: self._body(name, state + unknown) for name, state in states.items()}
 
     def case(self, index: int | tuple[int, ...]) -> Run:
         """One case of a batch as a single run.
@@ -330,7 +340,9 @@ class Run(Frozen, Summarized):
         CollisionsError
             There is no such case, or it has no answer.
         """
-        return Run(self.scene.case(index), self.tolerance)
+        from .names import case_of
+
+        return Run(case_of(self.scene, index, "run"), self.tolerance)
 
     def to_dict(self) -> dict[str, Any]:
         """The scene and the results as nested plain values that strict JSON can hold; ``from_dict``
