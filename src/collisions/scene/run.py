@@ -117,20 +117,7 @@ class Run(Frozen, Summarized):
         with np.errstate(all="ignore"):
             found = Followed(scene.movers, scene.contacts, ground, scene.order)
         vars(self).update(scene=scene, tolerance=tolerance, _followed=found)
-        wrong = found.failed != ""
-        if not found.single and wrong.any():
-            codes, counts = np.unique(found.failed[wrong].astype(str), return_counts=True)
-            many = dict(zip(codes.tolist(), counts.tolist(), strict=True))
-            listed = ", ".join(f"{count} {code}" for code, count in many.items())
-            warn_of_cases(
-                CollisionsWarning(
-                    f"{int(wrong.sum())} of {found.count} cases of the scene have no answer and "
-                    f"are NaN ({listed})",
-                    code="refused_cases",
-                    counts=many,
-                ),
-                {f"without an answer, as {code}": count for code, count in many.items()},
-            )
+        _warn_of(found, found.failed != "")
 
     scene: Scene
     tolerance: float
@@ -411,6 +398,9 @@ class Run(Frozen, Summarized):
         with np.errstate(all="ignore"):
             for course in self._followed.courses.values():
                 course.settled()
+        answered = self._followed.failed == ""
+        self._followed.gather()
+        _warn_of(self._followed, answered & (self._followed.failed != ""))
 
     @property
     def _shape(self) -> tuple[int, ...]:
@@ -480,7 +470,7 @@ class Run(Frozen, Summarized):
         found = self._followed
         if found.single:
             return body_at(self.scene.movers[name], name, state, lambda v: v, single=True)
-        missing = np.where(found.failed == "", 0.0, np.nan)
+        missing = self._missing(name)
         body = self.scene.movers[name].vehicle
         numbers: dict[str, Any] = {one: getattr(body, one) for one in NAMES}
         for one, row in zip(STATE, state + missing, strict=True):
@@ -488,6 +478,12 @@ class Run(Frozen, Summarized):
                 numbers[one] = row.reshape(self._shape)
         texts = Texts(units=texts_of(body.given))
         return vehicle_of(numbers | {"name": name}, given=texts)
+
+    def _missing(self, name: str) -> Any:
+        """NaN for each case without an answer, also where only this motion has none, else 0."""
+        found = self._followed
+        good = (found.failed == "") & (found.courses[name].failed == "")
+        return np.where(good, 0.0, np.nan)
 
     def _rest(self, name: str) -> Vehicle:
         found = self._followed
@@ -554,7 +550,7 @@ class Run(Frozen, Summarized):
         time, state = np.concatenate(times), np.concatenate(states, axis=1)
         shape = (len(time), *self._shape)
         if not found.single:
-            state = state + np.where(found.failed == "", 0.0, np.nan)
+            state = state + self._missing(name)
         rows = {one: lock(row.reshape(shape)) for one, row in zip(STATE, state, strict=True)}
         tracks: dict[str, Any] = {}
         if found.single and mover.tyres is not None and marks:
@@ -694,6 +690,24 @@ class Rests(Frozen):
 
     def __repr__(self) -> str:
         return f"<places of rest of {', '.join(self)}>"
+
+
+def _warn_of(found: Followed, wrong: Any) -> None:
+    """Say how many cases of a batch have no answer, and why."""
+    if found.single or not wrong.any():
+        return
+    codes, counts = np.unique(found.failed[wrong].astype(str), return_counts=True)
+    many = dict(zip(codes.tolist(), counts.tolist(), strict=True))
+    listed = ", ".join(f"{count} {code}" for code, count in many.items())
+    warn_of_cases(
+        CollisionsWarning(
+            f"{int(wrong.sum())} of {found.count} cases of the scene have no answer and "
+            f"are NaN ({listed})",
+            code="refused_cases",
+            counts=many,
+        ),
+        {f"without an answer, as {code}": count for code, count in many.items()},
+    )
 
 
 def _tyre_loss(side: Any) -> float:
