@@ -7,11 +7,14 @@ from __future__ import annotations
 import json
 import re
 from html import unescape
+from typing import Any
 
 import pytest
 
 import collisions as col
 from collisions.reporting import options, replay
+from collisions.scene import Contact, Mover, Run, Scene
+from collisions.travel import Tyres
 from crashes import NAMES, coasting, three_cars
 
 FOOT, MPH = 0.3048, 0.44704
@@ -112,3 +115,80 @@ def test_options_of_one_impact_are_refused_together() -> None:
     many = three_cars().scene.replace({"Camry.vx": [17.0, 18.0]}).run(tolerance=1e-3)
     with pytest.raises(col.ShapeError, match=r"report\(run.case\(0\)\)"):
         col.report(many)
+
+
+@pytest.mark.parametrize(
+    ("given", "code", "says"),
+    [
+        ({"form": "pdf"}, "bad_option", "form must be one of 'html', 'markdown', got 'pdf'"),
+        ({"form": 3}, "bad_option", "form must be one of"),
+        ({"figures": 1}, "bad_option", "figures must be True or False, got 1"),
+        ({"derivation": "yes"}, "bad_option", "derivation must be True or False, got 'yes'"),
+        ({"title": ""}, "not_a_text", "title must be a text that says something"),
+        ({"author": 7}, "not_a_text", "author must be a text that says something, got 7"),
+        ({"notes": ["", "Seen"]}, "not_a_text", "has notes that are texts"),
+        ({"outline_a": (4.5, 1.8)}, "bad_option", r"report\(run.impacts\[0\], outline_a=...\)"),
+    ],
+)
+def test_an_option_that_cannot_be_is_refused(given: Any, code: str, says: str) -> None:
+    with pytest.raises(col.InputError, match=says) as caught:
+        col.report(coasting(), **given)
+    assert caught.value.code == code
+
+
+def slid(**more: Any) -> Run:
+    """A car on drag runs into one on tyres, on a slope."""
+    a = col.Vehicle(mass=1500, x=-4, y=0, heading=0, vx=12)
+    b = col.Vehicle(mass=1000, x=2, y=0, heading=0, yaw_inertia=1500)
+    contact = Contact("A", "B", restitution=0.1, normal=0, model="linear_central", at="touch")
+    return Scene(
+        movers={
+            "A": Mover(a, outline=(4.5, 1.8), drag=0.5),
+            "B": Mover(b, outline=(4.5, 1.8), tyres=Tyres(0.7, 1.0, 2.7, 1.5)),
+        },
+        contacts=[contact],
+        slope=(0.02, 0.0),
+        **more,
+    ).run()
+
+
+def test_the_page_has_drag_slope_title_and_who_filed_it() -> None:
+    page = col.report(
+        slid(),
+        form="markdown",
+        title="Rear end",
+        author="J. Doe",
+        case="2026-11",
+        notes="Road was wet.",
+        derivation=True,
+    )
+    assert page.startswith("# Rear end\n")
+    assert "J. Doe" in page
+    assert "2026-11" in page
+    assert "## Notes\n\nRoad was wet." in page
+    assert "| A | drag factor | 0.5 |" in page
+    assert "| ground | slope along x, y | 0.02, 0 |" in page
+    assert "## Derivation" in page
+    assert "The figures are in the HTML form of this report." in page
+    assert "## Figures" not in col.report(slid(), form="markdown", figures=False)
+
+
+def test_a_place_that_nothing_gives_is_not_known() -> None:
+    movers = {
+        name: Mover(col.Vehicle(mass=1000, vx=speed), drag=0.5)
+        for name, speed in (("A", 5), ("B", 0))
+    }
+    contact = Contact("A", "B", restitution=0.1, normal=0, model="linear_central")
+    run = Scene(movers=movers, contacts=[contact]).run()
+    page = col.report(run, form="markdown", figures=False)
+    assert "**A at rest, x and y:** not known" in page
+    assert "**B at the start:** standing" in page
+
+
+def test_html_has_both_figures_or_says_how_to_have_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    run = slid()
+    assert col.report(run).count("<svg") == 2
+    monkeypatch.setattr("collisions.reporting.figures.can_draw", lambda: False)
+    page = unescape(col.report(run))
+    assert "<svg" not in page
+    assert "None: matplotlib cannot be imported here. Install it with: python -m pip" in page

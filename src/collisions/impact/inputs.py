@@ -308,13 +308,13 @@ def first_case(holds: Any) -> tuple[tuple[int, ...], str]:
     return index, f"case {index if len(index) != 1 else index[0]}"
 
 
-def index_of(index: Any, shape: tuple[int, ...] | None, what: str = "impact") -> tuple[int, ...]:
-    """The index of one case of a batch, checked against its shape (None for a single one, which has
-    no cases).
+def index_of(index: Any, shape: tuple[int, ...] | None, of: str = "impact") -> tuple[int, ...]:
+    """The index of one case of a batch, checked against its shape (None where there is one case
+    only); ``of`` is what a caller has.
     """
     if shape is None:
         raise ShapeError(
-            f"{what} is one case, and case() takes one of a batch; use it as it is",
+            f"{of} is one case, and case() takes one of a batch; use it as it is",
             code="bad_shape",
             argument="index",
         )
@@ -333,7 +333,7 @@ def index_of(index: Any, shape: tuple[int, ...] | None, what: str = "impact") ->
         first = "0" if len(shape) == 1 else str((0,) * len(shape))
         raise InputError(
             f"index must be that of one case in a batch of shape {shape}, {wanted}, got "
-            f"{shown(index)}; write {what}.case({first})",
+            f"{shown(index)}; write {of}.case({first})",
             code="bad_index",
             argument="index",
         )

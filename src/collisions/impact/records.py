@@ -23,6 +23,7 @@ from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, cells
 from ..quantities.units import Texts, shown
 from ..vehicle.tyres import NAMES as TYRES
+from ..vehicle.tyres import UNITS as TYRE_UNITS
 from ..vehicle.tyres import Tyres, as_given
 from ..vehicle.vehicle import DOMAINS, NAMES, Vehicle, moved, vehicle_of, with_given
 from .choice import ModelChoice
@@ -73,7 +74,7 @@ def _inputs(inputs: Inputs) -> dict[str, Any]:
         **{name: tyres_record(getattr(inputs, name)) for name in TYRES_OF},
         "normal": text if as_text else strict(inputs.normal),
         "bare_normal": strict(inputs.bare_normal),
-        "rule_value": _given(texts.pop(inputs.rule, None), inputs.rule_value, ""),
+        "rule_value": as_written(texts.pop(inputs.rule, None), inputs.rule_value, ""),
         "tolerance": strict(inputs.tolerance),
         "contact_velocity": strict(inputs.contact_velocity),
         # The texts that are left are of what a reverse solver was given.
@@ -85,9 +86,11 @@ def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
     texts = Texts(vehicle.given)
     found: dict[str, Any] = {"name": vehicle.name}
     for name in DOMAINS:
-        found[name] = _given(texts.get(name), getattr(vehicle, name), unit_of(Vehicle, name) or "")
+        found[name] = as_written(
+            texts.get(name), getattr(vehicle, name), unit_of(Vehicle, name) or ""
+        )
     found["pivot"] = vehicle.pivot and [
-        _given(texts.get(f"pivot[{i}]"), part, "m") for i, part in enumerate(vehicle.pivot)
+        as_written(texts.get(f"pivot[{i}]"), part, "m") for i, part in enumerate(vehicle.pivot)
     ]
     polar = {name: texts[name] for name in _POLAR if name in texts}
     if len(polar) == 2 and _velocity(polar) == (vehicle.vx, vehicle.vy):
@@ -98,7 +101,17 @@ def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
 
 def tyres_record(tyres: Tyres | None) -> dict[str, Any] | None:
     """The arguments of tyres, each as the text it was given as or else in SI."""
-    return None if tyres is None else {name: strict(as_given(tyres, name)) for name in TYRES}
+    if tyres is None:
+        return None
+    found: dict[str, Any] = {}
+    for name in TYRES:
+        text, value, unit = as_given(tyres, name), getattr(tyres, name), TYRE_UNITS[name]
+        found[name] = (
+            [as_written(part, one, unit) for part, one in zip(text, value, strict=True)]
+            if isinstance(value, tuple)
+            else as_written(text, value, unit)
+        )
+    return found
 
 
 def tyres_of(found: Mapping[str, Any] | None) -> Tyres | None:
@@ -123,17 +136,17 @@ def _given_input(texts: dict[str, Any], name: str, value: Any, unit: Any) -> Any
     if isinstance(value, tuple):
         units = unit if isinstance(unit, tuple) else (unit,) * len(value)
         parts = enumerate(zip(value, units, strict=True))
-        return [_given(texts.pop(f"{name}[{i}]", None), part, own) for i, (part, own) in parts]
-    return None if value is None else _given(texts.pop(name, None), value, unit)
+        return [as_written(texts.pop(f"{name}[{i}]", None), part, own) for i, (part, own) in parts]
+    return None if value is None else as_written(texts.pop(name, None), value, unit)
 
 
-def _given(text: str | None, number: Any, unit: str) -> Any:
+def as_written(text: Any, number: Any, unit: str) -> Any:
     """The text a number was given as if it still reads as that number, else the number; a unit may
     be unknown here.
     """
     reader = ArgumentReader()
     if (
-        text is not None
+        isinstance(text, str)
         and isinstance(number, float)
         and reader.number(text, unit, "", UNCHECKED) == number
     ):

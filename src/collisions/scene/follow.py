@@ -50,6 +50,8 @@ _OVERLAPS = 1e-6
 _FACE_TO_FACE = math.radians(1.0)
 # A contact at a time that comes within this [s] of a touch is that of the touch.
 _LATE = 0.5
+# What a negative number of a contact is called.
+_NEGATIVE = {"at": "negative_time", "depth": "negative_length", "delay": "negative_duration"}
 # Outlines whose edges are this near in line [m] cross nowhere in particular.
 _IN_LINE = 0.01
 
@@ -134,6 +136,8 @@ class Followed:
         self.times: Any = np.full((MOST_CONTACTS, self.count), np.nan)
         self.many: Any = np.zeros(self.count, dtype=int)
         self._pairs = self._all_pairs()
+        for contact in contacts:
+            self._refuse_numbers(contact)
         self._follow()
 
     def _all_pairs(self) -> list[_Between]:
@@ -236,7 +240,7 @@ class Followed:
             for i, contact in enumerate(self.contacts)
             if not contact.touches
         }
-        alive = np.ones(self.count, dtype=bool)
+        alive = self.failed == ""
         for _ in range(_MOST_ROUNDS):
             times, rules = self._next(now, alive, left)
             alive = alive & (self.failed == "")
@@ -258,10 +262,14 @@ class Followed:
                     self._strike(rule, some, now)
         else:
             self._endless(np.flatnonzero(comes), rules)
+        self.gather()
+        self._check()
+
+    def gather(self) -> None:
+        """Leave the cases without an answer of which a motion could not be followed."""
         for course in self.courses.values():
             fresh = (self.failed == "") & (course.failed != "")
             self.failed[fresh] = course.failed[fresh]
-        self._check()
 
     def _at_start(self, pair: _Between, every: Any) -> None:
         """Refuse outlines that overlap at the start without a contact; pairs that touch are one
@@ -618,6 +626,15 @@ class Followed:
             self.courses[name].turn(which, time, hold, state, contact.tyres_after.get(name))
 
     # What the scene contradicts
+
+    def _refuse_numbers(self, contact: Contact) -> None:
+        """Leave the cases without an answer whose time, depth or delay cannot be."""
+        for name, code in _NEGATIVE.items():
+            value = getattr(contact, name)
+            if isinstance(value, np.ndarray):
+                every = self.ground.cases(value)
+                self._fail(np.flatnonzero(~np.isfinite(every)), Status.NOT_FINITE.label)
+                self._fail(np.flatnonzero(every < 0.0), code)
 
     def _fail(self, cases: Any, code: str) -> None:
         fresh = cases[self.failed[cases] == ""]

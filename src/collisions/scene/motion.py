@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..impact.inputs import part_of
-from ..messages.errors import CollisionsError, MissingInputError, NoSolutionError
+from ..messages.errors import CollisionsError, MissingInputError, NoSolutionError, Status
 from ..messages.warning import quietly
 from ..quantities.settings import in_si
 from ..quantities.units import Texts, texts_of
@@ -119,9 +119,18 @@ class Course:
             (every, none, none, np.array(rows), mover.tyres)
         ]
         self.fixed = mover.fixed
+        if mover.drag is not None:
+            self._refuse_drags()
         # All tyres that it has had, and on which of them each case moves now.
         self.wheels: list[Tyres | None] = [mover.tyres]
         self.wheels_of: Any = np.zeros(count, dtype=int)
+
+    def _refuse_drags(self) -> None:
+        """Leave the cases without an answer whose drag or slope slows nothing that can be said."""
+        drag = self.ground.cases(self.mover.drag)
+        for number in (drag, *map(self.ground.cases, self.ground.slope)):
+            self._fail(np.flatnonzero(~np.isfinite(number)), Status.NOT_FINITE.label)
+        self._fail(np.flatnonzero(drag < 0.0), "negative_drag")
 
     def turn(self, which: Any, start: Any, hold: Any, state: Any, tyres: Tyres | None) -> None:
         """Let some cases go on from a time and a state, after a contact: on new tyres, or on those
@@ -264,8 +273,8 @@ class Course:
         ) / moving
         slowing = take(self.mover.drag) + np.where(speed > 0.0, rise, 0.0)
         spins = (speed == 0.0) & ~still
-        steep = still & (self.ground.steepest > slowing)
-        if self.count == 1 and (spins | steep).any():
+        steep = still & (np.hypot(*map(take, self.ground.slope)) > slowing)
+        if self.ground.single and (spins | steep).any():
             how = (
                 "turns on the spot, which a drag does not slow"
                 if spins.any()

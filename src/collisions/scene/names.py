@@ -22,6 +22,7 @@ from ..quantities.directions import direction
 from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.tables import cells
+from ..quantities.units import shown
 from ..vehicle.tyres import LOCKS, as_given
 from ..vehicle.vehicle import UNITS as OF_VEHICLE
 from ..vehicle.vehicle import Vehicle
@@ -113,20 +114,21 @@ def replaced(scene: Scene, changes: Any) -> Scene:
     if not isinstance(changes, Mapping) or not all(isinstance(path, str) for path in changes):
         raise InputError(
             "changes must be a dict from paths to numbers, such as {'Camry.vx': '30 mph'}, got "
-            f"{type(changes).__name__}",
+            f"{shown(changes)}",
             code="bad_shape",
             argument="changes",
         )
     spread: dict[str, Any] = {}
+    by: dict[str, str] = {}
     for path, value in changes.items():
         for one in scene.shared.get(path, (path,)):
             if one in spread:
                 raise InputError(
-                    f"{one} is changed twice, by itself and by the shared name {path!r}",
+                    f"{one} is changed twice, by {by[one]!r} and by {path!r}; change it by one",
                     code="bad_combination",
                     argument="changes",
                 )
-            spread[one] = value
+            spread[one], by[one] = value, path
     arguments = arguments_of(scene)
     grouped: dict[tuple[str, ...], dict[str, Any]] = {}
     for path, value in spread.items():
@@ -275,10 +277,10 @@ def _moving(name: str, body: Vehicle, parts: dict[str, Any]) -> Vehicle:
     return body.replace(vx=speed * cx + 0.0, vy=speed * cy + 0.0, **parts)
 
 
-def case_of(scene: Scene, index: Any) -> Scene:
-    """One case of a batch as a single scene."""
+def case_of(scene: Scene, index: Any, of: str = "scene") -> Scene:
+    """One case of a batch as a single scene; ``of`` is what a caller has."""
     shape = scene.shape
-    place = index_of(index, shape, "scene")
+    place = index_of(index, shape, of)
 
     def take(value: Any) -> Any:
         return np.broadcast_to(value, shape or ())[place].item()
@@ -411,8 +413,9 @@ def _without(path: str) -> MissingInputError:
 
 
 def _not_so_many(run: Run, path: str) -> InputError:
+    count = len(run.impacts)
     return InputError(
-        f"{path}: there are {len(run.impacts)} impacts in this scene",
+        f"{path}: this scene has {count} impact{'' if count == 1 else 's'}, counted from 0",
         code="unknown_name",
         argument="outputs",
     )

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..impact.records import (
+    as_written,
     read_strict,
     to_record,
     tyres_of,
@@ -14,10 +15,13 @@ from ..impact.records import (
     vehicle_record,
 )
 from ..messages.errors import InputError
+from ..quantities.attributes import same
+from ..quantities.directions import direction
+from ..quantities.reading import ArgumentReader
 from ..quantities.settings import in_si
 from ..quantities.strict_json import strict
 from ..quantities.units import shown
-from .contact import NAMES, Contact
+from .contact import NAMES, UNITS, Contact
 from .mover import Mover
 from .scene import Scene, arguments_of
 
@@ -28,7 +32,9 @@ SCENE, RUN = "collisions scene 1", "collisions run 1"
 
 
 def scene_record(scene: Scene) -> dict[str, Any]:
-    """A record of a scene: each number as the text it was given as, or else in SI."""
+    """A record of a scene: each number as the text it was given as if it still reads as that
+    number, or else in SI.
+    """
     arguments = arguments_of(scene)
     return {
         "format": SCENE,
@@ -38,23 +44,44 @@ def scene_record(scene: Scene) -> dict[str, Any]:
                 "vehicle": vehicle_record(mover.vehicle),
                 "outline": None if mover.outline is None else mover.outline.tolist(),
                 "tyres": tyres_record(mover.tyres),
-                "drag": strict(mover.as_given("drag")),
+                "drag": strict(mover.drag),
             }
             for name, mover in scene.movers.items()
         ],
         "contacts": [_contact_record(contact) for contact in scene.contacts],
         "surfaces": [
-            {"corners": [list(corner) for corner in corners], "friction": strict(friction)}
-            for corners, friction in arguments["surfaces"]
+            {
+                "corners": [list(corner) for corner in corners],
+                "friction": as_written(text, friction, ""),
+            }
+            for (_, text), (corners, friction) in zip(
+                arguments["surfaces"], scene.surfaces, strict=True
+            )
         ],
-        "slope": strict(arguments["slope"]),
+        "slope": [
+            as_written(text, part, "")
+            for text, part in zip(arguments["slope"], scene.slope, strict=True)
+        ],
         "order": None if scene.order is None else [list(pair) for pair in scene.order],
         "shared": {name: list(paths) for name, paths in scene.shared.items()},
     }
 
 
 def _contact_record(contact: Contact) -> dict[str, Any]:
-    found = {name: strict(contact.as_given(name)) for name in NAMES if name != "tyres_after"}
+    found = {name: strict(getattr(contact, name)) for name in NAMES if name != "tyres_after"}
+    for name, unit in UNITS.items():
+        text, value = contact.as_given(name), getattr(contact, name)
+        if name == "normal":
+            as_text = isinstance(text, str) and same(
+                direction(ArgumentReader(), text, name), contact.normal
+            )
+            found[name] = text if as_text else strict(value)
+        elif isinstance(value, tuple):
+            found[name] = [
+                as_written(part, one, unit) for part, one in zip(text, value, strict=True)
+            ]
+        else:
+            found[name] = as_written(text, value, unit)
     found["tyres_after"] = {
         name: tyres_record(tyres) for name, tyres in contact.tyres_after.items()
     }

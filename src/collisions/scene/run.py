@@ -16,6 +16,7 @@ from ..messages.errors import (
     CollisionsError,
     CollisionsWarning,
     InputError,
+    ShapeError,
 )
 from ..messages.warning import warn_of_cases
 from ..quantities.attributes import Frozen, Quantities, Shown, derived, lock, show
@@ -116,20 +117,7 @@ class Run(Frozen, Summarized):
         with np.errstate(all="ignore"):
             found = Followed(scene.movers, scene.contacts, ground, scene.order)
         vars(self).update(scene=scene, tolerance=tolerance, _followed=found)
-        wrong = found.failed != ""
-        if not found.single and wrong.any():
-            codes, counts = np.unique(found.failed[wrong].astype(str), return_counts=True)
-            many = dict(zip(codes.tolist(), counts.tolist(), strict=True))
-            listed = ", ".join(f"{count} {code}" for code, count in many.items())
-            warn_of_cases(
-                CollisionsWarning(
-                    f"{int(wrong.sum())} of {found.count} cases of the scene have no answer and "
-                    f"are NaN ({listed})",
-                    code="refused_cases",
-                    counts=many,
-                ),
-                {f"without an answer, as {code}": count for code, count in many.items()},
-            )
+        _warn_of(found, found.failed != "")
 
     scene: Scene
     tolerance: float
@@ -279,8 +267,8 @@ class Run(Frozen, Summarized):
         Parameters
         ----------
         time : float, str, Quantity or array [s]
-            From the start; for a batch also one for each case. Later than the end, vehicles that
-            rest stay, and others go on.
+            From the start; for a batch also one for each case, NaN where there is none, as in
+            ``times``. Later than the end, vehicles that rest stay, and others go on.
 
         Returns
         -------
@@ -290,28 +278,37 @@ class Run(Frozen, Summarized):
         Raises
         ------
         InputError
-            A time before the start.
+            A time before the start or infinite, or times that are not one for each case.
         """
         reader = ArgumentReader()
         read = one_value(reader, time, "s", "time")
         if np.any(np.less(read, 0.0)):
             text = "time must be >= 0: a scene starts at 0"
             reader.refuse(InputError(text, code="negative_time", argument="time"))
+        if isinstance(read, np.ndarray) and np.any(np.isinf(read)):
+            text = "time must be finite in every case"
+            reader.refuse(InputError(text, code="not_finite", argument="time"))
         reader.close()
         found = self._followed
-        if found.single:
-            reader.close()
-            if isinstance(read, np.ndarray):
-                raise InputError(
-                    "time is an array, and this run is one case; run.paths has all moments",
-                    code="bad_shape",
-                    argument="time",
-                )
+        if found.single and isinstance(read, np.ndarray):
+            raise InputError(
+                "time is an array, and this run is one case; run.paths has all moments",
+                code="bad_shape",
+                argument="time",
+            )
+        if isinstance(read, np.ndarray) and read.shape not in ((), (1,), self._shape):
+            raise ShapeError(
+                f"time has the shape {read.shape}, and this batch has {found.count} cases; give "
+                "one time, or one for each case",
+                code="bad_shape",
+                argument="time",
+            )
         wanted = np.array(np.broadcast_to(read, self._shape), dtype=float).reshape(-1)
+        unknown = np.where(np.isnan(wanted), np.nan, 0.0)
         every = np.arange(found.count)
         with np.errstate(all="ignore"):
             states = {name: course.at(wanted, every) for name, course in found.courses.items()}
-        return {name: self._body(name, state) for name, state in states.items()}
+        return {name: self._body(name, state + unknown) for name, state in states.items()}
 
     def case(self, index: int | tuple[int, ...]) -> Run:
         """One case of a batch as a single run.
@@ -330,7 +327,9 @@ class Run(Frozen, Summarized):
         CollisionsError
             There is no such case, or it has no answer.
         """
-        return Run(self.scene.case(index), self.tolerance)
+        from .names import case_of
+
+        return Run(case_of(self.scene, index, "run"), self.tolerance)
 
     def to_dict(self) -> dict[str, Any]:
         """The scene and the results as nested plain values that strict JSON can hold; ``from_dict``
@@ -399,6 +398,9 @@ class Run(Frozen, Summarized):
         with np.errstate(all="ignore"):
             for course in self._followed.courses.values():
                 course.settled()
+        answered = self._followed.failed == ""
+        self._followed.gather()
+        _warn_of(self._followed, answered & (self._followed.failed != ""))
 
     @property
     def _shape(self) -> tuple[int, ...]:
@@ -468,7 +470,7 @@ class Run(Frozen, Summarized):
         found = self._followed
         if found.single:
             return body_at(self.scene.movers[name], name, state, lambda v: v, single=True)
-        missing = np.where(found.failed == "", 0.0, np.nan)
+        missing = self._missing(name)
         body = self.scene.movers[name].vehicle
         numbers: dict[str, Any] = {one: getattr(body, one) for one in NAMES}
         for one, row in zip(STATE, state + missing, strict=True):
@@ -476,6 +478,12 @@ class Run(Frozen, Summarized):
                 numbers[one] = row.reshape(self._shape)
         texts = Texts(units=texts_of(body.given))
         return vehicle_of(numbers | {"name": name}, given=texts)
+
+    def _missing(self, name: str) -> Any:
+        """NaN for each case without an answer, also where only this motion has none, else 0."""
+        found = self._followed
+        good = (found.failed == "") & (found.courses[name].failed == "")
+        return np.where(good, 0.0, np.nan)
 
     def _rest(self, name: str) -> Vehicle:
         found = self._followed
@@ -542,7 +550,7 @@ class Run(Frozen, Summarized):
         time, state = np.concatenate(times), np.concatenate(states, axis=1)
         shape = (len(time), *self._shape)
         if not found.single:
-            state = state + np.where(found.failed == "", 0.0, np.nan)
+            state = state + self._missing(name)
         rows = {one: lock(row.reshape(shape)) for one, row in zip(STATE, state, strict=True)}
         tracks: dict[str, Any] = {}
         if found.single and mover.tyres is not None and marks:
@@ -682,6 +690,24 @@ class Rests(Frozen):
 
     def __repr__(self) -> str:
         return f"<places of rest of {', '.join(self)}>"
+
+
+def _warn_of(found: Followed, wrong: Any) -> None:
+    """Say how many cases of a batch have no answer, and why."""
+    if found.single or not wrong.any():
+        return
+    codes, counts = np.unique(found.failed[wrong].astype(str), return_counts=True)
+    many = dict(zip(codes.tolist(), counts.tolist(), strict=True))
+    listed = ", ".join(f"{count} {code}" for code, count in many.items())
+    warn_of_cases(
+        CollisionsWarning(
+            f"{int(wrong.sum())} of {found.count} cases of the scene have no answer and "
+            f"are NaN ({listed})",
+            code="refused_cases",
+            counts=many,
+        ),
+        {f"without an answer, as {code}": count for code, count in many.items()},
+    )
 
 
 def _tyre_loss(side: Any) -> float:

@@ -134,7 +134,7 @@ class Tyres(Shown):
             "lock": _read_lock(reader, lock),
         }
         for name in ("wheelbase", "track", "cornering"):
-            read[name] = one_value(reader, given[name], _UNITS[name], name, POSITIVE_FINITE)
+            read[name] = one_value(reader, given[name], UNITS[name], name, POSITIVE_FINITE)
         read["steer"] = one_value(reader, steer, "rad", "steer")
         read["height"] = None
         if height is not None:
@@ -213,7 +213,7 @@ class Tyres(Shown):
 
 
 NAMES = tuple(f.name for f in fields(Tyres))
-_UNITS: dict[str, str] = {f.name: f.metadata["unit"] for f in fields(Tyres)}
+UNITS: dict[str, str] = {f.name: f.metadata["unit"] for f in fields(Tyres)}
 # Of the values of a batch, which are looked at case by case where the tyres are used.
 DOMAINS = {
     "friction": FINITE._replace(name="friction", faults=(*FINITE.faults, *NOT_NEGATIVE.faults)),

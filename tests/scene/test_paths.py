@@ -1,0 +1,235 @@
+"""Paths of a scene that are none, or that ask for what is not there: the nearest is named."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions.scene import Contact, Mover, Scene
+from collisions.travel import GRAVITY, Tyres
+
+DAMAGED = Tyres(0.7, [1, 0, 0, 0], 2.78, 1.55)
+
+
+def crash(**more: Any) -> Scene:
+    """A car on tyres strikes a standing one with drag at touch."""
+    a = col.Vehicle(mass=1500, yaw_inertia=2600, x=-6.0, y=0.2, heading=0, vx="40 mph")
+    b = col.Vehicle(mass=1250, yaw_inertia=1900, x=0.0, y=0.0, heading="80 deg")
+    outline = (4.6, 1.8)
+    given: dict[str, Any] = {
+        "movers": {
+            "A": Mover(a, outline=outline, tyres=Tyres(0.7, 0.3, 2.78, 1.55)),
+            "B": Mover(b, outline=outline, drag="0.6"),
+        },
+        "contacts": [
+            Contact("A", "B", restitution=0.1, friction=0.5, at="touch", tyres_after={"A": DAMAGED})
+        ],
+        "surfaces": [([(20, -5), (30, -5), (30, 5), (20, 5)], "0.3")],
+    }
+    return Scene(**given | more)
+
+
+def in_line(**more: Any) -> Scene:
+    """Two vehicles without a place, which only have speeds."""
+    movers = {name: Mover(col.Vehicle(mass=1000, vx=v), **more) for name, v in (("A", 5), ("B", 0))}
+    contact = Contact("A", "B", restitution=0.1, normal=0, model="linear_central")
+    return Scene(movers=movers, contacts=[contact])
+
+
+@pytest.mark.parametrize(
+    ("path", "near"),
+    [
+        ("A.tyres.fricton", "A.tyres.friction"),
+        ("B.tyres.friction", "A.tyres.friction"),
+        ("A.vx.y", "A.vx"),
+        ("C.vx", "A.vx"),
+        ("surfaces[1]", r"surfaces\[0\]"),
+        ("slope[2]", r"slope\[1\], slope\[0\]"),
+        ("contacts[0].friction[0]", r"contacts\[0\].friction"),
+        ("contacts[0].tyres_after.B.lock", r"contacts\[0\].tyres_after.A.lock"),
+        ("contacts[0].tyres_after.A.loc", r"contacts\[0\].tyres_after.A.lock"),
+        ("", "A.mass"),
+    ],
+)
+def test_a_path_that_is_none_names_the_nearest(path: str, near: str) -> None:
+    with pytest.raises(col.InputError, match=f"scene has no '.*'; near it are .*{near}") as caught:
+        crash().replace({path: 1.0})
+    assert caught.value.code == "unknown_name"
+    assert caught.value.fields["argument"] == "scene"
+
+
+@pytest.mark.parametrize(
+    ("changes", "code", "says"),
+    [
+        ([("A.vx", 1.0)], "bad_shape", "a dict from paths to numbers"),
+        ({1: 2.0}, "bad_shape", r"such as \{'A.*|\{1: 2.0\}"),
+        ({"A.speed": 3.0, "A.vy": 1.0}, "speed_twice", "give either speed and course or vx"),
+        ({"A.speed": -3.0}, "negative_speed", "A: speed must be >= 0.*turn the course"),
+        ({"A.speed": np.array([1.0, -1.0])}, "negative_speed", "in every case; bound what"),
+        ({"B.speed": 3.0}, "missing_course", "B stands, so its course is not known"),
+        ({"A.speed": "3 m"}, "bad_units", "A: speed: '3 m' cannot be taken as m/s"),
+        ({"A.drag": 0.5}, "bad_combination", "A: give tyres= or drag=, not both"),
+        ({"B.drag": -1}, "negative_drag", "B: drag must be >= 0"),
+        ({"A.mass": None}, "missing_mass", "A: mass is missing"),
+        ({"A.tyres.lock[0]": 0.5}, "unknown_name", r"one for all; write lock, or lock=\[...\]"),
+        ({"surfaces[0]": -1}, "bad_friction", r"surfaces\[0\] must be >= 0"),
+        ({"slope[1]": "steep"}, "bad_units", r"slope\[1\]: cannot read 'steep'"),
+        ({"contacts[0].point[0]": 1.0}, "unknown_name", "write point= in the Contact"),
+        (
+            {"contacts[0].tyres_after.A.lock[0]": 2.0},
+            "bad_fraction",
+            r"contacts\[0\]: lock\[0\] must be from 0 to 1.*write '2 %'",
+        ),
+    ],
+)
+def test_a_number_that_cannot_be_names_its_part_of_the_scene(
+    changes: Any, code: str, says: str
+) -> None:
+    with pytest.raises(col.InputError, match=says) as caught:
+        crash().replace(changes)
+    assert caught.value.code == code
+
+
+@pytest.mark.parametrize("paths", [["grip", "A.tyres.friction"], ["A.tyres.friction", "grip"]])
+def test_a_number_that_is_changed_twice_names_both_paths(paths: list[str]) -> None:
+    scene = crash(shared={"grip": ("A.tyres.friction", "surfaces[0]")})
+    with pytest.raises(col.InputError, match=f"by '{paths[0]}' and by '{paths[1]}'") as caught:
+        scene.replace(dict.fromkeys(paths, 0.5))
+    assert caught.value.code == "bad_combination"
+    once = scene.replace({"grip": "50 %"})
+    assert once.movers["A"].tyres.friction == once.surfaces[0][1] == 0.5
+
+
+def test_a_shared_name_needs_paths_that_are_and_of_one_kind() -> None:
+    with pytest.raises(col.InputError) as caught:
+        crash(shared={"g": ("A.tyres.frction",), "h": ("A.vx", "A.mass")})
+    assert [one.code for one in caught.value.fields["problems"]] == [
+        "unknown_name",
+        "bad_combination",
+    ]
+    assert "shared['g'] has no 'A.tyres.frction'; near it are A.tyres.friction" in str(caught.value)
+    assert "shared['h'] names inputs of several kinds: A.vx [m/s], A.mass [kg]" in str(caught.value)
+
+
+def test_locks_speeds_and_courses_are_replaced_beside_other_numbers() -> None:
+    found = crash().replace(
+        {
+            "contacts[0].tyres_after.A.lock[3]": "50 %",
+            "contacts[0].tyres_after.A.friction": 0.6,
+            "B.speed": "10 m/s",
+            "B.course": "90 deg",
+            "B.mass": 1300,
+            "slope[0]": 0.02,
+        }
+    )
+    after = found.contacts[0].tyres_after["A"]
+    assert after.locks == (1.0, 0.0, 0.0, 0.5)
+    assert after.friction == 0.6
+    body = found.movers["B"].vehicle
+    assert (body.mass, body.vx, body.vy) == (1300.0, pytest.approx(0.0, abs=1e-12), 10.0)
+    assert found.slope == (0.02, 0.0)
+    with pytest.raises(col.InputError, match="speed and course"):
+        crash().replace({"A.course": 0.1, "A.vx": 3.0})
+
+
+def test_a_case_of_a_batch_has_its_own_number_of_everything() -> None:
+    scene = crash().replace(
+        {
+            "A.vx": np.array([17.0, 18.0]),
+            "B.drag": np.array([0.5, 0.6]),
+            "A.tyres.friction": np.array([0.7, 0.8]),
+            "contacts[0].friction": np.array([0.4, 0.5]),
+            "surfaces[0]": np.array([0.3, 0.2]),
+            "slope[0]": np.array([0.0, 0.01]),
+        }
+    )
+    one = scene.case(1)
+    assert scene.shape == (2,)
+    assert one.shape is None
+    assert one == scene.case(-1) != scene.case(0)
+    assert one.movers["A"].vehicle.vx == 18.0
+    assert one.movers["A"].tyres.friction == 0.8
+    assert one.movers["B"].drag == 0.6
+    assert one.contacts[0].friction == 0.5
+    assert one.surfaces[0][1] == 0.2
+    assert one.slope == (0.01, 0.0)
+    assert one.contacts[0].touches
+    for wrong in (2, 1.5, (0, 0)):
+        with pytest.raises(col.InputError, match=r"write scene.case\(0\)") as caught:
+            scene.case(wrong)
+        assert caught.value.code == "bad_index"
+
+
+def model(scene: Scene, *outputs: Any) -> Any:
+    return scene.as_model(["A.vx"], [*outputs])
+
+
+def test_results_are_asked_for_by_their_paths() -> None:
+    scene = in_line(drag=0.5)
+    found = model(scene, "end", "times[0]", "impacts[0].b.delta_v", "impacts[0].a.after.speed")(
+        **{"A.vx": "36 km/h"}
+    )
+    assert found["times[0]"].m == 0.0
+    assert found["impacts[0].b.delta_v"].m_as("m/s") == pytest.approx(5.5)
+    assert found["impacts[0].a.after.speed"].m_as("m/s") == pytest.approx(4.5)
+    assert found["end"].m_as("s") == pytest.approx(5.5 / (0.5 * GRAVITY))
+
+
+@pytest.mark.parametrize(
+    ("path", "near"),
+    [
+        ("impacts[0].a.delta_w", r"impacts\[0\].a.delta_v"),
+        ("B.rest.z", "B.rest"),
+        ("C.rest.x", ".rest.x"),
+        (3, "A.rest.x"),
+    ],
+)
+def test_a_result_that_is_none_names_the_nearest(path: Any, near: str) -> None:
+    with pytest.raises(col.InputError, match=f"outputs has no .*near it are .*{near}") as caught:
+        model(in_line(), path)
+    assert caught.value.code == "unknown_name"
+    with pytest.raises(col.InputError, match=r"near it are A\.v"):
+        in_line().as_model(["A.vq"], ["end"])
+
+
+@pytest.mark.parametrize(
+    ("path", "code", "says"),
+    [
+        ("times[4]", "unknown_name", r"times\[4\]: this scene has 1 impact, counted from 0"),
+        ("impacts[4].energy_loss", "unknown_name", "this scene has 1 impact"),
+        ("A.rest.x", "missing_input", "A.rest.x has no value.*such as a heading, a position"),
+        ("impacts[0].a.after.x", "missing_input", "has no value"),
+    ],
+)
+def test_a_result_that_a_run_does_not_have_says_why(path: str, code: str, says: str) -> None:
+    ask = model(in_line(drag=0.5), path)
+    with pytest.raises(col.CollisionsError, match=says) as caught:
+        ask(**{"A.vx": 5.0})
+    assert caught.value.code == code
+    with pytest.raises(col.MissingInputError, match="nothing slows it") as lacks:
+        model(in_line(), "A.rest.x")(**{"A.vx": 5.0})
+    assert lacks.value.code == "missing_drag"
+
+
+def test_columns_leave_out_what_has_no_value_and_name_their_units() -> None:
+    run = in_line(drag=0.5).run()
+    columns = run.to_columns(units="us")
+    assert columns["impacts[0].b.delta_v [mph]"] == pytest.approx([2.75 / 0.44704])
+    assert columns["status"] == ["ok"]
+    assert not any(name.startswith("A.rest.x") for name in columns)
+    with pytest.raises(col.InputError, match="units must be 'si', 'metric' or 'us', got 'uk'"):
+        run.to_columns(units="uk")
+
+
+def test_a_batch_has_nan_for_an_impact_that_a_case_does_not_have() -> None:
+    scene = in_line(drag=0.5).replace({"A.vx": np.array([5.0, -5.0])})
+    with pytest.warns(col.CollisionsWarning, match="1 of 2 cases"):
+        run = scene.run()
+    columns = run.to_columns()
+    assert columns["impacts[0].b.delta_v"][0] == pytest.approx(2.75)
+    assert np.isnan(columns["impacts[0].b.delta_v"][1])
+    assert run.status.tolist()[0] == "ok"
+    assert np.isnan(run.impacts[0].b.delta_v).tolist() == [False, True]
