@@ -1725,7 +1725,7 @@ def test_samples_drawn_together_are_told_without_shares():
     )
     drawn = Page(report(impact, units="metric", uncertainty=known))
     assert any(
-        text.startswith("Golf: speed before, in the cases drawn") for text in drawn.of("figcaption")
+        ". Golf: speed before, in the cases drawn" in text for text in drawn.of("figcaption")
     )
     assert any("Golf: speed before" in text for text in drawn.of("text"))
     assert not any("share of its variance" in text for text in drawn.of("figcaption"))

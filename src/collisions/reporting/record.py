@@ -56,6 +56,7 @@ _UNITS: dict[str, str | None] = {
             "author",
             "case",
             "date",
+            "exhibit",
         )
     ),
     "duration": "s",
