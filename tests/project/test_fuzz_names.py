@@ -640,6 +640,10 @@ def test_pages_of_sliders(case: Case) -> None:
             else 0.2
         )
         ranges = {"restitution": (0.5 * e, 0.5 * (1.0 + e))}
+    if case.maybe(0.3):
+        low, high = sorted((case.number("vx"), case.number("vx")))
+        name = case.choice(("a.delta_v", "b.after.speed", "a.pdof", "energy_loss", case.text()))
+        options["observed"] = {name: case.option((low, high), low, case.value("speed"))}
     found = case.call("what_if", col.what_if, impact, ranges, **case.spoil(options))
     assert isinstance(found, Exception) or found.startswith("<!DOCTYPE html>")
 
