@@ -197,9 +197,9 @@ def _answer(
 
     def origin_of(found: Candidate, which: Any, count: Any, where: Any = True) -> Reconstruction:
         condition = _condition(arrays, found, which, cases.eps, incomplete)
-        return cases.provenance(
-            "central", known, condition, count, (found.closing, 0.0 * found.closing), where
-        )
+        given = {name: numbers[name] for name in known}
+        velocity = found.closing, 0.0 * found.closing
+        return cases.provenance("central", known, condition, count, velocity, where, given)
 
     def inputs_of(found: Candidate, keep: Any) -> Inputs:
         # In line, so that nothing moves across or turns; no warnings for states that were not

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..impact.impact import Impact, answer_of, found_by, solved
 from ..impact.inputs import Inputs, body_numbers, first_case
-from ..impact.provenance import Reconstruction, origin_where_answered
+from ..impact.provenance import Reconstruction, found_from, origin_where_answered
 from ..impact.run import check_options, error_of, warn_of_refusals
 from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
@@ -220,9 +220,12 @@ class Cases(NamedTuple):
         answers: Any,
         velocity: Sequence[Any] = (),
         where: Any = True,
+        given: Mapping[str, Any] | None = None,
+        also: Sequence[str] = (),
     ) -> Reconstruction:
         """The ``Reconstruction`` with closing speed and slip if they are known; numbers are NaN
-        where ``where`` is False.
+        where ``where`` is False. ``given`` has the numbers of what was known, and ``also`` what was
+        found beside what the solver always finds.
         """
         condition, *found = (self.where(where, value) for value in (condition, *velocity))
         return Reconstruction(
@@ -231,11 +234,18 @@ class Cases(NamedTuple):
             condition=condition,
             answers=self.counts(answers),
             contact_velocity=(found[0], found[1]) if found else None,
+            found=(*found_from(method, known), *also),
+            given=given and {name: _kept(number) for name, number in given.items()},
         )
 
     def one(self, found: Any, index: tuple[int, ...]) -> float:
         """The value of the case at an index."""
         return float(np.broadcast_to(found, self.shape or ())[index])
+
+
+def _kept(number: Any) -> Any:
+    """A number as an answer keeps it: a float, or a locked array."""
+    return lock(number) if np.ndim(number) else float(number)
 
 
 def input_faults(numbers: Mapping[str, Any], incomplete: bool = False) -> list[tuple[Any, int]]:

@@ -262,7 +262,7 @@ def _body(
     result, uncertainty, spread = part.result, part.uncertainty, part.spread
     sheet.deviations, sheet.ranges = spread.deviations, spread.ranges
     if isinstance(result, Impact):
-        sections.inputs(sheet, result, options, found.by_input)
+        sections.inputs(sheet, result, options, found.by_input, spread)
         sections.results(sheet, result, options["share_a"])
     elif isinstance(result, MomentumSolution):
         sections.momentum_inputs_and_results(sheet, result, options, found.by_input)
