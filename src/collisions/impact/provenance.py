@@ -45,6 +45,8 @@ class Reconstruction:
         Of ``speeds(..., slid="bound")``: for "speed_a" and "speed_b" which way the truth may lie
         from the speed found, if the contact slid: +1 at least that speed, -1 at most, 0 where it is
         known both ways.
+    duration, drag_a, drag_b : float or array [s, -, -], optional
+        Of ``central``: how long the contact lasts, and the drags of the tyres meanwhile.
     """
 
     method: str
@@ -54,6 +56,9 @@ class Reconstruction:
     contact_velocity: tuple[Value, Value] | None = None
     regime: str | None = None
     one_sided: Mapping[str, Any] | None = None
+    duration: Value | None = None
+    drag_a: Value | None = None
+    drag_b: Value | None = None
 
     def __eq__(self, other: object) -> bool:
         return same_fields(self, other) if isinstance(other, Reconstruction) else NotImplemented
@@ -73,9 +78,13 @@ class Known(NamedTuple):
     methods: tuple[str, ...]
 
 
+_CENTRAL = ("central",)
 KNOWN = {
     "energy_loss": Known("energy lost", "energy", "energy_loss", ("central", "planar", "speeds")),
     "closing_speed": Known("closing speed", "speed", "closing_speed", ("planar",)),
+    "contact_duration": Known(
+        "duration of the contact with its tyres", "time", "reconstruction.duration", _CENTRAL
+    ),
     "recorder_axes_turning": Known("in axes that turn with the car", "angle", "", ("speeds",)),
     "recorder_axes_fixed": Known("in axes of the heading, which stay", "angle", "", ("speeds",)),
     "recorder_duration": Known(
@@ -98,6 +107,12 @@ for _label in "ab":
         f"v{_label}": Known(f"velocity{_of} before", "speed", f"{_label}.before.vx", ()),
         f"v{_label}_after": Known(
             f"velocity{_of} after", "speed", f"{_label}.after.vx", ("central",)
+        ),
+        f"drag_{_label}": Known(
+            f"drag{_of} while the contact lasts",
+            "number",
+            f"reconstruction.drag_{_label}",
+            _CENTRAL,
         ),
         f"speed_{_label}": Known(f"speed{_of} before", "speed", f"{_label}.before.speed", _speeds),
         f"course_{_label}": Known(

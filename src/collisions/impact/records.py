@@ -267,6 +267,7 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
         contact_velocity=velocity,
         regime=_stated(found.get("regime")),
         one_sided=_sides(found.get("one_sided")),
+        **{name: lock(read_strict(found.get(name))) for name in ("duration", "drag_a", "drag_b")},
     )
 
 
@@ -415,6 +416,9 @@ def _add(found: dict[str, tuple[Any, str | None]], name: str, value: Any, unit: 
     elif isinstance(value, Reconstruction):
         found[f"{name}.condition"] = value.condition, ""
         found[f"{name}.answers"] = value.answers, None
+        for inner, own in (("duration", "s"), ("drag_a", ""), ("drag_b", "")):
+            if getattr(value, inner) is not None:
+                found[f"{name}.{inner}"] = getattr(value, inner), own
         sides = value.one_sided or {}
         found |= {f"{name}.one_sided.{speed}": (side, None) for speed, side in sides.items()}
     elif isinstance(value, Pulse):

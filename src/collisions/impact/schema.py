@@ -309,4 +309,5 @@ _RECONSTRUCTION = {
             _NULL,
         ]
     },
+    **{name: {"anyOf": [_VALUE, _NULL]} for name in ("duration", "drag_a", "drag_b")},
 }

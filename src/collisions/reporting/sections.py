@@ -366,6 +366,7 @@ def contradicted(impact: Impact) -> Iterator[str]:
         "energy": _COMES_OUT * (abs(impact.energy_absorbed) + abs(impact.energy_loss)),
         "yaw rate": _COMES_OUT * turning + _TOGETHER,
         "angle": _COMES_OUT + together,
+        **dict.fromkeys(("time", "number"), _COMES_OUT),
     }
     for name, text in (impact.inputs.given or {}).items():
         known = KNOWN.get(name)
