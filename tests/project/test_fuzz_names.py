@@ -786,6 +786,10 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
             "restitution": case.value("restitution"),
         }
     given |= {name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.1)}
+    failing |= {
+        name: case.value("duration" if name == "duration" else "drag")
+        for name in case.choice(((), (), ("duration", "drag_a", "drag_b"), ("drag_a",)))
+    }
     if case.maybe(0.1):
         given |= (
             {"restitution": -case.random()} if "restitution" in given and case.maybe(0.5) else {}
@@ -836,9 +840,8 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
     }
     if case.maybe(0.5):
         speeds = {name: case.value("speed") for name in ("speed_a_after", "speed_b_after")}
-    more = {
-        name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.3)
-    } | failing
+    more = {name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.3)}
+    more |= {name: value for name, value in failing.items() if name == "on_failure"}
     if case.maybe(0.1):
         more["together"] = case.option(True, False)
     if case.maybe(0.2):

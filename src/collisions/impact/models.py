@@ -343,7 +343,7 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
                 arguments, inputs.tolerance, inputs.duration, inputs.drag, tyres, **more
             )
         elif inputs.model == ECCENTRIC.name and not (
-            tyres[0] is tyres[1] is inputs.duration is None
+            inputs.duration is None and tyres[0] is tyres[1] is None
         ):
             again = read_lasting_impulse(arguments, inputs.duration, tyres, **more)
         else:
