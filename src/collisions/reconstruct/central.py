@@ -276,8 +276,8 @@ def _answer(
             f"outside_{label}": (cases.values(-_mass(arrays, label) * slowed), 0.0, 0.0)
             for label, slowed in _slowed(arrays).items()
         }
-        touching = e, *rule, BRACH, (0.0, 0.0), others
-        return Inputs("eccentric", a, b, *touching, incomplete=incomplete, **pushes)
+        more = {"point": (0.0, 0.0), "given": others, "incomplete": incomplete} | pushes
+        return Inputs("eccentric", a, b, e, _ALONG_X, FRICTION, _FRICTIONLESS, BRACH, **more)
 
     def refusal() -> CollisionsError:
         say = Sentences(texts.values())
