@@ -170,6 +170,7 @@ def around(impact: col.Impact) -> str:
             duration="100 ms",
             share_a=0.5,
             author="J. Doe",
+            exhibit="12",
             case="2026-11",
             date="25 November 2026",
         )
