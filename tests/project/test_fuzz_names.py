@@ -1377,6 +1377,27 @@ def segments(case: Case, name: str, count: int) -> Any:
     return [case.value(name) for _ in range(count if case.maybe(0.97) else count + 1)]
 
 
+@fuzzes("travel.throw_speed", "travel.throw_bounds")
+def test_throws(case: Case) -> None:
+    """Somebody who was thrown: a speed, and bounds in their order that hold it if it went up."""
+    ground = {"friction": case.value("friction"), "height": case.option(0.0, case.value("x"))}
+    angle = case.value("heading")
+    far = case.value("distance")
+    found = [
+        case.call(
+            "travel.throw_speed", travel.throw_speed, far, **case.spoil({**ground, "angle": angle})
+        ),
+        case.call("travel.throw_bounds", travel.throw_bounds, far, **case.spoil(ground)),
+    ]
+    for one in found:
+        if not isinstance(one, Exception):
+            for speed in one if isinstance(one, tuple) else (one,):
+                assert np.all(~(np.asarray(speed) < 0.0)), speed
+    if not isinstance(found[1], Exception):
+        least, greatest = found[1]
+        assert np.all(~(np.asarray(least) > np.asarray(greatest))), found[1]
+
+
 @fuzzes("travel.speed", "travel.time", "travel.distance", "travel.path", "travel.RunOut")
 def test_travel(case: Case) -> None:
     """Straight and along a path, over one surface and several."""
