@@ -81,7 +81,8 @@ OPEN = frozenset(
         "Vehicle.kinetic_energy",
         "Side.impulse_direction", "Side.pdof", "Side.pdof_clock",
         "Impact.impulse_ratio", "Impact.critical_impulse_ratio", "Impact.friction",
-        "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers", "ByModel",
+        "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers",
+        "reconstruct.Reconstruction.given", "ByModel",
         "ModelChoice.errors", "Inputs.rule_value",
     }
 )  # fmt: skip
@@ -1999,11 +2000,16 @@ def propagation(case: Case) -> Any:
 def sided(case: Case, made: list[Any]) -> Any:
     """A model whose output is known from one side only in some cases."""
     sides = case.option(0, 1, -1, np.array([1, 0, -1, 1] * 16))
+    # Drawn once: a model answers the same whenever it is asked.
+    same = case.option(None, 3.0)
 
     def model(**inputs: Any) -> Any:
         (name,) = inputs
         answered = case.call(
-            "uncertainty.OneSided", uncertainty.OneSided, case.option(inputs[name], 3.0), sides
+            "uncertainty.OneSided",
+            uncertainty.OneSided,
+            inputs[name] if same is None else same,
+            sides,
         )
         made.append(answered)
         return {"known": inputs[name], "sided": answered}

@@ -98,8 +98,11 @@ def compression_time(e: Any) -> Any:
 
 
 def _rate(e: Any) -> Any:
-    """Duration over compression time: how many quarters of a sine would fit into it."""
-    cut = math.acos(max(-e, 0.0)) if isinstance(e, float) else np.arccos(np.maximum(-e, 0.0))
+    """Duration over compression time: how many quarters of a sine would fit into it; NaN from a
+    restitution of -1 on, where nothing is held.
+    """
+    held = select(e > -1.0, e, math.nan)
+    cut = math.acos(max(-held, 0.0)) if isinstance(e, float) else np.arccos(np.maximum(-held, 0.0))
     return select(e < 0.0, cut / QUARTER, 1.0 + e)
 
 
@@ -112,15 +115,14 @@ def passed(e: Any, share: float) -> Any:
     # sine.
     late = select(phase <= 1.0, 0.0, phase - 1.0)
     restoring = 1.0 + e * xp.sin(QUARTER * (late / safe_divisor(True, e)))
-    return select(phase <= 1.0, compressing, restoring) / (1.0 + e)
+    return select(phase <= 1.0, compressing, restoring) / select(e > -1.0, 1.0 + e, math.nan)
 
 
 def mean_passed(e: Any) -> Any:
     """Mean of ``passed`` over the duration."""
     angle = QUARTER * _rate(e)
-    return select(e < 0.0, 1.0 - numeric(e).sin(angle) / angle, 1.0 - (1.0 - e) / QUARTER) / (
-        1.0 + e
-    )
+    mean = select(e < 0.0, 1.0 - numeric(e).sin(angle) / angle, 1.0 - (1.0 - e) / QUARTER)
+    return mean / select(e > -1.0, 1.0 + e, math.nan)
 
 
 def engaged(e: Any) -> tuple[Any, Any]:
