@@ -296,7 +296,8 @@ def _known(
                 value += f"; {answer} in this answer"
         if one.number is not None and spread is not None:
             stated = spread.stated(sheet, one.name, one.kind, one.number)
-            value += f"; stated as {stated}" if stated else ""
+            if stated and stated not in notes.get(one.name, ""):
+                value += f"; stated as {stated}"
         yield "evidence", names(one.what), _with(value, notes.get(one.name))
 
 
