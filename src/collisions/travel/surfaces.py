@@ -38,6 +38,7 @@ _BELOW_ZERO = {
     "end_speed": "negative_speed",
     "friction": "bad_friction",
     "lock": "bad_fraction",
+    "rotating_mass": "bad_fraction",
     "window": "negative_distance",
     "point_error": "negative_length",
     "heading_error": "negative_length",
