@@ -1454,6 +1454,12 @@ def test_travel(case: Case) -> None:
             "point_error": case.option(0.1, case.value("distance")),
             "heading_error": case.option("3 deg", 0.0),
         }
+    if case.maybe(0.3):
+        path["tyres"] = tyres_of(case)
+        if case.maybe(0.9):
+            del path["lock"]
+    if case.maybe(0.2):
+        path["rotating_mass"] = case.option(0.03, case.value("lock"))
     found = case.call("travel.path", travel.path, points, **case.spoil(path))
     if isinstance(found, travel.RunOut):
         # A way that ends where it began has no straight course.
@@ -1538,6 +1544,8 @@ def test_simulated_travel(case: Case) -> None:
         ground["surfaces"] = case.option([(corners, case.value("drag"))], case.garbage())
     if case.maybe(0.2):
         ground["slope"] = case.option((0.02, "1 %"), case.garbage())
+    if case.maybe(0.2):
+        ground["rotating_mass"] = case.option(0.03, "4 %", case.value("lock"))
     ground |= {"moments": case.option(2, 9), "tolerance": case.option(1e-4, 1e-5)}
     # What hardly slows takes ten thousand steps, and is refused for it as after fifteen hundred.
     with mock.patch.object(motion_of_wheels, "_MOST_STEPS", 10_000 if case.maybe(0.01) else 1_500):

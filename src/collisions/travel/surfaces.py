@@ -39,6 +39,7 @@ _BELOW_ZERO = {
     "friction": "bad_friction",
     "height": "negative_length",
     "lock": "bad_fraction",
+    "rotating_mass": "bad_fraction",
     "window": "negative_distance",
     "point_error": "negative_length",
     "heading_error": "negative_length",
