@@ -1210,7 +1210,7 @@ def test_only_what_was_measured_is_counted():
     others = set(re.search(r"or are switched off\.\n\n(.*)\.", text)[1].split(", "))
     codes = (
         "near_collinear", "restitution_negative", "speed_backwards", "momentum_energy",
-        "pdof_off_damage", "delta_v_off_damage",
+        "pdof_off_damage", "delta_v_off_damage", "delta_v_pair",
         "yaw_against_lever", "outlines_overlap", "outlines_gap", "outlines_interpenetrate",
         "point_outside", "ill_conditioned",
         "not_unique", *limits,
