@@ -758,9 +758,8 @@ def test_without_matplotlib_the_rest_is_there(impacts, monkeypatch):
 
 def test_importing_it_does_not_import_matplotlib_or_pint():
     code = "import sys, collisions.reporting; assert not {'matplotlib', 'pint'} & set(sys.modules)"
-    subprocess.run(
-        [sys.executable, "-c", code], check=True, env={"PYTHONPATH": str(ROOT / "src"), "PATH": ""}
-    )
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
+    subprocess.run([sys.executable, "-c", code], check=True, env=environment)
 
 
 def test_the_derivation_is_that_of_explain(impacts):
