@@ -11,7 +11,7 @@ from typing import Any
 from ..impact.impact import Impact
 from ..impact.inputs import PLACED
 from ..impact.instant import neglected
-from ..impact.provenance import bounds_of, how_many
+from ..impact.provenance import bounds_of, how_many, known_in_words
 from ..impact.side import Side
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..reconstruct.speeds import if_it_slid, taken_to_stick
@@ -68,10 +68,10 @@ def ill_conditioned(case: Case) -> Iterator[Measured]:
             f"reconstruct.momentum has a condition of {plain(condition)}: {'; '.join(moves)}",
         )
     elif (origin := case.answer.reconstruction) is not None:
+        given = ", ".join(known_in_words(origin.known))
         sentence = (
-            f"reconstruct.{origin.method}: one percent in what was given "
-            f"({', '.join(origin.known)}) may become {plain(origin.condition)} percent of the "
-            "closing speed in the speeds before"
+            f"reconstruct.{origin.method}: one percent in what was given ({given}) may become "
+            f"{plain(origin.condition)} percent of the closing speed in the speeds before"
         )
         yield Measured(origin.condition, sentence)
 
@@ -84,9 +84,10 @@ def ill_conditioned(case: Case) -> Iterator[Measured]:
 def not_unique(case: ImpactCase) -> Iterator[Measured]:
     origin = case.answer.reconstruction
     if origin is not None:
+        given = ", ".join(known_in_words(origin.known))
         sentence = (
             f"reconstruct.{origin.method} found {how_many(origin.answers)} that fit what was given "
-            f"({', '.join(origin.known)}), of which this is one: other evidence must tell which"
+            f"({given}), of which this is one: other evidence must tell which"
         )
         yield Measured(origin.answers, sentence)
 
@@ -388,10 +389,7 @@ def may_slide(case: ImpactCase) -> Iterator[Measured]:
     slid = if_it_slid(impact)
     then = "friction was less than that, and this is not the impact"
     if slid is not None and slid.reconstruction is not None:
-        speeds = {
-            f"speed_{label}": case.text(getattr(slid, label).before.speed, "speed")
-            for label in "ab"
-        }
+        speeds = {name: case.text(getattr(slid, name), "speed") for name in ("speed_a", "speed_b")}
         then = " and ".join(bounds_of(slid.reconstruction.one_sided or {}, speeds))
     sentence = (
         f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and contacts between "

@@ -102,9 +102,10 @@ def impact_schema() -> dict[str, Any]:
             ),
             "tyres": _tyres(),
             "pulse": _closed({f.name: _field(f) for f in fields(Pulse)}),
-            "reconstruction": _closed(
-                {f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)}
-            ),
+            "reconstruction": {
+                **_closed({f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)}),
+                "required": [f.name for f in fields(Reconstruction) if f.name not in _LATER],
+            },
         },
     }
     return deepcopy(schema)
@@ -296,6 +297,8 @@ _LISTED = {
     "refused": _each({"type": "boolean"}),
     "pdof_clock": {"anyOf": [{"type": "integer", "minimum": 1, "maximum": 12}, _VALUE, _NULL]},
 }
+# What a record of an earlier version lacks.
+_LATER = ("found", "given")
 _RECONSTRUCTION = {
     "method": _TEXT,
     "known": {"type": "array", "items": _TEXT},
@@ -309,4 +312,7 @@ _RECONSTRUCTION = {
             _NULL,
         ]
     },
+    "found": {"type": "array", "items": _TEXT},
+    "given": {"anyOf": [{"type": "object", "additionalProperties": _VALUE}, _NULL]},
+    **{name: {"anyOf": [_VALUE, _NULL]} for name in ("duration", "drag_a", "drag_b")},
 }

@@ -64,6 +64,7 @@ def report(
     author: str | None = None,
     case: str | None = None,
     date: str | None = None,
+    exhibit: str | None = None,
 ) -> Document:
     """One page about a result: the answer with its range, then inputs, results, uncertainty,
     findings, figures, assumptions, derivation, sources and the record.
@@ -114,9 +115,9 @@ def report(
         Whether to draw figures. They need matplotlib; without it the report says so and goes on.
     derivation : bool
         Whether to append the derivation of ``explain``.
-    author, case, date : str, optional
-        Who made the page, the number or name of the case, and the day: printed below the title,
-        and at the foot of every page in print.
+    author, case, date, exhibit : str, optional
+        Who made the page, the number or name of the case, the day, and the number of the page among
+        the exhibits: printed below the title, and at the foot of every page in print.
 
     Returns
     -------
@@ -261,7 +262,7 @@ def _body(
     result, uncertainty, spread = part.result, part.uncertainty, part.spread
     sheet.deviations, sheet.ranges = spread.deviations, spread.ranges
     if isinstance(result, Impact):
-        sections.inputs(sheet, result, options, found.by_input)
+        sections.inputs(sheet, result, options, found.by_input, spread)
         sections.results(sheet, result, options["share_a"])
     elif isinstance(result, MomentumSolution):
         sections.momentum_inputs_and_results(sheet, result, options, found.by_input)

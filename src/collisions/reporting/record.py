@@ -56,6 +56,7 @@ _UNITS: dict[str, str | None] = {
             "author",
             "case",
             "date",
+            "exhibit",
         )
     ),
     "duration": "s",
@@ -72,6 +73,8 @@ _READ_AGAIN = 2e-9
 _OTHER_MACHINE = 1e-6
 # Sentences, which another version may word differently.
 _SENTENCES = ("choice.reason",)
+# What a record of an earlier version lacks.
+_LATER = ("reconstruction.found", "reconstruction.given")
 
 
 def record(impact: Result, options: Mapping[str, Any], uncertainty: Propagation | None) -> str:
@@ -431,7 +434,8 @@ def _differences(recorded: Any, found: Any, name: str, off: float) -> Iterator[s
         for key in dict.fromkeys([*found, *recorded]):
             path = f"{name}.{key}" if name else str(key)
             if key not in recorded:
-                yield f"{path}, which is missing"
+                if path not in _LATER:
+                    yield f"{path}, which is missing"
             elif key not in found:
                 yield f"{path}, which no impact has"
             elif path not in _SENTENCES:
