@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, fields
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -79,6 +79,33 @@ class Pulse(Shown):
     delta_v_left_a: Any = field(default=None, metadata={"unit": "m/s"})
     delta_v_forward_b: Any = field(default=None, metadata={"unit": "m/s"})
     delta_v_left_b: Any = field(default=None, metadata={"unit": "m/s"})
+
+
+class Parted(NamedTuple):
+    """How a contact that was followed in time ends: its duration and when the vehicles were engaged
+    the most [s]; and by vehicle how far it moved along x and y [m] and turned [rad] from the places
+    that were given until then.
+    """
+
+    duration: Any
+    engaged: Any
+    moved: dict[str, tuple[Any, Any, Any]]
+
+
+def parted(answer: Any) -> Parted:
+    """The end of a contact from what the kernel answered."""
+    return Parted(
+        answer.duration,
+        answer.engaged_time,
+        {
+            label: (
+                getattr(answer, f"moved_x_{label}"),
+                getattr(answer, f"moved_y_{label}"),
+                np.arctan2(getattr(answer, f"turn_s_{label}"), getattr(answer, f"turn_c_{label}")),
+            )
+            for label in "ab"
+        },
+    )
 
 
 CURVES = tuple(f.name for f in fields(Pulse) if f.type == "Any")

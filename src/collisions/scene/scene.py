@@ -496,8 +496,10 @@ def _read_contacts(
                 )
                 reader.refuse(InputError(text, code="rule_twice", argument="contacts"))
             rules.add(pair)
-        if contact.duration is not None and not any(
-            name in movers and movers[name].tyres is not None for name in names
+        if (
+            contact.duration is not None
+            and not contact.in_time
+            and not any(name in movers and movers[name].tyres is not None for name in names)
         ):
             text = (
                 f"contacts[{i}] has a duration, which is for the impulse of tyres, and neither "
