@@ -631,13 +631,26 @@ def test_a_batch_is_its_cases_and_refused_ones_are_nan():
             moments=11,
         )
         for name in ("time", "x", "y", "heading"):
-            # The same steps; numpy rounds sines of arrays of other lengths otherwise, and a step
-            # can differ in its last digit.
             assert getattr(path, name)[:, i, j] == pytest.approx(
                 getattr(alone, name), rel=1e-9, abs=1e-9
             ), name
     assert np.isnan(path.rest.heading[:, 2:]).all()
     assert np.isnan(path.time[:, :, 2:]).all()
+
+
+@pytest.mark.parametrize("surfaces", [None, [([(5, -5), (15, -5), (15, 5), (5, 5)], 0.3)]])
+def test_a_case_rests_at_the_same_place_in_a_large_batch_and_alone(surfaces):
+    """Followed in arrays, in floats, and in floats from where few cases are left: the same numbers
+    in the same order, where a last digit would decide on which step a wheel comes to an edge.
+    """
+    generator = np.random.default_rng(5)
+    vx, vy, w = generator.normal([14.0, 0.0, 0.0], [4.0, 3.0, 2.0], (120, 3)).T
+    path = drive(moving(vx, vy, w), friction=0.7, lock=0.3, surfaces=surfaces, moments=2)
+    for i in range(0, 120, 4):
+        one = moving(float(vx[i]), float(vy[i]), float(w[i]))
+        alone = drive(one, friction=0.7, lock=0.3, surfaces=surfaces, moments=2)
+        assert alone.rest.x == pytest.approx(path.rest.x[i], abs=1e-9)
+        assert alone.rest.y == pytest.approx(path.rest.y[i], abs=1e-9)
 
 
 def test_arrays_stay_what_they_are():
