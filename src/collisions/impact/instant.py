@@ -57,7 +57,7 @@ def neglected(impact: Impact, found: LeftOut | None = None) -> Neglect | None:
     if not parts:
         return None
     advice = (
-        "give duration= and tyres_a=, tyres_b="
+        "give `duration=` and `tyres_a=`, `tyres_b=`"
         if origin.method in TAKE_TYRES
         else "collisions.left_out says more of it"
     )

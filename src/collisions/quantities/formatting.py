@@ -8,7 +8,8 @@ from functools import cache
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 from ..messages.errors import InputError
-from .units import scale, shown
+from .refusals import must_be
+from .units import scale
 
 _FIGURES = 3  # of results without a fixed number of decimals: impulses and energies
 _NO_SPREAD = 1e-12  # relative: a standard deviation this small is rounding
@@ -221,9 +222,10 @@ def scale_of(kind: str, system: str) -> float:
 def check_system(units: Any) -> None:
     """Refuse an argument ``units`` that names none of the systems."""
     if not isinstance(units, str) or units not in SYSTEMS:
-        raise InputError(
-            f"units must be 'si', 'metric' or 'us', got {shown(units)}; they are those of what "
-            "is printed, not those of the inputs",
+        raise must_be(
+            "units",
+            "'si', 'metric' or 'us'",
+            units,
+            "; they are those of what is printed, not those of the inputs",
             code="bad_option",
-            argument="units",
         )

@@ -18,6 +18,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from ..messages.errors import InputError, UnitsError
+from ..messages.marked import as_code
 from .usual_units import SCALES, USUAL, Usual, usual
 
 if TYPE_CHECKING:
@@ -375,11 +376,13 @@ def parse(text: str, unit: str, argument: str) -> Any:
     readable = (name in USUAL or re.fullmatch(_UNIT, name)) if name else not unit
     if number is None or not readable:
         how = "one plain number and one unit" if unit else "one plain number"
+        instead = f"; write {how}, such as {example(unit)}"
         raise UnitsError(
-            f"{argument}: cannot read {shown(text)}{_cure(stripped, unit)}; write {how}, such as "
-            f"{example(unit)}",
+            f"{argument}: cannot read {shown(text)}{_cure(stripped, unit)}{instead}",
             code="bad_units",
             argument=argument,
+            given=text,
+            instead=instead,
             text=text,
         )
     value = float(number.group())
@@ -424,7 +427,9 @@ def _units_of(registry: Any, read: dict[str, Any], name: str) -> Any:
                 for part in re.findall(_NAME, name):
                     meant = ["".join(found) for found in registry.parse_unit_name(part)]
                     if len(meant) > 1 and part not in registry._units:
-                        text = f"in this registry, made with case_sensitive=False, {part!r} may be "
+                        text = (
+                            f"in this registry, made with `case_sensitive=False`, {part!r} may be "
+                        )
                         text += (
                             f"{' or '.join(sorted(meant))}: write it in its own upper and lower "
                             "case"
@@ -439,8 +444,8 @@ def _cure(text: str, unit: str) -> str:
     """The hint for a text that is nearly one number and one unit; "" for others."""
     if re.match(r"\[[\[\s]*(?:[-+.]?[0-9]|nan\b|[-+]?inf\b)", text):
         return (
-            ": this is a printed array. A model of propagate is called with arrays of cases, and "
-            "the unit belongs in the distribution, Normal('30 mph', '2 mph')"
+            ": this is a printed array. A model of propagate is called with arrays of "
+            "cases, and the unit belongs in the distribution, `Normal('30 mph', '2 mph')`"
         )
     if len(text) > _LONGEST_TEXT:
         return f": a text of {len(text)} characters is no number"
@@ -464,7 +469,10 @@ def _cure(text: str, unit: str) -> str:
     if "\u2212" in text:
         return ": a minus is typed as a hyphen, " + repr(text.replace("\u2212", "-"))
     if re.search(r"\d\s*(?:-|\.\.|to|–|±|\+/?-)\s*\d", text):
-        return ": this is a range; ranges go to collisions.uncertainty.propagate"
+        return (
+            ": this is a range; `|ranges go to collisions.uncertainty.propagate|"
+            "this key takes one number`"
+        )
     cured = re.sub(r"(?<=[a-z])(\d)\b", r"**\1", re.sub(r"(?<=[a-z])-(?=[a-z])", "*", text))
     if cured != text:
         # Pounds beside seconds are a force: lb ft s2 is the yaw inertia of a US data sheet.
@@ -537,7 +545,7 @@ def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float,
         zero, one, two = (float(number.m_as(wanted)) for number in numbers)
         found = one, "" if numbers[1].unitless else f"{quantity.units}"
     except Exception as error:
-        other = "; its registry, made with case_sensitive=False, may have taken another unit"
+        other = "; its registry, made with `case_sensitive=False`, may have taken another unit"
         beside = "" if registry.case_sensitive else other
         raise _bad_units(given, unit, argument, error, beside=beside) from None
     if zero != 0.0 or two != 2.0 * one:
@@ -547,7 +555,12 @@ def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float,
     return found
 
 
-def shown(value: Any, longest: int = 80) -> str:
+def shown(value: Any) -> str:
+    """What was given, short and marked as code, for a message."""
+    return as_code(rendered(value))
+
+
+def rendered(value: Any, longest: int = 80) -> str:
     """A short rendering of what was given, safe for any object."""
     try:
         text = f"{value}" if is_quantity(value) else repr(value)
@@ -643,11 +656,13 @@ def _bad_units(
         hint = "; pounds here are a force: write 'lbf*ft*s**2' or 'slug*ft**2'"
     # pint's own words are about dimensions, and the hint says it better.
     reason = f" ({error})" if str(error or "") and not hint else ""
+    instead = f"; write for example {example(unit)}"
     return UnitsError(
-        f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}{beside}; write "
-        f"for example {example(unit)}",
+        f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}{beside}{instead}",
         code="bad_units",
         argument=argument,
+        given=given,
+        instead=instead,
         text=text,
     )
 

@@ -20,7 +20,7 @@ from ..kernels.eccentric import eccentric
 from ..kernels.elementwise import FINITE, POSITIVE, restitution_domain
 from ..kernels.problem import Body, Contact, Problem
 from ..kernels.status import Answer
-from ..messages.errors import CollisionsError, IllConditionedWarning, InputError, Status
+from ..messages.errors import CollisionsError, IllConditionedWarning, InputError, Status, placed
 from ..messages.warning import quietly, warn_of_cases
 from ..quantities.attributes import lock
 from ..quantities.precision import precision
@@ -348,5 +348,5 @@ def raise_or_warn(
     if on_failure == "raise":
         index, place = first_case(status > Status.ENERGY_GAIN)
         problem = error(index)
-        raise type(problem)(f"{place}: {problem}", code=problem.code, **problem.fields)
+        raise placed(problem, place)
     warn_of_refusals(status)

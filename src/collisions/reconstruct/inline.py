@@ -152,10 +152,15 @@ def _read_drags(reader: ArgumentReader, duration: Any, drags: dict[str, Any]) ->
     if (duration is None) == bool(given):
         lacking = "duration" if duration is None else "drag_a"
         text = (
-            f"{' and '.join(given)} need a duration, over which tyres act; write duration='100 ms'"
+            (
+                f"{' and '.join(given)} need a duration, over which tyres act; write "
+                "`duration='100 ms'`"
+            )
             if given
-            else "duration counts for drag_a and drag_b alone, and neither was given; write "
-            "drag_b=0.7, or leave it out"
+            else (
+                "duration counts for drag_a and drag_b alone, and neither was given; write "
+                "`drag_b=0.7`, or leave it out"
+            )
         )
         reader.refuse(MissingInputError(text, code="bad_combination", argument=lacking))
     if duration is None or not given:

@@ -258,9 +258,10 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
         reader.refuse(InputError(text, code=code, argument=argument))
 
     if not isinstance(ranges, Mapping) or not ranges:
-        example = "{'speed_a': ('40 km/h', '70 km/h')}"
+        example = "`{'speed_a': ('40 km/h', '70 km/h')}`"
         refuse(
-            f"ranges must be a dict of (low, high) by input, such as {example}, got {shown(ranges)}"
+            f"ranges must be `|a dict|a table` of `(low, high)` by input, such as {example}, got "
+            f"{shown(ranges)}"
         )
         ranges = {}
     for name, ends in ranges.items():
@@ -282,7 +283,7 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
             isinstance(end, float) and math.isfinite(end) for end in numbers
         ):
             refuse(
-                f"{name} must be a pair of finite numbers (low, high), got {shown(ends)}",
+                f"{name} must be a pair of finite numbers `(low, high)`, got {shown(ends)}",
                 name,
                 "bad_range",
             )
@@ -300,7 +301,7 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
                 else f", in {'rad' if kind == 'angle' else SI_UNITS[kind]}"
             )
             text = (
-                f"{name} must be a pair (low, high) in rising order around {now}, got "
+                f"{name} must be a pair `(low, high)` in rising order around {now}, got "
                 f"{shown(ends)}{bare}"
             )
             refuse(text, name, "bad_range")
