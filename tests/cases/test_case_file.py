@@ -1039,7 +1039,7 @@ def test_new_has_the_units_that_are_asked_for(tmp_path, capsys):
     assert run(capsys, "new", "--report", "page.html") == (
         2,
         "",
-        "new: takes --units alone; leave out --report\n",
+        "new: takes --units and --scene; leave out --report\n",
     )
     assert run(capsys, "schema", "--units", "us") == (
         2,

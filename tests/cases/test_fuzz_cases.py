@@ -14,6 +14,8 @@ import pytest
 from case_texts import FILES, POSTERIOR
 from collisions.cases.answers import answers
 from collisions.cases.read import SOLVERS, CaseError, descriptions, parameters, read_text
+from collisions.scene import Contact, Mover
+from collisions.travel import Tyres
 from fuzzing import _promptly
 from strategies import EXTREMES
 
@@ -34,7 +36,11 @@ VALUES = (
      'stiffness_b = 1e5 } }'),
 )  # fmt: skip
 KEYS = sorted(
-    {name for function in SOLVERS.values() for name in parameters(function)}
+    {
+        name
+        for function in (*SOLVERS.values(), Mover, Contact, Tyres)
+        for name in parameters(function)
+    }
     | set(parameters(SOLVERS["solve"]))
 )
 LINES = (
@@ -44,6 +50,8 @@ LINES = (
     'correlation = [["a.mass", "b.mass", 2]]', "samples = 64", 'method = "interval"',
     'method = "first_order"', "seed = -1", "tolerance = 0.5",
     'units = "us"', "share_a = 0.5", 'notes = ["x"]', "outline_a = [4, 2]",
+    "[[mover]]", "[[contact]]", "[[surface]]", "[scene]", "[scene.shared]", "[observed]",
+    'road = ["A.drag", "B.tyres.friction"]', 'order = [["A", "B"]]', 'name = "C"',
     'limits = { restitution = 0.1 }', "derivation = true", "\ud800", "\x00", "[" * 3000,
     "x = " + "[" * 3000,
 )  # fmt: skip
@@ -127,6 +135,7 @@ def test_a_mutated_file_is_answered_or_refused_by_key():
                     (
                         lambda found=found: found.report("markdown"),
                         lambda found=found: found.what_if("metric"),
+                        lambda found=found: found.play("us"),
                     )
                 )
                 assert page()

@@ -601,6 +601,7 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
         ("author", lambda: case.option("J. Doe", case.text())),
         ("case", lambda: case.option("2026-11", case.text())),
         ("date", lambda: case.option("25 November 2026", case.text())),
+        ("exhibit", lambda: case.option("12", case.text())),
     ):
         if case.maybe(0.1):
             options[name] = draw()
@@ -640,6 +641,10 @@ def test_pages_of_sliders(case: Case) -> None:
             else 0.2
         )
         ranges = {"restitution": (0.5 * e, 0.5 * (1.0 + e))}
+    if case.maybe(0.3):
+        low, high = sorted((case.number("vx"), case.number("vx")))
+        name = case.choice(("a.delta_v", "b.after.speed", "a.pdof", "energy_loss", case.text()))
+        options["observed"] = {name: case.option((low, high), low, case.value("speed"))}
     found = case.call("what_if", col.what_if, impact, ranges, **case.spoil(options))
     assert isinstance(found, Exception) or found.startswith("<!DOCTYPE html>")
 
@@ -781,6 +786,10 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
             "restitution": case.value("restitution"),
         }
     given |= {name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.1)}
+    failing |= {
+        name: case.value("duration" if name == "duration" else "drag")
+        for name in case.choice(((), (), ("duration", "drag_a", "drag_b"), ("drag_a",)))
+    }
     if case.maybe(0.1):
         given |= (
             {"restitution": -case.random()} if "restitution" in given and case.maybe(0.5) else {}
@@ -831,9 +840,8 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
     }
     if case.maybe(0.5):
         speeds = {name: case.value("speed") for name in ("speed_a_after", "speed_b_after")}
-    more = {
-        name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.3)
-    } | failing
+    more = {name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.3)}
+    more |= {name: value for name, value in failing.items() if name == "on_failure"}
     if case.maybe(0.1):
         more["together"] = case.option(True, False)
     if case.maybe(0.2):
@@ -1367,6 +1375,27 @@ def segments(case: Case, name: str, count: int) -> Any:
     if case.maybe(0.5):
         return case.value(name)
     return [case.value(name) for _ in range(count if case.maybe(0.97) else count + 1)]
+
+
+@fuzzes("travel.throw_speed", "travel.throw_bounds")
+def test_throws(case: Case) -> None:
+    """Somebody who was thrown: a speed, and bounds in their order that hold it if it went up."""
+    ground = {"friction": case.value("friction"), "height": case.option(0.0, case.value("x"))}
+    angle = case.value("heading")
+    far = case.value("distance")
+    found = [
+        case.call(
+            "travel.throw_speed", travel.throw_speed, far, **case.spoil({**ground, "angle": angle})
+        ),
+        case.call("travel.throw_bounds", travel.throw_bounds, far, **case.spoil(ground)),
+    ]
+    for one in found:
+        if not isinstance(one, Exception):
+            for speed in one if isinstance(one, tuple) else (one,):
+                assert np.all(~(np.asarray(speed) < 0.0)), speed
+    if not isinstance(found[1], Exception):
+        least, greatest = found[1]
+        assert np.all(~(np.asarray(least) > np.asarray(greatest))), found[1]
 
 
 @fuzzes("travel.speed", "travel.time", "travel.distance", "travel.path", "travel.RunOut")

@@ -12,7 +12,10 @@ from typing import Any, get_args
 from ..quantities.json_schema import TEXT, Schema, array_of, closed, described, schema_of
 from ..reporting import report
 from ..reporting.what_if import SLIDERS, what_if
+from ..scene import Contact, Mover, Scene
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle
+from .crash import OF_MOVER, OF_SCENE, OF_SURFACE
 from .read import FUNCTIONS, SOLVERS, STUDIES, descriptions, parameters, vehicles
 from .words import DISTRIBUTIONS
 
@@ -51,6 +54,11 @@ def case_schema() -> Schema:
         module, _, own = name.rpartition(".")
         (reverse if module else tables)[own] = _arguments(function)
     tables["propagate"]["properties"]["outputs"] = array_of(TEXT)
+    tables |= _tables_of_scenes()
+    tables["observed"] = {
+        "type": "object",
+        "description": "what was observed, by name: of [posterior], or of [fit] if it is there",
+    }
     pair = array_of({"type": ["number", "string"]}, 2)
     tables |= {
         "reconstruct": _object(reverse),
@@ -81,9 +89,8 @@ def case_schema() -> Schema:
                 "anyOf": [{"type": ["number", "string"]}, {"$ref": "#/$defs/function"}],
             },
             "pair": array_of(_NUMBER),
-            "vehicle": _object(
-                _arguments(Vehicle)["properties"] | _arguments(Vehicle.from_speed)["properties"]
-            ),
+            "vehicle": _object(_of_vehicles()),
+            "tyres": _arguments(Tyres),
             "function": _nested(
                 {
                     name: _arguments(one, plain=name in DISTRIBUTIONS)
@@ -91,6 +98,37 @@ def case_schema() -> Schema:
                 }
             ),
         },
+    }
+
+
+def _of_vehicles() -> Schema:
+    found: Schema = _arguments(Vehicle)["properties"]
+    found |= _arguments(Vehicle.from_speed)["properties"]
+    return found
+
+
+def _tables_of_scenes() -> Schema:
+    """The tables of a whole crash: of some a file has several."""
+    tyres = {"$ref": "#/$defs/tyres"}
+    mover = _of_vehicles() | _arguments(Mover)["properties"] | {"tyres": tyres}
+    mover = {name: one for name, one in mover.items() if name not in ("pivot", "vehicle")}
+    for name in OF_MOVER:
+        mover.setdefault(name, TEXT)
+    contact = _arguments(Contact)["properties"]
+    contact["tyres_after"] |= {"type": "object", "additionalProperties": tyres}
+    own = _arguments(Scene)["properties"]
+    scene = {name: own.get(name, {}) for name in OF_SCENE}
+    scene["order"] |= array_of(array_of(TEXT))
+    scene["shared"] |= {"type": "object", "additionalProperties": array_of(TEXT)}
+    scene["tolerance"] = described({"type": "number"}, descriptions(Scene.run)["tolerance"])
+    corners = array_of({"$ref": "#/$defs/pair"}) | {"minItems": 3}
+    corners = described(corners, "corners of the area in order [m]")
+    surface = dict(zip(OF_SURFACE, (corners, {"allOf": [_NUMBER]}), strict=True))
+    return {
+        "mover": array_of(_object(mover)),
+        "contact": array_of(_object(contact)),
+        "surface": array_of(_object(surface)),
+        "scene": _object(scene),
     }
 
 

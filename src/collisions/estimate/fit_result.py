@@ -201,8 +201,30 @@ class Direction:
         return f"{what} is not determined by the evidence, {and_so}"
 
 
+class SpeedsFound:
+    """The speeds before as other reverse answers have them, where the model has such names."""
+
+    __slots__ = ()
+
+    @derived("m/s")
+    def speed_a(self: Any) -> float | None:
+        """Speed of A before the impact [m/s]: what was found of "speed_a", of a posterior its mean;
+        None where nothing has that name.
+        """
+        speed: float | None = self._speed("speed_a")
+        return speed
+
+    @derived("m/s")
+    def speed_b(self: Any) -> float | None:
+        """Speed of B before the impact [m/s]: what was found of "speed_b", of a posterior its mean;
+        None where nothing has that name.
+        """
+        speed: float | None = self._speed("speed_b")
+        return speed
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
-class Fit(Shown):
+class Fit(SpeedsFound, Shown):
     """The result of a fit: estimates of the unknowns from the observations, given the stated
     errors.
 
@@ -255,6 +277,14 @@ class Fit(Shown):
             high=high,
             at_bound=self.at_bounds.get(name),
         )
+
+    @property
+    def found(self) -> tuple[str, ...]:
+        """Names of what was found, as opposed to what was observed: the unknowns."""
+        return self.names
+
+    def _speed(self, name: str) -> float | None:
+        return self.values[name] if self.units.get(name) in ("", "m/s") else None
 
     @property
     def standard_errors(self) -> Values:

@@ -20,7 +20,7 @@ from ..uncertainty.distributions import Censored, Distribution, Normal, Samples,
 from ..uncertainty.normal import power_of_two
 from ..uncertainty.probability import holds
 from ..uncertainty.result import Sampled, Shares, correlations, outputs_part, units_of
-from .fit_result import CONTRADICTION, Residual, agreement, with_unit
+from .fit_result import CONTRADICTION, Residual, SpeedsFound, agreement, with_unit
 
 _NO_NARROWER, _NOT_MOVED = 0.1, 0.25  # of the variance of a prior, and of its deviation
 _ROUGH = 0.1  # of a standard deviation: the error of a mean
@@ -79,7 +79,7 @@ class PosteriorOutput(Sampled):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Posterior(Summarized):
+class Posterior(SpeedsFound, Summarized):
     """The result of ``posterior``: ``posterior["speed_a"]`` has mean, std, interval, quantile and
     histogram of an unknown.
 
@@ -202,6 +202,16 @@ class Posterior(Summarized):
         return Samples.joint(
             **{name: with_unit(self.draws[name], one.unit) for name, one in self.unknowns.items()}
         )
+
+    @property
+    def found(self) -> tuple[str, ...]:
+        """Names of what was found, as opposed to what was observed: the unknowns."""
+        return tuple(self.unknowns)
+
+    def _speed(self, name: str) -> float | None:
+        output = (self.predicted | self.unknowns).get(name)
+        known = output is not None and output.unit in (None, "", "m/s")
+        return float(output.mean) if output is not None and known else None
 
     @property
     def correlation(self) -> dict[tuple[str, str], float]:

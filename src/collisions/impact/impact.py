@@ -65,7 +65,40 @@ if TYPE_CHECKING:  # loaded by those who make them: a tenth of the import
 _new = object.__new__
 
 
-class Impact(Frozen, Summarized):
+class _SpeedsBefore:
+    """What every answer of a reverse solver has, whatever else it has. A record has these numbers
+    under other names.
+    """
+
+    __slots__ = ()
+
+    @derived("m/s")
+    def speed_a(self: Any) -> Value:
+        """Speed of A before the impact [m/s], of its centre of mass; as ``a.before.speed``."""
+        speed: Value = self.a.before.speed
+        return speed
+
+    @derived("m/s")
+    def speed_b(self: Any) -> Value:
+        """Speed of B before the impact [m/s], of its centre of mass; as ``b.before.speed``."""
+        speed: Value = self.b.before.speed
+        return speed
+
+    @derived()
+    def found(self: Any) -> tuple[str, ...]:
+        """Names of what a reverse solver found, as opposed to what it was given: "speed_a",
+        "restitution" and so on; empty for a forward solver. A mass that is infinite has no motion
+        to be found.
+        """
+        origin = self.reconstruction
+        if origin is None:
+            return ()
+        masses = (("_a", self.inputs.a.mass), ("_b", self.inputs.b.mass))
+        still = [ending for ending, mass in masses if np.all(np.isinf(mass))]
+        return tuple(name for name in origin.found if name[-2:] not in still)
+
+
+class Impact(_SpeedsBefore, Frozen, Summarized):
     """The answer of a forward solver: two vehicles before and after, the impulse between them, and
     where the energy went.
 
@@ -755,6 +788,7 @@ class Impact(Frozen, Summarized):
                     self.reconstruction.answers,
                     self.reconstruction.contact_velocity,
                     self.reconstruction.one_sided,
+                    self.reconstruction.given,
                 )
             )
 

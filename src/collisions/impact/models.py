@@ -300,7 +300,7 @@ def read_for_solve(
     """Read the arguments of ``solve``."""
     reader = ArgumentReader()
     times = {}
-    if not (duration is None and drag is None and tyres == (None, None)):
+    if not (duration is drag is tyres[0] is tyres[1] is None):
         times = read_least_time(reader, *arguments[:2], duration, drag, tyres)
     if not (type(tolerance) is float and 0.0 <= tolerance < math.inf):
         tolerance = _read_tolerance(reader, tolerance)
@@ -342,8 +342,8 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
             again = read_for_solve(
                 arguments, inputs.tolerance, inputs.duration, inputs.drag, tyres, **more
             )
-        elif inputs.model == ECCENTRIC.name and (
-            tyres != (None, None) or inputs.duration is not None
+        elif inputs.model == ECCENTRIC.name and not (
+            inputs.duration is None and tyres[0] is tyres[1] is None
         ):
             again = read_lasting_impulse(arguments, inputs.duration, tyres, **more)
         else:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from functools import partial
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -268,6 +269,10 @@ def warn_of_refusals(status: Any, advice: str = "see .status, or `on_failure='ra
     warn_of_cases(CollisionsWarning(text, code="refused_cases", counts=kinds), parts)
 
 
+_of_vehicle = attrgetter(*DOMAINS)
+_of_time = attrgetter(*TIME_DOMAINS)
+
+
 def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
     """The reader's checks of scalars, as checks of the input arrays; vehicles come first, as they
     are made first.
@@ -282,8 +287,9 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
                 found.append(Check(domain.faults, (value,), domain.holds, domain is FINITE))
 
     for vehicle in (inputs.a, inputs.b):
-        for name, domain in DOMAINS.items():
-            add_arrays(domain, getattr(vehicle, name))
+        for domain, value in zip(DOMAINS.values(), _of_vehicle(vehicle), strict=True):
+            if isinstance(value, np.ndarray):
+                add_arrays(domain, value)
         if vehicle.pivot is not None:
             add_arrays(FINITE, *vehicle.pivot)
             inertia = () if vehicle.yaw_inertia is None else (vehicle.yaw_inertia,)
@@ -325,8 +331,9 @@ def _lasting_checks(inputs: Inputs) -> list[Any]:
     from ..engine.batch import Check
 
     found = tyre_checks(inputs.tyres)
-    for name, domains in TIME_DOMAINS.items():
-        given = getattr(inputs, name)
+    for given, domains in zip(_of_time(inputs), TIME_DOMAINS.values(), strict=True):
+        if given is None:
+            continue
         parts = given if isinstance(given, tuple) else (given,)
         for part, domain in zip(parts, domains, strict=False):
             if isinstance(part, np.ndarray):

@@ -135,7 +135,8 @@ def impact_schema() -> dict[str, Any]:
             "tyres": _fields(Tyres, _GIVEN_AS),
             "pulse": _fields(Pulse, _RESULTS),
             "reconstruction": closed(
-                {f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)}
+                {f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)},
+                [f.name for f in fields(Reconstruction) if f.name not in _LATER],
             ),
         },
     }
@@ -272,6 +273,8 @@ _LISTED = {
     "refused": _each({"type": "boolean"}),
     "pdof_clock": {"anyOf": [{"type": "integer", "minimum": 1, "maximum": 12}, _VALUE, NULL]},
 }
+# What a record of an earlier version lacks.
+_LATER = ("found", "given")
 _RECONSTRUCTION = {
     "method": TEXT,
     "known": {"type": "array", "items": TEXT},
@@ -285,4 +288,7 @@ _RECONSTRUCTION = {
             NULL,
         ]
     },
+    "found": {"type": "array", "items": TEXT},
+    "given": {"anyOf": [{"type": "object", "additionalProperties": _VALUE}, NULL]},
+    **{name: {"anyOf": [_VALUE, NULL]} for name in ("duration", "drag_a", "drag_b")},
 }

@@ -300,13 +300,14 @@ def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
             for name, parts in outside.items()
         }
         if inputs.shape is not None:
-            # As precise as what they are worked out from.
+            # As precise as what they are worked out from, and one for each case also where only
+            # the tyres of a barrier differ.
             from ..quantities.precision import precision
 
             dtype = precision(named_numbers(inputs).values())
             outside = {
                 name: tuple(
-                    part.astype(dtype) if isinstance(part, np.ndarray) else part for part in parts
+                    np.broadcast_to(np.asarray(part, dtype), inputs.shape) for part in parts
                 )
                 for name, parts in outside.items()
             }

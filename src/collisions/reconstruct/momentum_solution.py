@@ -169,6 +169,11 @@ class MomentumSolution(Shown):
         return [f"{np.count_nonzero(which)} {many} {what}" for which, what in said if np.any(which)]
 
     @property
+    def found(self) -> tuple[str, ...]:
+        """Names of what was found, as opposed to what was given: those of ``unknowns``."""
+        return self.unknowns
+
+    @property
     def tyres(self) -> dict[str, Tyres]:
         """The tyres by vehicle, "a" and "b", of those that have some."""
         both = (("a", self.tyres_a), ("b", self.tyres_b))

@@ -244,12 +244,16 @@ def _answer(
     cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_failure: Any
 ) -> Impact:
     texts = dict(inputs.given or {})
+    known: dict[str, Any] = {name: end.numbers[name] for name in (end.kind, end.rule)}
     staying: list[Any] = []
     for label, body in (("a", inputs.a), ("b", inputs.b)):
         # The motion after differs from that of the vehicles before.
         of_body, of_motion = split_texts(body, _MOTION)
         staying.append(of_body)
         texts |= {f"{label}_after.{name}": text for name, text in of_motion.items()}
+        by_speed = {"speed", "course"} <= of_motion.keys()
+        names = ("speed", "course", "yaw_rate") if by_speed else ("vx", "vy", "yaw_rate")
+        known |= {f"{label}_after.{name}": getattr(body, name) for name in names}
     inputs = replace(inputs, given=texts or None)
     origins = instants = end.origins(regime)
     if inputs.tyres:
@@ -293,7 +297,8 @@ def _answer(
 
     def origin_of(origin: Origin, condition: Any, count: Any, where: Any = True) -> Reconstruction:
         velocity = () if inputs.tyres else origin.contact_velocity
-        return cases.provenance("planar", (end.kind, end.rule), condition, count, velocity, where)
+        names = end.kind, end.rule
+        return cases.provenance("planar", names, condition, count, velocity, where, known)
 
     def inputs_of(origin: Origin, keep: Any) -> Inputs:
         bodies = []

@@ -18,7 +18,7 @@ and the pulse: the readings are linear about the dw found last (Newton), until i
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -281,8 +281,8 @@ class RecorderScene(ComponentScene):
         return super()._judged(regime, speeds, moved, stays_open)
 
 
-def texts_of(texts: Any, recorders: Recorders | None) -> dict[str, Any]:
-    """The texts with those of recorders by names of their own: the result has the delta-V of the
+def by_own_names(known: Mapping[str, Any], recorders: Recorders | None) -> dict[str, Any]:
+    """What was known, with that of recorders by names of its own: the result has the delta-V of the
     centre of mass, which the readings are not, and an instant for a contact.
     """
     own: dict[str, str] = {}
@@ -294,4 +294,4 @@ def texts_of(texts: Any, recorders: Recorders | None) -> dict[str, Any]:
             f"recorder_{label}[1]": f"recorder_left_{label}",
             "duration": "recorder_duration",
         }
-    return {own.get(name, name): text for name, text in texts.items()}
+    return {own.get(name, name): value for name, value in known.items()}

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..impact.impact import Impact
 from ..impact.inputs import Inputs, Law, check_flag, read_inputs
-from ..impact.provenance import KNOWN, bounds_of
+from ..impact.provenance import KNOWN, Reconstruction, bounds_of
 from ..impact.recorded import Axes
 from ..impact.run import error_of, warn_of_refusals
 from ..impact.time_resolved_inputs import read_lasting
@@ -50,7 +50,7 @@ from .common import (
     split_texts,
 )
 from .lasting import numbers_of_times, tyre_faults
-from .recorder_place import RecorderScene, read_recorders, texts_of
+from .recorder_place import RecorderScene, by_own_names, read_recorders
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import MAY_SLIDE, ComponentScene, friction_shown
@@ -336,6 +336,7 @@ def speeds(
             else None
         )
         names, used_law, shape = counted(known), inputs.law or BRACH, cases.shape or ()
+        also = ("restitution",) if function else ()
         of_components = ComponentScene if recorders is None else partial(RecorderScene, recorders)
         kind: Callable[..., Scene] = (
             partial(of_components, shape=shape, regime=regime, slid=slid)
@@ -356,6 +357,7 @@ def speeds(
                         code="bad_combination",
                         argument="friction",
                     )
+                also = (FRICTION,)
                 numbers[FRICTION] = cases.values(ratio)
                 inputs = _with_friction(inputs, numbers[FRICTION])
 
@@ -370,8 +372,19 @@ def speeds(
             scene, found = roots_of(cases.shape is None and function is None)
         except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
             scene, found = roots_of(False)
-        texts = texts_of(reader.texts, recorders)
+        texts = by_own_names(reader.texts, recorders)
         inputs = replace(inputs, given={**texts, **(inputs.given or {})} or None)
+        told = known | {
+            f"course_{label}": angle.radians
+            for label, angle in courses.items()
+            if given[f"course_{label}"] is not None
+        }
+        told |= {
+            name: number
+            for name, number in (recorders.numbers if recorders else {}).items()
+            if given[name.partition("[")[0]] is not None
+        }
+        told = by_own_names(told, recorders)
 
         def again(**changes: Any) -> Impact:
             # Bounds are those of a contact without tyres.
@@ -379,7 +392,10 @@ def speeds(
             with quietly():
                 return speeds(**{**given, **bare, **changes})[0]
 
-        return _answers(cases, scene, found, inputs, known, function, forward_only, again)
+        provenance = partial(cases.provenance, "speeds", given=told, also=also)
+        return _answers(
+            cases, scene, found, inputs, known, function, forward_only, again, provenance
+        )
 
 
 def _refuse_with_tyres(given: dict[str, Any]) -> None:
@@ -679,9 +695,10 @@ def _answers(
     function: RestitutionOf | None,
     forward_only: bool,
     again: Callable[..., Impact],
+    provenance: Callable[..., Reconstruction],
 ) -> tuple[Impact, ...]:
     """The impact of each root; raises for a single case without one. ``again`` solves it with
-    other arguments.
+    other arguments, and ``provenance`` says how it was found.
     """
     faults = input_faults(scene.numbers, inputs.incomplete)
     of_walls = [
@@ -727,7 +744,7 @@ def _answers(
                 raise _stuck_or_slid(scene, known, say, again, bool(inputs.tyres))
             raise _refusal(scene, status, known, function, forward_only, say)
         names = (*scene.names, *getattr(scene, "recorders", ()))
-        origin = cases.provenance("speeds", names, root.condition, count)
+        origin = provenance(names, root.condition, count)
         if isinstance(scene, ComponentScene):
             origin = replace(origin, regime=scene.stated, one_sided=_sides(scene, cases, there))
         impact = run_forward(

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
 from ..derivation.evidence import momentum_inputs
-from ..derivation.explain import NOT_EXPLAINED, impact_inputs, no_uncertainty
+from ..derivation.explain import NOT_EXPLAINED, impact_inputs, key_of, no_uncertainty
 from ..impact.impact import Impact
 from ..kernels.elementwise import UNIT_INTERVAL
 from ..messages.errors import InputError
@@ -22,7 +22,7 @@ from .sections import EVIDENCE
 
 Form: TypeAlias = Literal["html", "markdown"]
 # What a page is filed under.
-FILED = ("case", "author", "date")
+FILED = ("exhibit", "case", "author", "date")
 _RESULTS = (Impact, MomentumSolution, Fit, Posterior)
 # Options of one impact.
 _OF_ONE = ("outline_a", "outline_b", "share_a", *EVIDENCE)
@@ -169,7 +169,7 @@ def checked(
 def inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
     """The inputs that a note can stand beside, by name."""
     if isinstance(impact, Impact):
-        found = [sections.key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
+        found = [key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
         for label, vehicle in (("a", impact.a.before), ("b", impact.b.before)):
             found += [f"{label}.{name}" for name, _ in sections.speed_rows(vehicle)]
         found += (

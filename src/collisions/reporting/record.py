@@ -39,7 +39,7 @@ from .found_again import contradicted_origin
 from .render import FENCE, RECORD
 from .sections import EVIDENCE, contradicted
 
-Result: TypeAlias = Impact | MomentumSolution | Fit | Posterior
+Result: TypeAlias = Impact | MomentumSolution | Fit | Posterior | Run
 REPORT_FORMAT = "collisions report 2"
 # The options that change the page, with the unit in which each is read; None for one that is not a
 # number.
@@ -58,6 +58,7 @@ _UNITS: dict[str, str | None] = {
             "author",
             "case",
             "date",
+            "exhibit",
         )
     ),
     "duration": "s",
@@ -74,6 +75,8 @@ _READ_AGAIN = 2e-9
 _OTHER_MACHINE = 1e-6
 # Sentences, which another version may word differently.
 _SENTENCES = ("choice.reason",)
+# What a record of an earlier version lacks.
+_LATER = ("reconstruction.found", "reconstruction.given")
 
 
 def record(impact: Result, options: Mapping[str, Any], uncertainty: Propagation | None) -> str:
@@ -110,6 +113,8 @@ def _one_record(impact: Result, uncertainty: Propagation | None) -> dict[str, An
             label: _other_texts(vehicle, inputs[label])
             for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b))
         }
+    elif isinstance(impact, Run):
+        whole["run"] = impact.to_dict()
     elif isinstance(impact, (Fit, Posterior)):
         whole[type(impact).__name__.lower()] = impact.to_dict()
     else:
@@ -433,7 +438,8 @@ def _differences(recorded: Any, found: Any, name: str, off: float) -> Iterator[s
         for key in dict.fromkeys([*found, *recorded]):
             path = f"{name}.{key}" if name else str(key)
             if key not in recorded:
-                yield f"{path}, which is missing"
+                if path not in _LATER:
+                    yield f"{path}, which is missing"
             elif key not in found:
                 yield f"{path}, which no impact has"
             elif path not in _SENTENCES:

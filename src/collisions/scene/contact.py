@@ -14,6 +14,7 @@ from ..messages.hints import hinted
 from ..quantities.attributes import Shown, lock, texts_given
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader, at_least_zero
+from ..quantities.refusals import must_be, yes_or_no
 from ..quantities.settings import Default
 from ..quantities.units import Input, Pair, Texts, Value, shown, texts_of
 from ..vehicle.drag import one_value, read_duration
@@ -155,16 +156,16 @@ class Contact(Shown):
             if not (option is None and name == "model") and not (
                 isinstance(option, str) and option in choices
             ):
-                text = f"{name} must be one of {', '.join(choices)}, got {shown(option)}"
-                reader.refuse(InputError(text, code="bad_option", argument=name))
+                listed = f"one of {', '.join(choices)}"
+                reader.refuse(must_be(name, listed, option, code="bad_option"))
         if not isinstance(incomplete, bool):
-            text = f"incomplete must be True or False, got {shown(incomplete)}"
-            reader.refuse(InputError(text, code="bad_option", argument="incomplete"))
+            reader.refuse(yes_or_no("incomplete", incomplete, code="bad_option"))
         found["model"] = "eccentric" if model is None else model
         if isinstance(model, str) and model == "time_resolved":
             text = (
-                "model 'time_resolved' is not offered in a scene yet; write model='eccentric' and "
-                "duration=, which has the impulse of the tyres during the contact"
+                "model 'time_resolved' is not offered in a scene yet; write "
+                "`model='eccentric'` and `duration=`, which has the impulse of the tyres "
+                "during the contact"
             )
             reader.refuse(InputError(text, code="not_offered", argument="model"))
         found["restitution"] = one_value(
@@ -349,8 +350,9 @@ def _check(
         listed = ", ".join(f"{name}=" for name in rules)
         got = " and ".join(f"{name}=" for name in given) or "none"
         text = (
-            f"give exactly one of {listed}; got {got}. There is no default, because it decides "
-            "cases: friction=0 is a frictionless contact, friction=inf one that never slips"
+            f"give exactly one of {listed}; got {got}. There is no default, because it "
+            "decides cases: `friction=0` is a frictionless contact, `friction=inf` one "
+            "that never slips"
         )
         reader.refuse(InputError(text, code="one_tangential", argument=FRICTION))
     if found["point"] is not None and found["normal"] is None:
@@ -359,13 +361,13 @@ def _check(
         )
         reader.refuse(MissingInputError(text, code="missing_normal", argument="normal"))
     if found["depth"] is not None and found["delay"] is not None:
-        refuse("give depth= or delay=, not both: each says when the impulse acts", "depth")
+        refuse("give `depth=` or `delay=`, not both: each says when the impulse acts", "depth")
     whole = found["normal"] is not None and (found["point"] is not None or model in _NO_POINT)
     for name in ("depth", "delay"):
         if found[name] is None:
             continue
         if not isinstance(found["at"], str):
-            refuse(f"{name} is counted from first touch; write at='touch' with it", name)
+            refuse(f"{name} is counted from first touch; write `at='touch'` with it", name)
         elif whole:
             refuse(
                 f"normal and point are given, so the impulse acts at first touch; leave {name} out",
@@ -378,12 +380,14 @@ def _check(
     ):
         refuse("plane says how the normal comes from the outlines; leave it or normal out", "plane")
     if found["tolerance"] is not None and model != "solve":
-        refuse("tolerance is for model='solve', which takes the least model within it", "tolerance")
+        refuse(
+            "tolerance is for `model='solve'`, which takes the least model within it", "tolerance"
+        )
     if found["duration"] is not None and not stated:
         refuse(
-            "duration is given without a model; write model='eccentric', which has the impulse of "
-            "the tyres during the contact (a contact followed in time is not offered in a scene "
-            "yet)",
+            "duration is given without a model; write `model='eccentric'`, which has the "
+            "impulse of the tyres during the contact (a contact followed in time is not "
+            "offered in a scene yet)",
             "duration",
         )
     if found["duration"] is not None and model in _NO_POINT:
@@ -396,4 +400,4 @@ def _check(
         and given not in ([], [FRICTION])
     ):
         other = next(name for name in given if name != FRICTION)
-        refuse(f"law {law!r} works with friction= alone, got {other}=", other)
+        refuse(f"law {law!r} works with `friction=` alone, got `{other}=`", other)

@@ -37,6 +37,7 @@ _BELOW_ZERO = {
     "speed": "negative_speed",
     "end_speed": "negative_speed",
     "friction": "bad_friction",
+    "height": "negative_length",
     "lock": "bad_fraction",
     "window": "negative_distance",
     "point_error": "negative_length",
