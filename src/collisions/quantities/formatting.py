@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 import re
 from functools import cache
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 from ..messages.errors import InputError
 from .refusals import must_be
+from .units import SYSTEMS as SYSTEMS
+from .units import UnitSystem as UnitSystem
 from .units import scale
 
 _FIGURES = 3  # of results without a fixed number of decimals: impulses and energies
@@ -154,11 +156,6 @@ class Numbers:
         return rounded(number, figures if known is None else known) + unit
 
 
-# The unit systems of explanations, reports, findings and figures.
-UnitSystem: TypeAlias = Literal["si", "metric", "us"]
-SYSTEMS: tuple[UnitSystem, ...] = ("si", "metric", "us")
-
-
 class _Kind(NamedTuple):
     si: str
     metric: str
@@ -224,7 +221,7 @@ def check_system(units: Any) -> None:
     if not isinstance(units, str) or units not in SYSTEMS:
         raise must_be(
             "units",
-            "'si', 'metric' or 'us'",
+            f"{', '.join(map(repr, SYSTEMS[:-1]))} or {SYSTEMS[-1]!r}",
             units,
             "; they are those of what is printed, not those of the inputs",
             code="bad_option",

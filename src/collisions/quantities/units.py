@@ -12,7 +12,7 @@ import re
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from threading import RLock
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, get_args
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -55,6 +55,9 @@ if TYPE_CHECKING:
 else:
     Value = Input = Pair = Impulse = Any
 
+# The unit systems of explanations, reports, findings and figures.
+UnitSystem: TypeAlias = Literal["si", "metric", "us"]
+SYSTEMS: tuple[UnitSystem, ...] = get_args(UnitSystem)
 _ANY_KIND = "a number with a unit"
 _EXAMPLES = {
     "kg": "1100 (kg), '1100 kg' or '2425 lb'",
@@ -319,9 +322,9 @@ def system_given(texts: Iterable[str]) -> str:
         [vote for vote in found if "speed" in vote],
         [vote for vote in found if vote != {"si"}],
     ):
-        agreed = set.intersection({"si", "metric", "us", "speed"}, *votes) - {"speed"}
+        agreed = set.intersection({*SYSTEMS, "speed"}, *votes) - {"speed"}
         if votes and agreed:
-            return next(name for name in ("si", "metric", "us") if name in agreed)
+            return next(name for name in SYSTEMS if name in agreed)
     return "si"
 
 
@@ -343,7 +346,7 @@ def _systems(text: str) -> set[str]:
     try:
         units = parse(text, _ANY_KIND, "")._units
     except UnitsError:
-        return {"si", "metric", "us"}
+        return {*SYSTEMS}
     names = {str(name) for name in units}
     speed = (
         {"speed"}
@@ -356,11 +359,7 @@ def _systems(text: str) -> set[str]:
         return speed | {"metric"}
     if names >= {"meter", "second"}:
         return speed | {"si"}
-    return (
-        {"si", "metric"}
-        if names & {"meter", "kilogram", "newton", "kilonewton"}
-        else {"si", "metric", "us"}
-    )
+    return {"si", "metric"} if names & {"meter", "kilogram", "newton", "kilonewton"} else {*SYSTEMS}
 
 
 def parse(text: str, unit: str, argument: str) -> Any:
