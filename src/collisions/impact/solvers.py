@@ -23,8 +23,8 @@ from .models import (
     TIME_RESOLVED,
     Model,
     float_function,
+    read_eccentric,
     read_for_solve,
-    read_lasting_impulse,
 )
 from .run import solve_inputs
 from .sticking import noted
@@ -355,7 +355,7 @@ def eccentric(
     if duration is not None or tyres_a is not None or tyres_b is not None:
         arguments = a, b, restitution, normal, point, tangential, law
         more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-        inputs = read_lasting_impulse(arguments, duration, (tyres_a, tyres_b), **more)
+        inputs = read_eccentric(arguments, duration, tyres_a, tyres_b, **more)
         return build(inputs, solve_inputs(ECCENTRIC, inputs, on_failure, threads, progress))
     outside = None if outside_a is outside_b is None else (outside_a, outside_b)
     return _solve(
@@ -630,7 +630,7 @@ def required_model(
     """
     arguments = a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-    inputs = read_for_solve(arguments, tolerance, duration, drag, (tyres_a, tyres_b), **more)
+    inputs = read_for_solve(arguments, tolerance, duration, drag, tyres_a, tyres_b, **more)
     from .choice import choose
 
     return in_units_of(choose(inputs)[0], inputs.texts)
@@ -713,7 +713,7 @@ def solve(
         raise no_argument("solve()", signature(solve).parameters, unknown, _ELSEWHERE)
     arguments = a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-    inputs = read_for_solve(arguments, tolerance, duration, drag, (tyres_a, tyres_b), **more)
+    inputs = read_for_solve(arguments, tolerance, duration, drag, tyres_a, tyres_b, **more)
     return noted(solved(inputs, on_failure, threads, progress))
 
 
