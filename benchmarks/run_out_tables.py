@@ -71,8 +71,9 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:.2g} %"
 
 
-def coverage(rows: list[dict[str, Any]]) -> str:
+def coverage(found: dict[str, Any]) -> str:
     """How often stated 95 % ranges held cars whose wheels spin."""
+    rows = found["rows"]
     kinds = list(dict.fromkeys(row["kind"] for row in rows))
     outputs = list(dict.fromkeys(row["output"] for row in rows))
     known = {(row["output"], row["kind"]): row for row in rows}
@@ -85,3 +86,15 @@ def coverage(rows: list[dict[str, Any]]) -> str:
             cells.append(f"**{share}**" if row["high"] < 0.95 else share)
         lines.append([output, *cells])
     return table(["95 % range of", *kinds], lines)
+
+
+def off_by_path(found: dict[str, Any]) -> str:
+    """What ``path`` is off by in other run-outs, in a phrase."""
+    off = found["off"]
+    return f"{100.0 * off['speed']:.1f} % in speed and {off['yaw_rate']:.2f} rad/s in yaw rate"
+
+
+def pooled(found: dict[str, Any]) -> str:
+    """The share held over all outputs."""
+    rows = [row for row in found["rows"] if row["kind"] == "all"]
+    return f"{100.0 * sum(row['held'] for row in rows) / sum(row['cars'] for row in rows):.1f} %"

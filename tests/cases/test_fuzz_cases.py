@@ -14,6 +14,8 @@ import pytest
 
 from collisions.cases.answers import answers
 from collisions.cases.read import SOLVERS, CaseError, descriptions, parameters, read_text
+from collisions.scene import Contact, Mover
+from collisions.travel import Tyres
 from fuzzing import _promptly
 from strategies import EXTREMES
 
@@ -44,6 +46,15 @@ FILES = [
      'low = 5.9, mode = 6, high = 6.1 } }\n'
      "energy_loss = 120000\nrestitution = 0.1\nnormal = 0.0\npoint = [0.0, 0.4]\nfriction = "
      "0.5\n"),
+    ('[[mover]]\nname = "A"\nmass = 1500\nspeed = "12 m/s +/- 1 m/s"\ncourse = 0\nheading = 0\n'
+     'x = -6\ny = 0.2\nyaw_inertia = 2500\noutline = [4.2, 1.8]\ndrag = 0.7\n[[mover]]\n'
+     'name = "B"\n'
+     'mass = 1200\nyaw_inertia = 1900\nheading = 0\nx = 0\ny = 0\noutline = [4, "1.7 m"]\n'
+     'tyres = { friction = 0.7, lock = [1, 1, 0, 0.1], wheelbase = 2.6, track = 1.5 }\n'
+     '[[contact]]\n'
+     'a = "A"\nb = "B"\nat = "touch"\nrestitution = "0.1 .. 0.3"\nfriction = 0.5\n[[surface]]\n'
+     'corners = [[3, -4], [9, -4], [9, 4]]\nfriction = 0.3\n[scene]\nslope = [0.01, 0]\n'
+     'tolerance = 1e-3\n'),
     ('[a]\nmass = 1500\nvx = "10 m/s .. 20 m/s"\n[b]\nmass = 1200\n[linear_central]\n'
      'restitution = 0.1\n[fit.observed]\n"b.delta_v" = "9 m/s +/- 0.3 m/s"\n'),
 ]  # fmt: skip
@@ -69,7 +80,11 @@ VALUES = (
      'stiffness_b = 1e5 } }'),
 )  # fmt: skip
 KEYS = sorted(
-    {name for function in SOLVERS.values() for name in parameters(function)}
+    {
+        name
+        for function in (*SOLVERS.values(), Mover, Contact, Tyres)
+        for name in parameters(function)
+    }
     | set(parameters(SOLVERS["solve"]))
 )
 LINES = (
@@ -79,6 +94,8 @@ LINES = (
     'correlation = [["a.mass", "b.mass", 2]]', "samples = 64", 'method = "interval"',
     'method = "first_order"', "seed = -1", "tolerance = 0.5",
     'units = "us"', "share_a = 0.5", 'notes = ["x"]', "outline_a = [4, 2]",
+    "[[mover]]", "[[contact]]", "[[surface]]", "[scene]", "[scene.shared]", "[observed]",
+    'road = ["A.drag", "B.tyres.friction"]', 'order = [["A", "B"]]', 'name = "C"',
     'limits = { restitution = 0.1 }', "derivation = true", "\ud800", "\x00", "[" * 3000,
     "x = " + "[" * 3000,
 )  # fmt: skip
@@ -162,6 +179,7 @@ def test_a_mutated_file_is_answered_or_refused_by_key():
                     (
                         lambda found=found: found.report("markdown"),
                         lambda found=found: found.what_if("metric"),
+                        lambda found=found: found.play("us"),
                     )
                 )
                 assert page()

@@ -263,9 +263,10 @@ def test_vehicles_of_one_name_keep_their_letters():
 
 
 def test_a_page_is_filed_under_case_author_and_date():
-    filed = {"case": 'No. 7 "<b>\\', "author": "J. Doe", "date": "25 November 2026"}
+    filed = {"exhibit": "12", "case": 'No. 7 "<b>\\', "author": "J. Doe"}
+    filed["date"] = "25 November 2026"
     page = report(crash(), figures=False, **filed)
-    line = f"Case: {filed['case']} · Author: J. Doe · Date: 25 November 2026"
+    line = f"Exhibit: 12 · Case: {filed['case']} · Author: J. Doe · Date: 25 November 2026"
     assert f'<p class="filed">{html.escape(line)}</p>' in page
     (foot,) = re.findall(r'@bottom-left \{ content: "([^"]*)"', page)
     assert "".join(chr(int(code, 16)) for code in re.findall(r"\\([0-9a-f]{6})", foot)) == line
@@ -277,6 +278,15 @@ def test_a_page_is_filed_under_case_author_and_date():
     for name in filed:
         with pytest.raises(col.InputError, match=f"{name} must be a text that says something"):
             report(crash(), figures=False, **{name: 7})
+
+
+def test_figures_are_numbered():
+    """From the one beside the answer on, without a gap, also on a page of several results."""
+    pages = (report(crash()), report([crash(), crash()]))
+    for page in pages:
+        numbers = [int(number) for number in re.findall(r"<figcaption>Figure (\d+)\. ", page)]
+        assert numbers == list(range(1, page.count("<figure>") + 1))
+    assert "<figcaption>Figure 1. The scene from above" in pages[0]
 
 
 def test_a_fit_and_a_posterior_answer_with_their_intervals():

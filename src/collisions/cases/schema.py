@@ -11,7 +11,10 @@ from typing import Any, get_args
 
 from ..reporting import report
 from ..reporting.what_if import SLIDERS, what_if
+from ..scene import Contact, Mover, Scene
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle
+from .crash import OF_MOVER, OF_SCENE, OF_SURFACE
 from .read import FUNCTIONS, SEVERAL, SOLVERS, STUDIES, descriptions, parameters, vehicles
 from .words import DISTRIBUTIONS
 
@@ -29,6 +32,11 @@ def case_schema() -> dict[str, Any]:
         module, _, own = name.rpartition(".")
         (reverse if module else tables)[own] = _arguments(function)
     tables["propagate"]["properties"]["outputs"] = {"type": "array", "items": {"type": "string"}}
+    tables |= _tables_of_scenes()
+    tables["observed"] = {
+        "type": "object",
+        "description": "what was observed, by name: of [posterior], or of [fit] if it is there",
+    }
     pair = {"type": "array", "items": {"type": ["number", "string"]}, "minItems": 2, "maxItems": 2}
     tables |= {
         "reconstruct": _object(reverse),
@@ -59,9 +67,8 @@ def case_schema() -> dict[str, Any]:
                 "anyOf": [{"type": ["number", "string"]}, {"$ref": "#/$defs/function"}],
             },
             "pair": {"type": "array", "items": _NUMBER},
-            "vehicle": _object(
-                _arguments(Vehicle)["properties"] | _arguments(Vehicle.from_speed)["properties"]
-            ),
+            "vehicle": _object(_of_vehicles()),
+            "tyres": _arguments(Tyres),
             "function": _nested(
                 {
                     name: _arguments(one, plain=name in DISTRIBUTIONS)
@@ -69,6 +76,45 @@ def case_schema() -> dict[str, Any]:
                 }
             ),
         },
+    }
+
+
+def _of_vehicles() -> dict[str, Any]:
+    found: dict[str, Any] = _arguments(Vehicle)["properties"]
+    found |= _arguments(Vehicle.from_speed)["properties"]
+    return found
+
+
+def _tables_of_scenes() -> dict[str, Any]:
+    """The tables of a whole crash: of some a file has several."""
+    tyres = {"$ref": "#/$defs/tyres"}
+    mover = _of_vehicles() | _arguments(Mover)["properties"] | {"tyres": tyres}
+    mover = {name: one for name, one in mover.items() if name not in ("pivot", "vehicle")}
+    for name in OF_MOVER:
+        mover.setdefault(name, {"type": "string"})
+    contact = _arguments(Contact)["properties"]
+    contact["tyres_after"] |= {"type": "object", "additionalProperties": tyres}
+    texts = {"type": "array", "items": {"type": "string"}}
+    own = _arguments(Scene)["properties"]
+    scene = {name: own.get(name, {}) for name in OF_SCENE}
+    scene["order"] |= {"type": "array", "items": texts}
+    scene["shared"] |= {"type": "object", "additionalProperties": texts}
+    scene["tolerance"] = {
+        "type": "number",
+        "description": descriptions(Scene.run)["tolerance"],
+    }
+    corners = {
+        "type": "array",
+        "items": {"$ref": "#/$defs/pair"},
+        "minItems": 3,
+        "description": "corners of the area in order [m]",
+    }
+    surface = dict(zip(OF_SURFACE, (corners, {"allOf": [_NUMBER]}), strict=True))
+    return {
+        "mover": {"type": "array", "items": _object(mover)},
+        "contact": {"type": "array", "items": _object(contact)},
+        "surface": {"type": "array", "items": _object(surface)},
+        "scene": _object(scene),
     }
 
 

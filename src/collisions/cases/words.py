@@ -28,6 +28,7 @@ _WITH_TEXTS = (
     (r"=\(((?:'[^']*'(?:, )?)+)\)", r" = [\1]"),
     (r"\bgot \(('[^']*'(?:, '[^']*')*),?\)", r"got [\1]"),
     (r"\b(?:unknowns|inputs)\['([^']*)'\]", r"\1"),
+    (r"\bContact\('([^']*)', '([^']*)', \.\.\.\)", r'[[contact]] with a = "\1", b = "\2"'),
     (r"\b(observed|limits|tolerance)\['([^']*)'\]", r'\1."\2"'),
     (
         r"; put the unit on the whole: .*?, or give numbers in SI",
@@ -48,6 +49,9 @@ _PYTHON = (
     (r"\bis None\b", "is not given"),
     (r"\branges go to collisions\.uncertainty\.propagate\b", "this key takes one number"),
     (r"\breconstruct\.(fit|posterior)\b", r"[\1]"),
+    (r"\b(give|in|to) (its|a|the) Mover\b", r"\1 \2 [[mover]]"),
+    (r"\b(give|in|to) (its|a|the) Contact\b", r"\1 \2 [[contact]]"),
+    (r"\bgive its Mover (\w+)= too", r"give its [[mover]] \1 too"),
     (r"\bor use Vehicle\.barrier\(\)", "or leave out the pivot"),
     (r"\bis written into the model\b", "is written as a number"),
     (r"\ban array or a list\b", "a list"),

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from itertools import pairwise
 from operator import attrgetter
 from typing import Any, NamedTuple
 
@@ -204,23 +205,16 @@ def _central(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
         )
     )
     given = [name for name in _VELOCITIES if name in known]
+    if "contact_duration" in known:
+        _while_held(page, s, v, given, known)
+        return
     if len(given) == 3:
         _last_velocity(page, s, v, *set(_VELOCITIES).difference(given))
         page.equation(
             "Restitution, as in (9)", e, (v["vb_after"] - v["va_after"]) / (v["va"] - v["vb"])
         )
         return
-    share_a, share_b, *_ = shares(a.start.mass, b.start.mass)
-    share = {"a": Symbol("f_A", share_a, "number"), "b": Symbol("f_B", share_b, "number")}
-    for symbol, own, other in ((share["a"], a, b), (share["b"], b, a)):
-        caption = f"Share of {own.label} in the change of relative velocity"
-        if a.fixed or b.fixed:
-            share_of_all = ZERO if own.fixed else ONE
-            page.fact(
-                f"{caption}, as one mass is infinite: {page.shown(symbol)}.", (symbol, share_of_all)
-            )
-        else:
-            page.equation(caption, symbol, other.mass / (a.mass + b.mass))
+    share = _shares(page, s)
     if len(given) == 1:
         page.equation(
             "Closing speed, from (8)", g, root(2.0 * s.loss / (s.mass * (1.0 - e.squared())))
@@ -253,6 +247,78 @@ def _central(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
         page.equation(f"Velocity of {name[1].upper()} before", v[name], found)
 
 
+def _shares(page: Page, s: Symbols) -> dict[str, Symbol]:
+    """Write the share of each vehicle in a change of their relative velocity."""
+    a, b = s.bodies
+    share_a, share_b, *_ = shares(a.start.mass, b.start.mass)
+    share = {"a": Symbol("f_A", share_a, "number"), "b": Symbol("f_B", share_b, "number")}
+    for symbol, own, other in ((share["a"], a, b), (share["b"], b, a)):
+        caption = f"Share of {own.label} in the change of relative velocity"
+        if a.fixed or b.fixed:
+            share_of_all = ZERO if own.fixed else ONE
+            page.fact(
+                f"{caption}, as one mass is infinite: {page.shown(symbol)}.", (symbol, share_of_all)
+            )
+        else:
+            page.equation(caption, symbol, other.mass / (a.mass + b.mass))
+    return share
+
+
+def _while_held(
+    page: Page, s: Symbols, v: dict[str, Symbol], given: list[str], known: tuple[str, ...]
+) -> None:
+    """Write an in-line impact in which tyres act, by velocities with half of what they do."""
+    origin = s.impact.reconstruction
+    assert origin is not None
+    duration: Any = origin.duration
+    own: Any = origin.drag_a, origin.drag_b
+    (a, b), e, g, r = s.bodies, s.e, s.closing, s.separation
+    drags = (page.system.answer(drag, "number") for drag in own)
+    page.say(
+        f"Tyres act during {page.number(duration, 'time')} with drags of "
+        f"{' (A) and '.join(drags)} (B): drag times weight times duration is an impulse from "
+        f"outside, {page.shown(a.pushed('x'))} and {page.shown(b.pushed('x'))}. It slows them by:"
+    )
+    slowed = {}
+    for body in (a, b):
+        by = ZERO if body.fixed else -(body.pushed("x") / body.mass)
+        slowed[body.label.lower()] = page.let(
+            f"Slowing of {body.label} by its tyres", f"s_{body.label}", "speed", by
+        )
+    half = HALF * (slowed["b"] - slowed["a"])
+    page.say(
+        "Velocities with half of it already taken before, and half of it not yet taken after, are "
+        "those of an impact without tyres: momentum and energy balance as in (2) and (8)."
+    )
+    without = {
+        name: velocity.plus(1.0 if name.endswith("after") else -1.0, HALF * slowed[name[1]])
+        for name, velocity in v.items()
+    }
+    closing = page.let("Closing speed of these", "g_0", "speed", g + half)
+    parting = page.let("Separation speed of these", "r_0", "speed", r + half)
+    share = _shares(page, s)
+    page.say(
+        f"The closing speed {page.symbol(g)} and the separation speed {page.symbol(r)} = e g "
+        f"solve what was known: {page.shown(g)} and {page.shown(r)}."
+    )
+    for pair in pairwise(given):
+        sides = _relation(without, share, [*pair], closing, parting)
+        page.balance("From two known velocities, (5) and (6)", *sides, "speed")
+    if "energy_loss" in known:
+        lost = HALF * s.mass * (closing.squared() - parting.squared())
+        page.balance("From the known energy (8)", s.loss, lost, "energy")
+    page.equation("Restitution", e, r / g)
+    for name, other, sign in (("va", "vb", 1.0), ("vb", "va", -1.0)):
+        if name in given:
+            continue
+        if other not in given and f"{name}_after" in given:
+            passed = share[name[1]] * (closing + parting)
+            found = (v[f"{name}_after"] + slowed[name[1]]).plus(sign, passed)
+        else:
+            found = v[other].plus(sign, g)
+        page.equation(f"Velocity of {name[1].upper()} before", v[name], found)
+
+
 def _last_velocity(page: Page, s: Symbols, v: Mapping[str, Symbol], missing: str) -> None:
     """Write the fourth velocity, from momentum or from a body at rest that nothing moves."""
     a, b = s.bodies
@@ -278,7 +344,7 @@ def _last_velocity(page: Page, s: Symbols, v: Mapping[str, Symbol], missing: str
 
 
 def _relation(
-    v: Mapping[str, Symbol],
+    v: Mapping[str, Expression],
     share: Mapping[str, Symbol],
     given: list[str],
     g: Expression,

@@ -99,8 +99,8 @@ def diagnose(
         heading.
     damage_delta_v_a, damage_delta_v_b : float, str or Quantity [m/s], or pair of them, optional
         Delta-V shown by the damage of a vehicle, or by its event data recorder, for
-        ``delta_v_off_damage``: the magnitude, or the pair (forward, left), which is compared as a
-        vector. For a pair the vehicle needs a heading.
+        ``delta_v_off_damage`` and, if both are given, ``delta_v_pair``: the magnitude, or the pair
+        (forward, left), which is compared as a vector. For a pair the vehicle needs a heading.
     units : "si", "metric" or "us", optional
         Units of the sentences: m/s, rad and J; km/h, degrees and kJ; mph, ft and ft lbf. By default
         "us" if the inputs were given so, else "metric". Measured value and limit stay in SI, as do

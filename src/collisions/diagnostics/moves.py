@@ -22,8 +22,8 @@ from .numbers import percent, share
 if TYPE_CHECKING:
     from .case import ImpactCase
 
-# How far each is moved either way. Contacts that were drawn before the measurements were read were
-# off by about as much as the first, one standard deviation (docs/validation.md, table 1).
+# How far each is moved either way. The first is about what contacts that were drawn before the
+# measurements were read were off by, one standard deviation (reference.CONTACT_POINT_DRAWN).
 ASIDE = 0.25
 TURN = 5.0
 OF_RESTITUTION = 0.1

@@ -60,7 +60,7 @@ Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "reversing", 
 if TYPE_CHECKING:  # loaded by those who make them: a tenth of the import
     from .choice import ModelChoice
     from .provenance import Reconstruction
-    from .pulse import Pulse
+    from .pulse import Parted, Pulse
 
 _new = object.__new__
 
@@ -926,6 +926,13 @@ def with_vehicles(impact: Impact, a: Vehicle, b: Vehicle) -> Impact:
     other = build(replace(impact.inputs, a=a, b=b), impact._answer)
     vars(other).update({name: getattr(impact, name) for name in ("reconstruction", "choice")})
     return other
+
+
+def way_to_separation(impact: Impact) -> Parted | None:
+    """How far a contact that was followed in time moves both vehicles; None for an impulse."""
+    from .pulse import parted
+
+    return None if impact._passed is None else parted(impact._passed)
 
 
 def part_of_impact(

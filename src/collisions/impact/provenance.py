@@ -54,6 +54,8 @@ class Reconstruction:
         on. None in a record of an earlier version, which has only the texts.
 
         .. versionadded:: 0.2.0
+    duration, drag_a, drag_b : float or array [s, -, -], optional
+        Of ``central``: how long the contact lasts, and the drags of the tyres meanwhile.
     """
 
     method: str
@@ -65,6 +67,9 @@ class Reconstruction:
     one_sided: Mapping[str, Any] | None = None
     found: tuple[str, ...] = ()
     given: Mapping[str, Any] | None = None
+    duration: Value | None = None
+    drag_a: Value | None = None
+    drag_b: Value | None = None
 
     def __eq__(self, other: object) -> bool:
         return same_fields(self, other) if isinstance(other, Reconstruction) else NotImplemented
@@ -101,9 +106,13 @@ class Known(NamedTuple):
     methods: tuple[str, ...]
 
 
+_CENTRAL = ("central",)
 KNOWN = {
     "energy_loss": Known("energy lost", "energy", "energy_loss", ("central", "planar", "speeds")),
     "closing_speed": Known("closing speed", "speed", "closing_speed", ("planar",)),
+    "contact_duration": Known(
+        "duration of the contact with its tyres", "time", "reconstruction.duration", _CENTRAL
+    ),
     "recorder_axes_turning": Known("in axes that turn with the car", "angle", "", ("speeds",)),
     "recorder_axes_fixed": Known("in axes of the heading, which stay", "angle", "", ("speeds",)),
     "recorder_duration": Known(
@@ -126,6 +135,12 @@ for _label in "ab":
         f"v{_label}": Known(f"velocity{_of} before", "speed", f"{_label}.before.vx", ()),
         f"v{_label}_after": Known(
             f"velocity{_of} after", "speed", f"{_label}.after.vx", ("central",)
+        ),
+        f"drag_{_label}": Known(
+            f"drag{_of} while the contact lasts",
+            "number",
+            f"reconstruction.drag_{_label}",
+            _CENTRAL,
         ),
         f"speed_{_label}": Known(f"speed{_of} before", "speed", f"{_label}.before.speed", _speeds),
         f"course_{_label}": Known(

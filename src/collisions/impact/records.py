@@ -272,6 +272,7 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
         one_sided=_sides(found.get("one_sided")),
         found=tuple(str(name) for name in names),
         given=_given_numbers(found.get("given")),
+        **{name: lock(read_strict(found.get(name))) for name in ("duration", "drag_a", "drag_b")},
     )
 
 
@@ -436,6 +437,9 @@ def _add(found: dict[str, tuple[Any, str | None]], name: str, value: Any, unit: 
     elif isinstance(value, Reconstruction):
         found[f"{name}.condition"] = value.condition, ""
         found[f"{name}.answers"] = value.answers, None
+        for inner, own in (("duration", "s"), ("drag_a", ""), ("drag_b", "")):
+            if getattr(value, inner) is not None:
+                found[f"{name}.{inner}"] = getattr(value, inner), own
         sides = value.one_sided or {}
         found |= {f"{name}.one_sided.{speed}": (side, None) for speed, side in sides.items()}
     elif isinstance(value, Pulse):

@@ -314,4 +314,5 @@ _RECONSTRUCTION = {
     },
     "found": {"type": "array", "items": _TEXT},
     "given": {"anyOf": [{"type": "object", "additionalProperties": _VALUE}, _NULL]},
+    **{name: {"anyOf": [_VALUE, _NULL]} for name in ("duration", "drag_a", "drag_b")},
 }

@@ -307,4 +307,15 @@ class Passed(NamedTuple):
     peak_acceleration_a: Any = nan
     peak_acceleration_b: Any = nan
     max_crush: Any = nan
+    # When the bodies were engaged the most, and how far each has gone and turned from the places
+    # that were given until they part; the turn as its cosine and sine.
+    engaged_time: Any = nan
+    moved_x_a: Any = nan
+    moved_y_a: Any = nan
+    turn_c_a: Any = nan
+    turn_s_a: Any = nan
+    moved_x_b: Any = nan
+    moved_y_b: Any = nan
+    turn_c_b: Any = nan
+    turn_s_b: Any = nan
     history: Any = None

@@ -20,12 +20,19 @@ from ..kernels.eccentric import eccentric
 from ..kernels.elementwise import FINITE, POSITIVE, restitution_domain
 from ..kernels.problem import Body, Contact, Problem
 from ..kernels.status import Answer
-from ..messages.errors import CollisionsError, IllConditionedWarning, InputError, Status
+from ..messages.errors import (
+    CollisionsError,
+    IllConditionedWarning,
+    InputError,
+    MissingInputError,
+    Status,
+)
 from ..messages.warning import quietly, warn_of_cases
 from ..quantities.attributes import lock
 from ..quantities.precision import precision
 from ..quantities.reading import ArgumentReader, amount, broadcast
-from ..quantities.units import Texts
+from ..quantities.units import Texts, shown
+from ..vehicle.drag import read_drag, read_duration
 from ..vehicle.vehicle import Vehicle
 
 # The numbers of a body, in the order in which ``forward`` takes them.
@@ -55,10 +62,12 @@ def forward(
     law: str,
     pinned: Iterable[bool] = (False, False),
     contact_velocity: tuple[Any, Any] | None = None,
+    outside: Any = None,
 ) -> Answer:
     """What the eccentric kernel answers for two bodies, each as its ``NUMBERS``."""
     a, b = (body_of(numbers, turns) for numbers, turns in zip(bodies, pinned, strict=True))
-    return eccentric(Problem(contact, a, b, contact_velocity=contact_velocity), rule, law)
+    problem = Problem(contact, a, b, outside=outside, contact_velocity=contact_velocity)
+    return eccentric(problem, rule, law)
 
 
 def counted(given: Iterable[str]) -> tuple[str, ...]:
@@ -112,6 +121,37 @@ def read_amounts(reader: ArgumentReader, given: Mapping[str, Any]) -> dict[str, 
         name: amount(reader, value, "J" if name == "energy_loss" else "m/s", name)
         for name, value in given.items()
     }
+
+
+def read_drags(reader: ArgumentReader, duration: Any, drags: dict[str, Any]) -> dict[str, Any]:
+    """Duration and drags: all of them, or none."""
+    given = {name: drag for name, drag in drags.items() if drag is not None}
+    if (duration is None) == bool(given):
+        lacking = "duration" if duration is None else "drag_a"
+        text = (
+            f"{' and '.join(given)} need a duration, over which tyres act; write duration='100 ms'"
+            if given
+            else "duration counts for drag_a and drag_b alone, and neither was given; write "
+            "drag_b=0.7, or leave it out"
+        )
+        reader.refuse(MissingInputError(text, code="bad_combination", argument=lacking))
+    if duration is None or not given:
+        return {}
+    found = {"duration": read_duration(reader, duration)}
+    if isinstance(found["duration"], float) and found["duration"] == 0.0:
+        text = f"duration must be > 0, got {shown(duration)}; leave it and the drags out instead"
+        reader.refuse(InputError(text, code="not_positive", argument="duration"))
+    return found | {
+        name: read_drag(reader, given.get(name, 0.0), name) for name in ("drag_a", "drag_b")
+    }
+
+
+def drag_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
+    """The faults of arrays of duration and drags."""
+    if "duration" not in numbers:
+        return []
+    below = [(np.less(numbers[name], 0.0), Status.NEGATIVE_SIZE) for name in ("drag_a", "drag_b")]
+    return [(np.less_equal(numbers["duration"], 0.0), Status.NOT_POSITIVE), *below]
 
 
 def split_texts(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], dict[str, str]]:

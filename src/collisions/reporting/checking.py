@@ -21,7 +21,7 @@ from .sections import EVIDENCE
 
 Form: TypeAlias = Literal["html", "markdown"]
 # What a page is filed under.
-FILED = ("case", "author", "date")
+FILED = ("exhibit", "case", "author", "date")
 _RESULTS = (Impact, MomentumSolution, Fit, Posterior)
 # Options of one impact.
 _OF_ONE = ("outline_a", "outline_b", "share_a", *EVIDENCE)

@@ -37,7 +37,7 @@ from .found_again import contradicted_origin
 from .render import FENCE, RECORD
 from .sections import EVIDENCE, contradicted
 
-Result: TypeAlias = Impact | MomentumSolution | Fit | Posterior
+Result: TypeAlias = Impact | MomentumSolution | Fit | Posterior | Run
 REPORT_FORMAT = "collisions report 2"
 # The options that change the page, with the unit in which each is read; None for one that is not a
 # number.
@@ -56,6 +56,7 @@ _UNITS: dict[str, str | None] = {
             "author",
             "case",
             "date",
+            "exhibit",
         )
     ),
     "duration": "s",
@@ -110,6 +111,8 @@ def _one_record(impact: Result, uncertainty: Propagation | None) -> dict[str, An
             label: _other_texts(vehicle, inputs[label])
             for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b))
         }
+    elif isinstance(impact, Run):
+        whole["run"] = impact.to_dict()
     elif isinstance(impact, (Fit, Posterior)):
         whole[type(impact).__name__.lower()] = impact.to_dict()
     else:

@@ -135,8 +135,10 @@ class _Sheet(Page):
         # Apart from ``parts``, to which equations are written: a report has those in its derivation
         # alone.
         self.blocks: list[str] = []
-        # What stands at the top and in the footer of a print: case, author and date.
+        # What stands at the top and in the footer of a print: exhibit, case, author and date.
         self.filed: tuple[str, ...] = ()
+        # How many figures stand on the page.
+        self.drawn = 0
         # Of the headings: one level down within a part, of which the ids of figures have a prefix.
         self.level, self.prefix = 2, ""
 
@@ -222,7 +224,7 @@ class Html(_Sheet):
         self.blocks.append(f"<h1>{self._title}</h1>")
 
     def file(self, entries: Sequence[tuple[str, str]]) -> None:
-        """Case, author and date, below the title and in the footer of a print."""
+        """Exhibit, case, author and date, below the title and in the footer of a print."""
         self.filed = tuple(f"{what}: {text}" for what, text in entries)
         self.blocks.append(f'<p class="filed">{escape(" · ".join(self.filed))}</p>')
 
@@ -288,8 +290,10 @@ class Html(_Sheet):
         self.blocks += ["<ul>", *texts, "</ul>"]
 
     def picture(self, caption: str, svg: str) -> None:
-        """A figure as SVG, with its caption."""
-        self.blocks += ["<figure>", svg, f"<figcaption>{escape(caption)}</figcaption>", "</figure>"]
+        """A figure as SVG, with its number and caption."""
+        self.drawn += 1
+        text = escape(f"Figure {self.drawn}. {caption}")
+        self.blocks += ["<figure>", svg, f"<figcaption>{text}</figcaption>", "</figure>"]
 
     def working(self, text: str) -> None:
         """The Markdown of a derivation, below a heading of the report: its title is left out."""
@@ -333,7 +337,7 @@ class Markdown(_Sheet):
         self.blocks.append(f"# {_escaped(text)}")
 
     def file(self, entries: Sequence[tuple[str, str]]) -> None:
-        """Case, author and date, below the title."""
+        """Exhibit, case, author and date, below the title."""
         self.blocks.append(_line(" · ".join(f"{what}: {text}" for what, text in entries)))
 
     def heading(self, text: str) -> None:

@@ -319,6 +319,7 @@ def contradicted(impact: Impact) -> Iterator[str]:
         "energy": _COMES_OUT * (abs(impact.energy_absorbed) + abs(impact.energy_loss)),
         "yaw rate": _COMES_OUT * turning + _TOGETHER,
         "angle": _COMES_OUT + together,
+        **dict.fromkeys(("time", "number"), _COMES_OUT),
     }
     for one in evidence_of(impact):
         unit = SI_UNITS[one.kind]

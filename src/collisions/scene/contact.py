@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any, Literal, TypeAlias
 
 from ..impact.inputs import Law
-from ..kernels.contact_laws import FRICTION, LAWS, RULES
+from ..kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from ..kernels.elementwise import FINITE, Domain, restitution_domain
 from ..messages.errors import InputError, MissingInputError
 from ..messages.hints import hinted
@@ -30,6 +30,7 @@ PLANES, MODELS = (
     ("face", "crossings"),
     ("linear_central", "oblique_central", "eccentric", "time_resolved", "solve"),
 )
+IN_TIME = "time_resolved"
 _NO_POINT = ("linear_central", "oblique_central")
 
 
@@ -67,18 +68,22 @@ class Contact(Shown):
         Time from first touch to the impulse, 0.03 s if no depth is given.
     plane : {"face", "crossings"}, optional
         How normal and point come from the outlines.
-    model : {"linear_central", "oblique_central", "eccentric", "solve"}, optional
-        The solver; ``eccentric`` if not given. ("time_resolved" is not offered in a scene yet.)
+    model : {"linear_central", "oblique_central", "eccentric", "time_resolved", "solve"}, optional
+        The solver. If not given it is ``time_resolved`` with a ``duration``, else ``eccentric``.
     duration : float, str, Quantity or array [s], optional
-        How long the contact lasts, for the impulse of the tyres, as for ``eccentric``, with
-        ``model`` "eccentric" or "solve", which then has to be stated. The vehicles
-        then move on by the velocities after it until it has passed, and from there on their tyres.
+        How long the contact lasts. ``time_resolved`` follows it from first touch, or, at time 0,
+        about the maximum engagement at which the states are; the vehicles go on from where it
+        leaves them, and one that touches another meanwhile strikes it when the contact has ended.
+        With the model "eccentric" it is for the impulse of the tyres; the vehicles then move on by
+        the velocities after it until it has passed, and from there on their tyres. For "solve",
+        both.
     tolerance : float, str, Quantity or array [m/s], optional
         With the model "solve", the largest error that is accepted.
     friction, impulse_ratio, critical_fraction : float, str, Quantity or array [-], optional
-        Exactly one of these, as for ``eccentric``; none with "linear_central".
+        Exactly one of these, as for ``eccentric``; none with "linear_central", and ``friction``
+        with "time_resolved".
     law : {"brach", "kudlich-slibar", "stronge"}, optional
-        As for ``eccentric``.
+        As for ``eccentric``; "time_resolved" has a law of its own.
     incomplete : bool, optional
         As for ``eccentric``.
     tyres_after : dict of travel.Tyres, optional
@@ -160,13 +165,8 @@ class Contact(Shown):
         if not isinstance(incomplete, bool):
             text = f"incomplete must be True or False, got {shown(incomplete)}"
             reader.refuse(InputError(text, code="bad_option", argument="incomplete"))
-        found["model"] = "eccentric" if model is None else model
-        if isinstance(model, str) and model == "time_resolved":
-            text = (
-                "model 'time_resolved' is not offered in a scene yet; write model='eccentric' and "
-                "duration=, which has the impulse of the tyres during the contact"
-            )
-            reader.refuse(InputError(text, code="not_offered", argument="model"))
+        instant = "eccentric" if duration is None else IN_TIME
+        found["model"] = instant if model is None else model
         found["restitution"] = one_value(
             reader, restitution, "", "restitution", restitution_domain(incomplete is True)
         )
@@ -187,7 +187,7 @@ class Contact(Shown):
             domain: Domain = RULES[name].domain
             found[name] = None if value is None else one_value(reader, value, "", name, domain)
         found["tyres_after"] = _tyres_after(reader, tyres_after, (a, b))
-        _check(reader, found, rules, stated=model is not None)
+        _check(reader, found, rules)
         reader.close()
         texts = Texts(
             {key: text for key, text in reader.texts.items() if not key.startswith("normal[")}
@@ -239,6 +239,11 @@ class Contact(Shown):
     def touches(self) -> bool:
         """Whether the contact is a rule for every touch."""
         return isinstance(self.at, str)
+
+    @property
+    def in_time(self) -> bool:
+        """Whether the contact is followed in time from first touch."""
+        return self.model == IN_TIME
 
     @property
     def rule(self) -> str | None:
@@ -332,9 +337,7 @@ def _tyres_after(reader: ArgumentReader, given: Any, pair: tuple[Any, Any]) -> M
     return dict(given)
 
 
-def _check(
-    reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str, Any], *, stated: bool
-) -> None:
+def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str, Any]) -> None:
     """Refuse arguments that do not go together."""
 
     def refuse(text: str, argument: str, kind: type[InputError] = InputError) -> None:
@@ -379,13 +382,23 @@ def _check(
         refuse("plane says how the normal comes from the outlines; leave it or normal out", "plane")
     if found["tolerance"] is not None and model != "solve":
         refuse("tolerance is for model='solve', which takes the least model within it", "tolerance")
-    if found["duration"] is not None and not stated:
-        refuse(
-            "duration is given without a model; write model='eccentric', which has the impulse of "
-            "the tyres during the contact (a contact followed in time is not offered in a scene "
-            "yet)",
-            "duration",
-        )
+    if model == IN_TIME:
+        if found["duration"] is None:
+            text = (
+                "model 'time_resolved' needs duration=, such as '100 ms'; for a contact of an "
+                "instant write model='eccentric'"
+            )
+            reader.refuse(MissingInputError(text, code="one_stiffness", argument="duration"))
+        for name in given:
+            if name != FRICTION:
+                refuse(f"model 'time_resolved' works with friction= alone, got {name}=", name)
+        if found["law"] != BRACH:
+            refuse("model 'time_resolved' has a law of its own; leave law out", "law")
+        if found["incomplete"] is True:
+            refuse(
+                "model 'time_resolved' follows a contact to its end; leave incomplete out",
+                "incomplete",
+            )
     if found["duration"] is not None and model in _NO_POINT:
         refuse(f"model {model!r} takes no time; leave duration out, or use eccentric", "duration")
     law = found["law"]

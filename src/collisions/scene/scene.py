@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 # Names that results and inputs of a scene have already.
 RESERVED = ("contacts", "impacts", "times", "surfaces", "slope", "energy", "momentum")
 _FINEST, _COARSEST = 1e-10, 1e-2
-_TOLERANCE = Default(1e-5)
+TOLERANCE = Default(1e-5)
+"""How finely motion on tyres is followed, where nothing else is asked for."""
 
 
 @dataclass(frozen=True, slots=True, init=False, eq=False, repr=False)
@@ -138,7 +139,7 @@ class Scene(Shown):
         return broadcast(dict(self._numbers()))
 
     @hinted
-    def run(self, *, tolerance: float = _TOLERANCE) -> Run:
+    def run(self, *, tolerance: float = TOLERANCE) -> Run:
         """Follow the scene from the start, contact by contact, until all rest or go on unhindered.
 
         Parameters
@@ -232,7 +233,7 @@ class Scene(Shown):
         return results_of(self)
 
     def as_model(
-        self, names: Sequence[str], outputs: Sequence[str], *, tolerance: float = _TOLERANCE
+        self, names: Sequence[str], outputs: Sequence[str], *, tolerance: float = TOLERANCE
     ) -> Callable[..., dict[str, Any]]:
         """The scene as a function of some of its numbers, as ``propagate``, ``fit`` and
         ``posterior`` take it.
@@ -495,8 +496,10 @@ def _read_contacts(
                 )
                 reader.refuse(InputError(text, code="rule_twice", argument="contacts"))
             rules.add(pair)
-        if contact.duration is not None and not any(
-            name in movers and movers[name].tyres is not None for name in names
+        if (
+            contact.duration is not None
+            and not contact.in_time
+            and not any(name in movers and movers[name].tyres is not None for name in names)
         ):
             text = (
                 f"contacts[{i}] has a duration, which is for the impulse of tyres, and neither "

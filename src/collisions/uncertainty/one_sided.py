@@ -53,8 +53,9 @@ class OneSided:
     sides: Any = 0
 
     def __post_init__(self) -> None:
-        sides = np.asarray(self.sides)
-        if sides.dtype.kind not in "iuf" or not np.isin(sides, (-1, 0, 1)).all():
+        of_sides = ArgumentReader(trusted=("sides",))
+        sides = np.asarray(of_sides.number(self.sides, "", "sides"))
+        if of_sides.problems or not np.isin(sides, (-1, 0, 1)).all():
             raise InputError(
                 f"sides must be 1 (at least the value), -1 (at most) or 0 (known both ways), or an "
                 f"array of these, got {shown(self.sides)}",
