@@ -313,7 +313,7 @@ class LogNormal(NormalFamily):
     673067
     """
 
-    __slots__ = ("_median", "_log_sd")
+    __slots__ = ("_log_sd", "_median")
 
     _words = "log-normal"
 
