@@ -29,9 +29,9 @@ from ..quantities.units import Value, to_quantity
 from .inputs import (
     Inputs,
     ModelName,
+    errors_of_missing,
     first_case,
-    lacking,
-    missing_numbers,
+    missing_inputs,
     named_numbers,
     part_of,
     part_of_inputs,
@@ -194,7 +194,7 @@ def choose(inputs: Inputs, threads: int = 1, progress: Any = None) -> tuple[Mode
         if isinstance(tolerance, float)
         else broadcast({"tolerance": tolerance, **named_numbers(inputs)})
     )
-    missing = tuple(f"{label}.{name}" for label, name in lacking(a, b))
+    missing = tuple(f"{label}.{name}" for label, name in missing_inputs(a, b))
     missing += () if inputs.point is not None else ("point",)
     if nobody := FULL.beyond(inputs):
         text = f"no model that solve chooses from takes {' and '.join(nobody)}; leave it out"
@@ -302,7 +302,7 @@ def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
     """Raise for all missing inputs, in a batch for the first case that needs them."""
     place = f"{first_case(lacks)[1]}: " if isinstance(lacks, np.ndarray) else ""
     reader = ArgumentReader()
-    for error in missing_numbers(inputs.a, inputs.b, inputs.point):
+    for error in errors_of_missing(inputs.a, inputs.b, inputs.point):
         reader.problems.append(type(error)(place + str(error), code=error.code, **error.fields))
     reader.close()
 

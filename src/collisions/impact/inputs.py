@@ -29,7 +29,7 @@ from ..vehicle.vehicle import (
     DOMAINS,
     NAMES,
     Vehicle,
-    missing,
+    error_of_missing,
     not_a_vehicle,
     numbers_of,
     vehicle_of,
@@ -367,7 +367,7 @@ def plain_inputs(
         and (not lawful or (type(law) is str and law in LAWS))
         and not units_required.get()
         and (pinned or a.pivot is b.pivot is None)
-        and (not placed or not missing_numbers(a, b, point))
+        and (not placed or not errors_of_missing(a, b, point))
         and (
             point is None
             or (
@@ -420,7 +420,7 @@ def read_inputs(
     reader = ArgumentReader()
     reader.problems.extend(problems)
     if model in PLACED:
-        reader.problems.extend(missing_numbers(a, b, point, model))
+        reader.problems.extend(errors_of_missing(a, b, point, model))
     if model not in PINNED:
         reader.problems.extend(_pinned(model, a, b))
     for label, vehicle in (("a", a), ("b", b)):
@@ -485,7 +485,7 @@ def check_flag(reader: ArgumentReader, name: str, given: Any) -> None:
         )
 
 
-def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
+def missing_inputs(a: Any, b: Any) -> list[tuple[str, str]]:
     """Vehicle and field of each input that the eccentric model needs and that is None; a fixed body
     needs no position.
     """
@@ -506,11 +506,16 @@ def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
     return found
 
 
-def missing_numbers(a: Any, b: Any, point: Any, model: str = "eccentric") -> Sequence[InputError]:
+def errors_of_missing(
+    a: Any, b: Any, point: Any, model: str = "eccentric"
+) -> Sequence[InputError]:
     """One error for each input that a model with places needs and that was not given."""
     if point is not None and _is_complete(a) and _is_complete(b):
         return ()
-    found = [missing(a if label == "a" else b, name, model, label) for label, name in lacking(a, b)]
+    found = [
+        error_of_missing(a if label == "a" else b, name, model, label)
+        for label, name in missing_inputs(a, b)
+    ]
     if point is None:
         text = (
             f"point is None, and {model} needs it; give the scene point (x, y) at which the "

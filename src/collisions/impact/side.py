@@ -31,7 +31,7 @@ from ..quantities.formatting import clock_hour
 from ..quantities.reading import ArgumentReader, broadcast, widened
 from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers
 from ..quantities.units import Input, Pair, Texts, Value
-from ..vehicle.vehicle import Vehicle, missing, moved, turn_at, with_name, without_turning
+from ..vehicle.vehicle import Vehicle, error_of_missing, moved, turn_at, with_name, without_turning
 from .inputs import Inputs
 from .recorded import Axes, read_axes, read_place, recorded
 
@@ -410,7 +410,9 @@ class Side(Frozen, Summarized):
                 code="no_pulse",
             )
         if self.before.heading is None:
-            raise missing(self.before, "heading", "what its recorder shows", "ab"[self._index])
+            raise error_of_missing(
+                self.before, "heading", "what its recorder shows", "ab"[self._index]
+            )
         reader = ArgumentReader()
         if isinstance(time, (list, tuple)):
             time = [reader.number(one, "s", "time") for one in time]
@@ -509,13 +511,13 @@ class Side(Frozen, Summarized):
     def _missing(self, name: str) -> MissingInputError | None:
         """The error for an attribute that is None, if a field of the vehicle is missing."""
         if name not in ("moment_arm", "normal_arm", "gamma"):
-            return missing(self.before, "heading", name, "ab"[self._index])
+            return error_of_missing(self.before, "heading", name, "ab"[self._index])
         lacking = [
             field for field in ("x", "y", "yaw_inertia") if getattr(self.before, field) is None
         ]
         if self._inputs.point is None or not lacking:
             return None
-        return missing(self.before, lacking[0], name, "ab"[self._index])
+        return error_of_missing(self.before, lacking[0], name, "ab"[self._index])
 
     def _pivot_impulse(self, dv: Value, impulse: Value, axis: int) -> Value:
         if self.before.pivot is None:

@@ -22,7 +22,7 @@ from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.units import shown
 from ..vehicle.drag import GRAVITY, read_drag, read_duration
 from ..vehicle.tyres import Tyres, kernel_numbers, not_tyres
-from ..vehicle.vehicle import Vehicle, missing
+from ..vehicle.vehicle import Vehicle, error_of_missing
 from .inputs import (
     CRUSH_UNITS,
     NO_IMPULSE,
@@ -130,7 +130,7 @@ def read_tyres(
             and vehicle.heading is None
             and not np.all(np.isinf(vehicle.mass))
         ):
-            reader.refuse(missing(vehicle, "heading", f"{model} with {name}", label))
+            reader.refuse(error_of_missing(vehicle, "heading", f"{model} with {name}", label))
     stray = {name: extra.get(name) for name in ("drag", *_SIZES)}
     stray = {
         name: given

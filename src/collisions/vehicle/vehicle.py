@@ -414,7 +414,7 @@ class Vehicle(_AsGiven):
             return vx + turn_x, vy + turn_y
 
     def _missing(self, name: str) -> MissingInputError | None:
-        return None if name in ("pivot", "given") else missing(self, name, f".q.{name}")
+        return None if name in ("pivot", "given") else error_of_missing(self, name, f".q.{name}")
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Vehicle):
@@ -628,11 +628,11 @@ def needed(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle"
     """The value of an optional field, or a MissingInputError that names the purpose."""
     value = getattr(vehicle, name)
     if value is None:
-        raise missing(vehicle, name, purpose, label)
+        raise error_of_missing(vehicle, name, purpose, label)
     return value
 
 
-def missing(
+def error_of_missing(
     vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle"
 ) -> MissingInputError:
     """The error for a vehicle without a field that is needed."""
