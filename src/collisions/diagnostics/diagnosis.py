@@ -37,8 +37,8 @@ _CHECKS_OF = {
     for kind in (ImpactCase, MomentumCase)
 }
 LIMITS: Mapping[str, Limit] = {check.code: check.limit for check in _CHECKS}
-"""By code, in the order in which findings are listed: what is measured, its default limit and where
-that is from.
+"""What each finding measures, its default limit and where that is from, by code and in the order in
+which findings are listed.
 """
 
 _single = partial(single_number, text="takes one value: diagnose takes one case")

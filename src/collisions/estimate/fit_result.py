@@ -314,8 +314,8 @@ class Fit(SpeedsFound, Shown):
 
     @property
     def inputs(self) -> dict[str, Normal]:
-        """By unknown, the estimate as a normal distribution within its bounds, as
-        ``uncertainty.propagate`` takes it.
+        """Estimates by unknown, each a normal distribution within its bounds, as
+        ``uncertainty.propagate`` takes them.
         """
         self._check_determined("inputs")
         return {name: self._as_normal(name) for name in self.names}

@@ -40,21 +40,21 @@ from ..vehicle.vehicle import (
 ModelName: TypeAlias = Literal["linear_central", "oblique_central", "eccentric", "time_resolved"]
 Law: TypeAlias = Literal["brach", "kudlich-slibar", "stronge"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
-# Of an impulse, as given: both vehicles, restitution, normal, point, values of ``RULES``, and law.
+# Arguments of an impulse: both vehicles, restitution, normal, point, values of ``RULES``, and law.
 Arguments: TypeAlias = tuple[Any, Any, Any, Any, Any, tuple[Any, ...], Any]
 
 _numbers = attrgetter(*DOMAINS)
 _ALONG_X = (1.0, 0.0)
 _new = object.__new__
-# Of a crush stiffness: force at no crush and its growth with crush, each for a width, and the
-# width.
+# Units of a crush stiffness: force at no crush and its growth with crush, each for a width, and
+# the width.
 CRUSH_UNITS = ("N/m", "N/m**2", "m")
 NO_IMPULSE = (0.0, 0.0, 0.0)
 OUTSIDE = ("outside_a", "outside_b")
 TYRES = ("tyres_a", "tyres_b")
 _SLIP = (*RULES, "law", "incomplete")
 STIFFNESSES = ("duration", "stiffness", "crush_a", "crush_b")
-# By solver, its arguments beyond vehicles, restitution and normal.
+# Arguments of each solver beyond vehicles, restitution and normal.
 ARGUMENTS = {
     "linear_central": ("incomplete",),
     "oblique_central": _SLIP,
@@ -506,9 +506,7 @@ def missing_inputs(a: Any, b: Any) -> list[tuple[str, str]]:
     return found
 
 
-def errors_of_missing(
-    a: Any, b: Any, point: Any, model: str = "eccentric"
-) -> Sequence[InputError]:
+def errors_of_missing(a: Any, b: Any, point: Any, model: str = "eccentric") -> Sequence[InputError]:
     """One error for each input that a model with places needs and that was not given."""
     if point is not None and _is_complete(a) and _is_complete(b):
         return ()

@@ -157,7 +157,7 @@ def with_motion(impact: Impact, time: Any, geometry: str) -> list[Any]:
         return [math.nan] * 2
     e = impact.restitution
     passed = pulse.mean_passed(e)
-    # By how much of the duration times the velocity before, and times its change, a body has gone
+    # Shares of the duration times the velocity before, and times its change, that a body has gone
     # on from first contact: at maximum engagement, on the mean while the force acts, and at the
     # end.
     most, acting, last = (

@@ -220,7 +220,7 @@ TIME_RESOLVED = Model(
 BY_NAME = {model.name: model for model in (*MODELS, TIME_RESOLVED)}
 
 
-# Of ``ARGUMENTS``, those that ``Arguments`` holds.
+# Those of ``ARGUMENTS`` that ``Arguments`` holds.
 _IN_ARGUMENTS = {*RULES, "law", "point"}
 # The parts of a problem that not every impact has.
 _OPTIONAL = ("a.pivot", "b.pivot", "outside", "contact_velocity")

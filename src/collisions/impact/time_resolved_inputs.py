@@ -37,7 +37,7 @@ from .inputs import (
 from .pulse import passed
 
 Geometry: TypeAlias = Literal["maximum_engagement", "first_contact", "fixed"]
-# Of its numbers, those that have to be above 0; the others may be 0.
+# Domains of its numbers: some have to be above 0, and the others may be 0.
 DOMAINS = {
     "duration": (POSITIVE_FINITE,),
     "stiffness": (POSITIVE_FINITE,),
@@ -234,7 +234,7 @@ def crushes(inputs: Inputs) -> dict[str, tuple[Any, ...]]:
 
 
 def residual_crushes(inputs: Inputs, peak_force: Any) -> dict[str, Any]:
-    """By vehicle what is left of its crush, in CRASH's meaning: 0 where the largest crush was not
+    """Crush that is left, by vehicle, in CRASH's meaning: 0 where the largest crush was not
     beyond A/B.
     """
     found = {}

@@ -52,7 +52,7 @@ class Derived(Generic[T]):
             # Refused cases are NaN or infinite; numpy need not warn of them again.
             with np.errstate(all="ignore"):
                 value = lock(self.work_out(owner))
-        # Of several threads that worked it out, the first keeps its own: all see one object.
+        # The first of several threads that worked it out keeps its own: all see one object.
         return value if kept is None else kept.setdefault(self.name, value)
 
     if TYPE_CHECKING:
@@ -65,7 +65,7 @@ class LookedUp:
 
     __slots__ = ()
 
-    # By attribute of something within the result, where it is found: a missing name is looked up
+    # Where the attributes of something within the result are found: a missing name is looked up
     # there.
     _elsewhere: ClassVar[Mapping[type[Any], str]] = {}
 

@@ -245,22 +245,22 @@ class Output(Summarized):
 
     @property
     def contributions(self) -> dict[str, float]:
-        """By input, the share of the variance due to it alone, largest first; the rest, up to 1, is
+        """Share of the variance due to each input alone, largest first; the rest, up to 1, is
         interaction.
         """
         return _ranked(self._shares().first)
 
     @property
     def total_contributions(self) -> dict[str, float]:
-        """By input, the share of the variance due to it with all its interactions: what is left
-        when the others are known.
+        """Share of the variance due to each input with all its interactions: what is left when
+        the others are known.
         """
         return _ranked(self._shares().total)
 
     @property
     def contribution_standard_errors(self) -> dict[str, tuple[float, float]]:
-        """By input, the standard errors of its contribution and of its total contribution; NaN for
-        a local method.
+        """Standard errors of the contribution and of the total contribution of each input; NaN
+        for a local method.
         """
         found = self._shares()
         return {
@@ -669,7 +669,7 @@ class Sampled(Output):
         if not 0.0 < share < 1.0 or found.size < 2:
             return math.nan
         at = np.quantile(found, share)
-        # Of points that lie evenly the shares can all be the same, and the quantile still lies
+        # The shares of points that lie evenly can all be the same, and the quantile still lies
         # anywhere between two of them.
         error = math.hypot(self._error(lambda values: np.mean(values <= at)), 0.5 / found.size)
         width = max(error, math.sqrt(share * (1.0 - share) / found.size))

@@ -214,7 +214,7 @@ class Tyres(Shown):
 
 NAMES = tuple(f.name for f in fields(Tyres))
 UNITS: dict[str, str] = {f.name: f.metadata["unit"] for f in fields(Tyres)}
-# Of the values of a batch, which are looked at case by case where the tyres are used.
+# Domains of the values of a batch, which are looked at case by case where the tyres are used.
 DOMAINS = {
     "friction": FINITE._replace(name="friction", faults=(*FINITE.faults, *NOT_NEGATIVE.faults)),
     "lock": UNIT_INTERVAL,

@@ -30,8 +30,8 @@ class _AsGiven(Summarized):
     __slots__ = ("given",)
 
     given: Texts | None
-    """By field, or "speed" and "course", the text of what was given with a unit; None if all
-    numbers were plain floats.
+    """Texts of what was given with a unit, by field or "speed" and "course"; None if all numbers
+    were plain floats.
     """
 
 
