@@ -1,4 +1,4 @@
-"""``speeds``: both impact speeds from the geometry and two things that were found out."""
+"""``speeds``: both impact speeds from the geometry and two known quantities."""
 
 from __future__ import annotations
 

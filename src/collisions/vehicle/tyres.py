@@ -20,7 +20,7 @@ from ..kernels.elementwise import (
 )
 from ..kernels.tyre import Tyres as Numbers
 from ..messages.errors import InputError, ShapeError
-from ..messages.hints import no_argument, open_to_hints
+from ..messages.hints import hinted, no_argument
 from ..quantities.attribute_stubs import TyresQuantities
 from ..quantities.attributes import Shown, lock
 from ..quantities.reading import ArgumentReader, at_least_zero, warn_if_large
@@ -106,7 +106,7 @@ class Tyres(Shown):
     cornering: Value = field(metadata={"unit": ""})
     height: Value | None = field(metadata={"unit": "m"})
 
-    @open_to_hints
+    @hinted
     def __init__(
         self,
         friction: Input,

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..kernels.elementwise import FINITE, POSITIVE, not_about_pivot, select, turning_velocity
 from ..messages.errors import InputError, MissingInputError
-from ..messages.hints import no_argument, open_to_hints
+from ..messages.hints import hinted, no_argument
 from ..quantities.attribute_stubs import VehicleQuantities
 from ..quantities.attributes import Quantities, derived, hypot, lock, returns, same, show
 from ..quantities.directions import Angle, angle_of, direction
@@ -88,7 +88,7 @@ class Vehicle(_AsGiven):
     pivot: tuple[Value, Value] | None = field(metadata={"unit": "m", "domain": FINITE})
     name: str = field()
 
-    @open_to_hints
+    @hinted
     def __init__(
         self,
         *unnamed: Never,
