@@ -21,7 +21,7 @@ from ..kernels.status import EPS, Passed, Status, WithTyres
 from ..messages.errors import InputError
 from ..messages.progress import halves, reporter
 from ..messages.warning import quietly
-from ..quantities.attributes import Shown, derived, lock, numeric, same
+from ..quantities.attributes import Shown, derived, lock, math_or_numpy, same
 from ..quantities.formatting import Numbers
 from ..quantities.reading import ArgumentReader, broadcast
 from ..quantities.tables import Cells, Summary, all_numbers, sided
@@ -280,7 +280,7 @@ def _apart(inputs: Inputs, answer: Any, other: Any) -> Any:
             for name in (f"delta_vx_{label}", f"delta_vy_{label}", f"delta_yaw_rate_{label}")
         )
         inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
-        moves = (dw != 0.0) & (numeric(body.mass).isfinite(body.mass))
+        moves = (dw != 0.0) & (math_or_numpy(body.mass).isfinite(body.mass))
         radius = select(moves, inertia / select(moves, body.mass, 1.0), 0.0) ** 0.5
         turning = select(moves, radius * dw, 0.0)
         worst = larger(worst, (dx * dx + dy * dy + turning * turning) ** 0.5)

@@ -21,7 +21,7 @@ from ..quantities.attributes import (
     attributes,
     derived,
     hypot,
-    numeric,
+    math_or_numpy,
     returns,
     show,
     unit_of,
@@ -233,7 +233,7 @@ class Side(Frozen, Summarized):
         h, inertia = self.moment_arm, self.before.yaw_inertia
         if h is None or inertia is None:
             return None
-        central = (h == 0.0) | (numeric(inertia).isinf(inertia) & (h == h))
+        central = (h == 0.0) | (math_or_numpy(inertia).isinf(inertia) & (h == h))
         with np.errstate(all="ignore"):
             found: Value = select(
                 central, 1.0, 1.0 / (1.0 + (h * h) * (self.before.mass / inertia))
@@ -451,8 +451,8 @@ class Side(Frozen, Summarized):
         moving = before.mass * (dvx * (vx + 0.5 * dvx) + dvy * (vy + 0.5 * dvy))
         turning = inertia * dw * (spin + 0.5 * dw)
         # An infinite mass at rest, and an infinite inertia that does not turn, gain nothing.
-        stands = numeric(before.mass).isinf(before.mass) & (vx == 0.0) & (vy == 0.0)
-        rests = numeric(inertia).isinf(inertia) & (spin == 0.0)
+        stands = math_or_numpy(before.mass).isinf(before.mass) & (vx == 0.0) & (vy == 0.0)
+        rests = math_or_numpy(inertia).isinf(inertia) & (spin == 0.0)
         return select(stands, 0.0, moving) + select(rests, 0.0, turning) + self.tyre_loss
 
     def _impulse(self) -> tuple[Value, Value]:

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..messages.errors import InputError, NoSolutionError
-from ..quantities.attributes import OWN, derived, returns
+from ..quantities.attributes import OWN_UNIT, derived, returns
 from ..quantities.strict_json import strict
 from . import turns
 from .derivatives import Local
@@ -318,22 +318,22 @@ class Bounds(Output):
         """Whether intervals are all that is uncertain about it."""
         return bool(self.mean == self.interval())
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def mean_standard_error(self) -> Any:
         """The largest standard error among the means."""
         return max(case.mean_standard_error for case in self.cases)
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def std_standard_error(self) -> Any:
         """The largest standard error among the standard deviations."""
         return max(case.std_standard_error for case in self.cases)
 
-    @returns(OWN)
+    @returns(OWN_UNIT)
     def quantile_standard_error(self, p: Any) -> Any:
         """The largest standard error among the quantiles."""
         return np.max([case.quantile_standard_error(p) for case in self.cases], axis=0)
 
-    @returns(OWN)
+    @returns(OWN_UNIT)
     def interval(self, coverage: float = COVERAGE) -> tuple[float, float]:
         """The range (low, high) that holds the value with at least this probability wherever in the
         interval the truth lies.
