@@ -325,7 +325,7 @@ def vehicles(function: Callable[..., Any]) -> list[str]:
 
 @cache
 def descriptions(function: Callable[..., Any]) -> dict[str, str]:
-    """By argument, its unit and what its docstring says of it."""
+    """Each argument with its unit and what its docstring says of it."""
     section = (getdoc(function) or "").partition("Parameters\n----------\n")[2].partition("\n\n")[0]
     found: dict[str, str] = {}
     if function == Vehicle.from_speed:

@@ -18,9 +18,9 @@ from .symbols import Symbol
 
 # The most figures a line may add to those of the working; with them it has every digit of a float.
 _MOST = 12
-# By which share of its largest term a formula may differ from the result. Rounding stays far below
-# the first (1e-9 in ordinary scenes); from there both numbers are printed. Beyond the second one of
-# the two is wrong.
+# The share of its largest term by which a formula may differ from the result. Rounding stays far
+# below the first (1e-9 in ordinary scenes); from there both numbers are printed. Beyond the second
+# one of the two is wrong.
 _DIFFERS, _WRONG = 1e-6, 1e-3
 # The columns of every table.
 HEAD = ("of", "quantity", "value")

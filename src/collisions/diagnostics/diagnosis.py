@@ -23,7 +23,7 @@ from ..reconstruct import MomentumSolution
 from ..scene.run import Run
 from ..vehicle.drag import USUAL_DURATION, read_drag, read_duration
 from ..vehicle.outlines import read_outline
-from ..vehicle.vehicle import Vehicle, missing
+from ..vehicle.vehicle import Vehicle, error_of_missing
 from . import checks_consistency, checks_inputs, checks_reliability
 from .case import Case, Damage, ImpactCase, MomentumCase
 from .finding import Check, Findings, Limit
@@ -38,8 +38,8 @@ _CHECKS_OF = {
     for kind in (ImpactCase, MomentumCase)
 }
 LIMITS: Mapping[str, Limit] = {check.code: check.limit for check in _CHECKS}
-"""By code, in the order in which findings are listed: what is measured, its default limit and where
-that is from.
+"""What each finding measures, its default limit and where that is from, by code and in the order in
+which findings are listed.
 """
 
 _single = partial(single_number, text="takes one value: diagnose takes one case")
@@ -302,4 +302,4 @@ def _need(
     vehicle: Vehicle = getattr(impact, label).before
     lacking = [field for field in fields if getattr(vehicle, field) is None]
     if lacking:
-        reader.refuse(missing(vehicle, lacking[0], purpose, label))
+        reader.refuse(error_of_missing(vehicle, lacking[0], purpose, label))

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, TypeVar
 from ..messages.errors import CollisionsError, InputError, NoSolutionError, UnitsError, placed
 from ..messages.marked import as_code, type_of
 from ..quantities.reading import ArgumentReader
-from ..uncertainty.distribution import Stated, from_numbers, read_alike, show
+from ..uncertainty.distribution import Statement, from_numbers, read_alike, show
 from ..uncertainty.distributions import Censored, Interval, Normal
 from ..uncertainty.model import Model, check_names, function_of
 from .readings import KINDS, Reading
@@ -65,7 +65,7 @@ def read_evidence(
     observed: Any,
     example: str,
     read_unknown: Callable[[str, Any], T],
-    read_observed: Callable[[str, Any], Stated],
+    read_observed: Callable[[str, Any], Statement],
 ) -> tuple[Model, dict[str, T], list[Observation]]:
     """The model, what is known before of each unknown, and the observations; one error names all
     that cannot be used.
@@ -109,13 +109,13 @@ def _read_each(
     return found
 
 
-def read_reading(label: str, given: Any) -> Stated:
+def read_reading(label: str, given: Any) -> Statement:
     """An observation of a posterior: a value with its error, an interval, or a censored reading."""
     if isinstance(given, Interval):
         return from_numbers(
             Censored, given.unit, {"low": given.low, "high": given.high, "error": None}
         )
-    if isinstance(given, Stated) and not isinstance(given, Normal) and type(given) in KINDS:
+    if isinstance(given, Statement) and not isinstance(given, Normal) and type(given) in KINDS:
         return given
     return read_value(label, given)
 

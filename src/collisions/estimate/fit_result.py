@@ -20,7 +20,7 @@ from ..messages.errors import (
     SuspectUnitsWarning,
 )
 from ..messages.warning import Note
-from ..quantities.attributes import OWN, Shown, derived
+from ..quantities.attributes import OWN_UNIT, Shown, derived
 from ..quantities.refusals import must_be
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summary, as_sentence
@@ -69,7 +69,9 @@ class WithUnit(Shown):
     def q(self) -> dict[str, Any]:
         """The same with the unit; numbers if it is unknown."""
         shared = {
-            f.name: getattr(self, f.name) for f in fields(self) if f.metadata.get("unit") == OWN
+            f.name: getattr(self, f.name)
+            for f in fields(self)
+            if f.metadata.get("unit") == OWN_UNIT
         }
         return {
             name: with_unit(value, self.unit) for name, value in shared.items() if value is not None
@@ -79,7 +81,11 @@ class WithUnit(Shown):
         for f in fields(self):
             value = getattr(self, f.name)
             if value is not None and f.name != "unit":
-                yield prefix + f.name, value, self.unit if f.metadata.get("unit") == OWN else None
+                yield (
+                    prefix + f.name,
+                    value,
+                    self.unit if f.metadata.get("unit") == OWN_UNIT else None,
+                )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -90,10 +96,10 @@ class Estimate(WithUnit):
 
     name: str
     unit: str
-    value: float = field(metadata={"unit": OWN})
-    standard_error: float = field(metadata={"unit": OWN})
-    low: float = field(metadata={"unit": OWN})
-    high: float = field(metadata={"unit": OWN})
+    value: float = field(metadata={"unit": OWN_UNIT})
+    standard_error: float = field(metadata={"unit": OWN_UNIT})
+    low: float = field(metadata={"unit": OWN_UNIT})
+    high: float = field(metadata={"unit": OWN_UNIT})
     at_bound: str | None
 
     _title = "Estimate"
@@ -143,10 +149,10 @@ class Residual(WithUnit):
 
     name: str
     unit: str
-    observed: float = field(metadata={"unit": OWN})
-    computed: float = field(metadata={"unit": OWN})
-    residual: float = field(metadata={"unit": OWN})
-    sigma: float = field(metadata={"unit": OWN})
+    observed: float = field(metadata={"unit": OWN_UNIT})
+    computed: float = field(metadata={"unit": OWN_UNIT})
+    residual: float = field(metadata={"unit": OWN_UNIT})
+    sigma: float = field(metadata={"unit": OWN_UNIT})
     over_sigma: float
     is_prior: bool
 
@@ -313,8 +319,8 @@ class Fit(SpeedsFound, Shown):
 
     @property
     def inputs(self) -> dict[str, Normal]:
-        """By unknown, the estimate as a normal distribution within its bounds, as
-        ``uncertainty.propagate`` takes it.
+        """Estimates by unknown, each a normal distribution within its bounds, as
+        ``uncertainty.propagate`` takes them.
         """
         self._check_determined("inputs")
         return {name: self._as_normal(name) for name in self.names}

@@ -198,7 +198,7 @@ class _Problem:
     def __init__(self, model: Model, joint: Joint, rows: list[Observation]) -> None:
         self.model, self.joint, self.rows = model, joint, rows
         self.finer: FinerModel | None = None
-        # By observation with sharp bounds, the width by which they are softened on the way.
+        # The width by which observations with sharp bounds are softened on the way, by name.
         self.softened: dict[str, float] = {}
         self.answered = self.possible = False
 

@@ -220,8 +220,8 @@ class Posterior(SpeedsFound, Summarized):
 
     @property
     def shrinkage(self) -> dict[str, float]:
-        """By unknown, the share of the prior's variance that the evidence removed: 1 if it tells
-        all, 0 if nothing.
+        """Share of the prior's variance that the evidence removed, by unknown: 1 if it tells all,
+        0 if nothing.
         """
         return {
             name: 1.0 - (float(one.std) / self.priors[name].sd) ** 2

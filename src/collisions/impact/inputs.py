@@ -30,7 +30,7 @@ from ..vehicle.vehicle import (
     DOMAINS,
     NAMES,
     Vehicle,
-    missing,
+    error_of_missing,
     not_a_vehicle,
     numbers_of,
     vehicle_of,
@@ -41,21 +41,21 @@ from ..vehicle.vehicle import (
 ModelName: TypeAlias = Literal["linear_central", "oblique_central", "eccentric", "time_resolved"]
 Law: TypeAlias = Literal["brach", "kudlich-slibar", "stronge"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
-# Of an impulse, as given: both vehicles, restitution, normal, point, values of ``RULES``, and law.
+# Arguments of an impulse: both vehicles, restitution, normal, point, values of ``RULES``, and law.
 Arguments: TypeAlias = tuple[Any, Any, Any, Any, Any, tuple[Any, ...], Any]
 
 _numbers = attrgetter(*DOMAINS)
 _ALONG_X = (1.0, 0.0)
 _new = object.__new__
-# Of a crush stiffness: force at no crush and its growth with crush, each for a width, and the
-# width.
+# Units of a crush stiffness: force at no crush and its growth with crush, each for a width, and
+# the width.
 CRUSH_UNITS = ("N/m", "N/m**2", "m")
 NO_IMPULSE = (0.0, 0.0, 0.0)
 OUTSIDE = ("outside_a", "outside_b")
 TYRES = ("tyres_a", "tyres_b")
 _SLIP = (*RULES, "law", "incomplete")
 STIFFNESSES = ("duration", "stiffness", "crush_a", "crush_b")
-# By solver, its arguments beyond vehicles, restitution and normal.
+# Arguments of each solver beyond vehicles, restitution and normal.
 ARGUMENTS = {
     "linear_central": ("incomplete",),
     "oblique_central": _SLIP,
@@ -368,7 +368,7 @@ def plain_inputs(
         and (not lawful or (type(law) is str and law in LAWS))
         and not units_required.get()
         and (pinned or a.pivot is b.pivot is None)
-        and (not placed or not missing_numbers(a, b, point))
+        and (not placed or not errors_of_missing(a, b, point))
         and (
             point is None
             or (
@@ -421,7 +421,7 @@ def read_inputs(
     reader = ArgumentReader()
     reader.problems.extend(problems)
     if model in PLACED:
-        reader.problems.extend(missing_numbers(a, b, point, model))
+        reader.problems.extend(errors_of_missing(a, b, point, model))
     if model not in PINNED:
         reader.problems.extend(_pinned(model, a, b))
     for label, vehicle in (("a", a), ("b", b)):
@@ -478,7 +478,7 @@ def check_flag(reader: ArgumentReader, name: str, given: Any) -> None:
         reader.refuse(yes_or_no(name, given, code="bad_option"))
 
 
-def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
+def missing_inputs(a: Any, b: Any) -> list[tuple[str, str]]:
     """Vehicle and field of each input that the eccentric model needs and that is None; a fixed body
     needs no position.
     """
@@ -499,11 +499,14 @@ def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
     return found
 
 
-def missing_numbers(a: Any, b: Any, point: Any, model: str = "eccentric") -> Sequence[InputError]:
+def errors_of_missing(a: Any, b: Any, point: Any, model: str = "eccentric") -> Sequence[InputError]:
     """One error for each input that a model with places needs and that was not given."""
     if point is not None and _is_complete(a) and _is_complete(b):
         return ()
-    found = [missing(a if label == "a" else b, name, model, label) for label, name in lacking(a, b)]
+    found = [
+        error_of_missing(a if label == "a" else b, name, model, label)
+        for label, name in missing_inputs(a, b)
+    ]
     if point is None:
         text = (
             f"point `|is None|is not given`, and {model} needs it; give the scene "

@@ -22,7 +22,7 @@ from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.units import shown
 from ..vehicle.drag import GRAVITY, read_drag, read_duration
 from ..vehicle.tyres import Tyres, kernel_numbers, not_tyres
-from ..vehicle.vehicle import Vehicle, missing
+from ..vehicle.vehicle import Vehicle, error_of_missing
 from .inputs import (
     CRUSH_UNITS,
     NO_IMPULSE,
@@ -37,7 +37,7 @@ from .inputs import (
 from .pulse import passed
 
 Geometry: TypeAlias = Literal["maximum_engagement", "first_contact", "fixed"]
-# Of its numbers, those that have to be above 0; the others may be 0.
+# Domains of its numbers: some have to be above 0, and the others may be 0.
 DOMAINS = {
     "duration": (POSITIVE_FINITE,),
     "stiffness": (POSITIVE_FINITE,),
@@ -131,7 +131,7 @@ def read_tyres(
             and vehicle.heading is None
             and not np.all(np.isinf(vehicle.mass))
         ):
-            reader.refuse(missing(vehicle, "heading", f"{model} with {name}", label))
+            reader.refuse(error_of_missing(vehicle, "heading", f"{model} with {name}", label))
     stray = {name: extra.get(name) for name in ("drag", *_SIZES)}
     stray = {
         name: given
@@ -236,7 +236,7 @@ def crushes(inputs: Inputs) -> dict[str, tuple[Any, ...]]:
 
 
 def residual_crushes(inputs: Inputs, peak_force: Any) -> dict[str, Any]:
-    """By vehicle what is left of its crush, in CRASH's meaning: 0 where the largest crush was not
+    """Crush that is left, by vehicle, in CRASH's meaning: 0 where the largest crush was not
     beyond A/B.
     """
     found = {}

@@ -56,7 +56,7 @@ from .usual_units import Usual
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is
 # three turns a second).
 _PLAUSIBLE = {"rad": 2.0 * math.pi * (1.0 + 1e-9), "rad/s": 20.0}
-# Of the components of an impulse from outside: along x and y, and about the centre of mass.
+# Units of the components of an impulse from outside: along x, y, and about the centre of mass.
 OUTSIDE_UNITS = ("N*s", "N*s", "kg*m**2/s")
 _MOST_DIMENSIONS = 24  # numpy itself stops at 32 in places, and some solvers add a few of their own
 

@@ -35,7 +35,7 @@ class Cells(Numbers):
     """
 
     typeset = True
-    # Of a batch, which cases have an answer: ranges are of these alone.
+    # Which cases of a batch have an answer: ranges are of these alone.
     answered: Any = None
     # Whether arrays go on over time, in which headings count their turns.
     over_time = False

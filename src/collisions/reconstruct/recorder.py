@@ -109,7 +109,7 @@ class RecordedPulse(Shown):
             "recorded left": (self.left, "m/s"),
         }
         if self.place is not None:
-            # Of the centre of mass.
+            # The place is that from the centre of mass.
             values |= {
                 "recorder ahead": (self.place[0], "m"),
                 "recorder to the left": (self.place[1], "m"),

@@ -1,4 +1,4 @@
-"""``speeds``: both impact speeds from the geometry and two things that were found out."""
+"""``speeds``: both impact speeds from the geometry and two known quantities."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from ..quantities.refusals import must_be
 from ..quantities.tables import Sentences, said
 from ..quantities.units import Input, Pair
 from ..vehicle.tyres import Tyres
-from ..vehicle.vehicle import Vehicle, missing, moved
+from ..vehicle.vehicle import Vehicle, error_of_missing, moved
 from .common import (
     ASK_ALONE,
     PAIRS,
@@ -556,7 +556,7 @@ def _course(
         and body.heading is None
         and any(name[-1] == label for name in components)
     ):
-        reader.refuse(missing(body, "heading", "a component of its delta-V", label))
+        reader.refuse(error_of_missing(body, "heading", "a component of its delta-V", label))
     return Angle(0.0, False) if given is None else course(reader, given, f"course_{label}")
 
 

@@ -140,7 +140,7 @@ class _Sheet(Page):
         self.filed: tuple[str, ...] = ()
         # How many figures stand on the page.
         self.drawn = 0
-        # Of the headings: one level down within a part, of which the ids of figures have a prefix.
+        # Headings are one level down within a part, and the ids of its figures have a prefix.
         self.level, self.prefix = 2, ""
 
     def name(self, text: str) -> str:

@@ -153,7 +153,7 @@ def inputs(
         )
         note = notes.get(key_of(of, names))
         value = _input(sheet, impact, vehicle, dict(zip(names, numbers, strict=True)), kind, texts)
-        # Of a contact that slid it is the impulse ratio, which the results have.
+        # Found of a contact that slid: the impulse ratio, which the results have too.
         value += ", found" if key_of(of, names) in found_names else ""
         rows.append((name, quantity, _with(value, note)))
         rows += [(name, what, text) for what, text in _published(impact, names[0])]

@@ -65,7 +65,7 @@ _PATHS = (
     *(f"{label}.{name}" for label in "ab" for name in _OF_EACH),
 )
 _TO_DEGREES = 180.0 / math.pi
-# Of a table with a column for each vehicle, in its colour.
+# The class of a table with a column for each vehicle, in its colour.
 _SIDES = ' class="sides"'
 
 
@@ -445,7 +445,7 @@ def _fixed(impact: Impact, sliders: Sequence[Slider], system: Cells) -> list[tup
             return "–"
         if math.isinf(value):
             return in_words(value)
-        # Of an input six figures, more than a result has.
+        # An input has six figures, more than a result.
         number = value if kind == "angle" else system.converted(value, kind)
         return f"{number:.6g}" + ("°" if kind == "angle" else system.unit(kind))
 

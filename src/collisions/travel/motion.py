@@ -104,8 +104,8 @@ def follow(motion: Motion) -> tuple[Any, Any]:
 
 
 def _wider(wrong: Any, tolerance: float) -> Any:
-    """By how much the next step may be wider, from the error of the last one; NaN counts as a large
-    error.
+    """The factor by which the next step may be wider, from the error of the last one; NaN counts as
+    a large error.
     """
     if isinstance(wrong, float):
         ratio: float = (tolerance / max(wrong, 1e-300)) ** 0.2

@@ -20,9 +20,9 @@ from ..vehicle.drag import one_value
 
 # What a heading may turn by from one point to the next.
 HALF_TURN = math.pi * (1.0 + 1e-9)
-# Of the window: with this standard deviation, weights that fall off as a normal density err in the
-# slope at the end of a path as equal weights within the window do, by the errors of the points and
-# by a bend that changes along the way alike.
+# A share of the window: with this standard deviation, weights that fall off as a normal density err
+# in the slope at the end of a path as equal weights within the window do, by the errors of the
+# points and by a bend that changes along the way alike.
 _SPREAD = 0.384
 # The first lengths are those of the chords between the points, which errors of a dense survey make
 # too long.

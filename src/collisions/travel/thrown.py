@@ -12,7 +12,7 @@ import numpy as np
 from ..kernels.elementwise import select
 from ..messages.errors import NoSolutionError
 from ..messages.hints import hinted
-from ..quantities.attributes import hypot, numeric
+from ..quantities.attributes import hypot, math_or_numpy
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.refusals import must_be
 from ..quantities.units import Input, Value
@@ -87,7 +87,7 @@ def throw_speed(distance: Input, *, friction: Input, angle: Input, height: Input
         {name: [value] for name, value in given.items()}
     )
     with np.errstate(all="ignore"):
-        cos, sin = numeric(up).cos(up), numeric(up).sin(up)
+        cos, sin = math_or_numpy(up).cos(up), math_or_numpy(up).sin(up)
         level = _level(far, rubbed, high)
         found = level / select(cos + rubbed * sin > 0.0, cos + rubbed * sin, math.nan)
         falls = hypot(found * sin, _root(2.0 * GRAVITY * high))
@@ -154,7 +154,7 @@ def throw_bounds(distance: Input, *, friction: Input, height: Input = 0.0) -> tu
     with np.errstate(all="ignore"):
         greatest = _level(far, rubbed, high)
         slides = far >= 2.0 * rubbed * high * (1.0 - _ROUNDING)
-        both = greatest / numeric(rubbed).hypot(1.0, rubbed), greatest
+        both = greatest / math_or_numpy(rubbed).hypot(1.0, rubbed), greatest
         bounds: tuple[Value, Value] = _settled(both, named, shape, (far, rubbed, slides), [])
     return bounds
 

@@ -23,7 +23,7 @@ from .model import Model, count_failed
 from .result import Output, Shares, average, deviation
 from .sampling import Joint
 
-# Of a step, in standard deviations: the differences below err by its fourth power and by rounding
+# A step in standard deviations: the differences below err by its fourth power and by rounding
 # over its square.
 _STEP = 0.01
 _LEAST_STEP = 1e6  # roundings of the mean, so that the step itself is known to a millionth

@@ -39,7 +39,7 @@ class GivenUnit(str):
         return made
 
 
-class Stated:
+class Statement:
     """Base of all statements about a quantity: a frozen value of SI numbers and the unit they are
     in.
 
@@ -112,7 +112,7 @@ class Stated:
         return typeset(text.replace(f"{unit} to ", " to ") if unit else text)
 
 
-class Distribution(Stated):
+class Distribution(Statement):
     """A quantity that is not known exactly, and how likely each of its values is.
 
     All numbers are bare SI floats, and describe the distribution as it is used: after truncation.
@@ -230,7 +230,7 @@ def _like(given: Any, found: Any) -> Any:
     return found if isinstance(given, np.ndarray) else float(found)
 
 
-T = TypeVar("T", bound=Stated)
+T = TypeVar("T", bound=Statement)
 
 
 def from_numbers(

@@ -15,7 +15,7 @@ from ..messages.hints import hinted
 from ..quantities.attributes import lock
 from ..quantities.refusals import must_be
 from ..quantities.units import Input
-from .distribution import Distribution, Stated, check_order, from_numbers, read_alike, show
+from .distribution import Distribution, Statement, check_order, from_numbers, read_alike, show
 from .normal import power_of_two
 from .normal_family import LogNormal, Normal
 
@@ -295,7 +295,7 @@ def _checked(rows: Any, argument: str) -> Any:
     return rows.astype(np.float64)
 
 
-class Interval(Stated):
+class Interval(Statement):
     """Two bounds between which a quantity lies, and nothing more: no value is said to be likelier
     than another.
 
@@ -344,7 +344,7 @@ class Interval(Stated):
         self._set(low=low, high=high)
 
 
-class Censored(Stated):
+class Censored(Statement):
     """A reading known only to lie above a bound, below one, or between two.
 
     A recorder that ended early would have read at least what it had reached; a speed class or a

@@ -39,9 +39,9 @@ class ByPaths(Protocol):
 AnyModel: TypeAlias = Function | ByPaths
 
 _LOW_CASES = 4  # asked again together: as alone, a threshold of those few divides them
-# Of the width of the middle half of the answers: an iteration that goes on until every case has
-# converged ends a little differently for one case. A smaller difference, whatever its cause,
-# changes no digit that anyone reads.
+# A share of the width of the middle half of the answers: an iteration that goes on until every
+# case has converged ends a little differently for one case. A smaller difference, whatever its
+# cause, changes no digit that anyone reads.
 _UNNOTICED = 1e-6
 _ROUNDINGS = 64.0 * float(
     np.finfo(np.float64).eps

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..messages.errors import InputError
 from ..messages.warning import Note
-from ..quantities.attributes import OWN, derived
+from ..quantities.attributes import OWN_UNIT, derived
 from ..quantities.formatting import Numbers
 from ..quantities.strict_json import strict
 from .result import COVERAGE, Histogram, Output, Sampled, Shares
@@ -67,12 +67,12 @@ class OneSidedOutput(Sampled):
         sides = self.sides[~np.isnan(self.values)]
         return float(np.mean(sides > 0)), float(np.mean(sides < 0))
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def mean_standard_error(self) -> Any:
         """NaN: without a mean it has no error."""
         return math.nan
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def std_standard_error(self) -> Any:
         """NaN: without a standard deviation it has no error."""
         return math.nan

@@ -24,7 +24,7 @@ from ..quantities.units import rendered, shown
 from .correction import Corrected, CorrectedOutput, corrected
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
-from .distribution import Stated
+from .distribution import Statement
 from .distributions import Distribution, Interval
 from .finer import FinerModel
 from .halved import Halved, widths_if_halved
@@ -205,7 +205,7 @@ def propagate(
     model = function_of(model, stated, outputs, "outputs")
     finer = None if finer is None else function_of(finer, stated, outputs, "finer")
     if method is None:
-        kinds = {type(value) for value in stated.values() if isinstance(value, Stated)}
+        kinds = {type(value) for value in stated.values() if isinstance(value, Statement)}
         method = (
             "interval" if kinds == {Interval} and samples is tolerance is None else "quasi_random"
         )
@@ -290,7 +290,7 @@ def _propagated(
         censored = [
             name
             for name, value in stated.items()
-            if isinstance(value, Stated) and name in whole.fixed
+            if isinstance(value, Statement) and name in whole.fixed
         ]
         advice = "; of intervals alone take `method='interval'`"
         if censored:

@@ -25,7 +25,7 @@ HIGHEST_DRAG = 1.5
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
 LONGEST_CONTACT = 1.0
 USUAL_DURATION = Default(0.1)
-"""Of a contact [s], where none is given."""
+"""Duration of a contact [s], where none is given."""
 
 
 def one_value(

@@ -160,7 +160,7 @@ class Placed(NamedTuple):
     corners: Any
 
 
-def placed(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> Placed:
+def in_scene(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> Placed:
     """The outline at this time after the impact."""
     x, y, heading = (
         needed(vehicle, name, f"outline_{label}", label) for name in ("x", "y", "heading")

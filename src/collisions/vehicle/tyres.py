@@ -20,7 +20,7 @@ from ..kernels.elementwise import (
 )
 from ..kernels.tyre import Tyres as Numbers
 from ..messages.errors import InputError, ShapeError
-from ..messages.hints import no_argument, open_to_hints
+from ..messages.hints import hinted, no_argument
 from ..messages.marked import type_of
 from ..quantities.attribute_stubs import TyresQuantities
 from ..quantities.attributes import Shown, lock
@@ -108,7 +108,7 @@ class Tyres(Shown):
     cornering: Value = field(metadata={"unit": ""})
     height: Value | None = field(metadata={"unit": "m"})
 
-    @open_to_hints
+    @hinted
     def __init__(
         self,
         friction: Input,
@@ -216,7 +216,7 @@ class Tyres(Shown):
 
 NAMES = tuple(f.name for f in fields(Tyres))
 UNITS: dict[str, str] = {f.name: f.metadata["unit"] for f in fields(Tyres)}
-# Of the values of a batch, which are looked at case by case where the tyres are used.
+# Domains of the values of a batch, which are looked at case by case where the tyres are used.
 DOMAINS = {
     "friction": FINITE._replace(name="friction", faults=(*FINITE.faults, *NOT_NEGATIVE.faults)),
     "lock": UNIT_INTERVAL,

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..kernels.elementwise import FINITE, POSITIVE, not_about_pivot, select, turning_velocity
 from ..messages.errors import InputError, MissingInputError
-from ..messages.hints import no_argument, open_to_hints
+from ..messages.hints import hinted, no_argument
 from ..messages.marked import type_of
 from ..quantities.attribute_stubs import VehicleQuantities
 from ..quantities.attributes import Quantities, derived, hypot, lock, returns, same, show
@@ -32,8 +32,8 @@ class _AsGiven(Summarized):
     __slots__ = ("given",)
 
     given: Texts | None
-    """By field, or "speed" and "course", the text of what was given with a unit; None if all
-    numbers were plain floats.
+    """Texts of what was given with a unit, by field or "speed" and "course"; None if all numbers
+    were plain floats.
     """
 
 
@@ -90,7 +90,7 @@ class Vehicle(_AsGiven):
     pivot: tuple[Value, Value] | None = field(metadata={"unit": "m", "domain": FINITE})
     name: str = field()
 
-    @open_to_hints
+    @hinted
     def __init__(
         self,
         *unnamed: Never,
@@ -416,7 +416,7 @@ class Vehicle(_AsGiven):
             return vx + turn_x, vy + turn_y
 
     def _missing(self, name: str) -> MissingInputError | None:
-        return None if name in ("pivot", "given") else missing(self, name, f".q.{name}")
+        return None if name in ("pivot", "given") else error_of_missing(self, name, f".q.{name}")
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Vehicle):
@@ -630,11 +630,11 @@ def needed(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle"
     """The value of an optional field, or a MissingInputError that names the purpose."""
     value = getattr(vehicle, name)
     if value is None:
-        raise missing(vehicle, name, purpose, label)
+        raise error_of_missing(vehicle, name, purpose, label)
     return value
 
 
-def missing(
+def error_of_missing(
     vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle"
 ) -> MissingInputError:
     """The error for a vehicle without a field that is needed."""
