@@ -835,9 +835,7 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
     }
     if case.maybe(0.5):
         speeds = {name: case.value("speed") for name in ("speed_a_after", "speed_b_after")}
-    more = {
-        name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.3)
-    }
+    more = {name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.3)}
     more |= {name: value for name, value in failing.items() if name == "on_failure"}
     if case.maybe(0.1):
         more["together"] = case.option(True, False)
