@@ -186,7 +186,8 @@ def wheel_forces(
     that at rest.
     """
     corners = _corners(tyres)
-    moving, turns, gains = [], [], []
+    moving, turns = [], []
+    gains: list[Any] = []
     for ahead, aside, front in corners:
         ux, uy = forward - turning * (aside * tyres.left), left + turning * (ahead * tyres.ahead)
         # A rear wheel in a row with the others is turned by an angle of 0.

@@ -301,7 +301,7 @@ def path(
         (value.dtype for part in lists for value in part if isinstance(value, np.ndarray)), None
     )
 
-    ground = _Ground(frictions, locks, grades, tyres and (tyres, flat), rotating)
+    ground = _Ground(frictions, locks, grades, None if tyres is None else (tyres, flat), rotating)
     run_out = partial(_run_out, ground=ground, end=end, window=length)
     with np.errstate(all="ignore"):
         turned = [
@@ -310,7 +310,8 @@ def path(
         ]
         found, gaps = run_out(points, turned, kind=kind)
         if errors:
-            found |= _errors(run_out, points, turned, *read, shape or (), kind)
+            place, turn = read
+            found |= _errors(run_out, points, turned, place, turn, shape or (), kind)
         answered = found["time"] + found["distance"] + found["yaw_rate"]
         if shape is not None:
             checks = [
