@@ -570,7 +570,7 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
         "diagnose",
         col.diagnose,
         impact,
-        **case.spoil({**known, "units": case.option(*UNIT_SYSTEMS)}),
+        **case.spoil({**known, **wheels(case), "units": case.option(*UNIT_SYSTEMS)}),
     )
     if not isinstance(findings, Exception):
         numbers = "delta_v_a", "delta_v_b", "yaw_rate_a", "yaw_rate_b", "share"
