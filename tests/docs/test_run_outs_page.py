@@ -46,6 +46,18 @@ def test_the_tables_are_made_of_the_numbers_that_were_written(scripts):
         )
 
 
+def test_stated_ranges_hold_cars_whose_wheels_spin(scripts):
+    """No interval lies below 95 %, and over all outputs 94 % or more are held."""
+    _, coverage, tables = scripts
+    rows = tables.load("run_out_coverage.json")["rows"]
+    assert all(row["refused"] == 0 for row in rows)
+    assert min(row["high"] for row in rows) >= coverage.LEAST
+    whole = [row for row in rows if row["kind"] == "all"]
+    held, cars = (sum(row[name] for row in whole) for name in ("held", "cars"))
+    assert held >= coverage.POOLED * cars
+    assert tables.pooled({"rows": rows}) == f"{100.0 * held / cars:.1f} %"
+
+
 @pytest.mark.parametrize(
     ("hits", "count", "low", "high"),
     [(10, 10, 0.6915, 1.0), (0, 10, 0.0, 0.3085), (50, 100, 0.3983, 0.6017)],
