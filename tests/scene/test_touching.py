@@ -7,7 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from collisions.scene.follow import _through_crossings
+import collisions as col
+from collisions.scene import Contact
+from collisions.scene.follow import _closing_at, _through_crossings
 from collisions.scene.touching import (
     Meeting,
     Pair,
@@ -24,8 +26,13 @@ SQUARE = Shape.of([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
 CASE = np.array([0])
 
 
-def evenly(a, b):
-    """A pair of squares that move on evenly: x, y, heading, vx, vy and yaw rate of each."""
+BAR = Shape.of([(2.0, 0.1), (-2.0, 0.1), (-2.0, -0.1), (2.0, -0.1)])
+
+
+def evenly(a, b, shapes=(SQUARE, SQUARE)):
+    """A pair, of squares if not said, that moves on evenly: x, y, heading, vx, vy and yaw rate of
+    each.
+    """
 
     def state(start, time):
         x, y, heading, vx, vy, rate = (np.full(np.shape(time), part) for part in start)
@@ -34,7 +41,7 @@ def evenly(a, b):
     def states(time, cases):
         return state(a, np.asarray(time)), state(b, np.asarray(time))
 
-    return Pair(SQUARE, SQUARE, states, lambda cases: np.zeros((4, len(cases))))
+    return Pair(*shapes, states, lambda cases: np.zeros((4, len(cases))))
 
 
 @pytest.mark.parametrize("spins", ["a", "b"])
@@ -53,6 +60,22 @@ def test_a_corner_that_only_begins_to_approach_is_not_missed(spins):
     )
 
 
+@pytest.mark.parametrize("spins", ["a", "b"])
+def test_the_far_end_of_a_bar_is_not_missed(spins):
+    """It begins slowly and comes round in a second; the near end has just gone past."""
+    heading, rate, far = math.radians(10.0), 3.0, 2.001
+    bar, square = (1.0 + far, 0.0, heading, 0.0, 0.0, rate), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if spins == "a":
+        pair = evenly(bar, square, (BAR, SQUARE))
+    else:
+        pair = evenly(square, bar, (SQUARE, BAR))
+    touch = first_touch(pair, np.zeros(1), np.full(1, 5.0), CASE)
+    # The corner that leads, from where it is to where it is the distance of the face away.
+    reach, corner = math.hypot(2.0, 0.1), math.atan2(0.1, 2.0)
+    turned = math.pi - math.acos(far / reach) - (heading + corner)
+    assert touch.time[0] == pytest.approx(turned / rate, abs=1e-6)
+
+
 def test_faces_that_meet_flat_close_as_fast_as_their_faster_corner():
     """One that yaws brings one end of its face on and takes the other back."""
     pair = evenly((0.0, 0.0, 0.0, 3.0, 0.0, 0.5), (2.0, 0.0, 0.0, 0.0, 0.0, 0.0))
@@ -68,6 +91,22 @@ def test_of_two_faces_at_a_corner_that_with_less_overlap_is_struck(vx, vy):
     which = struck_face(pair, np.zeros(1), np.full(1, 0.1), CASE)
     axis = pair.at(np.zeros(1), CASE)[0].axis(which)[:, 0]
     assert axis == pytest.approx([0.0, 1.0] if abs(vy) < abs(vx) else [1.0, 0.0])
+
+
+@pytest.mark.parametrize("spins", ["a", "b"])
+def test_contact_points_close_by_the_turning_of_either_car(spins):
+    """As the velocities of both vehicles at the point have it, along the normal."""
+    a = col.Vehicle(mass=1.0, x=0.3, y=-0.2, vx=2.0, vy=0.5, yaw_rate=1.5 * (spins == "a"))
+    b = col.Vehicle(mass=1.0, x=3.1, y=0.7, vx=-1.0, vy=0.2, yaw_rate=-2.5 * (spins == "b"))
+    point, normal = (1.9, 0.9), (0.8, -0.6)
+    states = {
+        name: np.array([[one.x], [one.y], [0.0], [one.vx], [one.vy], [one.yaw_rate]])
+        for name, one in (("A", a), ("B", b))
+    }
+    contact = Contact("A", "B", restitution=0.1, friction=0.5, at="touch")
+    (of_a, of_b) = (one.velocity_at(point) for one in (a, b))
+    closing = sum((p - q) * n for p, q, n in zip(of_a, of_b, normal, strict=True))
+    assert _closing_at(contact, states, normal, point)[0] == pytest.approx(closing, rel=1e-12)
 
 
 def along_x(met: Meeting):
