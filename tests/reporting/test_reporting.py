@@ -29,6 +29,7 @@ from collisions.impact.schema import impact_schema
 from collisions.quantities.formatting import typeset
 from collisions.quantities.tables import label_of
 from collisions.reporting import options, replay, report
+from pages import section, tampered
 from strategies import other_registry
 
 mpl = pytest.importorskip("matplotlib")
@@ -214,11 +215,6 @@ def rows(page):
     return [
         tuple(re.sub(r"\\(.)", r"\1", part) for part in line[2:-2].split(" | ")) for line in lines
     ]
-
-
-def section(page, name):
-    """The part of a Markdown page below a heading."""
-    return page.split(f"\n## {name}\n")[1].split("\n## ")[0]
 
 
 @pytest.mark.parametrize("form", ["html", "markdown"])
@@ -824,13 +820,6 @@ def test_refusals_of_impacts():
         with pytest.raises(col.InputError, match="impact must be an Impact") as caught:
             report(other)
         assert caught.value.code == "not_an_impact"
-
-
-def tampered(page, change):
-    head, _, rest = page.partition("```json\n")
-    record = json.loads(rest.partition("```")[0])
-    change(record)
-    return f"{head}```json\n{json.dumps(record)}\n```\n"
 
 
 @pytest.mark.parametrize(
@@ -1724,7 +1713,7 @@ def test_samples_drawn_together_are_told_without_shares():
     )
     drawn = Page(report(impact, units="metric", uncertainty=known))
     assert any(
-        text.startswith("Golf: speed before, in the cases drawn") for text in drawn.of("figcaption")
+        ". Golf: speed before, in the cases drawn" in text for text in drawn.of("figcaption")
     )
     assert any("Golf: speed before" in text for text in drawn.of("text"))
     assert not any("share of its variance" in text for text in drawn.of("figcaption"))

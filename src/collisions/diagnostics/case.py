@@ -22,7 +22,7 @@ from ..kernels.status import EPS
 from ..quantities.directions import from_degrees
 from ..quantities.formatting import decimals_of, in_words, places, rounded, scale_of, unit_of
 from ..reconstruct import MomentumSolution
-from ..vehicle.outlines import overlap, placed
+from ..vehicle.outlines import in_scene, overlap
 from ..vehicle.vehicle import Vehicle, with_name
 from .moves import Moves, moves
 
@@ -182,7 +182,7 @@ class ImpactCase(_Case):
         now, later = (
             overlap(
                 *(
-                    placed(self.outlines[label], side.after, label, time)
+                    in_scene(self.outlines[label], side.after, label, time)
                     for label, _, side in self.sides
                 )
             )

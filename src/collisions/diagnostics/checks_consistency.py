@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from ..impact.side import Side
 from ..quantities.directions import from_radians
 from ..reference import RECORDER_ACCURACY, restitution_range
-from ..vehicle.outlines import distance_outside, placed
+from ..vehicle.outlines import distance_outside, in_scene
 from .case import RATIO_ROUNDING, Case, ImpactCase, MomentumCase, off_by, outline_off_by
 from .finding import MESSAGES, METHOD, Measured, above, finding
 from .numbers import percent, share
@@ -527,7 +527,7 @@ def point_outside(case: ImpactCase) -> Iterator[Measured]:
     for label, who, side in case.sides:
         if point is not None and label in case.outlines:
             outline = case.outlines[label]
-            distance = distance_outside(placed(outline, side.before, label), point)
+            distance = distance_outside(in_scene(outline, side.before, label), point)
             sentence = (
                 f"the contact point is {case.text(distance, 'length')} outside the outline of {who}"
             )
