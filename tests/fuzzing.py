@@ -50,6 +50,8 @@ from collisions.quantities.attributes import Quantities
 from collisions.quantities.units import Texts
 from collisions.reconstruct.momentum_solution import Sensitivity
 from collisions.scene.follow import Notice
+from collisions.scene.levels import Level
+from collisions.scene.required import Cost, Required
 from collisions.scene.run import Moved, Rests, Track
 from collisions.uncertainty.distribution import GivenUnit
 from strategies import (
@@ -96,7 +98,7 @@ MODULES = ("reporting", "diagnostics", "derivation")  # public beside those of c
 GIVEN_BACK = (
     Side, Pulse, LeftOut, LeftOutSide, Findings, Moves, Estimate, Residual, Direction, Values,
     Sensitivity, ByModel, Inputs, PosteriorOutput,
-    Note, Moved, Notice, Rests, Track,
+    Note, Moved, Notice, Rests, Track, Cost, Level, Required,
 )  # fmt: skip
 
 

@@ -1675,13 +1675,16 @@ def known_scene() -> scene.Scene:
 
 @fuzzes(
     "play", "plot.timeline",
+    "Cost", "Level", "Level.as_model", "Level.results", "Required", "Required.summary",
+    "Required.to_dict",
     "Moved", "Moved.summary", "Notice", "Rests", "Rests.keys", "Track", "Track.summary",
     "scene.Contact", "scene.Contact.as_given", "scene.Contact.replace", "scene.Contact.summary",
     "scene.Mover", "scene.Mover.as_given", "scene.Mover.replace", "scene.Mover.summary",
     "scene.Run", "scene.Run.at", "scene.Run.case", "scene.Run.from_dict", "scene.Run.summary",
     "scene.Run.to_columns", "scene.Run.to_dict",
     "scene.Scene", "scene.Scene.as_model", "scene.Scene.case", "scene.Scene.from_dict",
-    "scene.Scene.inputs", "scene.Scene.replace", "scene.Scene.results", "scene.Scene.run",
+    "scene.Scene.inputs", "scene.Scene.replace", "scene.Scene.required", "scene.Scene.results",
+    "scene.Scene.run",
     "scene.Scene.summary", "scene.Scene.to_dict", share=0.3,
 )  # fmt: skip
 def test_scenes(case: Case) -> None:
@@ -1732,6 +1735,29 @@ def test_scenes(case: Case) -> None:
         if not isinstance(found, scene.Run):
             found = known_scene().run()
         ran(case, found)
+        if case.maybe(0.1):
+            levels(case, known_scene())
+
+
+def levels(case: Case, crash: scene.Scene) -> None:
+    """Levels of a scene, with what is not known or without."""
+    result = case.choice(list(crash.results()))
+    kind = case.choice(("delta_v", "mass", "x"))
+    unknowns = case.option(
+        {"A.vx": uncertainty.Normal(8.0, 0.5)}, {"A.mass": uncertainty.Uniform("1 t", "2 t")}, {}
+    )
+    given = {"tolerances": {result: case.value(kind)}, "unknowns": unknowns, "tolerance": 1e-3}
+    found = case.call("scene.Scene.required", crash.required, **case.spoil(given))
+    if isinstance(found, Exception):
+        found = known_scene().required({"B.rest.x": 0.3}, tolerance=1e-3)
+    json.dumps(case.must("Required.to_dict", found.to_dict), allow_nan=False)
+    assert str(case.must("Required.summary", found.summary, case.choice(UNIT_SYSTEMS)))
+    level = case.must("Level", lambda: found.level)
+    assert case.must("Level.results", level.results)
+    paths = [next(iter(level.given.inputs()))]
+    model = case.call("Level.as_model", level.as_model, paths, case.option(["B.rest.x"], ["q"]))
+    assert callable(model) or isinstance(model, Exception)
+    assert case.must("Cost", lambda: repr(found.costs[0]))
 
 
 def ran(case: Case, run: scene.Run) -> None:
