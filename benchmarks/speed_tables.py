@@ -52,6 +52,28 @@ CHOICES = (
 COLOURS = {"ours": OURS, "other": TEXTBOOK, "time": GREY}
 
 
+class Call(NamedTuple):
+    """A row of the first table: for whom, what to call, its rung, and its cost in a batch if it is
+    one.
+    """
+
+    cases: str
+    call: str
+    rung: str
+    batch: str | None = None
+
+
+_IMPULSE = "eccentric, geometry of maximum engagement"
+CALLS = (
+    Call("one, or a few", "`eccentric`", _IMPULSE),
+    Call("one, or a few", "`time_resolved(..., steps=10)`", "time_resolved, 10 steps"),
+    Call("one, or a few", "`time_resolved(..., steps=100)`", "time_resolved, 100 steps"),
+    Call("hundreds to millions", "`eccentric` with arrays", _IMPULSE, "eccentric"),
+    Call("millions, little memory", "the same in float32", _IMPULSE, "eccentric_float32"),
+)
+FORMULA = 2e-6  # s: about what the unit takes, for the column of cases in a second alone
+
+
 def load() -> dict[str, Any]:
     """The numbers."""
     return json.loads((DATA / "speed.json").read_text(encoding="utf-8"))
@@ -275,6 +297,34 @@ def cost(known: dict[str, Any], choice: Choice, key: str) -> float | None:
     return known[key]["median"] + (
         known["eccentric"]["median"] if choice.error == "left_out" else 0.0
     )
+
+
+def calls(found: dict[str, Any], rungs: dict[str, Any]) -> str:
+    """For this many cases, this accuracy and this much time, call this."""
+    single, batch, lines = rows(found, "single"), rows(found, "batch"), []
+    for one in CALLS:
+        error = rungs["rungs"][one.rung]
+        each = (
+            single["eccentric"]["median"] * cost_of(rungs, one.rung)
+            if one.batch is None
+            else batch[one.batch]["median"]
+        )
+        half, most = (f"{100.0 * error[name]:.2g} %" for name in ("median", "most_of_10"))
+        within = f"{half}; 9 of 10 within {most}"
+        second = f"{float(f'{1.0 / (each * FORMULA):.1g}'):,.0f}".replace(",", "\u202f")
+        lines.append([one.cases, within, second, one.call])
+    asked = single["eccentric"]["median"] * rungs["costs"]["required_model, 0.1 s"]
+    second = f"{float(f'{1.0 / (asked * FORMULA):.1g}'):,.0f}".replace(",", "\u202f")
+    lines.append(
+        ["one, and you do not know", "what you accept", second,
+         "`required_model(..., tolerance=, duration=)`"]
+    )  # fmt: skip
+    lines.append(
+        ["a study that calls a dear model thousands of times", "that of the dear model", "–",
+         "`posterior`, `propagate` or `fit` with [`finer=`](#the-dearer-model-where-it-matters)"]
+    )  # fmt: skip
+    text = table(["cases", "off by, of delta-V", "cases in a second", "call"], lines)
+    return text.replace("| --- | ---: | ---: | ---: |", "| --- | --- | ---: | --- |")
 
 
 def chosen(found: dict[str, Any]) -> str:
