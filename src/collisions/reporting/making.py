@@ -96,9 +96,9 @@ def report(
     units : {"si", "metric", "us"}, optional
         By default those of the inputs, as for ``summary``.
     uncertainty : Propagation, optional
-        From ``uncertainty.propagate``; for several results a list, with None for a result that has
-        none. An output with the name of an answer, such as "b.after.vx"
-        or "b_after_vx", also sets the rounding of that answer.
+        From ``uncertainty.propagate``, of a ``Run`` with its scene as the model; for several
+        results a list, with None for a result that has none. An output with the name of an answer,
+        such as "b.after.vx" or "b_after_vx", also sets the rounding of that answer.
     outline_a, outline_b, duration, drag, limits
         As for ``diagnose``; the outlines are also drawn.
     crush_energy, damage_pdof_a, damage_pdof_b, damage_delta_v_a, damage_delta_v_b

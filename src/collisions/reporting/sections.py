@@ -153,7 +153,7 @@ def inputs(
         )
         note = notes.get(key_of(of, names))
         value = _input(sheet, impact, vehicle, dict(zip(names, numbers, strict=True)), kind, texts)
-        # Of a contact that slid it is the impulse ratio, which the results have.
+        # Found of a contact that slid: the impulse ratio, which the results have too.
         value += ", found" if key_of(of, names) in found_names else ""
         rows.append((name, quantity, _with(value, note)))
         rows += [(name, what, text) for what, text in _published(impact, names[0])]
@@ -296,7 +296,8 @@ def _known(
                 value += f"; {answer} in this answer"
         if one.number is not None and spread is not None:
             stated = spread.stated(sheet, one.name, one.kind, one.number)
-            value += f"; stated as {stated}" if stated else ""
+            if stated and stated not in notes.get(one.name, ""):
+                value += f"; stated as {stated}"
         yield "evidence", names(one.what), _with(value, notes.get(one.name))
 
 

@@ -16,6 +16,7 @@ from ..messages.errors import InputError
 from ..quantities.formatting import SI_UNITS, typeset, with_decimals
 from ..quantities.tables import as_sentence
 from ..reconstruct import Fit, MomentumSolution, Posterior
+from ..scene.run import Run
 from ..uncertainty import Interval, Output, Propagation
 from ..uncertainty.distribution import GivenUnit, from_numbers
 from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies
@@ -34,17 +35,21 @@ class Spread:
     """The outputs of a propagation that are results of the report, by the name of the result."""
 
     def __init__(
-        self, impact: Impact | MomentumSolution | Fit | Posterior, uncertainty: Propagation | None
+        self,
+        impact: Impact | MomentumSolution | Fit | Posterior | Run,
+        uncertainty: Propagation | None,
     ) -> None:
         self.impact, self.names, self.propagation = impact, Names(impact), uncertainty
-        self.kinds = kinds_of_answers(impact)
+        self.kinds = {} if isinstance(impact, Run) else kinds_of_answers(impact)
         self.outputs, self.deviations, self.ranges = (
-            ({}, {}, {}) if uncertainty is None else spread_of(impact, uncertainty)
+            ({}, {}, {})
+            if uncertainty is None or isinstance(impact, Run)
+            else spread_of(impact, uncertainty)
         )
 
     def heading(self, output: Output) -> str:
         """The result in words, such as "Golf: delta-V"; of any other output its name."""
-        words = words_of_answers(self.impact)
+        words = {} if isinstance(self.impact, Run) else words_of_answers(self.impact)
         return next(
             (self.names(words[name]) for name, answer in self.outputs.items() if answer is output),
             plain(output.name),
