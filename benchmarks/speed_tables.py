@@ -309,7 +309,7 @@ def calls(found: dict[str, Any], rungs: dict[str, Any]) -> str:
             if one.batch is None
             else batch[one.batch]["median"]
         )
-        half, most = (f"{100.0 * error[name]:.2g} %" for name in ("median", "most_of_10"))
+        half, most = (f"{100.0 * error[name]:.2g}\u00a0%" for name in ("median", "most_of_10"))
         within = f"{half}; 9 of 10 within {most}"
         second = f"{float(f'{1.0 / (each * FORMULA):.1g}'):,.0f}".replace(",", "\u202f")
         lines.append([one.cases, within, second, one.call])

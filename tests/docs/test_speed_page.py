@@ -423,8 +423,8 @@ def test_what_to_call_has_the_numbers_of_the_files(tables, committed):
     assert len(lines) == len(tables.CALLS) + 2
     for line, row in zip(lines, tables.CALLS, strict=False):
         error = ladder["rungs"][row.rung]
-        assert line[1].startswith(f"{100.0 * error['median']:.2g} %")
-        assert line[1].endswith(f"within {100.0 * error['most_of_10']:.2g} %")
+        assert line[1].startswith(f"{100.0 * error['median']:.2g}\u00a0%")
+        assert line[1].endswith(f"within {100.0 * error['most_of_10']:.2g}\u00a0%")
         each = (
             single["eccentric"]["median"] * tables.cost_of(ladder, row.rung)
             if row.batch is None
