@@ -98,7 +98,7 @@ def render_examples(source: Path, target: Path) -> None:
 
 
 def fold_checks(notebook: NotebookNode) -> None:
-    """Fold what checks an example, from its heading on: a reader learns from what stands before."""
+    """Fold the cells under the heading of the checks: what teaches stands before it."""
     checks = False
     for cell in notebook.cells:
         checks = checks or cell.source.startswith("## Checks")
@@ -151,8 +151,8 @@ def gallery_of(told: dict[str, tuple[str, str]]) -> str:
         raise ValueError(f"GALLERY in docs/conf.py and examples/ differ: {set(placed) ^ set(told)}")
     page += [
         (
-            "Each example is a script in `examples/`. It ends with checks of its answers, which are "
-            "folded here, and was run as these pages were built."
+            "Each example is a script in `examples/`, run as these pages were built. It ends with "
+            "checks of its answers, which are folded here."
         ),
         (
             "Pictures need the extra `plot`, tables and dask the extra `tools`: in the folder of "
