@@ -391,3 +391,28 @@ def test_errors_of_the_choices_are_what_the_page_says(committed):
     assert choices["left_out"]["mean"] < 0.2 * choices["impulse"]["mean"]
     if choices["pymunk"] is not None:
         assert choices["pymunk"]["p95"] < 1e-3
+
+
+def test_what_to_call_has_the_numbers_of_the_files(tables, committed):
+    """Each row of the first table: its error is that of its rung, and what it costs is what was
+    measured; every call in it takes the arguments that it is shown with.
+    """
+    ladder = tables.load_ladder()
+    text = tables.calls(committed[0], ladder)
+    lines = [line.strip("| ").split(" | ") for line in text.splitlines()[2:]]
+    single, batch = (tables.rows(committed[0], group) for group in ("single", "batch"))
+    assert len(lines) == len(tables.CALLS) + 2
+    for line, row in zip(lines, tables.CALLS, strict=False):
+        error = ladder["rungs"][row.rung]
+        assert line[1].startswith(f"{100.0 * error['median']:.2g}\u00a0%")
+        assert line[1].endswith(f"within {100.0 * error['most_of_10']:.2g}\u00a0%")
+        each = (
+            single["eccentric"]["median"] * tables.cost_of(ladder, row.rung)
+            if row.batch is None
+            else batch[row.batch]["median"]
+        )
+        seconds = float(re.sub(r"\D", "", line[2])) * each * tables.FORMULA
+        assert seconds == pytest.approx(1.0, rel=0.5)
+        assert line[3] == row.call
+        for option in re.findall(r"(\w+)=", row.call):
+            assert option in inspect.signature(col.time_resolved).parameters
