@@ -487,7 +487,7 @@ def refused() -> float | None:
     except col.NoImpactError as error:
         return error.closing_speed
     except (col.MissingInputError, col.UnitsError, col.ShapeError) as error:
-        print(error.fields["argument"])
+        print(error.argument, error.given, error.allowed, error.instead)
     except col.InternalError as error:
         print(error.code)
     except col.NoSolutionError as error:

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from ..messages.errors import InternalError
 from ..quantities.document import Document
 from ..quantities.formatting import clock, typeset
+from ..quantities.printed_tables import Part, in_markdown, ruled
 from .expressions import Direction, Expression, Pen, System, is_zero
 from .symbols import Symbol
 
@@ -74,16 +75,7 @@ class Page:
         body = list(rows)
         if self.latex:
             body = [(subject, quantity, typeset(value)) for subject, quantity, value in body]
-            lines = [f"| {' | '.join(line)} |" for line in (HEAD, ("---", "---", "---"), *body)]
-        else:
-            widths = [max(map(len, column)) for column in zip(HEAD, *body, strict=True)]
-            rule = tuple("-" * width for width in widths)
-            padded = (
-                (part.ljust(width) for part, width in zip(line, widths, strict=True))
-                for line in (HEAD, rule, *body)
-            )
-            lines = ["  ".join(line).rstrip() for line in padded]
-        self.parts.append("\n".join(lines))
+        self.parts.append((in_markdown if self.latex else ruled)(Part(body, columns=HEAD)))
 
     def listed(self, lines: Sequence[str]) -> None:
         """A list."""

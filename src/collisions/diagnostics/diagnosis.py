@@ -13,11 +13,12 @@ from ..impact.impact import Impact
 from ..impact.left_out import left_out
 from ..kernels.elementwise import UNCHECKED
 from ..messages.errors import InputError, MissingInputError
+from ..messages.marked import type_of
 from ..quantities.formatting import UnitSystem, check_system
 from ..quantities.reading import ArgumentReader, amount, need_one_case, single_number
 from ..quantities.settings import callers_options, computing, units_required
 from ..quantities.tables import spoken_system
-from ..quantities.units import Input, Pair, shown
+from ..quantities.units import Input, Pair, rendered, shown
 from ..reconstruct import MomentumSolution
 from ..scene.run import Run
 from ..vehicle.drag import USUAL_DURATION, read_drag, read_duration
@@ -219,14 +220,15 @@ def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:
     """The limits of a call: the defaults, and the caller's in their place; units allowed."""
     limits = {code: limit.default for code, limit in LIMITS.items()}
     if given is not None and not isinstance(given, Mapping):
-        kind = type(given).__name__
+        kind = type_of(given)
         text = (
-            f"limits must be a dict from code to limit, such as {{'tyre_impulse': 0.2}}; got {kind}"
+            "limits must be `|a dict|a table` from code to limit, such as `{'tyre_impulse': 0.2}`; "
+            f"got {kind}"
         )
         reader.refuse(InputError(text, code="bad_limit", argument="limits"))
         return limits
     for code, value in (given or {}).items():
-        name = f"limits[{shown(code)}]"
+        name = f"limits[{rendered(code)}]"
         if code not in LIMITS:
             text = f"{name}: there is no finding {shown(code)}; known are {', '.join(LIMITS)}"
             reader.refuse(InputError(text, code="unknown_finding", argument="limits"))

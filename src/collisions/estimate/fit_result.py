@@ -21,6 +21,7 @@ from ..messages.errors import (
 )
 from ..messages.warning import Note
 from ..quantities.attributes import OWN_UNIT, Shown, derived
+from ..quantities.refusals import must_be
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summary, as_sentence
 from ..quantities.units import shown, to_quantity
@@ -31,7 +32,7 @@ from .evidence import Observation
 
 _GIVEN_ERRORS = "A standard error holds given the stated errors of the observations and priors."
 _TAKE_POSTERIOR = (
-    "; reconstruct.posterior gives the range that the evidence leaves, whatever its shape"
+    "; `reconstruct.posterior` gives the range that the evidence leaves, whatever its shape"
 )
 _NONE = "\u2013"
 _LARGE_NONLINEARITY = 0.2  # of the half-width of a 95 percent interval
@@ -130,10 +131,8 @@ class Estimate(WithUnit):
             or not isinstance(coverage, (int, float))
             or not 0.0 < coverage < 1.0
         ):
-            raise InputError(
-                f"coverage must be between 0 and 1, such as 0.95, got {shown(coverage)}",
-                code="bad_fraction",
-                argument="coverage",
+            raise must_be(
+                "coverage", "between 0 and 1, such as 0.95", coverage, code="bad_fraction"
             )
         if not self.determined:
             return self.low, self.high
@@ -344,7 +343,7 @@ class Fit(SpeedsFound, Shown):
     @property
     def statements(self) -> tuple[str, ...]:
         """The statements that belong with the numbers, as sentences."""
-        return tuple(note.sentence for note in notes_of(self))
+        return tuple(note.statement for note in notes_of(self))
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as strict JSON, with infinities and NaN by name.
@@ -450,8 +449,8 @@ def notes_of(found: Fit) -> Iterator[Note]:
         yield agreement(found.p_value, found.residuals, f" (chi-squared {_chi_squared(found)})")
     for direction in found.undetermined:
         advice = (
-            "; give a prior of it (a Normal), or an observation that determines it, or take "
-            "reconstruct.posterior"
+            "; give a prior of it (a Normal), or an observation that determines it, or "
+            "take `reconstruct.posterior`"
         )
         open_ = Note(IllConditionedWarning, direction.sentence, advice, "undetermined")
         yield Note(None, direction.sentence) if direction.held_by_prior else open_
@@ -500,7 +499,7 @@ def notes_of(found: Fit) -> Iterator[Note]:
                 SuspectUnitsWarning,
                 f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; "
                 "if it is an angle, the short way between them is round the circle: give it "
-                f"with its unit, such as Normal({degrees})",
+                f"with its unit, such as `Normal({degrees})`",
                 "",
                 "bare_angle",
             )

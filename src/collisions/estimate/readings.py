@@ -140,7 +140,7 @@ class CensoredReading(Reading):
             if low is None or high is None:
                 raise InputError(
                     f"observed {self.name} is an angle, which goes round, with one bound; give "
-                    "both, Censored(low, high), or let the model return a plain number",
+                    "both, `Censored(low, high)`, or let the model return a plain number",
                     code="bad_observation",
                     argument="observed",
                 )

@@ -18,7 +18,7 @@ from ..kernels.contact_laws import BRACH, FRICTION, LAWS
 from ..kernels.elementwise import larger, select
 from ..kernels.model_error import ECCENTRIC, LACKING, Known, least_model
 from ..kernels.status import EPS, Passed, Status, WithTyres
-from ..messages.errors import InputError
+from ..messages.errors import InputError, placed
 from ..messages.progress import halves, reporter
 from ..messages.warning import quietly
 from ..quantities.attributes import Shown, derived, lock, math_or_numpy, same
@@ -300,10 +300,10 @@ def part_of_choice(choice: ModelChoice, take: Any) -> ModelChoice:
 
 def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
     """Raise for all missing inputs, in a batch for the first case that needs them."""
-    place = f"{first_case(lacks)[1]}: " if isinstance(lacks, np.ndarray) else ""
+    place = first_case(lacks)[1] if isinstance(lacks, np.ndarray) else ""
     reader = ArgumentReader()
     for error in errors_of_missing(inputs.a, inputs.b, inputs.point):
-        reader.problems.append(type(error)(place + str(error), code=error.code, **error.fields))
+        reader.problems.append(placed(error, place))
     reader.close()
 
 

@@ -173,7 +173,7 @@ class Quantities:
         if value is None and hasattr(self._owner, "_missing"):
             problem = self._owner._missing(name)
             if problem is not None:
-                raise NoQuantityError(str(problem), code=problem.code, **problem.fields)
+                raise NoQuantityError(problem.marked, code=problem.code, **problem.fields)
         if value is None or unit is None:
             return getattr(value, "q", value)
         return self._with_unit(value, unit)

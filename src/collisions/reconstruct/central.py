@@ -293,8 +293,8 @@ def _answer(
             f"va = {say(s.a.before.vx, 'speed')} with e = {s.restitution:.4g}" for s in solutions
         )
         return AmbiguousSolutionError(
-            f"two impacts fit {', '.join(known)}: {both}; both are in .solutions, and a velocity "
-            "of the other kind decides",
+            f"two impacts fit {', '.join(known)}: {both}`|; both are in .solutions|`, and a "
+            "velocity of the other kind decides",
             code="ambiguous",
             solutions=solutions,
         )
@@ -488,7 +488,7 @@ def _refusal(
             if not incomplete and e > -1.0:
                 text += (
                     "; if they passed or tore before they had a common velocity, write "
-                    "incomplete=True"
+                    "`incomplete=True`"
                 )
         case Status.INVERSE_E0:
             apart = known["vb_after"] - known["va_after"]

@@ -26,6 +26,7 @@ from ..messages.errors import (
     InputError,
     MissingInputError,
     Status,
+    placed,
 )
 from ..messages.warning import quietly, warn_of_cases
 from ..quantities.attributes import lock
@@ -129,10 +130,15 @@ def read_drags(reader: ArgumentReader, duration: Any, drags: dict[str, Any]) -> 
     if (duration is None) == bool(given):
         lacking = "duration" if duration is None else "drag_a"
         text = (
-            f"{' and '.join(given)} need a duration, over which tyres act; write duration='100 ms'"
+            (
+                f"{' and '.join(given)} need a duration, over which tyres act; write "
+                "`duration='100 ms'`"
+            )
             if given
-            else "duration counts for drag_a and drag_b alone, and neither was given; write "
-            "drag_b=0.7, or leave it out"
+            else (
+                "duration counts for drag_a and drag_b alone, and neither was given; write "
+                "`drag_b=0.7`, or leave it out"
+            )
         )
         reader.refuse(MissingInputError(text, code="bad_combination", argument=lacking))
     if duration is None or not given:
@@ -398,5 +404,5 @@ def raise_or_warn(
     if on_failure == "raise":
         index, place = first_case(status > Status.ENERGY_GAIN)
         problem = error(index)
-        raise type(problem)(f"{place}: {problem}", code=problem.code, **problem.fields)
+        raise placed(problem, place)
     warn_of_refusals(status)

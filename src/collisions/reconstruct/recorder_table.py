@@ -159,7 +159,7 @@ def _by_name(reader: ArgumentReader, heads: list[str], polarity: str) -> dict[st
         if words & {"left", "right"} and sides != {_SIDES[polarity]}:
             says = " or ".join(sorted(sides or words & {"left", "right"}))
             raise ValueError(
-                f"the head {shown(head)} says {says}, and by polarity={polarity!r} lateral is "
+                f"the head {shown(head)} says {says}, and by `polarity={polarity!r}` lateral is "
                 f"positive to the {_SIDES[polarity]}"
             )
         found[name] = at, _unit(groups, head, _COLUMNS[name][0])

@@ -11,6 +11,7 @@ from ..kernels.elementwise import POSITIVE_FINITE
 from ..messages.errors import InputError
 from ..messages.hints import hinted
 from ..quantities.reading import ArgumentReader, at_least_zero, single_number
+from ..quantities.refusals import must_be
 from ..quantities.units import Input, Value, has_unit, shown
 from .published import Fit, Outside, Published, check_outside, settle
 
@@ -450,13 +451,7 @@ def restitution_by_overlap(overlap: Input) -> Published:
         reader, reader.number(overlap, "", "overlap"), "overlap", "takes one value; ask for each"
     )
     if share <= 0.0 or share > 1.0:
-        reader.refuse(
-            InputError(
-                f"overlap must be > 0 and at most 1, got {shown(overlap)}",
-                code="bad_fraction",
-                argument="overlap",
-            )
-        )
+        reader.refuse(must_be("overlap", "> 0 and at most 1", overlap, code="bad_fraction"))
     reader.close()
     return (RESTITUTION_OVERLAP_SMALL, RESTITUTION_OVERLAP_HALF, RESTITUTION_OVERLAP_LARGE)[
         (share > 0.45) + (share >= 0.55)

@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from ..kernels.elementwise import select
-from ..messages.errors import InputError, NoSolutionError
+from ..messages.errors import NoSolutionError
 from ..messages.hints import hinted
 from ..quantities.attributes import hypot, math_or_numpy
 from ..quantities.reading import ArgumentReader, at_least_zero
-from ..quantities.units import Input, Value, shown
+from ..quantities.refusals import must_be
+from ..quantities.units import Input, Value
 from ..vehicle.drag import GRAVITY, one_value, read_friction
 from .surfaces import in_one_precision, out_of_range, read_length, settle
 
@@ -176,11 +177,12 @@ def _read_angle(reader: ArgumentReader, value: Any) -> Any:
     read = one_value(reader, value, "rad", "angle")
     if isinstance(read, float) and not abs(read) < _QUARTER:
         return reader.refuse(
-            InputError(
-                f"angle must be between -90 and 90 degrees, got {shown(value)}; a bare number is "
-                "in radians, so write '20 deg'",
+            must_be(
+                "angle",
+                "between -90 and 90 degrees",
+                value,
+                "; a bare number is in radians, so write '20 deg'",
                 code="bad_angle",
-                argument="angle",
             )
         )
     return read

@@ -19,7 +19,8 @@ from ..messages.errors import InputError, ShapeError
 from ..messages.hints import hinted
 from ..quantities.formatting import typeset
 from ..quantities.reading import ArgumentReader
-from ..quantities.units import Input, shown
+from ..quantities.refusals import must_be
+from ..quantities.units import Input
 from .distribution import Distribution, check_order, from_numbers, read_alike, show
 from .normal import cdf, density, power_of_two, quantile, score_of_coverage, survival
 
@@ -138,12 +139,13 @@ class NormalFamily(Distribution):
         share = reader.number(coverage, "", "coverage")
         reader.close()
         if not isinstance(share, float) or not 0.0 < share < 1.0:
-            raise InputError(
-                "coverage must be more than 0 and less than 1, such as 0.95, got "
-                f"{shown(coverage)}; a range that cannot be left is Uniform(low, high), or "
-                "Interval(low, high) where nothing is known of likelihood",
+            raise must_be(
+                "coverage",
+                "more than 0 and less than 1, such as 0.95",
+                coverage,
+                "; a range that cannot be left is `Uniform(low, high)`, or `Interval(low, "
+                "high)` where nothing is known of likelihood",
                 code="bad_fraction",
-                argument="coverage",
             )
         check_order(start, end, unit=unit)
         mean, sd = cls._from_quantiles(start, end, score_of_coverage(share))
@@ -155,11 +157,13 @@ class NormalFamily(Distribution):
         self, mean: float, sd: float, truncate: tuple[float | None, float | None] | None
     ) -> None:
         if not sd > 0.0:
-            raise InputError(
-                f"sd must be > 0, got {show(sd, self.unit)}; of a quantity that is known exactly "
-                "give the number itself",
+            raise must_be(
+                "sd",
+                "> 0",
+                sd,
+                "; of a quantity that is known exactly give the number itself",
                 code="not_positive",
-                argument="sd",
+                got=show(sd, self.unit),
             )
         self._set(given_mean=mean, given_sd=sd, truncate=truncate, _split=None)
         self._describe(*self._untruncated())
@@ -182,11 +186,11 @@ class NormalFamily(Distribution):
                 left = moments(score, start, end, log_sd)
         if left is None or left.share < _LEAST_SHARE:
             raise InputError(
-                f"truncate={show(self.truncate, self.unit)} leaves less than {_LEAST_SHARE:g} of "
+                f"`truncate={show(self.truncate, self.unit)}` leaves less than {_LEAST_SHARE:g} of "
                 "the probability of "
-                f"{type(self).__name__}(mean={show(self.given_mean, self.unit)}, "
-                f"sd={show(self.given_sd, self.unit)}); look for a wrong bound, or state what is "
-                "known otherwise, for example by Uniform(low, high)",
+                f"`{type(self).__name__}(mean={show(self.given_mean, self.unit)}, "
+                f"sd={show(self.given_sd, self.unit)})`; look for a wrong bound, or state what is "
+                "known otherwise, for example by `Uniform(low, high)`",
                 code="truncated_away",
                 argument="truncate",
             )
@@ -409,11 +413,12 @@ def _read(
     if truncate is None:
         truncate = (None, None)
     if not isinstance(truncate, (tuple, list)) or len(truncate) != 2:
-        raise ShapeError(
-            "truncate must be a pair (low, high), where None leaves a side open, got "
-            f"{shown(truncate)}",
+        raise must_be(
+            "truncate",
+            "a pair `(low, high)`, where `|None|-inf or inf` leaves a side open",
+            truncate,
             code="bad_shape",
-            argument="truncate",
+            kind=ShapeError,
         )
     (one, other, *bounds), unit = read_alike(
         needed, {f"truncate[{i}]": bound for i, bound in enumerate(truncate)}

@@ -96,9 +96,9 @@ class OneSidedOutput(Sampled):
             Always.
         """
         raise InputError(
-            f"{self.name!r} has no histogram, because some of its cases are known from one side "
-            "only; look at its interval(), or find a distribution with reconstruct.posterior and a "
-            "prior",
+            f"{self.name!r} has no histogram, because some of its cases are known from one "
+            "side only; look at its interval(), or find a distribution with "
+            "`reconstruct.posterior` and a prior",
             code="one_sided",
             argument=self.name,
         )
@@ -202,7 +202,7 @@ def one_sided_notes(outputs: Mapping[str, Output]) -> Iterator[Note]:
                     f"{name} is known from one side only in {100.0 * share:.3g} % of the "
                     f"cases, as {word} its value: the {end} end of a range is infinite where "
                     "these decide it, and mean and standard deviation do not exist. "
-                    "reconstruct.posterior with a prior for it has two sides",
+                    "`reconstruct.posterior` with a prior for it has two sides",
                     code="one_sided",
                     fields={"output": name, "share": share},
                 )

@@ -131,10 +131,10 @@ def _refuse_undecided(found: Any, others: Iterator[Any], names: list[str]) -> No
     if count := int(np.count_nonzero(differ)):
         these = f"{' and '.join(map(repr, names))} {'is' if len(names) == 1 else 'are'}"
         raise InputError(
-            f"in at least {count} of {np.count_nonzero(answered)} samples the condition may hold "
-            f"or not, because {these} known from one side only there, as at least or at most a "
-            "value; ask a condition that does not depend on what lies beyond, or find a "
-            "distribution with reconstruct.posterior and a prior",
+            f"in at least {count} of {np.count_nonzero(answered)} samples the condition may "
+            f"hold or not, because {these} known from one side only there, as at least or "
+            "at most a value; ask a condition that does not depend on what lies beyond, or "
+            "find a distribution with `reconstruct.posterior` and a prior",
             code="one_sided",
             argument="condition",
         )

@@ -18,9 +18,10 @@ from ..messages.warning import Note
 from ..quantities.attributes import OWN_UNIT, Derived, Quantities, derived, returns, same, show
 from ..quantities.formatting import KIND_OF, Numbers
 from ..quantities.reading import ArgumentReader, is_whole
+from ..quantities.refusals import must_be
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, as_sentence
-from ..quantities.units import shown, unit_as_written
+from ..quantities.units import rendered, shown, unit_as_written
 from . import turns as angles
 from .designs import REPLICATES
 from .distribution import probability
@@ -235,11 +236,7 @@ class Output(Summarized):
         """
         share = probability(coverage, "coverage")
         if not isinstance(share, float):
-            raise InputError(
-                f"coverage must be one number, got {shown(coverage)}",
-                code="bad_fraction",
-                argument="coverage",
-            )
+            raise must_be("coverage", "one number", coverage, code="bad_fraction")
         low, high = self._quantile(np.array([0.5 - 0.5 * share, 0.5 + 0.5 * share]))
         return float(low), float(high)
 
@@ -284,7 +281,7 @@ class Output(Summarized):
         """
         raise InputError(
             f"{self.name!r} has no histogram, because nothing was sampled; take "
-            "method='quasi_random'",
+            "`method='quasi_random'`",
             code="not_sampled",
             argument="method",
         )
@@ -334,7 +331,7 @@ class Output(Summarized):
         """
         raise InputError(
             f"{self.name!r} has no samples in which a condition could hold; take "
-            "method='quasi_random', which draws them",
+            "`method='quasi_random'`, which draws them",
             code="not_sampled",
             argument="method",
         )
@@ -417,7 +414,9 @@ class InUnit(Quantities):
         reader = ArgumentReader()
         # A text or a unit of pint; anything else is refused by how it is written.
         name = (
-            f"{unit}" if isinstance(unit, str) or hasattr(unit, "dimensionality") else shown(unit)
+            f"{unit}"
+            if isinstance(unit, str) or hasattr(unit, "dimensionality")
+            else rendered(unit)
         )
         factor = reader.number(f"1 {name}", owner.unit or "", "unit")
         reader.close()
@@ -583,11 +582,7 @@ class Sampled(Output):
             Edges, shares and standard errors of the shares.
         """
         if not is_whole(bins) or not 1 <= bins <= _MOST_BINS:
-            raise InputError(
-                f"bins must be a whole number from 1 to {_MOST_BINS}, got {shown(bins)}",
-                code="bad_option",
-                argument="bins",
-            )
+            raise must_be("bins", f"a whole number from 1 to {_MOST_BINS}", bins, code="bad_option")
         try:
             with np.errstate(all="ignore"):
                 edges = np.histogram_bin_edges(self._answered, bins)
@@ -879,7 +874,7 @@ class Propagation(Summarized):
         """What belongs with the figures, as sentences: every warning of the model, by how many
         cases, and of the method.
         """
-        return tuple(note.sentence for note in self.notes)
+        return tuple(note.statement for note in self.notes)
 
     def to_dict(self) -> dict[str, Any]:
         """Figures of all outputs and the inputs they are given, as nested plain values that strict
@@ -892,7 +887,7 @@ class Propagation(Summarized):
         """
         return {
             "method": self.method,
-            "inputs": {name: shown(value, 1000) for name, value in self.inputs.items()},
+            "inputs": {name: rendered(value, 1000) for name, value in self.inputs.items()},
             "samples": self.samples,
             "failed": self.failed,
             "seed": self.seed,

@@ -21,9 +21,11 @@ from ..kernels.elementwise import (
 from ..kernels.tyre import Tyres as Numbers
 from ..messages.errors import InputError, ShapeError
 from ..messages.hints import hinted, no_argument
+from ..messages.marked import type_of
 from ..quantities.attribute_stubs import TyresQuantities
 from ..quantities.attributes import Shown, lock
 from ..quantities.reading import ArgumentReader, at_least_zero, warn_if_large
+from ..quantities.refusals import must_be
 from ..quantities.settings import Default, in_si
 from ..quantities.units import Input, Texts, Value, shown, texts_of
 from .drag import one_value, read_friction
@@ -341,9 +343,11 @@ def kernel_numbers(flat: Mapping[str, Any], xp: Any = math) -> Numbers:
 
 def not_tyres(label: str, given: Any) -> InputError:
     """The error for an argument that is not Tyres."""
-    return InputError(
-        f"{label} must be Tyres, got {type(given).__name__}; write "
-        "collisions.travel.Tyres(friction, lock, wheelbase, track)",
+    return must_be(
+        label,
+        "Tyres",
+        given,
+        "; write collisions.travel.Tyres(friction, lock, wheelbase, track)",
         code="not_tyres",
-        argument=label,
+        got=type_of(given),
     )
