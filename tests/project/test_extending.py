@@ -43,7 +43,7 @@ def test_type_checkers_and_docstrings_know_the_laws(monkeypatch):
     monkeypatch.delitem(contact_laws.LAWS, "half back")
     assert get_args(inputs.Law) == tuple(contact_laws.LAWS)
     listed = ", ".join(f'"{name}"' for name in contact_laws.LAWS)
-    for solver in (col.oblique_central, col.eccentric):
+    for solver in (col.oblique_central, col.eccentric, col.scene.Contact):
         assert f"law : {{{listed}}}" in solver.__doc__
 
 
