@@ -37,6 +37,7 @@ from .common import (
     read_drags,
     read_masses,
     run_forward,
+    state_instant,
     warn_of_condition,
 )
 
@@ -310,6 +311,8 @@ def _answer(
     )
     impact = finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
     warn_of_condition(origin)
+    if not held:
+        state_instant("central", "drag_a=, drag_b=, where A runs into the rear of B")
     return impact
 
 

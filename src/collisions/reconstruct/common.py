@@ -28,7 +28,7 @@ from ..messages.errors import (
     Status,
     placed,
 )
-from ..messages.warning import quietly, warn_of_cases
+from ..messages.warning import quietly, state_of_study, warn_of_cases
 from ..quantities.attributes import lock
 from ..quantities.precision import precision
 from ..quantities.reading import ArgumentReader, amount, broadcast
@@ -372,6 +372,16 @@ def warn_of_condition(origin: Reconstruction) -> None:
     sentence = f"the condition of {known} is above {_ILL_CONDITIONED:.0e}: {why}"
     warning = IllConditionedWarning(text, code="ill_conditioned", condition=worst)
     warn_of_cases(warning, {sentence: int(np.count_nonzero(ill)) if ill.ndim else None})
+
+
+def state_instant(solver: str, wheels: str = "tyres_a=, tyres_b=") -> None:
+    """State of a study that its impacts were found as instants."""
+    state_of_study(
+        f"{solver} found every case as an instant, which leaves out the tyres and the motion while "
+        f"the contact lasts; give duration= and {wheels}. The statements of one case say how much "
+        "that is",
+        "instant",
+    )
 
 
 def run_forward(

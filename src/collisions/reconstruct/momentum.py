@@ -33,7 +33,15 @@ from ..quantities.refusals import yes_or_no
 from ..quantities.tables import said
 from ..quantities.units import Input, Pair, is_quantity, magnitude, texts_of
 from ..vehicle.tyres import Tyres
-from .common import NEARLY_COLLINEAR, Cases, exactly, input_faults, raise_or_warn, read_masses
+from .common import (
+    NEARLY_COLLINEAR,
+    Cases,
+    exactly,
+    input_faults,
+    raise_or_warn,
+    read_masses,
+    state_instant,
+)
 from .momentum_solution import MomentumSolution, Sensitivity
 from .momentum_tyres import MOST_CORRECTIONS, Lasting, read_tyres
 from .momentum_vector import NEARLY_CANCELLING, Whole, sought_whole
@@ -275,6 +283,8 @@ def momentum(
             (numbers[f"{name}[0]"], numbers[f"{name}[1]"]) if f"{name}[0]" in numbers else None
             for name in ("outside_impulse", "normal")
         )
+        if lasting is None:
+            state_instant("momentum")
         known = _Known(cases, numbers, angles, terms, impulse, normal, unlike, lasting)
         return in_units_of(
             _solve(known, given if cases.shape is None else None, on_failure),

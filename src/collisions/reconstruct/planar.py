@@ -48,6 +48,7 @@ from .common import (
     read_amounts,
     run_forward,
     split_texts,
+    state_instant,
 )
 from .lasting import numbers_of_times, settle, tyre_faults
 from .origins import End, Origin
@@ -342,6 +343,8 @@ def _answer(
         return planar(part_of(inputs.a, take), part_of(inputs.b, take), **contact)
 
     _warn(cases, end, sure & end.pressed, nearly)
+    if not inputs.tyres:
+        state_instant("planar")
     origin = origin_of(found, condition, count, sure)
     return finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
 
