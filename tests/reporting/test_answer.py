@@ -18,15 +18,9 @@ from collisions.reporting.mathml import mathml
 from collisions.reporting.render import Html, Markdown, Printed
 from collisions.reporting.sections import _round_limit
 from pages import section
+from scenes import IN_POUNDS
 
-A = col.Vehicle(
-    mass="3400 lb", yaw_inertia="1770 slug*ft**2", x="-6.5 ft", y="1.3 ft", heading="0 deg",
-    name="Accord",
-)  # fmt: skip
-B = col.Vehicle(
-    mass="2900 lb", yaw_inertia="1250 slug*ft**2", x="2.6 ft", y="-4 ft", heading="90 deg",
-    name="Civic",
-)  # fmt: skip
+A, B = (car.replace(name=name) for car, name in zip(IN_POUNDS, ("Accord", "Civic"), strict=True))
 PLACE = {"normal": "0 deg", "point": ("0 ft", "0 ft"), "friction": 0.5}
 
 
