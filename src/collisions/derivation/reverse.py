@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import pairwise
+from typing import Any
 
 from ..impact.impact import Impact
 from ..impact.provenance import KNOWN, bounds_of, how_many
@@ -185,9 +186,10 @@ def _while_held(
     origin = s.impact.reconstruction
     assert origin is not None
     (a, b), e, g, r = s.bodies, s.e, s.closing, s.separation
-    drags = (page.system.answer(drag, "number") for drag in (origin.drag_a, origin.drag_b))
+    numbers: list[Any] = [origin.duration, origin.drag_a, origin.drag_b]
+    drags = (page.system.answer(drag, "number") for drag in numbers[1:])
     page.say(
-        f"Tyres act during {page.number(origin.duration, 'time')} with drags of "
+        f"Tyres act during {page.number(numbers[0], 'time')} with drags of "
         f"{' (A) and '.join(drags)} (B): drag times weight times duration is an impulse from "
         f"outside, {page.shown(a.pushed('x'))} and {page.shown(b.pushed('x'))}. It slows them by:"
     )

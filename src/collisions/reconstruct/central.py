@@ -257,7 +257,7 @@ def _answer(
         # found.
         still: Any = 0.0 if np.all(keep) else cases.where(keep, 0.0)
         bodies = []
-        place = {"yaw_inertia": math.inf, "x": 0.0, "y": 0.0} if held else {}
+        place: dict[str, Any] = {"yaw_inertia": math.inf, "x": 0.0, "y": 0.0} if held else {}
         for label, speed in (("a", found.va), ("b", found.vb)):
             own = (("mass", f"mass_{label}"), ("vx", f"v{label}"), ("heading", f"heading_{label}"))
             given = {name: texts[key] for name, key in own if key in texts}
@@ -269,15 +269,15 @@ def _answer(
         others = {name: text for name, text in texts.items() if name not in _OF_VEHICLES} or None
         rule = _ALONG_X, FRICTION, _FRICTIONLESS
         if not held:
-            model, contact = "linear_central", (*rule, None, None, others)
-            return Inputs(model, bodies[0], bodies[1], e, *contact, incomplete=incomplete)
+            along = *rule, None, None, others
+            return Inputs("linear_central", bodies[0], bodies[1], e, *along, incomplete=incomplete)
         pushes = {
             f"outside_{label}": (cases.values(-_mass(arrays, label) * slowed), 0.0, 0.0)
             for label, slowed in _slowed(arrays).items()
         }
-        contact = *rule, BRACH, (0.0, 0.0), others
-        more = {"incomplete": incomplete, **pushes}
-        return Inputs("eccentric", bodies[0], bodies[1], e, *contact, **more)
+        point: tuple[Any, Any] = 0.0, 0.0
+        more: dict[str, Any] = {"incomplete": incomplete, **pushes}
+        return Inputs("eccentric", bodies[0], bodies[1], e, *rule, BRACH, point, others, **more)
 
     def refusal() -> CollisionsError:
         say = Sentences(texts.values())
