@@ -550,8 +550,8 @@ class Followed:
         if meanwhile.any() and self.single:
             raise NoSolutionError(
                 f"contacts[{rule}], {contact.a} and {contact.b}, is at {float(time[0]):.4g} s, "
-                f"while another contact of one of them lasts until {float(until[0]):.4g} s; give "
-                "a later time, a shorter duration, or at='touch'",
+                f"while another contact of one of them lasts until {float(until[0]):.4g} s; "
+                "give a later time, a shorter duration, or `at='touch'`",
                 code="contact_meanwhile",
                 time=float(time[0]),
                 movers=(contact.a, contact.b),
