@@ -81,7 +81,8 @@ OPEN = frozenset(
         "Vehicle.kinetic_energy",
         "Side.impulse_direction", "Side.pdof", "Side.pdof_clock",
         "Impact.impulse_ratio", "Impact.critical_impulse_ratio", "Impact.friction",
-        "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers", "ByModel",
+        "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers",
+        "reconstruct.Reconstruction.given", "ByModel",
         "ModelChoice.errors", "Inputs.rule_value",
     }
 )  # fmt: skip
@@ -601,6 +602,7 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
         ("author", lambda: case.option("J. Doe", case.text())),
         ("case", lambda: case.option("2026-11", case.text())),
         ("date", lambda: case.option("25 November 2026", case.text())),
+        ("exhibit", lambda: case.option("12", case.text())),
     ):
         if case.maybe(0.1):
             options[name] = draw()
@@ -640,6 +642,10 @@ def test_pages_of_sliders(case: Case) -> None:
             else 0.2
         )
         ranges = {"restitution": (0.5 * e, 0.5 * (1.0 + e))}
+    if case.maybe(0.3):
+        low, high = sorted((case.number("vx"), case.number("vx")))
+        name = case.choice(("a.delta_v", "b.after.speed", "a.pdof", "energy_loss", case.text()))
+        options["observed"] = {name: case.option((low, high), low, case.value("speed"))}
     found = case.call("what_if", col.what_if, impact, ranges, **case.spoil(options))
     assert isinstance(found, Exception) or found.startswith("<!DOCTYPE html>")
 
@@ -1372,6 +1378,27 @@ def segments(case: Case, name: str, count: int) -> Any:
     return [case.value(name) for _ in range(count if case.maybe(0.97) else count + 1)]
 
 
+@fuzzes("travel.throw_speed", "travel.throw_bounds")
+def test_throws(case: Case) -> None:
+    """Somebody who was thrown: a speed, and bounds in their order that hold it if it went up."""
+    ground = {"friction": case.value("friction"), "height": case.option(0.0, case.value("x"))}
+    angle = case.value("heading")
+    far = case.value("distance")
+    found = [
+        case.call(
+            "travel.throw_speed", travel.throw_speed, far, **case.spoil({**ground, "angle": angle})
+        ),
+        case.call("travel.throw_bounds", travel.throw_bounds, far, **case.spoil(ground)),
+    ]
+    for one in found:
+        if not isinstance(one, Exception):
+            for speed in one if isinstance(one, tuple) else (one,):
+                assert np.all(~(np.asarray(speed) < 0.0)), speed
+    if not isinstance(found[1], Exception):
+        least, greatest = found[1]
+        assert np.all(~(np.asarray(least) > np.asarray(greatest))), found[1]
+
+
 @fuzzes("travel.speed", "travel.time", "travel.distance", "travel.path", "travel.RunOut")
 def test_travel(case: Case) -> None:
     """Straight and along a path, over one surface and several."""
@@ -1427,6 +1454,12 @@ def test_travel(case: Case) -> None:
             "point_error": case.option(0.1, case.value("distance")),
             "heading_error": case.option("3 deg", 0.0),
         }
+    if case.maybe(0.3):
+        path["tyres"] = tyres_of(case)
+        if case.maybe(0.9):
+            del path["lock"]
+    if case.maybe(0.2):
+        path["rotating_mass"] = case.option(0.03, case.value("lock"))
     found = case.call("travel.path", travel.path, points, **case.spoil(path))
     if isinstance(found, travel.RunOut):
         # A way that ends where it began has no straight course.
@@ -1511,6 +1544,8 @@ def test_simulated_travel(case: Case) -> None:
         ground["surfaces"] = case.option([(corners, case.value("drag"))], case.garbage())
     if case.maybe(0.2):
         ground["slope"] = case.option((0.02, "1 %"), case.garbage())
+    if case.maybe(0.2):
+        ground["rotating_mass"] = case.option(0.03, "4 %", case.value("lock"))
     ground |= {"moments": case.option(2, 9), "tolerance": case.option(1e-4, 1e-5)}
     # What hardly slows takes ten thousand steps, and is refused for it as after fifteen hundred.
     with mock.patch.object(motion_of_wheels, "_MOST_STEPS", 10_000 if case.maybe(0.01) else 1_500):
@@ -1973,11 +2008,16 @@ def propagation(case: Case) -> Any:
 def sided(case: Case, made: list[Any]) -> Any:
     """A model whose output is known from one side only in some cases."""
     sides = case.option(0, 1, -1, np.array([1, 0, -1, 1] * 16))
+    # Drawn once: a model answers the same whenever it is asked.
+    same = case.option(None, 3.0)
 
     def model(**inputs: Any) -> Any:
         (name,) = inputs
         answered = case.call(
-            "uncertainty.OneSided", uncertainty.OneSided, case.option(inputs[name], 3.0), sides
+            "uncertainty.OneSided",
+            uncertainty.OneSided,
+            inputs[name] if same is None else same,
+            sides,
         )
         made.append(answered)
         return {"known": inputs[name], "sided": answered}

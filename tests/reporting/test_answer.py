@@ -16,6 +16,7 @@ from collisions.reporting import options, replay, report
 from collisions.reporting.mathml import mathml
 from collisions.reporting.render import Html, Markdown, Printed
 from collisions.reporting.sections import _round_limit
+from pages import section
 
 A = col.Vehicle(
     mass="3400 lb", yaw_inertia="1770 slug*ft**2", x="-6.5 ft", y="1.3 ft", heading="0 deg",
@@ -56,10 +57,6 @@ def found_speeds(**known):
 
 def box(page):
     return page.split("\n## Answer\n")[1].split("\n## ")[0]
-
-
-def section(page, name):
-    return page.split(f"\n## {name}\n")[1].split("\n## ")[0]
 
 
 def test_the_range_of_a_figure_stands_first_with_two_figures_of_its_half_width():
@@ -228,8 +225,8 @@ def test_courses_that_were_given_as_numbers_stand_on_the_page():
         delta_v_forward_a=crash().a.delta_v_forward, **PLACE,
     )[0]  # fmt: skip
     given = section(report(found, form="markdown", units="us"), "Inputs")
-    assert "| evidence | course of the Accord before | 0°, as the answer has it" in given
-    assert "| evidence | course of the Civic before | 90°, as the answer has it" in given
+    assert "| evidence | course of the Accord before | 0° |" in given
+    assert "| evidence | course of the Civic before | 90° |" in given
 
 
 def test_inputs_of_a_propagation_are_in_words():
@@ -266,9 +263,10 @@ def test_vehicles_of_one_name_keep_their_letters():
 
 
 def test_a_page_is_filed_under_case_author_and_date():
-    filed = {"case": 'No. 7 "<b>\\', "author": "J. Doe", "date": "25 November 2026"}
+    filed = {"exhibit": "12", "case": 'No. 7 "<b>\\', "author": "J. Doe"}
+    filed["date"] = "25 November 2026"
     page = report(crash(), figures=False, **filed)
-    line = f"Case: {filed['case']} · Author: J. Doe · Date: 25 November 2026"
+    line = f"Exhibit: 12 · Case: {filed['case']} · Author: J. Doe · Date: 25 November 2026"
     assert f'<p class="filed">{html.escape(line)}</p>' in page
     (foot,) = re.findall(r'@bottom-left \{ content: "([^"]*)"', page)
     assert "".join(chr(int(code, 16)) for code in re.findall(r"\\([0-9a-f]{6})", foot)) == line
@@ -280,6 +278,15 @@ def test_a_page_is_filed_under_case_author_and_date():
     for name in filed:
         with pytest.raises(col.InputError, match=f"{name} must be a text that says something"):
             report(crash(), figures=False, **{name: 7})
+
+
+def test_figures_are_numbered():
+    """From the one beside the answer on, without a gap, also on a page of several results."""
+    pages = (report(crash()), report([crash(), crash()]))
+    for page in pages:
+        numbers = [int(number) for number in re.findall(r"<figcaption>Figure (\d+)\. ", page)]
+        assert numbers == list(range(1, page.count("<figure>") + 1))
+    assert "<figcaption>Figure 1. The scene from above" in pages[0]
 
 
 def test_a_fit_and_a_posterior_answer_with_their_intervals():

@@ -13,6 +13,7 @@ from contextvars import ContextVar
 from typing import Any, NamedTuple
 
 from .errors import CollisionsWarning
+from .marked import plain
 
 # A warning of fewer samples than this share is stated with the result, but not raised, unless it
 # has a share of its own.
@@ -36,7 +37,7 @@ class Noted(NamedTuple):
 
 class Note(NamedTuple):
     """A statement about a result; one that is also a warning has a ``code``, and its ``rest``
-    follows the sentence.
+    follows the sentence, which is marked as that of an error is.
     """
 
     warning: type[CollisionsWarning] | None
@@ -44,6 +45,11 @@ class Note(NamedTuple):
     rest: str = ""
     code: str = ""
     fields: Mapping[str, Any] = {}  # never changed; a read-only view could not be pickled
+
+    @property
+    def statement(self) -> str:
+        """The sentence as a caller in Python reads it."""
+        return plain(self.sentence)
 
 
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
@@ -56,7 +62,7 @@ def warn(warning: CollisionsWarning) -> None:
     """
     noted = _sampling.get()
     if noted is not None:
-        noted.append(Noted(str(warning), type(warning), warning.code, None))
+        noted.append(Noted(warning.marked, type(warning), warning.code, None))
         return
     level, package = 1, __name__.partition(".")[0]
     frame: Any = sys._getframe()

@@ -246,9 +246,10 @@ def _answer(
 
     def origin_of(found: Candidate, which: Any, count: Any, where: Any = True) -> Reconstruction:
         condition = _condition(arrays, found, which, cases.eps, incomplete)
+        given = {name: numbers[name] for name in known}
         velocity = () if held else (found.closing, 0.0 * found.closing)
         names = (*known, "contact_duration", "drag_a", "drag_b") if held else known
-        origin = cases.provenance("central", names, condition, count, velocity, where)
+        origin = cases.provenance("central", names, condition, count, velocity, where, given)
         drags = {name: cases.values(arrays[name]) for name in _DRAGS if held}
         return replace(origin, **drags)
 
@@ -265,19 +266,19 @@ def _answer(
                 mass=numbers[f"mass_{label}"], heading=headings.get(f"heading_{label}"), **place
             )
             bodies.append(moved(body, cases.where(keep, speed), still, still, given))
+        a, b = bodies
         e = cases.where(keep, found.restitution)
         others = {name: text for name, text in texts.items() if name not in _OF_VEHICLES} or None
         rule = _ALONG_X, FRICTION, _FRICTIONLESS
         if not held:
-            along = *rule, None, None, others
-            return Inputs("linear_central", bodies[0], bodies[1], e, *along, incomplete=incomplete)
-        pushes = {
+            contact = e, *rule, None, None, others
+            return Inputs("linear_central", a, b, *contact, incomplete=incomplete)
+        pushes: dict[str, Any] = {
             f"outside_{label}": (cases.values(-_mass(arrays, label) * slowed), 0.0, 0.0)
             for label, slowed in _slowed(arrays).items()
         }
-        point: tuple[Any, Any] = 0.0, 0.0
-        more: dict[str, Any] = {"incomplete": incomplete, **pushes}
-        return Inputs("eccentric", bodies[0], bodies[1], e, *rule, BRACH, point, others, **more)
+        more = {"point": (0.0, 0.0), "given": others, "incomplete": incomplete} | pushes
+        return Inputs("eccentric", a, b, e, _ALONG_X, FRICTION, _FRICTIONLESS, BRACH, **more)
 
     def refusal() -> CollisionsError:
         say = Sentences(texts.values())
@@ -293,8 +294,8 @@ def _answer(
             f"va = {say(s.a.before.vx, 'speed')} with e = {s.restitution:.4g}" for s in solutions
         )
         return AmbiguousSolutionError(
-            f"two impacts fit {', '.join(known)}: {both}; both are in .solutions, and a velocity "
-            "of the other kind decides",
+            f"two impacts fit {', '.join(known)}: {both}`|; both are in .solutions|`, and a "
+            "velocity of the other kind decides",
             code="ambiguous",
             solutions=solutions,
         )
@@ -490,7 +491,7 @@ def _refusal(
             if not incomplete and e > -1.0:
                 text += (
                     "; if they passed or tore before they had a common velocity, write "
-                    "incomplete=True"
+                    "`incomplete=True`"
                 )
         case Status.INVERSE_E0:
             apart = known["vb_after"] - known["va_after"]

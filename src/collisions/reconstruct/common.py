@@ -13,7 +13,7 @@ import numpy as np
 
 from ..impact.impact import Impact, answer_of, found_by, solved
 from ..impact.inputs import Inputs, body_numbers, first_case
-from ..impact.provenance import Reconstruction, origin_where_answered
+from ..impact.provenance import Reconstruction, found_from, origin_where_answered
 from ..impact.run import check_options, error_of, warn_of_refusals
 from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
@@ -26,6 +26,7 @@ from ..messages.errors import (
     InputError,
     MissingInputError,
     Status,
+    placed,
 )
 from ..messages.warning import quietly, state_of_study, warn_of_cases
 from ..quantities.attributes import lock
@@ -129,10 +130,15 @@ def read_drags(reader: ArgumentReader, duration: Any, drags: dict[str, Any]) -> 
     if (duration is None) == bool(given):
         lacking = "duration" if duration is None else "drag_a"
         text = (
-            f"{' and '.join(given)} need a duration, over which tyres act; write duration='100 ms'"
+            (
+                f"{' and '.join(given)} need a duration, over which tyres act; write "
+                "`duration='100 ms'`"
+            )
             if given
-            else "duration counts for drag_a and drag_b alone, and neither was given; write "
-            "drag_b=0.7, or leave it out"
+            else (
+                "duration counts for drag_a and drag_b alone, and neither was given; write "
+                "`drag_b=0.7`, or leave it out"
+            )
         )
         reader.refuse(MissingInputError(text, code="bad_combination", argument=lacking))
     if duration is None or not given:
@@ -260,9 +266,12 @@ class Cases(NamedTuple):
         answers: Any,
         velocity: Sequence[Any] = (),
         where: Any = True,
+        given: Mapping[str, Any] | None = None,
+        also: Sequence[str] = (),
     ) -> Reconstruction:
         """The ``Reconstruction`` with closing speed and slip if they are known; numbers are NaN
-        where ``where`` is False.
+        where ``where`` is False. ``given`` has the numbers of what was known, and ``also`` what was
+        found beside what the solver always finds.
         """
         condition, *found = (self.where(where, value) for value in (condition, *velocity))
         return Reconstruction(
@@ -271,11 +280,18 @@ class Cases(NamedTuple):
             condition=condition,
             answers=self.counts(answers),
             contact_velocity=(found[0], found[1]) if found else None,
+            found=(*found_from(method, known), *also),
+            given=given and {name: _kept(number) for name, number in given.items()},
         )
 
     def one(self, found: Any, index: tuple[int, ...]) -> float:
         """The value of the case at an index."""
         return float(np.broadcast_to(found, self.shape or ())[index])
+
+
+def _kept(number: Any) -> Any:
+    """A number as an answer keeps it: a float, or a locked array."""
+    return lock(number) if np.ndim(number) else float(number)
 
 
 def input_faults(numbers: Mapping[str, Any], incomplete: bool = False) -> list[tuple[Any, int]]:
@@ -362,8 +378,8 @@ def state_instant(solver: str, wheels: str = "tyres_a=, tyres_b=") -> None:
     """State of a study that its impacts were found as instants."""
     state_of_study(
         f"each case was found as an instant by reconstruct.{solver}, which leaves out the tyres "
-        f"and the motion while the contact lasts; give duration= and {wheels}. The statements of one "
-        "case say how much that is",
+        f"and the motion while the contact lasts; give duration= and {wheels}. The statements of "
+        "one case say how much that is",
         "instant",
     )
 
@@ -398,5 +414,5 @@ def raise_or_warn(
     if on_failure == "raise":
         index, place = first_case(status > Status.ENERGY_GAIN)
         problem = error(index)
-        raise type(problem)(f"{place}: {problem}", code=problem.code, **problem.fields)
+        raise placed(problem, place)
     warn_of_refusals(status)

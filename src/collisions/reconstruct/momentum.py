@@ -29,8 +29,9 @@ from ..messages.warning import warn_of_cases
 from ..quantities.attributes import hypot, in_units_of, show
 from ..quantities.directions import Angle, angle_of, course, direction
 from ..quantities.reading import ArgumentReader, amount
+from ..quantities.refusals import yes_or_no
 from ..quantities.tables import said
-from ..quantities.units import Input, Pair, is_quantity, magnitude, shown, texts_of
+from ..quantities.units import Input, Pair, is_quantity, magnitude, texts_of
 from ..vehicle.tyres import Tyres
 from .common import (
     NEARLY_COLLINEAR,
@@ -212,11 +213,7 @@ def momentum(
     (68.54, 56.02)
     """
     if not isinstance(together, bool):
-        raise InputError(
-            f"together must be True or False, got {shown(together)}",
-            code="bad_option",
-            argument="together",
-        )
+        raise yes_or_no("together", together, code="bad_option")
     check_options(on_failure)
     speeds = dict(zip(_SPEEDS, (speed_a, speed_b, speed_a_after, speed_b_after), strict=True))
     courses = dict(zip(_COURSES, (course_a, course_b, course_a_after, course_b_after), strict=True))
@@ -560,8 +557,8 @@ def _refusal(status: Status, first: str, second: str, unsettled: bool) -> Collis
         )
     if status is Status.UNDETERMINED:
         return NoSolutionError(
-            f"the other momenta cancel, so {first} is 0 and there is no {second}; give {first}=0 "
-            "and leave two other speeds open",
+            f"the other momenta cancel, so {first} is 0 and there is no {second}; give "
+            f"`{first}=0` and leave two other speeds open",
             code="undetermined",
         )
     if status is Status.INFINITE_MASS:

@@ -18,7 +18,7 @@ and the pulse: the readings are linear about the dw found last (Newton), until i
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -68,8 +68,8 @@ def read_recorders(
         if duration is not None:
             text = (
                 f"duration = {shown(duration)} is that over which recorders turn or tyres act; "
-                "write axes='turning' (or 'fixed'), and recorder_a=(forward, left) for the place; "
-                "or give tyres_a=travel.Tyres"
+                "write `axes='turning'` (or 'fixed'), and `recorder_a=(forward, left)` for the "
+                "place; or give tyres_a=travel.Tyres"
             )
             reader.refuse(InputError(text, code="bad_combination", argument="duration"))
         return None
@@ -87,9 +87,9 @@ def read_recorders(
     turning = axes is None or read_axes(reader, axes) == "turning"
     if duration is None:
         text = (
-            "duration is None, and a recorder turns with its car while the contact lasts; write "
-            "duration='100 ms', such as that of the recorded pulse, or 0 for a contact in which "
-            "nothing turns"
+            "duration `|is None|is not given`, and a recorder turns with its car "
+            "while the contact lasts; write `duration='100 ms'`, such as that of the "
+            "recorded pulse, or 0 for a contact in which nothing turns"
         )
         reader.refuse(MissingInputError(text, code="missing_duration", argument="duration"))
         duration = 0.0
@@ -99,8 +99,9 @@ def read_recorders(
         place = given.get(label, (0.0, 0.0))
         if not isinstance(place, (tuple, list)) or len(place) != 2:
             text = (
-                f"{name} must be (forward, left), how far ahead of the centre of mass the recorder "
-                f"sits and how far to its left, such as ('0.5 m', 0), got {shown(place)}"
+                f"{name} must be `(forward, left)`, how far ahead of the centre of mass the "
+                "recorder sits and how far to its left, such as `('0.5 m', 0)`, got "
+                f"{shown(place)}"
             )
             reader.refuse(ShapeError(text, code="bad_shape", argument=name))
             continue
@@ -318,8 +319,10 @@ class RecorderScene(ComponentScene):
         return super()._judged(regime, speeds, moved, stays_open)
 
 
-def texts_of(texts: Any, recorders: Recorders | None, lasts: bool = False) -> dict[str, Any]:
-    """The texts with those of recorders by names of their own: the result has the delta-V of the
+def by_own_names(
+    known: Mapping[str, Any], recorders: Recorders | None, lasts: bool = False
+) -> dict[str, Any]:
+    """What was known, with that of recorders by names of its own: the result has the delta-V of the
     centre of mass, which the readings are not, and an instant for a contact unless it ``lasts``.
     """
     own: dict[str, str] = {}
@@ -331,4 +334,4 @@ def texts_of(texts: Any, recorders: Recorders | None, lasts: bool = False) -> di
             f"recorder_{label}[1]": f"recorder_left_{label}",
             **({} if lasts else {"duration": "recorder_duration"}),
         }
-    return {own.get(name, name): text for name, text in texts.items()}
+    return {own.get(name, name): value for name, value in known.items()}

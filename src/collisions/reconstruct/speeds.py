@@ -1,4 +1,4 @@
-"""``speeds``: both impact speeds from the geometry and two things that were found out."""
+"""``speeds``: both impact speeds from the geometry and two known quantities."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import numpy as np
 
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES, Inputs, Law, check_flag, read_inputs
-from ..impact.provenance import KNOWN, bounds_of
+from ..impact.provenance import KNOWN, Reconstruction, bounds_of
 from ..impact.recorded import Axes
 from ..impact.run import error_of, warn_of_refusals
 from ..impact.time_resolved_inputs import read_lasting
@@ -32,10 +32,11 @@ from ..messages.hints import hinted
 from ..messages.warning import quietly, warn_of_cases, warn_of_samples
 from ..quantities.directions import Angle, course
 from ..quantities.reading import ArgumentReader
+from ..quantities.refusals import must_be
 from ..quantities.tables import Sentences, said
-from ..quantities.units import Input, Pair, shown
+from ..quantities.units import Input, Pair
 from ..vehicle.tyres import Tyres
-from ..vehicle.vehicle import Vehicle, missing, moved
+from ..vehicle.vehicle import Vehicle, error_of_missing, moved
 from .common import (
     ASK_ALONE,
     PAIRS,
@@ -50,7 +51,7 @@ from .common import (
     state_instant,
 )
 from .lasting import numbers_of_times, tyre_faults
-from .recorder_place import RecorderScene, read_recorders, texts_of
+from .recorder_place import RecorderScene, by_own_names, read_recorders
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import CONTRADICTION, MAY_SLIDE, ComponentScene, friction_shown
@@ -350,6 +351,7 @@ def speeds(
             else None
         )
         names, used_law, shape = counted(known), inputs.law or BRACH, cases.shape or ()
+        also = ("restitution",) if function else ()
         of_components = ComponentScene if recorders is None else partial(RecorderScene, recorders)
 
         def attempt(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
@@ -408,9 +410,23 @@ def speeds(
                     best, said_of = float(scene.misfit), " and ".join(names)
             return said_of
 
+        asked = inputs
         scene, found, inputs = solved({})
-        texts = texts_of(reader.texts, recorders, bool(times))
+        if inputs is not asked:
+            also = (FRICTION,)
+        texts = by_own_names(reader.texts, recorders, bool(times))
         inputs = replace(inputs, given={**texts, **(inputs.given or {})} or None)
+        told = known | {
+            f"course_{label}": angle.radians
+            for label, angle in courses.items()
+            if given[f"course_{label}"] is not None
+        }
+        told |= {
+            name: number
+            for name, number in (recorders.numbers if recorders else {}).items()
+            if given[name.partition("[")[0]] is not None
+        }
+        told = by_own_names(told, recorders, bool(times))
 
         def again(**changes: Any) -> Impact:
             with quietly():
@@ -421,7 +437,10 @@ def speeds(
         if not times:
             state_instant("speeds")
         ways = Ways(again, turned)
-        return _answers(cases, scene, found, inputs, known, function, forward_only, ways)
+        provenance = partial(cases.provenance, "speeds", given=told, also=also)
+        return _answers(
+            cases, scene, found, inputs, known, function, forward_only, ways, provenance
+        )
 
 
 def _refuse_with_tyres(given: dict[str, Any]) -> None:
@@ -491,23 +510,21 @@ def _check_branch(given: dict[str, Any]) -> None:
         if value is None:
             continue
         if not isinstance(value, str) or value not in allowed:
-            raise InputError(
-                f"{name} must be {' or '.join(map(repr, allowed))}, or None, got {shown(value)}",
-                code="bad_option",
-                argument=name,
+            raise must_be(
+                name, f"{' or '.join(map(repr, allowed))}`|, or None|`", value, code="bad_option"
             )
         by_ratio = any(given[rule] is not None for rule in RULES if rule != FRICTION)
         if by_ratio or all(given[one] is None for one in _COMPONENTS):
             raise InputError(
-                f"{name}={value!r} is for components of delta-V with friction=, which do not tell "
-                "whether the contact stuck or slid; leave it out, or give these",
+                f"`{name}={value!r}` is for components of delta-V with `friction=`, which do "
+                "not tell whether the contact stuck or slid; leave it out, or give these",
                 code="bad_combination",
                 argument=name,
             )
     if regime == "sticking" and slid:
         raise InputError(
-            "regime='sticking' says that the contact did not slide, so slid='bound' is about "
-            "nothing; leave out one of them",
+            "`regime='sticking'` says that the contact did not slide, so `slid='bound'` is "
+            "about nothing; leave out one of them",
             code="bad_combination",
             argument="slid",
         )
@@ -561,8 +578,8 @@ def _course(
     if given is None and np.any(np.not_equal(speed, 0.0)):
         reader.refuse(
             MissingInputError(
-                f"course_{label} is None, and speeds needs the course of every vehicle that "
-                "moves; only a known speed of 0 needs none",
+                f"course_{label} `|is None|is not given`, and speeds needs the course of "
+                "every vehicle that moves; only a known speed of 0 needs none",
                 code="missing_course",
                 argument=f"course_{label}",
             )
@@ -580,7 +597,7 @@ def _course(
         and body.heading is None
         and any(name[-1] == label for name in components)
     ):
-        reader.refuse(missing(body, "heading", "a component of its delta-V", label))
+        reader.refuse(error_of_missing(body, "heading", "a component of its delta-V", label))
     return Angle(0.0, False) if given is None else course(reader, given, f"course_{label}")
 
 
@@ -590,9 +607,9 @@ def _refuse_combinations(
     """Refuse what gives the same information twice, and what cannot be solved together."""
     if LAWS[inputs.law or BRACH].followed:
         raise InputError(
-            f"reconstruct.speeds cannot go back under law {inputs.law!r}, whose impulse is not "
-            "linear in the speeds; give another law, or fit a model with this one to what is "
-            "known (reconstruct.fit)",
+            f"reconstruct.speeds cannot go back under law {inputs.law!r}, whose impulse is "
+            "not linear in the speeds; give another law, or fit a model with this one to "
+            "what is known (`reconstruct.fit`)",
             code="law_not_reversible",
             argument="law",
         )
@@ -622,15 +639,16 @@ def _refuse_combinations(
     shares = shares_critical(inputs.rule, inputs.rule_value)
     if (function or shares) and components:
         raise InputError(
-            "components of delta-V take a number for the restitution, and no critical_fraction "
-            "between 0 and 1; give friction=, friction=inf or impulse_ratio=",
+            "components of delta-V take a number for the restitution, and no "
+            "critical_fraction between 0 and 1; give `friction=`, `friction=inf` or "
+            "`impulse_ratio=`",
             code="bad_combination",
             argument="restitution" if function else "critical_fraction",
         )
     if function and shares:
         raise InputError(
-            "a function of restitution and a critical_fraction between 0 and 1 cannot be solved "
-            "together; give impulse_ratio= or a number for the restitution",
+            "a function of restitution and a critical_fraction between 0 and 1 cannot be "
+            "solved together; give `impulse_ratio=` or a number for the restitution",
             code="bad_combination",
             argument="critical_fraction",
         )
@@ -718,8 +736,11 @@ def _answers(
     function: RestitutionOf | None,
     forward_only: bool,
     ways: Ways,
+    provenance: Callable[..., Reconstruction],
 ) -> tuple[Impact, ...]:
-    """The impact of each root; raises for a single case without one."""
+    """The impact of each root; raises for a single case without one. ``provenance`` says how it was
+    found.
+    """
     faults = input_faults(scene.numbers, inputs.incomplete)
     of_walls = [
         np.isinf(scene.numbers[f"{name[-1]}.mass"])
@@ -763,7 +784,7 @@ def _answers(
                 raise _stuck_or_slid(scene, known, say, ways.again)
             raise _refusal(scene, status, known, function, forward_only, say, ways.turned)
         names = (*scene.names, *getattr(scene, "recorders", ()))
-        origin = cases.provenance("speeds", names, root.condition, count)
+        origin = provenance(names, root.condition, count)
         if isinstance(scene, ComponentScene):
             origin = replace(origin, regime=scene.stated, one_sided=_sides(scene, cases, there))
         impact = run_forward(
@@ -846,9 +867,9 @@ def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
         )
         text = f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and {why}. {then}"
         sentence = (
-            f"the contact was taken to stick at an impulse ratio of {MAY_SLIDE:g} or more, and "
-            f"{why}. If it slid, the speeds are those of one end of a family; slid='bound' says "
-            "which"
+            f"the contact was taken to stick at an impulse ratio of {MAY_SLIDE:g} or more, "
+            f"and {why}. If it slid, the speeds are those of one end of a family; "
+            "`slid='bound'` says which"
         )
         warning = IllConditionedWarning(
             cases.how_many(slides) + text, code="may_slide", ratio=ratio
@@ -858,9 +879,10 @@ def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
         left = (scene.ambiguous | scene.undetermined) & np.logical_not(answered)
         if np.any(left & scene.leaves_slip):
             text = (
-                "components of delta-V do not tell whether the contact stuck or slid, or it slid "
-                "and leaves the slip open: write regime='sticking' if it stuck, give one of the "
-                "speeds, or write slid='bound' for the end of the speeds that it may have had"
+                "components of delta-V do not tell whether the contact stuck or slid, or it "
+                "slid and leaves the slip open: write `regime='sticking'` if it stuck, give "
+                "one of the speeds, or write `slid='bound'` for the end of the speeds that it "
+                "may have had"
             )
             warning = IllConditionedWarning(cases.how_many(left) + text, code="stuck_or_slid")
             warn_of_cases(warning, {text: cases.number(left)})
@@ -881,17 +903,18 @@ def _stuck_or_slid(
     assert slid.reconstruction is not None
     bounds = " and ".join(bounds_of(slid.reconstruction.one_sided or {}, speeds))
     allowed = (
-        "friction=inf does not say that it stuck"
+        "`friction=inf` does not say that it stuck"
         if math.isinf(friction)
-        else f"friction={friction:.4g} is not clearly above that"
+        else f"`friction={friction:.4g}` is not clearly above that"
     )
     return AmbiguousSolutionError(
-        f"{' and '.join(known)} do not tell whether the contact stuck or slid: they have an "
-        f"impulse ratio of {ratio:.2f}, and {allowed}. If it stuck, the speed of A is "
-        f"{speeds['speed_a']} and that of B {speeds['speed_b']}; if it slid at that ratio, "
-        f"{bounds}. Write regime='sticking' or regime='sliding' if you know which, the latter "
-        "with one of the speeds or the energy lost; or slid='bound' for this end of the speeds "
-        "that it may have had. Both answers are in .solutions",
+        f"{' and '.join(known)} do not tell whether the contact stuck or slid: they "
+        f"have an impulse ratio of {ratio:.2f}, and {allowed}. If it stuck, the speed "
+        f"of A is {speeds['speed_a']} and that of B {speeds['speed_b']}; if it slid at "
+        f"that ratio, {bounds}. Write `regime='sticking'` or `regime='sliding'` if you "
+        "know which, the latter with one of the speeds or the energy lost; or "
+        "`slid='bound'` for this end of the speeds that it may have had"
+        "`|. Both answers are in .solutions|`",
         code=Status.AMBIGUOUS.label,
         ratio=ratio,
         solutions=(stuck, slid),
@@ -989,16 +1012,16 @@ def _refusal(
             + ("the speed of the other vehicle" if speed_is_known else "one of the speeds")
         )
         if scene.rule == FRICTION and not scene.slid:
-            text += ", or write slid='bound' for the end of the speeds that it may have had"
+            text += ", or write `slid='bound'` for the end of the speeds that it may have had"
     elif isinstance(scene, ComponentScene) and (
         scene.stated == "sticking" and abs(scene.shown_ratio()) > scene.bound
     ):
         status = Status.CONTRADICTORY
         text = (
-            f"to stick, the contact needs an impulse ratio of "
-            f"{float(abs(scene.shown_ratio())):.2f}, and friction={float(scene.bound):.4g} allows "
-            "no more than that; give the friction that held it (or inf), or leave out "
-            "regime='sticking'"
+            "to stick, the contact needs an impulse ratio of "
+            f"{float(abs(scene.shown_ratio())):.2f}, and "
+            f"`friction={float(scene.bound):.4g}` allows no more than that; give the "
+            "friction that held it (or inf), or leave out `regime='sticking'`"
         )
     elif (
         not isinstance(scene, ComponentScene)

@@ -435,10 +435,10 @@ class ComponentScene(Scene):
             warn_of_cases(warning, {sentence: cases.number(misfit > ACCURACY)}, _DISAGREE)
         elif cases.shape is None and np.any(answered & self.ended & (self.misfit > ACCURACY)):
             text = (
-                f"a contact that slides with friction={float(self.bound):.4g} differs from "
-                f"{' and '.join(self.names)} by {float(self.misfit):.0%} of the impulse, where the "
-                f"stated accuracy of recorders is {ACCURACY:.0%}: the friction, one of them or the "
-                "geometry is wrong"
+                f"a contact that slides with `friction={float(self.bound):.4g}` differs from "
+                f"{' and '.join(self.names)} by {float(self.misfit):.0%} of the impulse, where "
+                f"the stated accuracy of recorders is {ACCURACY:.0%}: the friction, one of them "
+                "or the geometry is wrong"
             )
             warning = IllConditionedWarning(text, code="friction_differs", value=float(self.misfit))
             warn_of_cases(warning, {text: None})

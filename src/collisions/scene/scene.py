@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 # Names that results and inputs of a scene have already.
 RESERVED = ("contacts", "impacts", "times", "surfaces", "slope", "energy", "momentum")
 _FINEST, _COARSEST = 1e-10, 1e-2
-_TOLERANCE = Default(1e-5)
+TOLERANCE = Default(1e-5)
+"""How finely motion on tyres is followed, where nothing else is asked for."""
 
 
 @dataclass(frozen=True, slots=True, init=False, eq=False, repr=False)
@@ -138,7 +139,7 @@ class Scene(Shown):
         return broadcast(dict(self._numbers()))
 
     @hinted
-    def run(self, *, tolerance: float = _TOLERANCE) -> Run:
+    def run(self, *, tolerance: float = TOLERANCE) -> Run:
         """Follow the scene from the start, contact by contact, until all rest or go on unhindered.
 
         Parameters
@@ -232,7 +233,7 @@ class Scene(Shown):
         return results_of(self)
 
     def as_model(
-        self, names: Sequence[str], outputs: Sequence[str], *, tolerance: float = _TOLERANCE
+        self, names: Sequence[str], outputs: Sequence[str], *, tolerance: float = TOLERANCE
     ) -> Callable[..., dict[str, Any]]:
         """The scene as a function of some of its numbers, as ``propagate``, ``fit`` and
         ``posterior`` take it.
@@ -416,8 +417,8 @@ def _restored(arguments: dict[str, Any]) -> Scene:
 def _read_movers(reader: ArgumentReader, movers: Any) -> dict[str, Mover]:
     if not isinstance(movers, Mapping) or not movers:
         text = (
-            "movers must be a dict from names to Movers, such as {'Camry': Mover(camry)}, got "
-            f"{shown(movers)}"
+            "movers must be a dict from names to Movers, such as `{'Camry': "
+            f"Mover(camry)}}`, got {shown(movers)}"
         )
         reader.refuse(InputError(text, code="bad_shape", argument="movers"))
         return {}
@@ -474,7 +475,7 @@ def _read_contacts(
             if name in movers and movers[name].drag is not None:
                 text = (
                     f"contacts[{i}] gives {name!r} tyres, which moves by a drag before; give its "
-                    "Mover tyres= too"
+                    "`|Mover|[[mover]]` `tyres=` too"
                 )
                 reader.refuse(InputError(text, code="bad_combination", argument="contacts"))
         if contact.touches:
@@ -482,7 +483,8 @@ def _read_contacts(
                 if name in movers and movers[name].outline is None:
                     text = (
                         f"contacts[{i}] is at 'touch', and {name!r} has no outline; give "
-                        "outline=(length, width) to its Mover, or a time as at="
+                        "`outline=(length, width)` to its `|Mover|[[mover]]`, or a "
+                        "time as `at=`"
                     )
                     reader.refuse(
                         MissingInputError(text, code="missing_outline", argument="outline")
@@ -495,13 +497,16 @@ def _read_contacts(
                 )
                 reader.refuse(InputError(text, code="rule_twice", argument="contacts"))
             rules.add(pair)
-        if contact.duration is not None and not any(
-            name in movers and movers[name].tyres is not None for name in names
+        if (
+            contact.duration is not None
+            and not contact.in_time
+            and not any(name in movers and movers[name].tyres is not None for name in names)
         ):
             text = (
                 f"contacts[{i}] has a duration, which is for the impulse of tyres, and neither "
-                f"{names[0]} nor {names[1]} has tyres; give tyres= to a Mover, or leave duration "
-                "out"
+                f"{names[0]} nor {names[1]} has tyres; give `tyres=` to a `|Mover|[[mover]]`, or "
+                "leave "
+                "duration out"
             )
             reader.refuse(InputError(text, code="missing_tyres", argument="duration"))
     return tuple(found)
@@ -514,8 +519,8 @@ def _read_surfaces(reader: ArgumentReader, surfaces: Any) -> tuple[Any, ...]:
         corners = area[0] if isinstance(area, (list, tuple)) and len(area) == 2 else None
         if not isinstance(corners, (list, tuple)) or len(corners) < 3:
             text = (
-                f"surfaces[{i}] must be a pair of corners, three or more (x, y) in a list, and "
-                f"friction; got {shown(area)}"
+                f"surfaces[{i}] must be a pair of corners, three or more `(x, y)` in a list, "
+                f"and friction; got {shown(area)}"
             )
             reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))
             continue
@@ -565,8 +570,8 @@ def _read_shared(
     )
     if not good:
         text = (
-            "shared must be a dict from new names to tuples of paths, such as {'ground': "
-            f"('A.tyres.friction', 'B.tyres.friction')}}, got {shown(shared)}"
+            "shared must be a dict from new names to tuples of paths, such as `{'ground': "
+            f"('A.tyres.friction', 'B.tyres.friction')}}`, got {shown(shared)}"
         )
         reader.refuse(ShapeError(text, code="bad_shape", argument="shared"))
         return {}
