@@ -571,7 +571,7 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
         "diagnose",
         col.diagnose,
         impact,
-        **case.spoil({**known, "units": case.option(*UNIT_SYSTEMS)}),
+        **case.spoil({**known, **wheels(case), "units": case.option(*UNIT_SYSTEMS)}),
     )
     if not isinstance(findings, Exception):
         numbers = "delta_v_a", "delta_v_b", "yaw_rate_a", "yaw_rate_b", "share"
@@ -1546,6 +1546,8 @@ def test_simulated_travel(case: Case) -> None:
         ground["slope"] = case.option((0.02, "1 %"), case.garbage())
     if case.maybe(0.2):
         ground["rotating_mass"] = case.option(0.03, "4 %", case.value("lock"))
+    if case.maybe(0.2):
+        ground["until"] = case.option("2 s", 30.0)
     ground |= {"moments": case.option(2, 9), "tolerance": case.option(1e-4, 1e-5)}
     # What hardly slows takes ten thousand steps, and is refused for it as after fifteen hundred.
     with mock.patch.object(motion_of_wheels, "_MOST_STEPS", 10_000 if case.maybe(0.01) else 1_500):
@@ -1673,13 +1675,16 @@ def known_scene() -> scene.Scene:
 
 @fuzzes(
     "play", "plot.timeline",
+    "Cost", "Level", "Level.as_model", "Level.results", "Required", "Required.summary",
+    "Required.to_dict",
     "Moved", "Moved.summary", "Notice", "Rests", "Rests.keys", "Track", "Track.summary",
     "scene.Contact", "scene.Contact.as_given", "scene.Contact.replace", "scene.Contact.summary",
     "scene.Mover", "scene.Mover.as_given", "scene.Mover.replace", "scene.Mover.summary",
     "scene.Run", "scene.Run.at", "scene.Run.case", "scene.Run.from_dict", "scene.Run.summary",
     "scene.Run.to_columns", "scene.Run.to_dict",
     "scene.Scene", "scene.Scene.as_model", "scene.Scene.case", "scene.Scene.from_dict",
-    "scene.Scene.inputs", "scene.Scene.replace", "scene.Scene.results", "scene.Scene.run",
+    "scene.Scene.inputs", "scene.Scene.replace", "scene.Scene.required", "scene.Scene.results",
+    "scene.Scene.run",
     "scene.Scene.summary", "scene.Scene.to_dict", share=0.3,
 )  # fmt: skip
 def test_scenes(case: Case) -> None:
@@ -1730,6 +1735,29 @@ def test_scenes(case: Case) -> None:
         if not isinstance(found, scene.Run):
             found = known_scene().run()
         ran(case, found)
+        if case.maybe(0.1):
+            levels(case, known_scene())
+
+
+def levels(case: Case, crash: scene.Scene) -> None:
+    """Levels of a scene, with what is not known or without."""
+    result = case.choice(list(crash.results()))
+    kind = case.choice(("delta_v", "mass", "x"))
+    unknowns = case.option(
+        {"A.vx": uncertainty.Normal(8.0, 0.5)}, {"A.mass": uncertainty.Uniform("1 t", "2 t")}, {}
+    )
+    given = {"tolerances": {result: case.value(kind)}, "unknowns": unknowns, "tolerance": 1e-3}
+    found = case.call("scene.Scene.required", crash.required, **case.spoil(given))
+    if isinstance(found, Exception):
+        found = known_scene().required({"B.rest.x": 0.3}, tolerance=1e-3)
+    json.dumps(case.must("Required.to_dict", found.to_dict), allow_nan=False)
+    assert str(case.must("Required.summary", found.summary, case.choice(UNIT_SYSTEMS)))
+    level = case.must("Level", lambda: found.level)
+    assert case.must("Level.results", level.results)
+    paths = [next(iter(level.given.inputs()))]
+    model = case.call("Level.as_model", level.as_model, paths, case.option(["B.rest.x"], ["q"]))
+    assert callable(model) or isinstance(model, Exception)
+    assert case.must("Cost", lambda: repr(found.costs[0]))
 
 
 def ran(case: Case, run: scene.Run) -> None:

@@ -15,6 +15,8 @@ from .finding import NOTE, Finding, Findings
 _OF_ONE = (
     "outline_a",
     "outline_b",
+    "tyres_a",
+    "tyres_b",
     "crush_energy",
     "damage_pdof_a",
     "damage_pdof_b",

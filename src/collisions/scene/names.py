@@ -465,10 +465,14 @@ def columns_of(run: Run, units: Any) -> dict[str, list[Any]]:
 
 
 def as_function(
-    scene: Scene, names: Iterable[str], outputs: Iterable[str], tolerance: float
+    scene: Scene,
+    names: Iterable[str],
+    outputs: Iterable[str],
+    tolerance: float,
+    at_level: Callable[[Scene], Scene] | None = None,
 ) -> Callable[..., dict[str, Any]]:
     """A function of some numbers of a scene, by their paths, that returns some of its results as
-    Quantities.
+    Quantities; ``at_level`` makes the scene that is run of the one with these numbers.
     """
     from ..quantities.units import to_quantity
     from .run import Run
@@ -480,7 +484,8 @@ def as_function(
     units = {path: unit_of_result(scene, path) for path in wanted}
 
     def model(**values: Any) -> dict[str, Any]:
-        run = Run(replaced(scene, values), tolerance)
+        made = replaced(scene, values)
+        run = Run(made if at_level is None else at_level(made), tolerance)
         return {path: to_quantity(result_of(run, path), unit) for path, unit in units.items()}
 
     vars(model)["answers_by_case"] = True

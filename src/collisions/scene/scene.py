@@ -25,6 +25,8 @@ from .contact import Contact
 from .mover import Mover
 
 if TYPE_CHECKING:
+    from ..uncertainty.distributions import Distribution
+    from .required import Required
     from .run import Run
 
 # Names that results and inputs of a scene have already.
@@ -263,6 +265,70 @@ class Scene(Shown):
         from .names import as_function
 
         return as_function(self, names, outputs, _read_tolerance(tolerance))
+
+    @hinted
+    def required(
+        self,
+        tolerances: Mapping[str, Input],
+        unknowns: Mapping[str, Distribution] | None = None,
+        *,
+        draws: int = 32,
+        tolerance: float = TOLERANCE,
+    ) -> Required:
+        """Which level of model the accuracy that is asked for needs, and what each costs.
+
+        The levels are contacts of an instant, with the impulse of the tyres meanwhile, or followed
+        in time; and motion by a drag, straight on, or on wheels. Each is run for the same draws of
+        what is not known, and compared with the finest. A drag is the share of the friction that
+        the tyres take on average on the way, at the stated values.
+
+        Parameters
+        ----------
+        tolerances : dict
+            By result, as listed by ``results``, how far it may be off.
+        unknowns : dict of Distribution, optional
+            By input, as for ``propagate``. Without it the levels are compared at the stated values
+            alone, where the difference misleads by a factor of 3.
+        draws : int
+            How many, 32 to 4096. The 95 % point of 32 is known to about a quarter and is 6 % low,
+            so that it is given times 1.35.
+        tolerance : float [-]
+            As for ``run``.
+
+        Returns
+        -------
+        Required
+            Its ``level`` is the cheapest within the tolerances, and is a model itself:
+            ``posterior(found.level, unknowns, observed, finer=found.finest)``.
+
+        Raises
+        ------
+        InputError
+            A result or an input that is none, or tolerances that are no numbers.
+        NoSolutionError
+            No draw has an answer.
+
+        Examples
+        --------
+        Two cars in line, of which one turns a little; their headings at rest need wheels:
+
+        >>> import collisions as col
+        >>> from collisions.scene import Contact, Mover, Scene
+        >>> from collisions.travel import Tyres
+        >>> wheels = Tyres(0.7, 1, 2.7, 1.5)
+        >>> a = col.Vehicle(mass=1500, yaw_inertia=2600, vx=15, x=-2.2, y=0.3, heading=0)
+        >>> b = col.Vehicle(mass=1200, yaw_inertia=2000, x=2.2, y=0, heading=0)
+        >>> crash = Scene(
+        ...     movers={"A": Mover(a, tyres=wheels), "B": Mover(b, tyres=wheels)},
+        ...     contacts=[Contact("A", "B", restitution=0.1, friction=0.5, normal=0, point=(0, 0))],
+        ... )
+        >>> found = crash.required({"impacts[0].b.delta_v": "0.5 m/s"})
+        >>> found.level.name
+        'contacts with tyres, motion on wheels'
+        """
+        from .required import required
+
+        return required(self, tolerances, unknowns, draws, _read_tolerance(tolerance))
 
     def case(self, index: int | tuple[int, ...]) -> Scene:
         """One case of a batch as a single scene.
