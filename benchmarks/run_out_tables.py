@@ -8,6 +8,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+from collisions.quantities.printed_tables import Part, in_markdown
+
 DATA = Path(__file__).resolve().parent.parent / "docs" / "_generated"
 WHAT = {"place": "place, over the way", "heading": "heading, in rad", "time": "time, over the time"}
 
@@ -19,8 +21,8 @@ def load(name: str) -> Any:
 
 def table(head: list[str], rows: list[list[str]]) -> str:
     """A Markdown table whose columns of numbers are on the right."""
-    lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    sides = ["---", *["---:"] * (len(head) - 1)]
+    return in_markdown(Part([tuple(row) for row in rows], columns=tuple(head)), sides=sides)
 
 
 def promise(found: dict[str, Any]) -> str:

@@ -50,11 +50,14 @@ from collisions.quantities.attributes import Quantities
 from collisions.quantities.units import Texts
 from collisions.reconstruct.momentum_solution import Sensitivity
 from collisions.scene.follow import Notice
+from collisions.scene.levels import Level
+from collisions.scene.required import Cost, Required
 from collisions.scene.run import Moved, Rests, Track
 from collisions.uncertainty.distribution import GivenUnit
 from strategies import (
     EXTREMES,
     NEVER,
+    NUMBERS,
     ODD_UNITS,
     PLACES,
     RANGES,
@@ -95,7 +98,7 @@ MODULES = ("reporting", "diagnostics", "derivation")  # public beside those of c
 GIVEN_BACK = (
     Side, Pulse, LeftOut, LeftOutSide, Findings, Moves, Estimate, Residual, Direction, Values,
     Sensitivity, ByModel, Inputs, PosteriorOutput,
-    Note, Moved, Notice, Rests, Track,
+    Note, Moved, Notice, Rests, Track, Cost, Level, Required,
 )  # fmt: skip
 
 
@@ -339,7 +342,11 @@ def _promptly() -> Iterator[None]:
     """Stops what has not ended within some seconds of processor time, where the system has an alarm
     to set.
     """
-    if not hasattr(signal, "SIGPROF") or threading.current_thread() is not threading.main_thread():
+    # Windows has neither the alarm nor its signal.
+    if (
+        not hasattr(signal, "setitimer")
+        or threading.current_thread() is not threading.main_thread()
+    ):
         yield
         return
 
@@ -410,25 +417,6 @@ _TEXTS = (
     "raise",
     "sliding",
     "both",
-)
-_NUMBERS = (
-    "1",
-    "-.5",
-    "1e3",
-    "1e400",
-    "-1e-400",
-    "+inf",
-    "nan",
-    "1_0",
-    "٣",
-    "1.",
-    ".",
-    "1e",
-    "--1",
-    "0x1",
-    "1,5",
-    "½",
-    "²",
 )
 _SPELLED = [text for group in SPELLINGS.values() for text in group] + list(ODD_UNITS)
 
@@ -629,7 +617,7 @@ class Case(random.Random):
         if kind == 1:
             return "".join(self.choices(_ALPHABET, k=self.randrange(70)))
         number = (
-            self.choice(_NUMBERS)
+            self.choice(NUMBERS)
             if kind == 2
             else repr(self.extreme())
             if kind == 3

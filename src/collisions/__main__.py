@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 # What answers cases is imported where it is used: ``new`` prints a text and needs none of it.
 
 _CASES = Path(__file__).with_name("cases")
-_TEMPLATE, _US_TEMPLATE = _CASES / "case_template.toml", _CASES / "case_template_us.toml"
+_OF_UNITS = {"us": "_us"}  # of templates, in their names
 _HTML, _MARKDOWN = (".html", ".htm"), (".md", ".markdown")
 _ENDS = """\
 exit codes: 0 answered; 1 the case was read, but has no answer, or more than one where one is \
@@ -54,6 +54,8 @@ def _run(options: Any) -> int:
 
     try:
         _check_names(options)
+        if options.scene:
+            raise CaseError(("", "--scene goes with 'new'; leave it out, as the file says itself"))
         found = answers(read(options.case))
         whole = found.to_dict() if options.json else found.text(options.units)
     except CaseError as error:
@@ -79,12 +81,14 @@ def _printed(options: Any) -> int:
     others = {
         "--report": options.report,
         "--what-if": options.what_if,
+        "--play": options.play,
         "--json": options.json or None,
     }
-    others |= {"--units": options.units} if options.case == "schema" else {}
+    if options.case == "schema":
+        others |= {"--units": options.units, "--scene": options.scene or None}
     given = [name for name, value in others.items() if value is not None]
     if given:
-        takes = "takes --units alone" if options.case == "new" else "takes no options"
+        takes = "takes --units and --scene" if options.case == "new" else "takes no options"
         print(f"{options.case}: {takes}; leave out {' and '.join(given)}", file=sys.stderr)
         return 2
     if options.case == "schema":
@@ -92,7 +96,9 @@ def _printed(options: Any) -> int:
 
         print(_as_json(case_schema()))
         return 0
-    text = (_US_TEMPLATE if options.units == "us" else _TEMPLATE).read_text(encoding="utf-8")
+    of = "crash" if options.scene else "case"
+    name = f"{of}_template{_OF_UNITS.get(options.units, '')}.toml"
+    text = (_CASES / name).read_text(encoding="utf-8")
     if options.units == "si":
         text = text.replace(
             '"metric"               # or "si"', '"si"                   # or "metric"'
@@ -110,6 +116,8 @@ def _pages(options: Any, found: Answers) -> dict[Path, str]:
         )
     if options.what_if is not None:
         pages[Path(options.what_if)] = found.what_if(options.units)
+    if options.play is not None:
+        pages[Path(options.play)] = found.play(options.units)
     return pages
 
 
@@ -151,6 +159,7 @@ def _check_names(options: Any) -> None:
     for option, name, endings in (
         ("--report", options.report, _HTML + _MARKDOWN),
         ("--what-if", options.what_if, _HTML),
+        ("--play", options.play, _HTML),
     ):
         if name is not None:
             if realpath(name) in taken or not name.lower().endswith(endings):
@@ -199,8 +208,8 @@ class _Parser(argparse.ArgumentParser):
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="collisions",
-        description="Answers a case file: one vehicle impact as a page of text, forwards or "
-        "backwards, with its uncertainty.",
+        description="Answers a case file: one vehicle impact or a whole crash as a page of text, "
+        "forwards or backwards, with its uncertainty.",
         epilog=_ENDS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
@@ -208,8 +217,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "case",
         help="a case file; or 'new', which prints one to start from (collisions new > case.toml; "
-        "with --units us in mph, ft and lb), or 'schema', for the JSON schema of case files "
-        "for editors",
+        "with --scene a whole crash, with --units us in mph, ft and lb), or 'schema', for the JSON "
+        "schema of case files for editors",
     )
     parser.add_argument(
         "--report", metavar="FILE", help="write a report: .html with figures, or .md"
@@ -218,6 +227,14 @@ def _parser() -> argparse.ArgumentParser:
         "--what-if",
         metavar="FILE",
         help="write an HTML page with a slider for each uncertain number",
+    )
+    parser.add_argument(
+        "--play",
+        metavar="FILE",
+        help="write an HTML page that plays a scene, with a slider of time",
+    )
+    parser.add_argument(
+        "--scene", action="store_true", help="with 'new': a whole crash, with movers and contacts"
     )
     parser.add_argument(
         "--units",

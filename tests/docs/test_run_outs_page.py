@@ -3,7 +3,6 @@ ranges are tried.
 """
 
 import math
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +10,7 @@ import pytest
 
 import collisions as col
 from collisions import travel
+from scripts import benchmarks
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -18,14 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 @pytest.fixture(scope="module")
 def scripts():
     """The scripts that write the numbers, and the tables made of them."""
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        import run_out_coverage
-        import run_out_tables
-        import run_outs
-    finally:
-        sys.path.pop(0)
-    return run_outs, run_out_coverage, run_out_tables
+    return benchmarks("run_outs", "run_out_coverage", "run_out_tables")
 
 
 def test_the_tables_are_made_of_the_numbers_that_were_written(scripts):

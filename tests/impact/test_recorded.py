@@ -170,6 +170,7 @@ def test_refusals():
         (math.nan, {}, "not_finite", "time"),
         ("1 m", {}, "bad_units", "time"),
         (np.zeros((2, 3)), {}, "bad_shape", "times first"),
+        ([0.1, [0.2]], {}, "bad_shape", "time has parts of different shapes"),
     ):
         with pytest.raises(col.InputError, match=text) as caught:
             impact.a.recorded(time, **options)

@@ -81,7 +81,8 @@ OPEN = frozenset(
         "Vehicle.kinetic_energy",
         "Side.impulse_direction", "Side.pdof", "Side.pdof_clock",
         "Impact.impulse_ratio", "Impact.critical_impulse_ratio", "Impact.friction",
-        "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers", "ByModel",
+        "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers",
+        "reconstruct.Reconstruction.given", "ByModel",
         "ModelChoice.errors", "Inputs.rule_value",
     }
 )  # fmt: skip
@@ -601,6 +602,7 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
         ("author", lambda: case.option("J. Doe", case.text())),
         ("case", lambda: case.option("2026-11", case.text())),
         ("date", lambda: case.option("25 November 2026", case.text())),
+        ("exhibit", lambda: case.option("12", case.text())),
     ):
         if case.maybe(0.1):
             options[name] = draw()
@@ -640,6 +642,10 @@ def test_pages_of_sliders(case: Case) -> None:
             else 0.2
         )
         ranges = {"restitution": (0.5 * e, 0.5 * (1.0 + e))}
+    if case.maybe(0.3):
+        low, high = sorted((case.number("vx"), case.number("vx")))
+        name = case.choice(("a.delta_v", "b.after.speed", "a.pdof", "energy_loss", case.text()))
+        options["observed"] = {name: case.option((low, high), low, case.value("speed"))}
     found = case.call("what_if", col.what_if, impact, ranges, **case.spoil(options))
     assert isinstance(found, Exception) or found.startswith("<!DOCTYPE html>")
 
@@ -781,6 +787,10 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
             "restitution": case.value("restitution"),
         }
     given |= {name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.1)}
+    failing |= {
+        name: case.value("duration" if name == "duration" else "drag")
+        for name in case.choice(((), (), ("duration", "drag_a", "drag_b"), ("drag_a",)))
+    }
     if case.maybe(0.1):
         given |= (
             {"restitution": -case.random()} if "restitution" in given and case.maybe(0.5) else {}
@@ -831,9 +841,8 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
     }
     if case.maybe(0.5):
         speeds = {name: case.value("speed") for name in ("speed_a_after", "speed_b_after")}
-    more = {
-        name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.3)
-    } | failing
+    more = {name: case.value("heading") for name in ("heading_a", "heading_b") if case.maybe(0.3)}
+    more |= {name: value for name, value in failing.items() if name == "on_failure"}
     if case.maybe(0.1):
         more["together"] = case.option(True, False)
     if case.maybe(0.2):
@@ -1369,6 +1378,27 @@ def segments(case: Case, name: str, count: int) -> Any:
     return [case.value(name) for _ in range(count if case.maybe(0.97) else count + 1)]
 
 
+@fuzzes("travel.throw_speed", "travel.throw_bounds")
+def test_throws(case: Case) -> None:
+    """Somebody who was thrown: a speed, and bounds in their order that hold it if it went up."""
+    ground = {"friction": case.value("friction"), "height": case.option(0.0, case.value("x"))}
+    angle = case.value("heading")
+    far = case.value("distance")
+    found = [
+        case.call(
+            "travel.throw_speed", travel.throw_speed, far, **case.spoil({**ground, "angle": angle})
+        ),
+        case.call("travel.throw_bounds", travel.throw_bounds, far, **case.spoil(ground)),
+    ]
+    for one in found:
+        if not isinstance(one, Exception):
+            for speed in one if isinstance(one, tuple) else (one,):
+                assert np.all(~(np.asarray(speed) < 0.0)), speed
+    if not isinstance(found[1], Exception):
+        least, greatest = found[1]
+        assert np.all(~(np.asarray(least) > np.asarray(greatest))), found[1]
+
+
 @fuzzes("travel.speed", "travel.time", "travel.distance", "travel.path", "travel.RunOut")
 def test_travel(case: Case) -> None:
     """Straight and along a path, over one surface and several."""
@@ -1645,13 +1675,16 @@ def known_scene() -> scene.Scene:
 
 @fuzzes(
     "play", "plot.timeline",
+    "Cost", "Level", "Level.as_model", "Level.results", "Required", "Required.summary",
+    "Required.to_dict",
     "Moved", "Moved.summary", "Notice", "Rests", "Rests.keys", "Track", "Track.summary",
     "scene.Contact", "scene.Contact.as_given", "scene.Contact.replace", "scene.Contact.summary",
     "scene.Mover", "scene.Mover.as_given", "scene.Mover.replace", "scene.Mover.summary",
     "scene.Run", "scene.Run.at", "scene.Run.case", "scene.Run.from_dict", "scene.Run.summary",
     "scene.Run.to_columns", "scene.Run.to_dict",
     "scene.Scene", "scene.Scene.as_model", "scene.Scene.case", "scene.Scene.from_dict",
-    "scene.Scene.inputs", "scene.Scene.replace", "scene.Scene.results", "scene.Scene.run",
+    "scene.Scene.inputs", "scene.Scene.replace", "scene.Scene.required", "scene.Scene.results",
+    "scene.Scene.run",
     "scene.Scene.summary", "scene.Scene.to_dict", share=0.3,
 )  # fmt: skip
 def test_scenes(case: Case) -> None:
@@ -1702,6 +1735,29 @@ def test_scenes(case: Case) -> None:
         if not isinstance(found, scene.Run):
             found = known_scene().run()
         ran(case, found)
+        if case.maybe(0.1):
+            levels(case, known_scene())
+
+
+def levels(case: Case, crash: scene.Scene) -> None:
+    """Levels of a scene, with what is not known or without."""
+    result = case.choice(list(crash.results()))
+    kind = case.choice(("delta_v", "mass", "x"))
+    unknowns = case.option(
+        {"A.vx": uncertainty.Normal(8.0, 0.5)}, {"A.mass": uncertainty.Uniform("1 t", "2 t")}, {}
+    )
+    given = {"tolerances": {result: case.value(kind)}, "unknowns": unknowns, "tolerance": 1e-3}
+    found = case.call("scene.Scene.required", crash.required, **case.spoil(given))
+    if isinstance(found, Exception):
+        found = known_scene().required({"B.rest.x": 0.3}, tolerance=1e-3)
+    json.dumps(case.must("Required.to_dict", found.to_dict), allow_nan=False)
+    assert str(case.must("Required.summary", found.summary, case.choice(UNIT_SYSTEMS)))
+    level = case.must("Level", lambda: found.level)
+    assert case.must("Level.results", level.results)
+    paths = [next(iter(level.given.inputs()))]
+    model = case.call("Level.as_model", level.as_model, paths, case.option(["B.rest.x"], ["q"]))
+    assert callable(model) or isinstance(model, Exception)
+    assert case.must("Cost", lambda: repr(found.costs[0]))
 
 
 def ran(case: Case, run: scene.Run) -> None:
@@ -1980,11 +2036,16 @@ def propagation(case: Case) -> Any:
 def sided(case: Case, made: list[Any]) -> Any:
     """A model whose output is known from one side only in some cases."""
     sides = case.option(0, 1, -1, np.array([1, 0, -1, 1] * 16))
+    # Drawn once: a model answers the same whenever it is asked.
+    same = case.option(None, 3.0)
 
     def model(**inputs: Any) -> Any:
         (name,) = inputs
         answered = case.call(
-            "uncertainty.OneSided", uncertainty.OneSided, case.option(inputs[name], 3.0), sides
+            "uncertainty.OneSided",
+            uncertainty.OneSided,
+            inputs[name] if same is None else same,
+            sides,
         )
         made.append(answered)
         return {"known": inputs[name], "sided": answered}

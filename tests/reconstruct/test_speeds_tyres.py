@@ -16,6 +16,7 @@ from collisions.derivation import explain
 from collisions.reconstruct.speeds_tyres import speeds_with_tyres
 from collisions.reporting import replay
 from collisions.travel import Tyres
+from scenes import UNLIKE, WHEELS
 
 COMPONENTS = ("delta_v_forward_a", "delta_v_left_a", "delta_v_forward_b", "delta_v_left_b")
 PAIRS = [
@@ -152,14 +153,8 @@ def test_a_batch_has_the_answers_of_its_cases():
     assert abs(many[0][1] - one[0]) > 0.01
 
 
-A = col.Vehicle(mass=1437.0, yaw_inertia=2311.0, vx=14.0, vy=1.0, x=-2.0, y=0.4, heading=0.1)
-B = col.Vehicle(mass=1213.0, yaw_inertia=1877.0, vy=6.0, x=2.0, y=0.0, heading=1.3)
+A, B = UNLIKE
 CONTACT = {"normal": 0.0713, "point": (0.0531, 0.0917), "friction": 0.4137}
-WHEELS = {
-    "duration": 0.1013,
-    "tyres_a": Tyres(0.6713, (0.1719, 0.2317, 0.3137, 0.4179), 2.7139, 1.5317, steer=0.0917),
-    "tyres_b": Tyres(0.5713, 1.0, 2.6319, 1.4731, height=0.5179),
-}
 COURSES = {"course_a": A.course, "course_b": B.course}
 
 
@@ -266,22 +261,57 @@ def test_a_speed_beside_components_is_met_exactly():
         ({"recorder_a": (0.5, 0.1)}, "recorder_a"),
         ({"axes": "turning"}, "axes"),
         ({"slid": "bound"}, "slid"),
-        ({"friction": math.inf, "regime": "sliding", "speed_b": B.speed}, "friction"),
     ],
 )
-def test_what_is_known_of_contacts_without_tyres_is_refused_with_them(beside, argument):
-    known = {name: read(ended(), name) for name in COMPONENTS[:2]}
-    with pytest.raises(col.InputError) as refused:
+def test_an_energy_beside_readings_is_refused_with_tyres(beside, argument):
+    known = {name: read(ended(), name) for name in (*COMPONENTS[:2], "energy_loss")}
+    with pytest.raises(col.InputError, match="energy_loss and tyres") as refused:
         asked(known, **beside)
     assert refused.value.code == "bad_combination"
     assert refused.value.fields["argument"] == argument
     # A duration alone is that of nothing.
     with pytest.raises(col.InputError, match="or give tyres_a"):
-        asked(known, tyres_a=None, tyres_b=None)
+        asked({name: known[name] for name in COMPONENTS[:2]}, tyres_a=None, tyres_b=None)
 
 
-def test_what_leaves_open_whether_it_stuck_has_the_answers_of_an_instant():
+def test_what_leaves_open_whether_it_stuck_has_both_answers_with_tyres():
     known = {name: read(ended(friction=math.inf), name) for name in COMPONENTS[:2]}
-    with pytest.raises(col.AmbiguousSolutionError, match="of an instant without tyres") as open_:
+    with pytest.raises(col.AmbiguousSolutionError, match="stuck or slid") as open_:
         asked(known, friction=math.inf)
-    assert all(one.inputs.duration is None for one in open_.value.solutions)
+    stuck, slid = open_.value.solutions
+    assert stuck.inputs.duration == slid.inputs.duration == WHEELS["duration"]
+    assert apart_from_truth(stuck) < 1e-8
+    # Without the tyres, whose force is taken from there, that ratio would slide.
+    assert apart_from_truth(slid) < 0.1
+
+
+def test_a_contact_that_slid_with_tyres_has_a_bound_that_the_truth_lies_beyond():
+    """Forward answers that slid: each speed is on the side that is said, of the bound."""
+    rng, met = random.Random(45), 0
+    while met < 6:
+        a, b, e, contact, wheels = drawn(rng, stuck=False)
+        try:
+            impact = col.eccentric(a, b, e, **contact, **wheels)
+        except (col.NoImpactError, col.NoSolutionError):
+            continue
+        if impact.normal_impulse < 3000.0 or impact.regime != "sliding":
+            continue
+        met += 1
+        known = {name: read(impact, name) for name in COMPONENTS}
+        courses = {f"course_{label}": getattr(impact, label).before.course for label in "ab"}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.CollisionsWarning)
+            (found,) = reconstruct.speeds(
+                a, b, restitution=e, **courses, **contact, **wheels, **known, slid="bound"
+            )
+        sides = found.reconstruction.one_sided
+        assert sides["speed_a"] or sides["speed_b"]
+        for label in "ab":
+            beyond = getattr(impact, label).before.speed - getattr(found, label).before.speed
+            side = sides[f"speed_{label}"]
+            assert side * beyond > 0.0 if side else abs(beyond) < 0.5
+        # It only just slides, or sticks, and the impulse is that of the components but for what
+        # the tyres do otherwise at the other speeds.
+        assert abs(found.slip_after) < 1e-6
+        assert 0.9 < abs(found.impulse_ratio) / contact["friction"] < 1.0 + 1e-9
+        assert found.normal_impulse == pytest.approx(impact.normal_impulse, rel=0.05)

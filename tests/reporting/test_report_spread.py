@@ -78,3 +78,23 @@ def test_a_bare_input_is_in_the_units_of_the_page_where_it_may_be_that_of_the_im
     else:
         assert stated.endswith("given without a unit")
         assert f"{mean:g}" in stated
+
+
+def test_figures_of_bare_numbers_have_the_unit_of_the_result():
+    """A model that returns SI floats: the figures are in mph as the tables are, not in m/s without
+    a unit.
+    """
+    known = propagate(
+        lambda speed_a, restitution: {
+            "a.delta_v": 0.5 * (1.0 + restitution) * speed_a,
+            "x": speed_a,
+        },
+        {"speed_a": Normal(20.0, 1.0), "restitution": Normal(0.2, 0.02)},
+        seed=1,
+    )
+    assert known["a.delta_v"].unit is None
+    page = col.report(IMPACT, form="html", units="us", uncertainty=known)
+    assert page.count("A: delta-V [mph]") == 1
+    assert f"mean {known['a.delta_v'].mean / 0.44704:.1f} mph" in page
+    assert "standard deviation 1.4 mph" in page
+    assert ">x<" in page  # What is no result of it stays as it was.

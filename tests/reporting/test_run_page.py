@@ -15,6 +15,7 @@ import collisions as col
 from collisions.reporting import options, replay
 from collisions.scene import Contact, Mover, Run, Scene
 from collisions.travel import Tyres
+from collisions.uncertainty import Normal, Uniform, propagate
 from crashes import NAMES, coasting, three_cars
 
 FOOT, MPH = 0.3048, 0.44704
@@ -117,9 +118,38 @@ def test_options_of_one_impact_are_refused_together() -> None:
         col.report(many)
 
 
+def test_a_propagation_of_the_scene_has_its_ranges_in_the_answer() -> None:
+    """What was asked for comes first, with its range; the inputs are printed as stated."""
+    run = slid()
+    inputs = {"A.vx": Normal("12 m/s", "0.5 m/s"), "contacts[0].restitution": Uniform(0.05, 0.2)}
+    names = ["B.rest.x", "impacts[0].b.delta_v"]
+    spread = propagate(run.scene, inputs, outputs=names, samples=64, seed=0)
+    page = col.report(run, form="markdown", uncertainty=spread)
+    answer = page[: page.index("## Vehicles")]
+    for name in names:
+        low, high = spread[name].interval()
+        found = re.search(rf"{re.escape(name)}:\*\* ([\d.]+) to ([\d.]+)", answer.replace("\\", ""))
+        assert found is not None
+        assert float(found[1]) == pytest.approx(low, abs=0.06)
+        assert float(found[2]) == pytest.approx(high, abs=0.06)
+    assert "delta-V of B, impact 1" not in answer
+    assert "delta-V of A, impact 1" in answer
+    assert "No range is stated for the figures above that have only one number." in answer
+    part = page[page.index("## Uncertainty") : page.index("## Findings")]
+    assert "| Inputs as stated | A.vx | 12 ± 0.5 m/s |" in part
+    assert "0.05 to 0.2, all values equally likely |" in part
+    assert "64 cases, all with an answer, seed 0" in part
+    assert replay(page) == run
+    other = run.scene.replace({"A.vx": 20.0}).run()
+    assert "lies outside the 95 percent interval" in col.report(
+        other, form="markdown", uncertainty=spread
+    )
+
+
 @pytest.mark.parametrize(
     ("given", "code", "says"),
     [
+        ({"uncertainty": 0.1}, "bad_option", "uncertainty must be what uncertainty.propagate"),
         ({"form": "pdf"}, "bad_option", "form must be one of 'html', 'markdown', got 'pdf'"),
         ({"form": 3}, "bad_option", "form must be one of"),
         ({"figures": 1}, "bad_option", "figures must be True or False, got 1"),

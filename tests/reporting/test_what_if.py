@@ -270,6 +270,106 @@ def test_ranges_that_are_refused(ranges, code, text):
     assert caught.value.code == code
 
 
+@pytest.mark.parametrize(
+    ("observed", "code", "text"),
+    [
+        (5.0, "bad_inputs", "observed must be a dict by result"),
+        ({"delta_v_a": 5.0}, "unknown_name", "observed: the page has no 'delta_v_a'; take some of"),
+        ({3: 5.0}, "unknown_name", "the page has no 3"),
+        ({"a.delta_v": ("5 kg", "6 kg")}, "bad_units", "2 arguments"),
+        ({"a.delta_v": (6.0, 5.0)}, "bad_range", "in rising order, got"),
+        ({"a.delta_v": (5.0, 6.0, 7.0)}, "bad_range", "a number or a pair"),
+        ({"a.pdof": np.array([1.0, 2.0])}, "bad_range", "a number or a pair"),
+        ({"energy_loss": math.nan}, "not_finite", "energy_loss"),
+    ],
+)
+def test_evidence_that_is_refused(observed, code, text):
+    with pytest.raises(col.InputError, match=re.escape(text)) as caught:
+        what_if(IMPACT, RANGES, observed=observed)
+    assert caught.value.code == code
+
+
+def test_evidence_stands_beside_what_follows():
+    """Its range, the result at this place of the sliders, and whether that lies outside; a PDOF is
+    the same after a whole turn.
+    """
+    turn = 360.0 + math.degrees(IMPACT.a.pdof)
+    observed = {
+        "a.delta_v": ("20 km/h", "30 km/h"),
+        "b.delta_v": "30 km/h",
+        "a.pdof": (f"{turn - 5} deg", f"{turn + 5} deg"),
+        "energy_loss": (0.0, 1.0),
+    }
+    page = what_if(IMPACT, {"speed_a": ("30 km/h", "90 km/h")}, observed=observed, units="metric")
+    assert "<td>20.0 to 30.0 km/h</td>" in page
+    first, fast, slow = moved(page, ("move", "speed_a", "90"), ("move", "speed_a", "40"))
+    for shown, speed in ((first, 50.0), (fast, 90.0), (slow, 40.0)):
+        impact = IMPACT.again(a=A.replace(vx=f"{speed} km/h"))
+        for name, outside in (
+            ("a.delta_v", not 20.0 <= impact.a.delta_v * 3.6 <= 30.0),
+            ("b.delta_v", False),
+            ("a.pdof", abs(math.degrees(impact.a.pdof - IMPACT.a.pdof)) > 5.0),
+            ("energy_loss", True),
+        ):
+            plain = shown["cells"][name]
+            assert shown["cells"][f"seen.{name}"] == plain + (", outside" if outside else "")
+    assert "outside" not in first["cells"]["seen.a.delta_v"]
+    assert "outside" in fast["cells"]["seen.a.delta_v"]
+
+
+def test_what_an_impact_was_found_from_is_its_evidence():
+    known = {"course_a": "0 deg", "course_b": "90 deg", "speed_b": "40 km/h"}
+    known["delta_v_a"] = f"{3.6 * IMPACT.a.delta_v!r} km/h"
+    (found, *_) = col.reconstruct.speeds(A, B, restitution=0.1, friction=0.5, **SCENE, **known)
+    page = what_if(found, {"restitution": (0.0, 0.4)}, units="metric")
+    first, other = moved(page, ("move", "restitution", "0.4"))
+    assert first["cells"]["seen.a.delta_v"] == f"{3.6 * IMPACT.a.delta_v:.1f} km/h"
+    assert f"<td>{3.6 * IMPACT.a.delta_v:.1f} km/h</td>" in page
+    assert other["cells"]["seen.a.delta_v"] != first["cells"]["seen.a.delta_v"]
+    assert other["cells"]["seen.b.before.speed"] == "40.0 km/h"
+
+
+def rows_of(page):
+    """The inputs that are not moved, as the page has them."""
+    table = page[page.index("As given, not moved") : page.index("<figure>")]
+    return {
+        html.unescape(head): [
+            html.unescape(cell) for cell in re.findall("<td[^>]*>(.*?)</td>", row)
+        ]
+        for head, row in re.findall(r'<th scope="row">(.*?)</th>(.*?)</tr>', table)
+    }
+
+
+def test_inputs_that_are_not_moved_stand_as_given():
+    pushed = IMPACT.again(outside_b=(-100.0, 0.0, 0.0))
+    rows = rows_of(what_if(pushed, {"speed_a": ("30 km/h", "80 km/h")}, units="metric"))
+    assert rows["speed"] == ["moved", "40 km/h"]
+    assert rows["course"] == ["0°", "90°"]
+    assert rows["mass"] == ["1500 kg", "1200 kg"]
+    assert rows["yaw inertia"] == ["2400 kg·m²", "1700 kg·m²"]
+    assert (rows["restitution"], rows["friction"]) == (["0.1"], ["0.5"])
+    assert rows["normal"] == ["0°"]
+    assert rows["impulse from outside on B"] == ["-0.100 kN·s, 0 kN·s, 0 kN·m·s"]
+    rows = rows_of(what_if(IMPACT, {"vx_a": (5.0, 20.0), "mass_b": ("1 t", "2 t")}))
+    assert rows["velocity along y"][0].startswith("0")
+    assert rows["mass"] == ["1500 kg", "moved"]
+
+
+def test_speeds_stand_at_their_arrows_and_a_scale_below():
+    (shown,) = moved(what_if(IMPACT, {"speed_a": ("30 km/h", "80 km/h")}, units="us"))
+    found = re.findall(r'<text x="([^"]+)" y="([^"]+)"[^>]*>([^<]+)</text>', shown["scene"])
+    cells = shown["cells"]
+    texts = [text for *_, text in found]
+    for name in ("a.before.speed", "a.after.speed", "b.before.speed", "b.after.speed"):
+        assert cells[name] in texts
+    left, _, width, _ = map(float, shown["viewBox"].split())
+    for x, _, text in found:
+        assert left < float(x) < left + width, text
+    ((x1, x2),) = re.findall(r'd="M([-\d.]+),\S+ V\S+ H([-\d.]+) V', shown["scene"])
+    (bar,) = re.findall(r">(\d+) ft<", shown["scene"])
+    assert float(x2) - float(x1) == pytest.approx(0.3048 * float(bar), rel=1e-12)
+
+
 def test_impacts_that_are_refused():
     """A batch, a refused case, something else; units that nobody knows; a standing car without a
     course.

@@ -74,10 +74,28 @@ CONTACT_REFUSALS = [
     ),
     ({"incomplete": 1}, InputError, "bad_option", "incomplete must be True or False, got 1"),
     (
-        {"model": "time_resolved", "duration": "0.1 s"},
+        {"model": "time_resolved"},
+        MissingInputError,
+        "one_stiffness",
+        "model 'time_resolved' needs duration=, such as '100 ms'",
+    ),
+    (
+        {"friction": None, "impulse_ratio": 0.3, "duration": 0.1},
         InputError,
-        "not_offered",
-        "write model='eccentric' and duration=, which has the impulse of the tyres",
+        "bad_combination",
+        "model 'time_resolved' works with friction= alone, got impulse_ratio=",
+    ),
+    (
+        {"duration": 0.1, "law": "stronge"},
+        InputError,
+        "bad_combination",
+        "model 'time_resolved' has a law of its own; leave law out",
+    ),
+    (
+        {"duration": 0.1, "incomplete": True},
+        InputError,
+        "bad_combination",
+        "model 'time_resolved' follows a contact to its end; leave incomplete out",
     ),
     # Times and lengths.
     ({"at": "soon"}, InputError, "bad_option", "such as '0.8 s', or 'touch', got 'soon'"),
@@ -177,12 +195,6 @@ CONTACT_REFUSALS = [
         "plane says how the normal comes from the outlines; leave it or normal out",
     ),
     ({"tolerance": 0.5}, InputError, "bad_combination", "tolerance is for model='solve'"),
-    (
-        {"duration": 0.1},
-        InputError,
-        "bad_combination",
-        "duration is given without a model; write model='eccentric'",
-    ),
     (
         {"duration": 0.1, "model": "oblique_central"},
         InputError,

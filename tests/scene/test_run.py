@@ -527,3 +527,18 @@ def test_a_scene_without_a_contact_ends_as_it_begins_where_nothing_slows() -> No
     assert run.impacts == ()
     assert run.paths["A"].time.tolist() == [0.0]
     assert run.at(3.0)["A"].x == 30.0
+
+
+@pytest.mark.parametrize("tolerance", ["0.05 m/s", "3 m/s"])
+def test_the_tolerance_of_a_contact_is_that_of_solve(tolerance: str) -> None:
+    """A larger one lets a smaller model pass, as where the same impact is solved by itself."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.3, heading=0.0, vx=12.0)
+    b = col.Vehicle(mass=1300.0, yaw_inertia=2100.0, x=2.0, y=-0.2, heading=0.0)
+    where: dict[str, Any] = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.4}
+    alone = col.solve(a, b, 0.1, **where, tolerance=tolerance)
+    contact = Contact("A", "B", restitution=0.1, **where, model="solve", tolerance=tolerance)
+    movers = {"A": Mover(a, drag=0.5), "B": Mover(b, drag=0.5)}
+    (impact,) = Scene(movers=movers, contacts=[contact]).run().impacts
+    assert impact.model == alone.model
+    assert impact.model == ("linear_central" if tolerance == "3 m/s" else "eccentric")
+    assert impact.b.delta_v == pytest.approx(alone.b.delta_v, rel=1e-12)

@@ -291,12 +291,11 @@ def test_the_plane_through_the_crossings_is_that_of_both_points_where_outlines_c
     assert abs(plane.normal_angle - face.normal_angle) < math.radians(40.0)
 
 
-def test_what_is_not_offered_says_what_to_write() -> None:
-    rule = {"restitution": 0.1, "friction": 0.5, "duration": 0.1}
-    with pytest.raises(col.InputError, match="write model='eccentric'"):
-        Contact("A", "B", **rule)
-    with pytest.raises(col.InputError, match="'time_resolved' is not offered in a scene yet"):
-        Contact("A", "B", model="time_resolved", **rule)
+def test_a_duration_alone_is_followed_in_time() -> None:
+    rule = {"restitution": 0.1, "friction": 0.5}
+    assert Contact("A", "B", **rule).model == "eccentric"
+    assert Contact("A", "B", duration=0.1, **rule).model == "time_resolved"
+    assert Contact("A", "B", duration=0.1, model="eccentric", **rule).model == "eccentric"
 
 
 def test_a_contact_that_lasts_has_the_impulse_of_the_tyres_once() -> None:

@@ -477,6 +477,7 @@ def test_what_is_left_out_with_tyres():
     ("changes", "code", "text"),
     [
         ({"tyres_a": 0.7}, "not_tyres", "tyres_a must be Tyres, got float"),
+        ({"tyres_b": np.array([0.7, 0.8])}, "not_tyres", "tyres_b must be Tyres, got ndarray"),
         ({"duration": None}, "one_stiffness", "duration"),
         ({"a": A.replace(heading=None)}, "missing_heading", "heading"),
         (
@@ -503,6 +504,23 @@ def test_refusals(solver, changes, code, text):
     with pytest.raises(col.CollisionsError, match=text) as caught:
         SOLVERS[solver](given.pop("a"), given.pop("b"), 0.1, **given)
     assert caught.value.code == code
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_an_array_in_place_of_tyres_is_refused_when_an_impact_is_solved_again(solver):
+    given = {"duration": 0.1, **CONTACT, **TYRES}
+    impact = SOLVERS[solver](A, B, 0.1, **given)
+    with pytest.raises(col.InputError, match="tyres_b must be Tyres, got ndarray"):
+        impact.again(tyres_b=np.array([0.7, 0.8]))
+
+
+def test_tyres_of_a_barrier_make_no_case_differ():
+    """A wall does not roll: an array in its tyres gives as many cases, all with one answer."""
+    wall = col.Vehicle(mass=math.inf, yaw_inertia=math.inf)
+    tyres = TYRES["tyres_b"].replace(track=np.array([1.4, 1.5, 1.6]))
+    many = col.eccentric(A, wall, 0.1, **CONTACT, duration=0.1, tyres_b=tyres)
+    assert many.b.tyre_impulse_x.shape == many.a.delta_v.shape == (3,)
+    assert set(many.a.delta_v) == {col.eccentric(A, wall, 0.1, **CONTACT).a.delta_v}
 
 
 def test_what_if_does_not_forget_the_tyres():

@@ -170,6 +170,7 @@ def around(impact: col.Impact) -> str:
             duration="100 ms",
             share_a=0.5,
             author="J. Doe",
+            exhibit="12",
             case="2026-11",
             date="25 November 2026",
         )
@@ -357,7 +358,9 @@ def on_the_ground() -> float:
         + travel.simulate(a, tyres, slope=("2 %", 0.0), rotating_mass=0.03).at("1 s").speed
         + tyres.replace(height=0.5).wheelbase
     )
-    return one + lasts + run_out.speed + rest + travel.speed([10.0, 5.0], drag=[0.7, 0.3])
+    least, greatest = travel.throw_bounds("18 m", friction=0.66, height="0.5 m")
+    thrown: float = travel.throw_speed(18, friction=0.66, angle="20 deg") + least + greatest
+    return one + lasts + run_out.speed + rest + thrown + travel.speed([10.0, 5.0], drag=[0.7, 0.3])
 
 
 def whole_crash() -> float:
@@ -484,7 +487,7 @@ def refused() -> float | None:
     except col.NoImpactError as error:
         return error.closing_speed
     except (col.MissingInputError, col.UnitsError, col.ShapeError) as error:
-        print(error.fields["argument"])
+        print(error.argument, error.given, error.allowed, error.instead)
     except col.InternalError as error:
         print(error.code)
     except col.NoSolutionError as error:

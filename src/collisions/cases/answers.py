@@ -19,19 +19,22 @@ import numpy as np
 
 from ..diagnostics import diagnose
 from ..impact.impact import Impact
-from ..messages.errors import CollisionsWarning, InputError
+from ..messages.errors import CollisionsWarning, InputError, as_marked
 from ..quantities.attributes import unit_of
 from ..quantities.formatting import percent
 from ..quantities.tables import spoken_system
-from ..quantities.units import shown, to_quantity
+from ..quantities.units import rendered, to_quantity
 from ..reconstruct import MomentumSolution, Posterior
 from ..reporting import report
 from ..reporting.checking import inputs_of
+from ..reporting.play import play
 from ..reporting.record import record
 from ..reporting.what_if import starts, what_if
+from ..scene.run import Run
 from ..uncertainty import Interval
+from .crash import SCENE
+from .crash_answers import crash_model, found_run, usual_outputs
 from .read import (
-    FORWARD,
     FUNCTIONS,
     SOLVERS,
     STUDIES,
@@ -71,12 +74,13 @@ class Answers:
             own = notes if isinstance(notes, tuple) else (notes,)
             if isinstance(one, (Impact, MomentumSolution)):
                 options["notes"] = (*own, *_stated(self.case.call, inputs_of(one), own))
+            elif isinstance(one, Run):
+                options["notes"] = (*own, *_stated_in_scene(self.case.call))
             else:
                 # The result of a study holds neither the solver nor what is known exactly.
-                options["notes"] = (
-                    *own,
-                    f"The case is {self.case.solver}, with {', '.join(_known(self.case.call))}.",
-                )
+                case = "a scene" if self.case.solver == SCENE else self.case.solver
+                known = ", ".join(_known(self.case.call))
+                options["notes"] = (*own, f"The case is {case}, with {known}.")
         whole: str = self._made(report, {**options, "impact": one})
         return whole
 
@@ -120,6 +124,19 @@ class Answers:
         )
         return whole
 
+    def play(self, units: str | None = None) -> str:
+        """The page that plays the scene: as it was stated, or as a study found it."""
+        if self.case.solver != SCENE:
+            text = "plays a scene, and this file is of one impact; write [[mover]] and [[contact]]"
+            raise CaseError(("play", text))
+        run, one = self._one(), self._one()
+        if not isinstance(one, Run):
+            with _noting(self.warnings):
+                run, which = found_run(self.case, one)
+            self.warnings.append(f"the page plays the scene of {which}")
+        whole: str = self._made(play, {"run": run, "units": self._units(units)}, "play")
+        return whole
+
     def _one(self) -> Any:
         """The one result that a page is of."""
         if len(self.results) > 1:
@@ -140,7 +157,7 @@ class Answers:
         for number, result in enumerate(self.results, 1):
             found += [f"Answer {number} of {len(self.results)}"] if len(self.results) > 1 else []
             parts = [result]
-            if isinstance(result, (Impact, MomentumSolution)):
+            if isinstance(result, (Impact, MomentumSolution, Run)):
                 parts.append(self._made(diagnose, {**looked_at, "impact": result, "units": system}))
             found += [self._made(part.summary, {"units": system}) for part in parts]
         if self.propagation is not None:
@@ -206,6 +223,32 @@ def _stated(call: Call, inputs: list[str], own: tuple[Any, ...]) -> Iterator[str
             yield f"{name}: {text}."
 
 
+def _numbers_of_scene(node: Any) -> Iterator[tuple[str, Call | None, Any]]:
+    """The numbers that a file gives of a scene: key, the call that each is of, and value."""
+    if isinstance(node, Call):
+        for name, value in node.arguments.items():
+            inside = isinstance(value, Call) and value.function not in FUNCTIONS.values()
+            if inside or name in ("movers", "contacts", "surfaces", "tyres_after"):
+                yield from _numbers_of_scene(value)
+            elif value is not None and name not in ("order", "shared"):
+                yield f"{node.key}.{name}", node, value
+        return
+    for at, part in enumerate(node.values() if isinstance(node, dict) else node):
+        if isinstance(part, Call):
+            yield from _numbers_of_scene(part)
+        else:
+            corners, friction = part
+            yield f"surfaces[{at}].corners", None, corners
+            yield f"surfaces[{at}]", None, friction
+
+
+def _stated_in_scene(call: Call) -> Iterator[str]:
+    """What a file states of the inputs of a scene other than a number, in a paragraph each."""
+    for key, _, value in _numbers_of_scene(call):
+        if text := _in_words(value):
+            yield f"{key}: {text}."
+
+
 def _in_words(value: Any, given: bool = False) -> str:
     """What a value is stated as, or worked out from; "" of a number, unless it is ``given`` to a
     function.
@@ -240,12 +283,26 @@ def _unit_of(call: Call, name: str, value: Any) -> str:
 
 def _known(call: Call) -> Iterator[str]:
     """What a call is given that is known exactly, each with its key."""
+    if call.key == SCENE:
+        for key, of, value in _numbers_of_scene(call):
+            name = key.rpartition(".")[2]
+            if isinstance(value, Call):
+                yield from _known(value)
+            elif not _uncertain(value):
+                unit = "" if of is None else _unit_of(of, name, value)
+                yield f"{key} = {as_in_file(value)}{unit}"
+        return
     for name, value in call.arguments.items():
-        parts = value if isinstance(value, tuple) else (value,)
         if isinstance(value, Call):
             yield from _known(value)
-        elif value is not None and not any(isinstance(part, Uncertain) for part in parts):
+        elif value is not None and not _uncertain(value):
             yield f"{call.key}.{name} = {value}{_unit_of(call, name, value)}"
+
+
+def _uncertain(value: Any) -> bool:
+    """Whether a value, or a part of it, is not known exactly."""
+    parts = value if isinstance(value, tuple) else (value,)
+    return any(isinstance(part, Uncertain) for part in parts)
 
 
 def _shares(output: Any) -> str:
@@ -311,7 +368,12 @@ def answers(case: Case) -> Answers:
             )
     else:
         with _noting(noted):
-            model = _model(case, case.options["observed"], 0, 1)
+            observed = case.options["observed"]
+            model = (
+                crash_model(case, list(observed), f"{case.study}.observed")
+                if case.solver == SCENE
+                else _model(case, observed, 0, 1)
+            )
             unknowns = {name: one.stated for name, one in case.uncertain.items()}
             study = Call(
                 case.study,
@@ -355,7 +417,7 @@ def _noting(
 
 
 def _line(warning: CollisionsWarning) -> str:
-    return " ".join(in_file_words(str(warning)).split())
+    return " ".join(in_file_words(as_marked(warning)).split())
 
 
 def _roots(found: Any) -> tuple[Any, ...]:
@@ -374,7 +436,7 @@ def _propagated(case: Case, results: tuple[Any, ...], count: int) -> Any:
         )
         raise CaseError(("answer", text), refused=True, code="ambiguous")
     options = dict(case.options)
-    outputs = options.pop("outputs", _usual(case, results[0]))
+    outputs = options.pop("outputs", _usual(results[0]))
     if (
         not isinstance(outputs, tuple)
         or not outputs
@@ -386,7 +448,11 @@ def _propagated(case: Case, results: tuple[Any, ...], count: int) -> Any:
                 'must be a list of names of answers, such as ["a.delta_v", "energy_loss"]',
             )
         )
-    model = _model(case, outputs, (case.answer or 1) - 1, count)
+    model = (
+        crash_model(case, list(outputs), "propagate.outputs")
+        if case.solver == SCENE
+        else _model(case, outputs, (case.answer or 1) - 1, count)
+    )
     inputs = {name: one.stated for name, one in case.uncertain.items()}
     return Call("propagate", STUDIES["propagate"], {"model": model, "inputs": inputs, **options})(
         {}
@@ -441,19 +507,21 @@ def _output(result: Any, name: str, place: str, there: Any, shape: tuple[int, ..
         names = result.to_columns() if isinstance(result, Impact) else result.__dataclass_fields__
         names = [one for one in names if _found(result, one)[3] is not None]
         raise CaseError(
-            (place, f"{shown(name)} is no number of the answer; {nearest(name, names)}")
+            (place, f"{rendered(name)} is no number of the answer; {nearest(name, names)}")
         )
     if value is None:
         why = owner._missing(last) if hasattr(owner, "_missing") else "this case has none"
-        raise CaseError((place, f"{shown(name)} is not known: {why}"))
+        raise CaseError((place, f"{rendered(name)} is not known: {why}"))
     return to_quantity(np.broadcast_to(np.where(there, value, np.nan), shape), unit)
 
 
-def _usual(case: Case, result: Any) -> tuple[str, ...]:
+def _usual(result: Any) -> tuple[str, ...]:
     """The outputs where the file names none: what was sought of a reverse solver, and what people
     ask of an impact.
     """
+    if isinstance(result, Run):
+        return usual_outputs(result)
     if isinstance(result, MomentumSolution):
-        return (*result.unknowns, "delta_v_a", "delta_v_b")
-    found = ("a.delta_v", "b.delta_v", "energy_loss")
-    return found if case.solver in FORWARD else ("a.before.speed", "b.before.speed", *found)
+        return (*result.found, "delta_v_a", "delta_v_b")
+    speeds = ("a.before.speed", "b.before.speed") if result.found else ()
+    return (*speeds, "a.delta_v", "b.delta_v", "energy_loss")

@@ -19,11 +19,14 @@ from typing import Any
 
 from .. import reconstruct, reference, travel, uncertainty
 from ..impact import solvers
-from ..messages.errors import CollisionsError, InputError
+from ..messages.errors import CollisionsError, InputError, UnitsError
+from ..messages.marked import as_code
 from ..quantities.units import example, to_quantity, unit_as_written
 from ..reporting import report
 from ..reporting.what_if import SLIDERS
+from ..scene import Contact
 from ..vehicle.vehicle import Vehicle
+from . import crash
 from .words import DISTRIBUTIONS, as_in_file, in_file_words
 
 # The functions of which a file calls one, by the name of its table.
@@ -61,6 +64,8 @@ _NOT_IN_FILES = {
     "form",
     "rest",
 }
+# But for these of single functions.
+_IN_FILES = {(Contact, "model")}
 # Annotations of arguments that may be several numbers.
 SEVERAL = ("Pair", "Impulse", "Segments", "Sequence[Input]", "tuple")
 _PROPAGATE, _POSTERIOR = {"method": "quasi_random", "seed": 0}, {"seed": 0}
@@ -87,10 +92,8 @@ class CaseError(Exception):
         self, *problems: tuple[str, str], refused: bool = False, code: str = "bad_case"
     ) -> None:
         self.problems = [
-            (re.sub(r"\['(.*?)'\]", r'."\1"', key), " ".join(in_file_words(text).split()))
-            for key, text in (
-                [_cut(part, _LONGEST_MESSAGE) for part in problem] for problem in problems
-            )
+            (re.sub(r"\['(.*?)'\]", r'."\1"', key), " ".join(_cut(text, _LONGEST_MESSAGE).split()))
+            for key, text in problems
         ]
         self.refused = refused
         self.code = code
@@ -112,6 +115,10 @@ class Uncertain:
     stated: Any
     nominal: Any
 
+    def named(self, key: str) -> Uncertain:
+        """The same under another key."""
+        return Uncertain(key, self.stated, self.nominal)
+
 
 @dataclass(frozen=True)
 class Call:
@@ -130,23 +137,27 @@ class Call:
             return self.function(**arguments, **options)
         except CollisionsError as error:
             parts = error.fields.get("problems", (error,))
-            problems = [(self._place(part), self._said(part)) for part in parts]
+            places = [self._place(part) for part in parts]
+            problems = [
+                (key, self._said(part, key)) for part, key in zip(parts, places, strict=True)
+            ]
             raise CaseError(
                 *problems, refused=not isinstance(error, InputError), code=error.code
             ) from error
 
-    def _said(self, error: CollisionsError) -> str:
-        """What an error says, without the name of its argument; of a range it names both ends, not
+    def _said(self, error: CollisionsError, key: str) -> str:
+        """What an error says, beside the key of its argument; of a range it names both ends, not
         what stands for them.
         """
-        text = str(error).removeprefix(f"{error.fields.get('argument')}: ")
-        for one in self.arguments.values():
-            if isinstance(one, Uncertain):
-                text = text.replace(
-                    f"cannot read {one.nominal!r}",
-                    f"{str(one.stated).partition(',')[0]} has no unit",
-                )
-        return text
+        ranges = [
+            one.stated
+            for one in self.arguments.values()
+            if isinstance(one, Uncertain) and one.nominal == error.fields.get("text")
+        ]
+        if ranges and isinstance(error, UnitsError):
+            without = f"{str(ranges[0]).partition(',')[0]} has no unit"
+            return in_file_words(f"{without}{error.fields.get('instead', '')}")
+        return in_file_words(_beside_key(error, key))
 
     def _place(self, error: CollisionsError) -> str:
         """The key that an error is about: an argument, that of a vehicle, or the table."""
@@ -157,11 +168,21 @@ class Call:
                 return name if own in ("inputs", "unknowns") else f"{self.key}.{own}.{name}"
         if isinstance(self.arguments.get(body), Call) or "vehicle" in error.fields:
             return f"{body}.{name.rpartition('.')[2]}".rstrip(".")
-        return (
-            f"{self.key}.{name}"
-            if name.partition("[")[0] in parameters(self.function)
-            else self.key
-        )
+        first = name.partition("[")[0]
+        if self.key == crash.SCENE and first in crash.FROM_TABLES:
+            return name
+        return f"{self.key}.{name}" if first in parameters(self.function) else self.key
+
+
+def _beside_key(error: CollisionsError, key: str) -> str:
+    """The message of an error, marked, without its argument where the key says it."""
+    argument, fields = str(error.fields.get("argument") or ""), error.fields
+    told = argument and key.endswith(argument.rpartition(".")[2])
+    if told and "allowed" in fields and error.marked.startswith(f"{argument} must be "):
+        got = fields.get("got") or as_code(as_in_file(fields["given"]))
+        return f"must be {fields['allowed']}, got {got}{fields.get('instead', '')}"
+    text = error.marked.removeprefix(f"{argument}: ")
+    return text if error.place in ("", argument) else f"{error.place}: {text}"
 
 
 @dataclass(frozen=True)
@@ -220,7 +241,7 @@ def read_text(data: bytes) -> Case:
         ) from None
     except ValueError as error:
         raise CaseError(_not_toml(text, str(error))) from None
-    return _Reader(document).case()
+    return Reader(document).case()
 
 
 def _float(text: str) -> float:
@@ -290,7 +311,11 @@ def parameters(function: Callable[..., Any]) -> dict[str, Parameter]:
     if function == Vehicle.from_speed:
         found = {"speed": found["speed"], "course": found["course"], **parameters(Vehicle)}
         del found["vx"], found["vy"]
-    return {name: parameter for name, parameter in found.items() if name not in _NOT_IN_FILES}
+    return {
+        name: parameter
+        for name, parameter in found.items()
+        if name not in _NOT_IN_FILES or (function, name) in _IN_FILES
+    }
 
 
 def vehicles(function: Callable[..., Any]) -> list[str]:
@@ -300,7 +325,7 @@ def vehicles(function: Callable[..., Any]) -> list[str]:
 
 @cache
 def descriptions(function: Callable[..., Any]) -> dict[str, str]:
-    """By argument, its unit and what its docstring says of it."""
+    """Each argument with its unit and what its docstring says of it."""
     section = (getdoc(function) or "").partition("Parameters\n----------\n")[2].partition("\n\n")[0]
     found: dict[str, str] = {}
     if function == Vehicle.from_speed:
@@ -396,10 +421,12 @@ def _filled(node: Any, values: Mapping[str, Any]) -> Any:
         )
     if isinstance(node, Call):
         return node(values)
+    if isinstance(node, dict):
+        return {name: _filled(part, values) for name, part in node.items()}
     return tuple(_filled(part, values) for part in node) if isinstance(node, tuple) else node
 
 
-class _Reader:
+class Reader:
     """Reads one document, and collects what is wrong with it."""
 
     def __init__(self, document: dict[str, Any]) -> None:
@@ -453,18 +480,22 @@ class _Reader:
 
     def case(self) -> Case:
         """The whole case."""
+        self._observed_at_the_top()
         solvers_of, studies = (
             [name for name in names if name in self.document] for names in (SOLVERS, STUDIES)
         )
+        if self.document.keys() & {*crash.TABLES}:
+            return self._crash(solvers_of, studies)
         asked = solvers_of if len(solvers_of) == 1 else list(SOLVERS)
         bodies = list(dict.fromkeys(label for name in asked for label in vehicles(SOLVERS[name])))
-        self.known(self.document, "", [*asked, *bodies, *STUDIES, "report", "what_if", "answer"])
+        known = [*asked, *bodies, *STUDIES, *crash.TABLES, "report", "what_if", "answer"]
+        self.known(self.document, "", known)
         if len(solvers_of) != 1:
             tables = ", ".join(f"[{name}]" for name in solvers_of or SOLVERS)
             what = (
                 "has the tables {}; leave one of them"
                 if solvers_of
-                else "has no table of a solver; write one of {}"
+                else "has no table of a solver; write one of {}, or [[mover]] and [[contact]]"
             )
             self.refuse("", what.format(tables))
             raise CaseError(*self.problems)
@@ -475,12 +506,6 @@ class _Reader:
             self.document[name],
             {label: self.vehicle(label) for label in bodies},
         )
-        if studies and studies[0] != "propagate" and not self.uncertain:
-            self.refuse(
-                studies[0],
-                'has nothing to find; write what is sought as a range, such as speed = "20 km/h '
-                '.. 90 km/h"',
-            )
         for label in bodies if name == "reconstruct.speeds" else ():
             for key in {"vx", "vy", "speed", "course"} & self.table(label).keys():
                 own = f"course_{label}" if key in ("vx", "vy") else f"{key}_{label}"
@@ -489,10 +514,7 @@ class _Reader:
                     f"is what {name} finds; leave it out, and write {own} in [{name}] if it is "
                     "known",
                 )
-        if len(studies) > 1:
-            self.refuse(studies[1], f"stands beside [{studies[0]}]; leave out one of these tables")
-        study = studies[0] if studies else "propagate" if self.uncertain else ""
-        options = self.study(study) if study else {}
+        study, options = self._asked(studies)
         answer = self.document.get("answer")
         if answer is not None and not (type(answer) is int and answer > 0):
             self.refuse(
@@ -500,13 +522,61 @@ class _Reader:
                 "must be a whole number from 1, which of several answers to take, got "
                 f"{as_in_file(answer)}; write 1",
             )
+        page, ranges = self._pages()
+        if self.problems:
+            raise CaseError(*self.problems)
+        return Case(name, call, self.uncertain, study, options, page, ranges, answer)
+
+    def _observed_at_the_top(self) -> None:
+        """Put what was observed, which may stand in a table of its own, into that of its study."""
+        if "observed" not in self.document:
+            return
+        study = next((name for name in ("fit", "posterior") if name in self.document), "posterior")
+        table = self.table(study)
+        if "observed" in table:
+            self.refuse(
+                "observed", f"stands beside [{study}.observed]; leave out one of these tables"
+            )
+        self.document[study] = {"observed": self.document.pop("observed"), **table}
+
+    def _crash(self, solvers_of: list[str], studies: list[str]) -> Case:
+        """The case of a whole scene."""
+        for name in solvers_of:
+            self.refuse(
+                name,
+                "stands beside [[mover]] or [[contact]]; a file is of one impact, or of a scene "
+                "whose impacts are its contacts",
+            )
+        known = [*crash.TABLES, *SOLVERS, *STUDIES, "report", "what_if"]
+        self.known(self.document, "", known)
+        self.solver = crash.SCENE
+        call = crash.read_crash(self)
+        study, options = self._asked(studies)
+        page, ranges = self._pages()
+        if self.problems:
+            raise CaseError(*self.problems)
+        return Case(crash.SCENE, call, self.uncertain, study, options, page, ranges, None)
+
+    def _asked(self, studies: list[str]) -> tuple[str, dict[str, Any]]:
+        """What is asked of the uncertain numbers, with its arguments."""
+        if studies and studies[0] != "propagate" and not self.uncertain:
+            self.refuse(
+                studies[0],
+                'has nothing to find; write what is sought as a range, such as speed = "20 km/h '
+                '.. 90 km/h"',
+            )
+        if len(studies) > 1:
+            self.refuse(studies[1], f"stands beside [{studies[0]}]; leave out one of these tables")
+        study = studies[0] if studies else "propagate" if self.uncertain else ""
+        return study, self.study(study) if study else {}
+
+    def _pages(self) -> tuple[dict[str, Any], dict[str, Any]]:
+        """The options of the report, and the ranges of the page with sliders."""
         page, ranges = self.table("report"), self.table("what_if.ranges")
         self.known(page, "report", parameters(report))
         self.known(self.table("what_if"), "what_if", ["ranges"])
         self.known(ranges, "what_if.ranges", SLIDERS)
-        if self.problems:
-            raise CaseError(*self.problems)
-        return Case(name, call, self.uncertain, study, options, page, ranges, answer)
+        return page, ranges
 
     def known(self, table: Iterable[str], place: str, names: Iterable[str]) -> None:
         """Refuse the keys of a table that are not among these names."""
@@ -533,8 +603,17 @@ class _Reader:
     def vehicle(self, label: str) -> Call:
         """The vehicle of a table, by speed and course where it has them."""
         given = self.table(label)
+        self.known(given, label, self.of_vehicles)
+        return self.moving(label, given)
+
+    @property
+    def of_vehicles(self) -> list[str]:
+        """The keys of a vehicle."""
+        return [*(parameters(Vehicle) | parameters(Vehicle.from_speed))]
+
+    def moving(self, label: str, given: Mapping[str, Any]) -> Call:
+        """The vehicle with these keys, by speed and course where it has them."""
         function = Vehicle.from_speed if {"speed", "course"} & given.keys() else Vehicle
-        self.known(given, label, parameters(Vehicle) | parameters(Vehicle.from_speed))
         if function != Vehicle and {"vx", "vy"} & given.keys():
             self.refuse(label, "has its velocity in two ways; leave vx and vy, or speed and course")
         takes = parameters(function)

@@ -5,7 +5,7 @@ paper.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from operator import attrgetter
 from typing import Any, Literal, TypeAlias, get_args
 
@@ -29,7 +29,7 @@ from .evidence import MOMENTUM_ANSWERS, fit, momentum
 from .expressions import System
 from .models import eccentric, linear, oblique, time_resolved
 from .page import Page
-from .reverse import state_before, why_this_model
+from .reverse import evidence_of, found_inputs, state_before, why_this_model
 from .scene import scene_steps
 from .symbols import Symbols
 from .wheels import tyre_inputs
@@ -363,19 +363,34 @@ def impact_inputs(
             yield "contact", what, (name,), (value,), kind
 
 
+def key_of(of: str, names: Sequence[str]) -> str:
+    """The name of an input in ``notes``, such as "a.mass" or "restitution"; one name for both parts
+    of a place.
+    """
+    name = names[0].partition("[")[0]
+    return name if of == "contact" else f"{of.lower()}.{name}"
+
+
 def _inputs(page: Page, impact: Impact) -> None:
     """Write the table of inputs."""
     vehicles = {"A": impact.a.before.name, "B": impact.b.before.name}
     bare = impact.inputs.bare_normal
     rows = []
+    found = found_inputs(impact)
     for of, what, names, numbers, kind in impact_inputs(impact):
         text = ", ".join(page.number(number, kind) for number in numbers)
+        text += ", found" if key_of(of, names) in found else ""
         if "normal" in names and bare is not None:
             text += f", given as {bare:.6g} without a unit"
         name = vehicles.get(of, "")
         rows.append((f"{of} ({page.name(name)})" if name not in ("", of) else of, what, text))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution", impact.law.title()))
+    rows += [
+        ("evidence", one.what, page.number(one.number, one.kind))
+        for one in evidence_of(impact)
+        if one.number is not None
+    ]
     page.table(rows)
 
 
@@ -471,7 +486,7 @@ def spread_of(
     distribution has a range.
     """
     kinds = kinds_of_answers(result)
-    known = _by_spelling(kinds)
+    known = names_of_answers(result)
     named = [(known[name], output) for name, output in uncertainty.outputs.items() if name in known]
     outputs = {
         name: output for name, output in named if output.unit in (None, SI_UNITS[kinds[name]])
@@ -486,11 +501,14 @@ def spread_of(
     return outputs, deviations, ranges
 
 
-def _by_spelling(names: Iterable[str]) -> dict[str, str]:
-    """The names of results by what may be written for each, such as "b_after_vx" for
-    "b.after.vx".
+def names_of_answers(result: Any) -> dict[str, str]:
+    """The names of results by what may be written for each, such as "b_after_vx" for "b.after.vx",
+    and by what every reverse answer has, "speed_a" and "speed_b".
     """
-    return {spelled: name for name in names for spelled in (name, name.replace(".", "_"))}
+    names = _answers(result)
+    found = {spelled: name for name in names for spelled in (name, name.replace(".", "_"))}
+    speeds = {f"speed_{label}": f"{label}.before.speed" for label in "ab"}
+    return {one: name for one, name in speeds.items() if name in names} | found
 
 
 def _is_mean(result: Any, name: str, kind: str, output: Output) -> bool:
@@ -527,7 +545,7 @@ def _spread(uncertainty: Any, result: Any) -> tuple[dict[str, float], _Ranges]:
             code="bad_option",
             argument="uncertainty",
         )
-    known = _by_spelling(kinds)
+    known = names_of_answers(result)
     stray = [shown(name) for name in uncertainty if name not in known]
     if stray:
         raise _unknown(", ".join(stray), kinds)

@@ -1,14 +1,21 @@
-"""``why_this_model`` and ``state_before``: the choice of the model, and how a reverse solver found
-the state before.
+"""``why_this_model``, ``state_before``, ``evidence_of``: the choice of the model, how a reverse
+solver found the state before, and what it was given.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+from itertools import pairwise
+from operator import attrgetter
+from typing import Any, NamedTuple
 
 from ..impact.impact import Impact
-from ..impact.provenance import KNOWN, bounds_of, how_many
+from ..impact.provenance import KNOWN, bounds_of, how_many, known_in_words
 from ..kernels.central import shares
+from ..quantities.directions import course
+from ..quantities.formatting import SI_UNITS
+from ..quantities.reading import ArgumentReader
 from ..quantities.tables import as_sentence
 from .expressions import HALF, ONE, ZERO, Expression, root
 from .models import Lever, impulse_in_scene_axes
@@ -16,11 +23,94 @@ from .page import Page
 from .symbols import AFTER, Symbol, Symbols
 
 _VELOCITIES = ("va", "vb", "va_after", "vb_after")
-# These are known for both vehicles at once, under the name of the one of A.
-_OF_BOTH = {
-    "ees_a": "EES of both (ISO 12353)",
-    "max_crush_speed_a": "speeds of maximum crush of both",
-}
+
+
+class Evidence(NamedTuple):
+    """Something that a reverse solver was given besides masses, geometry and contact.
+
+    ``number`` is in SI, None of what is no number or was kept by no earlier version; ``text`` as it
+    was given, if with a unit; ``answer`` the same number of the impact that was found, if it has
+    one.
+    """
+
+    name: str
+    what: str
+    kind: str
+    number: float | None
+    text: str | None
+    answer: float | None
+
+
+def evidence_of(impact: Impact) -> list[Evidence]:
+    """What a reverse solver was given besides the contact and the vehicles, in its order."""
+    origin = impact.reconstruction
+    if origin is None:
+        return []
+    texts: Mapping[str, Any] = impact.inputs.given or {}
+    numbers = _as_found(impact, texts) if origin.given is None else origin.given
+    still = [label for label in "ab" if math.isinf(getattr(impact.inputs, label).mass)]
+    found = []
+    for name in dict.fromkeys([*numbers, *texts, *origin.known]):
+        # Restitution and friction stand with the contact, va and vb with their vehicle. What
+        # nothing moves has no motion after.
+        beside = name not in KNOWN or name in ("va", "vb")
+        if beside or any(name.startswith(f"{label}_after") for label in still):
+            continue
+        known, text, number = KNOWN[name], texts.get(name), numbers.get(name)
+        if number is None and text is not None:
+            number = number_of_text(text, name)
+        elif number is None and origin.given is not None and "_axes_" not in name:
+            # The place of a recorder, whose parts are there, and the delta-V of the centre of mass,
+            # to which its readings were carried over.
+            continue
+        answer = float(attrgetter(known.path)(impact)) if known.path else None
+        found.append(Evidence(name, known.what, known.kind, number, text, answer))
+    return found
+
+
+def _as_found(impact: Impact, texts: Mapping[str, Any]) -> dict[str, float]:
+    """What a record of an earlier version does not say of the numbers that were given, as the
+    answer has it.
+    """
+    origin = impact.reconstruction
+    names: list[str] = [] if origin is None else list(origin.known)
+    for label in "ab":
+        after = f"{label}_after"
+        by_speed = {f"{after}.speed", f"{after}.course"} <= texts.keys()
+        motion = ("speed", "course") if by_speed else ("vx", "vy")
+        if origin is not None and origin.method == "planar":
+            names += (f"{after}.{name}" for name in (*motion, "yaw_rate"))
+        elif origin is not None and origin.method == "speeds":
+            names.append(f"course_{label}")
+    numbers = {
+        name: float(attrgetter(KNOWN[name].path)(impact))
+        for name in names
+        if name in KNOWN and KNOWN[name].path
+    }
+    # A vehicle at rest has no course.
+    return {name: number for name, number in numbers.items() if math.isfinite(number)}
+
+
+def found_inputs(impact: Impact) -> set[str]:
+    """The inputs of the model that a reverse solver found, by their names in ``notes``."""
+    found: set[str] = set()
+    for name in impact.found:
+        quantity, label = (name[:-2], name[-1]) if name[-2:] in ("_a", "_b") else (name, "")
+        names = ("vx", "vy", "speed") if quantity == "speed" else (quantity,)
+        found |= {f"{label}.{one}" if label else one for one in names}
+    return found
+
+
+def number_of_text(text: str, name: str) -> float | None:
+    """The number of a text in SI; None if its unit belongs to another registry."""
+    reader = ArgumentReader()
+    kind = KNOWN[name].kind
+    read = (
+        course(reader, text, name).radians
+        if kind == "angle"
+        else reader.number(text, SI_UNITS[kind], name)
+    )
+    return None if reader.problems else float(read)
 
 
 def why_this_model(page: Page, impact: Impact) -> None:
@@ -74,11 +164,9 @@ def what_was_known(page: Page, impact: Impact) -> None:
     if origin is None:
         return
     page.heading("How the rest was found")
-    words = {name: known.what for name, known in KNOWN.items()} | _OF_BOTH
-    known = ", ".join(words.get(name, name.replace("_", " ")) for name in origin.known)
     page.say(
         f"Solved backwards by reconstruct.{origin.method}. Known besides masses and geometry: "
-        f"{known}."
+        f"{', '.join(known_in_words(origin.known))}."
     )
     page.say(
         f"Condition {page.system.answer(origin.condition, 'number')}: a relative error in what "
@@ -95,8 +183,7 @@ def what_was_known(page: Page, impact: Impact) -> None:
         ended = {"sticking": "stuck", "sliding": "slid to its end"}[origin.regime]
         page.say(f"That the contact {ended} was stated; what was known does not tell.")
     speeds = {
-        f"speed_{label}": page.system.answer(getattr(impact, label).before.speed, "speed")
-        for label in "ab"
+        name: page.system.answer(getattr(impact, name), "speed") for name in ("speed_a", "speed_b")
     }
     bounds = bounds_of(origin.one_sided or {}, speeds)
     if bounds:
@@ -118,23 +205,16 @@ def _central(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
         )
     )
     given = [name for name in _VELOCITIES if name in known]
+    if "contact_duration" in known:
+        _while_held(page, s, v, given, known)
+        return
     if len(given) == 3:
         _last_velocity(page, s, v, *set(_VELOCITIES).difference(given))
         page.equation(
             "Restitution, as in (9)", e, (v["vb_after"] - v["va_after"]) / (v["va"] - v["vb"])
         )
         return
-    share_a, share_b, *_ = shares(a.start.mass, b.start.mass)
-    share = {"a": Symbol("f_A", share_a, "number"), "b": Symbol("f_B", share_b, "number")}
-    for symbol, own, other in ((share["a"], a, b), (share["b"], b, a)):
-        caption = f"Share of {own.label} in the change of relative velocity"
-        if a.fixed or b.fixed:
-            share_of_all = ZERO if own.fixed else ONE
-            page.fact(
-                f"{caption}, as one mass is infinite: {page.shown(symbol)}.", (symbol, share_of_all)
-            )
-        else:
-            page.equation(caption, symbol, other.mass / (a.mass + b.mass))
+    share = _shares(page, s)
     if len(given) == 1:
         page.equation(
             "Closing speed, from (8)", g, root(2.0 * s.loss / (s.mass * (1.0 - e.squared())))
@@ -167,6 +247,78 @@ def _central(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
         page.equation(f"Velocity of {name[1].upper()} before", v[name], found)
 
 
+def _shares(page: Page, s: Symbols) -> dict[str, Symbol]:
+    """Write the share of each vehicle in a change of their relative velocity."""
+    a, b = s.bodies
+    share_a, share_b, *_ = shares(a.start.mass, b.start.mass)
+    share = {"a": Symbol("f_A", share_a, "number"), "b": Symbol("f_B", share_b, "number")}
+    for symbol, own, other in ((share["a"], a, b), (share["b"], b, a)):
+        caption = f"Share of {own.label} in the change of relative velocity"
+        if a.fixed or b.fixed:
+            share_of_all = ZERO if own.fixed else ONE
+            page.fact(
+                f"{caption}, as one mass is infinite: {page.shown(symbol)}.", (symbol, share_of_all)
+            )
+        else:
+            page.equation(caption, symbol, other.mass / (a.mass + b.mass))
+    return share
+
+
+def _while_held(
+    page: Page, s: Symbols, v: dict[str, Symbol], given: list[str], known: tuple[str, ...]
+) -> None:
+    """Write an in-line impact in which tyres act, by velocities with half of what they do."""
+    origin = s.impact.reconstruction
+    assert origin is not None
+    duration: Any = origin.duration
+    own: Any = origin.drag_a, origin.drag_b
+    (a, b), e, g, r = s.bodies, s.e, s.closing, s.separation
+    drags = (page.system.answer(drag, "number") for drag in own)
+    page.say(
+        f"Tyres act during {page.number(duration, 'time')} with drags of "
+        f"{' (A) and '.join(drags)} (B): drag times weight times duration is an impulse from "
+        f"outside, {page.shown(a.pushed('x'))} and {page.shown(b.pushed('x'))}. It slows them by:"
+    )
+    slowed = {}
+    for body in (a, b):
+        by = ZERO if body.fixed else -(body.pushed("x") / body.mass)
+        slowed[body.label.lower()] = page.let(
+            f"Slowing of {body.label} by its tyres", f"s_{body.label}", "speed", by
+        )
+    half = HALF * (slowed["b"] - slowed["a"])
+    page.say(
+        "Velocities with half of it already taken before, and half of it not yet taken after, are "
+        "those of an impact without tyres: momentum and energy balance as in (2) and (8)."
+    )
+    without = {
+        name: velocity.plus(1.0 if name.endswith("after") else -1.0, HALF * slowed[name[1]])
+        for name, velocity in v.items()
+    }
+    closing = page.let("Closing speed of these", "g_0", "speed", g + half)
+    parting = page.let("Separation speed of these", "r_0", "speed", r + half)
+    share = _shares(page, s)
+    page.say(
+        f"The closing speed {page.symbol(g)} and the separation speed {page.symbol(r)} = e g "
+        f"solve what was known: {page.shown(g)} and {page.shown(r)}."
+    )
+    for pair in pairwise(given):
+        sides = _relation(without, share, [*pair], closing, parting)
+        page.balance("From two known velocities, (5) and (6)", *sides, "speed")
+    if "energy_loss" in known:
+        lost = HALF * s.mass * (closing.squared() - parting.squared())
+        page.balance("From the known energy (8)", s.loss, lost, "energy")
+    page.equation("Restitution", e, r / g)
+    for name, other, sign in (("va", "vb", 1.0), ("vb", "va", -1.0)):
+        if name in given:
+            continue
+        if other not in given and f"{name}_after" in given:
+            passed = share[name[1]] * (closing + parting)
+            found = (v[f"{name}_after"] + slowed[name[1]]).plus(sign, passed)
+        else:
+            found = v[other].plus(sign, g)
+        page.equation(f"Velocity of {name[1].upper()} before", v[name], found)
+
+
 def _last_velocity(page: Page, s: Symbols, v: Mapping[str, Symbol], missing: str) -> None:
     """Write the fourth velocity, from momentum or from a body at rest that nothing moves."""
     a, b = s.bodies
@@ -192,7 +344,7 @@ def _last_velocity(page: Page, s: Symbols, v: Mapping[str, Symbol], missing: str
 
 
 def _relation(
-    v: Mapping[str, Symbol],
+    v: Mapping[str, Expression],
     share: Mapping[str, Symbol],
     given: list[str],
     g: Expression,

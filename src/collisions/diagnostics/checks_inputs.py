@@ -12,7 +12,7 @@ from ..impact.inputs import PLACED, Inputs
 from ..reference import CONTACT_DURATION
 from ..vehicle.drag import HIGHEST_DRAG
 from ..vehicle.vehicle import Vehicle
-from .case import Case, ImpactCase, MomentumCase, off_by
+from .case import Case, ImpactCase, off_by
 from .finding import NOTE, Measured, above, below, finding
 
 # How far a contact may be from the centre of mass: in radii of gyration, and in metres where there
@@ -52,12 +52,7 @@ def suspect_speed(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
         who, speed = vehicle.who, abs(vehicle.speed)
         sentence = f"{who} goes at {speed:.6g} m/s before; were km/h or mph meant?"
-        if isinstance(case, MomentumCase):
-            found = f"speed_{label}" in case.answer.unknowns
-        else:
-            origin = case.answer.reconstruction
-            found = origin is not None and not {f"v{label}", f"speed_{label}"} & set(origin.known)
-        if found:
+        if f"speed_{label}" in case.answer.found:
             sentence = f"{who} was found to go at {speed:.6g} m/s before; check what was given"
         yield Measured(speed, sentence, label)
 
@@ -68,11 +63,10 @@ def suspect_speed(case: Case) -> Iterator[Measured]:
     "set here: three turns a second, the limit of a number without a unit as well; deg/s as rad/s",
 )
 def suspect_yaw_rate(case: ImpactCase) -> Iterator[Measured]:
-    origin = case.answer.reconstruction
     for label, who, side in case.sides:
         rate = side.before.yaw_rate
         sentence = f"{who} turns at {rate:.6g} rad/s before; were degrees/s meant?"
-        if origin is not None and origin.method == "planar":
+        if f"yaw_rate_{label}" in case.answer.found:
             sentence = f"{who} was found to turn at {rate:.6g} rad/s before; check what was given"
         yield Measured(abs(rate), sentence, label)
 
@@ -110,10 +104,8 @@ def suspect_inertia_high(case: ImpactCase) -> Iterator[Measured]:
         "infinite, or where the places were given with their unit",
         "m",
     ),
-    (
-        "set here: the corner of a rectangle is 1.7 of its radii away, and a centre of mass may "
-        "be off the middle; 10 m is half a road train; feet or cm as m, or two origins mixed"
-    ),
+    "set here: the corner of a rectangle is 1.7 of its radii away, and a centre of mass may "
+    "be off the middle; 10 m is half a road train; feet or cm as m, or two origins mixed",
 )
 def suspect_lever(case: ImpactCase) -> Iterator[Measured]:
     point = case.answer.point

@@ -11,7 +11,7 @@ from typing import Any
 from ..impact.impact import Impact
 from ..impact.inputs import PLACED
 from ..impact.instant import neglected
-from ..impact.provenance import bounds_of, how_many
+from ..impact.provenance import bounds_of, how_many, known_in_words
 from ..impact.side import Side
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..reconstruct.speeds import if_it_slid, taken_to_stick
@@ -68,10 +68,10 @@ def ill_conditioned(case: Case) -> Iterator[Measured]:
             f"reconstruct.momentum has a condition of {plain(condition)}: {'; '.join(moves)}",
         )
     elif (origin := case.answer.reconstruction) is not None:
+        given = ", ".join(known_in_words(origin.known))
         sentence = (
-            f"reconstruct.{origin.method}: one percent in what was given "
-            f"({', '.join(origin.known)}) may become {plain(origin.condition)} percent of the "
-            "closing speed in the speeds before"
+            f"reconstruct.{origin.method}: one percent in what was given ({given}) may become "
+            f"{plain(origin.condition)} percent of the closing speed in the speeds before"
         )
         yield Measured(origin.condition, sentence)
 
@@ -84,9 +84,10 @@ def ill_conditioned(case: Case) -> Iterator[Measured]:
 def not_unique(case: ImpactCase) -> Iterator[Measured]:
     origin = case.answer.reconstruction
     if origin is not None:
+        given = ", ".join(known_in_words(origin.known))
         sentence = (
             f"reconstruct.{origin.method} found {how_many(origin.answers)} that fit what was given "
-            f"({', '.join(origin.known)}), of which this is one: other evidence must tell which"
+            f"({given}), of which this is one: other evidence must tell which"
         )
         yield Measured(origin.answers, sentence)
 
@@ -110,11 +111,9 @@ def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
 @finding(
     "the most that the tyres can give in the duration, as a share of delta-V",
     above(0.25),
-    (
-        "set here: with 0.7 g in 0.1 s a delta-V below 2.7 m/s (10 km/h), where it is a minor "
-        "impact; tyre forces are insignificant but in minor impacts, sideswipes and impacts of "
-        f"large trucks, {METHOD}"
-    ),
+    "set here: with 0.7 g in 0.1 s a delta-V below 2.7 m/s (10 km/h), where it is a minor "
+    "impact; tyre forces are insignificant but in minor impacts, sideswipes and impacts of "
+    f"large trucks, {METHOD}",
 )
 def tyre_impulse(case: Case) -> Iterator[Measured]:
     if isinstance(case, MomentumCase) and case.answer.tyres:
@@ -284,10 +283,8 @@ def law_yaw(case: ImpactCase) -> Iterator[Measured]:
     "length by which the vector of delta-V moves with the normal turned by 10 degrees either "
     "way, as a share of delta-V",
     above(0.2),
-    (
-        "a delta-V that turns with the normal by 10 degrees moves by 17 percent; with the 10 "
-        f"percent by which its size may differ, {MESSAGES}, that is 20 percent"
-    ),
+    "a delta-V that turns with the normal by 10 degrees moves by 17 percent; with the 10 "
+    f"percent by which its size may differ, {MESSAGES}, that is 20 percent",
 )
 def normal(case: ImpactCase) -> Iterator[Measured]:
     return _compare_delta_v(case, case.turned_normals)
@@ -307,10 +304,8 @@ def normal_yaw(case: ImpactCase) -> Iterator[Measured]:
     "largest change of delta-V in what would move the answer (diagnose(...).moves), as a share "
     "of delta-V; inf if there is no answer then",
     above(0.25),
-    (
-        "set here: a quarter; predictions of staged crashes from drawn contacts, made before their "
-        "measurements were read, scatter by about a fifth (documentation, validation, table 1)"
-    ),
+    "set here: a quarter; predictions of staged crashes from drawn contacts, made before their "
+    "measurements were read, scatter by about a fifth (documentation, validation, table 1)",
 )
 def moves(case: ImpactCase) -> Iterator[Measured]:
     if not case.moves:
@@ -394,10 +389,7 @@ def may_slide(case: ImpactCase) -> Iterator[Measured]:
     slid = if_it_slid(impact)
     then = "friction was less than that, and this is not the impact"
     if slid is not None and slid.reconstruction is not None:
-        speeds = {
-            f"speed_{label}": case.text(getattr(slid, label).before.speed, "speed")
-            for label in "ab"
-        }
+        speeds = {name: case.text(getattr(slid, name), "speed") for name in ("speed_a", "speed_b")}
         then = " and ".join(bounds_of(slid.reconstruction.one_sided or {}, speeds))
     sentence = (
         f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and contacts between "

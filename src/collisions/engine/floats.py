@@ -89,6 +89,8 @@ def made_of(source: str, name: str, kind: type = tuple) -> Callable[..., Any]:
         "made": kind,
         "new": tuple.__new__,
         "sqrt": math.sqrt,
+        "inf": math.inf,
+        "nan": math.nan,
     }
     exec(compile(source, f"<{name} of floats>", "exec"), names)
     made: Callable[..., Any] = names["function"]
@@ -96,5 +98,5 @@ def made_of(source: str, name: str, kind: type = tuple) -> Callable[..., Any]:
 
 
 def constant(value: Any) -> str:
-    value = int(value) if isinstance(value, Status) else value
-    return repr(value) if math.isfinite(value) else f"float('{value}')"
+    """A number as it is written in the function, which knows ``inf`` and ``nan`` by name."""
+    return repr(int(value) if isinstance(value, Status) else value)

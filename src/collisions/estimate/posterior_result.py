@@ -15,12 +15,12 @@ from ..messages.errors import CollisionsWarning, IllConditionedWarning, InputErr
 from ..messages.warning import Note
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence
-from ..quantities.units import shown
+from ..quantities.units import rendered, shown
 from ..uncertainty.distributions import Censored, Distribution, Normal, Samples, Uniform
 from ..uncertainty.normal import power_of_two
 from ..uncertainty.probability import holds
 from ..uncertainty.result import Sampled, Shares, correlations, outputs_part, units_of
-from .fit_result import CONTRADICTION, Residual, agreement, with_unit
+from .fit_result import CONTRADICTION, Residual, SpeedsFound, agreement, with_unit
 
 _NO_NARROWER, _NOT_MOVED = 0.1, 0.25  # of the variance of a prior, and of its deviation
 _ROUGH = 0.1  # of a standard deviation: the error of a mean
@@ -79,7 +79,7 @@ class PosteriorOutput(Sampled):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Posterior(Summarized):
+class Posterior(SpeedsFound, Summarized):
     """The result of ``posterior``: ``posterior["speed_a"]`` has mean, std, interval, quantile and
     histogram of an unknown.
 
@@ -204,14 +204,24 @@ class Posterior(Summarized):
         )
 
     @property
+    def found(self) -> tuple[str, ...]:
+        """Names of what was found, as opposed to what was observed: the unknowns."""
+        return tuple(self.unknowns)
+
+    def _speed(self, name: str) -> float | None:
+        output = (self.predicted | self.unknowns).get(name)
+        known = output is not None and output.unit in (None, "", "m/s")
+        return float(output.mean) if output is not None and known else None
+
+    @property
     def correlation(self) -> dict[tuple[str, str], float]:
         """Correlations by pair of unknowns; NaN where one of them does not vary."""
         return correlations(self.unknowns)
 
     @property
     def shrinkage(self) -> dict[str, float]:
-        """By unknown, the share of the prior's variance that the evidence removed: 1 if it tells
-        all, 0 if nothing.
+        """Share of the prior's variance that the evidence removed, by unknown: 1 if it tells all,
+        0 if nothing.
         """
         return {
             name: 1.0 - (float(one.std) / self.priors[name].sd) ** 2
@@ -241,7 +251,7 @@ class Posterior(Summarized):
     @property
     def statements(self) -> tuple[str, ...]:
         """The statements that belong with the numbers, as sentences."""
-        return tuple(note.sentence for note in notes_of(self))
+        return tuple(note.statement for note in notes_of(self))
 
     def to_dict(self) -> dict[str, Any]:
         """All figures as strict JSON; the samples themselves are left out.
@@ -252,8 +262,8 @@ class Posterior(Summarized):
             Plain values that ``json.dumps`` writes; infinity and NaN as texts.
         """
         record = {
-            "priors": {name: shown(one, 1000) for name, one in self.priors.items()},
-            "observed": {name: shown(one, 1000) for name, one in self.observed.items()},
+            "priors": {name: rendered(one, 1000) for name, one in self.priors.items()},
+            "observed": {name: rendered(one, 1000) for name, one in self.observed.items()},
             "unknowns": {name: one.record() for name, one in self.unknowns.items()},
             "predicted": {name: one.record() for name, one in self.predicted.items()},
             "residuals": {name: asdict(one) for name, one in self.residuals.items()},

@@ -24,7 +24,7 @@ from ..quantities.attributes import (
     hypot,
     in_units_of,
     lock,
-    numeric,
+    math_or_numpy,
     returns,
     same,
     show,
@@ -60,12 +60,45 @@ Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "reversing", 
 if TYPE_CHECKING:  # loaded by those who make them: a tenth of the import
     from .choice import ModelChoice
     from .provenance import Reconstruction
-    from .pulse import Pulse
+    from .pulse import Parted, Pulse
 
 _new = object.__new__
 
 
-class Impact(Frozen, Summarized):
+class _SpeedsBefore:
+    """What every answer of a reverse solver has, whatever else it has. A record has these numbers
+    under other names.
+    """
+
+    __slots__ = ()
+
+    @derived("m/s")
+    def speed_a(self: Any) -> Value:
+        """Speed of A before the impact [m/s], of its centre of mass; as ``a.before.speed``."""
+        speed: Value = self.a.before.speed
+        return speed
+
+    @derived("m/s")
+    def speed_b(self: Any) -> Value:
+        """Speed of B before the impact [m/s], of its centre of mass; as ``b.before.speed``."""
+        speed: Value = self.b.before.speed
+        return speed
+
+    @derived()
+    def found(self: Any) -> tuple[str, ...]:
+        """Names of what a reverse solver found, as opposed to what it was given: "speed_a",
+        "restitution" and so on; empty for a forward solver. A mass that is infinite has no motion
+        to be found.
+        """
+        origin = self.reconstruction
+        if origin is None:
+            return ()
+        masses = (("_a", self.inputs.a.mass), ("_b", self.inputs.b.mass))
+        still = [ending for ending, mass in masses if np.all(np.isinf(mass))]
+        return tuple(name for name in origin.found if name[-2:] not in still)
+
+
+class Impact(_SpeedsBefore, Frozen, Summarized):
     """The answer of a forward solver: two vehicles before and after, the impulse between them, and
     where the energy went.
 
@@ -255,7 +288,7 @@ class Impact(Frozen, Summarized):
         normal, tangential = self._answer.no_slip_normal, self._answer.no_slip_tangential
         # 0 times the normal impulse keeps the NaN of a refused case.
         with np.errstate(invalid="ignore"):
-            without_end = numeric(tangential).copysign(math.inf, tangential) + 0.0 * normal
+            without_end = math_or_numpy(tangential).copysign(math.inf, tangential) + 0.0 * normal
         ratio: Value = select(normal > 0.0, _divided(tangential, normal), without_end)
         return ratio
 
@@ -403,7 +436,7 @@ class Impact(Frozen, Summarized):
             )
         reader.close()
         broadcast({"share_a": share, "energy": energy})
-        xp = numeric(energy, share)
+        xp = math_or_numpy(energy, share)
         with np.errstate(all="ignore"):
             return (
                 xp.sqrt(2.0 * share * (energy / self.a.before.mass)),
@@ -423,7 +456,7 @@ class Impact(Frozen, Summarized):
         for side in (self.a, self.b):
             mass = side.before.mass
             if side.before.pivot is None:
-                free = numeric(mass).isfinite(mass)
+                free = math_or_numpy(mass).isfinite(mass)
                 weight = select(free, mass, 0.0)
                 others_x, others_y = (
                     side.tyre_impulse_x + side.outside_x,
@@ -755,6 +788,7 @@ class Impact(Frozen, Summarized):
                     self.reconstruction.answers,
                     self.reconstruction.contact_velocity,
                     self.reconstruction.one_sided,
+                    self.reconstruction.given,
                 )
             )
 
@@ -892,6 +926,13 @@ def with_vehicles(impact: Impact, a: Vehicle, b: Vehicle) -> Impact:
     other = build(replace(impact.inputs, a=a, b=b), impact._answer)
     vars(other).update({name: getattr(impact, name) for name in ("reconstruction", "choice")})
     return other
+
+
+def way_to_separation(impact: Impact) -> Parted | None:
+    """How far a contact that was followed in time moves both vehicles; None for an impulse."""
+    from .pulse import parted
+
+    return None if impact._passed is None else parted(impact._passed)
 
 
 def part_of_impact(

@@ -32,10 +32,11 @@ def neglected(
 ) -> Neglect | None:
     """What a reconstruction as an instant leaves out, as ``left_out`` estimates it, of the worse of
     both vehicles and in a batch in the median; None of an impact that was not reconstructed, or
-    that has tyres. ``wheels`` says that it was estimated with tyres, and not with a drag.
+    that has tyres or a drag. ``wheels`` says that it was estimated with tyres, and not with a drag.
     """
     origin = impact.reconstruction
-    if origin is None or impact.inputs.tyres or np.all(impact.refused):
+    lasts = bool(impact.inputs.tyres) or (origin is not None and origin.duration is not None)
+    if origin is None or lasts or np.all(impact.refused):
         return None
     if found is None:
         try:
@@ -63,11 +64,16 @@ def neglected(
     ]
     if not parts:
         return None
-    advice = (
-        "give duration= and tyres_a=, tyres_b="
-        if origin.method in TAKE_TYRES
-        else "collisions.left_out says more of it"
-    )
+    advice = "give `duration=` and `tyres_a=`, `tyres_b=`"
+    if origin.method not in TAKE_TYRES:
+        # Drags act against a motion from A towards B alone.
+        states = impact.a.before, impact.a.after, impact.b.before, impact.b.after
+        follows = all(np.nanmin(state.vx) >= 0.0 for state in states)
+        advice = (
+            "give `duration=` and `drag_a=`, `drag_b=`"
+            if follows
+            else "collisions.left_out says more of it"
+        )
     median = " (medians)" if np.ndim(impact.closing_speed) else ""
     sentence = (
         f"found as an instant: of delta-V that leaves out about {' and '.join(parts)}, during "

@@ -5,7 +5,7 @@ that was.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -45,6 +45,17 @@ class Reconstruction:
         Of ``speeds(..., slid="bound")``: for "speed_a" and "speed_b" which way the truth may lie
         from the speed found, if the contact slid: +1 at least that speed, -1 at most, 0 where it is
         known both ways.
+    found : tuple of str
+        What was found of the state before and of the contact, by name: "speed_a", "speed_b", and
+        where they were sought "course_a", "yaw_rate_a", "restitution", "friction" and so on.
+    given : dict of str to float or array, optional
+        Numbers of ``known``, and of the courses or motions that came with them, as they were given
+        [SI]. A reading of a recorder away from the centre of mass is "reading_forward_a" and so
+        on. None in a record of an earlier version, which has only the texts.
+
+        .. versionadded:: 0.2.0
+    duration, drag_a, drag_b : float or array [s, -, -], optional
+        Of ``central``: how long the contact lasts, and the drags of the tyres meanwhile.
     """
 
     method: str
@@ -54,9 +65,31 @@ class Reconstruction:
     contact_velocity: tuple[Value, Value] | None = None
     regime: str | None = None
     one_sided: Mapping[str, Any] | None = None
+    found: tuple[str, ...] = ()
+    given: Mapping[str, Any] | None = None
+    duration: Value | None = None
+    drag_a: Value | None = None
+    drag_b: Value | None = None
 
     def __eq__(self, other: object) -> bool:
         return same_fields(self, other) if isinstance(other, Reconstruction) else NotImplemented
+
+
+# What each reverse solver finds, unless it was given.
+_SOUGHT = {
+    "central": ("speed_a", "speed_b", "restitution"),
+    "planar": (
+        *(f"{name}_{label}" for label in "ab" for name in ("speed", "course", "yaw_rate")),
+        "restitution",
+    ),
+    "speeds": ("speed_a", "speed_b"),
+}
+
+
+def found_from(method: str, known: Collection[str]) -> tuple[str, ...]:
+    """What a reverse solver found, by name, from what it was given."""
+    taken = {f"speed_{name[1]}" if name in ("va", "vb") else name for name in known}
+    return tuple(name for name in _SOUGHT.get(method, ()) if name not in taken)
 
 
 class Known(NamedTuple):
@@ -73,9 +106,13 @@ class Known(NamedTuple):
     methods: tuple[str, ...]
 
 
+_CENTRAL = ("central",)
 KNOWN = {
     "energy_loss": Known("energy lost", "energy", "energy_loss", ("central", "planar", "speeds")),
     "closing_speed": Known("closing speed", "speed", "closing_speed", ("planar",)),
+    "contact_duration": Known(
+        "duration of the contact with its tyres", "time", "reconstruction.duration", _CENTRAL
+    ),
     "recorder_axes_turning": Known("in axes that turn with the car", "angle", "", ("speeds",)),
     "recorder_axes_fixed": Known("in axes of the heading, which stay", "angle", "", ("speeds",)),
     "recorder_duration": Known(
@@ -98,6 +135,12 @@ for _label in "ab":
         f"v{_label}": Known(f"velocity{_of} before", "speed", f"{_label}.before.vx", ()),
         f"v{_label}_after": Known(
             f"velocity{_of} after", "speed", f"{_label}.after.vx", ("central",)
+        ),
+        f"drag_{_label}": Known(
+            f"drag{_of} while the contact lasts",
+            "number",
+            f"reconstruction.drag_{_label}",
+            _CENTRAL,
         ),
         f"speed_{_label}": Known(f"speed{_of} before", "speed", f"{_label}.before.speed", _speeds),
         f"course_{_label}": Known(
@@ -132,6 +175,23 @@ for _label in "ab":
         f"ees_{_label}": Known(f"EES{_of} (ISO 12353)", "speed", "", _speeds),
         f"max_crush_speed_{_label}": Known(f"speed of maximum crush{_of}", "speed", "", _speeds),
     }
+
+
+# Known for both vehicles at once, under the name of the one of A.
+_OF_BOTH = {
+    "ees_a": "EES of both vehicles (ISO 12353)",
+    "max_crush_speed_a": "speeds of maximum crush of both vehicles",
+}
+_WITH_A = tuple(f"{name.removesuffix('_a')}_b" for name in _OF_BOTH)
+
+
+def known_in_words(names: Iterable[str]) -> list[str]:
+    """What a reverse solver was given, in words: "delta-V of A"."""
+    return [
+        _OF_BOTH.get(name) or (KNOWN[name].what if name in KNOWN else name.replace("_", " "))
+        for name in names
+        if name not in _WITH_A
+    ]
 
 
 def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction:

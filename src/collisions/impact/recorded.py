@@ -32,8 +32,8 @@ _BLOCK, _FEW = 512, 24
 
 
 class Curve(NamedTuple):
-    """Of one vehicle, at the start and after every step: time, change of velocity in the scene, and
-    yaw rate; and when the vehicles were engaged the most. Steps first, then cases.
+    """Time, change of velocity in the scene, and yaw rate of one vehicle at the start and after
+    every step; and when the vehicles were engaged the most. Steps first, then cases.
     """
 
     time: Any
@@ -170,13 +170,15 @@ def recorded(
     from_start = inputs.geometry == "first_contact"
     shape = np.shape(answer.status)
     size = math.prod(shape)
-    times = np.asarray(time, dtype=np.float64)
-    rows = times if times.ndim > 1 else times.reshape(-1, *[1] * len(shape))
+    given = "parts of different shapes"
     try:
+        times = np.asarray(time, dtype=np.float64)
+        given = f"shape {times.shape}"
+        rows = times if times.ndim > 1 else times.reshape(-1, *[1] * len(shape))
         at = np.broadcast_to(rows, (len(rows), *shape)).reshape(-1, size)
     except ValueError:
         raise ShapeError(
-            f"time has shape {times.shape}, and must be a number, a row of times, or times first "
+            f"time has {given}, and must be a number, a row of times, or times first "
             f"and then the cases, (times{''.join(f', {one}' for one in shape)})",
             code="bad_shape",
             argument="time",

@@ -21,7 +21,7 @@ from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, cells
-from ..quantities.units import Texts, shown
+from ..quantities.units import Texts, rendered, shown
 from ..vehicle.tyres import NAMES as TYRES
 from ..vehicle.tyres import UNITS as TYRE_UNITS
 from ..vehicle.tyres import Tyres, as_given
@@ -30,7 +30,7 @@ from .choice import ModelChoice
 from .inputs import ARGUMENTS, OUTSIDE, UNITS, Inputs
 from .inputs import TYRES as TYRES_OF
 from .models import read_again
-from .provenance import KNOWN, Reconstruction
+from .provenance import KNOWN, Reconstruction, found_from
 from .pulse import CURVES, Pulse
 from .side import Side
 
@@ -259,15 +259,37 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
         return None
     known = tuple(str(name) for name in found["known"])
     condition, answers = lock(read_strict(found["condition"])), _count(found["answers"])
+    method = str(found["method"])
+    # A record of an earlier version has neither what was found nor the numbers that were given.
+    names = found.get("found", found_from(method, known))
     return Reconstruction(
-        method=str(found["method"]),
+        method=method,
         known=known,
         condition=condition,
         answers=answers,
         contact_velocity=velocity,
         regime=_stated(found.get("regime")),
         one_sided=_sides(found.get("one_sided")),
+        found=tuple(str(name) for name in names),
+        given=_given_numbers(found.get("given")),
+        **{name: lock(read_strict(found.get(name))) for name in ("duration", "drag_a", "drag_b")},
     )
+
+
+def _given_numbers(found: Any) -> dict[str, Any] | None:
+    """The numbers that a reverse solver was given, by name."""
+    if found is None:
+        return None
+    if not isinstance(found, Mapping):
+        raise bad_record(f"{shown(found)} is not what a reverse solver was given, by name")
+    numbers = {str(name): read_strict(value) for name, value in found.items()}
+    for name, number in numbers.items():
+        if not isinstance(number, (float, int, np.ndarray)):
+            raise bad_record(f"{name}, which a reverse solver was given, is {shown(number)}")
+    return {
+        name: lock(number) if isinstance(number, np.ndarray) else float(number)
+        for name, number in numbers.items()
+    }
 
 
 def _stated(found: Any) -> str | None:
@@ -379,7 +401,7 @@ def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
                 problem = owner._missing(inner) if isinstance(owner, Side) else None
                 raise problem or InputError(text, code="unknown_name", argument="columns")
         if not isinstance(name, str) or name not in found:
-            near = get_close_matches(shown(name), found, 3) or list(found)[:3]
+            near = get_close_matches(rendered(name), found, 3) or list(found)[:3]
             raise InputError(
                 f"columns: there is no column {shown(name)}; write for example "
                 f"{', '.join(near)}, without a unit",
@@ -415,6 +437,9 @@ def _add(found: dict[str, tuple[Any, str | None]], name: str, value: Any, unit: 
     elif isinstance(value, Reconstruction):
         found[f"{name}.condition"] = value.condition, ""
         found[f"{name}.answers"] = value.answers, None
+        for inner, own in (("duration", "s"), ("drag_a", ""), ("drag_b", "")):
+            if getattr(value, inner) is not None:
+                found[f"{name}.{inner}"] = getattr(value, inner), own
         sides = value.one_sided or {}
         found |= {f"{name}.one_sided.{speed}": (side, None) for speed, side in sides.items()}
     elif isinstance(value, Pulse):

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from functools import partial
-from operator import add
+from operator import add, attrgetter
 from typing import Any
 
 import numpy as np
@@ -33,12 +33,13 @@ from ..messages.errors import (
     InputError,
     NoImpactError,
     NoSolutionError,
+    placed,
 )
 from ..messages.progress import reporter
 from ..messages.warning import quietly, warn_of_cases
 from ..quantities.attributes import lock
+from ..quantities.refusals import must_be
 from ..quantities.tables import Sentences, said
-from ..quantities.units import shown
 from ..vehicle.tyres import DOMAINS as TYRE_DOMAINS
 from ..vehicle.tyres import Tyres, could_lift
 from ..vehicle.vehicle import DOMAINS, with_name
@@ -165,20 +166,12 @@ def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> No
     if on_failure is not None and not (
         isinstance(on_failure, str) and on_failure in ("raise", "nan")
     ):
-        raise InputError(
-            f"on_failure must be None, 'raise' or 'nan', got {shown(on_failure)}",
-            code="bad_option",
-            argument="on_failure",
-        )
+        raise must_be("on_failure", "None, 'raise' or 'nan'", on_failure, code="bad_option")
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
-        raise InputError(
-            f"threads must be a whole number from 1, got {shown(threads)}",
-            code="bad_option",
-            argument="threads",
-        )
+        raise must_be("threads", "a whole number from 1", threads, code="bad_option")
     if progress is not None and not isinstance(progress, bool) and not callable(progress):
         text = (
-            "progress must be a function of (done, total), or True for a bar, got "
+            "progress must be a function of (done, total), or `True` for a bar, got "
             f"{type(progress).__name__}"
         )
         raise InputError(text, code="bad_option", argument="progress")
@@ -216,11 +209,11 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
                 check = "check the signs of outside_a and outside_b"
                 if LAWS[inputs.law or BRACH].followed and inputs.restitution >= 0.0:
                     why = (
-                        f"so law={inputs.law!r} finds no compression that it could give back a "
-                        "part of"
+                        f"so `law={inputs.law!r}` finds no compression that it could give back "
+                        "a part of"
                     )
                     return error_of(
-                        status, f"{text}, {why}; {check}, or take law={BRACH!r}", **extra
+                        status, f"{text}, {why}; {check}, or take `law={BRACH!r}`", **extra
                     )
                 return error_of(status, f"{text}, by more than restitution does; {check}", **extra)
         case Status.RATIO_JAMS:
@@ -286,7 +279,7 @@ def raise_or_warn(
         )
 
 
-def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='raise'") -> None:
+def warn_of_refusals(status: Any, advice: str = "see .status, or `on_failure='raise'`") -> None:
     """One warning that counts the refused cases of a batch by their kind."""
     refused = int(np.count_nonzero(status > Status.ENERGY_GAIN))
     kinds = {
@@ -299,6 +292,10 @@ def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='rai
         f"refused by a solver, as {label}": count for label, count in kinds.items()
     }
     warn_of_cases(CollisionsWarning(text, code="refused_cases", counts=kinds), parts)
+
+
+_of_vehicle = attrgetter(*DOMAINS)
+_of_time = attrgetter(*TIME_DOMAINS)
 
 
 def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
@@ -315,8 +312,9 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
                 found.append(Check(domain.faults, (value,), domain.holds, domain is FINITE))
 
     for vehicle in (inputs.a, inputs.b):
-        for name, domain in DOMAINS.items():
-            add_arrays(domain, getattr(vehicle, name))
+        for domain, value in zip(DOMAINS.values(), _of_vehicle(vehicle), strict=True):
+            if isinstance(value, np.ndarray):
+                add_arrays(domain, value)
         if vehicle.pivot is not None:
             add_arrays(FINITE, *vehicle.pivot)
             inertia = () if vehicle.yaw_inertia is None else (vehicle.yaw_inertia,)
@@ -358,8 +356,9 @@ def _lasting_checks(inputs: Inputs) -> list[Any]:
     from ..engine.batch import Check
 
     found = tyre_checks(inputs.tyres)
-    for name, domains in TIME_DOMAINS.items():
-        given = getattr(inputs, name)
+    for given, domains in zip(_of_time(inputs), TIME_DOMAINS.values(), strict=True):
+        if given is None:
+            continue
         parts = given if isinstance(given, tuple) else (given,)
         for part, domain in zip(parts, domains, strict=False):
             if isinstance(part, np.ndarray):
@@ -421,7 +420,7 @@ def _first_refusal(
         case = read_again(part_of_inputs(inputs, take))
         solve_inputs(model_of(case), case) if one is None else one(take)
     except CollisionsError as error:
-        return type(error)(f"{place}: {error}", code=error.code, **error.fields)
+        return placed(error, place)
     outcome = Status(status[index])
     return InputError(f"{place}: {outcome.sentence}", code=outcome.label)
 
@@ -434,9 +433,9 @@ def _warn_of_gain(what: str, gain: float, count: int | None, inputs: Inputs) -> 
         )
     else:
         why = (
-            "this restitution and tangential impulse cannot occur together without a source of "
-            "energy; lower the restitution or the ratio, or take law='kudlich-slibar' with "
-            "friction="
+            "this restitution and tangential impulse cannot occur together without a "
+            "source of energy; lower the restitution or the ratio, or take "
+            "`law='kudlich-slibar'` with `friction=`"
         )
     warning = EnergyGainWarning(f"{what}: {why}", code="energy_gain", gain=gain)
     warn_of_cases(warning, {f"the impact gains energy: {why}": count})

@@ -7,6 +7,10 @@ the separation speed r = e g: with the shares of the masses f_a + f_b = 1,
     va - vb = g     vb' - va' = r     va - va' = f_a (g + r)     vb' - vb = f_b (g + r)     loss = m
     (g - r)(g + r) / 2
 
+Tyres that slow A by s_a and B by s_b while the contact lasts leave all of these true of velocities
+that have half of it already before, and half of it not yet after (va - s_a / 2, va' + s_a / 2):
+these have g + k/2 and r + k/2, with k = s_b - s_a. Only r = e g is then another line.
+
 Along courses that cross, every moving body is a term: sign (+ before, - after), mass, speed,
 course. The balance sum(sign m s h) + J = 0 crossed with one unknown's course leaves the other
 unknown alone, and all cross products are sines of differences of courses.
@@ -37,11 +41,13 @@ def inline_speeds(
     reduced: Any,
     eps: float = EPS,
     incomplete: bool = False,
+    more: Any = 0.0,
 ) -> list[Pair]:
     """Closing and separation speeds that fit the three known values: one pair, or two that the
     caller must tell apart.
 
-    ``incomplete`` says whether the separation speed may be below 0.
+    ``incomplete`` says whether the separation speed may be below 0. ``more`` is what tyres add to
+    both, k/2, of velocities with half of what they do.
     """
     v = {name: known[name] for name in VELOCITIES if name in known}
     restitution: Any = known.get("restitution")
@@ -49,12 +55,13 @@ def inline_speeds(
         return [_from_three(v, share_a, share_b)]
     if "energy_loss" not in known:
         p, q, difference = _relation(v, share_a, share_b)
-        closing = difference / (p + q * restitution)
-        return [(closing, restitution * closing)]
+        beside = (1.0 - restitution) * more
+        closing = (difference - q * beside) / (p + q * restitution)
+        return [(closing, restitution * closing + beside)]
     squared = 2.0 * known["energy_loss"] / reduced
     if len(v) == 1:
-        closing = losing_speed(known["energy_loss"] / reduced, restitution)
-        return [(closing, restitution * closing)]
+        closing = losing_speed(known["energy_loss"] / reduced, restitution, more)
+        return [(closing, restitution * closing + (1.0 - restitution) * more)]
     return _from_energy(v, share_a, share_b, squared, eps, incomplete)
 
 
@@ -93,9 +100,13 @@ def moving_apart(known: dict[str, Any], share_a: Any, share_b: Any) -> Any:
     return (difference < 0.0) & (p > 0.0) & (p >= -q)
 
 
-def losing_speed(loss_per_mass: Any, restitution: Any) -> Any:
-    """Closing speed that dissipates an energy per reduced mass (eq 8)."""
-    return np.sqrt(2.0 * loss_per_mass / ((1.0 - restitution) * (1.0 + restitution)))
+def losing_speed(loss_per_mass: Any, restitution: Any, more: Any = 0.0) -> Any:
+    """Closing speed that dissipates an energy per reduced mass (eq 8), with what tyres add to it,
+    as in ``inline_speeds``.
+    """
+    half = more / (1.0 + restitution)
+    squared = 2.0 * loss_per_mass / ((1.0 - restitution) * (1.0 + restitution))
+    return np.sqrt(half * half + squared) - half + more
 
 
 def energy_of_speeds(mass_a: Any, speed_a: Any, mass_b: Any, speed_b: Any) -> Any:

@@ -191,6 +191,7 @@ def time_resolved(
         "duration": passing.time * duration,
         "peak_force": most * (impulse / duration),
         "max_crush": passing.deepest * length,
+        "engaged_time": engaged[2].time * duration,
     }
     there = place_of(contact, a, b, *engaged)
     found["common_velocity"] = closing * (
@@ -216,6 +217,12 @@ def time_resolved(
         found[f"tyre_moment_{label}"] = end.tyre_yaw * (impulse * length)
         found[f"tyre_loss_{label}"] = -end.tyre_work * energy
         found[f"peak_acceleration_{label}"] = end.acceleration**0.5 * (closing / duration)
+        # The places given are those of maximum engagement, or of the start.
+        given = most_engaged if settings.geometry == "maximum_engagement" else before
+        found[f"moved_x_{label}"] = (end.dx - given.dx) * length
+        found[f"moved_y_{label}"] = (end.dy - given.dy) * length
+        found[f"turn_c_{label}"] = end.c * given.c + end.s * given.s
+        found[f"turn_s_{label}"] = end.s * given.c - end.c * given.s
     total = sum((0.0 * value for value in found.values()), start=0.0 * length)
     finite = total - total == 0.0
     # Levers in units of a contact that is so short overflow, and no start can be found then.

@@ -186,7 +186,8 @@ def wheel_forces(
     that at rest.
     """
     corners = _corners(tyres)
-    moving, turns = [], []
+    moving: list[Any] = []
+    turns: list[Any] = []
     gains: list[Any] = []
     for ahead, aside, front in corners:
         ux, uy = forward - turning * (aside * tyres.left), left + turning * (ahead * tyres.ahead)

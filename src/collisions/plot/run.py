@@ -13,10 +13,12 @@ from ..messages.errors import CollisionsError, MissingInputError
 from ..quantities.formatting import UnitSystem
 from ..scene.one_run import need_one_run
 from ..scene.run import Run, Track
+from .body import draw_body
 from .canvas import GREY, INK, Axes, Units, begin, check_size, in_lines, size_of, tidy
 from .drawing import Drawing, Place, beside
 
-# Of vehicles in their order, again from the first after the last; lines differ in black and white.
+# Colours of vehicles in their order, again from the first after the last; lines differ in black
+# and white.
 COLOURS = ("#1f5fa8", "#b3541e", "#2f7d4f", "#7a3d8f", "#8a6d00", "#a01040")
 STYLES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (6, 2, 1, 2)), (0, (2, 1.5)))
 _ROOM = 2.0  # m, shown about a vehicle without an outline
@@ -25,10 +27,13 @@ _BAR = 0.22  # of the width: the longest scale bar
 
 
 class Stop(NamedTuple):
-    """Where a vehicle is at one moment: its centre of mass and its corners, from the front on."""
+    """Where a vehicle is at one moment: its centre of mass, its corners from the front on, and its
+    centre, wheelbase and track if it has tyres.
+    """
 
     place: Place
     corners: list[Place]
+    wheels: tuple[Place, float, float] | None
 
 
 def draw_run(run: Run, axes: Axes | None, units: UnitSystem | None) -> Axes:
@@ -125,7 +130,10 @@ def _stop_at(run: Run, name: str, time: float, metre: float) -> Stop:
             ((x + c * forward - s * left) * metre, (y + s * forward + c * left) * metre)
             for forward, left in turned.tolist()
         ]
-    return Stop((x * metre, y * metre), corners)
+    place, tyres = (x * metre, y * metre), run.scene.movers[name].tyres
+    if tyres is None:
+        return Stop(place, corners, None)
+    return Stop(place, corners, (place, float(tyres.wheelbase) * metre, float(tyres.track) * metre))
 
 
 def rests_at(run: Run, name: str) -> bool:
@@ -145,10 +153,10 @@ def _stops(run: Run, name: str, index: int, drawing: Drawing, labels: Units) -> 
     start, last = _stop_at(run, name, 0.0, metre), _stop_at(run, name, math.inf, metre)
     moves = math.dist(start.place, last.place) > 0.02 * metre or start.corners != last.corners
     for stop in (_stop_at(run, name, time, metre) for time in times if time > 0.0):
-        _outline(drawing, stop, colour, f"{name}.contact", 0.0, 0.8, room)
+        _outline(drawing, stop, colour, f"{name}.contact", 0.0, 0.8, room, metre)
     if moves:
-        _outline(drawing, start, colour, f"{name}.start", 0.0, 1.2, room, dashed=True)
-    _outline(drawing, last, colour, f"{name}.rest", 0.16, 1.5, room)
+        _outline(drawing, start, colour, f"{name}.start", 0.0, 1.2, room, metre, dashed=True)
+    _outline(drawing, last, colour, f"{name}.rest", 0.16, 1.4, room, metre)
     if last.corners:
         drawing.area(index, last.corners)
     short = in_lines(name)
@@ -184,24 +192,26 @@ def _outline(
     filled: float,
     width: float,
     room: float,
+    metre: float,
     dashed: bool = False,
 ) -> None:
-    """An outline with its heavy front, or room for a vehicle that has none."""
-    from matplotlib.colors import to_rgba
-
+    """The vehicle of an outline with its front, or room for a vehicle that has none."""
     if not stop.corners:
         drawing.include(*(beside(stop.place, (side, side), room) for side in (-1.0, 1.0)))
         return
     drawing.include(*stop.corners)
-    drawing.axes.fill(
-        *zip(*stop.corners, strict=True),
-        fc=to_rgba(colour, filled), ec=colour, lw=width, ls="--" if dashed else "-", zorder=4,
-        gid=gid,
-    )  # fmt: skip
-    drawing.axes.plot(
-        *zip(*stop.corners[:2], strict=True),
-        color=colour, lw=2.6 * width, solid_capstyle="butt", zorder=5, gid=f"{gid} front",
-    )  # fmt: skip
+    draw_body(
+        drawing.axes,
+        stop.corners,
+        gid,
+        colour,
+        metre=metre,
+        filled=filled,
+        width=width,
+        dashed=dashed,
+        wheels=stop.wheels,
+        above=4.0,
+    )
 
 
 def _surfaces(run: Run, drawing: Drawing, labels: Units) -> None:

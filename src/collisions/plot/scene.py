@@ -16,8 +16,9 @@ from ..quantities.formatting import UnitSystem
 from ..quantities.reading import ArgumentReader
 from ..quantities.units import shown
 from ..scene.run import Run
-from ..vehicle.outlines import placed, read_outline
-from ..vehicle.vehicle import Vehicle, missing
+from ..vehicle.outlines import in_scene, read_outline
+from ..vehicle.vehicle import Vehicle, error_of_missing
+from .body import draw_body
 from .canvas import (
     COLOURS,
     FORCE,
@@ -80,7 +81,8 @@ def scene(
     outline_a, outline_b : tuple or corners [m], optional
         As for ``diagnose``: (length, width), (length, width, how far the centre of mass is ahead of
         the middle), or the corners (forward, left) of a convex outline. Without it only the centre
-        of mass is marked. Those of a run are those of its movers.
+        of mass is marked. Those of a run are those of its movers. A rectangle of the size of a car,
+        a truck or a motorcycle is drawn as one, within the thin line of the outline itself.
     axes : matplotlib.axes.Axes, optional
         Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
@@ -138,7 +140,9 @@ def scene(
             i for i, side in enumerate(sides) if side.before.x is None or side.before.y is None
         )
         name = "x" if sides[lacking].before.x is None else "y"
-        raise missing(sides[lacking].before, name, "a picture with an outline", SIDES[lacking])
+        raise error_of_missing(
+            sides[lacking].before, name, "a picture with an outline", SIDES[lacking]
+        )
     axes = begin(axes, (7.5, 6.5))
     picture = Picture(axes, labels)
     at, bodies = picture.scaled(contact), [place and picture.scaled(place) for place in centres]
@@ -242,7 +246,7 @@ def corners_of(vehicle: Vehicle, outline: Any, name: str, letter: str) -> list[P
     read = read_outline(reader, outline, name)
     reader.close()
     forward = read[:, 0] + np.roll(read[:, 0], -1)
-    x, y, corners = placed(np.roll(read, -int(np.argmax(forward)), axis=0), vehicle, letter)
+    x, y, corners = in_scene(np.roll(read, -int(np.argmax(forward)), axis=0), vehicle, letter)
     return [(x + float(ahead), y + float(left)) for ahead, left in corners]
 
 
@@ -309,22 +313,16 @@ class Picture(Drawing):
     def outline(
         self, index: int, corners: list[Place], gid: str, filled: float, width: float = 1.4
     ) -> None:
-        """The outline of a vehicle, filled with this share of its colour, and its front."""
-        from matplotlib.colors import to_rgba
-
-        colour = COLOURS[index]
+        """The vehicle of an outline, filled with this share of its colour, and its front."""
         self.include(*corners)
-        self.axes.fill(
-            *zip(*corners, strict=True),
-            fc=to_rgba(colour, filled),
-            ec=colour,
-            lw=width,
-            zorder=2,
-            gid=gid,
-        )
-        front: Any = {"color": colour, "lw": 3.0 * width, "solid_capstyle": "butt", "zorder": 3}
-        self.axes.plot(
-            *zip(*corners[:2], strict=True), **front, gid=gid.replace("outline", "front")
+        draw_body(
+            self.axes,
+            corners,
+            gid,
+            COLOURS[index],
+            metre=self.labels.factor("m"),
+            filled=filled,
+            width=width,
         )
 
     def pivot(self, pin: Place, index: int) -> None:

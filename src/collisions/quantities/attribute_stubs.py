@@ -48,6 +48,7 @@ class ImpactQuantities:
     effective_mass = energy_absorbed = energy_loss = energy_loss_normal = energy_loss_tangential = (
         _QUANTITY
     )
+    found = speed_a = speed_b = _QUANTITY
     friction = impulse_ratio = kind = law = max_crush_speeds = model = momentum_residual = (
         normal
     ) = _QUANTITY
@@ -66,7 +67,7 @@ class MomentumSolutionQuantities:
     closing_speed = condition = course_a = course_a_after = course_b = course_b_after = (
         delta_v_a
     ) = delta_v_b = duration = given = heading_a = heading_b = _QUANTITY
-    mass_a = mass_b = normal_angle = ok = outside_impulse_x = outside_impulse_y = pdof_a = (
+    found = mass_a = mass_b = normal_angle = ok = outside_impulse_x = outside_impulse_y = pdof_a = (
         pdof_b
     ) = restitution = sensitivity = speed_a = speed_a_after = _QUANTITY
     speed_b = speed_b_after = statements = status = translational_energy_loss = tyre_impulse_x_a = (

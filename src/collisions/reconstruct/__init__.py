@@ -12,6 +12,7 @@ from ..estimate.posterior import posterior
 from ..estimate.posterior_result import Posterior
 from ..impact.provenance import Reconstruction
 from ..quantities.attributes import in_quantities
+from .answer import ReverseAnswer
 from .central import central
 from .crush import crush_delta_v, crush_energy, crush_share
 from .from_motions import friction, restitution
@@ -38,6 +39,7 @@ __all__ = [
     "Posterior",
     "Reconstruction",
     "RecordedPulse",
+    "ReverseAnswer",
     "central",
     "compare",
     "crush_delta_v",

@@ -4,6 +4,8 @@ energy loss.
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -14,7 +16,7 @@ from ..impact.inputs import Inputs, OnFailure, check_flag
 from ..impact.provenance import Reconstruction
 from ..impact.run import error_of
 from ..kernels.central import shares
-from ..kernels.contact_laws import FRICTION
+from ..kernels.contact_laws import BRACH, FRICTION
 from ..kernels.elementwise import restitution_domain
 from ..kernels.reverse import VELOCITIES, allowed_losses, inline_speeds, moving_apart
 from ..kernels.status import Status
@@ -23,26 +25,38 @@ from ..messages.hints import hinted
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Sentences
 from ..quantities.units import Input
+from ..vehicle.drag import GRAVITY
 from ..vehicle.vehicle import Vehicle, moved
 from .common import (
     Cases,
+    drag_faults,
     exactly,
     finish,
     input_faults,
     read_amounts,
+    read_drags,
     read_masses,
     run_forward,
+    state_instant,
     warn_of_condition,
 )
 
 _ALONG_X: Any = (1.0, 0.0)
 _FRICTIONLESS: Any = 0.0
 _MOST_ROUNDING = 0.01  # of e: the largest excess beyond 0 and 1 that is taken for rounding
+_KINDS = {
+    "energy_loss": "energy",
+    "duration": "time",
+    **dict.fromkeys(("restitution", "drag_a", "drag_b"), "number"),
+}
+_DRAGS = ("duration", "drag_a", "drag_b")
+_IN_TEXTS = {"duration": "contact_duration"}
 # The texts of these are kept with the vehicles.
 _OF_VEHICLES = ("mass_a", "mass_b", "va", "vb", "heading_a", "heading_b")
 # relative, for the sensitivity: between the rounding of a quotient and the curvature of a square
 # root
 _STEP = 1e-6
+_STILL = 1e-9  # of the speeds: below, a vehicle that is held does not move backwards
 
 
 class Candidate(NamedTuple):
@@ -71,6 +85,9 @@ def central(
     heading_a: Input | None = None,
     heading_b: Input | None = None,
     incomplete: bool = False,
+    duration: Input | None = None,
+    drag_a: Input | None = None,
+    drag_b: Input | None = None,
     on_failure: OnFailure | None = None,
 ) -> Impact:
     """In-line impact from exactly three of four velocities, restitution and energy loss.
@@ -80,6 +97,12 @@ def central(
     was incomplete. All twenty combinations are solved in closed form (eqs 5 to 8 of "Application of
     Impulse Momentum Theory to Vehicle Collisions"), and the result is that of ``linear_central``
     for the state found.
+
+    With ``duration`` and a drag of one vehicle or both, tyres act as impulses from outside, drag x
+    weight x duration, against a motion from A towards B that neither vehicle leaves: as where A
+    runs into the rear of B, which may stand before. The result is then that of ``eccentric`` with
+    these as ``outside_a`` and ``outside_b``, for two bodies of infinite yaw inertia at the contact,
+    which is taken as the origin; where they are does not matter.
 
     Parameters
     ----------
@@ -101,6 +124,12 @@ def central(
     incomplete : bool, optional
         Whether the restitution may be negative (above -1), as for ``linear_central``. Both
         velocities before and the energy loss then leave its sign open, and there are two answers.
+    duration : float, str, Quantity or array [s], optional
+        How long the contact lasts, > 0, for the drags: 0.05 to 0.15 s for cars.
+    drag_a, drag_b : float, str, Quantity or array [-], optional
+        Drag factor of the tyres of a vehicle while the contact lasts, >= 0, or a deceleration: 0.7
+        is locked wheels on a dry road; 0 if not given. Velocities after are those with their part,
+        and an energy loss is that of the contact alone. They do not slow an infinite mass.
     on_failure : {None, "raise", "nan"}, optional
         What to do with a refused case of a batch: NaN and one warning, an error, or NaN without a
         warning.
@@ -122,7 +151,8 @@ def central(
     NoImpactError
         The values given mean that the bodies did not approach.
     NoSolutionError
-        The values given contradict each other or leave the answer open; the message says why.
+        The values given contradict each other or leave the answer open; the message says why. Or a
+        vehicle with a drag moves from B towards A, before or after.
 
     Examples
     --------
@@ -133,6 +163,20 @@ def central(
     >>> impact = reconstruct.central("1100 kg", "950 kg", va="80 km/h", vb=0.0, vb_after="60 km/h")
     >>> round(impact.restitution, 3), round(impact.a.after.q.vx.m_as("km/h"), 2)
     (0.398, 28.18)
+
+    The same where B stood with its wheels locked, in a contact of 0.1 s:
+
+    >>> impact = reconstruct.central(
+    ...     "1100 kg",
+    ...     "950 kg",
+    ...     va="80 km/h",
+    ...     vb=0.0,
+    ...     vb_after="60 km/h",
+    ...     duration="100 ms",
+    ...     drag_b=0.7,
+    ... )
+    >>> round(impact.restitution, 3), round(impact.a.after.q.vx.m_as("km/h"), 2)
+    (0.424, 26.05)
     """
     given = exactly(
         {
@@ -160,13 +204,16 @@ def central(
         for label, heading in (("a", heading_a), ("b", heading_b))
     }
     check_flag(reader, "incomplete", incomplete)
+    numbers |= read_drags(reader, duration, {"drag_a": drag_a, "drag_b": drag_b})
     reader.close()
     pointing = {
         f"heading_{label}": heading for label, heading in headings.items() if heading is not None
     }
     with np.errstate(all="ignore"):
         cases = Cases.of(numbers | pointing)
-        return _answer(cases, numbers, pointing, tuple(given), reader.texts, on_failure, incomplete)
+        # A vehicle, as eccentric has it, knows no duration of its own.
+        texts = {_IN_TEXTS.get(name, name): text for name, text in reader.texts.items()}
+        return _answer(cases, numbers, pointing, tuple(given), texts, on_failure, incomplete)
 
 
 def _answer(
@@ -186,9 +233,11 @@ def _answer(
     apart = abs(one.closing - other.closing) > 64.0 * cases.eps * abs(one.closing)
     apart = apart | (abs(one.restitution - other.restitution) > np.sqrt(64.0 * cases.eps))
     ambiguous = one.fits & other.fits & apart
+    held = "duration" in arrays
     status = cases.first_status(
         (
             *input_faults(arrays, incomplete),
+            *drag_faults(arrays),
             (ambiguous, Status.AMBIGUOUS),
             (found.fits, Status.OK),
             *_faults(arrays, found),
@@ -197,24 +246,39 @@ def _answer(
 
     def origin_of(found: Candidate, which: Any, count: Any, where: Any = True) -> Reconstruction:
         condition = _condition(arrays, found, which, cases.eps, incomplete)
-        return cases.provenance(
-            "central", known, condition, count, (found.closing, 0.0 * found.closing), where
-        )
+        given = {name: numbers[name] for name in known}
+        velocity = () if held else (found.closing, 0.0 * found.closing)
+        names = (*known, "contact_duration", "drag_a", "drag_b") if held else known
+        origin = cases.provenance("central", names, condition, count, velocity, where, given)
+        drags = {name: cases.values(arrays[name]) for name in _DRAGS if held}
+        return replace(origin, **drags)
 
     def inputs_of(found: Candidate, keep: Any) -> Inputs:
         # In line, so that nothing moves across or turns; no warnings for states that were not
         # found.
         still: Any = 0.0 if np.all(keep) else cases.where(keep, 0.0)
         bodies = []
+        place: dict[str, Any] = {"yaw_inertia": math.inf, "x": 0.0, "y": 0.0} if held else {}
         for label, speed in (("a", found.va), ("b", found.vb)):
             own = (("mass", f"mass_{label}"), ("vx", f"v{label}"), ("heading", f"heading_{label}"))
             given = {name: texts[key] for name, key in own if key in texts}
-            body = Vehicle(mass=numbers[f"mass_{label}"], heading=headings.get(f"heading_{label}"))
+            body = Vehicle(
+                mass=numbers[f"mass_{label}"], heading=headings.get(f"heading_{label}"), **place
+            )
             bodies.append(moved(body, cases.where(keep, speed), still, still, given))
+        a, b = bodies
         e = cases.where(keep, found.restitution)
         others = {name: text for name, text in texts.items() if name not in _OF_VEHICLES} or None
-        contact = _ALONG_X, FRICTION, _FRICTIONLESS, None, None, others
-        return Inputs("linear_central", bodies[0], bodies[1], e, *contact, incomplete=incomplete)
+        rule = _ALONG_X, FRICTION, _FRICTIONLESS
+        if not held:
+            contact = e, *rule, None, None, others
+            return Inputs("linear_central", a, b, *contact, incomplete=incomplete)
+        pushes: dict[str, Any] = {
+            f"outside_{label}": (cases.values(-_mass(arrays, label) * slowed), 0.0, 0.0)
+            for label, slowed in _slowed(arrays).items()
+        }
+        more = {"point": (0.0, 0.0), "given": others, "incomplete": incomplete} | pushes
+        return Inputs("eccentric", a, b, e, _ALONG_X, FRICTION, _FRICTIONLESS, BRACH, **more)
 
     def refusal() -> CollisionsError:
         say = Sentences(texts.values())
@@ -230,8 +294,8 @@ def _answer(
             f"va = {say(s.a.before.vx, 'speed')} with e = {s.restitution:.4g}" for s in solutions
         )
         return AmbiguousSolutionError(
-            f"two impacts fit {', '.join(known)}: {both}; both are in .solutions, and a velocity "
-            "of the other kind decides",
+            f"two impacts fit {', '.join(known)}: {both}`|; both are in .solutions|`, and a "
+            "velocity of the other kind decides",
             code="ambiguous",
             solutions=solutions,
         )
@@ -247,16 +311,73 @@ def _answer(
     )
     impact = finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
     warn_of_condition(origin)
+    if not held:
+        state_instant("central", "`drag_a=`, `drag_b=`, where A runs into the rear of B")
     return impact
 
 
-def _candidates(known: dict[str, Any], eps: float, incomplete: bool) -> list[Candidate]:
+def _mass(known: dict[str, Any], label: str) -> Any:
+    """The mass of a vehicle; of an infinite one, which no tyres slow, 0."""
+    mass = known[f"mass_{label}"]
+    return np.where(np.isinf(mass), 0.0, mass)
+
+
+def _slowed(known: dict[str, Any]) -> dict[str, Any]:
+    """By how much tyres slow each vehicle while the contact lasts."""
+    if "duration" not in known:
+        return {"a": 0.0, "b": 0.0}
+    return {
+        label: np.where(
+            np.isinf(known[f"mass_{label}"]),
+            0.0,
+            GRAVITY * known["duration"] * known[f"drag_{label}"],
+        )
+        for label in "ab"
+    }
+
+
+def _half_slowed(known: dict[str, Any]) -> tuple[dict[str, Any], Any]:
+    """The known values with velocities as momentum knows them, half of the slowing taken from those
+    before and added to those after; and half of what it adds to the approach.
+    """
+    half = _half_of(known)
+    found = dict(known)
+    for name in VELOCITIES:
+        if name in known:
+            found[name] = known[name] + (1.0 if name.endswith("after") else -1.0) * half[name[1]]
+    return found, half["b"] - half["a"]
+
+
+def _half_of(known: dict[str, Any]) -> dict[str, Any]:
+    return {label: 0.5 * slowed for label, slowed in _slowed(known).items()}
+
+
+def _against(known: dict[str, Any], found: Candidate) -> Any:
+    """Whether a vehicle whose tyres slow it moves from B towards A, before or after."""
+    against: Any = np.zeros((), dtype=bool)
+    share_a, share_b, *_ = shares(known["mass_a"], known["mass_b"])
+    if "duration" not in known:
+        return against
+    slowed = _slowed(known)
+    passed = (1.0 + found.restitution) * found.closing + slowed["b"] - slowed["a"]
+    after = {"a": found.va - share_a * passed, "b": found.vb + share_b * passed}
+    for label, before in (("a", found.va), ("b", found.vb)):
+        end = after[label] - slowed[label]
+        rounding = _STILL * (abs(before) + found.closing)
+        backwards = (before < -rounding) | (end < -rounding)
+        against = against | ((slowed[label] > 0.0) & backwards)
+    return against
+
+
+def _candidates(given: dict[str, Any], eps: float, incomplete: bool) -> list[Candidate]:
     """The one or two candidates that agree with the known values, possible or not."""
+    known, more = _half_slowed(given)
     share_a, share_b, reduced, fixed = shares(known["mass_a"], known["mass_b"])
     # The change of velocity of a heavy body says little about the impact.
     share = {"a": share_a, "b": share_b, "": 1.0}[_only_changing(known)]
     found = []
-    for closing, separation in inline_speeds(known, share_a, share_b, reduced, eps, incomplete):
+    pairs = inline_speeds(known, share_a, share_b, reduced, eps, incomplete, more)
+    for closing, separation in pairs:
         va, vb = known.get("va"), known.get("vb")
         if va is None and vb is None:
             total = closing + separation
@@ -264,6 +385,10 @@ def _candidates(known: dict[str, Any], eps: float, incomplete: bool) -> list[Can
             vb = known["vb_after"] - share_b * total if "vb_after" in known else None
         va = vb + closing if va is None else va
         vb = va - closing if vb is None else vb
+        if "duration" in given:
+            half = _half_of(given)
+            va, vb = va + half["a"], vb + half["b"]
+            closing, separation = closing - more, separation - more
         # Rounding may move an e of exactly 0 or 1.
         scale = sum(abs(known[name]) for name in VELOCITIES if name in known) + abs(va) + abs(vb)
         rounding = np.fmin(16.0 * eps * (1.0 + scale / (share * abs(closing))), _MOST_ROUNDING)
@@ -274,7 +399,8 @@ def _candidates(known: dict[str, Any], eps: float, incomplete: bool) -> list[Can
         e = known.get("restitution", e)
         least = (e > -1.0) if incomplete else (e >= 0.0)
         fits = (closing > 0.0) & least & (e <= 1.0) & np.isfinite(va + vb) & ~np.asarray(fixed)
-        found.append(Candidate(va, vb, e, closing, fits))
+        one = Candidate(va, vb, e, closing, fits)
+        found.append(one._replace(fits=fits & ~_against(given, one)))
     return found
 
 
@@ -300,8 +426,9 @@ def _only_changing(known: dict[str, Any]) -> str:
     return next((label for label in "ab" if {f"v{label}", f"v{label}_after"} <= known.keys()), "")
 
 
-def _faults(known: dict[str, Any], found: Candidate) -> list[tuple[Any, int]]:
+def _faults(given: dict[str, Any], found: Candidate) -> list[tuple[Any, int]]:
     """The reasons why no candidate fits; the first that applies counts."""
+    known, _ = _half_slowed(given)
     share_a, share_b, *_ = shares(known["mass_a"], known["mass_b"])
     fixed = {label: np.isinf(known[f"mass_{label}"]) for label in "ab"}
     plastic_end = np.equal(known.get("restitution", 0.5), 0.0) & (
@@ -328,11 +455,20 @@ def _refusal(
 ) -> CollisionsError:
     closing, e = float(found.closing), float(found.restitution)
     known = {name: float(value) for name, value in numbers.items() if not name.startswith("mass")}
-    kinds = {"energy_loss": "energy", "restitution": "number"}
     given = ", ".join(
-        f"{name} = {say(value, kinds.get(name, 'speed'))}" for name, value in known.items()
+        f"{name} = {say(value, _KINDS.get(name, 'speed'))}" for name, value in known.items()
     )
     along = "velocities are counted along the line from A to B, A behind"
+    if status == Status.CONTRADICTORY and np.any(_against(numbers, found)):
+        speeds = f"va = {say(found.va.item(), 'speed')} and vb = {say(found.vb.item(), 'speed')}"
+        return error_of(
+            status,
+            f"{given} mean {speeds}, and a vehicle that its tyres hold would move from B towards "
+            "A, before the impact or after it, where they hold it the other way; leave out its "
+            "drag, or give what tyres did as outside_a and outside_b of eccentric",
+            restitution=e,
+            closing_speed=closing,
+        )
     match status:
         case Status.SEPARATING:
             speed = (
@@ -355,7 +491,7 @@ def _refusal(
             if not incomplete and e > -1.0:
                 text += (
                     "; if they passed or tore before they had a common velocity, write "
-                    "incomplete=True"
+                    "`incomplete=True`"
                 )
         case Status.INVERSE_E0:
             apart = known["vb_after"] - known["va_after"]
@@ -421,7 +557,8 @@ def _allowed_losses(numbers: dict[str, Any], incomplete: bool, say: Sentences) -
     """
     share_a, share_b, reduced, _ = shares(numbers["mass_a"], numbers["mass_b"])
     least, most = allowed_losses(numbers, share_a, share_b, reduced)
-    if "energy_loss" not in numbers or np.isnan(least) or incomplete:
+    held = "duration" in numbers
+    if "energy_loss" not in numbers or np.isnan(least) or incomplete or held:
         return ""
     above = "" if np.isinf(most) else f" and at most {say(float(most), 'energy')}"
     return f"; they allow at least {say(float(least), 'energy')}{above}"

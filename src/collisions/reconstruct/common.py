@@ -13,19 +13,27 @@ import numpy as np
 
 from ..impact.impact import Impact, answer_of, found_by, solved
 from ..impact.inputs import Inputs, body_numbers, first_case
-from ..impact.provenance import Reconstruction, origin_where_answered
+from ..impact.provenance import Reconstruction, found_from, origin_where_answered
 from ..impact.run import check_options, error_of, warn_of_refusals
 from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
 from ..kernels.elementwise import FINITE, POSITIVE, restitution_domain
 from ..kernels.problem import Body, Contact, Problem
 from ..kernels.status import Answer
-from ..messages.errors import CollisionsError, IllConditionedWarning, InputError, Status
-from ..messages.warning import quietly, warn_of_cases
+from ..messages.errors import (
+    CollisionsError,
+    IllConditionedWarning,
+    InputError,
+    MissingInputError,
+    Status,
+    placed,
+)
+from ..messages.warning import quietly, state_of_study, warn_of_cases
 from ..quantities.attributes import lock
 from ..quantities.precision import precision
 from ..quantities.reading import ArgumentReader, amount, broadcast
-from ..quantities.units import Texts
+from ..quantities.units import Texts, shown
+from ..vehicle.drag import read_drag, read_duration
 from ..vehicle.vehicle import Vehicle
 
 # The numbers of a body, in the order in which ``forward`` takes them.
@@ -55,10 +63,12 @@ def forward(
     law: str,
     pinned: Iterable[bool] = (False, False),
     contact_velocity: tuple[Any, Any] | None = None,
+    outside: Any = None,
 ) -> Answer:
     """What the eccentric kernel answers for two bodies, each as its ``NUMBERS``."""
     a, b = (body_of(numbers, turns) for numbers, turns in zip(bodies, pinned, strict=True))
-    return eccentric(Problem(contact, a, b, contact_velocity=contact_velocity), rule, law)
+    problem = Problem(contact, a, b, outside=outside, contact_velocity=contact_velocity)
+    return eccentric(problem, rule, law)
 
 
 def counted(given: Iterable[str]) -> tuple[str, ...]:
@@ -112,6 +122,42 @@ def read_amounts(reader: ArgumentReader, given: Mapping[str, Any]) -> dict[str, 
         name: amount(reader, value, "J" if name == "energy_loss" else "m/s", name)
         for name, value in given.items()
     }
+
+
+def read_drags(reader: ArgumentReader, duration: Any, drags: dict[str, Any]) -> dict[str, Any]:
+    """Duration and drags: all of them, or none."""
+    given = {name: drag for name, drag in drags.items() if drag is not None}
+    if (duration is None) == bool(given):
+        lacking = "duration" if duration is None else "drag_a"
+        text = (
+            (
+                f"{' and '.join(given)} need a duration, over which tyres act; write "
+                "`duration='100 ms'`"
+            )
+            if given
+            else (
+                "duration counts for drag_a and drag_b alone, and neither was given; write "
+                "`drag_b=0.7`, or leave it out"
+            )
+        )
+        reader.refuse(MissingInputError(text, code="bad_combination", argument=lacking))
+    if duration is None or not given:
+        return {}
+    found = {"duration": read_duration(reader, duration)}
+    if isinstance(found["duration"], float) and found["duration"] == 0.0:
+        text = f"duration must be > 0, got {shown(duration)}; leave it and the drags out instead"
+        reader.refuse(InputError(text, code="not_positive", argument="duration"))
+    return found | {
+        name: read_drag(reader, given.get(name, 0.0), name) for name in ("drag_a", "drag_b")
+    }
+
+
+def drag_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
+    """The faults of arrays of duration and drags."""
+    if "duration" not in numbers:
+        return []
+    below = [(np.less(numbers[name], 0.0), Status.NEGATIVE_SIZE) for name in ("drag_a", "drag_b")]
+    return [(np.less_equal(numbers["duration"], 0.0), Status.NOT_POSITIVE), *below]
 
 
 def split_texts(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], dict[str, str]]:
@@ -220,9 +266,12 @@ class Cases(NamedTuple):
         answers: Any,
         velocity: Sequence[Any] = (),
         where: Any = True,
+        given: Mapping[str, Any] | None = None,
+        also: Sequence[str] = (),
     ) -> Reconstruction:
         """The ``Reconstruction`` with closing speed and slip if they are known; numbers are NaN
-        where ``where`` is False.
+        where ``where`` is False. ``given`` has the numbers of what was known, and ``also`` what was
+        found beside what the solver always finds.
         """
         condition, *found = (self.where(where, value) for value in (condition, *velocity))
         return Reconstruction(
@@ -231,11 +280,18 @@ class Cases(NamedTuple):
             condition=condition,
             answers=self.counts(answers),
             contact_velocity=(found[0], found[1]) if found else None,
+            found=(*found_from(method, known), *also),
+            given=given and {name: _kept(number) for name, number in given.items()},
         )
 
     def one(self, found: Any, index: tuple[int, ...]) -> float:
         """The value of the case at an index."""
         return float(np.broadcast_to(found, self.shape or ())[index])
+
+
+def _kept(number: Any) -> Any:
+    """A number as an answer keeps it: a float, or a locked array."""
+    return lock(number) if np.ndim(number) else float(number)
 
 
 def input_faults(numbers: Mapping[str, Any], incomplete: bool = False) -> list[tuple[Any, int]]:
@@ -318,6 +374,16 @@ def warn_of_condition(origin: Reconstruction) -> None:
     warn_of_cases(warning, {sentence: int(np.count_nonzero(ill)) if ill.ndim else None})
 
 
+def state_instant(solver: str, wheels: str = "`tyres_a=`, `tyres_b=`") -> None:
+    """State of a study that its impacts were found as instants."""
+    state_of_study(
+        f"each case was found as an instant by reconstruct.{solver}, which leaves out the tyres "
+        f"and the motion while the contact lasts; give `duration=` and {wheels}. The statements of "
+        "one case say how much that is",
+        "instant",
+    )
+
+
 def run_forward(
     inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconstruction, on_failure: Any = None
 ) -> Impact:
@@ -348,5 +414,5 @@ def raise_or_warn(
     if on_failure == "raise":
         index, place = first_case(status > Status.ENERGY_GAIN)
         problem = error(index)
-        raise type(problem)(f"{place}: {problem}", code=problem.code, **problem.fields)
+        raise placed(problem, place)
     warn_of_refusals(status)

@@ -13,18 +13,23 @@ from ..kernels.central import shares
 from ..kernels.elementwise import RESTITUTION
 from ..kernels.reverse import changing_speed, energy_of_speeds, losing_speed
 from ..kernels.status import Status
-from ..messages.errors import (
-    AmbiguousSolutionError,
-    InputError,
-    MissingInputError,
-    NoSolutionError,
-)
+from ..messages.errors import AmbiguousSolutionError, NoSolutionError
 from ..messages.hints import hinted
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Sentences
-from ..quantities.units import Input, Value, shown
-from ..vehicle.drag import GRAVITY, read_drag, read_duration
-from .common import ASK_ALONE, PAIRS, Cases, exactly, input_faults, read_amounts, read_masses
+from ..quantities.units import Input, Value
+from ..vehicle.drag import GRAVITY
+from .common import (
+    ASK_ALONE,
+    PAIRS,
+    Cases,
+    drag_faults,
+    exactly,
+    input_faults,
+    read_amounts,
+    read_drags,
+    read_masses,
+)
 from .restitution_roots import RestitutionOf, crossings
 
 
@@ -129,7 +134,7 @@ def inline_closing_speed(
     kind = next(iter(given))
     reader = ArgumentReader()
     numbers = read_masses(reader, mass_a, mass_b) | read_amounts(reader, given)
-    numbers |= _read_drags(reader, duration, {"drag_a": drag_a, "drag_b": drag_b})
+    numbers |= read_drags(reader, duration, {"drag_a": drag_a, "drag_b": drag_b})
     numbers["restitution"] = reader.number(
         0.0 if callable(restitution) else restitution, "", "restitution", RESTITUTION
     )
@@ -144,29 +149,6 @@ def inline_closing_speed(
             Sentences(reader.texts.values()),
         )
     return _with_number(cases, kind, numbers)
-
-
-def _read_drags(reader: ArgumentReader, duration: Any, drags: dict[str, Any]) -> dict[str, Any]:
-    """Duration and drags: all of them, or none."""
-    given = {name: drag for name, drag in drags.items() if drag is not None}
-    if (duration is None) == bool(given):
-        lacking = "duration" if duration is None else "drag_a"
-        text = (
-            f"{' and '.join(given)} need a duration, over which tyres act; write duration='100 ms'"
-            if given
-            else "duration counts for drag_a and drag_b alone, and neither was given; write "
-            "drag_b=0.7, or leave it out"
-        )
-        reader.refuse(MissingInputError(text, code="bad_combination", argument=lacking))
-    if duration is None or not given:
-        return {}
-    found = {"duration": read_duration(reader, duration)}
-    if isinstance(found["duration"], float) and found["duration"] == 0.0:
-        text = f"duration must be > 0, got {shown(duration)}; leave it and the drags out instead"
-        reader.refuse(InputError(text, code="not_positive", argument="duration"))
-    return found | {
-        name: read_drag(reader, given.get(name, 0.0), name) for name in ("drag_a", "drag_b")
-    }
 
 
 def _closing_speed(kind: str, numbers: dict[str, Any]) -> Any:
@@ -235,7 +217,8 @@ def _with_number(
                 Status.INFINITE_MASS,
             ),
             *faults,
-            *_time_faults(numbers, speed),
+            *drag_faults(numbers),
+            (("duration" in numbers) & np.less_equal(speed, 0.0), Status.CONTRADICTORY),
             (~cases.beyond(speed), Status.OK),
             (
                 kind in ("energy_loss", "ees_a") and np.equal(numbers["restitution"], 1.0),
@@ -269,18 +252,6 @@ def _with_number(
         warn_of_refusals(status, ASK_ALONE)
     answer: Value = cases.where(np.equal(status, Status.OK), speed)
     return answer
-
-
-def _time_faults(numbers: dict[str, Any], speed: Any) -> list[tuple[Any, int]]:
-    """The faults of arrays of duration and drag, and of a delta-V that is not the contact's."""
-    if "duration" not in numbers:
-        return []
-    drags = [np.less(numbers[name], 0.0) for name in ("drag_a", "drag_b")]
-    return [
-        (np.less_equal(numbers["duration"], 0.0), Status.NOT_POSITIVE),
-        *((below, Status.NEGATIVE_SIZE) for below in drags),
-        (np.less_equal(speed, 0.0), Status.CONTRADICTORY),
-    ]
 
 
 def _with_function(

@@ -120,7 +120,7 @@ class MomentumSolution(Shown):
         argument = _NEEDED[name]
         kind = argument.partition("_")[0]
         return MissingInputError(
-            f"{name} needs a {kind}, which was not given; write {argument}='30 deg'",
+            f"{name} needs a {kind}, which was not given; write `{argument}='30 deg'`",
             code=f"missing_{kind}",
             argument=argument,
         )
@@ -167,6 +167,11 @@ class MomentumSolution(Shown):
             (self.status == Status.ENERGY_GAIN, "end with more energy than they began with."),
         )
         return [f"{np.count_nonzero(which)} {many} {what}" for which, what in said if np.any(which)]
+
+    @property
+    def found(self) -> tuple[str, ...]:
+        """Names of what was found, as opposed to what was given: those of ``unknowns``."""
+        return self.unknowns
 
     @property
     def tyres(self) -> dict[str, Tyres]:

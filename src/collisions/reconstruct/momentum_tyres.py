@@ -137,8 +137,8 @@ def read_tyres(
         rates[label] = reader.number(rate, "rad/s", name)
         if tyres["ab".index(label)] is None:
             text = (
-                f"{name} counts for the tyres of {label.upper()} alone, and there are none: give "
-                f"duration= and tyres_{label}=, or leave it out"
+                f"{name} counts for the tyres of {label.upper()} alone, and there are none: "
+                f"give `duration=` and `tyres_{label}=`, or leave it out"
             )
             reader.refuse(InputError(text, code="bad_combination", argument=name))
     return Lasting(found["duration"], own, rates) if own and "duration" in found else None
@@ -197,7 +197,7 @@ def neglected(
     ]
     sentence = (
         f"found as an instant, which leaves out the tyres: if all wheels slid for {duration:.3g} s "
-        f"with a drag of {drag:.2g}, {' and '.join(parts)}; give duration= and tyres_a=, tyres_b="
+        f"with a drag of {drag:.2g}, {' and '.join(parts)}; give `duration=` and `tyres_a=`, `tyres_b=`"
     )
     return Neglect(changes, max(shares), sentence)
 

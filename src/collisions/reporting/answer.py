@@ -10,17 +10,16 @@ from collections.abc import Iterator, Sequence
 from operator import attrgetter
 from typing import Any, NamedTuple
 
-from ..derivation.explain import kinds_of_answers, words_of_answers
+from ..derivation.explain import kinds_of_answers, names_of_answers, words_of_answers
 from ..diagnostics.finding import Finding, is_note
 from ..impact.impact import Impact
-from ..impact.provenance import KNOWN, how_many
+from ..impact.provenance import how_many, known_in_words
 from ..quantities.formatting import KIND_OF, Numbers
 from ..quantities.tables import as_sentence, label_of
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Output, Propagation
 from ..uncertainty.result import figures
 from .render import Sheet, plain
-from .sections import found_inputs
 from .uncertainty import Spread
 from .words import Names, listed
 
@@ -28,12 +27,6 @@ _NO_RANGE = (
     "give uncertainty= what uncertainty.propagate makes of the errors of the inputs, and each "
     "figure has its range here."
 )
-_BOTH = {
-    "ees_a": "the EES of both vehicles (ISO 12353)",
-    "max_crush_speed_a": "the speeds of maximum crush of both vehicles",
-}
-# Given for both vehicles at once, under the name of the one of A.
-_WITH_A = ("ees_b", "max_crush_speed_b")
 
 
 class Figure(NamedTuple):
@@ -120,8 +113,10 @@ def _asked(result: Impact | MomentumSolution) -> Iterator[str]:
     """The results that a reader looks for, by name: those that the solver found, and the
     delta-V.
     """
+    names = names_of_answers(result)
+    yield from (names[name] for name in result.found if name in names)
     if isinstance(result, MomentumSolution):
-        yield from (*result.unknowns, "delta_v_a", "delta_v_b")
+        yield from ("delta_v_a", "delta_v_b")
         return
     origin = result.reconstruction
     known = () if origin is None else origin.known
@@ -130,12 +125,6 @@ def _asked(result: Impact | MomentumSolution) -> Iterator[str]:
         for label, side in (("a", result.a), ("b", result.b))
         if math.isfinite(side.before.mass)
     ]
-    if origin is not None:
-        for label in sides:
-            if not {f"speed_{label}", f"v{label}"} & set(known):
-                yield f"{label}.before.speed"
-    if "restitution" in found_inputs(result):
-        yield "restitution"
     for label in sides:
         if f"delta_v_{label}" not in known:
             yield f"{label}.delta_v"
@@ -191,18 +180,10 @@ def _rests_on(result: Any, names: Names) -> str:
             f"Worked out forwards by momentum and restitution ({model} impact), from the "
             "velocities before, the masses and the contact that were given."
         )
-    known = [_known(name, names) for name in origin.known if name not in _WITH_A]
+    known = [f"the {names(words)}" for words in known_in_words(origin.known)]
     if origin.method == "planar":
         known.insert(0, "the motions of both vehicles after")
     return (
         f"Worked back by momentum and restitution ({model} impact), from {listed(known)}, with "
         "the masses and the contact that were given."
     )
-
-
-def _known(name: str, names: Names) -> str:
-    if name in _BOTH:
-        return _BOTH[name]
-    if name in KNOWN:
-        return f"the {names(KNOWN[name].what)}"
-    return f"the {name.replace('_', ' ')}"

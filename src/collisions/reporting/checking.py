@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
 from ..derivation.evidence import momentum_inputs
-from ..derivation.explain import NOT_EXPLAINED, impact_inputs, no_uncertainty
+from ..derivation.explain import NOT_EXPLAINED, impact_inputs, key_of, no_uncertainty
 from ..impact.impact import Impact
 from ..kernels.elementwise import UNIT_INTERVAL
 from ..messages.errors import InputError
+from ..messages.marked import type_of
 from ..quantities.reading import ArgumentReader, need_one_case, single_number
 from ..quantities.units import shown
 from ..reconstruct import Fit, MomentumSolution, Posterior
@@ -21,7 +22,7 @@ from .sections import EVIDENCE
 
 Form: TypeAlias = Literal["html", "markdown"]
 # What a page is filed under.
-FILED = ("case", "author", "date")
+FILED = ("exhibit", "case", "author", "date")
 _RESULTS = (Impact, MomentumSolution, Fit, Posterior)
 # Options of one impact.
 _OF_ONE = ("outline_a", "outline_b", "share_a", *EVIDENCE)
@@ -118,20 +119,20 @@ def checked(
     if notes is not None and not isinstance(notes, (str, list, tuple, Mapping)):
         refuse(
             "notes",
-            "notes must be a text, a list of texts, or a dict of them by input, got "
-            f"{type(notes).__name__}",
+            "notes must be a text, a list of texts, or `|a dict|a table` of them by input, got "
+            f"{type_of(notes)}",
             "not_a_text",
         )
     for name in ("figures", "derivation"):
         if not isinstance(options[name], bool):
-            refuse(name, f"{name} must be True or False, got {shown(options[name])}")
+            refuse(name, f"{name} must be `True` or `False`, got {shown(options[name])}")
     for one, uncertainty in results:
         if uncertainty is not None and not isinstance(uncertainty, Propagation):
             refuse(
                 "uncertainty",
                 "uncertainty must be what uncertainty.propagate returned, got "
-                f"{type(uncertainty).__name__}; standard deviations by name go to explain(impact, "
-                "uncertainty=...)",
+                f"{type(uncertainty).__name__}; standard deviations by name go to "
+                "explain(impact, `uncertainty=...`)",
             )
         if isinstance(one, (Fit, Posterior)) and isinstance(uncertainty, Propagation):
             reader.refuse(no_uncertainty(type(one).__name__))
@@ -168,7 +169,7 @@ def checked(
 def inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
     """The inputs that a note can stand beside, by name."""
     if isinstance(impact, Impact):
-        found = [sections.key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
+        found = [key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
         for label, vehicle in (("a", impact.a.before), ("b", impact.b.before)):
             found += [f"{label}.{name}" for name, _ in sections.speed_rows(vehicle)]
         found += (

@@ -6,6 +6,7 @@ import io
 import re
 import warnings
 from collections.abc import Callable, Mapping
+from copy import copy
 from html import escape
 from importlib import import_module
 from typing import Any
@@ -14,6 +15,7 @@ from .. import plot
 from ..impact.impact import Impact
 from ..messages.errors import InputError
 from ..plot.canvas import in_lines
+from ..quantities.formatting import SI_UNITS
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled, varies
@@ -133,16 +135,30 @@ def _of_outputs(
             sheet.say(f"{name} has no figures, because it is the same in every case.")
             continue
         options: dict[str, Any] = {"units": units, "words": {output.name: name}}
+        drawn_of = _with_unit(output, spread.kind_of(output))
         if isinstance(output, Sampled):
             caption = f"{name}, in the cases drawn, given {output.given}."
-            _draw(sheet, f"distribution-{number}", caption, plot.distribution, output, **options)
+            _draw(sheet, f"distribution-{number}", caption, plot.distribution, drawn_of, **options)
         if not of_posterior and len(shares_of(output)) != 1:
             caption = (
                 f"{name}, and the share of its variance that each input brings, by itself and in "
                 "all."
             )
             options["inputs"] = spread.words_of(uncertainty)
-            _draw(sheet, f"contributions-{number}", caption, plot.contributions, output, **options)
+            _draw(
+                sheet, f"contributions-{number}", caption, plot.contributions, drawn_of, **options
+            )
+
+
+def _with_unit(output: Any, kind: str | None) -> Any:
+    """An output that is a result of the report with its SI unit, where the model returned bare
+    numbers.
+    """
+    if output.unit or kind is None or not SI_UNITS[kind]:
+        return output
+    same = copy(output)
+    same.unit = SI_UNITS[kind]
+    return same
 
 
 def _draw(

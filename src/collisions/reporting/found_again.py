@@ -21,6 +21,7 @@ from ..reconstruct import central, planar, speeds
 # differs in its first ones.
 _SAME_CONDITION = 0.01
 _METHODS = ("central", "planar", "speeds")
+_AS_ARGUMENTS = {"contact_duration": "duration"}
 _AS_RESULTS = {"restitution": "restitution"} | dict.fromkeys(RULES, "inputs.rule_value")
 
 
@@ -115,6 +116,7 @@ def _solved_again(impact: Impact, origin: Reconstruction) -> tuple[Any, ...]:
         return ()
     wheels = {name: getattr(inputs, name) for name in ("duration", *TYRES)}
     if origin.method == "central":
+        known = {_AS_ARGUMENTS.get(name, name): value for name, value in known.items()}
         return (central(inputs.a.mass, inputs.b.mass, **known, incomplete=inputs.incomplete),)
     if origin.method == "planar":
         return (planar(impact.a.after, impact.b.after, **known, **contact, **wheels),)

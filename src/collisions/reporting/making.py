@@ -64,6 +64,7 @@ def report(
     author: str | None = None,
     case: str | None = None,
     date: str | None = None,
+    exhibit: str | None = None,
 ) -> Document:
     """One page about a result: the answer with its range, then inputs, results, uncertainty,
     findings, figures, assumptions, derivation, sources and the record.
@@ -95,9 +96,9 @@ def report(
     units : {"si", "metric", "us"}, optional
         By default those of the inputs, as for ``summary``.
     uncertainty : Propagation, optional
-        From ``uncertainty.propagate``; for several results a list, with None for a result that has
-        none. An output with the name of an answer, such as "b.after.vx"
-        or "b_after_vx", also sets the rounding of that answer.
+        From ``uncertainty.propagate``, of a ``Run`` with its scene as the model; for several
+        results a list, with None for a result that has none. An output with the name of an answer,
+        such as "b.after.vx" or "b_after_vx", also sets the rounding of that answer.
     outline_a, outline_b, duration, drag, limits
         As for ``diagnose``; the outlines are also drawn.
     crush_energy, damage_pdof_a, damage_pdof_b, damage_delta_v_a, damage_delta_v_b
@@ -114,9 +115,9 @@ def report(
         Whether to draw figures. They need matplotlib; without it the report says so and goes on.
     derivation : bool
         Whether to append the derivation of ``explain``.
-    author, case, date : str, optional
-        Who made the page, the number or name of the case, and the day: printed below the title,
-        and at the foot of every page in print.
+    author, case, date, exhibit : str, optional
+        Who made the page, the number or name of the case, the day, and the number of the page among
+        the exhibits: printed below the title, and at the foot of every page in print.
 
     Returns
     -------
@@ -261,7 +262,7 @@ def _body(
     result, uncertainty, spread = part.result, part.uncertainty, part.spread
     sheet.deviations, sheet.ranges = spread.deviations, spread.ranges
     if isinstance(result, Impact):
-        sections.inputs(sheet, result, options, found.by_input)
+        sections.inputs(sheet, result, options, found.by_input, spread)
         sections.results(sheet, result, options["share_a"])
     elif isinstance(result, MomentumSolution):
         sections.momentum_inputs_and_results(sheet, result, options, found.by_input)

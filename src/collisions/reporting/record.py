@@ -21,12 +21,14 @@ from ..impact.inputs import TYRES
 from ..impact.records import tyres_of, tyres_record
 from ..kernels.elementwise import UNCHECKED
 from ..messages.errors import CollisionsError, CollisionsWarning, InputError
+from ..messages.marked import type_of
 from ..quantities.attributes import unit_of
 from ..quantities.formatting import SI_UNITS
 from ..quantities.reading import ArgumentReader
+from ..quantities.refusals import must_be
 from ..quantities.settings import computing, units_required
 from ..quantities.strict_json import strict
-from ..quantities.units import Texts, shown
+from ..quantities.units import Texts, rendered, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior, momentum
 from ..scene.run import Run
 from ..uncertainty import Propagation
@@ -37,7 +39,7 @@ from .found_again import contradicted_origin
 from .render import FENCE, RECORD
 from .sections import EVIDENCE, contradicted
 
-Result: TypeAlias = Impact | MomentumSolution | Fit | Posterior
+Result: TypeAlias = Impact | MomentumSolution | Fit | Posterior | Run
 REPORT_FORMAT = "collisions report 2"
 # The options that change the page, with the unit in which each is read; None for one that is not a
 # number.
@@ -56,6 +58,7 @@ _UNITS: dict[str, str | None] = {
             "author",
             "case",
             "date",
+            "exhibit",
         )
     ),
     "duration": "s",
@@ -72,6 +75,8 @@ _READ_AGAIN = 2e-9
 _OTHER_MACHINE = 1e-6
 # Sentences, which another version may word differently.
 _SENTENCES = ("choice.reason",)
+# What a record of an earlier version lacks.
+_LATER = ("reconstruction.found", "reconstruction.given")
 
 
 def record(impact: Result, options: Mapping[str, Any], uncertainty: Propagation | None) -> str:
@@ -108,6 +113,8 @@ def _one_record(impact: Result, uncertainty: Propagation | None) -> dict[str, An
             label: _other_texts(vehicle, inputs[label])
             for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b))
         }
+    elif isinstance(impact, Run):
+        whole["run"] = impact.to_dict()
     elif isinstance(impact, (Fit, Posterior)):
         whole[type(impact).__name__.lower()] = impact.to_dict()
     else:
@@ -375,11 +382,13 @@ def options(text: str) -> dict[str, Any]:
 def _whole(text: Any) -> Mapping[str, Any]:
     """The parsed record at the end of a report."""
     if not isinstance(text, str):
-        raise InputError(
-            f"text must be the text of a report, got {type(text).__name__}; write "
-            "replay(open(path, encoding='utf-8').read())",
+        raise must_be(
+            "text",
+            "the text of a report",
+            text,
+            "; write replay(open(path, encoding='utf-8').read())",
             code="not_a_text",
-            argument="text",
+            got=type_of(text),
         )
     text = text.removeprefix("\ufeff").replace("\r\n", "\n")
     if text.lstrip().startswith("<"):
@@ -429,7 +438,8 @@ def _differences(recorded: Any, found: Any, name: str, off: float) -> Iterator[s
         for key in dict.fromkeys([*found, *recorded]):
             path = f"{name}.{key}" if name else str(key)
             if key not in recorded:
-                yield f"{path}, which is missing"
+                if path not in _LATER:
+                    yield f"{path}, which is missing"
             elif key not in found:
                 yield f"{path}, which no impact has"
             elif path not in _SENTENCES:
@@ -445,7 +455,7 @@ def _differences(recorded: Any, found: Any, name: str, off: float) -> Iterator[s
         ):
             yield f"{name}, {recorded!r}, but {found!r}"
     elif recorded != found:
-        yield f"{name}, {shown(recorded)}, but {shown(found)}"
+        yield f"{name}, {rendered(recorded)}, but {rendered(found)}"
 
 
 def _bad(why: str) -> InputError:

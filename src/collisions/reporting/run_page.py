@@ -4,7 +4,7 @@ energy and the record.
 
 from __future__ import annotations
 
-import json
+import math
 from collections.abc import Mapping
 from typing import Any, get_args
 
@@ -20,19 +20,22 @@ from ..messages.errors import CollisionsError, InputError
 from ..quantities.document import Document
 from ..quantities.reading import ArgumentReader
 from ..quantities.settings import callers_options
-from ..quantities.strict_json import strict
 from ..quantities.tables import as_sentence, cells, label_of
 from ..quantities.units import kinds_in_degrees, shown
+from ..scene.names import result_of, results_of
 from ..scene.run import Run
+from ..uncertainty import Propagation
 from . import figures as drawing
 from . import sections
+from .answer import ranged_text
 from .checking import FILED, Form
-from .record import REPORT_FORMAT
+from .record import record
 from .render import Html, Markdown, Printed, Sheet, plain
 from .sections import EVIDENCE
+from .uncertainty import Spread
 
 # What is said of one impact, and not of a scene.
-_OF_ONE = ("uncertainty", "outline_a", "outline_b", "share_a", *EVIDENCE)
+_OF_ONE = ("outline_a", "outline_b", "share_a", *EVIDENCE)
 _LOOKED_AT = ("duration", "drag", "limits", "units")
 
 
@@ -42,7 +45,7 @@ def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -
     """
     from .. import __version__
 
-    paragraphs = _checked(given)
+    paragraphs, uncertainty = _checked(given), given["uncertainty"]
     texts = [text for text in run._texts() if isinstance(text, str)]
     system = given["units"]
     printed = Printed(system, kinds_in_degrees(texts))
@@ -55,7 +58,8 @@ def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -
     filed = [(name, plain(given[name])) for name in FILED if given[name] is not None]
     if filed:
         sheet.file([(name.capitalize(), text) for name, text in filed])
-    _answer(sheet, run, found, draws)
+    spread = Spread(run, uncertainty)
+    _answer(sheet, run, found, draws, spread, uncertainty)
     _vehicles(sheet, run)
     for number, (time, pair, impact) in enumerate(
         zip(run.times, run.pairs, run.impacts, strict=True)
@@ -74,6 +78,8 @@ def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -
         "What the ground took is worked out from the forces along the way, and not as the rest: "
         "the last line says how far the account closes."
     )
+    if uncertainty is not None:
+        spread.write(sheet, uncertainty)
     sections.findings(sheet, found)
     if paragraphs:
         sheet.heading("Notes")
@@ -93,13 +99,7 @@ def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -
     )
     sheet.say(f"Calculated with collisions {__version__}.")
     sheet.heading("Record")
-    whole = {
-        "format": REPORT_FORMAT,
-        "version": __version__,
-        "options": strict(unusual),
-        "run": run.to_dict(),
-    }
-    sheet.record(json.dumps(whole, indent=1, allow_nan=False))
+    sheet.record(record(run, unusual, uncertainty))
     return Document(sheet.whole(__version__), given["form"])
 
 
@@ -125,6 +125,12 @@ def _checked(given: Mapping[str, Any]) -> list[str]:
     if not isinstance(given["form"], str) or given["form"] not in get_args(Form):
         forms = ", ".join(map(repr, get_args(Form)))
         refuse("form", f"form must be one of {forms}, got {shown(given['form'])}")
+    if given["uncertainty"] is not None and not isinstance(given["uncertainty"], Propagation):
+        refuse(
+            "uncertainty",
+            "uncertainty must be what uncertainty.propagate returned for the scene, got "
+            f"{type(given['uncertainty']).__name__}",
+        )
     for name in ("figures", "derivation"):
         if not isinstance(given[name], bool):
             refuse(name, f"{name} must be True or False, got {shown(given[name])}")
@@ -143,10 +149,32 @@ def _checked(given: Mapping[str, Any]) -> list[str]:
     return [plain(note) for note in listed]
 
 
-def _answer(sheet: Sheet, run: Run, found: Findings, draws: bool) -> None:
-    """The box that has the speeds before, what each impact did, and where all came to rest."""
+def _answer(
+    sheet: Sheet,
+    run: Run,
+    found: Findings,
+    draws: bool,
+    spread: Spread,
+    uncertainty: Propagation | None,
+) -> None:
+    """The box that has what was asked for with its range, the speeds before, what each impact did,
+    and where all came to rest.
+    """
     sheet.open_answer()
-    rows = []
+    outputs = {} if uncertainty is None else uncertainty.outputs
+    known, ranged = results_of(run.scene, len(run.impacts)), {}
+    for name, output in outputs.items():
+        kind = spread.kind_of(output)
+        text, has_range = ranged_text(sheet.system, output, kind)
+        ranged[name] = (plain(name), text) if has_range else None
+        low, high = output.interval()
+        value = result_of(run, name) if known.get(name, "rad") != "rad" else math.nan
+        if value < low or value > high:
+            sheet.stress(
+                f"{plain(name)} of this run lies outside the 95 percent interval of the "
+                "propagation: are both of the same scene?"
+            )
+    rows = [row for row in ranged.values() if row is not None]
     for name, mover in run.scene.movers.items():
         speed = mover.vehicle.speed
         text = sheet.system.answer(speed, "speed") if speed else "standing"
@@ -154,18 +182,24 @@ def _answer(sheet: Sheet, run: Run, found: Findings, draws: bool) -> None:
     for number, (time, pair, impact) in enumerate(
         zip(run.times, run.pairs, run.impacts, strict=True)
     ):
-        for name, side in zip(pair, (impact.a, impact.b), strict=True):
+        for label, name, side in zip("ab", pair, (impact.a, impact.b), strict=True):
+            if ranged.get(f"impacts[{number}].{label}.delta_v") is not None:
+                continue
             what = f"delta-V of {plain(name)}, impact {number + 1} ({time:.2f} s)"
             rows.append((what, sheet.system.answer(side.delta_v, "speed")))
     rows += [
         (f"{plain(name)} at rest, x and y", _rest(sheet, run, name)) for name in run.scene.movers
     ]
     sheet.figures_of_answer(rows)
-    sheet.say(
-        "Calculated forward from the stated start, from contact to contact until all rest. No "
-        "range is stated for these figures: uncertainty.propagate and reconstruct.posterior take "
-        "the scene with the errors of its inputs."
-    )
+    says = "Calculated forward from the stated start, from contact to contact until all rest. "
+    if any(row is not None for row in ranged.values()):
+        says += "No range is stated for the figures above that have only one number."
+    else:
+        says += (
+            "No range is stated for these figures: uncertainty.propagate and "
+            "reconstruct.posterior take the scene with the errors of its inputs."
+        )
+    sheet.say(says)
     lines = [
         (f"{label_of(finding.code)}:", as_sentence(plain(finding.sentence)))
         for finding in found

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from operator import attrgetter
 from typing import Any
 
 from .. import reference
 from ..derivation import reverse
 from ..derivation.evidence import momentum_answers, momentum_assumption, momentum_inputs
-from ..derivation.explain import impact_answers, impact_inputs
+from ..derivation.explain import impact_answers, impact_inputs, key_of
+from ..derivation.reverse import evidence_of, found_inputs, number_of_text
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note
@@ -20,11 +20,9 @@ from ..impact.impact import Impact
 from ..impact.instant import neglected
 from ..impact.left_out import LeftOutSide, left_out
 from ..impact.models import BY_NAME
-from ..impact.provenance import KNOWN
 from ..kernels.contact_laws import FRICTION, LAWS
 from ..messages.errors import Status
 from ..plot.canvas import who
-from ..quantities.directions import course
 from ..quantities.formatting import (
     KIND_OF,
     SI_UNITS,
@@ -42,12 +40,15 @@ from ..vehicle.drag import read_drag, read_duration
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle
 from .render import Sheet, given_as, plain
+from .uncertainty import Spread
 from .words import Names
 
 # A reverse solver's result agrees with its inputs within this, relative to the speeds or energies
 # of the impact; end states that still approach by up to a hundredth of the closing speed are taken
 # to stay together.
 _COMES_OUT, _TOGETHER = 1e-6, 0.02
+# A text reads as its number again within this.
+_READ_AGAIN = 2e-9
 # Components of delta-V are measured: if more are given than are needed, they are met only as well
 # as they agree.
 _RECORDED = 0.3
@@ -120,7 +121,11 @@ def gain(sheet: Sheet, impact: Impact | MomentumSolution, loss: float) -> None:
 
 
 def inputs(
-    sheet: Sheet, impact: Impact, options: Mapping[str, Any], notes: Mapping[str, str]
+    sheet: Sheet,
+    impact: Impact,
+    options: Mapping[str, Any],
+    notes: Mapping[str, str],
+    spread: Spread | None = None,
 ) -> None:
     """Write the inputs with the texts they were given as, and the choice of the model or how the
     state was found.
@@ -131,7 +136,7 @@ def inputs(
     rows: list[tuple[str, str, str]] = []
     for of, quantity, names, numbers, kind in impact_inputs(impact):
         vehicle = vehicles.get(of)
-        if key_of(of, names) in found_names:
+        if key_of(of, names) in found_names and names[0] != FRICTION:
             continue
         texts = (impact.inputs.given if vehicle is None else vehicle.given) or {}
         if names[0].startswith("tyres_"):
@@ -148,6 +153,8 @@ def inputs(
         )
         note = notes.get(key_of(of, names))
         value = _input(sheet, impact, vehicle, dict(zip(names, numbers, strict=True)), kind, texts)
+        # Found of a contact that slid: the impulse ratio, which the results have too.
+        value += ", found" if key_of(of, names) in found_names else ""
         rows.append((name, quantity, _with(value, note)))
         rows += [(name, what, text) for what, text in _published(impact, names[0])]
         if vehicle is not None and quantity == "mass":
@@ -167,7 +174,7 @@ def inputs(
                 rows.append((name, what, _with(text, notes.get(f"{of.lower()}.{what}"))))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution", _with(impact.law.title(), notes.get("law"))))
-    rows += _known(sheet, impact, notes)
+    rows += _known(sheet, impact, notes, spread)
     rows += _damage(sheet, options)
     sheet.table(rows)
     if any("given as" in text for *_, text in rows):
@@ -178,32 +185,6 @@ def inputs(
     if found_names:
         sheet.say("The rest was found, and stands under Results.")
     sheet.say("The record at the end has every digit.")
-
-
-def found_inputs(impact: Impact) -> set[str]:
-    """The inputs of the model that a reverse solver found, by their names in ``notes``."""
-    origin = impact.reconstruction
-    if origin is None:
-        return set()
-    known = set(origin.known)
-    found = {
-        f"{label}.{name}"
-        for label in "ab"
-        for name in ("vx", "vy", "speed")
-        if not known & {f"v{label}", f"speed_{label}"}
-        and math.isfinite(getattr(impact, label).before.mass)
-    }
-    if origin.method == "planar":
-        found |= {"a.yaw_rate", "b.yaw_rate", "a.course", "b.course"}
-    return found if "restitution" in known or origin.method == "speeds" else found | {"restitution"}
-
-
-def key_of(of: str, names: Sequence[str]) -> str:
-    """The name of an input in ``notes``, such as "a.mass" or "restitution"; one name for both parts
-    of a place.
-    """
-    name = names[0].partition("[")[0]
-    return name if of == "contact" else f"{of.lower()}.{name}"
 
 
 def _with(value: str, note: str | None) -> str:
@@ -295,66 +276,38 @@ def speed_rows(vehicle: Vehicle) -> Iterator[tuple[str, float | None]]:
 
 
 def _known(
-    sheet: Sheet, impact: Impact, notes: Mapping[str, str]
+    sheet: Sheet, impact: Impact, notes: Mapping[str, str], spread: Spread | None
 ) -> Iterator[tuple[str, str, str]]:
-    """Table rows with what a reverse solver was given, as texts or as numbers."""
-    names, texts = Names(impact), impact.inputs.given or {}
-    for name in evidence_names(impact):
-        known = KNOWN[name]
-        if name in texts:
-            value = sheet.as_given(_read(texts[name], name), known.kind, texts[name])
-        elif known.path:
-            number = float(attrgetter(known.path)(impact))
-            value = sheet.number(number, known.kind)
-            # Components are met as well as they agree; a speed below 0 turns its course round.
-            if name.startswith(("delta_v_forward", "delta_v_left", "course_")):
-                value += ", as the answer has it; given without a unit"
+    """Table rows with what a reverse solver was given, as texts or as numbers, and what was stated
+    of it.
+    """
+    names = Names(impact)
+    for one in evidence_of(impact):
+        if one.number is None and one.text is None:
+            # Which axes a recorder's are is stated in words.
+            value = "stated" if "_axes_" in one.name else "kept only in what was found from it"
         else:
-            value = "given without a unit, and kept only in what was found from it"
-        yield "evidence", names(known.what), _with(value, notes.get(name))
+            value = sheet.as_given(one.number, one.kind, one.text)
+        if one.number is not None and one.answer is not None:
+            # Components are met as well as they agree; a speed below 0 turns its course round.
+            apart, answer = one.number - one.answer, sheet.number(one.answer, one.kind)
+            apart = math.remainder(apart, math.tau) if one.kind == "angle" else apart
+            if abs(apart) > _COMES_OUT and answer != sheet.number(one.number, one.kind):
+                value += f"; {answer} in this answer"
+        if one.number is not None and spread is not None:
+            stated = spread.stated(sheet, one.name, one.kind, one.number)
+            if stated and stated not in notes.get(one.name, ""):
+                value += f"; stated as {stated}"
+        yield "evidence", names(one.what), _with(value, notes.get(one.name))
 
 
 def evidence_names(impact: Impact) -> list[str]:
     """What a reverse solver was given besides the contact and the vehicles, by name."""
-    origin, texts = impact.reconstruction, impact.inputs.given or {}
-    if origin is None:
-        return []
-    found = dict.fromkeys([*texts, *origin.known])
-    if origin.method == "planar":
-        found |= dict.fromkeys(_motions_after(impact, texts))
-    elif origin.method == "speeds":
-        # Along which the speeds are sought; a vehicle at rest has none.
-        sides = (("a", impact.a), ("b", impact.b))
-        found |= dict.fromkeys(
-            f"course_{label}" for label, side in sides if math.isfinite(side.before.course)
-        )
-    # Restitution and friction stand with the contact; va and vb with their vehicle.
-    return [name for name in found if name in KNOWN and (name not in ("va", "vb") or name in texts)]
-
-
-def _motions_after(impact: Impact, texts: Mapping[str, Any]) -> Iterator[str]:
-    """The motions after, from which ``planar`` works back, by their names in ``KNOWN``."""
-    for label, side in (("a", impact.a), ("b", impact.b)):
-        if math.isfinite(side.before.mass):
-            by_speed = {f"{label}_after.speed", f"{label}_after.course"} <= texts.keys()
-            names = ("speed", "course") if by_speed else ("vx", "vy")
-            yield from (f"{label}_after.{name}" for name in (*names, "yaw_rate"))
-
-
-def _read(text: str, name: str) -> float | None:
-    """The number of a text; None if its unit belongs to another registry."""
-    reader = ArgumentReader()
-    kind = KNOWN[name].kind
-    read = (
-        course(reader, text, name).radians
-        if kind == "angle"
-        else reader.number(text, SI_UNITS[kind], name)
-    )
-    return None if reader.problems else float(read)
+    return [one.name for one in evidence_of(impact)]
 
 
 def contradicted(impact: Impact) -> Iterator[str]:
-    """The known inputs of a reverse solver, by their texts, that the impact contradicts."""
+    """The known inputs of a reverse solver, texts and numbers, that the impact contradicts."""
     sides = (impact.a, impact.b)
     speeds = impact.closing_speed + sum(
         state.speed for side in sides for state in (side.before, side.after)
@@ -366,22 +319,33 @@ def contradicted(impact: Impact) -> Iterator[str]:
         "energy": _COMES_OUT * (abs(impact.energy_absorbed) + abs(impact.energy_loss)),
         "yaw rate": _COMES_OUT * turning + _TOGETHER,
         "angle": _COMES_OUT + together,
+        **dict.fromkeys(("time", "number"), _COMES_OUT),
     }
-    for name, text in (impact.inputs.given or {}).items():
-        known = KNOWN.get(name)
-        read = _read(text, name) if known is not None and known.path else None
-        if known is None or read is None:
-            continue
-        number, kind = attrgetter(known.path)(impact), known.kind
-        # A speed may come out negative, with the opposite course; a vehicle at rest has no course.
-        apart = math.remainder(read - number, math.pi) if kind == "angle" else read - number
-        measured = name.startswith(("delta_v_forward", "delta_v_left"))
-        if abs(apart) > (
-            _RECORDED * max(side.delta_v for side in sides) if measured else allowed[kind]
-        ):
-            yield (
-                f"{name} was given as {text!r}, but the {known.what} is {number!r} {SI_UNITS[kind]}"
-            )
+    for one in evidence_of(impact):
+        unit = SI_UNITS[one.kind]
+        by_text = None if one.text is None else number_of_text(one.text, one.name)
+        for given, as_given in ((by_text, repr(one.text)), (one.number, f"{one.number!r} {unit}")):
+            if given is None or one.answer is None:
+                continue
+            # A speed may come out negative, with the opposite course; at rest there is no course.
+            apart = given - one.answer
+            apart = math.remainder(apart, math.pi) if one.kind == "angle" else apart
+            measured = one.name.startswith(("delta_v_forward", "delta_v_left"))
+            if abs(apart) > (
+                _RECORDED * max(side.delta_v for side in sides) if measured else allowed[one.kind]
+            ):
+                yield (
+                    f"{one.name} was given as {as_given}, but the {one.what} is {one.answer!r} "
+                    f"{unit}"
+                )
+        if by_text is not None and one.number is not None:
+            apart = by_text - one.number
+            apart = math.remainder(apart, math.tau) if one.kind == "angle" else apart
+            if abs(apart) > _READ_AGAIN * max(1.0, abs(one.number)):
+                yield (
+                    f"{one.name} was given as {one.text!r}, which is not its number, "
+                    f"{one.number!r} {unit}"
+                )
 
 
 def momentum_assumptions(

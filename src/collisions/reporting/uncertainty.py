@@ -16,6 +16,7 @@ from ..messages.errors import InputError
 from ..quantities.formatting import SI_UNITS, typeset, with_decimals
 from ..quantities.tables import as_sentence
 from ..reconstruct import Fit, MomentumSolution, Posterior
+from ..scene.run import Run
 from ..uncertainty import Interval, Output, Propagation
 from ..uncertainty.distribution import GivenUnit, from_numbers
 from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies
@@ -34,17 +35,21 @@ class Spread:
     """The outputs of a propagation that are results of the report, by the name of the result."""
 
     def __init__(
-        self, impact: Impact | MomentumSolution | Fit | Posterior, uncertainty: Propagation | None
+        self,
+        impact: Impact | MomentumSolution | Fit | Posterior | Run,
+        uncertainty: Propagation | None,
     ) -> None:
-        self.impact, self.names = impact, Names(impact)
-        self.kinds = kinds_of_answers(impact)
+        self.impact, self.names, self.propagation = impact, Names(impact), uncertainty
+        self.kinds = {} if isinstance(impact, Run) else kinds_of_answers(impact)
         self.outputs, self.deviations, self.ranges = (
-            ({}, {}, {}) if uncertainty is None else spread_of(impact, uncertainty)
+            ({}, {}, {})
+            if uncertainty is None or isinstance(impact, Run)
+            else spread_of(impact, uncertainty)
         )
 
     def heading(self, output: Output) -> str:
         """The result in words, such as "Golf: delta-V"; of any other output its name."""
-        words = words_of_answers(self.impact)
+        words = {} if isinstance(self.impact, Run) else words_of_answers(self.impact)
         return next(
             (self.names(words[name]) for name, answer in self.outputs.items() if answer is output),
             plain(output.name),
@@ -126,6 +131,16 @@ class Spread:
             return found
         return [*found, *_shares(output, self.words_of(uncertainty))]
 
+    def stated(self, sheet: Sheet, name: str, kind: str, number: float) -> str:
+        """What the propagation states of an input of the result, if it has one of that name whose
+        values hold this number; otherwise "".
+        """
+        value = None if self.propagation is None else self.propagation.inputs.get(name)
+        if value is None:
+            return ""
+        low, high = _ends(value)
+        return _in_words(sheet, value, kind) if low <= number <= high else ""
+
     def _stated(self, sheet: Sheet, name: str, value: Any) -> tuple[str, str]:
         """An input and what was stated of it; bare numbers in the unit of the page if they are
         about the result's own input of that name.
@@ -139,10 +154,17 @@ class Spread:
             return words, typeset(str(value))
         if not low <= number <= high:
             return words, f"{value}, given without a unit"
-        unit = GivenUnit(SI_UNITS[kind])
-        unit.written = sheet.system.label(kind)
-        unit.factor = 1.0 / sheet.system.scale(kind)
-        return words, typeset(str(from_numbers(type(value), unit, value._parts, value._range)))
+        return words, _in_words(sheet, value, kind)
+
+
+def _in_words(sheet: Sheet, value: Any, kind: str) -> str:
+    """What was stated of an input of some kind; bare numbers in the unit of the page."""
+    if value.unit != "":
+        return plain(str(value))
+    unit = GivenUnit(SI_UNITS[kind])
+    unit.written = sheet.system.label(kind)
+    unit.factor = 1.0 / sheet.system.scale(kind)
+    return typeset(str(from_numbers(type(value), unit, value._parts, value._range)))
 
 
 def _ends(value: Any) -> tuple[float, float]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from html import escape
 from operator import attrgetter
@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 from ..engine.javascript import javascript
 from ..impact.impact import Impact, build
 from ..impact.models import BY_NAME, CANDIDATES, MODELS
+from ..impact.provenance import KNOWN
 from ..kernels.contact_laws import RULES
 from ..kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, restitution_domain
 from ..messages.errors import InputError, Status
@@ -24,8 +25,8 @@ from ..messages.hints import hinted, parted
 from ..plot.canvas import who
 from ..quantities.directions import angle_of, direction, from_degrees
 from ..quantities.document import Document
-from ..quantities.formatting import SI_UNITS, UnitSystem, decimals_of, typeset
-from ..quantities.reading import ArgumentReader, need_one_case
+from ..quantities.formatting import SI_UNITS, UnitSystem, decimals_of, in_words, typeset
+from ..quantities.reading import OUTSIDE_UNITS, ArgumentReader, need_one_case
 from ..quantities.tables import Cells, cells, said
 from ..quantities.units import Input, Texts, has_unit, shown
 from ..vehicle.outlines import read_outline
@@ -64,6 +65,35 @@ _PATHS = (
     *(f"{label}.{name}" for label in "ab" for name in _OF_EACH),
 )
 _TO_DEGREES = 180.0 / math.pi
+# The class of a table with a column for each vehicle, in its colour.
+_SIDES = ' class="sides"'
+
+
+# The results that evidence may be given of, with their kinds.
+_SHOWN = {
+    **{
+        f"{label}.{name}": kind
+        for label in "ab"
+        for name, kind in (
+            ("before.speed", "speed"),
+            ("after.speed", "speed"),
+            ("delta_v", "speed"),
+            ("pdof", "angle"),
+            ("delta_yaw_rate", "yaw rate"),
+        )
+    },
+    "closing_speed": "speed",
+    "energy_loss": "energy",
+}
+_RESULTS = {
+    "before.speed": "speed before",
+    "after.speed": "speed after",
+    "delta_v": "delta-V",
+    "pdof": "PDOF",
+    "delta_yaw_rate": "change of yaw rate",
+    "closing_speed": "closing speed",
+    "energy_loss": "energy lost",
+}
 
 
 class Slider(NamedTuple):
@@ -76,6 +106,16 @@ class Slider(NamedTuple):
     start: float
 
 
+class Evidence(NamedTuple):
+    """What was observed of one result, in SI; both ends are the same where no range was given."""
+
+    words: str
+    kind: str
+    path: str
+    low: float
+    high: float
+
+
 @hinted
 def what_if(
     impact: Impact,
@@ -83,6 +123,7 @@ def what_if(
     *,
     outline_a: Any = None,
     outline_b: Any = None,
+    observed: Mapping[str, Input | tuple[Input, Input]] | None = None,
     units: UnitSystem | None = None,
 ) -> Document:
     """One offline HTML page with a slider for each of these inputs, which redraws the scene,
@@ -91,7 +132,9 @@ def what_if(
     At every move the page solves the impact again by the same model: the kernel itself, recorded
     and printed as JavaScript, so that both give the same numbers (sine, cosine and arctangent are
     the browser's). It loads nothing from outside, and works by keyboard and with screen readers.
-    For an impact that a reverse solver found, it computes forward from the motions found.
+    Inputs without a slider stand on it as given. For an impact that a reverse solver found, it
+    computes forward from the motions found, and what it was found from stands beside what follows
+    from the sliders.
 
     Parameters
     ----------
@@ -107,6 +150,11 @@ def what_if(
     outline_a, outline_b
         As for ``diagnose``, for the drawing; without it a vehicle with a heading is drawn 4.5 m by
         1.8 m, and the page says so.
+    observed : dict, optional
+        Evidence to be compared with the result of the same name: a number, or the ends (low, high)
+        of its range, outside which the page marks the result. Names are ``a.delta_v``, ``a.pdof``,
+        ``a.delta_yaw_rate``, ``a.before.speed``, ``a.after.speed``, the same of ``b``,
+        ``closing_speed`` and ``energy_loss``.
     units : {"si", "metric", "us"}, optional
         Units of the page; by default those that the inputs were given in, where they agree, else
         SI.
@@ -119,8 +167,8 @@ def what_if(
     Raises
     ------
     InputError
-        A name that the model of this impact does not use, ends in the wrong order, or a value of
-        the impact outside them.
+        A name that the model of this impact does not use, ends in the wrong order, a value of the
+        impact outside them, or evidence of something that the page does not show.
     ShapeError
         A batch: take one case of it.
 
@@ -152,6 +200,7 @@ def what_if(
             argument="impact",
         )
     sliders = _sliders(impact, ranges)
+    evidence = _evidence(impact, observed)
     reader, given = ArgumentReader(), {"a": outline_a, "b": outline_b}
     read = {
         label: None if one is None else read_outline(reader, one, f"outline_{label}")
@@ -163,16 +212,16 @@ def what_if(
     }
 
     def page(*values: Any) -> dict[str, Any]:
-        return results(impact, dict(zip((slider.name for slider in sliders), values, strict=True)))
+        given = dict(zip((slider.name for slider in sliders), values, strict=True))
+        return results(impact, given, [one.path for one in evidence])
 
-    return Document(
-        _written(impact, sliders, outlines, javascript(page, len(sliders)), system), "html"
-    )
+    printed = javascript(page, len(sliders))
+    return Document(_written(impact, sliders, evidence, outlines, printed, system), "html")
 
 
-def results(impact: Impact, given: Mapping[str, Any]) -> dict[str, Any]:
-    """The numbers of the page for these values of its sliders: floats, arrays, or operands of a
-    recording.
+def results(impact: Impact, given: Mapping[str, Any], more: Iterable[str] = ()) -> dict[str, Any]:
+    """The numbers of the page for these values of its sliders, and ``more`` of these paths: floats,
+    arrays, or operands of a recording.
     """
     was = impact.inputs
     a, b = (_body(getattr(was, label), label, given) for label in "ab")
@@ -190,7 +239,7 @@ def results(impact: Impact, given: Mapping[str, Any]) -> dict[str, Any]:
     raw = model.answer(inputs)
     answer = build(inputs, raw)
     found = {"status": raw.status, "nx": normal[0], "ny": normal[1]} | {
-        path: attrgetter(path)(answer) for path in _PATHS
+        path: attrgetter(path)(answer) for path in dict.fromkeys((*_PATHS, *more))
     }
     found |= {} if point is None else {"px": point[0], "py": point[1]}
     return {name: value for name, value in found.items() if value is not None}
@@ -258,9 +307,10 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
         reader.refuse(InputError(text, code=code, argument=argument))
 
     if not isinstance(ranges, Mapping) or not ranges:
-        example = "{'speed_a': ('40 km/h', '70 km/h')}"
+        example = "`{'speed_a': ('40 km/h', '70 km/h')}`"
         refuse(
-            f"ranges must be a dict of (low, high) by input, such as {example}, got {shown(ranges)}"
+            f"ranges must be `|a dict|a table` of `(low, high)` by input, such as {example}, got "
+            f"{shown(ranges)}"
         )
         ranges = {}
     for name, ends in ranges.items():
@@ -282,7 +332,7 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
             isinstance(end, float) and math.isfinite(end) for end in numbers
         ):
             refuse(
-                f"{name} must be a pair of finite numbers (low, high), got {shown(ends)}",
+                f"{name} must be a pair of finite numbers `(low, high)`, got {shown(ends)}",
                 name,
                 "bad_range",
             )
@@ -300,7 +350,7 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
                 else f", in {'rad' if kind == 'angle' else SI_UNITS[kind]}"
             )
             text = (
-                f"{name} must be a pair (low, high) in rising order around {now}, got "
+                f"{name} must be a pair `(low, high)` in rising order around {now}, got "
                 f"{shown(ends)}{bare}"
             )
             refuse(text, name, "bad_range")
@@ -322,6 +372,115 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
     return found
 
 
+def _evidence(impact: Impact, observed: Any) -> list[Evidence]:
+    """What was observed, and of an impact that a reverse solver found, what it was found from; one
+    error names all that cannot be compared.
+    """
+    reader, found = ArgumentReader(), []
+    if observed is not None and not isinstance(observed, Mapping):
+        example = "`{'a.delta_v': ('20 km/h', '24 km/h')}`"
+        text = f"observed must be a dict by result, such as {example}, got {shown(observed)}"
+        reader.refuse(InputError(text, code="bad_inputs", argument="observed"))
+        observed = None
+    for path, given in (observed or {}).items():
+        kind = _SHOWN.get(path) if isinstance(path, str) else None
+        if kind is None:
+            text = f"observed: the page has no {shown(path)}; take some of {', '.join(_SHOWN)}"
+            reader.refuse(InputError(text, code="unknown_name", argument="observed"))
+            continue
+        ends = given if isinstance(given, (tuple, list)) else (given, given)
+        name = f"observed[{path!r}]"
+        count = len(reader.problems)
+        numbers = [_observed(reader, kind, end, name) for end in ends]
+        if len(reader.problems) > count:
+            continue
+        if len(numbers) != 2 or not all(isinstance(number, float) for number in numbers):
+            text = f"{name} must be a number or a pair of numbers `(low, high)`, got {shown(given)}"
+            reader.refuse(InputError(text, code="bad_range", argument=name))
+            continue
+        if not numbers[0] <= numbers[1]:
+            text = f"{name} must be a pair `(low, high)` in rising order, got {shown(given)}"
+            reader.refuse(InputError(text, code="bad_range", argument=name))
+            continue
+        side, _, result = path.partition(".")
+        words = f"{_RESULTS[result]} of {side.upper()}" if result else _RESULTS[path]
+        found.append(Evidence(words, kind, path, *numbers))
+    reader.close()
+    origin = impact.reconstruction
+    known = () if origin is None else (KNOWN[name] for name in origin.known if name in KNOWN)
+    for what, kind, path, _ in known:
+        value = attrgetter(path)(impact) if path else None
+        if isinstance(value, float) and math.isfinite(value) and path not in (observed or {}):
+            found.append(Evidence(what, kind, path, value, value))
+    return found
+
+
+def _observed(reader: ArgumentReader, kind: str, given: Any, name: str) -> Any:
+    """One end of what was observed, in SI; angles in radians."""
+    if kind != "angle":
+        return reader.number(given, SI_UNITS[kind], name)
+    value, degrees = reader.angle(given, name)
+    return value / _TO_DEGREES if degrees and isinstance(value, float) else value
+
+
+def _fixed(impact: Impact, sliders: Sequence[Slider], system: Cells) -> list[tuple[str, list[str]]]:
+    """The inputs without a slider as rows of texts: of both vehicles, or of the contact."""
+    moved_here = {slider.name for slider in sliders}
+    values = starts(impact)
+    for label in "ab":
+        # A velocity stands as it is moved, or by speed and course.
+        by_parts = {f"vx_{label}", f"vy_{label}"} & moved_here
+        for name in ("speed", "course") if by_parts else ("vx", "vy"):
+            values.pop(f"{name}_{label}", None)
+
+    def text(name: str) -> str:
+        value, kind = values.get(name, math.nan), _kind(name)
+        if name in moved_here:
+            return "moved"
+        own, label = parted(name)
+        texts = (getattr(impact.inputs, label) if label else impact.inputs).given or {}
+        if isinstance(texts.get(own), str):
+            return typeset(texts[own])
+        if math.isnan(value):
+            return "–"
+        if math.isinf(value):
+            return in_words(value)
+        # An input has six figures, more than a result.
+        number = value if kind == "angle" else system.converted(value, kind)
+        return f"{number:.6g}" + ("°" if kind == "angle" else system.unit(kind))
+
+    rows = [
+        (_WORDS.get(name, name.replace("_", " ")), [text(name)])
+        for name in _CONTACT
+        if name in values and name not in moved_here
+    ]
+    for name in _BODY:
+        both = [f"{name}_{label}" for label in "ab"]
+        if any(one in values and one not in moved_here for one in both):
+            rows.append((_WORDS.get(name, name.replace("_", " ")), [text(one) for one in both]))
+    inputs = impact.inputs
+    if inputs.law is not None:
+        rows.append(("law", [inputs.law]))
+    for label in "ab":
+        outside = getattr(inputs, f"outside_{label}")
+        if outside is not None and any(outside):
+            parts = ", ".join(
+                system.text(part, unit) for part, unit in zip(outside, OUTSIDE_UNITS, strict=True)
+            )
+            rows.append((f"impulse from outside on {label.upper()}", [parts]))
+    return rows
+
+
+def _table(caption: str, heads: Sequence[str], rows: Iterable[str], kind: str = "") -> str:
+    """An HTML table, or nothing where it has no rows."""
+    body = "\n".join(rows)
+    cells_of_head = "".join(f'<th scope="col">{escape(head)}</th>' for head in heads)
+    return body and (
+        f"<table{kind}>\n<caption>{caption}</caption>\n<thead><tr>{cells_of_head}</tr></thead>\n"
+        f"<tbody>\n{body}\n</tbody>\n</table>"
+    )
+
+
 def _end(reader: ArgumentReader, name: str, given: Any, impact: Impact) -> Any:
     """One end of a range, in degrees or SI."""
     kind = _kind(name)
@@ -333,7 +492,12 @@ def _end(reader: ArgumentReader, name: str, given: Any, impact: Impact) -> Any:
 
 
 def _written(
-    impact: Impact, sliders: list[Slider], outlines: Mapping[str, Any], printed: str, system: Cells
+    impact: Impact,
+    sliders: list[Slider],
+    evidence: list[Evidence],
+    outlines: Mapping[str, Any],
+    printed: str,
+    system: Cells,
 ) -> str:
     """The page: its sliders as HTML, what else the script needs as JSON, and the printed kernel."""
     from .. import __version__
@@ -371,8 +535,29 @@ def _written(
         "outlines": outlines,
         "fixed": {label: math.isinf(body.mass) for label, body in bodies.items()},
     }
+    seen = []
+    for one in evidence:
+        bounds = f' data-low="{one.low!r}" data-high="{one.high!r}"' if one.low < one.high else ""
+        seen.append(
+            f'<tr><th scope="row">{escape(one.words)}</th>'
+            f"<td>{escape(system.span(one.low, one.high, one.kind))}</td>"
+            f'<td id="seen.{one.path}" data-path="{one.path}" data-kind="{one.kind}"{bounds}></td>'
+            "</tr>"
+        )
+    not_moved = [
+        f'<tr><th scope="row">{escape(what)}</th>'
+        + "".join(
+            f"<td{' colspan=2' if len(texts) == 1 else ''}>{escape(text)}</td>" for text in texts
+        )
+        + "</tr>"
+        for what, texts in _fixed(impact, sliders, system)
+    ]
     text = _PAGE.read_text(encoding="utf-8")
     for name, part in {
+        "evidence": _table("Evidence", ("observed", "as given", "now"), seen),
+        "fixed": _table(
+            "As given, not moved", ("input", names["a"], names["b"]), not_moved, _SIDES
+        ),
         "title": escape(f"What if: {names['a']} and {names['b']}"),
         "model": escape(BY_NAME[impact.model].assumptions),
         "inputs": "\n".join(inputs),

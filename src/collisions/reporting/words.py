@@ -13,7 +13,9 @@ from ..derivation.evidence import momentum_inputs
 from ..derivation.explain import impact_inputs
 from ..impact.impact import Impact
 from ..impact.provenance import KNOWN
+from ..quantities.formatting import KIND_OF
 from ..reconstruct import MomentumSolution
+from ..scene.run import Run
 from .render import plain
 
 # Longer names would break tables and figures; the letter stands for them there.
@@ -42,6 +44,12 @@ class Names:
             for of, what, name, number, kind in momentum_inputs(result):
                 words = what if of not in "AB" else _about(what, of)
                 self._inputs[name] = words, kind, number
+        elif isinstance(result, Run):
+            numbers = dict(result.scene._numbers())
+            for path, unit in result.scene.inputs().items():
+                first = result.scene.shared.get(path, (path,))[0]
+                number = float(numbers.get(first, math.nan))
+                self._inputs[path] = plain(path), KIND_OF.get(unit, "number"), number
 
     def of(self, letter: str) -> str:
         """The name of a vehicle, or its letter."""

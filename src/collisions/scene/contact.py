@@ -7,13 +7,14 @@ from dataclasses import dataclass, field, fields
 from typing import Any, Literal, TypeAlias
 
 from ..impact.inputs import Law
-from ..kernels.contact_laws import FRICTION, LAWS, RULES
+from ..kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from ..kernels.elementwise import FINITE, Domain, restitution_domain
 from ..messages.errors import InputError, MissingInputError
 from ..messages.hints import hinted
 from ..quantities.attributes import Shown, lock, texts_given
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader, at_least_zero
+from ..quantities.refusals import must_be, yes_or_no
 from ..quantities.settings import Default
 from ..quantities.units import Input, Pair, Texts, Value, shown, texts_of
 from ..vehicle.drag import one_value, read_duration
@@ -30,6 +31,7 @@ PLANES, MODELS = (
     ("face", "crossings"),
     ("linear_central", "oblique_central", "eccentric", "time_resolved", "solve"),
 )
+IN_TIME = "time_resolved"
 _NO_POINT = ("linear_central", "oblique_central")
 
 
@@ -67,18 +69,22 @@ class Contact(Shown):
         Time from first touch to the impulse, 0.03 s if no depth is given.
     plane : {"face", "crossings"}, optional
         How normal and point come from the outlines.
-    model : {"linear_central", "oblique_central", "eccentric", "solve"}, optional
-        The solver; ``eccentric`` if not given. ("time_resolved" is not offered in a scene yet.)
+    model : {"linear_central", "oblique_central", "eccentric", "time_resolved", "solve"}, optional
+        The solver. If not given it is ``time_resolved`` with a ``duration``, else ``eccentric``.
     duration : float, str, Quantity or array [s], optional
-        How long the contact lasts, for the impulse of the tyres, as for ``eccentric``, with
-        ``model`` "eccentric" or "solve", which then has to be stated. The vehicles
-        then move on by the velocities after it until it has passed, and from there on their tyres.
+        How long the contact lasts. ``time_resolved`` follows it from first touch, or, at time 0,
+        about the maximum engagement at which the states are; the vehicles go on from where it
+        leaves them, and one that touches another meanwhile strikes it when the contact has ended.
+        With the model "eccentric" it is for the impulse of the tyres; the vehicles then move on by
+        the velocities after it until it has passed, and from there on their tyres. For "solve",
+        both.
     tolerance : float, str, Quantity or array [m/s], optional
         With the model "solve", the largest error that is accepted.
     friction, impulse_ratio, critical_fraction : float, str, Quantity or array [-], optional
-        Exactly one of these, as for ``eccentric``; none with "linear_central".
+        Exactly one of these, as for ``eccentric``; none with "linear_central", and ``friction``
+        with "time_resolved".
     law : {"brach", "kudlich-slibar", "stronge"}, optional
-        As for ``eccentric``.
+        As for ``eccentric``; "time_resolved" has a law of its own.
     incomplete : bool, optional
         As for ``eccentric``.
     tyres_after : dict of travel.Tyres, optional
@@ -155,18 +161,12 @@ class Contact(Shown):
             if not (option is None and name == "model") and not (
                 isinstance(option, str) and option in choices
             ):
-                text = f"{name} must be one of {', '.join(choices)}, got {shown(option)}"
-                reader.refuse(InputError(text, code="bad_option", argument=name))
+                listed = f"one of {', '.join(choices)}"
+                reader.refuse(must_be(name, listed, option, code="bad_option"))
         if not isinstance(incomplete, bool):
-            text = f"incomplete must be True or False, got {shown(incomplete)}"
-            reader.refuse(InputError(text, code="bad_option", argument="incomplete"))
-        found["model"] = "eccentric" if model is None else model
-        if isinstance(model, str) and model == "time_resolved":
-            text = (
-                "model 'time_resolved' is not offered in a scene yet; write model='eccentric' and "
-                "duration=, which has the impulse of the tyres during the contact"
-            )
-            reader.refuse(InputError(text, code="not_offered", argument="model"))
+            reader.refuse(yes_or_no("incomplete", incomplete, code="bad_option"))
+        instant = "eccentric" if duration is None else IN_TIME
+        found["model"] = instant if model is None else model
         found["restitution"] = one_value(
             reader, restitution, "", "restitution", restitution_domain(incomplete is True)
         )
@@ -187,7 +187,7 @@ class Contact(Shown):
             domain: Domain = RULES[name].domain
             found[name] = None if value is None else one_value(reader, value, "", name, domain)
         found["tyres_after"] = _tyres_after(reader, tyres_after, (a, b))
-        _check(reader, found, rules, stated=model is not None)
+        _check(reader, found, rules)
         reader.close()
         texts = Texts(
             {key: text for key, text in reader.texts.items() if not key.startswith("normal[")}
@@ -239,6 +239,11 @@ class Contact(Shown):
     def touches(self) -> bool:
         """Whether the contact is a rule for every touch."""
         return isinstance(self.at, str)
+
+    @property
+    def in_time(self) -> bool:
+        """Whether the contact is followed in time from first touch."""
+        return self.model == IN_TIME
 
     @property
     def rule(self) -> str | None:
@@ -332,9 +337,7 @@ def _tyres_after(reader: ArgumentReader, given: Any, pair: tuple[Any, Any]) -> M
     return dict(given)
 
 
-def _check(
-    reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str, Any], *, stated: bool
-) -> None:
+def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str, Any]) -> None:
     """Refuse arguments that do not go together."""
 
     def refuse(text: str, argument: str, kind: type[InputError] = InputError) -> None:
@@ -349,8 +352,9 @@ def _check(
         listed = ", ".join(f"{name}=" for name in rules)
         got = " and ".join(f"{name}=" for name in given) or "none"
         text = (
-            f"give exactly one of {listed}; got {got}. There is no default, because it decides "
-            "cases: friction=0 is a frictionless contact, friction=inf one that never slips"
+            f"give exactly one of {listed}; got {got}. There is no default, because it "
+            "decides cases: `friction=0` is a frictionless contact, `friction=inf` one "
+            "that never slips"
         )
         reader.refuse(InputError(text, code="one_tangential", argument=FRICTION))
     if found["point"] is not None and found["normal"] is None:
@@ -359,13 +363,13 @@ def _check(
         )
         reader.refuse(MissingInputError(text, code="missing_normal", argument="normal"))
     if found["depth"] is not None and found["delay"] is not None:
-        refuse("give depth= or delay=, not both: each says when the impulse acts", "depth")
+        refuse("give `depth=` or `delay=`, not both: each says when the impulse acts", "depth")
     whole = found["normal"] is not None and (found["point"] is not None or model in _NO_POINT)
     for name in ("depth", "delay"):
         if found[name] is None:
             continue
         if not isinstance(found["at"], str):
-            refuse(f"{name} is counted from first touch; write at='touch' with it", name)
+            refuse(f"{name} is counted from first touch; write `at='touch'` with it", name)
         elif whole:
             refuse(
                 f"normal and point are given, so the impulse acts at first touch; leave {name} out",
@@ -378,14 +382,26 @@ def _check(
     ):
         refuse("plane says how the normal comes from the outlines; leave it or normal out", "plane")
     if found["tolerance"] is not None and model != "solve":
-        refuse("tolerance is for model='solve', which takes the least model within it", "tolerance")
-    if found["duration"] is not None and not stated:
         refuse(
-            "duration is given without a model; write model='eccentric', which has the impulse of "
-            "the tyres during the contact (a contact followed in time is not offered in a scene "
-            "yet)",
-            "duration",
+            "tolerance is for `model='solve'`, which takes the least model within it", "tolerance"
         )
+    if model == IN_TIME:
+        if found["duration"] is None:
+            text = (
+                "model 'time_resolved' needs duration=, such as '100 ms'; for a contact of an "
+                "instant write `model='eccentric'`"
+            )
+            reader.refuse(MissingInputError(text, code="one_stiffness", argument="duration"))
+        for name in given:
+            if name != FRICTION:
+                refuse(f"model 'time_resolved' works with friction= alone, got {name}=", name)
+        if found["law"] != BRACH:
+            refuse("model 'time_resolved' has a law of its own; leave law out", "law")
+        if found["incomplete"] is True:
+            refuse(
+                "model 'time_resolved' follows a contact to its end; leave incomplete out",
+                "incomplete",
+            )
     if found["duration"] is not None and model in _NO_POINT:
         refuse(f"model {model!r} takes no time; leave duration out, or use eccentric", "duration")
     law = found["law"]
@@ -396,4 +412,4 @@ def _check(
         and given not in ([], [FRICTION])
     ):
         other = next(name for name in given if name != FRICTION)
-        refuse(f"law {law!r} works with friction= alone, got {other}=", other)
+        refuse(f"law {law!r} works with `friction=` alone, got `{other}=`", other)

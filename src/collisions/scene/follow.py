@@ -9,20 +9,21 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..impact.impact import Impact
+from ..impact.impact import Impact, way_to_separation
 from ..impact.inputs import part_of
-from ..impact.solvers import eccentric, linear_central, oblique_central, solve
-from ..kernels.contact_laws import RULES
+from ..impact.solvers import eccentric, linear_central, oblique_central, solve, time_resolved
+from ..kernels.contact_laws import FRICTION, RULES
 from ..messages.errors import (
     CollisionsError,
     InputError,
     MissingInputError,
     NoSolutionError,
     Status,
+    placed,
 )
 from ..quantities.settings import in_si
 from ..vehicle.vehicle import needed
-from .contact import USUAL_DELAY, Contact
+from .contact import IN_TIME, USUAL_DELAY, Contact
 from .motion import Course, Ground, body_at
 from .mover import Mover
 from .touching import (
@@ -102,6 +103,8 @@ class _Between:
         self.touch: Any = np.full(count, np.nan)
         self.closing: Any = np.zeros(count)
         self.due: Any = np.full(count, np.inf)
+        # Of a contact followed in time, when it is engaged as far as its place is taken from.
+        self.seen: Any = np.full(count, np.nan)
         self.begun: Any = np.full(count, np.nan)
         self.axis: Any = np.zeros(count, dtype=int)
         self.deepest: Any = np.zeros(count, dtype=bool)
@@ -135,6 +138,8 @@ class Followed:
         self.rules: Any = np.full((MOST_CONTACTS, self.count), -1)
         self.times: Any = np.full((MOST_CONTACTS, self.count), np.nan)
         self.many: Any = np.zeros(self.count, dtype=int)
+        # By mover, until when the last contact that was followed in time lasts.
+        self.lasts: dict[str, Any] = {name: np.zeros(self.count) for name in movers}
         self._pairs = self._all_pairs()
         for contact in contacts:
             self._refuse_numbers(contact)
@@ -258,7 +263,7 @@ class Followed:
                 which = np.flatnonzero(comes & (rules == rule))
                 if rule in left:
                     left[rule][which] = False
-                for some in self._of_one_kind(rule, which):
+                for some in self._of_one_kind(rule, which, now):
                     self._strike(rule, some, now)
         else:
             self._endless(np.flatnonzero(comes), rules)
@@ -289,9 +294,10 @@ class Followed:
         if self.single and wrong.any():
             one, other = pair.names
             raise InputError(
-                f"the outlines of {one} and {other} overlap by {-float(met.gap[0]):.3g} m at the "
-                "start, and no contact of these two is at time 0; correct x, y, heading or "
-                f"outline, or write Contact({one!r}, {other!r}, ...) at 0",
+                f"the outlines of {one} and {other} overlap by {-float(met.gap[0]):.3g} m "
+                "at the start, and no contact of these two is at time 0; correct x, y, "
+                f"heading or outline, or write `|Contact({one!r}, {other!r}, ...)|"
+                f'[[contact]] with a = "{one}", b = "{other}"` at 0',
                 code="overlap_at_start",
                 argument="movers",
                 movers=pair.names,
@@ -332,6 +338,9 @@ class Followed:
             moving = self._pair(pair)
             until = self._horizon(pair, cases)
             begin = np.maximum(now[cases], np.where(np.isnan(pair.begun), 0.0, pair.begun)[cases])
+            # A contact followed in time goes to its end before another of the two begins.
+            for name in pair.names:
+                begin = np.maximum(begin, self.lasts[name][cases])
             near = ~pair.apart[cases]
             if near.any():
                 begin[near] = first_apart(moving, begin[near], until[near], cases[near], APART)
@@ -371,6 +380,9 @@ class Followed:
 
         due, deepest = engaged(moving, along, touch, cases, delay if depth is None else None, depth)
         pair.due[cases], pair.deepest[cases] = due, deepest
+        if contact.in_time:
+            # It begins at first touch, where the face and the place that it comes to are known.
+            pair.due[cases], pair.seen[cases] = touch, due
 
     def _refuse_bare(self, pair: _Between, moving: Pair, cases: Any, amount: Any) -> None:
         """Refuse a point at bare first touch where two faces meet."""
@@ -389,9 +401,9 @@ class Followed:
         if flat.any() and self.single:
             one, other = pair.names
             raise InputError(
-                f"{one} and {other} meet face to face, where the point at bare first touch depends "
-                "on the last digit of a heading, and with it which way they spin; give a delay= or "
-                "depth= above 0, or normal= and point=",
+                f"{one} and {other} meet face to face, where the point at bare first touch "
+                "depends on the last digit of a heading, and with it which way they spin; give "
+                "a `delay=` or `depth=` above 0, or `normal=` and `point=`",
                 code="bare_touch",
                 argument="delay",
             )
@@ -407,23 +419,28 @@ class Followed:
 
     # One contact
 
-    def _of_one_kind(self, rule: int, which: Any) -> list[Any]:
-        """The cases by the tyres that act during the contact, if any do."""
+    def _of_one_kind(self, rule: int, which: Any, now: Any) -> list[Any]:
+        """The cases by the tyres that act during a contact that lasts, and by whether it is at the
+        start.
+        """
         contact = self.contacts[rule]
         if contact.duration is None or self.single:
             return [which]
-        groups: dict[tuple[int, int], list[int]] = {}
+        groups: dict[tuple[int, int, bool], list[int]] = {}
         for case in which.tolist():
             one, other = (int(self.courses[n].wheels_of[case]) for n in (contact.a, contact.b))
-            groups.setdefault((one, other), []).append(case)
+            groups.setdefault((one, other, bool(now[case] == 0.0)), []).append(case)
         return [np.array(cases) for cases in groups.values()]
 
     def _strike(self, rule: int, which: Any, now: Any) -> None:
         contact = self.contacts[rule]
         pair = next(p for p in self._pairs if {contact.a, contact.b} == {*p.names})
+        which = self._refuse_meanwhile(rule, contact, which, now[which])
+        if not len(which):
+            return
         time = now[which]
         states = {name: self.courses[name].at(time, which) for name in (contact.a, contact.b)}
-        normal, point = self._place(pair, contact, which, time)
+        normal, point = self._place(pair, contact, which, time, states)
         if contact.touches:
             # Two that do not close where they would push each other are passed over.
             closes = _closing_at(contact, states, normal, point) >= _LEAST_CLOSING
@@ -451,13 +468,15 @@ class Followed:
         self.rules[number, which], self.times[number, which] = rule, time
         self.many[which] += 1
         before = self._closings(pair, which, time)
-        self._go_on(contact, which, time, states, impact)
+        ends = self._go_on(contact, which, time, states, impact)
+        if self.single and pair.rule is None and float(pair.touch[0]) <= float(time[0]):
+            pair.touched.append((float(pair.touch[0]), float(pair.closing[0])))
         pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
         pair.least[which], pair.begun[which] = _AGAIN, np.nan
         for other in self._pairs:
             if other is pair or not {contact.a, contact.b} & {*other.names}:
                 continue
-            self._disturbed(other, which, time, before.get(id(other)))
+            self._disturbed(other, which, (time, ends), before.get(id(other)))
 
     def _pass_over(self, pair: _Between, which: Any, time: Any) -> None:
         """A touch in which nothing pushes: the search goes on once the two were apart."""
@@ -484,17 +503,18 @@ class Followed:
         axis = met.axis(met.widest)
         return closing_of(met, axis, state_a, state_b), met.gap, met.widest
 
-    def _disturbed(self, pair: _Between, which: Any, time: Any, before: Any) -> None:
-        """A pair of which one was struck: its next touch is to be found again; it comes at once
-        where it is in contact and is driven together.
+    def _disturbed(self, pair: _Between, which: Any, times: tuple[Any, Any], before: Any) -> None:
+        """A pair of which one was struck, from a time to another: its next touch is to be found
+        again; it comes at once where it is in contact and is driven together.
         """
+        struck, time = times
         if pair.shapes is not None and pair.rule is None and self.single:
             touch = float(pair.touch[0])
-            if touch <= float(time[0]):
+            if touch <= float(struck[0]):
                 pair.touched.append((touch, float(pair.closing[0])))
                 pair.apart[which], pair.begun[which] = False, touch
         # A touch that has begun goes on to its impulse.
-        waiting = np.isfinite(pair.due[which]) & (pair.touch[which] <= time)
+        waiting = np.isfinite(pair.due[which]) & (pair.touch[which] <= struck)
         pair.touch[which] = np.where(waiting, pair.touch[which], np.nan)
         pair.due[which] = np.where(waiting, pair.due[which], np.inf)
         if pair.shapes is None or pair.rule is None:
@@ -503,6 +523,7 @@ class Followed:
         if len(kept):
             self._arrange(pair, kept)
             pair.due[kept] = np.maximum(pair.due[kept], time[waiting])
+            pair.seen[kept] = np.maximum(pair.seen[kept], pair.due[kept])
         closing, gap, widest = self._closing(pair, which, time)
         least = pair.least[which]
         in_contact = ~pair.apart[which] & ~waiting & (gap < APART)
@@ -513,14 +534,34 @@ class Followed:
         contact = self.contacts[pair.rule]
         pair.touch[some], pair.closing[some] = time[driven], closing[driven]
         pair.axis[some], pair.deepest[some] = widest[driven], False
-        pair.due[some] = time[driven]
+        pair.due[some] = pair.seen[some] = time[driven]
         # Outlines that only touch have no overlap yet.
         bare = driven & (gap > -1e-3)
         if contact.from_outlines and bare.any():
             pair.due[which[bare]] = np.inf
             self._arrange(pair, which[bare])
 
-    def _place(self, pair: _Between, contact: Contact, which: Any, time: Any) -> tuple[Any, Any]:
+    def _refuse_meanwhile(self, rule: int, contact: Contact, which: Any, time: Any) -> Any:
+        """The cases in which no other contact of the two lasts, to which a contact at a time would
+        come.
+        """
+        until = np.max([self.lasts[name][which] for name in (contact.a, contact.b)], axis=0)
+        meanwhile = time < until
+        if meanwhile.any() and self.single:
+            raise NoSolutionError(
+                f"contacts[{rule}], {contact.a} and {contact.b}, is at {float(time[0]):.4g} s, "
+                f"while another contact of one of them lasts until {float(until[0]):.4g} s; give "
+                "a later time, a shorter duration, or at='touch'",
+                code="contact_meanwhile",
+                time=float(time[0]),
+                movers=(contact.a, contact.b),
+            )
+        self._fail(which[meanwhile], "contact_meanwhile")
+        return which[~meanwhile]
+
+    def _place(
+        self, pair: _Between, contact: Contact, which: Any, time: Any, states: Mapping[str, Any]
+    ) -> tuple[Any, Any]:
         """Normal and point of a contact: as given, or of each case from the outlines."""
         take = self.ground.taker(which)
         normal: Any = contact.normal
@@ -533,13 +574,16 @@ class Followed:
         if pair.shapes is None:
             lacks = [name for name in pair.names if self.movers[name].outline is None]
             raise MissingInputError(
-                f"{' and '.join(lacks)} has no outline, from which normal and point of the contact "
-                f"of {contact.a} and {contact.b} come; give outline=(length, width) to its Mover, "
-                "or normal= and point= to the Contact",
+                f"{' and '.join(lacks)} has no outline, from which normal and point of the "
+                f"contact of {contact.a} and {contact.b} come; give `outline=(length, width)` "
+                "to its `|Mover|[[mover]]`, or "
+                "`normal=` and `point=` to the `|Contact|[[contact]]`",
                 code="missing_outline",
                 argument="outline",
             )
-        met, state_a, _ = self._pair(pair).at(time, which)
+        carried = contact.in_time and contact.touches
+        seen = pair.seen[which] if carried else time
+        met, state_a, state_b = self._pair(pair).at(seen, which)
         which_axis = pair.axis[which] if contact.touches else met.widest
         axis = self._axis(pair, contact, met, which_axis, which)
         centre, _, crossings = overlap_of(met.one, met.other)
@@ -549,7 +593,8 @@ class Followed:
                 raise InputError(
                     f"{contact.a} and {contact.b} are {float(met.gap[0]):.3g} m apart at "
                     f"{float(time[0]):.4g} s, where contact says that they meet; correct the "
-                    "states, at= or the outlines, write at='touch', or give normal= and point=",
+                    "states, `at=` or the outlines, write `at='touch'`, or give `normal=` and "
+                    "`point=`",
                     code="contact_missing",
                     argument="contacts",
                 )
@@ -560,6 +605,10 @@ class Followed:
         nearest = _nearest_corner(met, axis)
         centre = np.where(np.isnan(centre), nearest, centre) + state_a[:2]
         sign = 1.0 if contact.a == pair.names[0] else -1.0
+        if carried:
+            fixed = [self.movers[name].fixed for name in pair.names]
+            begun = [states[name] for name in pair.names]
+            centre, axis = _carried_back(centre, axis, (state_a, state_b), begun, fixed)
         if normal is None:
             found = sign * axis
             normal = tuple(float(part[0]) if self.single else part for part in found)
@@ -589,9 +638,13 @@ class Followed:
             options |= {name: numbers(getattr(contact, name)) for name in RULES}
             options |= {"law": contact.law}
             solver = oblique_central
-        if contact.model in ("eccentric", "solve"):
-            solver = eccentric if contact.model == "eccentric" else solve
+        if contact.model in ("eccentric", "solve", IN_TIME):
+            solver = {"eccentric": eccentric, "solve": solve, IN_TIME: time_resolved}[contact.model]
             options["point"] = point
+            if contact.in_time:
+                options = {name: options[name] for name in ("normal", "point", FRICTION)}
+                at_start = not contact.touches and float(time[0]) == 0.0
+                options["geometry"] = "maximum_engagement" if at_start else "first_contact"
             if contact.duration is not None:
                 options["duration"] = numbers(contact.duration)
                 for label, name in (("a", contact.a), ("b", contact.b)):
@@ -606,24 +659,48 @@ class Followed:
             with in_si():
                 found: Impact = solver(a, b, numbers(contact.restitution), **options)
         except CollisionsError as error:
-            raise type(error)(
-                f"contacts[{rule}], {contact.a} and {contact.b} at {float(time[0]):.4g} s: {error}",
-                code=error.code,
-                **error.fields,
-            ) from None
+            where = f"contacts[{rule}], {contact.a} and {contact.b} at {float(time[0]):.4g} s"
+            raise placed(error, where) from None
         return found
 
-    def _go_on(self, contact: Contact, which: Any, time: Any, states: Any, impact: Impact) -> None:
-        """Let both vehicles go on from the motion after the contact."""
+    def _go_on(self, contact: Contact, which: Any, time: Any, states: Any, impact: Impact) -> Any:
+        """Let both vehicles go on from the motion after the contact; when they do, which is later
+        only for one that was followed in time.
+        """
         hold = np.zeros(len(which))
         if contact.duration is not None:
             whole = self.ground.taker(which)(contact.duration)
             hold = np.where((time == 0.0) & (not contact.touches), 0.5 * whole, whole)
-        for name, side in ((contact.a, impact.a), (contact.b, impact.b)):
+        way = way_to_separation(impact)
+        passed = np.zeros(len(which), dtype=bool)
+        if way is not None:
+            # The places given are those of first touch, or of maximum engagement.
+            lasts = way.duration
+            if impact.inputs.geometry != "first_contact":
+                lasts = lasts - way.engaged
+            lasts = np.broadcast_to(lasts, len(which))
+            passed = np.isfinite(lasts)
+            hold = np.where(passed, lasts, hold)
+        ends = np.where(passed, time + hold, time)
+        for label, name, side in (
+            ("a", contact.a, impact.a),
+            ("b", contact.b, impact.b),
+        ):
             after, state = side.after, states[name].copy()
             for row, value in zip((3, 4, 5), (after.vx, after.vy, after.yaw_rate), strict=True):
                 state[row] = value
-            self.courses[name].turn(which, time, hold, state, contact.tyres_after.get(name))
+            during = None
+            if way is not None and passed.any():
+                begins = (
+                    side.before
+                    if impact.inputs.geometry == "first_contact"
+                    else (side.at_compression)
+                )
+                during = _followed(states[name], begins, way.moved[label], hold, state, passed)
+                state[:3] = np.where(passed, during[1:4, 1] - hold * state[3:], state[:3])
+                self.lasts[name][which] = np.where(passed, ends, self.lasts[name][which])
+            self.courses[name].turn(which, time, hold, state, contact.tyres_after.get(name), during)
+        return ends
 
     # What the scene contradicts
 
@@ -717,6 +794,50 @@ class Followed:
             time=at,
             movers=(contact.a, contact.b),
         )
+
+
+def _followed(
+    begun: Any, begins: Any, moved: tuple[Any, Any, Any], hold: Any, after: Any, passed: Any
+) -> Any:
+    """The motion of a vehicle during a contact that was followed in time: time and state at its
+    start and its end, (7, 2, cases); NaN where it was not followed.
+    """
+    rows = np.full((7, 2, len(hold)), np.nan)
+    rows[0, 0], rows[0, 1] = 0.0, hold
+    rows[1:4, 0] = begun[:3]
+    for row, (name, way) in enumerate(zip(("vx", "vy", "yaw_rate"), moved, strict=True)):
+        rows[1 + row, 1] = begun[row] + way
+        rows[4 + row, 0] = getattr(begins, name)
+        rows[4 + row, 1] = after[3 + row]
+    return np.where(passed, rows, np.nan)
+
+
+def _carried_back(
+    point: Any, axis: Any, seen: Sequence[Any], begun: Sequence[Any], fixed: Sequence[bool]
+) -> tuple[Any, Any]:
+    """A point and a normal that were seen at some states of two vehicles, as they lie at earlier
+    ones: with the mean of both, and against a fixed one the point with the vehicle and the normal
+    with what is fixed, as a contact followed in time carries them.
+    """
+    places, turns = [], []
+    for then, was in zip(seen, begun, strict=True):
+        turn = was[2] - then[2]
+        turned = _rotated(point - then[:2], turn)
+        places.append(turned + was[:2])
+        turns.append(turn)
+    share = 0.5 if fixed[0] == fixed[1] else float(fixed[1])
+    centre = share * places[0] + (1.0 - share) * places[1]
+    turn = (
+        (1.0 - share) * turns[0] + share * turns[1]
+        if fixed[0] != fixed[1]
+        else (0.5 * (turns[0] + turns[1]))
+    )
+    return centre, _rotated(axis, turn)
+
+
+def _rotated(vector: Any, angle: Any) -> Any:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]])
 
 
 def _closing_at(contact: Contact, states: Mapping[str, Any], normal: Any, point: Any) -> Any:

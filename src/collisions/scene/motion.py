@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..impact.inputs import part_of
-from ..messages.errors import CollisionsError, MissingInputError, NoSolutionError, Status
+from ..messages.errors import CollisionsError, MissingInputError, NoSolutionError, Status, placed
 from ..messages.warning import quietly
 from ..quantities.settings import in_si
 from ..quantities.units import Texts, texts_of
@@ -36,9 +36,10 @@ _LEAST_DRAG = 1e-9
 class Leg(NamedTuple):
     """The motion of some cases from ``start`` [s] on, until the next leg.
 
-    Until ``hold`` [s] after the start the motion is unslowed. Then it is that of the ``table``
-    (time and state, of (7, moments, cases)) where ``tabled``, and else straight on, slowed evenly
-    to rest within ``stops`` [s], which is infinite for a motion that nothing slows.
+    Until ``hold`` [s] after the start the motion is unslowed; or, where ``during`` is not NaN, that
+    of a contact followed in time, between the two moments of that table. Then it is that of the
+    ``table`` (time and state, of (7, moments, cases)) where ``tabled``, and else straight on,
+    slowed evenly to rest within ``stops`` [s], which is infinite for a motion that nothing slows.
     """
 
     which: Any
@@ -49,6 +50,7 @@ class Leg(NamedTuple):
     tabled: Any
     table: Any
     tyres: Tyres | None
+    during: Any = None
 
     def at(self, time: Any, cases: Any) -> Any:
         """The states of some of its cases, by their places in it, at a time of each."""
@@ -69,6 +71,11 @@ class Leg(NamedTuple):
         some = np.flatnonzero(self.tabled[cases] & (after > 0.0))
         if len(some):
             found[:, some] = _between(self.table, after[some], cases[some])
+        if self.during is not None:
+            inside = (held < hold) & np.isfinite(self.during[0, 1, cases])
+            some = np.flatnonzero(inside)
+            if len(some):
+                found[:, some] = _between(self.during, held[some], cases[some])
         return found
 
     @property
@@ -121,8 +128,8 @@ class Course:
         rows = [ground.cases(value) for value in values]
         every = np.arange(count)
         none = np.zeros(count)
-        self._waiting: list[tuple[Any, Any, Any, Any, Tyres | None]] = [
-            (every, none, none, np.array(rows), mover.tyres)
+        self._waiting: list[tuple[Any, Any, Any, Any, Tyres | None, Any]] = [
+            (every, none, none, np.array(rows), mover.tyres, None)
         ]
         self.fixed = mover.fixed
         if mover.drag is not None:
@@ -138,9 +145,20 @@ class Course:
             self._fail(np.flatnonzero(~np.isfinite(number)), Status.NOT_FINITE.label)
         self._fail(np.flatnonzero(drag < 0.0), "negative_drag")
 
-    def turn(self, which: Any, start: Any, hold: Any, state: Any, tyres: Tyres | None) -> None:
+    def turn(
+        self,
+        which: Any,
+        start: Any,
+        hold: Any,
+        state: Any,
+        tyres: Tyres | None,
+        during: Any = None,
+    ) -> None:
         """Let some cases go on from a time and a state, after a contact: on new tyres, or on those
         that they have.
+
+        Of a contact followed in time, which takes ``hold`` and moves as ``during`` says, the state
+        is the one from which its end is reached at the velocities after it.
         """
         if tyres is not None:
             self.wheels_of[which] = len(self.wheels)
@@ -149,7 +167,14 @@ class Course:
         for kind in np.unique(on).tolist():
             some = np.flatnonzero(on == kind)
             self._waiting.append(
-                (which[some], start[some], hold[some], state[:, some], self.wheels[kind])
+                (
+                    which[some],
+                    start[some],
+                    hold[some],
+                    state[:, some],
+                    self.wheels[kind],
+                    None if during is None else during[:, :, some],
+                )
             )
 
     def began(self, cases: Any) -> Any:
@@ -162,14 +187,15 @@ class Course:
     def settled(self) -> list[Leg]:
         """All legs, worked out."""
         while self._waiting:
-            which, start, hold, state, tyres = self._waiting.pop(0)
+            which, start, hold, state, tyres, during = self._waiting.pop(0)
             # Nobody asks for the motion of a leg that ends as it begins.
             brief = np.zeros(len(which), dtype=bool)
             for others, begun, *_ in self._waiting:
                 next_start = np.full(self.count, np.inf)
                 next_start[others] = begun
                 brief |= next_start[which] <= start
-            self.legs.append(self._leg(which, start, hold, state, tyres, brief))
+            leg = self._leg(which, start, hold, state, tyres, brief)
+            self.legs.append(leg._replace(during=during))
         return self.legs
 
     def at(self, time: Any, cases: Any, *, before: bool = False) -> Any:
@@ -287,7 +313,7 @@ class Course:
                 else "stands on a slope that is too steep for its drag"
             )
             raise NoSolutionError(
-                f"{self.name} {how}; give it tyres=, with the lock of its wheels",
+                f"{self.name} {how}; give it `tyres=`, with the lock of its wheels",
                 code="never_stops",
             )
         self._fail(which[spins | steep], "never_stops")
@@ -322,7 +348,7 @@ class Course:
                     tolerance=ground.tolerance,
                 )
         except CollisionsError as error:
-            raise type(error)(f"{self.name}: {error}", code=error.code, **error.fields) from None
+            raise placed(error, self.name) from None
         names = ("time", *STATE)
         table = np.array([getattr(path, name) for name in names]).reshape(7, ground.moments, -1)
         self._fail(which[~np.isfinite(table[:, -1]).all(axis=0)], "never_stops")
@@ -406,7 +432,8 @@ class Ground(NamedTuple):
 def no_rest(name: str) -> MissingInputError:
     """The error for the place of rest of a mover that nothing slows."""
     return MissingInputError(
-        f"{name} has no place of rest, as nothing slows it; give it tyres=, or drag=, in its Mover",
+        f"{name} has no place of rest, as nothing slows it; give it `tyres=`, or "
+        "`drag=`, in its `|Mover|[[mover]]`",
         code="missing_drag",
         argument=name,
     )

@@ -264,6 +264,9 @@ class Run(Frozen, Summarized):
     def at(self, time: Input) -> dict[str, Vehicle]:
         """All vehicles at a time; at that of a contact, after it.
 
+        A contact followed in time is on its way then: it begins at its time, with the motion before
+        it, and at time 0 with that of its maximum engagement.
+
         Parameters
         ----------
         time : float, str, Quantity or array [s]
@@ -462,7 +465,7 @@ class Run(Frozen, Summarized):
 
     def _ends(self) -> Any:
         found = self._followed
-        last = np.fmax.reduce(found.times, axis=0, initial=0.0)
+        last = np.fmax.reduce([*found.times, *found.lasts.values()], axis=0, initial=0.0)
         rests = np.array([course.rests for course in found.courses.values()])
         return np.maximum(last, np.where(np.isfinite(rests), rests, 0.0).max(axis=0))
 

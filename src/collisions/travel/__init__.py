@@ -1,5 +1,5 @@
 """Work and energy before and after the impact: speed, distance and time of a vehicle that slows
-over known ground.
+over known ground; and how fast somebody was thrown.
 
 ``drag`` is the deceleration on the level as a fraction of gravity, ``grade`` the rise over the run,
 positive uphill in the direction of travel. Distances are measured in plan, as on a scene diagram;
@@ -10,8 +10,7 @@ Worksheets in US units give the speed in mph as sqrt(30 f d), with d in feet. Th
 standard gravity is 29.914, so their speeds are 0.14 % higher than these; those of worksheets that
 use 32.2 ft/s2 are 0.04 % higher.
 
-Results are SI floats. ``travel.q.speed``, ``travel.q.distance`` and ``travel.q.time`` give them as
-Quantities.
+Results are SI floats. ``travel.q.speed`` and the others of ``travel.q`` give them as Quantities.
 """
 
 from ..quantities.attributes import in_quantities
@@ -20,6 +19,7 @@ from ..vehicle.tyres import Tyres
 from .run_out import RunOut, path
 from .simulate import SimulatedPath, simulate
 from .straight import distance, speed, time
+from .thrown import throw_bounds, throw_speed
 
 
 class q:
@@ -34,6 +34,8 @@ class q:
 
     speed = staticmethod(in_quantities(speed, "m/s"))
     distance = staticmethod(in_quantities(distance, "m"))
+    throw_bounds = staticmethod(in_quantities(throw_bounds, "m/s"))
+    throw_speed = staticmethod(in_quantities(throw_speed, "m/s"))
     time = staticmethod(in_quantities(time, "s"))
 
 
@@ -46,5 +48,7 @@ __all__ = [
     "path",
     "simulate",
     "speed",
+    "throw_bounds",
+    "throw_speed",
     "time",
 ]

@@ -19,7 +19,7 @@ from ..messages.errors import InputError, MissingInputError, OutOfRangeWarning
 from ..messages.hints import hinted
 from ..messages.warning import warn
 from ..quantities.attribute_stubs import RunOutQuantities
-from ..quantities.attributes import Shown, derived, hypot, in_units_of, numeric
+from ..quantities.attributes import Shown, derived, hypot, in_units_of, math_or_numpy
 from ..quantities.directions import angle_of
 from ..quantities.reading import ArgumentReader
 from ..quantities.units import Input, Pair, Texts, Value, texts_of
@@ -301,7 +301,8 @@ def path(
         (value.dtype for part in lists for value in part if isinstance(value, np.ndarray)), None
     )
 
-    ground = _Ground(frictions, locks, grades, None if tyres is None else (tyres, flat), rotating)
+    wheeled = None if tyres is None else (tyres, flat)
+    ground = _Ground(frictions, locks, grades, wheeled, rotating)
     run_out = partial(_run_out, ground=ground, end=end, window=length)
     with np.errstate(all="ignore"):
         turned = [
@@ -310,8 +311,8 @@ def path(
         ]
         found, gaps = run_out(points, turned, kind=kind)
         if errors:
-            place, turn = read
-            found |= _errors(run_out, points, turned, place, turn, shape or (), kind)
+            of_places, of_headings = read
+            found |= _errors(run_out, points, turned, of_places, of_headings, shape or (), kind)
         answered = found["time"] + found["distance"] + found["yaw_rate"]
         if shape is not None:
             checks = [
@@ -365,7 +366,7 @@ def _run_out(
     lengths: list[Any] = [hypot(dx, dy) for dx, dy in steps]
     turns = [after - before for before, after in pairwise(turned)]
     crabs = [
-        _wrapped(before + 0.5 * turn - numeric(dx, dy).atan2(dy, dx))
+        _wrapped(before + 0.5 * turn - math_or_numpy(dx, dy).atan2(dy, dx))
         for (dx, dy), before, turn in zip(steps, turned, turns, strict=False)
     ]
     drags = _drags(ground, crabs, turns, lengths)
@@ -404,7 +405,7 @@ def _drags(
     tyres, flat = ground.tyres
     found = []
     for mu, crab, turn, length in zip(ground.frictions, crabs, turns, lengths, strict=True):
-        xp = numeric(crab, length, mu, *flat.values())
+        xp = math_or_numpy(crab, length, mu, *flat.values())
         wheels = kernel_numbers(flat, xp)
         cosine, sine = xp.cos(crab), xp.sin(crab)
         # The turn per way is all that the slip of the wheels needs.
@@ -437,7 +438,7 @@ def _heavier(ground: _Ground, crabs: Sequence[Any]) -> list[Any]:
         each = [flat[name] if name in flat else flat["lock"] for name in LOCKS]
         turning = [0.25 * sum(select(part < 1.0, 1.0, 0.0) for part in each)] * len(crabs)
     shares = [
-        ground.rotating * part * numeric(crab).cos(crab) ** 2
+        ground.rotating * part * math_or_numpy(crab).cos(crab) ** 2
         for part, crab in zip(turning, crabs, strict=True)
     ]
     ends = [shares[0], *(0.5 * (one + two) for one, two in pairwise(shares)), shares[-1]]
@@ -446,7 +447,7 @@ def _heavier(ground: _Ground, crabs: Sequence[Any]) -> list[Any]:
 
 def _drag(friction: Any, lock: Any, crab: Any) -> Any:
     """The drag of tyres that all slip at the crab angle."""
-    cosine, sine = numeric(crab).cos(crab), numeric(crab).sin(crab)
+    cosine, sine = math_or_numpy(crab).cos(crab), math_or_numpy(crab).sin(crab)
     along, across = circle(cosine, lock)
     return friction * (across * abs(sine) - along * cosine)
 

@@ -625,8 +625,8 @@ def _read_surfaces(reader: ArgumentReader, surfaces: Any) -> list[tuple[Any, Any
         corners = area[0] if isinstance(area, (list, tuple)) and len(area) == 2 else None
         if not isinstance(corners, (list, tuple)) or len(corners) < 3:
             text = (
-                f"surfaces[{i}] must be a pair of corners, three or more (x, y) in a list, and "
-                f"friction; got {shown(area)}"
+                f"surfaces[{i}] must be a pair of corners, three or more `(x, y)` in a list, "
+                f"and friction; got {shown(area)}"
             )
             reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))
             continue

@@ -1,0 +1,307 @@
+"""Tests of what every reverse answer has: both speeds before, what was found and was given."""
+
+import copy
+import json
+import math
+import pickle
+
+import jsonschema
+import numpy as np
+import pint
+import pytest
+
+import collisions as col
+from collisions import reconstruct
+from collisions.derivation import explain
+from collisions.impact.schema import impact_schema
+from collisions.reporting import options, replay, report
+from collisions.uncertainty import Normal, Uniform, propagate
+from pages import section, tampered
+
+UNITS = pint.get_application_registry()
+A = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.6, vx=15.0, heading=0.0)
+B = col.Vehicle(mass=1200.0, yaw_inertia=1800.0, x=0.9, y=-1.0, vy=9.0, heading=math.pi / 2)
+PLACE = {"normal": 0.2, "point": (0.0, 0.0), "friction": 0.5}
+CRASH = col.eccentric(A, B, 0.1, **PLACE)
+COURSES = {"course_a": 0.0, "course_b": math.pi / 2, "restitution": 0.1, **PLACE}
+EES = dict(zip(("ees_a", "ees_b"), CRASH.ees(0.4), strict=True))
+
+
+def nearest(answers):
+    """The one that is the crash."""
+    return min(answers, key=lambda one: abs(one.speed_a - 15.0) + abs(one.speed_b - 9.0))
+
+
+def of_speeds(**known):
+    return nearest(reconstruct.speeds(A, B, **{**COURSES, **known}, forward_only=True))
+
+
+def of_momentum(**changed):
+    after = {
+        f"{name}_{label}_after": getattr(getattr(CRASH, label).after, name)
+        for label in "ab"
+        for name in ("speed", "course")
+    }
+    courses = {"course_a": 0.0, "course_b": math.pi / 2}
+    return reconstruct.momentum(1500.0, 1200.0, **{**courses, **after, **changed})
+
+
+def of_central():
+    end = col.linear_central(A, B.replace(vx=3.0, vy=0.0), 0.2)
+    return reconstruct.central(
+        1500.0, 1200.0, vb=3.0, va_after=end.a.after.vx, vb_after=end.b.after.vx
+    )
+
+
+def of_planar():
+    end = col.eccentric(A, B, 0.1, **{**PLACE, "friction": 0.05})
+    assert end.regime == "sliding"
+    return reconstruct.planar(
+        end.a.after,
+        end.b.after,
+        energy_loss=end.energy_loss,
+        regime="sliding",
+        **{**PLACE, "friction": 0.05},
+    )
+
+
+def model(speed_a, speed_b):
+    return {"x": 1500.0 * speed_a, "y": 1200.0 * speed_b}
+
+
+SPEEDS = {name: Uniform(0.0, 40.0) for name in ("speed_a", "speed_b")}
+SEEN = {"x": Normal(1500.0 * 15.0, 300.0), "y": Normal(1200.0 * 9.0, 300.0)}
+ANSWERS = {
+    "speeds": (lambda: of_speeds(**EES, delta_v_a=CRASH.a.delta_v), ("speed_a", "speed_b"), 1e-9),
+    "one speed known": (
+        lambda: of_speeds(speed_b=9.0, delta_v_a=CRASH.a.delta_v),
+        ("speed_a",),
+        1e-9,
+    ),
+    "restitution found": (
+        lambda: of_speeds(speed_b=9.0, delta_v_a=CRASH.a.delta_v, restitution=lambda v: 0.1),
+        ("speed_a", "restitution"),
+        1e-6,
+    ),
+    "planar": (
+        of_planar,
+        (
+            *(f"{name}_{label}" for label in "ab" for name in ("speed", "course", "yaw_rate")),
+            "restitution",
+        ),
+        1e-9,
+    ),
+    "momentum": (of_momentum, ("speed_a", "speed_b"), 1e-9),
+    "momentum, whole": (
+        lambda: of_momentum(course_a=None, speed_b=9.0),
+        ("speed_a", "course_a"),
+        1e-9,
+    ),
+    "fit": (lambda: reconstruct.fit(model, SPEEDS, SEEN), ("speed_a", "speed_b"), 1e-6),
+    "posterior": (
+        lambda: reconstruct.posterior(model, SPEEDS, SEEN, seed=1, samples=512),
+        ("speed_a", "speed_b"),
+        0.05,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_every_reverse_answer_has_both_speeds_and_says_what_it_found(name):
+    """The speeds of the impact solved forwards, from which each was told what it needs."""
+    solve, found, off = ANSWERS[name]
+    answer = solve()
+    assert isinstance(answer, reconstruct.ReverseAnswer)
+    assert answer.speed_a == pytest.approx(15.0, rel=off)
+    assert answer.speed_b == pytest.approx(9.0, rel=off)
+    assert answer.found == found
+    if hasattr(answer, "q"):
+        assert answer.q.speed_a.m_as("km/h") == pytest.approx(3.6 * answer.speed_a, rel=1e-12)
+
+
+def test_in_line_the_velocity_that_was_given_is_not_found():
+    answer = of_central()
+    assert isinstance(answer, reconstruct.ReverseAnswer)
+    assert (answer.speed_a, answer.speed_b) == pytest.approx((15.0, 3.0), rel=1e-12)
+    assert answer.found == ("speed_a", "restitution")
+    assert CRASH.found == ()
+
+
+def test_a_friction_that_the_components_show_is_found():
+    """The contact of 0.05 slides, and the ratio of its components is that."""
+    end = col.eccentric(A, B, 0.1, **{**PLACE, "friction": 0.05})
+    known = {f"delta_v_{part}_a": getattr(end.a, f"delta_v_{part}") for part in ("forward", "left")}
+    (found,) = reconstruct.speeds(
+        A, B, **{**COURSES, "friction": math.inf}, **known, speed_b=9.0, regime="sliding"
+    )
+    assert found.found == ("speed_a", "friction")
+    assert found.friction == pytest.approx(0.05, rel=1e-9)
+    page = report(found, form="markdown", units="si", figures=False)
+    given = section(page, "Inputs")
+    assert "| contact | friction (bound on the impulse ratio) | 0.05, found |" in given
+    assert report(replay(page), **options(page)) == page
+
+
+def test_what_has_no_such_name_has_no_speed():
+    by_name = reconstruct.fit(lambda v: {"x": 2.0 * v}, {"v": Uniform(0, 9)}, {"x": (4.0, 1.0)})
+    assert by_name.speed_a is None is by_name.speed_b
+    length = reconstruct.fit(
+        lambda speed_a: {"x": 2.0 * speed_a}, {"speed_a": Uniform("0 m", "9 m")}, {"x": (4.0, 1.0)}
+    )
+    assert length.speed_a is None
+
+
+def test_a_wall_has_no_speed_that_could_be_found():
+    wall = col.Vehicle(mass=math.inf, yaw_inertia=math.inf, x=1.0, y=0.0, heading=0.0)
+    place = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.0}
+    end = col.eccentric(A.replace(y=0.0), wall, 0.2, **place)
+    found = reconstruct.planar(end.a.after, end.b.after, restitution=0.2, **place)
+    assert found.found == ("speed_a", "course_a", "yaw_rate_a")
+    assert (found.speed_a, found.speed_b) == pytest.approx((15.0, 0.0), abs=1e-12)
+
+
+def test_cases_of_a_batch_have_speeds_and_numbers_of_their_own():
+    seen = np.array([1.0, 1.02]) * CRASH.a.delta_v
+    (many, *_) = reconstruct.speeds(A, B, **COURSES, speed_b=9.0, delta_v_a=seen)
+    assert many.speed_a.shape == (2,)
+    assert many.found == ("speed_a",)
+    given = many.reconstruction.given
+    assert np.array_equal(given["delta_v_a"], seen)
+    assert not given["delta_v_a"].flags.writeable
+    assert many.case(1).reconstruction.given["delta_v_a"] == seen[1]
+    again = pickle.loads(pickle.dumps(many))
+    assert again.reconstruction == many.reconstruction
+    assert not again.reconstruction.given["delta_v_a"].flags.writeable
+    record = json.loads(json.dumps(many.to_dict()))
+    jsonschema.validate(record, impact_schema())
+    assert col.Impact.from_dict(record).reconstruction == many.reconstruction
+
+
+def test_numbers_are_kept_as_they_were_given_whatever_their_form():
+    """Of texts they are what pint says."""
+    texts = {"delta_v_a": "17.3 mph", "speed_b": "9 m/s", "course_b": "90 deg"}
+    (found, *_) = reconstruct.speeds(A, B, **{**COURSES, **texts})
+    given = found.reconstruction.given
+    assert list(given) == ["speed_b", "delta_v_a", "course_a", "course_b"]
+    for name, text in texts.items():
+        unit = "radian" if name.startswith("course") else "m/s"
+        assert given[name] == pytest.approx(UNITS(text).m_as(unit), rel=1e-15)
+    assert given["course_a"] == 0.0
+    assert of_planar().reconstruction.given["energy_loss"] > 0.0
+    assert of_central().reconstruction.given["vb"] == 3.0
+
+
+RECORDER = {
+    "delta_v_forward_a": -8.0,
+    "delta_v_left_a": 1.5,
+    "recorder_a": (0.5, 0.1),
+    "axes": "turning",
+    "duration": "90 ms",
+    "speed_b": 9.0,
+    "friction": 0.5,
+}
+
+
+def rows(page):
+    """What stands under evidence, by what it is."""
+    found = [line.split(" | ") for line in section(page, "Inputs").splitlines()]
+    return {row[1]: row[2].removesuffix(" |") for row in found if row[0] == "| evidence"}
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_all_that_was_known_stands_on_the_page_with_its_number():
+    """Floats too, in the units of the page: 8 m/s are 17.90 mph; and no value is the answer's."""
+    found = of_speeds(**RECORDER)
+    page = report(found, form="markdown", units="us", figures=False)
+    shown = rows(page)
+    assert shown["delta-V forward of A, as its recorder reads it"] == "-17.90 mph, exactly -8 m/s"
+    assert shown["delta-V to the left of A, as its recorder reads it"].startswith("3.355 mph")
+    assert shown["recorder of A, ahead of the centre of mass"].startswith("1.640 ft")
+    assert shown["duration of the contact, in which recorders turn"] == "0.09 s, given as 90 ms"
+    assert shown["in axes that turn with the car"] == "stated"
+    assert not any(what.startswith("place of the recorder") for what in shown)
+    assert not any("kept only" in value for value in shown.values())
+    assert report(replay(page), **options(page)) == page
+    table = section(explain(found, units="us"), "What was given and found")
+    assert "delta-V forward of A, as its recorder reads it | -17.90 mph" in table
+
+
+def test_what_the_answer_has_stands_beside_a_component_that_it_does_not_meet():
+    parts = {
+        f"delta_v_{part}_a": getattr(CRASH.a, f"delta_v_{part}") for part in ("forward", "left")
+    }
+    found = of_speeds(speed_b=9.0, **{**parts, "delta_v_left_a": parts["delta_v_left_a"] + 0.3})
+    shown = rows(report(found, form="markdown", units="si", figures=False))
+    text = shown["delta-V to the left of A"]
+    given, answer = text.split("; ")
+    assert float(given.split()[0]) == pytest.approx(parts["delta_v_left_a"] + 0.3, rel=1e-3)
+    assert float(answer.split()[0]) == pytest.approx(found.a.delta_v_left, rel=1e-3)
+
+
+def test_what_is_stated_of_an_input_stands_beside_it():
+    def solved(delta_v_a):
+        (found,) = reconstruct.speeds(
+            A, B, **COURSES, speed_b=9.0, delta_v_a=delta_v_a, forward_only=True
+        )
+        return {"speed_a": found.speed_a}
+
+    seen = CRASH.a.delta_v
+    study = propagate(solved, {"delta_v_a": Normal(seen, 0.2)}, method="first_order")
+    found = of_speeds(speed_b=9.0, delta_v_a=seen)
+    page = report(found, form="markdown", units="metric", figures=False, uncertainty=study)
+    text = rows(page)["delta-V of A"]
+    # 0.2 m/s is 0.72 km/h.
+    assert text == f"{3.6 * seen:.2f} km/h; stated as {3.6 * seen:.2f} ± 0.72 km/h"
+    assert "; stated" not in rows(page)["speed of B before"]
+    # An output of that name is the speed of A: its range stands in the answer.
+    assert "- **A: speed before:** 5" in page
+    assert "km/h (95 %)" in page
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize("known", [{"speed_b": 9.0, "delta_v_a": CRASH.a.delta_v}, RECORDER])
+def test_a_record_of_an_earlier_version_can_still_be_read(known):
+    found = of_speeds(**known)
+    page = report(found, form="markdown", figures=False)
+    older = copy.deepcopy(found.to_dict())
+    for name in ("given", "found"):
+        del older["results"]["reconstruction"][name]
+    jsonschema.validate(json.loads(json.dumps(older)), impact_schema())
+    read = col.Impact.from_dict(older)
+    assert read == found
+    assert read.found == ("speed_a",)
+    assert read.reconstruction.given is None
+
+    def without(record):
+        for name in ("given", "found"):
+            del record["impact"]["results"]["reconstruction"][name]
+
+    again = replay(tampered(page, without))
+    assert again == found
+    shown = rows(report(again, form="markdown", units="si", figures=False))
+    assert shown["speed of B before"] == "9 m/s"
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"given": {"delta_v_a": 3.0}}, "delta_v_a was given as 3.0 m/s, but the delta-V of A is"),
+        ({"given": {"delta_v_a": "3 m/s"}}, "delta_v_a, which a reverse solver was given"),
+        ({"given": 3.0}, "is not what a reverse solver was given"),
+    ],
+)
+def test_a_number_that_was_changed_in_a_record_is_refused(changed, said):
+    page = report(of_speeds(speed_b=9.0, delta_v_a=CRASH.a.delta_v), form="markdown", figures=False)
+    with pytest.raises(col.InputError, match=said):
+        replay(tampered(page, lambda r: r["impact"]["results"]["reconstruction"].update(changed)))
+
+
+def test_a_text_that_is_not_its_number_is_refused():
+    found = of_speeds(speed_b="9 m/s", delta_v_a=CRASH.a.delta_v)
+    page = report(found, form="markdown", figures=False)
+
+    def change(record):
+        record["impact"]["inputs"]["known"]["speed_b"] = "9.00001 m/s"
+
+    with pytest.raises(col.InputError, match="which is not its number"):
+        replay(tampered(page, change))

@@ -1,0 +1,241 @@
+"""Contacts of a scene that are followed in time: where they begin, what they do, and where they
+leave the vehicles.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions.scene import Contact, Mover, Run, Scene
+from collisions.travel import Tyres
+from crashes import three_cars
+
+WHEELS = Tyres(0.7, [1, 0.05, 0.05, 0.05], 2.7, 1.5)
+CONTACT: dict[str, Any] = {"restitution": 0.2, "friction": 0.4, "duration": 0.1}
+
+
+def car(**state: Any) -> col.Vehicle:
+    return col.Vehicle(**{"mass": 1500, "yaw_inertia": 2600, "y": 0.0, "heading": 0.0, **state})
+
+
+def in_line(e: float, duration: float, speed: float = 12.0) -> Run:
+    """One car runs into another that is twice as heavy, nothing slows them, and nothing turns."""
+    movers = {
+        "A": Mover(car(x=-8.0, vx=speed), outline=(4.0, 1.8)),
+        "B": Mover(car(x=0.0, mass=3000), outline=(4.0, 1.8)),
+    }
+    hit = Contact("A", "B", restitution=e, friction=0.5, at="touch", duration=duration)
+    return Scene(movers=movers, contacts=[hit]).run()
+
+
+@pytest.mark.parametrize("e", [0.0, 0.3, 0.8])
+def test_a_spring_in_line_leaves_the_cars_where_its_closed_form_has_them(e: float) -> None:
+    """Loaded as a linear spring, for a quarter of its period; unloaded by one that returns e
+    squared of the work, so that they part when as much of the penetration is undone. 100 steps err
+    by 3e-5 of the delta-V, and of the way.
+    """
+    duration, speed = 0.12, 12.0
+    run = in_line(e, duration, speed)
+    impact = run.impacts[0]
+    assert run.times[0] == pytest.approx(4.0 / speed, rel=1e-9)
+    assert impact.a.delta_v == pytest.approx(speed * (1 + e) * 2 / 3, rel=2e-4)
+    # The reduced mass is 1000 kg; the way back takes e times as long as that in.
+    deepest = speed * duration / (0.5 * math.pi * (1.0 + e))
+    parts = run.times[0] + impact.pulse.duration
+    assert impact.pulse.duration == pytest.approx(duration, rel=2e-2)
+    there = run.at(parts)
+    apart = there["B"].x - there["A"].x
+    assert apart == pytest.approx(4.0 - (1.0 - e * e) * deepest, abs=3e-3 * deepest)
+    middle = (there["A"].x + 2.0 * there["B"].x) / 3.0
+    assert middle == pytest.approx((-8.0 + speed * parts) / 3.0, abs=1e-9)
+    later = run.at(parts + 2.0)
+    assert later["B"].x - later["A"].x - apart == pytest.approx(2.0 * e * speed, rel=2e-3, abs=1e-6)
+
+
+def test_one_contact_at_the_start_is_that_of_the_solver_to_the_bit() -> None:
+    a, b = car(x=-2.2, vx=15.0, y=0.3, name="A"), car(x=0.9, y=-0.9, vy=8.0, heading=1.5, name="B")
+    movers = {"A": Mover(a, tyres=WHEELS), "B": Mover(b, tyres=WHEELS)}
+    hit = Contact("A", "B", normal=0.0, point=(0.0, 0.1), **CONTACT)
+    run = Scene(movers=movers, contacts=[hit]).run()
+    given = {"normal": 0.0, "point": (0.0, 0.1), **CONTACT}
+    alone = col.time_resolved(a, b, **given, tyres_a=WHEELS, tyres_b=WHEELS)
+    assert run.impacts[0] == alone
+    # The places given are those of maximum engagement, where the clock of the scene begins.
+    assert run.at(0.0)["A"].x == a.x
+    assert run.at(0.0)["A"].vx == pytest.approx(alone.a.at_compression.vx, abs=1e-12)
+
+
+def test_one_at_a_touch_begins_there() -> None:
+    """With normal and point given it is the solver's with the geometry of first contact."""
+    movers = {
+        "A": Mover(car(x=-8.0, vx=15.0, y=0.3), outline=(4.0, 1.8), tyres=WHEELS),
+        "B": Mover(car(x=0.9, vy=0.0, heading=1.5), outline=(4.0, 1.8), tyres=WHEELS),
+    }
+    hit = Contact("A", "B", normal=0.0, point=(-0.3, 0.2), at="touch", **CONTACT)
+    run = Scene(movers=movers, contacts=[hit]).run()
+    impact = run.impacts[0]
+    given = {"normal": 0.0, "point": (-0.3, 0.2), "geometry": "first_contact", **CONTACT}
+    alone = col.time_resolved(
+        impact.a.before, impact.b.before, **given, tyres_a=WHEELS, tyres_b=WHEELS
+    )
+    assert impact.a.delta_v == alone.a.delta_v
+    ends = run.at(run.times[0] + impact.pulse.duration * (1.0 + 1e-12))
+    # What the solver's curves of velocity and yaw rate add up to.
+    pulse, before = alone.pulse, impact.a.before
+    cos, sin = math.cos(before.heading), math.sin(before.heading)
+    dx = cos * pulse.delta_v_forward_a - sin * pulse.delta_v_left_a
+    dy = sin * pulse.delta_v_forward_a + cos * pulse.delta_v_left_a
+    for name, curve in (
+        ("x", before.vx + dx),
+        ("y", before.vy + dy),
+        ("heading", pulse.yaw_rate_a),
+    ):
+        way = float(np.trapezoid(curve, pulse.time))
+        start = getattr(before, name)
+        assert getattr(ends["A"], name) == pytest.approx(start + way, abs=2e-4)
+
+
+def test_a_short_contact_is_that_of_stronges_impulse() -> None:
+    """The limit of the solver; the places of rest come nearer in proportion to the duration."""
+    movers = {
+        "A": Mover(car(x=-8.0, vx=15.0, y=0.5), outline=(4.0, 1.8), tyres=WHEELS),
+        "B": Mover(car(x=0.9, heading=1.5), outline=(4.0, 1.8), tyres=WHEELS),
+    }
+    rule = {"restitution": 0.2, "friction": 0.4, "normal": 0.0, "point": (-0.9, 0.4)}
+
+    def rest(**more: Any) -> Any:
+        hit = Contact("A", "B", at="touch", **rule, **more)
+        found = Scene(movers=movers, contacts=[hit]).run().rest
+        return np.array([(found[name].x, found[name].y) for name in movers])
+
+    instant = rest(law="stronge")
+    off = [np.abs(rest(duration=d) - instant).max() for d in (2e-2, 2e-3, 2e-4)]
+    assert off[0] > off[1] > off[2]
+    assert off[1] < 0.2 * off[0]
+    assert off[2] < 5e-3
+
+
+def test_the_way_through_a_contact_is_continuous_and_the_account_closes() -> None:
+    base = three_cars().scene
+    hits = [contact.replace(model=None, duration=0.1) for contact in base.contacts]
+    run = Scene(movers=base.movers, contacts=hits, surfaces=base.surfaces).run()
+    assert [impact.model for impact in run.impacts] == ["time_resolved"] * len(run.impacts)
+    for time in run.times:
+        before, after = run.at(max(time - 1e-9, 0.0)), run.at(time + 1e-9)
+        for name in base.movers:
+            assert math.dist(
+                (before[name].x, before[name].y), (after[name].x, after[name].y)
+            ) == pytest.approx(0.0, abs=1e-6)
+    energy = run.energy
+    kept = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
+    assert kept == pytest.approx(0.0, abs=1e-3 * energy["before"])
+    for impact in run.impacts:
+        assert impact.momentum_residual < 1e-9
+    replayed = Run.from_dict(json.loads(json.dumps(run.to_dict())))
+    assert replayed == run
+    np.testing.assert_equal(replayed.to_columns(), run.to_columns())
+
+
+def test_cases_of_a_batch_equal_single_runs() -> None:
+    base = three_cars().scene
+    hits = [contact.replace(model=None, duration=0.1) for contact in base.contacts]
+    scene = Scene(movers=base.movers, contacts=hits, surfaces=base.surfaces)
+    batch = scene.replace(
+        {"Camry.vx": np.array([17.0, 17.6, 18.4]), "contacts[0].duration": 0.09}
+    ).run()
+    assert list(batch.status) == ["ok"] * 3
+    for case in range(3):
+        alone = batch.case(case)
+        for name in base.movers:
+            assert batch.rest[name].x[case] == pytest.approx(alone.rest[name].x, abs=1e-9)
+            assert batch.rest[name].y[case] == pytest.approx(alone.rest[name].y, abs=1e-9)
+
+
+def test_a_mirrored_scene_has_a_mirrored_answer() -> None:
+    """The point comes from the outlines as they lie 0.03 s after first touch, carried back."""
+    wheels = Tyres(0.7, 0.3, 2.7, 1.5)
+
+    def rest(side: float) -> Any:
+        movers = {
+            "A": Mover(car(x=-8.0, vx=15.0, y=0.5 * side), outline=(4.0, 1.8), tyres=wheels),
+            "B": Mover(car(x=0.9, vy=3.0 * side, heading=1.4 * side), outline=(4.4, 1.8), drag=0.6),
+        }
+        hit = Contact("A", "B", at="touch", **CONTACT)
+        found = Scene(movers=movers, contacts=[hit]).run().rest
+        return [(found[name].x, side * found[name].y) for name in movers]
+
+    np.testing.assert_allclose(rest(1.0), rest(-1.0), atol=1e-9)
+
+
+def test_a_wall_stays_and_carries_the_normal() -> None:
+    wall = col.Vehicle(mass=math.inf, yaw_inertia=math.inf, x=5.0, y=0.0, heading=0.0)
+    movers = {
+        "A": Mover(car(x=-4.0, vx=12.0, y=0.4, heading=0.1), outline=(4.0, 1.8), tyres=WHEELS),
+        "Wall": Mover(wall, outline=("1 m", "4 m")),
+    }
+    hit = Contact("A", "Wall", at="touch", **CONTACT)
+    run = Scene(movers=movers, contacts=[hit]).run()
+    assert run.impacts[0].normal == pytest.approx((1.0, 0.0), abs=1e-12)
+    assert run.rest["Wall"].x == 5.0
+    assert run.rest["A"].vx == 0.0
+
+
+def test_a_row_bumper_to_bumper_is_struck_one_after_another() -> None:
+    """While a contact lasts its vehicles have no other; momentum is kept, as nothing slows them."""
+    movers = {
+        name: Mover(car(x=4.0 * at, vx=10.0 if at == 0 else 0.0), outline=(4.0, 1.8))
+        for at, name in enumerate("ABC")
+    }
+    hits = [Contact(*pair, at="touch", **CONTACT) for pair in ("AB", "BC")]
+    run = Scene(movers=movers, contacts=hits).run()
+    assert run.pairs[:2] == (("A", "B"), ("B", "C"))
+    first = run.impacts[0].pulse.duration
+    assert run.times[1] >= run.times[0] + first - 1e-12
+    later = run.at(run.end + 1.0)
+    assert sum(1500.0 * later[name].vx for name in "ABC") == pytest.approx(15000.0, rel=1e-9)
+    energy = run.energy
+    assert energy["before"] - sum(energy["contacts"]) == pytest.approx(energy["left"], rel=1e-3)
+
+
+def test_a_contact_at_a_time_within_another_is_refused() -> None:
+    movers = {name: Mover(car(x=9.0 * at, vx=9.0 - 9.0 * at)) for at, name in enumerate("ABC")}
+    given = {"normal": 0.0, "point": (4.0, 0.0), **CONTACT}
+    hits = [Contact("A", "B", **given), Contact("B", "C", at=0.005, **given)]
+    scene = Scene(movers=movers, contacts=hits)
+    with pytest.raises(
+        col.NoSolutionError, match=r"is at 0.005 s, while another contact"
+    ) as caught:
+        scene.run()
+    assert caught.value.code == "contact_meanwhile"
+    with pytest.warns(col.CollisionsWarning, match="1 contact_meanwhile"):
+        run = scene.replace({"contacts[1].at": np.array([0.005, 0.5])}).run()
+    assert list(run.status) == ["contact_meanwhile", "ok"]
+
+
+@pytest.mark.parametrize("at", [0.0, "touch"])
+def test_the_least_model_within_a_tolerance_may_be_that_in_time(at: Any) -> None:
+    """``solve`` takes the places to be those of maximum engagement, and the vehicles go on from
+    where the contact leaves them.
+    """
+    x = -2.0 if at == 0.0 else -6.0
+    movers = {
+        "A": Mover(car(x=x, vx=15.0, y=0.3), outline=(4.0, 1.8), tyres=WHEELS),
+        "B": Mover(car(x=0.9, heading=1.5), outline=(4.0, 1.8), tyres=WHEELS),
+    }
+    place = {"normal": 0.0, "point": (0.0, 0.1)} if at == 0.0 else {}
+    hit = Contact("A", "B", at=at, model="solve", tolerance=1e-3, **CONTACT, **place)
+    run = Scene(movers=movers, contacts=[hit]).run()
+    impact = run.impacts[0]
+    assert impact.model == "time_resolved"
+    ends = run.times[0] + impact.pulse.duration
+    assert run.at(ends)["A"].vx == pytest.approx(impact.a.after.vx, abs=0.3)
+    assert run.end > ends
+    energy = run.energy
+    kept = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
+    assert kept == pytest.approx(0.0, abs=1e-3 * energy["before"])
