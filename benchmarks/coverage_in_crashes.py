@@ -4,10 +4,13 @@ Each crash of lasting_population.py is read as an analyst would have it, with th
 each route of ``ROUTES``.
 
     python benchmarks/coverage_in_crashes.py [--crashes 150] [--world lasting|instant|both]
-        [--route NAME] [--axes turning|fixed] [--samples 256] [--json PATH]
+        [--route NAME] [--axes turning|fixed] [--samples 256] [--keep DIR] [--json PATH]
 
 The recorders lie at known places off the centres of mass, and their components are of axes that
 turn with the car; with ``--axes fixed`` they lie at the centres of mass and their axes do not turn.
+
+A whole table takes hours. With ``--keep`` it can be stopped and taken up again, route by route, and
+with ``--json docs/_generated/lasting_crashes.json`` each is put into the table of the page.
 
 In the ``instant`` world the same crashes have contacts of 2 ms and no tyres, so that the models of
 the routes are right but for the law of restitution. How wide a route's ranges are there is the
@@ -27,17 +30,19 @@ import sys
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from lasting_population import FRICTION, RESTITUTION, SEED, Population, population
+from lasting_population import FRICTION, RESISTING, RESTITUTION, SEED, Population, population
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "src"))
 
 import collisions as col
 from collisions import reconstruct
-from collisions.uncertainty import Distribution, Normal, Uniform, propagate
+from collisions.travel import Tyres
+from collisions.uncertainty import Distribution, Normal, OneSided, Uniform, propagate
 
 # Standard deviations of what is read, fixed before any route was tried.
 MASS_ERROR, INERTIA_ERROR = 0.02, 0.10  # shares
@@ -54,6 +59,7 @@ DURATION_ERROR, GROUND_ERROR, LOCK_ERROR = (
 )  # share; of friction; of the locks of a car's braked wheels together
 FASTEST = 40.0  # m/s; before the evidence any speed up to this is as likely
 OF_TYRES = ("wheelbase", "track", "cornering", "height")
+STEPS = 20  # of a contact in time: within 0.1 % of those of 100
 LOST = 0.02  # of the samples: above, the range is of the others, and the route counts as refused
 COVERAGE = 0.998  # of the binomial interval of a share held
 
@@ -81,6 +87,7 @@ class Reading:
     # without tyres, nothing.
     contact: dict[str, Distribution]
     locks: dict[str, Any]
+    braked: dict[str, Any]  # 1 of a wheel that is braked or locked, 0 of one that rolls
     # What the tyres need besides: wheelbase, track, cornering, height.
     cars: dict[str, dict[str, float]]
 
@@ -90,6 +97,7 @@ def readings(drawn: Population, seed: int, *, samples: int, axes: str) -> Iterat
     k, c = drawn.crashes, drawn.contacts
     speed = np.hypot(k.vx, k.vy)
     of_tyres = np.stack([getattr(k, name) for name in OF_TYRES])
+    braked = np.where(k.lock > RESISTING[1], 1.0, 0.0)
     recorder = drawn.recorder if axes == "turning" else np.zeros_like(drawn.recorder)
     if axes == "turning":
         forward, left = (curve[-1] for curve in c.turning(recorder[:, 0], recorder[:, 1]))
@@ -159,9 +167,9 @@ def readings(drawn: Population, seed: int, *, samples: int, axes: str) -> Iterat
             recorded_speed=recorded_speed,
             contact=contact,
             locks={
-                label: np.where(k.lock[j, :, i] > 0.03, k.lock[j, :, i] + off[j], k.lock[j, :, i])
-                for j, label in enumerate("ab")
+                label: k.lock[j, :, i] + off[j] * braked[j, :, i] for j, label in enumerate("ab")
             },
+            braked={label: braked[j, :, i] for j, label in enumerate("ab")},
             cars={
                 "a": dict(zip(OF_TYRES, of_tyres[:, 0, i], strict=True)),
                 "b": dict(zip(OF_TYRES, of_tyres[:, 1, i], strict=True)),
@@ -176,7 +184,17 @@ def lasting(reading: Reading, values: dict[str, Any] | None = None) -> dict[str,
     their values: the arguments made of them, of ``reading.locks`` and of ``reading.cars``. Of an
     impulse without tyres there is nothing to tell.
     """
-    return {}
+    if values is None or not reading.contact:
+        return dict(reading.contact)
+    found = {"duration": values["duration"]}
+    for label, of_car in reading.cars.items():
+        braked = reading.braked[label]
+        locks = [
+            np.clip(lock + held * values[f"lock_{label}"], 0.0, 1.0)
+            for lock, held in zip(reading.locks[label], braked, strict=True)
+        ]
+        found[f"tyres_{label}"] = Tyres(values["ground"], locks, **of_car)
+    return found
 
 
 def cars(reading: Reading, values: dict[str, Any], speeds: dict[str, Any]) -> list[col.Vehicle]:
@@ -213,67 +231,114 @@ class LostError(Exception):
 def by_momentum(reading: Reading) -> Speeds:
     """Courses before, and courses and speeds after."""
     known = {name: reading.known[name] for name in ("mass_a", "mass_b", "course_a", "course_b")}
-    after = {name: Normal(*read) for name, read in reading.motion.items() if "yaw" not in name}
+    # Yaw rates and headings count for the tyres alone.
+    with_tyres = bool(reading.contact)
+    after = {
+        name: Normal(*read)
+        for name, read in reading.motion.items()
+        if with_tyres or "yaw" not in name
+    }
+    headings = {f"heading_{label}": place[2] for label, place in reading.place.items()}
 
     def model(**values: Any) -> dict[str, Any]:
-        taken = {name: value for name, value in values.items() if name[0] in "cs"}
-        found = reconstruct.momentum(
-            values["mass_a"],
-            values["mass_b"],
-            **taken,
-            **lasting(reading, values),
-            on_failure="nan",
-        )
+        taken = {name: value for name, value in values.items() if name in known or name in after}
+        taken |= lasting(reading, values) | (headings if with_tyres else {})
+        found = reconstruct.momentum(**taken, on_failure="nan")
         return {"a": found.speed_a, "b": found.speed_b}
 
     return ranges(model, known | after, reading)
 
 
-def by_components(reading: Reading, recorders: str, friction: Any, speed: str = "") -> Speeds:
-    """Components of these recorders, and the speed that one of them tells."""
+def by_components(
+    reading: Reading,
+    recorders: str,
+    speed: str = "",
+    *,
+    regime: str | None = None,
+    ratio_shown: bool = False,
+) -> Speeds:
+    """Components of these recorders, and the speed that one of them tells.
+
+    Whether the contact stuck or slid is left to the friction, and answered by a bound where that
+    does not tell, unless the ``regime`` is stated or a speed is known.
+    """
     inputs = reading.known | {"restitution": Uniform(*RESTITUTION)}
     parts = reading.recorded.items()
     given: dict[str, Any] = {name: Normal(*read) for name, read in parts if name[-1] in recorders}
+    fixed: dict[str, Any] = {}
     if speed:
         told = reading.recorded_speed[speed]
         given[f"speed_{speed}"] = Uniform(told - RECORDED_SPEED, told + RECORDED_SPEED)
-    if friction == math.inf:
-        fixed = {"friction": math.inf}
+    if regime or ratio_shown:
+        # Of a contact that slid, the components show the friction.
+        fixed = {"friction": math.inf} | ({"regime": regime} if regime else {})
     else:
-        fixed, inputs = {}, inputs | {"friction": friction}
+        inputs |= {"friction": Uniform(*FRICTION)}
+        fixed = {} if speed else {"slid": "bound"}
+    if any(any(place) for place in reading.recorder.values()):
+        fixed |= {f"recorder_{label}": reading.recorder[label] for label in recorders}
+        # Without a duration nothing turns while the contact lasts.
+        fixed["duration"] = 0.0
     contact = ("normal", "restitution", "friction", "course_a", "course_b")
 
     def model(**values: Any) -> dict[str, Any]:
         taken = {name: value for name, value in values.items() if name in given or name in contact}
+        arguments = {**taken, **fixed, **lasting(reading, values)}
         found = reconstruct.speeds(
             *cars(reading, values, {"a": 0.0, "b": 0.0}),
             point=(values["x"], values["y"]),
-            **taken,
-            **fixed,
-            **lasting(reading, values),
+            **arguments,
         )[0]
-        return {"a": found.a.before.speed, "b": found.b.before.speed}
+        sides = found.reconstruction.one_sided or {}
+        before = {label: getattr(found, label).before.speed for label in "ab"}
+        return {
+            label: OneSided(value, sides.get(f"speed_{label}", 0))
+            for label, value in before.items()
+        }
 
     return ranges(model, inputs | given, reading, "ab".replace(speed, "") if speed else "ab")
 
 
 def by_both_recorders(reading: Reading) -> Speeds:
     """Components of both recorders, with the friction of the contact known as its distribution."""
-    return by_components(reading, "ab", Uniform(*FRICTION))
+    return by_components(reading, "ab")
 
 
 def by_both_recorders_stuck(reading: Reading) -> Speeds:
-    """Components of both recorders, with the contact taken to stick."""
-    return by_components(reading, "ab", math.inf)
+    """Components of both recorders, with the contact stated to have stuck."""
+    return by_components(reading, "ab", regime="sticking")
 
 
 def by_one_recorder(reading: Reading) -> Speeds:
     """Components of A's recorder and the speed that it tells, friction as its distribution."""
-    return by_components(reading, "a", Uniform(*FRICTION), "a")
+    return by_components(reading, "a", "a")
 
 
-def by_posterior(reading: Reading) -> Speeds:
-    """Size of both delta-V and motion after: speeds, courses and yaw rates; by ``eccentric``."""
+def by_one_recorder_alone(reading: Reading) -> Speeds:
+    """The same without a friction: the components show that of a contact that slid."""
+    return by_components(reading, "a", "a", ratio_shown=True)
+
+
+def shown(reading: Reading, side: Any, label: str, duration: Any) -> Any:
+    """Size of delta-V that a recorder shows in axes that turn with its car, at its place.
+
+    The turn itself does not change the size; the place adds the change of yaw rate and, ahead and
+    aside, the square of the yaw rate over time (Marine and Werner, SAE 980219), which grows
+    linearly here.
+    """
+    forward, left = reading.recorder[label]
+    before, after = side.before.yaw_rate, side.after.yaw_rate
+    square = duration * (before * before + before * after + after * after) / 3.0
+    return np.hypot(
+        side.delta_v_forward - (after - before) * left - square * forward,
+        side.delta_v_left + (after - before) * forward - square * left,
+    )
+
+
+def by_posterior(reading: Reading, *, in_time: bool = False) -> Speeds:
+    """Size of both delta-V and motion after: speeds, courses and yaw rates; by ``eccentric``, and
+    with ``in_time`` by the contact in time as the finer model.
+    """
     priors: dict[str, Any] = reading.known | {
         "speed_a": Uniform(0.0, FASTEST),
         "speed_b": Uniform(0.0, FASTEST),
@@ -287,17 +352,7 @@ def by_posterior(reading: Reading) -> Speeds:
         forward, left = (reading.recorded[f"delta_v_{way}_{label}"] for way in ("forward", "left"))
         observed[f"delta_v_{label}"] = Normal(math.hypot(forward[0], left[0]), forward[1])
 
-    def model(**values: Any) -> dict[str, Any]:
-        both = cars(reading, values, {label: values[f"speed_{label}"] for label in "ab"})
-        impact = col.eccentric(
-            *both,
-            values["restitution"],
-            normal=values["normal"],
-            point=(values["x"], values["y"]),
-            friction=values["friction"],
-            **lasting(reading, values),
-            on_failure="nan",
-        )
+    def seen(impact: Any, duration: Any) -> dict[str, Any]:
         found = {}
         for label, side in (("a", impact.a), ("b", impact.b)):
             # The course as an angle from the one that was read, which has no jump near it.
@@ -305,12 +360,28 @@ def by_posterior(reading: Reading) -> Speeds:
             found[f"course_{label}_after"] = np.angle(np.exp(1j * (side.after.course - read)))
             found[f"speed_{label}_after"] = side.after.speed
             found[f"yaw_rate_{label}_after"] = side.after.yaw_rate
-            x, y, heading = reading.place[label]
-            forward, left = reading.recorder[label]
-            c, s = math.cos(heading), math.sin(heading)
-            at_recorder = side.delta_v_at((x + c * forward - s * left, y + s * forward + c * left))
-            found[f"delta_v_{label}"] = np.hypot(*at_recorder)
+            found[f"delta_v_{label}"] = shown(reading, side, label, duration)
         return found
+
+    def solved(values: dict[str, Any], solver: Any, **settings: Any) -> dict[str, Any]:
+        speeds = {label: values[f"speed_{label}"] for label in "ab"}
+        impact = solver(
+            *cars(reading, values, speeds),
+            values["restitution"],
+            normal=values["normal"],
+            point=(values["x"], values["y"]),
+            friction=values["friction"],
+            **lasting(reading, values),
+            **settings,
+            on_failure="nan",
+        )
+        return seen(impact, values.get("duration", 0.0))
+
+    def model(**values: Any) -> dict[str, Any]:
+        return solved(values, col.eccentric)
+
+    def finer(**values: Any) -> dict[str, Any]:
+        return solved(values, col.time_resolved, steps=STEPS)
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", col.CollisionsWarning)
@@ -318,7 +389,8 @@ def by_posterior(reading: Reading) -> Speeds:
             model,
             priors | lasting(reading),
             observed,
-            samples=max(512, 2 * reading.samples),
+            finer=finer if in_time and reading.contact else None,
+            samples=max(512, 4 * reading.samples),
             seed=reading.seed,
         )
     for one in caught:
@@ -332,9 +404,11 @@ def by_posterior(reading: Reading) -> Speeds:
 ROUTES: dict[str, Callable[[Reading], Speeds]] = {
     "momentum": by_momentum,
     "both recorders, friction known": by_both_recorders,
-    "both recorders, friction=inf": by_both_recorders_stuck,
+    "both recorders, stated to have stuck": by_both_recorders_stuck,
     "one recorder and its speed": by_one_recorder,
+    "one recorder and its speed, friction=inf": by_one_recorder_alone,
     "posterior of delta-V and motion after": by_posterior,
+    "the same with the contact in time as finer=": partial(by_posterior, in_time=True),
 }
 
 
@@ -372,6 +446,25 @@ def told(route: Callable[[Reading], Speeds], reading: Reading) -> Told:
     speed = reading.truth
     sides = tuple(int(speed[x] > high) - int(speed[x] < low) for x, (low, high) in found.items())
     return Told(reading.stuck, reading.rolling, refused, tuple(sorted(codes)), widths, sides)
+
+
+def tales(
+    route: Callable[[Reading], Speeds],
+    read: Callable[[], list[Reading]],
+    count: int,
+    kept: Path | None,
+) -> list[Told]:
+    """What a route tells of each of so many crashes; of those in the file ``kept`` what it told
+    then.
+    """
+    lines = kept.read_text(encoding="utf-8").splitlines() if kept and kept.is_file() else []
+    found = [Told(*json.loads(line)) for line in lines[:count]]
+    for reading in read()[len(found) :] if len(found) < count else []:
+        found.append(told(route, reading))
+        if kept:
+            with kept.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(found[-1]) + "\n")
+    return found
 
 
 CELLS: dict[str, Callable[[Told], bool]] = {
@@ -492,26 +585,59 @@ def main() -> None:
     parser.add_argument("--world", choices=("lasting", "instant", "both"), default="lasting")
     parser.add_argument("--route", action="append", choices=list(ROUTES))
     parser.add_argument("--axes", choices=("turning", "fixed"), default="turning")
-    parser.add_argument("--samples", type=int, default=256, help="posterior takes twice as many")
-    parser.add_argument("--json", type=Path)
+    parser.add_argument(
+        "--samples", type=int, default=256, help="posterior takes four times as many"
+    )
+    parser.add_argument("--seed", type=int, default=SEED, help="another draws other crashes")
+    parser.add_argument("--keep", type=Path, help="each crash's answer; those there are not asked")
+    parser.add_argument("--only-kept", action="store_true", help="the table of what is there")
+    parser.add_argument("--json", type=Path, help="routes there that are not asked stay")
     options = parser.parse_args()
     found: dict[str, Any] = {}
     for world in ("lasting", "instant") if options.world == "both" else (options.world,):
-        drawn = population(options.crashes, instant=world == "instant")
-        read = list(readings(drawn, SEED, samples=options.samples, axes=options.axes))
+
+        @cache
+        def read(instant: bool = world == "instant") -> list[Reading]:
+            if options.only_kept:
+                return []
+            drawn = population(options.crashes, options.seed, instant=instant)
+            settings: dict[str, Any] = {"samples": options.samples, "axes": options.axes}
+            return list(readings(drawn, options.seed, **settings))
+
         if world == "instant":
             print("\nContacts of 2 ms without tyres, and whether they stuck or slid")
         for name in options.route or ROUTES:
-            tale = [told(ROUTES[name], reading) for reading in read]
+            kept = None
+            if options.keep:
+                options.keep.mkdir(exist_ok=True)
+                settings = f"{options.seed} {options.samples} {options.axes}"
+                kept = options.keep / f"{world} {name} {settings}.jsonl"
+            tale = tales(ROUTES[name], read, options.crashes, kept)
+            if not tale:
+                continue
             cells = {cell: counted([one for one in tale if of(one)]) for cell, of in CELLS.items()}
             found.setdefault(world, {})[name] = cells
             print(printed(name, cells), flush=True)
-    if options.world == "both":
+    if options.world == "both" and "instant" in found:
         print("\nWidth in the lasting world over that in the instant one")
         for name, cells in found["lasting"].items():
+            if name not in found["instant"]:
+                continue
             print(f"  {name}: {cells['all']['width'] / found['instant'][name]['all']['width']:.2f}")
     if options.json:
-        options.json.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+        if options.json.is_file():
+            before = json.loads(options.json.read_text(encoding="utf-8"))
+            found = {world: before.get(world, {}) | new for world, new in found.items()}
+            found = before | found
+        text = json.dumps(_strict(found), indent=1, allow_nan=False)
+        options.json.write_text(text + "\n", encoding="utf-8")
+
+
+def _strict(found: Any) -> Any:
+    """The same with None for a width that is infinite or that there is not."""
+    if isinstance(found, dict):
+        return {name: _strict(value) for name, value in found.items()}
+    return None if isinstance(found, float) and not math.isfinite(found) else found
 
 
 if __name__ == "__main__":

@@ -8,6 +8,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+from collisions.quantities.printed_tables import Part, in_markdown
+
 DATA = Path(__file__).resolve().parent.parent / "docs" / "_generated"
 WHAT = {"place": "place, over the way", "heading": "heading, in rad", "time": "time, over the time"}
 
@@ -19,8 +21,8 @@ def load(name: str) -> Any:
 
 def table(head: list[str], rows: list[list[str]]) -> str:
     """A Markdown table whose columns of numbers are on the right."""
-    lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    sides = ["---", *["---:"] * (len(head) - 1)]
+    return in_markdown(Part([tuple(row) for row in rows], columns=tuple(head)), sides=sides)
 
 
 def promise(found: dict[str, Any]) -> str:
@@ -71,8 +73,9 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:.2g} %"
 
 
-def coverage(rows: list[dict[str, Any]]) -> str:
+def coverage(found: dict[str, Any]) -> str:
     """How often stated 95 % ranges held cars whose wheels spin."""
+    rows = found["rows"]
     kinds = list(dict.fromkeys(row["kind"] for row in rows))
     outputs = list(dict.fromkeys(row["output"] for row in rows))
     known = {(row["output"], row["kind"]): row for row in rows}
@@ -85,3 +88,15 @@ def coverage(rows: list[dict[str, Any]]) -> str:
             cells.append(f"**{share}**" if row["high"] < 0.95 else share)
         lines.append([output, *cells])
     return table(["95 % range of", *kinds], lines)
+
+
+def off_by_path(found: dict[str, Any]) -> str:
+    """What ``path`` is off by in other run-outs, in a phrase."""
+    off = found["off"]
+    return f"{100.0 * off['speed']:.1f} % in speed and {off['yaw_rate']:.2f} rad/s in yaw rate"
+
+
+def pooled(found: dict[str, Any]) -> str:
+    """The share held over all outputs."""
+    rows = [row for row in found["rows"] if row["kind"] == "all"]
+    return f"{100.0 * sum(row['held'] for row in rows) / sum(row['cars'] for row in rows):.1f} %"

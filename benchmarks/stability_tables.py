@@ -10,6 +10,8 @@ import re
 from pathlib import Path
 from typing import Any
 
+from collisions.quantities.printed_tables import Part, in_markdown
+
 DATA = Path(__file__).resolve().parent.parent / "docs" / "_generated" / "stability.json"
 NAMES = {
     "closing": "closing speed",
@@ -43,10 +45,9 @@ def number(value: float | None) -> str:
 
 def table(head: list[str], rows: list[list[str]]) -> str:
     """A Markdown table whose columns of numbers are on the right."""
-    lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows]
-    return "\n".join(
-        "| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines
-    )
+    sides = ["---", *["---:"] * (len(head) - 1)]
+    part = Part([tuple(row) for row in rows], columns=tuple(head))
+    return in_markdown(part, lambda cell: cell.replace("|", "\\|"), sides)
 
 
 def symbols(text: str) -> str:

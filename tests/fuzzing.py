@@ -341,7 +341,11 @@ def _promptly() -> Iterator[None]:
     """Stops what has not ended within some seconds of processor time, where the system has an alarm
     to set.
     """
-    if not hasattr(signal, "SIGPROF") or threading.current_thread() is not threading.main_thread():
+    # Windows has neither the alarm nor its signal.
+    if (
+        not hasattr(signal, "setitimer")
+        or threading.current_thread() is not threading.main_thread()
+    ):
         yield
         return
 

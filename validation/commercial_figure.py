@@ -42,7 +42,7 @@ def _draw(path: Path) -> None:
     )  # fmt: skip
     times = np.linspace(program.SIDE_FROM, 5.0, 200)
     for ground, colour in COLOURS.items():
-        states = program.side_motion(*program.GROUNDS[ground])
+        states = program.side_scene(*program.GROUNDS[ground])
         for state in states.values():
             places = [program.place(state(time)) for time in times]
             middle.plot(

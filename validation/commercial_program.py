@@ -2,7 +2,7 @@
 that the program states.
 
 Then what the vehicles do after it, which is in ``commercial/*.csv`` row by row, beside ``Scene``
-(in line) and ``travel.simulate`` (into the side).
+(both) and ``travel.simulate`` (into the side).
 """
 
 from __future__ import annotations
@@ -32,13 +32,19 @@ def path_of(name: str) -> list[dict[str, float]]:
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
-def side_impact(law: str) -> col.Impact:
-    """The T; its plane of contact lies along 138.94 deg."""
+SIDE_CONTACT = {**HOW, "normal": f"{138.94 - 90.0} deg", "point": ("38.32 ft", "1.84 ft")}
+"""The contact of the T; its plane lies along 138.94 deg."""
+
+
+def side_cars() -> tuple[col.Vehicle, col.Vehicle]:
+    """Both cars of the T, just before the impact."""
     a = col.Vehicle(**CAR, vx="30 mph", x="33.22 ft", y=0.0, heading=0.0)
-    b = col.Vehicle(**CAR, x="40 ft", y="10 ft", heading="90 deg")
-    return col.eccentric(
-        a, b, **HOW, normal=f"{138.94 - 90.0} deg", point=("38.32 ft", "1.84 ft"), law=law
-    )
+    return a, col.Vehicle(**CAR, x="40 ft", y="10 ft", heading="90 deg")
+
+
+def side_impact(law: str) -> col.Impact:
+    """The T."""
+    return col.eccentric(*side_cars(), **SIDE_CONTACT, law=law)
 
 
 def into_the_side(law: str) -> dict[str, float]:
@@ -203,20 +209,55 @@ def in_line_motion() -> tuple[float, dict[str, State]]:
     return start, {name: lambda time, name=name: run.at(time - start)[name] for name in names}
 
 
-def side_motion(friction: float, cornering: float) -> dict[str, State]:
-    """``travel.simulate`` from the impact on: both cars roll.
+def side_wheels(friction: float, cornering: float) -> travel.Tyres:
+    """The wheels of the T, whose size is a guess, rolling.
 
-    Wheelbase and track are a guess. ``simulate`` asks for something that stops a car: a drag of
-    0.001 of the weight on the tyres, 0.1 mph in the time that is compared, and so many moments
-    because such a car comes to rest only after minutes.
+    Something has to stop a car: a drag of 0.001 of the weight, 0.1 mph in the time that is
+    compared.
+    """
+    return travel.Tyres(friction, 0.001 / friction, "9.2 ft", "5 ft", cornering=cornering)
+
+
+def side_motion(friction: float, cornering: float) -> dict[str, State]:
+    """``travel.simulate`` from the impact on; so many moments because such a car comes to rest only
+    after minutes.
     """
     impact = side_impact(PROGRAM_LAW)
-    tyres = travel.Tyres(friction, 0.001 / friction, "9.2 ft", "5 ft", cornering=cornering)
+    tyres = side_wheels(friction, cornering)
     found: dict[str, State] = {}
     for name, side in (("vehicle 1", impact.a), ("vehicle 2", impact.b)):
         path = travel.simulate(side.after, tyres, moments=50000)
         found[name] = lambda time, path=path: path.at(time - SIDE_FROM)
     return found
+
+
+def side_scene(friction: float, cornering: float) -> dict[str, State]:
+    """The same as one ``Scene``: the impact and the motion after it, by its names."""
+    cars, names = side_cars(), ("vehicle 1", "vehicle 2")
+    tyres = side_wheels(friction, cornering)
+    run = Scene(
+        movers={name: Mover(car, tyres=tyres) for name, car in zip(names, cars, strict=True)},
+        contacts=[Contact(*names, **SIDE_CONTACT, law=PROGRAM_LAW, at=0.0)],
+    ).run()
+    return {name: lambda time, name=name: run.at(time - SIDE_FROM)[name] for name in names}
+
+
+def scene_apart() -> dict[str, float]:
+    """How far the motion by ``Scene`` is from that by ``simulate``, over all cars, grounds and
+    times that are compared: the largest difference of each number.
+    """
+    found: dict[str, float] = {}
+    for ground in GROUNDS.values():
+        ours, again = side_motion(*ground), side_scene(*ground)
+        for name, state in ours.items():
+            for time in TIMES["into the side"]:
+                one, other = place(state(time)), place(again[name](time))
+                for key, value in one.items():
+                    apart = abs(value - other[key])
+                    if key == "heading":
+                        apart = abs((apart + 180.0) % 360.0 - 180.0)
+                    found[key] = max(found.get(key, 0.0), apart)
+    return {key: float(f"{value:.2g}") for key, value in found.items()}
 
 
 def place(vehicle: col.Vehicle) -> dict[str, float]:
@@ -266,10 +307,10 @@ def by_time(run: str, ground: str, states: dict[str, State]) -> list[dict[str, A
 
 
 def motion_after() -> list[dict[str, Any]]:
-    """The motion after both impacts beside that of ``Scene`` and of ``travel.simulate``."""
+    """The motion after both impacts beside that of a ``Scene``."""
     found = by_time("in line", "0.3 g", in_line_motion()[1])
     for ground, (friction, cornering) in GROUNDS.items():
-        found += by_time("into the side", ground, side_motion(friction, cornering))
+        found += by_time("into the side", ground, side_scene(friction, cornering))
     return found
 
 
@@ -282,4 +323,5 @@ def everything() -> dict[str, Any]:
         "below_the_centres": below_the_centres(),
         "braking": braking(),
         "motion": motion_after(),
+        "scene_and_simulate_apart": scene_apart(),
     }

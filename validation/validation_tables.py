@@ -10,6 +10,8 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
+from collisions.quantities.printed_tables import Part, in_markdown
+
 ROOT = Path(__file__).resolve().parent.parent
 DATA = ROOT / "docs" / "_generated" / "validation.json"
 TITLES = {
@@ -29,10 +31,9 @@ def load() -> dict[str, Any]:
 
 def table(head: list[str], rows: list[list[str]], left: int = 1) -> str:
     """A Markdown table; the columns after the first ``left`` are on the right."""
-    lines = [head, [*["---"] * left, *["---:"] * (len(head) - left)], *rows]
-    return "\n".join(
-        "| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines
-    )
+    sides = [*["---"] * left, *["---:"] * (len(head) - left)]
+    part = Part([tuple(row) for row in rows], columns=tuple(head))
+    return in_markdown(part, lambda cell: cell.replace("|", "\\|"), sides)
 
 
 def minus(text: str) -> str:

@@ -6,6 +6,7 @@ import inspect
 import re
 
 from collisions.quantities.attributes import attributes, unit_of
+from collisions.quantities.printed_tables import Part, in_markdown
 
 
 def pretty(unit):
@@ -28,8 +29,7 @@ def escaped(text):
 
 def rows(header, lines):
     """A Markdown table."""
-    head = [f"| {' | '.join(header)} |", "|" + "---|" * len(header)]
-    return "\n".join([*head, *(f"| {' | '.join(line)} |" for line in lines)])
+    return in_markdown(Part(list(lines), columns=tuple(header)))
 
 
 def attribute_table(kind, prefix=""):

@@ -9,6 +9,7 @@ import io
 
 import matplotlib.pyplot as plt
 from IPython.display import Image
+
 from pages import names_of
 
 MPH, FOOT = 0.44704, 0.3048

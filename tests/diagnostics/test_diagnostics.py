@@ -211,6 +211,10 @@ CASES = {
         lambda: (square(), {"damage_delta_v_b": 1.11 * square().b.delta_v}),
         lambda: (square(), {"damage_delta_v_b": 1.09 * square().b.delta_v}),
     ),
+    "delta_v_pair": (
+        lambda: (square(), {"damage_delta_v_a": "30 km/h", "damage_delta_v_b": "70 km/h"}),
+        lambda: (square(), {"damage_delta_v_a": "30 km/h", "damage_delta_v_b": "36 km/h"}),
+    ),
     "impulse_off_normal": (
         lambda: (square(b={"vy": -60.0}, friction=1.1), {}),
         lambda: (square(b={"vy": -60.0}, friction=0.9), {}),
@@ -599,6 +603,48 @@ def test_components_are_compared_as_vectors():
         diagnose(solution, damage_delta_v_b=(1.0, 2.0))
 
 
+def test_a_pair_of_delta_vs_obeys_momentum_in_the_scene():
+    """As vectors, each in the axes of its own vehicle: those of an impact leave nothing over, and
+    one that is turned by an angle leaves twice the sine of its half.
+    """
+    impact = square(a={"heading": "20 deg"}, b={"heading": "-100 deg"}, restitution=0.0, friction=1)
+    own = {label: getattr(impact, label) for label in "ab"}
+    pairs = {
+        f"damage_delta_v_{label}": (side.delta_v_forward, side.delta_v_left)
+        for label, side in own.items()
+    }
+    assert of("delta_v_pair", impact, **pairs, limits={"delta_v_pair": 1e-12}) == []
+    forward, left = pairs["damage_delta_v_b"]
+    angle = math.radians(25.0)
+    c, s = math.cos(angle), math.sin(angle)
+    pairs["damage_delta_v_b"] = (c * forward - s * left, s * forward + c * left)
+    (finding,) = of("delta_v_pair", impact, **pairs)
+    assert finding.measured == pytest.approx(2.0 * math.sin(0.5 * angle), rel=1e-12)
+    assert "as vectors" in finding.sentence
+    sizes = {name: math.hypot(*pair) for name, pair in pairs.items()}
+    assert of("delta_v_pair", impact, **sizes) == []
+
+
+def test_a_pair_of_delta_vs_by_momentum_and_what_acts_from_outside():
+    """What acts from outside is no contradiction; without it the same pair is."""
+    known = {"course_a": 0.0, "course_b": "90 deg", "heading_a": 0.0, "heading_b": "90 deg"}
+    known |= {"speed_a_after": 9.0, "course_a_after": "30 deg"}
+    known |= {"speed_b_after": 7.0, "course_b_after": "60 deg"}
+    solution = reconstruct.momentum(1500, 1000, **known, outside_impulse=(-3000.0, 4000.0))
+    pairs = {
+        "damage_delta_v_a": (9.0 * math.cos(math.pi / 6) - solution.speed_a, 4.5),
+        "damage_delta_v_b": (7.0 * math.sin(math.pi / 3) - solution.speed_b, -3.5),
+    }
+    assert of("delta_v_pair", solution, **pairs, limits={"delta_v_pair": 1e-12}) == []
+    alone = reconstruct.momentum(1500, 1000, **known)
+    (finding,) = of("delta_v_pair", alone, **pairs)
+    mean = 0.5 * (
+        1500 * math.hypot(*pairs["damage_delta_v_a"])
+        + 1000 * math.hypot(*pairs["damage_delta_v_b"])
+    )
+    assert finding.measured == pytest.approx(5000.0 / mean, rel=1e-12)
+
+
 def test_the_tutorial_whose_damage_contradicts_its_momentum():
     """EDCRASH, Visibility Study (M10): delta-V of 60.7 and 59.4 km/h by damage, 12.6 and 12.3 by
     momentum.
@@ -928,6 +974,11 @@ def towards(heading):
             "delta_v_off_damage",
             lambda: square(a={"vx": 15.1}),
             {"damage_delta_v_a": 1.1 * square(a={"vx": 15.1}).a.delta_v},
+        ),
+        (
+            "delta_v_pair",
+            lambda: square(b={"mass": CAR["mass"]}),
+            {"damage_delta_v_a": 9.9, "damage_delta_v_b": 8.1},
         ),
         ("momentum_energy", lambda: square(), {"crush_energy": 1.5 * square().energy_loss}),
         ("suspect_angle", lambda: square(a={"heading": "400 grad"}), {}),

@@ -87,6 +87,14 @@ def off_the_wall(lever, vx=20.0, restitution=0.0, **contact):
     return col.eccentric(col.Vehicle(**car), col.Vehicle.barrier(), restitution, **contact)
 
 
+def turned_by_chord(share):
+    """Rearward at 10 m/s, turned so that the way from its end to that of a straight one is this
+    share of it.
+    """
+    angle = 2.0 * math.asin(0.5 * share)
+    return -10.0 * math.cos(angle), 10.0 * math.sin(angle)
+
+
 def by_momentum(
     after_a=(6.0, 5.0), after_b=(6.0, 5.0), mass=(1500.0, 1500.0), course_b=0.5 * math.pi, **more
 ):
@@ -396,6 +404,12 @@ ROWS = [
         lambda x: (in_line(), {"damage_delta_v_b": 10.0 * (1.0 - x)})),
     Row("delta_v_off_damage", 0.1, MESSAGES,
         lambda x: (by_momentum((4.0, 4.0), (3.0, 4.0)), {"damage_delta_v_b": 5.0 * (1.0 + x)})),
+    Row("delta_v_pair", 0.2, "reference.RECORDER_ACCURACY",
+        lambda x: (in_line(), {"damage_delta_v_a": 10.0 * (1.0 + 0.5 * x),
+                               "damage_delta_v_b": 10.0 * (1.0 - 0.5 * x)})),
+    Row("delta_v_pair", 0.2, "reference.RECORDER_ACCURACY",
+        lambda x: (turning(), {"damage_delta_v_a": turned_by_chord(x),
+                               "damage_delta_v_b": (10.0, 0.0)})),
     Row("impulse_off_normal", math.radians(45.0), "EDCRASH manual, chapter 4",
         lambda x: aslant(vy=60.0, friction=math.tan(x))),
     Row("heading_off_course", math.radians(45.0), OWN, lambda x: in_line(a={"heading": x})),

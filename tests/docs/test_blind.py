@@ -15,8 +15,10 @@ import numpy as np
 import pytest
 
 import collisions as col
-from collisions import travel
+from collisions import reference, travel
 from collisions.__main__ import main
+from collisions.diagnostics import diagnose
+from collisions.diagnostics.moves import ASIDE
 from collisions.uncertainty import Uniform
 
 ROOT = next(
@@ -39,6 +41,7 @@ def blind():
             "backwards",
             "causes",
             "compare",
+            "from_rest",
             "inputs",
             "levels",
             "measured",
@@ -430,6 +433,84 @@ def test_momentum_and_levers_are_those_of_an_impact_that_closes(blind):
     assert check["unclosed"] == pytest.approx(0.0, abs=1e-12)
     for side in ("a", "b"):
         assert check[f"lever_{side}"] == pytest.approx(check[f"lever_drawn_{side}"], rel=1e-9)
+    assert [check["aside"], check["common"]] == pytest.approx([0.0, 0.0], abs=1e-12)
+    # A point elsewhere and a couple between the cars look the same; moments from outside do not.
+    impulse = middles["a.mass"] * found.a.delta_v
+    angle = math.atan2(found.b.delta_vy, found.b.delta_vx)
+    across = 0.4 * -math.sin(angle), 0.4 * math.cos(angle)
+    moved = {
+        f"eccentric.point.{at}": middles[f"eccentric.point.{at}"] - across[at] for at in (0, 1)
+    }
+    elsewhere = blind["measured"].self_check(read, middles | moved)
+    couple = {
+        f"yaw_rate_{side}": read[f"yaw_rate_{side}"]
+        + sign * 0.4 * impulse / middles[f"{side}.yaw_inertia"]
+        for side, sign in (("a", 1.0), ("b", -1.0))
+    }
+    turned = blind["measured"].self_check(read | couple, middles)
+    for answer in (elsewhere, turned):
+        assert [answer["aside"], answer["common"]] == pytest.approx([-0.4, 0.0], abs=1e-9)
+    outside = {
+        f"yaw_rate_{side}": read[f"yaw_rate_{side}"]
+        + 0.3 * impulse / middles[f"{side}.yaw_inertia"]
+        for side in "ab"
+    }
+    answer = blind["measured"].self_check(read | outside, middles)
+    assert [answer["aside"], answer["common"]] == pytest.approx([0.0, 0.3], abs=1e-9)
+
+
+def test_the_library_has_what_the_misses_teach(blind, committed):
+    """How far aside the impulse passed is a reference value, and by about as much `diagnose` moves
+    a contact point; of the yaw rates after, those that a drawn point gives with that range hold.
+    """
+    checks = committed["blind"]["self_checks"]
+    aside = [abs(entry["aside"]) for entry in checks]
+    assert len(checks) == 7
+    drawn = reference.CONTACT_POINT_DRAWN
+    assert [drawn.low, drawn.high] == pytest.approx([min(aside), max(aside)], abs=5e-3)
+    assert drawn.typical == pytest.approx(math.sqrt(sum(x * x for x in aside) / 7), abs=5e-3)
+    common = math.sqrt(sum(entry["common"] ** 2 for entry in checks) / 7)
+    assert f"{common:.2f} m more" in drawn.quality
+    assert drawn.typical == pytest.approx(ASIDE, abs=0.03)
+    (tried,) = (
+        row
+        for row in committed["blind"]["afterwards"]
+        if (row["tried"], row["kind"]) == ("point to 0.5 m", "yaw rate")
+    )
+    assert tried["held"] == tried["readings"]
+    half = 0.5 / blind["inputs"].HALF_95
+    assert half == pytest.approx(ASIDE, abs=0.01)
+
+
+def test_pairs_that_violate_momentum_are_found(blind):
+    """Of the measured changes of velocity of the staged crashes, by what they leave over."""
+    found = set()
+    for key, (title, numbers) in blind["inputs"].cases().items():
+        if blind["compare"].group(key) != blind["compare"].READ_FIRST:
+            continue
+        read = blind["measured"].readings()[key]
+        middles = {name: blind["inputs"].middle(stated) for name, stated in numbers.items()}
+        a, b = blind["levels"].vehicles(middles)
+        impact = col.eccentric(a, b, **blind["levels"].contact(middles))
+        seen = {}
+        for label, vehicle in (("a", a), ("b", b)):
+            x, y = (
+                read[f"velocity_after_{axis}_{label}"] - before
+                for axis, before in (("forward", vehicle.vx), ("left", vehicle.vy))
+            )
+            c, s = math.cos(vehicle.heading), math.sin(vehicle.heading)
+            seen[f"damage_delta_v_{label}"] = (c * x + s * y, c * y - s * x)
+        check = blind["measured"].self_check(read, middles)
+        (finding,) = (
+            finding
+            for finding in diagnose(impact, **seen, limits={"delta_v_pair": 0.0})
+            if finding.code == "delta_v_pair"
+        )
+        # Of nearly opposite impulses the mean of the sizes is hardly more than that of the vectors.
+        assert finding.measured == pytest.approx(check["unclosed"], rel=0.02)
+        if "delta_v_pair" in [finding.code for finding in diagnose(impact, **seen)]:
+            found.add(title)
+    assert found == {"RICSAC 1", "RICSAC 4", "RICSAC 10"}
 
 
 def test_first_predictions_are_those_of_the_inputs(blind, committed):
@@ -583,6 +664,7 @@ def test_the_page_has_the_blind_table_first(blind, committed):
         "at_rest",
         "backwards",
         "backwards_summary",
+        "backwards_words",
         "sources",
         "commercial_motion",
         "commercial_motion_words",
@@ -630,29 +712,85 @@ def test_rows_of_the_commercial_program_are_its_answer(blind):
 
 @pytest.mark.slow
 def test_speeds_before_are_found_again(blind, committed):
-    """Every reconstruction once more; statistics from the rows; a miss has its cause."""
+    """Every reconstruction once more; statistics from the rows; a miss has its cause. Ends of a
+    posterior are those of a random walk: to 2 km/h on another platform.
+    """
     rows, table = blind["backwards"].rows(), committed["blind"]["backwards"]
-    assert len(rows) == len(table["rows"]) == 28
+    assert len(rows) == len(table["rows"]) == 38
     for mine, row in zip(rows, table["rows"], strict=True):
+        walked = "rest" in row["route"]
+        within = 2.0 if walked else 0.05
+        near_an_end = min(abs(end - row["known"]) for end in row["range"]) < within
         for name in ("test", "route", "speed", "known", "held", "cause"):
-            assert mine[name] == row[name]
+            if not (walked and near_an_end and name in ("held", "cause")):
+                assert mine[name] == row[name]
         assert [mine["found"], *mine["range"]] == pytest.approx(
-            [row["found"], *row["range"]], abs=0.05
+            [row["found"], *row["range"]], abs=within
         )
         assert bool(row["cause"]) is not row["held"]
         assert row["held"] == (row["range"][0] <= row["known"] <= row["range"][1])
-    for entry, word in zip(table["summaries"], ("momentum", "delta-V"), strict=True):
+    by_route = {
+        "momentum": ("momentum",),
+        "delta-V of one car and the speed of B": ("delta-V of A", "delta-V of B"),
+        "places of rest alone": ("places of rest",),
+        "places of rest and both delta-V": ("places of rest and both delta-V",),
+    }
+    assert [entry["route"] for entry in table["summaries"]] == list(by_route)
+    for entry, words in zip(table["summaries"], by_route.values(), strict=True):
         errors = [
             100 * (row["found"] / row["known"] - 1)
             for row in table["rows"]
-            if row["route"].startswith(word)
+            if row["route"] in words
         ]
         assert [entry["mean"], entry["sd"]] == pytest.approx(
             [np.mean(errors), np.std(errors, ddof=1)], abs=0.05
         )
-        assert entry["held"] == sum(
-            row["held"] for row in table["rows"] if row["route"].startswith(word)
+        assert entry["held"] == sum(row["held"] for row in table["rows"] if row["route"] in words)
+
+
+@pytest.mark.slow
+def test_places_of_rest_lead_back_to_a_known_answer(blind):
+    """Readings that are the library's own, of a crash of the pack with known speeds: the ranges
+    hold them, and delta-V narrows them. The way to rest by hand: speed squared over twice the drag.
+    """
+    from_rest, inputs = blind["from_rest"], blind["inputs"]
+    _, numbers = inputs.cases()["ricsac_06"]
+    middles = {name: inputs.middle(stated) for name, stated in numbers.items()}
+    middles |= {"a.drag": 0.3, "b.drag": 0.5}
+    read = from_rest.model(["a", "b"], middles)
+    for car, drag in (("a", 0.3), ("b", 0.5)):
+        found = getattr(
+            col.eccentric(*blind["levels"].vehicles(middles), **blind["levels"].contact(middles)),
+            car,
         )
+        after = found.after
+        way = math.hypot(
+            read[f"rest_forward_{car}"] - middles[f"{car}.x"],
+            read[f"rest_left_{car}"] - middles[f"{car}.y"],
+        )
+        assert way == pytest.approx(after.speed**2 / (2 * 9.80665 * drag), rel=1e-12)
+    answers = from_rest.routes("ricsac_06", numbers, read)
+    widths = []
+    for route in (from_rest.ALONE, from_rest.WITH):
+        assert answers[route].consistent
+        for car in "ab":
+            low, high = answers[route][f"{car}.speed"].interval(0.95)
+            assert low < middles[f"{car}.speed"] < high
+            widths.append(high - low)
+    assert widths[2] < widths[0]
+    assert widths[3] < widths[1]
+    assert from_rest.routes("ricsac_01", numbers, {}) == {}
+
+
+@pytest.mark.slow
+def test_the_runs_of_the_program_are_the_same_by_scene_and_simulate(blind, committed):
+    """Within what `travel.simulate` promises, a thousandth of 150 ft; the page has the figures."""
+    apart = blind["commercial_program"].scene_apart()
+    assert set(apart) == {"x", "y", "heading", "speed"}
+    assert max(apart["x"], apart["y"]) < 0.15
+    assert apart["heading"] < 0.1
+    assert apart["speed"] < 0.02
+    assert apart == pytest.approx(committed["commercial"]["scene_and_simulate_apart"], rel=0.5)
 
 
 @pytest.mark.parametrize("test", ["1", "6", "10"])

@@ -36,7 +36,7 @@ from collisions.uncertainty import (
     Uniform,
     propagate,
 )
-from collisions.uncertainty.distribution import Stated
+from collisions.uncertainty.distribution import Statement
 from collisions.uncertainty.normal import log_survival
 from collisions.uncertainty.sampling import Joint
 
@@ -845,7 +845,7 @@ def test_the_least_number_of_samples_is_said_the_same_for_every_number(samples):
 # --- another kind of evidence
 
 
-class StudentT(Stated):
+class StudentT(Statement):
     """A value whose error has heavy tails, as one might add it."""
 
     __slots__ = ("dof", "location", "scale")

@@ -533,6 +533,10 @@ def test_the_pulse_of_an_incomplete_impact_ends_on_the_way_up():
         assert pulse.mean_passed(np.array([e, 0.3])).tolist() == pytest.approx(
             [pulse.mean_passed(e), pulse.mean_passed(0.3)]
         )
+    for e in (-1.0, -1.2):  # as a search may try: nothing is held
+        for found in (pulse.passed(e, 0.375), pulse.mean_passed(e)):
+            assert math.isnan(found)
+        assert np.isnan(pulse.passed(np.array([e]), 0.375)).all()
 
 
 def test_an_impulse_from_outside_beyond_all_measure_is_refused_under_stronge():

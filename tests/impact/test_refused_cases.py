@@ -730,6 +730,7 @@ WHOLE = (
     "reason",
     "missing",
     "known",
+    "found",
     "unknowns",
     "choice",
     "reconstruction",

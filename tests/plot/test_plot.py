@@ -6,6 +6,7 @@ import ast
 import functools
 import itertools
 import math
+import os
 import random
 import re
 import subprocess
@@ -363,9 +364,8 @@ def test_matplotlib_is_imported_when_something_is_drawn_and_not_before():
         "import sys, collisions.plot; assert 'matplotlib' not in sys.modules; assert 'pint' not "
         "in sys.modules"
     )
-    subprocess.run(
-        [sys.executable, "-c", code], check=True, env={"PYTHONPATH": str(ROOT / "src"), "PATH": ""}
-    )
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
+    subprocess.run([sys.executable, "-c", code], check=True, env=environment)
 
 
 def test_only_where_it_is_needed_matplotlib_is_named():

@@ -64,7 +64,11 @@ class Hung(BaseException):
 @contextlib.contextmanager
 def promptly() -> Any:
     """Fails what has not ended within some seconds, where the system has an alarm to set."""
-    if not hasattr(signal, "SIGALRM") or threading.current_thread() is not threading.main_thread():
+    # Windows has neither the alarm nor its signal.
+    if (
+        not hasattr(signal, "setitimer")
+        or threading.current_thread() is not threading.main_thread()
+    ):
         yield
         return
 

@@ -81,7 +81,8 @@ OPEN = frozenset(
         "Vehicle.kinetic_energy",
         "Side.impulse_direction", "Side.pdof", "Side.pdof_clock",
         "Impact.impulse_ratio", "Impact.critical_impulse_ratio", "Impact.friction",
-        "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers", "ByModel",
+        "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers",
+        "reconstruct.Reconstruction.given", "ByModel",
         "ModelChoice.errors", "Inputs.rule_value",
     }
 )  # fmt: skip
@@ -1453,6 +1454,12 @@ def test_travel(case: Case) -> None:
             "point_error": case.option(0.1, case.value("distance")),
             "heading_error": case.option("3 deg", 0.0),
         }
+    if case.maybe(0.3):
+        path["tyres"] = tyres_of(case)
+        if case.maybe(0.9):
+            del path["lock"]
+    if case.maybe(0.2):
+        path["rotating_mass"] = case.option(0.03, case.value("lock"))
     found = case.call("travel.path", travel.path, points, **case.spoil(path))
     if isinstance(found, travel.RunOut):
         # A way that ends where it began has no straight course.
@@ -1537,6 +1544,8 @@ def test_simulated_travel(case: Case) -> None:
         ground["surfaces"] = case.option([(corners, case.value("drag"))], case.garbage())
     if case.maybe(0.2):
         ground["slope"] = case.option((0.02, "1 %"), case.garbage())
+    if case.maybe(0.2):
+        ground["rotating_mass"] = case.option(0.03, "4 %", case.value("lock"))
     ground |= {"moments": case.option(2, 9), "tolerance": case.option(1e-4, 1e-5)}
     # What hardly slows takes ten thousand steps, and is refused for it as after fifteen hundred.
     with mock.patch.object(motion_of_wheels, "_MOST_STEPS", 10_000 if case.maybe(0.01) else 1_500):
@@ -2025,11 +2034,16 @@ def propagation(case: Case) -> Any:
 def sided(case: Case, made: list[Any]) -> Any:
     """A model whose output is known from one side only in some cases."""
     sides = case.option(0, 1, -1, np.array([1, 0, -1, 1] * 16))
+    # Drawn once: a model answers the same whenever it is asked.
+    same = case.option(None, 3.0)
 
     def model(**inputs: Any) -> Any:
         (name,) = inputs
         answered = case.call(
-            "uncertainty.OneSided", uncertainty.OneSided, case.option(inputs[name], 3.0), sides
+            "uncertainty.OneSided",
+            uncertainty.OneSided,
+            inputs[name] if same is None else same,
+            sides,
         )
         made.append(answered)
         return {"known": inputs[name], "sided": answered}

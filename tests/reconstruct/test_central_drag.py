@@ -129,7 +129,7 @@ def test_what_was_given_is_shown_and_a_record_finds_it_again():
 
 def test_an_instant_that_could_take_drags_says_so():
     behind = reconstruct.central(1100, 950, va=20.0, vb=5.0, restitution=0.2)
-    assert "give duration= and drag_a=, drag_b=" in behind.statements[0]
+    assert "give `duration=` and `drag_a=`, `drag_b=`" in behind.statements[0]
     head_on = reconstruct.central(1100, 950, va=20.0, vb=-15.0, restitution=0.2)
     assert "collisions.left_out" in head_on.statements[0]
 

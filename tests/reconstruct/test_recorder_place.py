@@ -12,6 +12,7 @@ import pytest
 
 import collisions as col
 from collisions import reconstruct, reporting
+from collisions.travel import Tyres
 from collisions.uncertainty import Normal, Uniform, propagate
 
 MPH = 0.44704
@@ -101,6 +102,43 @@ def test_a_recorder_half_a_metre_ahead_was_taken_for_the_centre_of_mass():
     assert [round(speed, 1) for speed in mph(wrong)] == [25.6, 43.5]
     (found,) = found_from(names("a", reading), recorder_a=("50 cm", 0), duration=0)
     assert mph(found) == pytest.approx([30.0, 25.0], rel=1e-9)
+
+
+@pytest.mark.parametrize("axes", ["turning", "fixed"])
+@pytest.mark.parametrize("labels", ["a", "b", "ab"])
+def test_readings_lead_back_to_a_crash_in_which_tyres_act(axes, labels):
+    """Their impulse passes as that of the contact does; without them the speeds are others."""
+    wheels = {
+        "duration": 0.1,
+        "tyres_a": Tyres(0.7, 1.0, 2.7, 1.5),
+        "tyres_b": Tyres(0.7, 0.0, 2.6, 1.5),
+    }
+    impact = col.eccentric(A, B, 0.1, **CONTACT, friction=2.0, **wheels)
+    places = {"a": (0.5, -0.1), "b": (-0.6, 0.2)}
+    known, recorders = {}, {}
+    for label in labels:
+        known |= names(label, read(getattr(impact, label), places[label], 0.1, axes))
+        recorders[f"recorder_{label}"] = places[label]
+    (found,) = found_from(known, **recorders, axes=axes, **wheels)
+    assert mph(found) == pytest.approx([30.0, 25.0], abs=1e-3)
+    (bare,) = found_from(known, **recorders, axes=axes, duration=0.1)
+    assert max(abs(np.subtract(mph(bare), [30.0, 25.0]))) > 0.5
+    assert found.reconstruction.known[-1] == f"recorder_axes_{axes}"
+    again = col.Impact.from_dict(json.loads(json.dumps(found.to_dict())))
+    assert again == found
+    for page in (col.explain(found), col.report(found)):
+        assert "as its recorder reads it" in page or "place of the recorder" in page
+
+
+def test_readings_with_tyres_come_out_of_a_batch_as_alone():
+    wheels = {"duration": np.array([0.06, 0.12]), "tyres_a": Tyres(0.7, 1.0, 2.7, 1.5)}
+    place = {"recorder_b": (0.4, 0.1)}
+    known = names("b", read(crash().b, (0.4, 0.1), 0.09))
+    (many,) = found_from(known, **place, **wheels)
+    for i, duration in enumerate(wheels["duration"]):
+        (one,) = found_from(known, **place, **wheels | {"duration": float(duration)})
+        pair = [many.a.before.speed[i], many.b.before.speed[i]]
+        assert pair == pytest.approx([one.a.before.speed, one.b.before.speed], rel=1e-11)
 
 
 @pytest.mark.parametrize("axes", ["turning", "fixed"])

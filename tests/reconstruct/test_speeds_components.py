@@ -14,6 +14,7 @@ import pytest
 import collisions as col
 from collisions import uncertainty
 from collisions.reconstruct import speeds
+from collisions.uncertainty import Normal, propagate
 from scenes import LAWS
 
 VALUES = {
@@ -621,3 +622,90 @@ def test_texts_records_reports_and_explanations():
     }
     (both,) = speeds(A, B, **GIVEN, **known, **more)
     assert col.reporting.replay(col.report(both, form="markdown")) == both
+
+
+def test_a_study_warns_of_readings_where_hardly_any_sample_agrees():
+    """Errors that are stated make many samples differ; readings that contradict, nearly all."""
+    a, b = A, B
+    hit = col.eccentric(
+        body(15.0, 0.1, **fields(a)),
+        body(12.0, 1.5, **fields(b)),
+        0.1,
+        **CONTACT,
+        friction=math.inf,
+    )
+    readings = {
+        f"delta_v_{part}_{label}": getattr(getattr(hit, label), f"delta_v_{part}")
+        for label in "ab"
+        for part in ("forward", "left")
+    }
+
+    def study(factor):
+        values = {
+            name: value * (factor if name.endswith("b") else 1.0)
+            for name, value in readings.items()
+        }
+        errors = {label: 0.06 * getattr(hit, label).delta_v for label in "ab"}
+        inputs = {name: Normal(value, errors[name[-1]]) for name, value in values.items()}
+
+        def model(**known):
+            (found,) = speeds(a, b, **GIVEN, **known)
+            return {"a": found.a.before.speed, "b": found.b.before.speed}
+
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", col.CollisionsWarning)
+            found = propagate(model, inputs, samples=512, seed=1)
+        told = [one for one in found.statements if "differ from their best" in one]
+        return told, {one.message.code for one in caught}
+
+    told, codes = study(1.0)
+    assert "cases" in told[0]
+    assert "recorders_differ" not in codes
+    told, codes = study(1.45)
+    assert "cases" in told[0]
+    assert "recorders_differ" in codes
+
+
+def of_a_crash(**turned):
+    """The components of a crash that stuck, some with the sign of a recorder's own axes."""
+    hit = col.eccentric(
+        body(9.0, 0.1, **fields(A)),
+        body(16.0, 1.5, **fields(B)),
+        0.1,
+        **CONTACT,
+        friction=math.inf,
+    )
+    return {
+        f"delta_v_{part}_{label}": getattr(getattr(hit, label), f"delta_v_{part}")
+        * turned.get(f"{part}_{label}", 1.0)
+        for label in "ab"
+        for part in ("forward", "left")
+    }
+
+
+@pytest.mark.parametrize("labels", ["a", "b", "ab"])
+def test_a_lateral_sign_that_must_be_wrong_is_named(labels):
+    """With that sign turned there is the answer; which is said, and never given in silence."""
+    known = of_a_crash(**{f"left_{label}": -1.0 for label in labels})
+    wrong = " and ".join(f"delta_v_left_{label}" for label in labels)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", col.CollisionsWarning)
+        try:
+            speeds(A, B, **GIVEN, **known)
+            said = " ".join(str(one.message) for one in caught)
+        except col.NoSolutionError as error:
+            said = str(error)
+    assert f"With {wrong} of the other sign" in said
+    assert "positive to the right" in said
+    # Of signs that fit nothing is said.
+    with pytest.warns(col.IllConditionedWarning, match="to stick") as caught:
+        (found,) = speeds(A, B, **GIVEN, **of_a_crash())
+    assert not any("of the other sign" in str(one.message) for one in caught)
+    assert found.a.before.speed == pytest.approx(9.0)
+
+
+def test_no_sign_is_named_where_none_helps():
+    known = of_a_crash(forward_b=-1.0)
+    with pytest.raises(col.NoSolutionError) as refused:
+        speeds(A, B, **GIVEN, **known)
+    assert "of the other sign" not in str(refused.value)

@@ -266,22 +266,57 @@ def test_a_speed_beside_components_is_met_exactly():
         ({"recorder_a": (0.5, 0.1)}, "recorder_a"),
         ({"axes": "turning"}, "axes"),
         ({"slid": "bound"}, "slid"),
-        ({"friction": math.inf, "regime": "sliding", "speed_b": B.speed}, "friction"),
     ],
 )
-def test_what_is_known_of_contacts_without_tyres_is_refused_with_them(beside, argument):
-    known = {name: read(ended(), name) for name in COMPONENTS[:2]}
-    with pytest.raises(col.InputError) as refused:
+def test_an_energy_beside_readings_is_refused_with_tyres(beside, argument):
+    known = {name: read(ended(), name) for name in (*COMPONENTS[:2], "energy_loss")}
+    with pytest.raises(col.InputError, match="energy_loss and tyres") as refused:
         asked(known, **beside)
     assert refused.value.code == "bad_combination"
     assert refused.value.fields["argument"] == argument
     # A duration alone is that of nothing.
     with pytest.raises(col.InputError, match="or give tyres_a"):
-        asked(known, tyres_a=None, tyres_b=None)
+        asked({name: known[name] for name in COMPONENTS[:2]}, tyres_a=None, tyres_b=None)
 
 
-def test_what_leaves_open_whether_it_stuck_has_the_answers_of_an_instant():
+def test_what_leaves_open_whether_it_stuck_has_both_answers_with_tyres():
     known = {name: read(ended(friction=math.inf), name) for name in COMPONENTS[:2]}
-    with pytest.raises(col.AmbiguousSolutionError, match="of an instant without tyres") as open_:
+    with pytest.raises(col.AmbiguousSolutionError, match="stuck or slid") as open_:
         asked(known, friction=math.inf)
-    assert all(one.inputs.duration is None for one in open_.value.solutions)
+    stuck, slid = open_.value.solutions
+    assert stuck.inputs.duration == slid.inputs.duration == WHEELS["duration"]
+    assert apart_from_truth(stuck) < 1e-8
+    # Without the tyres, whose force is taken from there, that ratio would slide.
+    assert apart_from_truth(slid) < 0.1
+
+
+def test_a_contact_that_slid_with_tyres_has_a_bound_that_the_truth_lies_beyond():
+    """Forward answers that slid: each speed is on the side that is said, of the bound."""
+    rng, met = random.Random(45), 0
+    while met < 6:
+        a, b, e, contact, wheels = drawn(rng, stuck=False)
+        try:
+            impact = col.eccentric(a, b, e, **contact, **wheels)
+        except (col.NoImpactError, col.NoSolutionError):
+            continue
+        if impact.normal_impulse < 3000.0 or impact.regime != "sliding":
+            continue
+        met += 1
+        known = {name: read(impact, name) for name in COMPONENTS}
+        courses = {f"course_{label}": getattr(impact, label).before.course for label in "ab"}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.CollisionsWarning)
+            (found,) = reconstruct.speeds(
+                a, b, restitution=e, **courses, **contact, **wheels, **known, slid="bound"
+            )
+        sides = found.reconstruction.one_sided
+        assert sides["speed_a"] or sides["speed_b"]
+        for label in "ab":
+            beyond = getattr(impact, label).before.speed - getattr(found, label).before.speed
+            side = sides[f"speed_{label}"]
+            assert side * beyond > 0.0 if side else abs(beyond) < 0.5
+        # It only just slides, or sticks, and the impulse is that of the components but for what
+        # the tyres do otherwise at the other speeds.
+        assert abs(found.slip_after) < 1e-6
+        assert 0.9 < abs(found.impulse_ratio) / contact["friction"] < 1.0 + 1e-9
+        assert found.normal_impulse == pytest.approx(impact.normal_impulse, rel=0.05)

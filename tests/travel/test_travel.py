@@ -852,6 +852,100 @@ def test_a_body_integrated_forward_is_found_backward(lock):
     assert np.all(fine < [3.3e-3, 1.1e-4, 1e-3, 4.8e-4]), errors
 
 
+@pytest.mark.parametrize(
+    ("locks", "yaw_rate"),
+    [([1.0, 0.05, 0.05, 0.05], 3.0), ([0.5, 0.1, 0.5, 0.1], -2.0), ([0.6, 0.6, 0.1, 0.1], 1.0)],
+)
+@pytest.mark.parametrize("rotating", [0.0, 0.03])
+def test_with_its_four_wheels_a_path_goes_back_to_the_speed_that_led_to_it(
+    locks, yaw_rate, rotating
+):
+    """Forward by ``simulate`` on the same wheels, back from 41 points of the way: within 1.5 %,
+    where the mean lock of the wheels is off by more.
+    """
+    car = col.Vehicle(
+        mass=1500.0, yaw_inertia=2400.0, x=0.0, y=0.0, heading=0.0, vx=15.0, vy=1.5,
+        yaw_rate=yaw_rate,
+    )  # fmt: skip
+    tyres = travel.Tyres(0.7, locks, 2.7, 1.5)
+    way = travel.simulate(car, tyres, rotating_mass=rotating, moments=2001)
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(way.x), np.diff(way.y)))])
+    at = np.linspace(0.0, along[-1], 41)
+    x, y, heading = (np.interp(at, along, part) for part in (way.x, way.y, way.heading))
+    points = list(zip(x.tolist(), y.tolist(), strict=True))
+    found = travel.path(points, heading.tolist(), tyres=tyres, rotating_mass=rotating)
+    assert found.speed == pytest.approx(math.hypot(15.0, 1.5), rel=0.015)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.OutOfRangeWarning)
+        mean = travel.path(points, heading.tolist(), friction=0.7, lock=sum(locks) / 4.0)
+    assert abs(mean.speed - found.speed) > 0.1
+
+
+def test_wheels_that_turn_count_in_a_path_as_so_much_more_mass():
+    """Straight: half the square of the speed times one and a bit is what the brakes took."""
+    for wheels in ({"friction": 0.7, "lock": 0.2}, {"tyres": travel.Tyres(0.7, 0.2, 2.7, 1.5)}):
+        found = travel.path([(0, 0), (10, 0), (20, 0)], [0, 0, 0], rotating_mass="4 %", **wheels)
+        assert found.speed**2 * 1.04 == pytest.approx(2.0 * travel.GRAVITY * 0.14 * 20.0)
+    locked = travel.path([(0, 0), (20, 0)], [0, 0], friction=0.7, lock=1, rotating_mass=0.04)
+    assert locked.speed == pytest.approx(travel.speed(20.0, drag=0.7))
+
+
+def test_a_path_on_tyres_takes_friction_of_the_ground_and_arrays():
+    """A brake that locks its wheel on ice; each case of a batch as alone."""
+    points, headings = [(0, 0), (9, -1), (18, -1)], [0.0, 0.9, 1.8]
+    tyres = travel.Tyres(0.7, 0.3, 2.7, 1.5, height=0.5, steer=0.05)
+    dry, icy = (
+        travel.path(points, headings, tyres=tyres, friction=mu) for mu in (None, [0.1, 0.7])
+    )
+    assert icy.drags[0] == pytest.approx(0.1, rel=0.03)
+    assert icy.drags[1] == dry.drags[1]
+    locks = np.array([0.1, 0.3])
+    many = travel.path(points, headings, tyres=tyres.replace(lock=locks))
+    assert many.speed[1] == pytest.approx(dry.speed, rel=1e-12)
+    exact = travel.path(points, headings, tyres=tyres, point_error=0.1, heading_error=0.05)
+    assert exact.speed == dry.speed
+    assert 0.0 < exact.speed_error < 1.0
+
+
+@pytest.mark.parametrize(
+    ("given", "code", "said"),
+    [
+        ({}, "missing_friction", "friction is missing"),
+        ({"friction": 0.7}, "missing_lock", "lock is missing; give it, or tyres="),
+        ({"tyres": 0.3}, "not_tyres", "tyres must be Tyres"),
+        (
+            {"tyres": travel.Tyres(0.7, 0.1, 2.7, 1.5), "lock": 0.1},
+            "bad_combination",
+            "lock is given beside tyres",
+        ),
+        (
+            {"tyres": travel.Tyres(0.2, 0.1, 2.7, 1.5, height=0.9), "friction": 0.9},
+            "wheel_lifts",
+            "a wheel lifts off",
+        ),
+        ({"friction": 0.7, "lock": 0.1, "rotating_mass": 11.0}, "bad_fraction", "rotating_mass"),
+    ],
+)
+def test_wheels_of_a_path_that_are_refused(given, code, said):
+    """Told twice, not at all, or not as they can be."""
+    with pytest.raises(col.CollisionsError) as caught:
+        travel.path([(0, 0), (9, 0)], [0.0, 0.1], **given)
+    assert code in {caught.value.code, *(one.code for one in getattr(caught.value, "problems", ()))}
+    assert said in str(caught.value)
+
+
+def test_refused_tyres_of_a_batch_of_paths_leave_their_neighbours():
+    """Each reason is counted."""
+    tyres = travel.Tyres(
+        0.7, np.array([0.1, 1.5, 0.1, 0.1]), np.array([2.7, 2.7, -1.0, 2.7]), 1.5,
+        height=np.array([0.5, 0.5, 0.5, 3.0]),
+    )  # fmt: skip
+    said = r"3 of 4 cases .*\(1 not_positive, 1 bad_fraction, 1 wheel_lifts\)"
+    with pytest.warns(col.CollisionsWarning, match=said):
+        found = travel.path([(0, 0), (9, 0)], [0.0, 0.1], tyres=tyres)
+    assert np.isfinite(found.speed).tolist() == [True, False, False, False]
+
+
 def test_locked_wheels_on_an_arc_against_the_closed_form():
     """A constant deceleration on a circle: all is known in closed form, and the speed depends on
     the length alone.

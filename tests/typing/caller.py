@@ -352,8 +352,10 @@ def on_the_ground() -> float:
     )
     lasts: float = travel.time(20, drag=0.7) + travel.distance(speed, drag="6.5 m/s**2")
     tyres = travel.Tyres(0.7, [1, 0.1, 0.1, "10 %"], "2.7 m", 1.5, steer="3 deg")
+    back = travel.path([(0, 0), (5, 1)], [0, 0.3], tyres=tyres, rotating_mass="3 %")
     rest = (
-        travel.simulate(a, tyres, slope=("2 %", 0.0)).at("1 s").speed
+        back.speed
+        + travel.simulate(a, tyres, slope=("2 %", 0.0), rotating_mass=0.03).at("1 s").speed
         + tyres.replace(height=0.5).wheelbase
     )
     least, greatest = travel.throw_bounds("18 m", friction=0.66, height="0.5 m")
@@ -485,7 +487,7 @@ def refused() -> float | None:
     except col.NoImpactError as error:
         return error.closing_speed
     except (col.MissingInputError, col.UnitsError, col.ShapeError) as error:
-        print(error.fields["argument"])
+        print(error.argument, error.given, error.allowed, error.instead)
     except col.InternalError as error:
         print(error.code)
     except col.NoSolutionError as error:

@@ -185,6 +185,8 @@ def test_where_it_has_no_meaning(call):
         ("bad_option", 1.0, "up"),
         ("bad_option", 1.0, None),
         ("bad_option", np.ones(3), [1, 0, 3]),
+        ("bad_option", np.ones(2), to_quantity(np.array([1.0, 0.0]), "m/s")),
+        ("bad_option", np.ones(2), np.ma.array([1.0, 0.0], mask=[True, False])),
         ("bad_shape", np.ones(3), [1, 0]),
         ("bad_shape", 1.0, [1, 0]),
         ("not_a_number", None, 1),

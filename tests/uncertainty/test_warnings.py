@@ -48,10 +48,10 @@ def test_an_energy_gain_of_some_samples_is_counted_stated_and_raised_once(method
         # Counted on the samples themselves: those that end with more energy than they began with.
         below = int(np.count_nonzero(found["loss"].values < 0.0))
         assert note.fields["cases"] == below > 0
-        assert note.sentence.startswith(f"{below} of 4096 cases")
+        assert note.statement.startswith(f"{below} of 4096 cases")
     for place in (found.statements, found.to_dict()["statements"]):
-        assert note.sentence in place
-    assert note.sentence[1:] in " ".join(str(found.summary()).split())
+        assert note.statement in place
+    assert note.statement[1:] in " ".join(str(found.summary()).split())
     json.dumps(found.to_dict(), allow_nan=False)
 
 
@@ -142,7 +142,7 @@ def test_a_report_prints_what_the_study_was_warned_of():
     )
     page = col.report(impact, uncertainty=found, form="markdown", figures=False)
     (note,) = [one for one in found.notes if one.code == "energy_gain"]
-    assert note.sentence[:20] in page
+    assert note.statement[:20] in page
     assert "gains energy" in page
 
 

@@ -3,8 +3,8 @@ known.
 
 Contact and masses are those of the cases, unchanged. The readings have the errors that the
 documentation's other trials give an analyst, fixed before they were tried here: delta-V 4 percent,
-a speed after the impact 5 percent, a course after it 2 degrees, one standard deviation each. Not
-blind: the measurements are inputs here.
+a speed after the impact 5 percent, a course after it 2 degrees, one standard deviation each; what
+places of rest are taken for is in ``from_rest``. Not blind: the measurements are inputs here.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ import collisions as col
 from collisions import reconstruct
 from collisions.uncertainty import Normal, propagate
 
-from . import inputs, levels, measured
+from . import from_rest, inputs, levels, measured
 from .causes import BACKWARDS
 from .predict import SEED
 
@@ -106,9 +106,13 @@ def rows() -> list[dict[str, Any]]:
             for side in ("a", "b"):
                 if f"delta_v_{side}" in read:
                     routes[f"delta-V of {side.upper()}"] = by_delta_v(numbers, read, side)
-        for route, answer in routes.items():
-            for name in answer:
-                known = inputs.middle(numbers[f"{name[-1]}.speed"])
+        rests = from_rest.routes(key, numbers, read)
+        for route, answer in (routes | rests).items():
+            for name in ("speed_a", "speed_b", "a.speed", "b.speed"):
+                if name not in answer:
+                    continue
+                car = name.removeprefix("speed_")[0]
+                known = inputs.middle(numbers[f"{car}.speed"])
                 low, high = answer[name].interval(0.95)
                 median = answer[name].quantile(0.5)
                 held = bool(low <= known <= high)
@@ -120,14 +124,14 @@ def rows() -> list[dict[str, Any]]:
                     {
                         "test": title,
                         "route": route,
-                        "speed": f"of {name[-1].upper()}",
+                        "speed": f"of {car.upper()}",
                         "known": round(3.6 * known, 2),
                         "found": round(3.6 * median, 2),
                         "range": [round(3.6 * low, 2), round(3.6 * high, 2)],
                         "percent": round(100 * (median / known - 1), 2),
                         "held": held,
                         "cause": "" if held else ": ".join(BACKWARDS[title, route]),
-                        "without_answer": round(answer.failed / answer.samples, 4),
+                        "contradicted": route in rests and not answer.consistent,
                     }
                 )
     return found
@@ -141,8 +145,14 @@ def summaries(found: list[dict[str, Any]]) -> list[dict[str, Any]]:
     for route, title in (
         ("momentum", "momentum"),
         ("delta-V", "delta-V of one car and the speed of B"),
+        (from_rest.ALONE, f"{from_rest.ALONE} alone"),
+        (from_rest.WITH, from_rest.WITH),
     ):
-        mine = [row for row in found if row["route"].startswith(route)]
+        mine = [
+            row
+            for row in found
+            if (row["route"] == route if "rest" in route else row["route"].startswith(route))
+        ]
         errors = [row["percent"] for row in mine]
         worst = max(mine, key=lambda row: abs(row["percent"]))
         answer.append(

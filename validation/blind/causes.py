@@ -99,6 +99,23 @@ BACKWARDS: dict[tuple[str, str], tuple[str, str]] = {
     ("RICSAC 6", "delta-V of B"): (GEOMETRY, _NOT_ONE_POINT),
     ("RICSAC 10", "momentum"): (SIDE_SLAP, f"{_SIDE_SLAP}; momentum misses by a third"),
     ("RICSAC 10", "delta-V of A"): (SIDE_SLAP, f"{_SIDE_SLAP}; its delta-V is that of both blows"),
+    ("RICSAC 3", "places of rest"): (
+        TYRES,
+        (
+            "both cars rolled, with a drag of 0.04 to 0.05; where any drag up to 0.8 is as likely, "
+            "so little is taken for improbable. The answer warns that its evidence contradicts "
+            "itself"
+        ),
+    ),
+    ("RICSAC 3", "places of rest and both delta-V"): (
+        TYRES,
+        (
+            "1 percent outside: the delta-Vs draw the speed back from what the long ways ask for, "
+            "not all the way. The answer warns that its evidence contradicts itself"
+        ),
+    ),
+    ("RICSAC 6", "places of rest and both delta-V"): (GEOMETRY, _NOT_ONE_POINT),
+    ("RICSAC 10", "places of rest and both delta-V"): (SIDE_SLAP, _SIDE_SLAP),
 }
 """The same for what is worked out backwards, by test and route."""
 

@@ -65,7 +65,9 @@ def self_check(own: dict[str, float], numbers: dict[str, float]) -> dict[str, fl
     which they approached: a restitution, if that is where the impulse acted. Each car's change of
     yaw rate says how far from its centre of mass the impulse passed, if it acted in an instant; the
     drawn contact says it too, for the same direction. Lever arms are positive where the impulse
-    turns the car counterclockwise.
+    turns the car counterclockwise. A point elsewhere, or a couple between the cars, moves both arms
+    by as much, one up and one down: half their difference is ``aside``. Half their sum, ``common``,
+    turns both cars the same way, which nothing between them does.
     """
     found: dict[str, float] = {}
     impulses, points, velocity = {}, {}, {}
@@ -88,6 +90,8 @@ def self_check(own: dict[str, float], numbers: dict[str, float]) -> dict[str, fl
         points[side] = before, after + own[f"yaw_rate_{side}"] * across
         found[f"lever_{side}"] = numbers[f"{side}.yaw_inertia"] * own[f"yaw_rate_{side}"] / size
         found[f"lever_drawn_{side}"] = _cross(arm, impulses[side]) / size
+    off_a, off_b = (found[f"lever_{side}"] - found[f"lever_drawn_{side}"] for side in ("a", "b"))
+    found["aside"], found["common"] = (off_b - off_a) / 2, (off_b + off_a) / 2
     shared = (impulses["b"] - impulses["a"]) / 2
     along = shared / np.linalg.norm(shared)
     approach, separation = ((points["b"][at] - points["a"][at]) @ along for at in (0, 1))

@@ -19,11 +19,11 @@ import numpy as np
 
 from ..diagnostics import diagnose
 from ..impact.impact import Impact
-from ..messages.errors import CollisionsWarning, InputError
+from ..messages.errors import CollisionsWarning, InputError, as_marked
 from ..quantities.attributes import unit_of
 from ..quantities.formatting import percent
 from ..quantities.tables import spoken_system
-from ..quantities.units import shown, to_quantity
+from ..quantities.units import rendered, to_quantity
 from ..reconstruct import MomentumSolution, Posterior
 from ..reporting import report
 from ..reporting.checking import inputs_of
@@ -418,7 +418,7 @@ def _noting(
 
 
 def _line(warning: CollisionsWarning) -> str:
-    return " ".join(in_file_words(str(warning)).split())
+    return " ".join(in_file_words(as_marked(warning)).split())
 
 
 def _roots(found: Any) -> tuple[Any, ...]:
@@ -508,11 +508,11 @@ def _output(result: Any, name: str, place: str, there: Any, shape: tuple[int, ..
         names = result.to_columns() if isinstance(result, Impact) else result.__dataclass_fields__
         names = [one for one in names if _found(result, one)[3] is not None]
         raise CaseError(
-            (place, f"{shown(name)} is no number of the answer; {nearest(name, names)}")
+            (place, f"{rendered(name)} is no number of the answer; {nearest(name, names)}")
         )
     if value is None:
         why = owner._missing(last) if hasattr(owner, "_missing") else "this case has none"
-        raise CaseError((place, f"{shown(name)} is not known: {why}"))
+        raise CaseError((place, f"{rendered(name)} is not known: {why}"))
     return to_quantity(np.broadcast_to(np.where(there, value, np.nan), shape), unit)
 
 

@@ -19,7 +19,8 @@ from typing import Any
 
 from .. import reconstruct, reference, travel, uncertainty
 from ..impact import solvers
-from ..messages.errors import CollisionsError, InputError
+from ..messages.errors import CollisionsError, InputError, UnitsError
+from ..messages.marked import as_code
 from ..quantities.units import example, to_quantity, unit_as_written
 from ..reporting import report
 from ..reporting.what_if import SLIDERS
@@ -91,10 +92,8 @@ class CaseError(Exception):
         self, *problems: tuple[str, str], refused: bool = False, code: str = "bad_case"
     ) -> None:
         self.problems = [
-            (re.sub(r"\['(.*?)'\]", r'."\1"', key), " ".join(in_file_words(text).split()))
-            for key, text in (
-                [_cut(part, _LONGEST_MESSAGE) for part in problem] for problem in problems
-            )
+            (re.sub(r"\['(.*?)'\]", r'."\1"', key), " ".join(_cut(text, _LONGEST_MESSAGE).split()))
+            for key, text in problems
         ]
         self.refused = refused
         self.code = code
@@ -138,23 +137,27 @@ class Call:
             return self.function(**arguments, **options)
         except CollisionsError as error:
             parts = error.fields.get("problems", (error,))
-            problems = [(self._place(part), self._said(part)) for part in parts]
+            places = [self._place(part) for part in parts]
+            problems = [
+                (key, self._said(part, key)) for part, key in zip(parts, places, strict=True)
+            ]
             raise CaseError(
                 *problems, refused=not isinstance(error, InputError), code=error.code
             ) from error
 
-    def _said(self, error: CollisionsError) -> str:
-        """What an error says, without the name of its argument; of a range it names both ends, not
+    def _said(self, error: CollisionsError, key: str) -> str:
+        """What an error says, beside the key of its argument; of a range it names both ends, not
         what stands for them.
         """
-        text = str(error).removeprefix(f"{error.fields.get('argument')}: ")
-        for one in self.arguments.values():
-            if isinstance(one, Uncertain):
-                text = text.replace(
-                    f"cannot read {one.nominal!r}",
-                    f"{str(one.stated).partition(',')[0]} has no unit",
-                )
-        return text
+        ranges = [
+            one.stated
+            for one in self.arguments.values()
+            if isinstance(one, Uncertain) and one.nominal == error.fields.get("text")
+        ]
+        if ranges and isinstance(error, UnitsError):
+            without = f"{str(ranges[0]).partition(',')[0]} has no unit"
+            return in_file_words(f"{without}{error.fields.get('instead', '')}")
+        return in_file_words(_beside_key(error, key))
 
     def _place(self, error: CollisionsError) -> str:
         """The key that an error is about: an argument, that of a vehicle, or the table."""
@@ -169,6 +172,17 @@ class Call:
         if self.key == crash.SCENE and first in crash.FROM_TABLES:
             return name
         return f"{self.key}.{name}" if first in parameters(self.function) else self.key
+
+
+def _beside_key(error: CollisionsError, key: str) -> str:
+    """The message of an error, marked, without its argument where the key says it."""
+    argument, fields = str(error.fields.get("argument") or ""), error.fields
+    told = argument and key.endswith(argument.rpartition(".")[2])
+    if told and "allowed" in fields and error.marked.startswith(f"{argument} must be "):
+        got = fields.get("got") or as_code(as_in_file(fields["given"]))
+        return f"must be {fields['allowed']}, got {got}{fields.get('instead', '')}"
+    text = error.marked.removeprefix(f"{argument}: ")
+    return text if error.place in ("", argument) else f"{error.place}: {text}"
 
 
 @dataclass(frozen=True)
@@ -311,7 +325,7 @@ def vehicles(function: Callable[..., Any]) -> list[str]:
 
 @cache
 def descriptions(function: Callable[..., Any]) -> dict[str, str]:
-    """By argument, its unit and what its docstring says of it."""
+    """Each argument with its unit and what its docstring says of it."""
     section = (getdoc(function) or "").partition("Parameters\n----------\n")[2].partition("\n\n")[0]
     found: dict[str, str] = {}
     if function == Vehicle.from_speed:

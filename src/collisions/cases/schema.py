@@ -9,35 +9,57 @@ from collections.abc import Callable
 from inspect import Parameter
 from typing import Any, get_args
 
+from ..quantities.json_schema import TEXT, Schema, array_of, closed, described, schema_of
 from ..reporting import report
 from ..reporting.what_if import SLIDERS, what_if
 from ..scene import Contact, Mover, Scene
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle
 from .crash import OF_MOVER, OF_SCENE, OF_SURFACE
-from .read import FUNCTIONS, SEVERAL, SOLVERS, STUDIES, descriptions, parameters, vehicles
+from .read import FUNCTIONS, SOLVERS, STUDIES, descriptions, parameters, vehicles
 from .words import DISTRIBUTIONS
 
-_NUMBER = {"$ref": "#/$defs/number"}
-_PLAIN = {"str": "string", "bool": "boolean", "int": "integer"}
+_NUMBER: Schema = {"$ref": "#/$defs/number"}
+_PAIR: Schema = {"$ref": "#/$defs/pair"}
+# By annotation; editors of TOML know draft 7 only, in which nothing may stand beside a reference.
+_ONE: Schema = {"allOf": [_NUMBER]}
+_NUMBERS: Schema = {"anyOf": [_NUMBER, _PAIR]}
+_TYPES: dict[str, Schema] = {
+    "str": TEXT,
+    "bool": {"type": "boolean"},
+    "int": {"type": "integer"},
+    "Any": {},
+    "Input": _ONE,
+    "Pair": {"allOf": [_PAIR]},
+    "Impulse": {"allOf": [_PAIR]},
+    "tuple[Input, Input]": {"allOf": [_PAIR]},
+    "tuple[Input, Input, Input]": {"allOf": [_PAIR]},
+    "Sequence[Input]": {"allOf": [_PAIR]},
+    "Sequence[str]": array_of(TEXT),
+    "Segments": _NUMBERS,
+    "Input | Pair": _NUMBERS,
+    "Input | tuple[Input, Input]": _NUMBERS,
+    "Input | Sequence[Input]": _NUMBERS,
+    "Input | Callable[[float], float]": _ONE,
+}
 
 
-def case_schema() -> dict[str, Any]:
+def case_schema() -> Schema:
     """The JSON schema (draft 7, which editors of TOML know) of a case file."""
-    tables: dict[str, Any] = {
+    tables: Schema = {
         label: {"$ref": "#/$defs/vehicle"} for f in SOLVERS.values() for label in vehicles(f)
     }
-    reverse: dict[str, Any] = {}
+    reverse: Schema = {}
     for name, function in (SOLVERS | STUDIES).items():
         module, _, own = name.rpartition(".")
         (reverse if module else tables)[own] = _arguments(function)
-    tables["propagate"]["properties"]["outputs"] = {"type": "array", "items": {"type": "string"}}
+    tables["propagate"]["properties"]["outputs"] = array_of(TEXT)
     tables |= _tables_of_scenes()
     tables["observed"] = {
         "type": "object",
         "description": "what was observed, by name: of [posterior], or of [fit] if it is there",
     }
-    pair = {"type": "array", "items": {"type": ["number", "string"]}, "minItems": 2, "maxItems": 2}
+    pair = array_of({"type": ["number", "string"]}, 2)
     tables |= {
         "reconstruct": _object(reverse),
         "report": _arguments(report),
@@ -66,7 +88,7 @@ def case_schema() -> dict[str, Any]:
                 ),
                 "anyOf": [{"type": ["number", "string"]}, {"$ref": "#/$defs/function"}],
             },
-            "pair": {"type": "array", "items": _NUMBER},
+            "pair": array_of(_NUMBER),
             "vehicle": _object(_of_vehicles()),
             "tyres": _arguments(Tyres),
             "function": _nested(
@@ -79,46 +101,38 @@ def case_schema() -> dict[str, Any]:
     }
 
 
-def _of_vehicles() -> dict[str, Any]:
-    found: dict[str, Any] = _arguments(Vehicle)["properties"]
+def _of_vehicles() -> Schema:
+    found: Schema = _arguments(Vehicle)["properties"]
     found |= _arguments(Vehicle.from_speed)["properties"]
     return found
 
 
-def _tables_of_scenes() -> dict[str, Any]:
+def _tables_of_scenes() -> Schema:
     """The tables of a whole crash: of some a file has several."""
     tyres = {"$ref": "#/$defs/tyres"}
     mover = _of_vehicles() | _arguments(Mover)["properties"] | {"tyres": tyres}
     mover = {name: one for name, one in mover.items() if name not in ("pivot", "vehicle")}
     for name in OF_MOVER:
-        mover.setdefault(name, {"type": "string"})
+        mover.setdefault(name, TEXT)
     contact = _arguments(Contact)["properties"]
     contact["tyres_after"] |= {"type": "object", "additionalProperties": tyres}
-    texts = {"type": "array", "items": {"type": "string"}}
     own = _arguments(Scene)["properties"]
     scene = {name: own.get(name, {}) for name in OF_SCENE}
-    scene["order"] |= {"type": "array", "items": texts}
-    scene["shared"] |= {"type": "object", "additionalProperties": texts}
-    scene["tolerance"] = {
-        "type": "number",
-        "description": descriptions(Scene.run)["tolerance"],
-    }
-    corners = {
-        "type": "array",
-        "items": {"$ref": "#/$defs/pair"},
-        "minItems": 3,
-        "description": "corners of the area in order [m]",
-    }
+    scene["order"] |= array_of(array_of(TEXT))
+    scene["shared"] |= {"type": "object", "additionalProperties": array_of(TEXT)}
+    scene["tolerance"] = described({"type": "number"}, descriptions(Scene.run)["tolerance"])
+    corners = array_of({"$ref": "#/$defs/pair"}) | {"minItems": 3}
+    corners = described(corners, "corners of the area in order [m]")
     surface = dict(zip(OF_SURFACE, (corners, {"allOf": [_NUMBER]}), strict=True))
     return {
-        "mover": {"type": "array", "items": _object(mover)},
-        "contact": {"type": "array", "items": _object(contact)},
-        "surface": {"type": "array", "items": _object(surface)},
+        "mover": array_of(_object(mover)),
+        "contact": array_of(_object(contact)),
+        "surface": array_of(_object(surface)),
         "scene": _object(scene),
     }
 
 
-def _arguments(function: Callable[..., Any], plain: bool = False) -> dict[str, Any]:
+def _arguments(function: Callable[..., Any], plain: bool = False) -> Schema:
     """The table of the arguments of a function; the vehicles of a solver stand in tables of their
     own.
     """
@@ -128,28 +142,27 @@ def _arguments(function: Callable[..., Any], plain: bool = False) -> dict[str, A
     return _object({name: {} if plain else _argument(one, function) for name, one in takes.items()})
 
 
-def _argument(parameter: Parameter, function: Callable[..., Any]) -> dict[str, Any]:
-    """The schema of an argument by its annotation."""
-    kind = str(parameter.annotation).removesuffix(" | None")
-    text = descriptions(function).get(parameter.name, "")
-    found: dict[str, Any] = {"description": text} if text else {}
-    if kind in _PLAIN:
-        return found | {"type": _PLAIN[kind]}
-    choices = (
-        get_args(getattr(sys.modules[function.__module__], kind, None))
-        if kind.isidentifier()
-        else ()
-    )
-    if choices and all(isinstance(choice, str) for choice in choices):
-        return found | {"enum": list(choices)}
-    if any(name in kind for name in SEVERAL):
-        return found | {"anyOf": [_NUMBER, {"$ref": "#/$defs/pair"}]}
-    return found | ({"allOf": [_NUMBER]} if "Input" in kind else {})
+def _argument(parameter: Parameter, function: Callable[..., Any]) -> Schema:
+    """The schema of an argument by its annotation; what may be None is left out in a file."""
+    kinds = str(parameter.annotation).removesuffix(" | None")
+    known = _TYPES | _choices(kinds, function)
+    try:
+        found = schema_of(kinds, known)
+    except KeyError:  # a part that a file cannot give
+        found = _NUMBERS if "Input" in kinds else {}
+    return described(found, descriptions(function).get(parameter.name, ""))
 
 
-def _nested(tables: dict[str, Any]) -> dict[str, Any]:
+def _choices(name: str, function: Callable[..., Any]) -> dict[str, Schema]:
+    """The schema of an alias for some texts, such as Law."""
+    alias = getattr(sys.modules[function.__module__], name, None) if name.isidentifier() else None
+    texts = get_args(alias)
+    return {name: {"enum": list(texts)}} if texts and all(isinstance(t, str) for t in texts) else {}
+
+
+def _nested(tables: Schema) -> Schema:
     """One table inside tables by the parts of its name, such as travel.speed."""
-    found: dict[str, Any] = {}
+    found: Schema = {}
     for name, table in tables.items():
         *outer, last = name.split(".")
         inside = found
@@ -159,5 +172,5 @@ def _nested(tables: dict[str, Any]) -> dict[str, Any]:
     return _object(found) | {"minProperties": 1, "maxProperties": 1}
 
 
-def _object(properties: dict[str, Any]) -> dict[str, Any]:
-    return {"type": "object", "properties": properties, "additionalProperties": False}
+def _object(properties: Schema) -> Schema:
+    return closed(properties, ())

@@ -12,14 +12,15 @@ from contextlib import contextmanager
 from ..messages.errors import InternalError
 from ..quantities.document import Document
 from ..quantities.formatting import clock, typeset
+from ..quantities.printed_tables import Part, in_markdown, ruled
 from .expressions import Direction, Expression, Pen, System, is_zero
 from .symbols import Symbol
 
 # The most figures a line may add to those of the working; with them it has every digit of a float.
 _MOST = 12
-# By which share of its largest term a formula may differ from the result. Rounding stays far below
-# the first (1e-9 in ordinary scenes); from there both numbers are printed. Beyond the second one of
-# the two is wrong.
+# The share of its largest term by which a formula may differ from the result. Rounding stays far
+# below the first (1e-9 in ordinary scenes); from there both numbers are printed. Beyond the second
+# one of the two is wrong.
 _DIFFERS, _WRONG = 1e-6, 1e-3
 # The columns of every table.
 HEAD = ("of", "quantity", "value")
@@ -74,16 +75,7 @@ class Page:
         body = list(rows)
         if self.latex:
             body = [(subject, quantity, typeset(value)) for subject, quantity, value in body]
-            lines = [f"| {' | '.join(line)} |" for line in (HEAD, ("---", "---", "---"), *body)]
-        else:
-            widths = [max(map(len, column)) for column in zip(HEAD, *body, strict=True)]
-            rule = tuple("-" * width for width in widths)
-            padded = (
-                (part.ljust(width) for part, width in zip(line, widths, strict=True))
-                for line in (HEAD, rule, *body)
-            )
-            lines = ["  ".join(line).rstrip() for line in padded]
-        self.parts.append("\n".join(lines))
+        self.parts.append((in_markdown if self.latex else ruled)(Part(body, columns=HEAD)))
 
     def listed(self, lines: Sequence[str]) -> None:
         """A list."""

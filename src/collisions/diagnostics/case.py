@@ -22,7 +22,7 @@ from ..kernels.status import EPS
 from ..quantities.directions import from_degrees
 from ..quantities.formatting import decimals_of, in_words, places, rounded, scale_of, unit_of
 from ..reconstruct import MomentumSolution
-from ..vehicle.outlines import overlap, placed
+from ..vehicle.outlines import in_scene, overlap
 from ..vehicle.vehicle import Vehicle, with_name
 from .moves import Moves, moves
 
@@ -53,6 +53,7 @@ class VehicleResult(NamedTuple):
     speed: float
     delta_v: float
     pdof: float | None
+    heading: float | None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -102,7 +103,7 @@ class MomentumCase(_Case):
     @cached_property
     def vehicles(self) -> dict[str, VehicleResult]:
         """Both vehicles by label."""
-        names = ("mass", "speed", "delta_v", "pdof")
+        names = ("mass", "speed", "delta_v", "pdof", "heading")
         return {
             label: VehicleResult(
                 f"vehicle {label.upper()}",
@@ -110,6 +111,23 @@ class MomentumCase(_Case):
             )
             for label in "ab"
         }
+
+    @cached_property
+    def from_outside(self) -> tuple[float, float]:
+        """The momentum that both vehicles together gain [N*s]: of tyres and what else acts from
+        outside.
+        """
+        x, y = (
+            sum(
+                getattr(self.answer, name) or 0.0
+                for name in (
+                    f"outside_impulse_{axis}",
+                    *(f"tyre_impulse_{axis}_{of}" for of in "ab"),
+                )
+            )
+            for axis in "xy"
+        )
+        return x, y
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -126,9 +144,27 @@ class ImpactCase(_Case):
     def vehicles(self) -> dict[str, VehicleResult]:
         """Both vehicles by label."""
         return {
-            label: VehicleResult(who, side.before.mass, side.before.speed, side.delta_v, side.pdof)
+            label: VehicleResult(
+                who,
+                side.before.mass,
+                side.before.speed,
+                side.delta_v,
+                side.pdof,
+                side.before.heading,
+            )
             for label, who, side in self.sides
         }
+
+    @cached_property
+    def from_outside(self) -> tuple[float, float]:
+        """The momentum that both vehicles together gain [N*s]: of tyres, pivots and what else acts
+        from outside.
+        """
+        sides = (self.answer.a, self.answer.b)
+        return (
+            sum(side.before.mass * side.delta_vx for side in sides),
+            sum(side.before.mass * side.delta_vy for side in sides),
+        )
 
     @cached_property
     def sides(self) -> list[tuple[str, str, Side]]:
@@ -146,7 +182,7 @@ class ImpactCase(_Case):
         now, later = (
             overlap(
                 *(
-                    placed(self.outlines[label], side.after, label, time)
+                    in_scene(self.outlines[label], side.after, label, time)
                     for label, _, side in self.sides
                 )
             )

@@ -104,10 +104,8 @@ def suspect_inertia_high(case: ImpactCase) -> Iterator[Measured]:
         "infinite, or where the places were given with their unit",
         "m",
     ),
-    (
-        "set here: the corner of a rectangle is 1.7 of its radii away, and a centre of mass may "
-        "be off the middle; 10 m is half a road train; feet or cm as m, or two origins mixed"
-    ),
+    "set here: the corner of a rectangle is 1.7 of its radii away, and a centre of mass may "
+    "be off the middle; 10 m is half a road train; feet or cm as m, or two origins mixed",
 )
 def suspect_lever(case: ImpactCase) -> Iterator[Measured]:
     point = case.answer.point

@@ -111,11 +111,9 @@ def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
 @finding(
     "the most that the tyres can give in the duration, as a share of delta-V",
     above(0.25),
-    (
-        "set here: with 0.7 g in 0.1 s a delta-V below 2.7 m/s (10 km/h), where it is a minor "
-        "impact; tyre forces are insignificant but in minor impacts, sideswipes and impacts of "
-        f"large trucks, {METHOD}"
-    ),
+    "set here: with 0.7 g in 0.1 s a delta-V below 2.7 m/s (10 km/h), where it is a minor "
+    "impact; tyre forces are insignificant but in minor impacts, sideswipes and impacts of "
+    f"large trucks, {METHOD}",
 )
 def tyre_impulse(case: Case) -> Iterator[Measured]:
     if isinstance(case, MomentumCase) and case.answer.tyres:
@@ -279,10 +277,8 @@ def law_yaw(case: ImpactCase) -> Iterator[Measured]:
     "length by which the vector of delta-V moves with the normal turned by 10 degrees either "
     "way, as a share of delta-V",
     above(0.2),
-    (
-        "a delta-V that turns with the normal by 10 degrees moves by 17 percent; with the 10 "
-        f"percent by which its size may differ, {MESSAGES}, that is 20 percent"
-    ),
+    "a delta-V that turns with the normal by 10 degrees moves by 17 percent; with the 10 "
+    f"percent by which its size may differ, {MESSAGES}, that is 20 percent",
 )
 def normal(case: ImpactCase) -> Iterator[Measured]:
     return _compare_delta_v(case, case.turned_normals)
@@ -302,10 +298,8 @@ def normal_yaw(case: ImpactCase) -> Iterator[Measured]:
     "largest change of delta-V in what would move the answer (diagnose(...).moves), as a share "
     "of delta-V; inf if there is no answer then",
     above(0.25),
-    (
-        "set here: a quarter; predictions of staged crashes from drawn contacts, made before their "
-        "measurements were read, scatter by about a fifth (documentation, validation, table 1)"
-    ),
+    "set here: a quarter; predictions of staged crashes from drawn contacts, made before their "
+    "measurements were read, scatter by about a fifth (documentation, validation, table 1)",
 )
 def moves(case: ImpactCase) -> Iterator[Measured]:
     if not case.moves:

@@ -13,16 +13,17 @@ from ..impact.impact import Impact
 from ..impact.left_out import left_out
 from ..kernels.elementwise import UNCHECKED
 from ..messages.errors import InputError, MissingInputError
+from ..messages.marked import type_of
 from ..quantities.formatting import UnitSystem, check_system
 from ..quantities.reading import ArgumentReader, amount, need_one_case, single_number
 from ..quantities.settings import callers_options, computing, units_required
 from ..quantities.tables import spoken_system
-from ..quantities.units import Input, Pair, shown
+from ..quantities.units import Input, Pair, rendered, shown
 from ..reconstruct import MomentumSolution
 from ..scene.run import Run
 from ..vehicle.drag import USUAL_DURATION, read_drag, read_duration
 from ..vehicle.outlines import read_outline
-from ..vehicle.vehicle import Vehicle, missing
+from ..vehicle.vehicle import Vehicle, error_of_missing
 from . import checks_consistency, checks_inputs, checks_reliability
 from .case import Case, Damage, ImpactCase, MomentumCase
 from .finding import Check, Findings, Limit
@@ -37,8 +38,8 @@ _CHECKS_OF = {
     for kind in (ImpactCase, MomentumCase)
 }
 LIMITS: Mapping[str, Limit] = {check.code: check.limit for check in _CHECKS}
-"""By code, in the order in which findings are listed: what is measured, its default limit and where
-that is from.
+"""What each finding measures, its default limit and where that is from, by code and in the order in
+which findings are listed.
 """
 
 _single = partial(single_number, text="takes one value: diagnose takes one case")
@@ -99,8 +100,8 @@ def diagnose(
         heading.
     damage_delta_v_a, damage_delta_v_b : float, str or Quantity [m/s], or pair of them, optional
         Delta-V shown by the damage of a vehicle, or by its event data recorder, for
-        ``delta_v_off_damage``: the magnitude, or the pair (forward, left), which is compared as a
-        vector. For a pair the vehicle needs a heading.
+        ``delta_v_off_damage`` and, if both are given, ``delta_v_pair``: the magnitude, or the pair
+        (forward, left), which is compared as a vector. For a pair the vehicle needs a heading.
     units : "si", "metric" or "us", optional
         Units of the sentences: m/s, rad and J; km/h, degrees and kJ; mph, ft and ft lbf. By default
         "us" if the inputs were given so, else "metric". Measured value and limit stay in SI, as do
@@ -219,14 +220,15 @@ def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:
     """The limits of a call: the defaults, and the caller's in their place; units allowed."""
     limits = {code: limit.default for code, limit in LIMITS.items()}
     if given is not None and not isinstance(given, Mapping):
-        kind = type(given).__name__
+        kind = type_of(given)
         text = (
-            f"limits must be a dict from code to limit, such as {{'tyre_impulse': 0.2}}; got {kind}"
+            "limits must be `|a dict|a table` from code to limit, such as `{'tyre_impulse': 0.2}`; "
+            f"got {kind}"
         )
         reader.refuse(InputError(text, code="bad_limit", argument="limits"))
         return limits
     for code, value in (given or {}).items():
-        name = f"limits[{shown(code)}]"
+        name = f"limits[{rendered(code)}]"
         if code not in LIMITS:
             text = f"{name}: there is no finding {shown(code)}; known are {', '.join(LIMITS)}"
             reader.refuse(InputError(text, code="unknown_finding", argument="limits"))
@@ -300,4 +302,4 @@ def _need(
     vehicle: Vehicle = getattr(impact, label).before
     lacking = [field for field in fields if getattr(vehicle, field) is None]
     if lacking:
-        reader.refuse(missing(vehicle, lacking[0], purpose, label))
+        reader.refuse(error_of_missing(vehicle, lacking[0], purpose, label))

@@ -11,7 +11,7 @@ from functools import partial
 from operator import gt, le, lt
 from typing import Any, NamedTuple, get_type_hints
 
-from ..quantities.attributes import OWN, Quantities
+from ..quantities.attributes import OWN_UNIT, Quantities
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary
 from .moves import Moves, table
@@ -77,8 +77,8 @@ class Finding:
 
     code: str
     sentence: str
-    measured: float = field(metadata={"unit": OWN})
-    limit: float = field(metadata={"unit": OWN})
+    measured: float = field(metadata={"unit": OWN_UNIT})
+    limit: float = field(metadata={"unit": OWN_UNIT})
     unit: str
     vehicle: str = ""
     impact: int | None = None

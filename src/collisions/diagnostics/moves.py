@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..impact.impact import Impact, solve_changed
 from ..impact.inputs import PLACED
-from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO
+from ..kernels.contact_laws import RULES
 from ..quantities.attributes import Quantities, same_fields
 from ..quantities.directions import from_degrees
 from ..quantities.strict_json import strict
@@ -22,12 +22,11 @@ from .numbers import percent, share
 if TYPE_CHECKING:
     from .case import ImpactCase
 
-# How far each is moved either way. Contacts that were drawn before the measurements were read were
-# off by about as much as the first, one standard deviation (docs/validation.md, table 1).
+# How far each is moved either way. The first is about what contacts that were drawn before the
+# measurements were read were off by, one standard deviation (reference.CONTACT_POINT_DRAWN).
 ASIDE = 0.25
 TURN = 5.0
 OF_RESTITUTION = 0.1
-OF_RULE = {FRICTION: 0.2, IMPULSE_RATIO: 0.1, CRITICAL_FRACTION: 0.2}
 _HEADS = ("delta-V A", "B", "yaw rate A", "B", "share")
 
 
@@ -152,10 +151,11 @@ def _of_inputs(case: ImpactCase) -> Iterator[Move]:
         what = f"{_named(rule)} {typical:g}, not sticking"
         yield _solved(impact, rule, what, [{"rule_value": typical}])
         return
-    by = OF_RULE[rule]
-    low = -math.inf if rule == IMPULSE_RATIO else 0.0
-    high = 1.0 if rule == CRITICAL_FRACTION else math.inf
-    ends = [{"rule_value": end} for end in (max(value - by, low), min(value + by, high))]
+    entry = RULES[rule]
+    by = entry.step
+    ends = [
+        {"rule_value": end} for end in (max(value - by, entry.least), min(value + by, entry.most))
+    ]
     yield _solved(impact, rule, f"{_named(rule)} {by:g} more or less", ends)
 
 

@@ -14,6 +14,7 @@ from ..messages.errors import CollisionsWarning, InputError
 from ..messages.hints import hinted
 from ..messages.warning import Note, warn_of
 from ..quantities.reading import ArgumentReader
+from ..quantities.refusals import must_be
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence
 from ..quantities.units import shown
@@ -160,11 +161,11 @@ def compare(
             isinstance(name, str) and isinstance(one, Posterior) for name, one in posteriors.items()
         )
     ):
-        raise InputError(
-            f"posteriors must be a dict of two or more posteriors by name, such as {{'square': "
-            f"one, '20 deg': other}}, got {shown(posteriors)}",
+        raise must_be(
+            "posteriors",
+            "a dict of two or more posteriors by name, such as `{'square': one, '20 deg': other}`",
+            posteriors,
             code="bad_type",
-            argument="posteriors",
         )
     _check_same_evidence(posteriors)
     before = _read_prior(posteriors, prior)
@@ -187,7 +188,7 @@ def compare(
         )
         notes.append(Note(CollisionsWarning, sentence, code="contradictory"))
     given = [
-        f"{name}: {note.sentence}"
+        f"{name}: {note.statement}"
         for name, one in posteriors.items()
         for note in notes_of(one)
         if note.warning
@@ -205,7 +206,7 @@ def compare(
             for name, each in posteriors.items()
         },
         sentence=_sentence(before, after, logs, errors),
-        statements=(*given, *(note.sentence for note in notes)),
+        statements=(*given, *(note.statement for note in notes)),
     )
     warn_of(notes)
     return found

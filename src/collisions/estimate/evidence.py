@@ -8,9 +8,10 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar
 
-from ..messages.errors import CollisionsError, InputError, NoSolutionError, UnitsError
+from ..messages.errors import CollisionsError, InputError, NoSolutionError, UnitsError, placed
+from ..messages.marked import as_code, type_of
 from ..quantities.reading import ArgumentReader
-from ..uncertainty.distribution import Stated, from_numbers, read_alike, show
+from ..uncertainty.distribution import Statement, from_numbers, read_alike, show
 from ..uncertainty.distributions import Censored, Interval, Normal
 from ..uncertainty.model import Model, check_names, function_of
 from .readings import KINDS, Reading
@@ -64,7 +65,7 @@ def read_evidence(
     observed: Any,
     example: str,
     read_unknown: Callable[[str, Any], T],
-    read_observed: Callable[[str, Any], Stated],
+    read_observed: Callable[[str, Any], Statement],
 ) -> tuple[Model, dict[str, T], list[Observation]]:
     """The model, what is known before of each unknown, and the observations; one error names all
     that cannot be used.
@@ -72,7 +73,7 @@ def read_evidence(
     reader = ArgumentReader()
     known = _read_each(reader, unknowns, "unknowns", example, read_unknown)
     readings = _read_each(
-        reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_observed
+        reader, observed, "observed", "`Normal('30 km/h', '2 km/h')`", read_observed
     )
     reader.close()
     model = function_of(model, known, readings, "observed")
@@ -90,9 +91,10 @@ def _read_each(
         or not given
         or not all(isinstance(key, str) for key in given)
     ):
-        got = "an empty one" if isinstance(given, Mapping) and not given else type(given).__name__
+        got = "an empty one" if isinstance(given, Mapping) and not given else type_of(given)
         raise InputError(
-            f"{argument} must be a dict by names, such as {{'speed_a': {example}}}, got {got}",
+            f"{argument} must be `|a dict|a table` by names, such as `{{'speed_a': "
+            f"{example}}}`, got {got}",
             code="bad_type",
             argument=argument,
         )
@@ -102,20 +104,18 @@ def _read_each(
         try:
             found[name] = read(label, value)
         except InputError as problem:
-            text = str(problem) if str(problem).startswith(label) else f"{label}: {problem}"
-            reader.refuse(
-                type(problem)(text, code=problem.code, **{**problem.fields, "argument": label})
-            )
+            place = "" if str(problem).startswith(label) else label
+            reader.refuse(placed(problem, place, argument=label))
     return found
 
 
-def read_reading(label: str, given: Any) -> Stated:
+def read_reading(label: str, given: Any) -> Statement:
     """An observation of a posterior: a value with its error, an interval, or a censored reading."""
     if isinstance(given, Interval):
         return from_numbers(
             Censored, given.unit, {"low": given.low, "high": given.high, "error": None}
         )
-    if isinstance(given, Stated) and not isinstance(given, Normal) and type(given) in KINDS:
+    if isinstance(given, Statement) and not isinstance(given, Normal) and type(given) in KINDS:
         return given
     return read_value(label, given)
 
@@ -128,9 +128,9 @@ def read_value(label: str, given: Any) -> Normal:
         )
         if not sigma > 0.0:
             raise InputError(
-                f"{label} error must be > 0, got {show(sigma, unit)}; give the pair (value, "
-                "error), the error as a standard deviation. What is known exactly is written "
-                "into the model",
+                f"{as_code(label)} error must be > 0, got {show(sigma, unit)}; give the "
+                "pair `(value, error)`, the error as a standard deviation. What is known "
+                "exactly is written into the model",
                 code="not_positive",
             )
         given = Normal(*given)
@@ -138,18 +138,19 @@ def read_value(label: str, given: Any) -> Normal:
         kind = (
             "a number without its error"
             if isinstance(given, (int, float, str))
-            else f"of type {type(given).__name__}"
+            else f"of type {type_of(given)}"
         )
         raise InputError(
-            f"{label} is {kind}; give Normal(value, error) or the pair (value, error), the error "
-            "as a standard deviation. Of a range write Normal.between(low, high, coverage); an "
-            "Interval, or a Censored reading of one bound, is weighed by reconstruct.posterior",
+            f"{as_code(label)} is {kind}; give `Normal(value, error)` or the pair "
+            "`(value, error)`, the error as a standard deviation. Of a range write "
+            "`Normal.between(low, high, coverage)`; an Interval, or a Censored "
+            "reading of one bound, is weighed by `reconstruct.posterior`",
             code="bad_observation",
         )
     if given.truncate is not None:
         raise InputError(
-            f"{label} is truncated at {given.truncate}, which the error of a measurement is not; "
-            "leave truncate= out, bounds belong to unknowns",
+            f"{as_code(label)} is truncated at {given.truncate}, which the error of a "
+            "measurement is not; leave `truncate=` out, bounds belong to unknowns",
             code="bad_observation",
         )
     return given
@@ -161,7 +162,7 @@ def refused_everywhere(
     """The error if the model has no answer anywhere, with its own reason if a single case gives
     one.
     """
-    reason = "; call the model there with on_failure='raise' to see why"
+    reason = "; call the model there with `on_failure='raise'` to see why"
     try:
         model.function(**at)
     except CollisionsError as error:

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..messages.errors import AmbiguousSolutionError, InputError, NoSolutionError
 from ..messages.hints import hinted
+from ..messages.marked import as_code, type_of
 from ..messages.warning import Note, notes_of_samples, warn_of
 from ..quantities.attributes import lock
 from ..quantities.units import is_quantity
@@ -57,8 +58,8 @@ _LEAST_MOVE = 0.1  # standard errors: smaller moves and smaller rises are not co
 _FLAT_SHARE = 1e-6  # of the greatest slope: directions of less are left alone
 _TO_REFINE, _MOST_REFINED = 25.0, 6  # of chi-squared, and places, for a finer model to start from
 _POSTERIOR = (
-    "posterior(model, unknowns, observed, seed=1), with Uniform(low, high) of each unknown that "
-    "has no prior"
+    "`|posterior(model, unknowns, observed, seed=1)|[posterior]`, with `Uniform(low, high)` of "
+    "each unknown that has no prior"
 )
 _STEP_ROUNDS = 4
 _FOR_NOISE = 5  # points at which the noise of the model is measured, once for all
@@ -186,8 +187,8 @@ def fit(
         ends = minimise(problem, starts)
         if np.all(np.isinf(ends.chi_squared)):
             advice = (
-                "bounds or starts within which the impact happens; reconstruct.posterior finds "
-                "rare ones too"
+                "bounds or starts within which the impact happens; `reconstruct.posterior` "
+                "finds rare ones too"
             )
             raise refused_everywhere(inputs.model, _STARTS, inputs.named(inputs.start), advice)
         searched = inputs.model
@@ -355,9 +356,9 @@ def _unknown(label: str, given: Any) -> tuple[str, Normal | None, float, float, 
         isinstance(given, (int, float, str, np.number)) or is_quantity(given)
     ):
         raise InputError(
-            f"{label} is of type {type(given).__name__}; give a Normal (what is known before, "
-            "with its weight), a Uniform or an Interval (bounds that weigh nothing), or a "
-            "number to start from; reconstruct.posterior takes every "
+            f"{as_code(label)} is of type {type_of(given)}; give a Normal (what is known "
+            "before, with its weight), a Uniform or an Interval (bounds that weigh "
+            "nothing), or a number to start from; `reconstruct.posterior` takes every "
             f"distribution{range_hint(given)}",
             code="bad_prior",
         )
@@ -560,9 +561,10 @@ def _check_minimum(best: _Candidate, ends: Ends, few: bool = True) -> None:
         return
     at = best.inputs.named(best.point)
     raise NoSolutionError(
-        f"the least misfit found is chi-squared {best.chi_squared:.6g} at {listed(at)}, {why}. "
-        f"reconstruct.posterior answers there too, with a range: write {_POSTERIOR}; or narrow "
-        "the bounds to one side of it, or give a prior (a Normal)",
+        f"the least misfit found is chi-squared {best.chi_squared:.6g} at {listed(at)}, "
+        f"{why}. `reconstruct.posterior` answers there too, with a range: write "
+        f"{_POSTERIOR}; or narrow the bounds to one side of it, or give a prior (a "
+        "Normal)",
         code="no_convergence",
         chi_squared=float(best.chi_squared),
         at=at,
@@ -587,10 +589,10 @@ def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
         f"chi-squared {one.chi_squared:.4g} at {listed(one.values)}" for one in fits
     )
     return AmbiguousSolutionError(
-        f"{len(fits)} answers fit the evidence about as well: {answers}. {_agreeing(fits)}All "
-        "are in .solutions. How probable each is, with one range over all of them, says "
-        f"reconstruct.posterior: write {_POSTERIOR}; or narrow the bounds of an unknown to one, or "
-        "add an observation that tells them apart",
+        f"{len(fits)} answers fit the evidence about as well: {answers}. "
+        f"{_agreeing(fits)}`|All are in .solutions. |`How probable each is, with one range "
+        f"over all of them, says `reconstruct.posterior`: write {_POSTERIOR}; or narrow "
+        "the bounds of an unknown to one, or add an observation that tells them apart",
         code="ambiguous",
         solutions=tuple(fits),
     )

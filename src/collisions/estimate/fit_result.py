@@ -20,7 +20,8 @@ from ..messages.errors import (
     SuspectUnitsWarning,
 )
 from ..messages.warning import Note
-from ..quantities.attributes import OWN, Shown, derived
+from ..quantities.attributes import OWN_UNIT, Shown, derived
+from ..quantities.refusals import must_be
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summary, as_sentence
 from ..quantities.units import shown, to_quantity
@@ -31,7 +32,7 @@ from .evidence import Observation
 
 _GIVEN_ERRORS = "A standard error holds given the stated errors of the observations and priors."
 _TAKE_POSTERIOR = (
-    "; reconstruct.posterior gives the range that the evidence leaves, whatever its shape"
+    "; `reconstruct.posterior` gives the range that the evidence leaves, whatever its shape"
 )
 _NONE = "\u2013"
 _LARGE_NONLINEARITY = 0.2  # of the half-width of a 95 percent interval
@@ -68,7 +69,9 @@ class WithUnit(Shown):
     def q(self) -> dict[str, Any]:
         """The same with the unit; numbers if it is unknown."""
         shared = {
-            f.name: getattr(self, f.name) for f in fields(self) if f.metadata.get("unit") == OWN
+            f.name: getattr(self, f.name)
+            for f in fields(self)
+            if f.metadata.get("unit") == OWN_UNIT
         }
         return {
             name: with_unit(value, self.unit) for name, value in shared.items() if value is not None
@@ -78,7 +81,11 @@ class WithUnit(Shown):
         for f in fields(self):
             value = getattr(self, f.name)
             if value is not None and f.name != "unit":
-                yield prefix + f.name, value, self.unit if f.metadata.get("unit") == OWN else None
+                yield (
+                    prefix + f.name,
+                    value,
+                    self.unit if f.metadata.get("unit") == OWN_UNIT else None,
+                )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -89,10 +96,10 @@ class Estimate(WithUnit):
 
     name: str
     unit: str
-    value: float = field(metadata={"unit": OWN})
-    standard_error: float = field(metadata={"unit": OWN})
-    low: float = field(metadata={"unit": OWN})
-    high: float = field(metadata={"unit": OWN})
+    value: float = field(metadata={"unit": OWN_UNIT})
+    standard_error: float = field(metadata={"unit": OWN_UNIT})
+    low: float = field(metadata={"unit": OWN_UNIT})
+    high: float = field(metadata={"unit": OWN_UNIT})
     at_bound: str | None
 
     _title = "Estimate"
@@ -124,10 +131,8 @@ class Estimate(WithUnit):
             or not isinstance(coverage, (int, float))
             or not 0.0 < coverage < 1.0
         ):
-            raise InputError(
-                f"coverage must be between 0 and 1, such as 0.95, got {shown(coverage)}",
-                code="bad_fraction",
-                argument="coverage",
+            raise must_be(
+                "coverage", "between 0 and 1, such as 0.95", coverage, code="bad_fraction"
             )
         if not self.determined:
             return self.low, self.high
@@ -144,10 +149,10 @@ class Residual(WithUnit):
 
     name: str
     unit: str
-    observed: float = field(metadata={"unit": OWN})
-    computed: float = field(metadata={"unit": OWN})
-    residual: float = field(metadata={"unit": OWN})
-    sigma: float = field(metadata={"unit": OWN})
+    observed: float = field(metadata={"unit": OWN_UNIT})
+    computed: float = field(metadata={"unit": OWN_UNIT})
+    residual: float = field(metadata={"unit": OWN_UNIT})
+    sigma: float = field(metadata={"unit": OWN_UNIT})
     over_sigma: float
     is_prior: bool
 
@@ -314,8 +319,8 @@ class Fit(SpeedsFound, Shown):
 
     @property
     def inputs(self) -> dict[str, Normal]:
-        """By unknown, the estimate as a normal distribution within its bounds, as
-        ``uncertainty.propagate`` takes it.
+        """Estimates by unknown, each a normal distribution within its bounds, as
+        ``uncertainty.propagate`` takes them.
         """
         self._check_determined("inputs")
         return {name: self._as_normal(name) for name in self.names}
@@ -338,7 +343,7 @@ class Fit(SpeedsFound, Shown):
     @property
     def statements(self) -> tuple[str, ...]:
         """The statements that belong with the numbers, as sentences."""
-        return tuple(note.sentence for note in notes_of(self))
+        return tuple(note.statement for note in notes_of(self))
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as strict JSON, with infinities and NaN by name.
@@ -444,8 +449,8 @@ def notes_of(found: Fit) -> Iterator[Note]:
         yield agreement(found.p_value, found.residuals, f" (chi-squared {_chi_squared(found)})")
     for direction in found.undetermined:
         advice = (
-            "; give a prior of it (a Normal), or an observation that determines it, or take "
-            "reconstruct.posterior"
+            "; give a prior of it (a Normal), or an observation that determines it, or "
+            "take `reconstruct.posterior`"
         )
         open_ = Note(IllConditionedWarning, direction.sentence, advice, "undetermined")
         yield Note(None, direction.sentence) if direction.held_by_prior else open_
@@ -494,7 +499,7 @@ def notes_of(found: Fit) -> Iterator[Note]:
                 SuspectUnitsWarning,
                 f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; "
                 "if it is an angle, the short way between them is round the circle: give it "
-                f"with its unit, such as Normal({degrees})",
+                f"with its unit, such as `Normal({degrees})`",
                 "",
                 "bare_angle",
             )

@@ -27,7 +27,8 @@ FLAT = 1e-3
 _NEGLIGIBLE_SHARE = (
     1e-4  # of its scale: an unknown that moves less along a direction is not part of it
 )
-# Of the error of an unknown and the cube root of the noise: over that a noisy model is compared.
+# Multiples of the error of an unknown and the cube root of the noise: over that a noisy model
+# is compared.
 _NOISY_STEP, _MOST_NOISY_STEP = 2.0, 0.5
 # of its scale, for the error of an unknown before that is known
 _REACH = 0.1

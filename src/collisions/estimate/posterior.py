@@ -14,6 +14,7 @@ import numpy as np
 from ..engine.blocks import in_order
 from ..messages.errors import InputError, NoSolutionError
 from ..messages.hints import hinted
+from ..messages.marked import as_code, type_of
 from ..messages.progress import reporter
 from ..messages.warning import notes_of_samples, warn_of
 from ..quantities.attributes import lock
@@ -159,7 +160,7 @@ def posterior(
     given = math.nan if samples is None else samples
     check_options("monte_carlo", given, None, seed, threads, progress, _LEAST_SAMPLES)
     called, priors, rows = read_evidence(
-        model, unknowns, observed, "Normal('50 km/h', '10 km/h')", _prior, read_reading
+        model, unknowns, observed, "`Normal('50 km/h', '10 km/h')`", _prior, read_reading
     )
     problem = _Problem(called, Joint(priors, correlation), rows)
     if finer is not None:
@@ -183,10 +184,10 @@ def _prior(label: str, given: Any) -> Distribution:
     if isinstance(given, Distribution):
         return given
     raise InputError(
-        f"{label} is of type {type(given).__name__}; give a distribution of what was known "
-        "before: Normal, or Uniform(low, high) where any value between two is as likely, which "
-        "an Interval does not say. What is known exactly is written into the "
-        f"model{range_hint(given)}",
+        f"{as_code(label)} is of type {type_of(given)}; give a distribution of what was "
+        "known before: Normal, or `Uniform(low, high)` where any value between two is "
+        "as likely, which an Interval does not say. What is known exactly is written "
+        f"into the model{range_hint(given)}",
         code="bad_prior",
     )
 
@@ -197,7 +198,7 @@ class _Problem:
     def __init__(self, model: Model, joint: Joint, rows: list[Observation]) -> None:
         self.model, self.joint, self.rows = model, joint, rows
         self.finer: FinerModel | None = None
-        # By observation with sharp bounds, the width by which they are softened on the way.
+        # The width by which observations with sharp bounds are softened on the way, by name.
         self.softened: dict[str, float] = {}
         self.answered = self.possible = False
 

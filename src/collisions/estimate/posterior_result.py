@@ -15,7 +15,7 @@ from ..messages.errors import CollisionsWarning, IllConditionedWarning, InputErr
 from ..messages.warning import Note
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence
-from ..quantities.units import shown
+from ..quantities.units import rendered, shown
 from ..uncertainty.distributions import Censored, Distribution, Normal, Samples, Uniform
 from ..uncertainty.normal import power_of_two
 from ..uncertainty.probability import holds
@@ -220,8 +220,8 @@ class Posterior(SpeedsFound, Summarized):
 
     @property
     def shrinkage(self) -> dict[str, float]:
-        """By unknown, the share of the prior's variance that the evidence removed: 1 if it tells
-        all, 0 if nothing.
+        """Share of the prior's variance that the evidence removed, by unknown: 1 if it tells all,
+        0 if nothing.
         """
         return {
             name: 1.0 - (float(one.std) / self.priors[name].sd) ** 2
@@ -251,7 +251,7 @@ class Posterior(SpeedsFound, Summarized):
     @property
     def statements(self) -> tuple[str, ...]:
         """The statements that belong with the numbers, as sentences."""
-        return tuple(note.sentence for note in notes_of(self))
+        return tuple(note.statement for note in notes_of(self))
 
     def to_dict(self) -> dict[str, Any]:
         """All figures as strict JSON; the samples themselves are left out.
@@ -262,8 +262,8 @@ class Posterior(SpeedsFound, Summarized):
             Plain values that ``json.dumps`` writes; infinity and NaN as texts.
         """
         record = {
-            "priors": {name: shown(one, 1000) for name, one in self.priors.items()},
-            "observed": {name: shown(one, 1000) for name, one in self.observed.items()},
+            "priors": {name: rendered(one, 1000) for name, one in self.priors.items()},
+            "observed": {name: rendered(one, 1000) for name, one in self.observed.items()},
             "unknowns": {name: one.record() for name, one in self.unknowns.items()},
             "predicted": {name: one.record() for name, one in self.predicted.items()},
             "residuals": {name: asdict(one) for name, one in self.residuals.items()},

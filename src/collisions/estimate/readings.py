@@ -48,7 +48,7 @@ class Reading:
         return (self.residual(computed, angle) / self.sigma) ** 2 if self.sigma else 0.0
 
     def missed(self, computed: Any, angle: bool) -> Any:
-        """By how much sharp bounds are missed; 0 for readings with an error."""
+        """The distance by which sharp bounds are missed; 0 for readings with an error."""
         return np.zeros(len(computed)) if self.sigma else abs(self.residual(computed, angle))
 
     def observed(self, computed: float, residual: float) -> float:
@@ -132,15 +132,15 @@ class CensoredReading(Reading):
         return np.where(near > 0.0, outside, inside)
 
     def _beyond(self, computed: Any, angle: bool) -> tuple[Any, Any]:
-        """By how much values are below the low bound, and above the high one; -inf for a bound that
-        is not there.
+        """Distances of values below the low bound, and above the high one; -inf for a bound that is
+        not there.
         """
         low, high = self.value.low, self.value.high
         if angle:
             if low is None or high is None:
                 raise InputError(
                     f"observed {self.name} is an angle, which goes round, with one bound; give "
-                    "both, Censored(low, high), or let the model return a plain number",
+                    "both, `Censored(low, high)`, or let the model return a plain number",
                     code="bad_observation",
                     argument="observed",
                 )

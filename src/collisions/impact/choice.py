@@ -18,10 +18,10 @@ from ..kernels.contact_laws import BRACH, FRICTION, LAWS
 from ..kernels.elementwise import larger, select
 from ..kernels.model_error import ECCENTRIC, LACKING, Known, least_model
 from ..kernels.status import EPS, Passed, Status, WithTyres
-from ..messages.errors import InputError
+from ..messages.errors import InputError, placed
 from ..messages.progress import halves, reporter
 from ..messages.warning import quietly
-from ..quantities.attributes import Shown, derived, lock, numeric, same
+from ..quantities.attributes import Shown, derived, lock, math_or_numpy, same
 from ..quantities.formatting import Numbers
 from ..quantities.reading import ArgumentReader, broadcast
 from ..quantities.tables import Cells, Summary, all_numbers, sided
@@ -29,9 +29,9 @@ from ..quantities.units import Value, to_quantity
 from .inputs import (
     Inputs,
     ModelName,
+    errors_of_missing,
     first_case,
-    lacking,
-    missing_numbers,
+    missing_inputs,
     named_numbers,
     part_of,
     part_of_inputs,
@@ -194,7 +194,7 @@ def choose(inputs: Inputs, threads: int = 1, progress: Any = None) -> tuple[Mode
         if isinstance(tolerance, float)
         else broadcast({"tolerance": tolerance, **named_numbers(inputs)})
     )
-    missing = tuple(f"{label}.{name}" for label, name in lacking(a, b))
+    missing = tuple(f"{label}.{name}" for label, name in missing_inputs(a, b))
     missing += () if inputs.point is not None else ("point",)
     if nobody := FULL.beyond(inputs):
         text = f"no model that solve chooses from takes {' and '.join(nobody)}; leave it out"
@@ -280,7 +280,7 @@ def _apart(inputs: Inputs, answer: Any, other: Any) -> Any:
             for name in (f"delta_vx_{label}", f"delta_vy_{label}", f"delta_yaw_rate_{label}")
         )
         inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
-        moves = (dw != 0.0) & (numeric(body.mass).isfinite(body.mass))
+        moves = (dw != 0.0) & (math_or_numpy(body.mass).isfinite(body.mass))
         radius = select(moves, inertia / select(moves, body.mass, 1.0), 0.0) ** 0.5
         turning = select(moves, radius * dw, 0.0)
         worst = larger(worst, (dx * dx + dy * dy + turning * turning) ** 0.5)
@@ -300,10 +300,10 @@ def part_of_choice(choice: ModelChoice, take: Any) -> ModelChoice:
 
 def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
     """Raise for all missing inputs, in a batch for the first case that needs them."""
-    place = f"{first_case(lacks)[1]}: " if isinstance(lacks, np.ndarray) else ""
+    place = first_case(lacks)[1] if isinstance(lacks, np.ndarray) else ""
     reader = ArgumentReader()
-    for error in missing_numbers(inputs.a, inputs.b, inputs.point):
-        reader.problems.append(type(error)(place + str(error), code=error.code, **error.fields))
+    for error in errors_of_missing(inputs.a, inputs.b, inputs.point):
+        reader.problems.append(placed(error, place))
     reader.close()
 
 

@@ -24,7 +24,7 @@ from ..quantities.attributes import (
     hypot,
     in_units_of,
     lock,
-    numeric,
+    math_or_numpy,
     returns,
     same,
     show,
@@ -288,7 +288,7 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
         normal, tangential = self._answer.no_slip_normal, self._answer.no_slip_tangential
         # 0 times the normal impulse keeps the NaN of a refused case.
         with np.errstate(invalid="ignore"):
-            without_end = numeric(tangential).copysign(math.inf, tangential) + 0.0 * normal
+            without_end = math_or_numpy(tangential).copysign(math.inf, tangential) + 0.0 * normal
         ratio: Value = select(normal > 0.0, _divided(tangential, normal), without_end)
         return ratio
 
@@ -436,7 +436,7 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
             )
         reader.close()
         broadcast({"share_a": share, "energy": energy})
-        xp = numeric(energy, share)
+        xp = math_or_numpy(energy, share)
         with np.errstate(all="ignore"):
             return (
                 xp.sqrt(2.0 * share * (energy / self.a.before.mass)),
@@ -456,7 +456,7 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
         for side in (self.a, self.b):
             mass = side.before.mass
             if side.before.pivot is None:
-                free = numeric(mass).isfinite(mass)
+                free = math_or_numpy(mass).isfinite(mass)
                 weight = select(free, mass, 0.0)
                 others_x, others_y = (
                     side.tyre_impulse_x + side.outside_x,

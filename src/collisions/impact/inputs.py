@@ -17,19 +17,20 @@ import numpy as np
 from ..kernels.contact_laws import FRICTION, LAWS, RULES
 from ..kernels.elementwise import restitution_domain
 from ..kernels.problem import Body, Contact, Problem
-from ..messages.errors import InputError, MissingInputError, ShapeError
+from ..messages.errors import InputError, MissingInputError, ShapeError, placed
 from ..quantities.attributes import lock, same
 from ..quantities.directions import direction, from_radians
 from ..quantities.reading import OUTSIDE_UNITS, ArgumentReader, broadcast, is_whole, largest
+from ..quantities.refusals import must_be, yes_or_no
 from ..quantities.settings import units_required
-from ..quantities.units import Value, has_unit, is_quantity, shown, texts_of
+from ..quantities.units import Value, has_unit, is_quantity, texts_of
 from ..vehicle.tyres import NAMES as TYRE_NUMBERS
 from ..vehicle.tyres import Tyres, tyres_with
 from ..vehicle.vehicle import (
     DOMAINS,
     NAMES,
     Vehicle,
-    missing,
+    error_of_missing,
     not_a_vehicle,
     numbers_of,
     vehicle_of,
@@ -40,21 +41,21 @@ from ..vehicle.vehicle import (
 ModelName: TypeAlias = Literal["linear_central", "oblique_central", "eccentric", "time_resolved"]
 Law: TypeAlias = Literal["brach", "kudlich-slibar", "stronge"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
-# Of an impulse, as given: both vehicles, restitution, normal, point, values of ``RULES``, and law.
+# Arguments of an impulse: both vehicles, restitution, normal, point, values of ``RULES``, and law.
 Arguments: TypeAlias = tuple[Any, Any, Any, Any, Any, tuple[Any, ...], Any]
 
 _numbers = attrgetter(*DOMAINS)
 _ALONG_X = (1.0, 0.0)
 _new = object.__new__
-# Of a crush stiffness: force at no crush and its growth with crush, each for a width, and the
-# width.
+# Units of a crush stiffness: force at no crush and its growth with crush, each for a width, and
+# the width.
 CRUSH_UNITS = ("N/m", "N/m**2", "m")
 NO_IMPULSE = (0.0, 0.0, 0.0)
 OUTSIDE = ("outside_a", "outside_b")
 TYRES = ("tyres_a", "tyres_b")
 _SLIP = (*RULES, "law", "incomplete")
 STIFFNESSES = ("duration", "stiffness", "crush_a", "crush_b")
-# By solver, its arguments beyond vehicles, restitution and normal.
+# Arguments of each solver beyond vehicles, restitution and normal.
 ARGUMENTS = {
     "linear_central": ("incomplete",),
     "oblique_central": _SLIP,
@@ -274,9 +275,8 @@ def part_of_inputs(inputs: Inputs, take: Callable[[Any], Any]) -> Inputs:
         try:
             return part_of(value, take)
         except InputError as error:
-            named = error.fields | {"vehicle": label[-1]}
             who = with_name(label, value) if isinstance(value, Vehicle) else label
-            raise type(error)(f"{who}: {error}", code=error.code, **named) from None
+            raise placed(error, who, vehicle=label[-1]) from None
 
     return Inputs(**{f.name: taken(f.name, getattr(inputs, f.name)) for f in fields(inputs)})
 
@@ -331,11 +331,12 @@ def index_of(index: Any, shape: tuple[int, ...] | None, of: str = "impact") -> t
             else f"{len(shape)} whole numbers in a tuple"
         )
         first = "0" if len(shape) == 1 else str((0,) * len(shape))
-        raise InputError(
-            f"index must be that of one case in a batch of shape {shape}, {wanted}, got "
-            f"{shown(index)}; write {of}.case({first})",
+        raise must_be(
+            "index",
+            f"that of one case in a batch of shape {shape}, {wanted}",
+            index,
+            f"; write {of}.case({first})",
             code="bad_index",
-            argument="index",
         )
     return tuple(int(at) for at in place)
 
@@ -367,7 +368,7 @@ def plain_inputs(
         and (not lawful or (type(law) is str and law in LAWS))
         and not units_required.get()
         and (pinned or a.pivot is b.pivot is None)
-        and (not placed or not missing_numbers(a, b, point))
+        and (not placed or not errors_of_missing(a, b, point))
         and (
             point is None
             or (
@@ -420,7 +421,7 @@ def read_inputs(
     reader = ArgumentReader()
     reader.problems.extend(problems)
     if model in PLACED:
-        reader.problems.extend(missing_numbers(a, b, point, model))
+        reader.problems.extend(errors_of_missing(a, b, point, model))
     if model not in PINNED:
         reader.problems.extend(_pinned(model, a, b))
     for label, vehicle in (("a", a), ("b", b)):
@@ -453,13 +454,11 @@ def read_inputs(
     lawful, _, _ = _TAKES[model]
     if lawful and (not isinstance(law, str) or law not in LAWS):
         known = " or ".join(f"{name!r} ({known.no_slip})" for name, known in LAWS.items())
-        reader.refuse(
-            InputError(f"law must be {known}, got {shown(law)}", code="bad_law", argument="law")
-        )
+        reader.refuse(must_be("law", known, law, code="bad_law"))
     elif lawful and LAWS[law].followed and rule != FRICTION:
         text = (
-            f"law {law!r} works with friction= alone, got {rule}=: it finds the impulse ratio "
-            "from the slip as it changes"
+            f"law {law!r} works with `friction=` alone, got `{rule}=`: it finds the impulse "
+            "ratio from the slip as it changes"
         )
         reader.refuse(InputError(text, code="bad_combination", argument=rule))
     reader.close()
@@ -476,16 +475,10 @@ def read_inputs(
 def check_flag(reader: ArgumentReader, name: str, given: Any) -> None:
     """Refuse an option that is no bool."""
     if not isinstance(given, bool):
-        reader.refuse(
-            InputError(
-                f"{name} must be True or False, got {shown(given)}",
-                code="bad_option",
-                argument=name,
-            )
-        )
+        reader.refuse(yes_or_no(name, given, code="bad_option"))
 
 
-def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
+def missing_inputs(a: Any, b: Any) -> list[tuple[str, str]]:
     """Vehicle and field of each input that the eccentric model needs and that is None; a fixed body
     needs no position.
     """
@@ -506,15 +499,18 @@ def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
     return found
 
 
-def missing_numbers(a: Any, b: Any, point: Any, model: str = "eccentric") -> Sequence[InputError]:
+def errors_of_missing(a: Any, b: Any, point: Any, model: str = "eccentric") -> Sequence[InputError]:
     """One error for each input that a model with places needs and that was not given."""
     if point is not None and _is_complete(a) and _is_complete(b):
         return ()
-    found = [missing(a if label == "a" else b, name, model, label) for label, name in lacking(a, b)]
+    found = [
+        error_of_missing(a if label == "a" else b, name, model, label)
+        for label, name in missing_inputs(a, b)
+    ]
     if point is None:
         text = (
-            f"point is None, and {model} needs it; give the scene point (x, y) at which the "
-            "impulse acts"
+            f"point `|is None|is not given`, and {model} needs it; give the scene "
+            "point `(x, y)` at which the impulse acts"
         )
         found.insert(0, MissingInputError(text, code="missing_point", argument="point"))
     return found
@@ -568,10 +564,10 @@ def _tangential(reader: ArgumentReader, values: tuple[Any, ...]) -> tuple[str, A
     if len(given) == 1:
         rule, value = given[0]
         return rule.name, reader.number(value, "", rule.name, rule.domain)
-    found = "none" if not given else " and ".join(f"{rule.name}=" for rule, _ in given)
+    found = "none" if not given else " and ".join(f"`{rule.name}=`" for rule, _ in given)
     text = (
-        f"give exactly one of {', '.join(f'{rule.name}=' for rule in taken)}; got {found}. There "
-        "is no default, because it decides cases: friction=0 is a frictionless contact, "
-        "friction=inf one that never slips"
+        f"give exactly one of {', '.join(f'`{rule.name}=`' for rule in taken)}; got "
+        f"{found}. There is no default, because it decides cases: `friction=0` is a "
+        "frictionless contact, `friction=inf` one that never slips"
     )
     return FRICTION, reader.refuse(InputError(text, code="one_tangential", argument="friction"))

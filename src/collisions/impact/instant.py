@@ -57,13 +57,13 @@ def neglected(impact: Impact, found: LeftOut | None = None) -> Neglect | None:
     ]
     if not parts:
         return None
-    advice = "give duration= and tyres_a=, tyres_b="
+    advice = "give `duration=` and `tyres_a=`, `tyres_b=`"
     if origin.method not in TAKE_TYRES:
         # Drags act against a motion from A towards B alone.
         states = impact.a.before, impact.a.after, impact.b.before, impact.b.after
         follows = all(np.nanmin(state.vx) >= 0.0 for state in states)
         advice = (
-            "give duration= and drag_a=, drag_b="
+            "give `duration=` and `drag_a=`, `drag_b=`"
             if follows
             else "collisions.left_out says more of it"
         )

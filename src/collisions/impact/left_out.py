@@ -16,7 +16,7 @@ from ..kernels.contact_laws import BRACH
 from ..kernels.elementwise import select, turning_velocity
 from ..messages.errors import InputError
 from ..messages.warning import quietly
-from ..quantities.attributes import Shown, hypot, in_units_of, lock, numeric
+from ..quantities.attributes import Shown, hypot, in_units_of, lock, math_or_numpy
 from ..quantities.directions import from_radians
 from ..quantities.precision import precision
 from ..quantities.reading import ArgumentReader, broadcast, widened
@@ -58,7 +58,7 @@ class Pull(NamedTuple):
         throughout.
         """
         before, change_x, change_y = side.before, side.delta_vx, side.delta_vy
-        most = select(numeric(before.mass).isfinite(before.mass), most, 0.0)
+        most = select(math_or_numpy(before.mass).isfinite(before.mass), most, 0.0)
         x: Any = 0.0
         y: Any = 0.0
         for moment in _MOMENTS:
@@ -140,7 +140,7 @@ def with_tyres(impact: Impact, pulls: tuple[Pull, Pull]) -> list[Any]:
 
 def finite_mass(body: Vehicle) -> Any:
     """The body's mass, 0 for a fixed body, which tyres do not move."""
-    return select(numeric(body.mass).isfinite(body.mass), body.mass, 0.0)
+    return select(math_or_numpy(body.mass).isfinite(body.mass), body.mass, 0.0)
 
 
 def with_motion(impact: Impact, time: Any, geometry: str) -> list[Any]:
@@ -157,7 +157,7 @@ def with_motion(impact: Impact, time: Any, geometry: str) -> list[Any]:
         return [math.nan] * 2
     e = impact.restitution
     passed = pulse.mean_passed(e)
-    # By how much of the duration times the velocity before, and times its change, a body has gone
+    # Shares of the duration times the velocity before, and times its change, that a body has gone
     # on from first contact: at maximum engagement, on the mean while the force acts, and at the
     # end.
     most, acting, last = (
@@ -222,7 +222,9 @@ def _moved(
         turns.append(turn)
         # A body without an inertia is not known to be fixed; a central model solved it, or none.
         inertia = 0.0 if before.yaw_inertia is None else before.yaw_inertia
-        fixed.append(numeric(before.mass).isinf(before.mass) & numeric(inertia).isinf(inertia))
+        fixed.append(
+            math_or_numpy(before.mass).isinf(before.mass) & math_or_numpy(inertia).isinf(inertia)
+        )
         if before.x is None or before.y is None:
             bodies.append(before)
             places.append((dx, dy))

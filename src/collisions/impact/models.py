@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -28,9 +28,7 @@ from ..quantities.reading import ArgumentReader, amount
 from ..quantities.settings import in_si
 from .inputs import (
     ARGUMENTS,
-    OUTSIDE,
     PINNED,
-    TYRES,
     Arguments,
     Inputs,
     first_case,
@@ -38,7 +36,6 @@ from .inputs import (
     read_inputs,
 )
 from .time_resolved_inputs import (
-    DOMAINS,
     read_contact_time,
     read_lasting,
     read_least_time,
@@ -223,9 +220,15 @@ TIME_RESOLVED = Model(
 BY_NAME = {model.name: model for model in (*MODELS, TIME_RESOLVED)}
 
 
+# Those of ``ARGUMENTS`` that ``Arguments`` holds.
+_IN_ARGUMENTS = {*RULES, "law", "point"}
+# The parts of a problem that not every impact has.
+_OPTIONAL = ("a.pivot", "b.pivot", "outside", "contact_velocity")
+
+
 def variant_of(inputs: Inputs) -> tuple[str, str | None, bool, bool, bool, bool]:
-    """What of the inputs decides which operations a kernel does: rule, law, and whether there is a
-    pivot of A, of B, an impulse from outside, and a contact velocity.
+    """What of the inputs decides which operations a kernel does: rule, law, and of each of
+    ``_OPTIONAL`` whether it is there. Written out, as every single case asks it.
     """
     outside = inputs.outside_a is not None
     return (
@@ -238,24 +241,18 @@ def variant_of(inputs: Inputs) -> tuple[str, str | None, bool, bool, bool, bool]
     )
 
 
-def paths_of(
-    model: Model,
-    rule: str,
-    law: str | None,
-    pinned_a: bool,
-    pinned_b: bool,
-    outside: bool,
-    contact_velocity: bool,
-) -> Any:
+def paths_of(model: Model, rule: str, law: str | None, *there: bool) -> Any:
     """What the kernel takes, as in ``Model.takes``, of what is given in this ``variant_of``."""
     found: Any = model.takes
-    if not pinned_a:
-        found = found._replace(a=found.a._replace(pivot=None))
-    if not pinned_b:
-        found = found._replace(b=found.b._replace(pivot=None))
-    if not outside:
-        found = found._replace(outside=None)
-    return found if contact_velocity else found._replace(contact_velocity=None)
+    for path, given in zip(_OPTIONAL, there, strict=True):
+        found = found if given else _without(found, path)
+    return found
+
+
+def _without(parts: Any, path: str) -> Any:
+    """The same parts with None at a path."""
+    name, _, inner = path.partition(".")
+    return parts._replace(**{name: _without(getattr(parts, name), inner) if inner else None})
 
 
 @cache
@@ -279,12 +276,18 @@ def model_of(inputs: Inputs) -> Model:
     return BY_NAME[inputs.model]
 
 
-def read_lasting_impulse(
-    arguments: Arguments, duration: Any, tyres: tuple[Any, Any], **more: Any
+def read_eccentric(
+    arguments: Arguments,
+    duration: Any = None,
+    tyres_a: Any = None,
+    tyres_b: Any = None,
+    **more: Any,
 ) -> Inputs:
-    """Read the arguments of ``eccentric`` with tyres."""
+    """Read the arguments of ``eccentric``."""
+    if duration is tyres_a is tyres_b is None:
+        return read_inputs(ECCENTRIC.name, arguments, **more)
     reader = ArgumentReader()
-    times = read_lasting(reader, ECCENTRIC.name, *arguments[:2], duration, tyres)
+    times = read_lasting(reader, ECCENTRIC.name, *arguments[:2], duration, (tyres_a, tyres_b))
     inputs = read_inputs(ECCENTRIC.name, arguments, reader.problems, **more)
     return replace(inputs, given={**(inputs.given or {}), **reader.texts} or None, **times)
 
@@ -292,16 +295,17 @@ def read_lasting_impulse(
 def read_for_solve(
     arguments: Arguments,
     tolerance: Any,
-    duration: Any,
-    drag: Any,
-    tyres: tuple[Any, Any],
+    duration: Any = None,
+    drag: Any = None,
+    tyres_a: Any = None,
+    tyres_b: Any = None,
     **more: Any,
 ) -> Inputs:
     """Read the arguments of ``solve``."""
     reader = ArgumentReader()
     times = {}
-    if not (duration is drag is tyres[0] is tyres[1] is None):
-        times = read_least_time(reader, *arguments[:2], duration, drag, tyres)
+    if not (duration is drag is tyres_a is tyres_b is None):
+        times = read_least_time(reader, *arguments[:2], duration, drag, (tyres_a, tyres_b))
     if not (type(tolerance) is float and 0.0 <= tolerance < math.inf):
         tolerance = _read_tolerance(reader, tolerance)
     inputs = read_inputs("solve", arguments, reader.problems, **more)
@@ -313,6 +317,21 @@ def read_for_solve(
     return inputs
 
 
+def _read_time_resolved(arguments: Arguments, **more: Any) -> Inputs:
+    a, b, restitution, normal, point, (friction, *_), _ = arguments
+    return read_contact_time(a, b, restitution, normal, point, friction, more)
+
+
+# Each takes what every solver takes, and by name what ``ARGUMENTS`` has of its solver beside that.
+_READERS: dict[str, Callable[..., Inputs]] = {
+    LINEAR.name: partial(read_inputs, LINEAR.name),
+    OBLIQUE.name: partial(read_inputs, OBLIQUE.name),
+    ECCENTRIC.name: read_eccentric,
+    TIME_RESOLVED.name: _read_time_resolved,
+    "solve": read_for_solve,
+}
+
+
 def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     """Inputs with changed values, which may be of any form a caller may give; read again like a
     caller's arguments.
@@ -322,32 +341,20 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     tangential = tuple(inputs.rule_value if name == inputs.rule else None for name in RULES)
     e = inputs.restitution
     unknown = found and type(e) is float and e != e
-    contact = 0.0 if unknown else e, inputs.normal, inputs.point
-    more = {name: getattr(inputs, name) for name in ("incomplete", *OUTSIDE)}
     arguments = (
         inputs.a,
         inputs.b,
-        *contact,
+        0.0 if unknown else e,
+        inputs.normal,
+        inputs.point,
         tangential,
         BRACH if inputs.law is None else inputs.law,
     )
-    tyres = inputs.tyres_a, inputs.tyres_b
+    beside = (name for name in ARGUMENTS[inputs.model] if name not in _IN_ARGUMENTS)
     with in_si():
-        if inputs.model == TIME_RESOLVED.name:
-            extra = {
-                name: getattr(inputs, name) for name in (*DOMAINS, *TYRES, "geometry", "steps")
-            }
-            again = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
-        elif inputs.model == "solve":
-            again = read_for_solve(
-                arguments, inputs.tolerance, inputs.duration, inputs.drag, tyres, **more
-            )
-        elif inputs.model == ECCENTRIC.name and not (
-            inputs.duration is None and tyres[0] is tyres[1] is None
-        ):
-            again = read_lasting_impulse(arguments, inputs.duration, tyres, **more)
-        else:
-            again = read_inputs(inputs.model, arguments, **more)
+        again = _READERS[inputs.model](
+            arguments, **{name: getattr(inputs, name) for name in beside}
+        )
     return replace(
         again,
         restitution=e if unknown else again.restitution,

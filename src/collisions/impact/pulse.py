@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..kernels.elementwise import safe_divisor, select
-from ..quantities.attributes import Shown, numeric
+from ..quantities.attributes import Shown, math_or_numpy
 from ..quantities.units import Value
 
 QUARTER = 0.5 * math.pi
@@ -116,7 +116,7 @@ def rise(share: Any) -> Any:
     """Force over its peak at a share of the compression time; restitution runs the
     curve backwards.
     """
-    return numeric(share).sin(QUARTER * share)
+    return math_or_numpy(share).sin(QUARTER * share)
 
 
 def compression_time(e: Any) -> Any:
@@ -125,29 +125,31 @@ def compression_time(e: Any) -> Any:
 
 
 def _rate(e: Any) -> Any:
-    """Duration over compression time: how many quarters of a sine would fit into it."""
-    cut = math.acos(max(-e, 0.0)) if isinstance(e, float) else np.arccos(np.maximum(-e, 0.0))
+    """Duration over compression time: how many quarters of a sine would fit into it; NaN from a
+    restitution of -1 on, where nothing is held.
+    """
+    held = select(e > -1.0, e, math.nan)
+    cut = math.acos(max(-held, 0.0)) if isinstance(e, float) else np.arccos(np.maximum(-held, 0.0))
     return select(e < 0.0, cut / QUARTER, 1.0 + e)
 
 
 def passed(e: Any, share: float) -> Any:
     """Share of the impulse that has been transmitted at a share of the duration."""
-    xp = numeric(e)
+    xp = math_or_numpy(e)
     phase = share * _rate(e)
     compressing = 1.0 - xp.cos(QUARTER * phase)
     # 0 before restitution begins: divided by a tiny restitution it would be infinite, which has no
     # sine.
     late = select(phase <= 1.0, 0.0, phase - 1.0)
     restoring = 1.0 + e * xp.sin(QUARTER * (late / safe_divisor(True, e)))
-    return select(phase <= 1.0, compressing, restoring) / (1.0 + e)
+    return select(phase <= 1.0, compressing, restoring) / select(e > -1.0, 1.0 + e, math.nan)
 
 
 def mean_passed(e: Any) -> Any:
     """Mean of ``passed`` over the duration."""
     angle = QUARTER * _rate(e)
-    return select(e < 0.0, 1.0 - numeric(e).sin(angle) / angle, 1.0 - (1.0 - e) / QUARTER) / (
-        1.0 + e
-    )
+    mean = select(e < 0.0, 1.0 - math_or_numpy(e).sin(angle) / angle, 1.0 - (1.0 - e) / QUARTER)
+    return mean / select(e > -1.0, 1.0 + e, math.nan)
 
 
 def engaged(e: Any) -> tuple[Any, Any]:
@@ -180,7 +182,7 @@ def drifting(e: Any) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
 
 def mean_square_passed(e: Any) -> Any:
     """Mean of the square of ``passed`` over the duration."""
-    angle, sin = QUARTER * _rate(e), numeric(e).sin
+    angle, sin = QUARTER * _rate(e), math_or_numpy(e).sin
     cut = (1.5 - 2.0 * sin(angle) / angle + 0.25 * sin(2.0 * angle) / angle) / (1.0 + e) ** 2
     whole = (1.5 - 2.0 / QUARTER + e * (1.0 + e * (2.0 / QUARTER + 0.5 * e))) / (1.0 + e) ** 3
     return select(e < 0.0, cut, whole)

@@ -32,8 +32,8 @@ _BLOCK, _FEW = 512, 24
 
 
 class Curve(NamedTuple):
-    """Of one vehicle, at the start and after every step: time, change of velocity in the scene, and
-    yaw rate; and when the vehicles were engaged the most. Steps first, then cases.
+    """Time, change of velocity in the scene, and yaw rate of one vehicle at the start and after
+    every step; and when the vehicles were engaged the most. Steps first, then cases.
     """
 
     time: Any

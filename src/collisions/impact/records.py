@@ -21,7 +21,7 @@ from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, cells
-from ..quantities.units import Texts, shown
+from ..quantities.units import Texts, rendered, shown
 from ..vehicle.tyres import NAMES as TYRES
 from ..vehicle.tyres import UNITS as TYRE_UNITS
 from ..vehicle.tyres import Tyres, as_given
@@ -401,7 +401,7 @@ def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
                 problem = owner._missing(inner) if isinstance(owner, Side) else None
                 raise problem or InputError(text, code="unknown_name", argument="columns")
         if not isinstance(name, str) or name not in found:
-            near = get_close_matches(shown(name), found, 3) or list(found)[:3]
+            near = get_close_matches(rendered(name), found, 3) or list(found)[:3]
             raise InputError(
                 f"columns: there is no column {shown(name)}; write for example "
                 f"{', '.join(near)}, without a unit",

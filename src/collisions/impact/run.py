@@ -33,12 +33,13 @@ from ..messages.errors import (
     InputError,
     NoImpactError,
     NoSolutionError,
+    placed,
 )
 from ..messages.progress import reporter
 from ..messages.warning import quietly, warn_of_cases
 from ..quantities.attributes import lock
+from ..quantities.refusals import must_be
 from ..quantities.tables import Sentences, said
-from ..quantities.units import shown
 from ..vehicle.tyres import DOMAINS as TYRE_DOMAINS
 from ..vehicle.tyres import Tyres, could_lift
 from ..vehicle.vehicle import DOMAINS, with_name
@@ -140,20 +141,12 @@ def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> No
     if on_failure is not None and not (
         isinstance(on_failure, str) and on_failure in ("raise", "nan")
     ):
-        raise InputError(
-            f"on_failure must be None, 'raise' or 'nan', got {shown(on_failure)}",
-            code="bad_option",
-            argument="on_failure",
-        )
+        raise must_be("on_failure", "None, 'raise' or 'nan'", on_failure, code="bad_option")
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
-        raise InputError(
-            f"threads must be a whole number from 1, got {shown(threads)}",
-            code="bad_option",
-            argument="threads",
-        )
+        raise must_be("threads", "a whole number from 1", threads, code="bad_option")
     if progress is not None and not isinstance(progress, bool) and not callable(progress):
         text = (
-            "progress must be a function of (done, total), or True for a bar, got "
+            "progress must be a function of (done, total), or `True` for a bar, got "
             f"{type(progress).__name__}"
         )
         raise InputError(text, code="bad_option", argument="progress")
@@ -191,11 +184,11 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
                 check = "check the signs of outside_a and outside_b"
                 if LAWS[inputs.law or BRACH].followed and inputs.restitution >= 0.0:
                     why = (
-                        f"so law={inputs.law!r} finds no compression that it could give back a "
-                        "part of"
+                        f"so `law={inputs.law!r}` finds no compression that it could give back "
+                        "a part of"
                     )
                     return error_of(
-                        status, f"{text}, {why}; {check}, or take law={BRACH!r}", **extra
+                        status, f"{text}, {why}; {check}, or take `law={BRACH!r}`", **extra
                     )
                 return error_of(status, f"{text}, by more than restitution does; {check}", **extra)
         case Status.RATIO_JAMS:
@@ -261,7 +254,7 @@ def raise_or_warn(
         )
 
 
-def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='raise'") -> None:
+def warn_of_refusals(status: Any, advice: str = "see .status, or `on_failure='raise'`") -> None:
     """One warning that counts the refused cases of a batch by their kind."""
     refused = int(np.count_nonzero(status > Status.ENERGY_GAIN))
     kinds = {
@@ -402,7 +395,7 @@ def _first_refusal(
         case = read_again(part_of_inputs(inputs, take))
         solve_inputs(model_of(case), case) if one is None else one(take)
     except CollisionsError as error:
-        return type(error)(f"{place}: {error}", code=error.code, **error.fields)
+        return placed(error, place)
     outcome = Status(status[index])
     return InputError(f"{place}: {outcome.sentence}", code=outcome.label)
 
@@ -415,9 +408,9 @@ def _warn_of_gain(what: str, gain: float, count: int | None, inputs: Inputs) -> 
         )
     else:
         why = (
-            "this restitution and tangential impulse cannot occur together without a source of "
-            "energy; lower the restitution or the ratio, or take law='kudlich-slibar' with "
-            "friction="
+            "this restitution and tangential impulse cannot occur together without a "
+            "source of energy; lower the restitution or the ratio, or take "
+            "`law='kudlich-slibar'` with `friction=`"
         )
     warning = EnergyGainWarning(f"{what}: {why}", code="energy_gain", gain=gain)
     warn_of_cases(warning, {f"the impact gains energy: {why}": count})

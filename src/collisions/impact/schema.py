@@ -11,9 +11,18 @@ from typing import Any, get_args
 
 from ..kernels.contact_laws import LAWS, RULES
 from ..messages.errors import Status
-from ..quantities.attributes import attributes, unit_of
+from ..quantities.attributes import attributes
+from ..quantities.json_schema import (
+    NULL,
+    TEXT,
+    array_of,
+    closed,
+    described,
+    or_null,
+    schema_of,
+)
 from ..vehicle.tyres import Tyres
-from ..vehicle.vehicle import DOMAINS, Vehicle
+from ..vehicle.vehicle import Vehicle
 from .impact import Impact
 from .inputs import ARGUMENTS, PLACED, TYRES, UNITS, Inputs
 from .models import BY_NAME
@@ -27,15 +36,38 @@ __all__ = ["impact_schema"]
 
 _MODELS = list(BY_NAME)
 _VALUE, _PAIR, _GIVEN = ({"$ref": f"#/$defs/{name}"} for name in ("value", "pair", "given"))
-_NUMBER, _TEXT, _NULL = {"$ref": "#/$defs/number"}, {"type": "string"}, {"type": "null"}
-_TYPES: dict[str, dict[str, Any]] = {
+_NUMBER = {"$ref": "#/$defs/number"}
+
+
+def _pair(value: dict[str, Any]) -> dict[str, Any]:
+    return {
+        "description": "The x and the y part.",
+        "type": "array",
+        "prefixItems": [value, value],
+        "items": False,
+        "minItems": 2,
+    }
+
+
+# By declared type: of results, in which a field of any type is an array over time that a batch has
+# not; and of inputs, which may be texts.
+_RESULTS: dict[str, dict[str, Any]] = {
     "Value": _VALUE,
+    "Any": {"anyOf": [_VALUE, NULL]},
     "tuple[Value, Value]": _PAIR,
-    "str": _TEXT,
-    "Law": _TEXT,
-} | {
-    name: {"$ref": f"#/$defs/{name.lower().removeprefix('model')}"}
-    for name in ("ModelChoice", "Reconstruction", "Pulse", "Vehicle", "Side")
+    "str": TEXT,
+    "Law": TEXT,
+    **{
+        name: {"$ref": f"#/$defs/{name.lower().removeprefix('model')}"}
+        for name in ("ModelChoice", "Reconstruction", "Pulse", "Vehicle", "Side")
+    },
+}
+_GIVEN_AS: dict[str, dict[str, Any]] = {
+    "Value": _GIVEN,
+    "str": TEXT,
+    "tuple[Value, Value]": _pair(_GIVEN),
+    "tuple[Value, ...]": array_of(_GIVEN, 3),
+    "tuple[Value, Value, Value, Value]": array_of(_GIVEN, 4),
 }
 
 
@@ -69,7 +101,7 @@ def impact_schema() -> dict[str, Any]:
             "What Impact.to_dict() gives: inputs to solve again from, and every result; SI, "
             "angles in radians."
         ),
-        **_closed(
+        **closed(
             {"format": {"const": FORMAT}, "inputs": _inputs(), "results": _attributes(Impact)}
         ),
         "$defs": {
@@ -85,27 +117,27 @@ def impact_schema() -> dict[str, Any]:
                 "description": (
                     "A number or a batch in SI, or the text with a unit that it was given as."
                 ),
-                "anyOf": [_VALUE, _TEXT],
+                "anyOf": [_VALUE, TEXT],
             },
             "pair": _pair(_VALUE),
-            "vehicle": _closed({f.name: _field(f) for f in fields(Vehicle)}),
+            "vehicle": _fields(Vehicle, _RESULTS),
             "vehicle_inputs": _vehicle_inputs(),
             "side": _attributes(Side),
-            "choice": _closed(
+            "choice": closed(
                 {
                     "model": _each({"enum": _MODELS}),
-                    "reason": _TEXT,
+                    "reason": TEXT,
                     "errors": _by_model(_VALUE),
-                    "missing": _by_model({"type": "array", "items": _TEXT}),
+                    "missing": _by_model({"type": "array", "items": TEXT}),
                     "tolerance": {**_VALUE, "description": "[m/s]"},
                 }
             ),
-            "tyres": _tyres(),
-            "pulse": _closed({f.name: _field(f) for f in fields(Pulse)}),
-            "reconstruction": {
-                **_closed({f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)}),
-                "required": [f.name for f in fields(Reconstruction) if f.name not in _LATER],
-            },
+            "tyres": _fields(Tyres, _GIVEN_AS),
+            "pulse": _fields(Pulse, _RESULTS),
+            "reconstruction": closed(
+                {f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)},
+                [f.name for f in fields(Reconstruction) if f.name not in _LATER],
+            ),
         },
     }
     return deepcopy(schema)
@@ -114,16 +146,16 @@ def impact_schema() -> dict[str, Any]:
 def _inputs() -> dict[str, Any]:
     """The inputs of every solver."""
     vehicle = {"$ref": "#/$defs/vehicle_inputs"}
-    question = _closed(
+    question = closed(
         {
             "model": {"enum": sorted(ARGUMENTS), "description": "The solver that was called."},
             "rule": {"enum": list(RULES), "description": "What was said of the tangent, ..."},
             "law": {"enum": [*LAWS, None]},
             "a": vehicle,
             "b": vehicle,
-            **{name: _input(name) for name in UNITS},
+            **{name: _field(Inputs.__dataclass_fields__[name], _GIVEN_AS) for name in UNITS},
             **{
-                name: _or_null({"$ref": "#/$defs/tyres"}, "The wheels of a vehicle.")
+                name: or_null({"$ref": "#/$defs/tyres"}, "The wheels of a vehicle.")
                 for name in TYRES
             },
             "geometry": {
@@ -135,25 +167,25 @@ def _inputs() -> dict[str, Any]:
                 "description": "Of time_resolved: steps a nominal duration.",
             },
             "normal": {
-                "anyOf": [_PAIR, _TEXT],
+                "anyOf": [_PAIR, TEXT],
                 "description": "Unit vector from A into B, or its angle as given.",
             },
-            "bare_normal": _or_null(
+            "bare_normal": or_null(
                 _VALUE,
                 "The normal as an angle of more than a turn that was given without a unit [rad].",
             ),
             "rule_value": {**_GIVEN, "description": "... and its value."},
-            "tolerance": _or_null(_VALUE, "Of solve [m/s]."),
+            "tolerance": or_null(_VALUE, "Of solve [m/s]."),
             "incomplete": {
                 "type": "boolean",
                 "description": "Whether a restitution below 0 was allowed.",
             },
-            "contact_velocity": _or_null(
+            "contact_velocity": or_null(
                 _PAIR, "Closing speed and slip before as a reverse solver found them [m/s]."
             ),
             "known": {
                 "type": "object",
-                "additionalProperties": _TEXT,
+                "additionalProperties": TEXT,
                 "description": "What a reverse solver was given with a unit, by its argument.",
             },
         }
@@ -163,7 +195,7 @@ def _inputs() -> dict[str, Any]:
 
 def _of_solver(name: str, takes: tuple[str, ...]) -> dict[str, Any]:
     """The inputs of one solver: none that it does not take, and those that it needs."""
-    needed = {"law": _TEXT} if "law" in takes else {}
+    needed = {"law": TEXT} if "law" in takes else {}
     needed |= {"point": {"type": "array"}} if name in PLACED else {}
     properties = {
         argument: {"enum": [None, False]} for argument in sorted(OF_SOME.keys() - takes)
@@ -181,89 +213,33 @@ def _attributes(kind: type[Any]) -> dict[str, Any]:
         declared = attribute.work_out.__annotations__["return"]
         first = (getdoc(attribute) or "").partition("\n\n")[0].replace("\n", " ")
         found[name] = {
-            **(_LISTED[name] if name in _LISTED else _declared(declared)),
+            **(_LISTED[name] if name in _LISTED else schema_of(declared, _RESULTS)),
             "description": first,
         }
-    return _closed(found)
+    return closed(found)
 
 
 def _vehicle_inputs() -> dict[str, Any]:
     """The fields of a vehicle as they were given; speed and course may stand in place
     of vx and vy.
     """
-    found: dict[str, Any] = {"name": _TEXT, "pivot": _or_null(_pair(_GIVEN), "[m]")}
-    for name in DOMAINS:
-        unit = f"[{unit_of(Vehicle, name)}]"
-        optional = Vehicle.__dataclass_fields__[name].type != "Value"
-        found[name] = _or_null(_GIVEN, unit) if optional else {**_GIVEN, "description": unit}
+    found = _fields(Vehicle, _GIVEN_AS)["properties"]
     needed = [name for name in found if name not in ("vx", "vy")]
     return {
-        **_closed(found | {"speed": _TEXT, "course": _TEXT}),
-        "required": needed,
+        **closed(found | {"speed": TEXT, "course": TEXT}, needed),
         "oneOf": [{"required": ["vx", "vy"]}, {"required": ["speed", "course"]}],
         "dependentRequired": {"speed": ["course"], "course": ["speed"]},
     }
 
 
-def _tyres() -> dict[str, Any]:
-    """The arguments of tyres."""
-    found = {f.name: {**_GIVEN, "description": f"[{f.metadata['unit']}]"} for f in fields(Tyres)}
-    four = {"type": "array", "items": _GIVEN, "minItems": 4, "maxItems": 4}
-    return _closed(found | {"lock": {"anyOf": [_GIVEN, four]}, "height": _or_null(_GIVEN, "[m]")})
+def _fields(kind: type[Any], types: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """An object with the fields of a dataclass."""
+    return closed({f.name: _field(f, types) for f in fields(kind)})
 
 
-def _input(name: str) -> dict[str, Any]:
-    """A number or a pair among the inputs, with its unit."""
-    plain, _, optional = str(Inputs.__dataclass_fields__[name].type).partition(" | ")
-    units = UNITS[name]
-    several = {"type": "array", "items": _GIVEN, "minItems": 3, "maxItems": 3}
-    found = {"Value": _GIVEN, "tuple[Value, Value]": _pair(_GIVEN), "tuple[Value, ...]": several}[
-        plain
-    ]
-    unit = f"[{', '.join(units) if isinstance(units, tuple) else units or 1}]"
-    return _or_null(found, unit) if optional else {**found, "description": unit}
-
-
-def _field(field: Field[Any]) -> dict[str, Any]:
-    """The schema of a field with its unit; one of any type is an array over time, which a batch has
-    not.
-    """
-    found = _declared("Value | None" if field.type == "Any" else str(field.type))
-    return (
-        {**found, "description": f"[{field.metadata['unit']}]"}
-        if "unit" in field.metadata
-        else found
-    )
-
-
-def _declared(declared: str) -> dict[str, Any]:
-    """The schema for the declared type of an attribute."""
-    plain, _, optional = declared.partition(" | ")
-    return {"anyOf": [_TYPES[plain], _NULL]} if optional else dict(_TYPES[plain])
-
-
-def _or_null(found: dict[str, Any], description: str) -> dict[str, Any]:
-    return {"anyOf": [found, _NULL], "description": description}
-
-
-def _closed(properties: dict[str, Any]) -> dict[str, Any]:
-    """An object with exactly these properties."""
-    return {
-        "type": "object",
-        "properties": properties,
-        "required": list(properties),
-        "additionalProperties": False,
-    }
-
-
-def _pair(value: dict[str, Any]) -> dict[str, Any]:
-    return {
-        "description": "The x and the y part.",
-        "type": "array",
-        "prefixItems": [value, value],
-        "items": False,
-        "minItems": 2,
-    }
+def _field(field: Field[Any], types: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """The schema of a field with its unit."""
+    return described(schema_of(str(field.type), types), unit=field.metadata.get("unit"))
 
 
 def _by_model(value: dict[str, Any]) -> dict[str, Any]:
@@ -273,7 +249,7 @@ def _by_model(value: dict[str, Any]) -> dict[str, Any]:
 def _batch(value: dict[str, Any], dtype: dict[str, Any]) -> dict[str, Any]:
     """A batch: a flat list of one value per case, and the shape."""
     size = {"type": "integer", "minimum": 0}
-    return _closed(
+    return closed(
         {
             "dtype": dtype,
             "shape": {"type": "array", "items": size},
@@ -284,7 +260,7 @@ def _batch(value: dict[str, Any], dtype: dict[str, Any]) -> dict[str, Any]:
 
 def _each(value: dict[str, Any]) -> dict[str, Any]:
     """A label, a count or a truth value, or one for each case of a batch."""
-    return {"anyOf": [value, _batch(value, _TEXT)]}
+    return {"anyOf": [value, _batch(value, TEXT)]}
 
 
 _LISTED = {
@@ -295,24 +271,24 @@ _LISTED = {
     "ok": _each({"type": "boolean"}),
     "complete": _each({"type": "boolean"}),
     "refused": _each({"type": "boolean"}),
-    "pdof_clock": {"anyOf": [{"type": "integer", "minimum": 1, "maximum": 12}, _VALUE, _NULL]},
+    "pdof_clock": {"anyOf": [{"type": "integer", "minimum": 1, "maximum": 12}, _VALUE, NULL]},
 }
 # What a record of an earlier version lacks.
 _LATER = ("found", "given")
 _RECONSTRUCTION = {
-    "method": _TEXT,
-    "known": {"type": "array", "items": _TEXT},
+    "method": TEXT,
+    "known": {"type": "array", "items": TEXT},
     "condition": _VALUE,
     "answers": _each({"anyOf": [{"type": "integer", "minimum": 0}, {"const": "inf"}]}),
-    "contact_velocity": {"anyOf": [_PAIR, _NULL]},
+    "contact_velocity": {"anyOf": [_PAIR, NULL]},
     "regime": {"enum": ["sticking", "sliding", None]},
     "one_sided": {
         "anyOf": [
-            _closed({name: _each({"enum": [1, -1, 0]}) for name in ("speed_a", "speed_b")}),
-            _NULL,
+            closed({name: _each({"enum": [1, -1, 0]}) for name in ("speed_a", "speed_b")}),
+            NULL,
         ]
     },
-    "found": {"type": "array", "items": _TEXT},
-    "given": {"anyOf": [{"type": "object", "additionalProperties": _VALUE}, _NULL]},
-    **{name: {"anyOf": [_VALUE, _NULL]} for name in ("duration", "drag_a", "drag_b")},
+    "found": {"type": "array", "items": TEXT},
+    "given": {"anyOf": [{"type": "object", "additionalProperties": _VALUE}, NULL]},
+    **{name: {"anyOf": [_VALUE, NULL]} for name in ("duration", "drag_a", "drag_b")},
 }

@@ -21,7 +21,7 @@ from ..quantities.attributes import (
     attributes,
     derived,
     hypot,
-    numeric,
+    math_or_numpy,
     returns,
     show,
     unit_of,
@@ -31,7 +31,7 @@ from ..quantities.formatting import clock_hour
 from ..quantities.reading import ArgumentReader, broadcast, widened
 from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers
 from ..quantities.units import Input, Pair, Texts, Value
-from ..vehicle.vehicle import Vehicle, missing, moved, turn_at, with_name, without_turning
+from ..vehicle.vehicle import Vehicle, error_of_missing, moved, turn_at, with_name, without_turning
 from .inputs import Inputs
 from .recorded import Axes, read_axes, read_place, recorded
 
@@ -233,7 +233,7 @@ class Side(Frozen, Summarized):
         h, inertia = self.moment_arm, self.before.yaw_inertia
         if h is None or inertia is None:
             return None
-        central = (h == 0.0) | (numeric(inertia).isinf(inertia) & (h == h))
+        central = (h == 0.0) | (math_or_numpy(inertia).isinf(inertia) & (h == h))
         with np.errstate(all="ignore"):
             found: Value = select(
                 central, 1.0, 1.0 / (1.0 + (h * h) * (self.before.mass / inertia))
@@ -410,7 +410,9 @@ class Side(Frozen, Summarized):
                 code="no_pulse",
             )
         if self.before.heading is None:
-            raise missing(self.before, "heading", "what its recorder shows", "ab"[self._index])
+            raise error_of_missing(
+                self.before, "heading", "what its recorder shows", "ab"[self._index]
+            )
         reader = ArgumentReader()
         if isinstance(time, (list, tuple)):
             time = [reader.number(one, "s", "time") for one in time]
@@ -449,8 +451,8 @@ class Side(Frozen, Summarized):
         moving = before.mass * (dvx * (vx + 0.5 * dvx) + dvy * (vy + 0.5 * dvy))
         turning = inertia * dw * (spin + 0.5 * dw)
         # An infinite mass at rest, and an infinite inertia that does not turn, gain nothing.
-        stands = numeric(before.mass).isinf(before.mass) & (vx == 0.0) & (vy == 0.0)
-        rests = numeric(inertia).isinf(inertia) & (spin == 0.0)
+        stands = math_or_numpy(before.mass).isinf(before.mass) & (vx == 0.0) & (vy == 0.0)
+        rests = math_or_numpy(inertia).isinf(inertia) & (spin == 0.0)
         return select(stands, 0.0, moving) + select(rests, 0.0, turning) + self.tyre_loss
 
     def _impulse(self) -> tuple[Value, Value]:
@@ -509,13 +511,13 @@ class Side(Frozen, Summarized):
     def _missing(self, name: str) -> MissingInputError | None:
         """The error for an attribute that is None, if a field of the vehicle is missing."""
         if name not in ("moment_arm", "normal_arm", "gamma"):
-            return missing(self.before, "heading", name, "ab"[self._index])
+            return error_of_missing(self.before, "heading", name, "ab"[self._index])
         lacking = [
             field for field in ("x", "y", "yaw_inertia") if getattr(self.before, field) is None
         ]
         if self._inputs.point is None or not lacking:
             return None
-        return missing(self.before, lacking[0], name, "ab"[self._index])
+        return error_of_missing(self.before, lacking[0], name, "ab"[self._index])
 
     def _pivot_impulse(self, dv: Value, impulse: Value, axis: int) -> Value:
         if self.before.pivot is None:

@@ -8,7 +8,7 @@ from inspect import signature
 from typing import TYPE_CHECKING, Any, Never
 
 from ..kernels.contact_laws import FRICTION
-from ..messages.hints import hinted, no_argument, open_to_hints
+from ..messages.hints import hinted, no_argument
 from ..messages.progress import Progress
 from ..quantities.attributes import in_units_of
 from ..quantities.units import Impulse, Input, Pair
@@ -23,8 +23,8 @@ from .models import (
     TIME_RESOLVED,
     Model,
     float_function,
+    read_eccentric,
     read_for_solve,
-    read_lasting_impulse,
 )
 from .run import solve_inputs
 from .sticking import noted
@@ -48,7 +48,7 @@ _ELSEWHERE = {
 }
 
 
-@open_to_hints
+@hinted
 def linear_central(
     a: Vehicle,
     b: Vehicle,
@@ -141,7 +141,7 @@ def linear_central(
     )
 
 
-@open_to_hints
+@hinted
 def oblique_central(
     a: Vehicle,
     b: Vehicle,
@@ -230,7 +230,7 @@ def oblique_central(
     )
 
 
-@open_to_hints
+@hinted
 def eccentric(
     a: Vehicle,
     b: Vehicle,
@@ -355,7 +355,7 @@ def eccentric(
     if duration is not None or tyres_a is not None or tyres_b is not None:
         arguments = a, b, restitution, normal, point, tangential, law
         more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-        inputs = read_lasting_impulse(arguments, duration, (tyres_a, tyres_b), **more)
+        inputs = read_eccentric(arguments, duration, tyres_a, tyres_b, **more)
         return build(inputs, solve_inputs(ECCENTRIC, inputs, on_failure, threads, progress))
     outside = None if outside_a is outside_b is None else (outside_a, outside_b)
     return _solve(
@@ -375,7 +375,7 @@ def eccentric(
     )
 
 
-@open_to_hints
+@hinted
 def time_resolved(
     a: Vehicle,
     b: Vehicle,
@@ -403,13 +403,14 @@ def time_resolved(
     """Follow a contact that takes time: a spring between the vehicles, friction, sliding tyres, and
     changing positions.
 
-    What ``eccentric`` puts into one instant is followed step by step. Along the normal a force
-    grows with the penetration of the contact points; of the work it takes up, restitution gives
-    back the share e squared (energetic restitution). Along the tangent Coulomb friction acts, and
-    sticks where it can. The tyres slide on the ground. Meanwhile the vehicles move and turn: point
-    and normal move with the mean of both vehicles; against a fixed body the point moves with the
-    vehicle, and the normal with the fixed body. The model is valid for what ``eccentric`` leaves
-    out of a single contact patch with a single direction: low speeds, sideswipes, large vehicles.
+    It integrates the contact over time, where ``eccentric`` applies one impulse. Along the normal a
+    force grows with the penetration of the contact points; of the work it takes up, restitution
+    gives back the share e squared (energetic restitution). Along the tangent Coulomb friction acts,
+    and sticks where it can. The tyres slide on the ground. Meanwhile the vehicles move and turn:
+    point and normal move with the mean of both vehicles; against a fixed body the point moves with
+    the vehicle, and the normal with the fixed body. The model is valid for what ``eccentric``
+    leaves out of a single contact patch with a single direction: low speeds, sideswipes, large
+    vehicles.
     Crush that moves the centre of mass, roll and pitch are left out here too.
 
     Parameters
@@ -630,13 +631,13 @@ def required_model(
     """
     arguments = a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-    inputs = read_for_solve(arguments, tolerance, duration, drag, (tyres_a, tyres_b), **more)
+    inputs = read_for_solve(arguments, tolerance, duration, drag, tyres_a, tyres_b, **more)
     from .choice import choose
 
     return in_units_of(choose(inputs)[0], inputs.texts)
 
 
-@open_to_hints
+@hinted
 def solve(
     a: Vehicle,
     b: Vehicle,
@@ -713,7 +714,7 @@ def solve(
         raise no_argument("solve()", signature(solve).parameters, unknown, _ELSEWHERE)
     arguments = a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-    inputs = read_for_solve(arguments, tolerance, duration, drag, (tyres_a, tyres_b), **more)
+    inputs = read_for_solve(arguments, tolerance, duration, drag, tyres_a, tyres_b, **more)
     return noted(solved(inputs, on_failure, threads, progress))
 
 

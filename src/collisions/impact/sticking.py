@@ -28,9 +28,10 @@ def noted(impact: Impact) -> Impact:
     sticks = endless & (np.abs(impact.impulse_ratio) >= least) & (impact.regime == "sticking")
     if np.any(sticks):
         text = (
-            f"friction=inf makes the contact stick at an impulse ratio of {least:g} or more, at "
-            "which contacts between vehicles slide (reference.INTER_VEHICLE_FRICTION): if it slid, "
-            "this is not the impact. Give the friction with its uncertainty"
+            f"`friction=inf` makes the contact stick at an impulse ratio of {least:g} or "
+            "more, at which contacts between vehicles slide "
+            "(reference.INTER_VEHICLE_FRICTION): if it slid, this is not the impact. Give "
+            "the friction with its uncertainty"
         )
         count = int(np.count_nonzero(sticks)) if np.ndim(sticks) else None
         warn_of_cases(IllConditionedWarning(text, code="may_slide"), {text: count})

@@ -22,7 +22,7 @@ from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.units import shown
 from ..vehicle.drag import GRAVITY, read_drag, read_duration
 from ..vehicle.tyres import Tyres, kernel_numbers, not_tyres
-from ..vehicle.vehicle import Vehicle, missing
+from ..vehicle.vehicle import Vehicle, error_of_missing
 from .inputs import (
     CRUSH_UNITS,
     NO_IMPULSE,
@@ -37,7 +37,7 @@ from .inputs import (
 from .pulse import passed
 
 Geometry: TypeAlias = Literal["maximum_engagement", "first_contact", "fixed"]
-# Of its numbers, those that have to be above 0; the others may be 0.
+# Domains of its numbers: some have to be above 0, and the others may be 0.
 DOMAINS = {
     "duration": (POSITIVE_FINITE,),
     "stiffness": (POSITIVE_FINITE,),
@@ -54,8 +54,8 @@ _SIZES = {"wheelbase": 2.7, "track": 1.5}
 # Cases of a block; fewer than so many are faster one by one.
 _BLOCK, _FEW = 1024, 128
 _STIFFNESS = (
-    "duration='100 ms', stiffness='800 kN/m', or crush_a=('60 kN/m', '700 kN/m**2', '1.5 m') "
-    "with or without crush_b"
+    "`duration='100 ms'`, `stiffness='800 kN/m'`, or `crush_a=('60 kN/m', '700 "
+    "kN/m**2', '1.5 m')` with or without crush_b"
 )
 
 
@@ -66,8 +66,9 @@ def read_contact_time(
     reader = ArgumentReader()
     if friction is None:
         text = (
-            "friction is None, and time_resolved needs it; there is no default, because it "
-            "decides cases: write friction=0.5, or friction=0 for a frictionless contact"
+            "friction `|is None|is not given`, and time_resolved needs it; there is "
+            "no default, because it decides cases: write `friction=0.5`, or "
+            "`friction=0` for a frictionless contact"
         )
         reader.refuse(MissingInputError(text, code="one_tangential", argument="friction"))
         friction = 0.0
@@ -130,7 +131,7 @@ def read_tyres(
             and vehicle.heading is None
             and not np.all(np.isinf(vehicle.mass))
         ):
-            reader.refuse(missing(vehicle, "heading", f"{model} with {name}", label))
+            reader.refuse(error_of_missing(vehicle, "heading", f"{model} with {name}", label))
     stray = {name: extra.get(name) for name in ("drag", *_SIZES)}
     stray = {
         name: given
@@ -159,7 +160,8 @@ def read_least_time(
     if duration is None:
         what = f"drag = {shown(drag)} needs" if drag is not None else "tyres need"
         text = (
-            f"{what} a duration, in which the tyres act; write duration='100 ms', or leave them out"
+            f"{what} a duration, in which the tyres act; write `duration='100 ms'`, or "
+            "leave them out"
         )
         reader.refuse(InputError(text, code="one_stiffness", argument="duration"))
     given = {
@@ -215,8 +217,8 @@ def _read_crush(reader: ArgumentReader, value: Any, name: str) -> Any:
     """A, B and the width of a crush stiffness."""
     if not isinstance(value, tuple) or len(value) != 3:
         text = (
-            f"{name} must be (A, B, width), such as ('60 kN/m', '700 kN/m**2', '1.5 m'), got "
-            f"{shown(value)}"
+            f"{name} must be `(A, B, width)`, such as `('60 kN/m', '700 kN/m**2', '1.5 "
+            f"m')`, got {shown(value)}"
         )
         return reader.refuse(ShapeError(text, code="bad_shape", argument=name))
     return tuple(
@@ -234,7 +236,7 @@ def crushes(inputs: Inputs) -> dict[str, tuple[Any, ...]]:
 
 
 def residual_crushes(inputs: Inputs, peak_force: Any) -> dict[str, Any]:
-    """By vehicle what is left of its crush, in CRASH's meaning: 0 where the largest crush was not
+    """Crush that is left, by vehicle, in CRASH's meaning: 0 where the largest crush was not
     beyond A/B.
     """
     found = {}
@@ -414,7 +416,7 @@ def read_lasting(
     given = dict(zip(TYRES, tyres, strict=True))
     found = read_tyres(reader, model, a, b, given)
     if duration is None:
-        text = "tyres need a duration, over which they act; write duration='100 ms'"
+        text = "tyres need a duration, over which they act; write `duration='100 ms'`"
         reader.refuse(MissingInputError(text, code="one_stiffness", argument="duration"))
         return found
     if all(one is None for one in tyres):

@@ -100,12 +100,19 @@ class Rule(NamedTuple):
         What the value is, for tables.
     decide : callable
         The ``Tangent`` from the value and the no-slip impulse (n, t).
+    step : float
+        How far either way a diagnosis moves the value, to say what it decides.
+    least, most : float
+        The ends of the values it may have.
     """
 
     name: str
     domain: Domain
     meaning: str
     decide: Callable[[Any, Any, Any], Tangent]
+    step: float
+    least: float = 0.0
+    most: float = inf
 
 
 def _coulomb(friction: Any, no_slip_n: Any, no_slip_t: Any) -> Tangent:
@@ -260,9 +267,11 @@ BRACH, KUDLICH_SLIBAR, STRONGE = "brach", "kudlich-slibar", "stronge"
 RULES = {
     rule.name: rule
     for rule in (
-        Rule(FRICTION, NOT_NEGATIVE, "friction (bound on the impulse ratio)", _coulomb),
-        Rule(IMPULSE_RATIO, FINITE, "impulse ratio", _given_ratio),
-        Rule(CRITICAL_FRACTION, UNIT_INTERVAL, "critical fraction", _share_of_critical),
+        Rule(FRICTION, NOT_NEGATIVE, "friction (bound on the impulse ratio)", _coulomb, 0.2),
+        Rule(IMPULSE_RATIO, FINITE, "impulse ratio", _given_ratio, 0.1, least=-inf),
+        Rule(
+            CRITICAL_FRACTION, UNIT_INTERVAL, "critical fraction", _share_of_critical, 0.2, most=1.0
+        ),
     )
 }
 LAWS = {

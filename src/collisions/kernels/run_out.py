@@ -33,7 +33,7 @@ _RELATIVE = 1e-3
 
 class Ground(NamedTuple):
     """What does not change in a step: tyres, the friction under each wheel, mass over inertia, turn
-    per way, slope.
+    per way, slope, and what the rotation of the wheels adds to the mass, as a share of it.
     """
 
     tyres: Tyres
@@ -42,16 +42,22 @@ class Ground(NamedTuple):
     spin: Any
     slope_x: Any
     slope_y: Any
+    rotating: Any
 
 
 class Settings(NamedTuple):
-    """What is the same for all cases: whether wheels are steered, loads follow forces, and the
-    ground slopes.
+    """What is the same for all cases: whether wheels are steered, loads follow forces, the ground
+    slopes, and the rotation of the wheels counts.
     """
 
     steered: bool
     transfers: bool
     sloped: bool
+    rotates: bool = False
+
+
+# How many numbers the ground has.
+OF_GROUND = 21
 
 
 def ground_of(numbers: tuple[Any, ...]) -> Ground:
@@ -61,13 +67,9 @@ def ground_of(numbers: tuple[Any, ...]) -> Ground:
         return Ground(
             Tyres((np.array(numbers[:4]),), *numbers[4:12]),
             (np.array(numbers[12:16]),),
-            *numbers[16:20],
+            *numbers[16:OF_GROUND],
         )
-    return Ground(Tyres(numbers[:4], *numbers[4:12]), numbers[12:16], *numbers[16:20])
-
-
-# How many numbers the ground has.
-OF_GROUND = 20
+    return Ground(Tyres(numbers[:4], *numbers[4:12]), numbers[12:16], *numbers[16:OF_GROUND])
 
 
 def size(vx: Any, vy: Any, turn: Any) -> Any:
@@ -79,9 +81,11 @@ def accelerations(*numbers: Any) -> tuple[Any, Any, Any]:
     """Along x and y and in yaw, from those of the ground, the velocities, cosine and sine of the
     heading, and settings.
     """
-    *rest, steered, transfers, sloped = numbers
+    *rest, steered, transfers, sloped, rotates = numbers
     return _accelerations(
-        ground_of(tuple(rest[:OF_GROUND])), Settings(steered, transfers, sloped), *rest[OF_GROUND:]
+        ground_of(tuple(rest[:OF_GROUND])),
+        Settings(steered, transfers, sloped, rotates),
+        *rest[OF_GROUND:],
     )
 
 
@@ -98,20 +102,47 @@ def _accelerations(
     speed = size(vx, vy, turn)
     scale = select(speed > 0.0, speed, 1.0)
     ux, uy, turning = vx / scale, vy / scale, turn / scale
-    forward, left, yaw = tyre_forces(
-        ground.tyres,
-        ground.here,
-        c * ux + s * uy,
-        c * uy - s * ux,
-        turning,
-        steered=settings.steered,
-        transfers=settings.transfers,
-        brakes=brakes,
-    )
+    motion = c * ux + s * uy, c * uy - s * ux, turning
+
+    def forces(rotation: tuple[Any, ...] | None) -> tuple[Any, Any, Any]:
+        return tyre_forces(
+            ground.tyres,
+            ground.here,
+            *motion,
+            steered=settings.steered,
+            transfers=settings.transfers,
+            brakes=brakes,
+            rotation=rotation,
+        )
+
+    forward, left, yaw = forces(None)
+    if settings.rotates:
+        forward, left, yaw = forces(
+            _rotation(ground, settings, forward, left, yaw, c, s, vx, vy, turn)
+        )
     ax, ay = c * forward - s * left, s * forward + c * left
     if settings.sloped:
         ax, ay = ax - ground.slope_x, ay - ground.slope_y
     return ax, ay, ground.gyration * yaw
+
+
+def _rotation(
+    ground: Ground, settings: Settings, forward: Any, left: Any, yaw: Any, *motion: Any
+) -> tuple[Any, ...]:
+    """What ``tyre_forces`` takes as the rotation of the wheels, from the forces without it.
+
+    Wheels that hardly slip along themselves turn as fast as their contacts move. Their rotation
+    slows the gain of speed ahead that it follows; here as where all of them roll.
+    """
+    c, s, vx, vy, turn = motion
+    gain_x, gain_y = forward, left
+    if settings.sloped:
+        gain_x = gain_x - (c * ground.slope_x + s * ground.slope_y)
+        gain_y = gain_y - (c * ground.slope_y - s * ground.slope_x)
+    # In axes that turn with the vehicle.
+    rate = turn * ground.spin
+    gain_x, gain_y = gain_x + rate * (c * vy - s * vx), gain_y - rate * (c * vx + s * vy)
+    return ground.rotating / (1.0 + ground.rotating), gain_x, gain_y, ground.gyration * yaw
 
 
 def step(*numbers: Any) -> tuple[Any, ...]:
@@ -121,8 +152,9 @@ def step(*numbers: Any) -> tuple[Any, ...]:
     Of the numbers of the ground; velocities, cosine and sine of the heading, accelerations, and
     width; and settings.
     """
-    *rest, steered, transfers, sloped = numbers
-    ground, settings = ground_of(tuple(rest[:OF_GROUND])), Settings(steered, transfers, sloped)
+    *rest, steered, transfers, sloped, rotates = numbers
+    ground = ground_of(tuple(rest[:OF_GROUND]))
+    settings = Settings(steered, transfers, sloped, rotates)
     vx, vy, turn, c, s, ax, ay, yaw, width = rest[OF_GROUND:]
     rows = isinstance(vx, np.ndarray) and vx.ndim == 1
     start: Any = np.array([vx, vy, turn, c, s]) if rows else (vx, vy, turn, c, s)

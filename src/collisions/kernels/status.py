@@ -57,16 +57,17 @@ class Status(IntEnum):
         2,
         "impact",
         "the bodies move apart along the normal, which must point from A into B",
-        "no impact: the bodies move apart along the normal, closing speed {closing_speed}; the "
-        "normal must point from A into B, given ({nx:.4g}, {ny:.4g}); if A and B were meant the "
-        "other way round, exchange them or write normal=({opposite_x:.4g}, {opposite_y:.4g})",
+        "no impact: the bodies move apart along the normal, closing speed "
+        "{closing_speed}; the normal must point from A into B, given `({nx:.4g}, "
+        "{ny:.4g})`; if A and B were meant the other way round, exchange them or write "
+        "`normal=({opposite_x:.4g}, {opposite_y:.4g})`",
     )
     GRAZING = _Outcome(
         3,
         "impact",
         "the bodies do not approach along the normal: the closing speed is 0",
         "no impact: the bodies neither approach nor part along the normal, closing speed 0; the "
-        "normal must point from A into B, given ({nx:.4g}, {ny:.4g}); give the speeds just "
+        "normal must point from A into B, given `({nx:.4g}, {ny:.4g})`; give the speeds just "
         "before contact, or the normal of the surfaces that met",
     )
     IMMOVABLE = _Outcome(
@@ -81,16 +82,17 @@ class Status(IntEnum):
         5,
         "solution",
         "the contact has one degree of freedom, so a no-slip impulse is not defined",
-        "the contact can move in one direction only (a pinned body against a fixed one, or "
-        "parallel arms), so what would stop the slip is not defined; write friction=0, or give "
-        "impulse_ratio=",
+        "the contact can move in one direction only (a pinned body against a fixed "
+        "one, or parallel arms), so what would stop the slip is not defined; write "
+        "`friction=0`, or give `impulse_ratio=`",
     )
     NO_SLIP_PULLS = _Outcome(
         6,
         "solution",
         "without slip the bodies would have to pull at each other",
-        "{rule} = {value:g} asks for a contact without slip, which here needs the bodies to pull "
-        "at each other; give a finite friction=, or impulse_ratio= to a solver that takes it",
+        "{rule} = {value:g} asks for a contact without slip, which here needs the "
+        "bodies to pull at each other; give a finite `friction=`, or `impulse_ratio=` "
+        "to a solver that takes it",
     )
     RATIO_JAMS = _Outcome(
         7,
@@ -163,9 +165,9 @@ class Status(IntEnum):
         29,
         "solution",
         "no start of the contact leads to the positions given at its maximum engagement",
-        "no start of the contact was found from which it comes to the positions given at its "
-        "maximum engagement; check duration or stiffness and the motions, or write "
-        "geometry='first_contact' if the positions are those",
+        "no start of the contact was found from which it comes to the positions given "
+        "at its maximum engagement; check duration or stiffness and the motions, or "
+        "write `geometry='first_contact'` if the positions are those",
     )
     ENDLESS_CONTACT = _Outcome(
         30,

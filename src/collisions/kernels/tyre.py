@@ -35,30 +35,42 @@ def brake_share(lock: Any, friction: Any, here: Any, load: Any) -> Any:
     return select((lock >= 1.0) | (holds ^ True), 1.0, lock * friction / select(holds, most, 1.0))
 
 
-def circle(cosine: Any, brake: Any) -> tuple[Any, Any]:
+def circle(cosine: Any, brake: Any, takes: Any = None) -> tuple[Any, Any]:
     """The force along a wheel from the cosine of its slip angle, and what the circle leaves across.
 
-    Both are over friction times load.
+    Both are over friction times load, and so is what the rotation of the wheel ``takes`` of the
+    force against the motion ahead, its mass times how fast it gains speed ahead: negative where it
+    slows down.
     """
     # Negative: against the motion.
-    forward = -least(brake, -least(brake, -cosine))
+    if takes is None:
+        forward = -least(brake, -least(brake, -cosine))
+    else:
+        forward = -least(brake + takes, -least(brake - takes, -cosine))
+        forward = least(1.0, -least(1.0, -forward))
     left = 1.0 - forward * forward
     return forward, select(left > 0.0, left, 0.0) ** 0.5
 
 
 def tyre_force(
-    along: Any, across: Any, brake: Any, friction: Any, cornering: Any, standing: Any = STANDING
+    along: Any,
+    across: Any,
+    brake: Any,
+    friction: Any,
+    cornering: Any,
+    standing: Any = STANDING,
+    takes: Any = None,
 ) -> tuple[Any, Any]:
     """The force of a wheel along and across itself, over friction times load, from the velocity of
     its contact with the ground.
 
     ``along`` and ``across`` are of that velocity, in any unit, of which ``standing`` (> 0) is the
     speed below which the wheel counts as standing. ``brake`` is ``brake_share``, ``cornering`` the
-    cornering stiffness over the load [1/rad].
+    cornering stiffness over the load [1/rad]. What ``takes`` is, ``circle`` says.
     """
     side = abs(across)
     slip = _not_standing((along * along + across * across) ** 0.5, standing)
-    forward, most = circle(along / slip, brake)
+    forward, most = circle(along / slip, brake, takes)
     # Fiala: 1 at and beyond the slip angle at which the whole contact slides.
     steep, whole = cornering * side, 3.0 * friction * abs(along)
     sticks = steep < whole
@@ -112,6 +124,7 @@ def tyre_forces(
     steered: bool = True,
     transfers: bool = False,
     brakes: list[Any] | None = None,
+    rotation: tuple[Any, ...] | None = None,
 ) -> tuple[Any, Any, Any]:
     """Force ahead and to the left over the weight, and moment over the weight, of four tyres on a
     moving vehicle.
@@ -119,7 +132,9 @@ def tyre_forces(
     ``forward`` and ``left`` are the velocity of the centre of mass in the axes of the vehicle,
     ``turning`` the yaw rate, in units in which ``standing`` is. ``here`` is the friction under each
     wheel. ``steered`` and ``transfers`` are settings: with False, steer and height are taken as
-    none. ``brakes`` are ``brake_shares`` where they were worked out before.
+    none. ``brakes`` are ``brake_shares`` where they were worked out before. ``rotation`` is the
+    mass that the rotation of all wheels adds over that of the vehicle, how fast the vehicle gains
+    speed ahead and to the left, in its own axes, over gravity, and the same of its yaw rate.
     """
     wheels = wheel_forces(
         tyres,
@@ -131,6 +146,7 @@ def tyre_forces(
         steered=steered,
         transfers=transfers,
         brakes=brakes,
+        rotation=rotation,
     )
     parts = []
     for (ahead, aside, _), mu, (along, across, load) in zip(
@@ -164,12 +180,15 @@ def wheel_forces(
     steered: bool = True,
     transfers: bool = False,
     brakes: list[Any] | None = None,
+    rotation: tuple[Any, ...] | None = None,
 ) -> list[tuple[Any, Any, Any]]:
     """For each wheel its force ahead and to the left over friction times load, and its load over
     that at rest.
     """
     corners = _corners(tyres)
-    moving, turns = [], []
+    moving: list[Any] = []
+    turns: list[Any] = []
+    gains: list[Any] = []
     for ahead, aside, front in corners:
         ux, uy = forward - turning * (aside * tyres.left), left + turning * (ahead * tyres.ahead)
         # A rear wheel in a row with the others is turned by an angle of 0.
@@ -182,13 +201,25 @@ def wheel_forces(
         moving.append(
             (ux, uy) if turn is None else (turn[0] * ux + turn[1] * uy, turn[0] * uy - turn[1] * ux)
         )
+        if rotation is None:
+            gains.append(None)
+            continue
+        mass, gain_x, gain_y, gain_turn = rotation
+        gain = gain_x - gain_turn * (aside * tyres.left)
+        if turn is not None:
+            gain = turn[0] * gain + turn[1] * (gain_y + gain_turn * (ahead * tyres.ahead))
+        gains.append(mass * gain)
     loads: tuple[Any, ...] = (1.0, 1.0, 1.0, 1.0)
     found: list[tuple[Any, Any]] = []
     for _ in range(_PASSES if transfers else 1):
         found = []
         shares = brake_shares(tyres, here, loads) if brakes is None else brakes
-        for turn, (along, across), brake, mu in zip(turns, moving, shares, here, strict=True):
-            x, y = tyre_force(along, across, brake, mu, tyres.cornering, standing)
+        for turn, (along, across), brake, mu, gain, load, lock in zip(
+            turns, moving, shares, here, gains, loads, tyres.locks, strict=False
+        ):
+            # A locked wheel does not turn.
+            takes = None if gain is None else _over(select(lock >= 1.0, 0.0, gain), load * mu)
+            x, y = tyre_force(along, across, brake, mu, tyres.cornering, standing, takes)
             found.append(
                 (x, y) if turn is None else (turn[0] * x - turn[1] * y, turn[1] * x + turn[0] * y)
             )
@@ -199,6 +230,12 @@ def wheel_forces(
             # fro.
             loads = tuple(old + _PART * (one - old) for old, one in zip(loads, new, strict=False))
     return [(x, y, load) for (x, y), load in zip(found, loads, strict=False)]
+
+
+def _over(part: Any, whole: Any) -> Any:
+    """The part of a whole that is not negative; none of none."""
+    some = whole > 0.0
+    return select(some, part, 0.0) / select(some, whole, 1.0)
 
 
 def _corners(tyres: Tyres) -> Any:

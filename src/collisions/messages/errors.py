@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+import pickle
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 from ..kernels.status import Status as Status
+from .marked import plain
 
 
 class _Carrying(BaseException):
     """Base that carries a label and named fields in addition to the message, through
     pickling too.
+
+    ``marked`` is the message with its code in marks, as ``marked.py`` has them, and ``place`` what
+    stands before it, such as the case of a batch.
     """
 
     def __init__(self, message: str = "", *, code: str = "", **fields: Any) -> None:
-        super().__init__(message)
+        self.place: str = fields.pop("place", "")
+        self.marked = message
         self.code = code
         self.fields = fields
+        super().__init__(f"{self.place}: {plain(message)}" if self.place else plain(message))
 
     def __init_subclass__(cls) -> None:
         if cls.__module__ == __name__:
@@ -24,7 +31,12 @@ class _Carrying(BaseException):
             cls.__module__ = __name__.partition(".")[0]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return partial(type(self), code=self.code, **self.fields), (str(self),)
+        parts = {"code": self.code, "place": self.place, **self.fields}
+        try:
+            pickle.dumps(parts.get("given"))
+        except Exception:
+            del parts["given"]  # what was given may be anything, and the message shows it
+        return partial(type(self), **parts), (self.marked,)
 
 
 class CollisionsError(_Carrying, Exception):
@@ -38,7 +50,34 @@ class CollisionsError(_Carrying, Exception):
 class InputError(CollisionsError, ValueError):
     """An argument that cannot be used: the message names it, what was given, what is allowed and
     what to write.
+
+    Each of these is an attribute too, None where the message has no such part.
     """
+
+    @property
+    def argument(self) -> str | None:
+        """The argument that cannot be used, such as "mass", "a.mass" or "point[0]"."""
+        value: str | None = self.fields.get("argument")
+        return value
+
+    @property
+    def given(self) -> Any:
+        """The value that was given."""
+        return self.fields.get("given")
+
+    @property
+    def allowed(self) -> str | None:
+        """What the argument must be, such as "from 0 to 1"."""
+        return self._part("allowed")
+
+    @property
+    def instead(self) -> str | None:
+        """What to write instead, or why."""
+        return self._part("instead")
+
+    def _part(self, name: str) -> str | None:
+        text = self.fields.get(name)
+        return (text and plain(text).lstrip(";: ")) or None
 
 
 class UnitsError(InputError):
@@ -110,3 +149,22 @@ class SuspectUnitsWarning(CollisionsWarning):
 
 class OutOfRangeWarning(CollisionsWarning):
     """Some cases were refused, or a value lies outside the range its source covers."""
+
+
+E = TypeVar("E", bound=_Carrying)
+
+
+def placed(error: E, place: str, **fields: Any) -> E:
+    """The same error with the place that it is of before its message, and with these fields too."""
+    places = ": ".join(filter(None, (place, error.place)))
+    return type(error)(error.marked, code=error.code, place=places, **(error.fields | fields))
+
+
+def reworded(error: E, message: str) -> E:
+    """The same error with another message, marked."""
+    return type(error)(message, code=error.code, place=error.place, **error.fields)
+
+
+def as_marked(error: _Carrying) -> str:
+    """The whole message of an error with its code in marks."""
+    return f"{error.place}: {error.marked}" if error.place else error.marked

@@ -4,6 +4,7 @@ stated with its result.
 
 from __future__ import annotations
 
+import math
 import sys
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
@@ -12,24 +13,31 @@ from contextvars import ContextVar
 from typing import Any, NamedTuple
 
 from .errors import CollisionsWarning
+from .marked import plain
+
+# A warning of fewer samples than this share is stated with the result, but not raised, unless it
+# has a share of its own.
+SELDOM = 0.005
 
 
 class Noted(NamedTuple):
     """A warning raised while a model was called: what it says without its numbers, and the cases of
     that call it is of.
 
-    ``cases`` is None where it is of all of them.
+    ``cases`` is None where it is of all of them. It is raised where it is of this share of all
+    samples at ``least``.
     """
 
     sentence: str
     warning: type[CollisionsWarning]
     code: str
     cases: int | None
+    least: float = SELDOM
 
 
 class Note(NamedTuple):
     """A statement about a result; one that is also a warning has a ``code``, and its ``rest``
-    follows the sentence.
+    follows the sentence, which is marked as that of an error is.
     """
 
     warning: type[CollisionsWarning] | None
@@ -38,9 +46,12 @@ class Note(NamedTuple):
     code: str = ""
     fields: Mapping[str, Any] = {}  # never changed; a read-only view could not be pickled
 
+    @property
+    def statement(self) -> str:
+        """The sentence as a caller in Python reads it."""
+        return plain(self.sentence)
 
-# A warning of fewer samples than this share is stated with the result, but not raised.
-_SELDOM = 0.005
+
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 _sampling: ContextVar[list[Noted] | None] = ContextVar("sampling", default=None)
 
@@ -51,7 +62,7 @@ def warn(warning: CollisionsWarning) -> None:
     """
     noted = _sampling.get()
     if noted is not None:
-        noted.append(Noted(str(warning), type(warning), warning.code, None))
+        noted.append(Noted(warning.marked, type(warning), warning.code, None))
         return
     level, package = 1, __name__.partition(".")[0]
     frame: Any = sys._getframe()
@@ -61,16 +72,19 @@ def warn(warning: CollisionsWarning) -> None:
     warnings.warn(warning, stacklevel=level)
 
 
-def warn_of_cases(warning: CollisionsWarning, parts: Mapping[str, int | None]) -> None:
+def warn_of_cases(
+    warning: CollisionsWarning, parts: Mapping[str, int | None], least: float = SELDOM
+) -> None:
     """Warn of what some cases show; nothing within ``quietly()``.
 
     Within a study the ``parts`` are noted instead: what is said of how many cases, without numbers
-    that belong to one of them.
+    that belong to one of them; and raised where it is said of this share of all at ``least``.
     """
     noted = _sampling.get()
     if noted is not None:
         noted += (
-            Noted(sentence, type(warning), warning.code, count) for sentence, count in parts.items()
+            Noted(sentence, type(warning), warning.code, count, least)
+            for sentence, count in parts.items()
         )
     elif not _quiet.get():
         warn(warning)
@@ -79,6 +93,15 @@ def warn_of_cases(warning: CollisionsWarning, parts: Mapping[str, int | None]) -
 def in_study() -> bool:
     """Whether a model is called for the samples of a study, whose warnings are noted."""
     return _sampling.get() is not None
+
+
+def state_of_study(sentence: str, code: str) -> None:
+    """State something of the model of a study, once in its result, without a warning; nothing
+    outside a study.
+    """
+    noted = _sampling.get()
+    if noted is not None:
+        noted.append(Noted(sentence, CollisionsWarning, code, None, math.inf))
 
 
 def warn_of_samples(warning: CollisionsWarning) -> None:
@@ -104,16 +127,18 @@ def notes_of_samples(noted: Iterable[Noted], total: int) -> tuple[Note, ...]:
     """What was noted over all samples of a study: each warning once, with the number and the share
     of the samples it is of.
     """
-    counts: dict[tuple[str, type[CollisionsWarning], str], int] = {}
-    for sentence, kind, code, count in noted:
-        key = sentence, kind, code
+    counts: dict[tuple[str, type[CollisionsWarning], str, float], int] = {}
+    for sentence, kind, code, count, least in noted:
+        key = sentence, kind, code, least
         counts[key] = counts.get(key, 0) + (total if count is None else count)
     notes = []
-    for (sentence, kind, code), found in counts.items():
+    for (sentence, kind, code, least), found in counts.items():
         cases = min(found, total)
         share = cases / total
-        of = "" if total == 1 else f"{cases} of {total} cases ({100.0 * share:.3g} %): "
-        raised = kind if share >= _SELDOM else None
+        # What is never raised is said of the model rather than of its samples.
+        of = f"{cases} of {total} cases ({100.0 * share:.3g} %): "
+        of = "" if total == 1 or least > 1.0 else of
+        raised = kind if share >= least else None
         notes.append(
             Note(raised, of + sentence, code=code, fields={"cases": cases, "share": share})
         )

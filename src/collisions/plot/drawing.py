@@ -226,7 +226,7 @@ class Drawing:
         for i, label in 2 * list(enumerate(self._labels)):
             if i in taken:
                 room.cost[taken[i]] -= _LABEL
-            # Of the text alone: the annotation's own extent asks for the place.
+            # The extent of the text alone: the annotation's own asks for the place.
             size = np.array(Text.get_window_extent(label.text, renderer).size) / pixels
             foreign = [area for index, area in areas.items() if label.of not in (None, index)]
             found[i], taken[i] = room.best(size, to_points(label.places), label.direction, foreign)

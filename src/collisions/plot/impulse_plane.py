@@ -38,7 +38,7 @@ _FAR = 4.0
 _NO_YIELD = (
     64.0 * EPS
 )  # relative: a coefficient this small is the rounding of differences of speeds
-# By regime: the impulse in the legend, and where on the solid line it ends.
+# Each regime with the impulse in the legend, and where on the solid line it ends.
 _REGIMES = {
     "frictionless": ("frictionless", "on the axis: there is no friction"),
     "sliding": ("sliding", "on the cone: the contact slides"),

@@ -249,7 +249,7 @@ def _of_impact(impact: Impact) -> tuple[list[_Body], str]:
         rests = {
             when for when, state in states.items() if state.speed <= nothing and not state.yaw_rate
         }
-        # Of an infinite mass only the momentum that it gives is drawn.
+        # Only the momentum that an infinite mass gives is drawn.
         before, after = (
             (0.0, 0.0) if math.isinf(state.mass) else beside((0.0, 0.0), state.momentum)
             for state in states.values()

@@ -17,7 +17,8 @@ from .body import draw_body
 from .canvas import GREY, INK, Axes, Units, begin, check_size, in_lines, size_of, tidy
 from .drawing import Drawing, Place, beside
 
-# Of vehicles in their order, again from the first after the last; lines differ in black and white.
+# Colours of vehicles in their order, again from the first after the last; lines differ in black
+# and white.
 COLOURS = ("#1f5fa8", "#b3541e", "#2f7d4f", "#7a3d8f", "#8a6d00", "#a01040")
 STYLES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (6, 2, 1, 2)), (0, (2, 1.5)))
 _ROOM = 2.0  # m, shown about a vehicle without an outline

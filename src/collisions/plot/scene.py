@@ -16,8 +16,8 @@ from ..quantities.formatting import UnitSystem
 from ..quantities.reading import ArgumentReader
 from ..quantities.units import shown
 from ..scene.run import Run
-from ..vehicle.outlines import placed, read_outline
-from ..vehicle.vehicle import Vehicle, missing
+from ..vehicle.outlines import in_scene, read_outline
+from ..vehicle.vehicle import Vehicle, error_of_missing
 from .body import draw_body
 from .canvas import (
     COLOURS,
@@ -140,7 +140,9 @@ def scene(
             i for i, side in enumerate(sides) if side.before.x is None or side.before.y is None
         )
         name = "x" if sides[lacking].before.x is None else "y"
-        raise missing(sides[lacking].before, name, "a picture with an outline", SIDES[lacking])
+        raise error_of_missing(
+            sides[lacking].before, name, "a picture with an outline", SIDES[lacking]
+        )
     axes = begin(axes, (7.5, 6.5))
     picture = Picture(axes, labels)
     at, bodies = picture.scaled(contact), [place and picture.scaled(place) for place in centres]
@@ -244,7 +246,7 @@ def corners_of(vehicle: Vehicle, outline: Any, name: str, letter: str) -> list[P
     read = read_outline(reader, outline, name)
     reader.close()
     forward = read[:, 0] + np.roll(read[:, 0], -1)
-    x, y, corners = placed(np.roll(read, -int(np.argmax(forward)), axis=0), vehicle, letter)
+    x, y, corners = in_scene(np.roll(read, -int(np.argmax(forward)), axis=0), vehicle, letter)
     return [(x + float(ahead), y + float(left)) for ahead, left in corners]
 
 

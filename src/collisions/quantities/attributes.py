@@ -22,7 +22,7 @@ P = ParamSpec("P")
 F = TypeVar("F", bound=Callable[..., Any])
 # A declared unit that stands for the ``unit`` of the object itself, known only when the object is
 # made.
-OWN = "own"
+OWN_UNIT = "own"
 
 
 class Derived(Generic[T]):
@@ -52,7 +52,7 @@ class Derived(Generic[T]):
             # Refused cases are NaN or infinite; numpy need not warn of them again.
             with np.errstate(all="ignore"):
                 value = lock(self.work_out(owner))
-        # Of several threads that worked it out, the first keeps its own: all see one object.
+        # The first of several threads that worked it out keeps its own: all see one object.
         return value if kept is None else kept.setdefault(self.name, value)
 
     if TYPE_CHECKING:
@@ -60,12 +60,12 @@ class Derived(Generic[T]):
         def __set__(self, owner: Any, value: Never) -> None: ...
 
 
-class LookedUp:
+class SuggestsNames:
     """Base of results that say where an attribute is that they do not have."""
 
     __slots__ = ()
 
-    # By attribute of something within the result, where it is found: a missing name is looked up
+    # Where the attributes of something within the result are found: a missing name is looked up
     # there.
     _elsewhere: ClassVar[Mapping[type[Any], str]] = {}
 
@@ -78,7 +78,7 @@ class LookedUp:
             raise _no_attribute(self, name, name)
 
 
-class Frozen(LookedUp):
+class Frozen(SuggestsNames):
     """Base of results that cannot be changed."""
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -90,7 +90,7 @@ class Frozen(LookedUp):
         )
 
 
-def _no_attribute(owner: LookedUp, name: str, written: str) -> AttributeError:
+def _no_attribute(owner: SuggestsNames, name: str, written: str) -> AttributeError:
     """The error for an attribute that an object does not have, with where it is and how it is
     written there.
     """
@@ -158,11 +158,11 @@ class Quantities:
         try:
             value = getattr(self._owner, name)
         except AttributeError:
-            if not isinstance(self._owner, LookedUp) or hasattr(type(self._owner), name):
+            if not isinstance(self._owner, SuggestsNames) or hasattr(type(self._owner), name):
                 raise
             raise _no_attribute(self._owner, name, f"q.{name}") from None
         unit = unit_of(type(self._owner), name)
-        if unit == OWN:
+        if unit == OWN_UNIT:
             unit = self._owner.unit
         if callable(value):
             if unit is None:
@@ -173,7 +173,7 @@ class Quantities:
         if value is None and hasattr(self._owner, "_missing"):
             problem = self._owner._missing(name)
             if problem is not None:
-                raise NoQuantityError(str(problem), code=problem.code, **problem.fields)
+                raise NoQuantityError(problem.marked, code=problem.code, **problem.fields)
         if value is None or unit is None:
             return getattr(value, "q", value)
         return self._with_unit(value, unit)
@@ -219,7 +219,7 @@ def attributes(kind: type[Any]) -> list[str]:
     return [name for name, member in vars(kind).items() if isinstance(member, Derived)]
 
 
-def numeric(*values: Any) -> Any:
+def math_or_numpy(*values: Any) -> Any:
     """``math`` for numbers; ``numpy`` if any of these values is an array, or an operand of a
     recording.
     """
@@ -228,7 +228,7 @@ def numeric(*values: Any) -> Any:
 
 def hypot(x: Value, y: Value) -> Value:
     """Length of a vector, without squares that may overflow."""
-    length: Value = numeric(x, y).hypot(x, y)
+    length: Value = math_or_numpy(x, y).hypot(x, y)
     return length
 
 
@@ -280,7 +280,7 @@ def same_fields(one: Any, other: Any) -> bool:
     )
 
 
-class Shown(LookedUp, Summarized):
+class Shown(SuggestsNames, Summarized):
     """Base of result dataclasses: shown with units as text and as a table, with ``.q``; arrays stay
     locked when unpickled.
     """

@@ -12,7 +12,9 @@ import numpy as np
 
 from ..kernels.elementwise import select
 from ..messages.errors import InputError, ShapeError
+from ..messages.marked import a_type_of
 from .reading import ArgumentReader, broadcast, widened
+from .refusals import must_be
 from .units import Value
 
 
@@ -63,22 +65,29 @@ def direction(
     """
     if isinstance(value, tuple):
         if len(value) != 2:
-            text = f"{argument} must be an angle or a tuple (x, y), got {len(value)} components"
-            return reader.refuse(ShapeError(text, code="bad_shape")), math.nan
+            problem = must_be(
+                argument,
+                "an angle or `|a tuple|a list` `(x, y)`",
+                value,
+                code="bad_shape",
+                kind=ShapeError,
+                got=f"{len(value)} components",
+            )
+            return reader.refuse(problem), math.nan
         count = len(reader.problems)
         vx, vy = reader.pair(value, "", argument)
         try:
             broadcast({f"{argument}[0]": vx, f"{argument}[1]": vy})
-        except ShapeError as problem:
-            reader.refuse(problem)
+        except ShapeError as unlike:
+            reader.refuse(unlike)
         if len(reader.problems) > count:
             return math.nan, math.nan
         vx, vy = widened((vx, vy), beside)
         return normalised(reader, vx, vy, argument)
     if isinstance(value, list):
         text = (
-            f"{argument} is a list, which could be a vector or several angles: write the tuple "
-            "(nx, ny) for a vector, np.array([...]) for angles"
+            f"{argument} is a list, which could be a vector or several angles: write the "
+            "tuple `(nx, ny)` for a vector, np.array([...]) for angles"
         )
         return reader.refuse(ShapeError(text, code="bad_shape", argument=argument)), math.nan
     return Angle(*reader.angle(value, argument)).beside(beside).direction
@@ -89,8 +98,8 @@ def course(reader: ArgumentReader, value: Any, argument: str) -> Angle:
     if isinstance(value, (tuple, list)):
         kind = argument.partition("_")[0]
         text = (
-            f"{argument} is a {type(value).__name__}, and a {kind} is an angle; many angles go "
-            "in a numpy array"
+            f"{argument} is {a_type_of(value)}, and a {kind} is an angle"
+            "`|; many angles go in a numpy array|`"
         )
         return Angle(reader.refuse(ShapeError(text, code="bad_shape", argument=argument)), False)
     return Angle(*reader.angle(value, argument))
@@ -105,7 +114,7 @@ def normalised(reader: ArgumentReader, vx: Any, vy: Any, argument: str) -> tuple
         # all its digits.
         scale = max(abs(vx), abs(vy))
         if scale == 0.0:
-            text = f"{argument} has no length: (0, 0); give the direction it points in"
+            text = f"{argument} has no length: `(0, 0)`; give the direction it points in"
             return reader.refuse(InputError(text, code="zero_normal", argument=argument)), math.nan
         length = math.hypot(vx, vy)
         if abs(length - 1.0) <= _UNIT_LENGTH:

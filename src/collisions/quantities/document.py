@@ -10,7 +10,7 @@ from typing import Any
 
 from ..messages.errors import InputError
 
-# By form: what it is called, and the endings of its files, of which the first is the usual one.
+# Each form with what it is called, and the endings of its files, of which the first is usual.
 _FORMS = {
     "html": ("HTML", (".html", ".htm")),
     "markdown": ("Markdown", (".md", ".markdown", ".txt")),

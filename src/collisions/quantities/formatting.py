@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 import re
 from functools import cache
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 from ..messages.errors import InputError
-from .units import scale, shown
+from .refusals import must_be
+from .units import SYSTEMS as SYSTEMS
+from .units import UnitSystem as UnitSystem
+from .units import scale
 
 _FIGURES = 3  # of results without a fixed number of decimals: impulses and energies
 _NO_SPREAD = 1e-12  # relative: a standard deviation this small is rounding
@@ -153,11 +156,6 @@ class Numbers:
         return rounded(number, figures if known is None else known) + unit
 
 
-# The unit systems of explanations, reports, findings and figures.
-UnitSystem: TypeAlias = Literal["si", "metric", "us"]
-SYSTEMS: tuple[UnitSystem, ...] = ("si", "metric", "us")
-
-
 class _Kind(NamedTuple):
     si: str
     metric: str
@@ -221,9 +219,10 @@ def scale_of(kind: str, system: str) -> float:
 def check_system(units: Any) -> None:
     """Refuse an argument ``units`` that names none of the systems."""
     if not isinstance(units, str) or units not in SYSTEMS:
-        raise InputError(
-            f"units must be 'si', 'metric' or 'us', got {shown(units)}; they are those of what "
-            "is printed, not those of the inputs",
+        raise must_be(
+            "units",
+            f"{', '.join(map(repr, SYSTEMS[:-1]))} or {SYSTEMS[-1]!r}",
+            units,
+            "; they are those of what is printed, not those of the inputs",
             code="bad_option",
-            argument="units",
         )

@@ -29,8 +29,11 @@ from ..messages.errors import (
     Status,
     SuspectUnitsWarning,
     UnitsError,
+    as_marked,
 )
+from ..messages.marked import a_type_of, as_code, type_of
 from ..messages.warning import warn
+from .refusals import must_be
 from .settings import Default, units_required
 from .units import (
     Texts,
@@ -42,6 +45,7 @@ from .units import (
     magnitude,
     no_comma,
     parse,
+    rendered,
     shown,
     si_unit,
     unit_as_written,
@@ -52,7 +56,7 @@ from .usual_units import Usual
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is
 # three turns a second).
 _PLAUSIBLE = {"rad": 2.0 * math.pi * (1.0 + 1e-9), "rad/s": 20.0}
-# Of the components of an impulse from outside: along x and y, and about the centre of mass.
+# Units of the components of an impulse from outside: along x, y, and about the centre of mass.
 OUTSIDE_UNITS = ("N*s", "N*s", "kg*m**2/s")
 _MOST_DIMENSIONS = 24  # numpy itself stops at 32 in places, and some solvers add a few of their own
 
@@ -79,7 +83,7 @@ class ArgumentReader:
             return first
         kinds = {type(problem) for problem in self.problems}
         kind = kinds.pop() if len(kinds) == 1 else UnitsError if UnitsError in kinds else InputError
-        text = "\n".join(f"- {problem}" for problem in self.problems)
+        text = "\n".join(f"- {as_marked(problem)}" for problem in self.problems)
         return kind(
             f"{len(self.problems)} arguments cannot be used:\n{text}",
             code=next(
@@ -119,12 +123,13 @@ class ArgumentReader:
         """
         if not isinstance(value, (tuple, list)) or len(value) not in (2, 3):
             self.refuse(
-                ShapeError(
-                    f"{argument} must be (x, y) or (x, y, yaw): an impulse on the vehicle in N*s "
-                    "along the axes of the scene and its moment about the centre of mass in "
-                    f"N*m*s, got {shown(value)}",
+                must_be(
+                    argument,
+                    "`(x, y)` or `(x, y, yaw)`: an impulse on the vehicle in N*s along the axes of "
+                    "the scene and its moment about the centre of mass in N*m*s",
+                    value,
                     code="bad_shape",
-                    argument=argument,
+                    kind=ShapeError,
                 )
             )
             return math.nan, math.nan, math.nan
@@ -145,12 +150,14 @@ class ArgumentReader:
         if not isinstance(parts, (tuple, list)) or len(parts) != 2:
             shape = f" of shape {whole.shape}" if isinstance(whole, np.ndarray) else ""
             self.refuse(
-                ShapeError(
-                    f"{argument} must be a pair (x, y), got {shown(value)}{shape}; for many "
-                    "points write (xs, ys) with one array each, such as (points[:, 0], "
-                    "points[:, 1])",
+                must_be(
+                    argument,
+                    "a pair `(x, y)`",
+                    value,
+                    f"{shape}`|; for many points write (xs, ys) with one array each, such as "
+                    "(points[:, 0], points[:, 1])|`",
                     code="bad_shape",
-                    argument=argument,
+                    kind=ShapeError,
                 )
             )
             return math.nan, math.nan
@@ -375,7 +382,7 @@ def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
             stack.extend((part, depth + 1) for part in item)
         elif is_quantity(item) or isinstance(item, str):
             raise UnitsError(
-                f"{argument} is a {type(value).__name__} with {shown(item)} in it; "
+                f"{argument} is {a_type_of(value)} with {shown(item)} in it; "
                 f"{_as_quantity(value, argument, unit)}",
                 code="bad_units",
                 argument=argument,
@@ -388,7 +395,7 @@ def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
         return np.array(value)
     except ValueError:
         raise ShapeError(
-            f"{argument} is a {type(value).__name__} of unequal rows; give an array",
+            f"{argument} is {a_type_of(value)} of unequal rows; give an array",
             code="bad_shape",
             argument=argument,
         ) from None
@@ -427,21 +434,25 @@ def _as_quantity(values: Sequence[Any], argument: str, unit: str) -> str:
         parts = [number(part) for part in values]
     except InputError:
         parts, name = ["..."], example(unit).rpartition("'")[0].rpartition(" ")[2] or "%"
-    whole = f"pint.Quantity([{shown(', '.join(parts))[1:-1]}], {name!r})"
-    return f"{note}put the unit on the whole: {whole}, or give numbers in SI"
+    whole = f"pint.Quantity([{rendered(', '.join(parts))[1:-1]}], {name!r})"
+    python = f"put the unit on the whole: {as_code(whole)[1:-1]}, or give numbers in SI"
+    return f"{note}`|{python}|write numbers in SI, or texts with their units`"
 
 
 def _not_a_number(value: Any, argument: str, unit: str) -> InputError:
     got = (
-        "it was not given, or as None"
+        "it was not given`|, or as None|`"
         if value is None
-        else f"got {shown(value)} of type {type(value).__name__}"
+        else f"got {shown(value)}`| of type {type(value).__name__}|`"
     )
     got += "; write its mass, such as a.mass" if unit == "kg" and hasattr(value, "mass") else ""
+    allowed = f"a number`|, an array or a Quantity| or a text`, such as {example(unit)}"
     return InputError(
-        f"{argument} must be a number, an array or a Quantity, such as {example(unit)}; {got}",
+        f"{argument} must be {allowed}; {got}",
         code="not_a_number",
         argument=argument,
+        given=value,
+        allowed=allowed,
     )
 
 
@@ -476,11 +487,9 @@ def _out_of_domain(
         elif domain is RESTITUTION and -1.0 < value < 0.0:
             hint = (
                 "; of bodies that pass or tear before a common velocity, the impulse solvers "
-                "take it with incomplete=True"
+                "take it with `incomplete=True`"
             )
-    return InputError(
-        f"{argument} must be {must}, got {shown(given)}{hint}", code=status.label, argument=argument
-    )
+    return must_be(argument, must, given, hint, code=status.label)
 
 
 def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:
@@ -533,9 +542,7 @@ def at_least_zero(
 ) -> Any:
     """A number that was read; refused if it is a single number below zero."""
     if isinstance(read, float) and read < 0.0:
-        return reader.refuse(
-            InputError(f"{name} must be >= 0, got {shown(given)}; {hint}", code=code, argument=name)
-        )
+        return reader.refuse(must_be(name, ">= 0", given, f"; {hint}", code=code))
     return read
 
 
@@ -580,11 +587,13 @@ def need_one_case(
         names = [kind.__name__ for kind in kinds]
         wanted = " or ".join(f"{'an' if name[0] in 'AEIOU' else 'a'} {name}" for name in names)
         fit = "" if "Fit" in names else ", for a Fit with the values that it found"
-        raise InputError(
-            f"impact must be {wanted}, got {type(answer).__name__}; write "
-            f"{function}(collisions.eccentric(...)){fit}{instead}",
+        raise must_be(
+            "impact",
+            wanted,
+            answer,
+            f"; write {function}(collisions.eccentric(...)){fit}{instead}",
             code="not_an_impact",
-            argument="impact",
+            got=type_of(answer),
         )
     # There are no refused fits: a fit raises instead.
     status = getattr(answer, "status", Status.OK)

@@ -10,9 +10,8 @@ from contextvars import ContextVar
 from functools import wraps
 from typing import Any, TypeVar, cast
 
-from ..messages.errors import InputError
 from ..messages.hints import hinted
-from .units import shown
+from .refusals import yes_or_no
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -55,11 +54,7 @@ class options:
     @hinted
     def __init__(self, *, require_units: bool) -> None:
         if not isinstance(require_units, bool):
-            raise InputError(
-                f"require_units must be True or False, got {shown(require_units)}",
-                code="bad_option",
-                argument="require_units",
-            )
+            raise yes_or_no("require_units", require_units, code="bad_option")
         self._before = units_required.set(require_units)
 
     def __enter__(self) -> options:

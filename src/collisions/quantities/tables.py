@@ -4,22 +4,18 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from functools import cached_property
-from itertools import zip_longest
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from .formatting import KIND_OF, Numbers, check_system, clock, in_words, number_with_unit
+from .printed_tables import PAGE, aligned, in_notebook
+from .printed_tables import Part as Part
 from .units import kinds_in_degrees, system_given
 
 _LARGEST = 1e9  # beyond it numbers are written with a power of ten
-_SHORT = 30  # characters of a cell that is a number, and not a sentence
-_PAGE, _LEAST = (
-    88,
-    24,
-)  # characters of a line of the plain table, and at least of its longest column
 _NOT_KNOWN = "\u2013"
 # Names of one of the two vehicles: "delta_v_a", "speed_a_after", "a.tyre_delta_v".
 _SIDED = r"(?:(?P<lead>[ab])\.(?P<inner>.+)|(?P<stem>.+)_(?P<side>[ab])(?P<after>_after)?)"
@@ -33,24 +29,13 @@ _ANGLE_TOL = 1e-6  # more than the rounding of a direction in float32
 _WORDS = {"delta v": "delta-V", "pdof": "PDOF", "ees": "EES"}
 
 
-class Part(NamedTuple):
-    """Rows, each of a label and its cells, under a heading and the names of the columns; a folded
-    one is for notebooks only.
-    """
-
-    rows: Sequence[tuple[str, ...]]
-    heading: str = ""
-    columns: tuple[str, ...] = ()
-    folded: bool = False
-
-
 class Cells(Numbers):
     """Writes numbers for a table: rounded, with the unit; angles are in degrees in every system of
     units.
     """
 
     typeset = True
-    # Of a batch, which cases have an answer: ranges are of these alone.
+    # Which cases of a batch have an answer: ranges are of these alone.
     answered: Any = None
     # Whether arrays go on over time, in which headings count their turns.
     over_time = False
@@ -190,56 +175,14 @@ class Summary:
     def __str__(self) -> str:
         from textwrap import wrap
 
-        lines = [self.title]
         shown = [part for part in self.parts if not part.folded]
-        wide = {
-            id(part)
-            for part in shown
-            if any(len(cell) > _SHORT for row in part.rows for cell in row[1:])
-        }
-        indent = {id(part): "  " if part.heading or part.columns else "" for part in shown}
-        aligned = [
-            ((indent[id(part)] + row[0], *row[1:]), part)
-            for part in shown
-            for row in part.rows
-            if id(part) not in wide
-        ]
-        widths = _widths(
-            [row for row, _ in aligned]
-            + [("", *part.columns) for part in shown if id(part) not in wide]
-        )
-        columns: tuple[str, ...] = ()
-        for part in shown:
-            rows = [(indent[id(part)] + row[0], *row[1:]) for row in part.rows]
-            own = _widths([*rows, ("", *part.columns)]) if id(part) in wide else widths
-            named = part.columns if part.columns != columns else ()
-            columns = part.columns or columns
-            if named or part.heading:
-                lines += _line((part.heading, *named), own, id(part) not in wide)
-            for row in rows:
-                lines += _line(row, own, id(part) not in wide)
-        for note in self.notes:
-            lines += wrap(note, _PAGE)
-        return "\n".join(lines)
+        notes = [line for note in self.notes for line in wrap(note, PAGE)]
+        return "\n".join([self.title, *aligned(shown), *notes])
 
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        from html import escape
-
-        shown = [part for part in self.parts if not part.folded]
-        span = max((len(row) for part in shown for row in part.rows), default=2)
-        tables = [_html(self.title, shown, span) if shown else f"<p>{escape(self.title)}</p>"]
-        for part in self.parts:
-            if part.folded:
-                inside = _html("", [part._replace(heading="")], 2)
-                tables.append(
-                    f"<details><summary>{escape(part.heading)}</summary>{inside}</details>"
-                )
-        notes = "".join(
-            f"<p style='font-size:smaller;margin:.3em 0'>{escape(note)}</p>" for note in self.notes
-        )
-        return "".join([*tables[:1], notes, *tables[1:]])
+        return "".join(in_notebook(self.title, self.parts, self.notes))
 
 
 class Summarized:
@@ -309,68 +252,3 @@ def label_of(name: str) -> str:
     for plain, written in _WORDS.items():
         words = re.sub(rf"\b{plain}\b", written, words)
     return words
-
-
-def _widths(rows: Sequence[tuple[str, ...]]) -> list[int]:
-    most = max((len(row) for row in rows), default=0)
-    widths = [max([1, *(len(row[i]) for row in rows if len(row) > i)]) for i in range(most)]
-    if most > 1:
-        at = max(range(1, most), key=widths.__getitem__)
-        widths[at] = min(widths[at], max(widths[at] + _PAGE - sum(widths) - 2 * (most - 1), _LEAST))
-    return widths
-
-
-def _line(row: tuple[str, ...], widths: Sequence[int], right: bool) -> list[str]:
-    """One row of a plain table, in as many lines as its longest cell needs."""
-    from textwrap import wrap
-
-    wrapped = [wrap(cell, widths[i]) or [""] if i else [cell] for i, cell in enumerate(row)]
-    lines = []
-    for at in range(max(map(len, wrapped))):
-        parts = [cell[at] if at < len(cell) else "" for cell in wrapped]
-        first, *rest = (
-            part.rjust(width) if i and right else part.ljust(width)
-            for i, (part, width) in enumerate(zip(parts, widths, strict=False))
-        )
-        lines.append("  ".join([first, *rest]).rstrip())
-    return lines
-
-
-def _html(title: str, parts: Sequence[Part], span: int) -> str:
-    """One HTML table of several parts, as wide as the widest."""
-    from html import escape
-
-    lines = [f"<table>{f'<caption>{escape(title)}</caption>' if title else ''}<tbody>"]
-    columns: tuple[str, ...] = ()
-    for part in parts:
-        # Columns of numbers are aligned at the right and never broken, those with sentences in them
-        # at the left.
-        longest = [
-            max(map(len, column))
-            for column in zip_longest(*(row[1:] for row in part.rows), fillvalue="")
-        ]
-        short = "text-align:right;white-space:nowrap" if not part.folded else "text-align:left"
-        styles = [
-            f"{short if most <= _SHORT else 'text-align:left'};padding-left:1em" for most in longest
-        ]
-        if part.heading or part.columns != columns:
-            heads = part.columns if part.columns != columns else ()
-            columns = part.columns
-            cells = "".join(
-                f"<th style='{style}'>{escape(head)}</th>"
-                for style, head in zip(styles, heads, strict=False)
-            )
-            rest = "" if heads else f" colspan='{span}'"
-            if part.heading or heads:
-                lines.append(
-                    f"<tr><th style='text-align:left'{rest}>{escape(part.heading)}</th>{cells}</tr>"
-                )
-        for label, *texts in part.rows:
-            tds = "".join(
-                f"<td style='{style}'>{escape(text)}</td>"
-                for style, text in zip(styles, texts, strict=False)
-            )
-            lines.append(
-                f"<tr><th style='text-align:left;font-weight:normal'>{escape(label)}</th>{tds}</tr>"
-            )
-    return "".join([*lines, "</tbody></table>"])

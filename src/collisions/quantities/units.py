@@ -12,12 +12,13 @@ import re
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from threading import RLock
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, get_args
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from ..messages.errors import InputError, UnitsError
+from ..messages.marked import as_code
 from .usual_units import SCALES, USUAL, Usual, usual
 
 if TYPE_CHECKING:
@@ -54,6 +55,9 @@ if TYPE_CHECKING:
 else:
     Value = Input = Pair = Impulse = Any
 
+# The unit systems of explanations, reports, findings and figures.
+UnitSystem: TypeAlias = Literal["si", "metric", "us"]
+SYSTEMS: tuple[UnitSystem, ...] = get_args(UnitSystem)
 _ANY_KIND = "a number with a unit"
 _EXAMPLES = {
     "kg": "1100 (kg), '1100 kg' or '2425 lb'",
@@ -318,9 +322,9 @@ def system_given(texts: Iterable[str]) -> str:
         [vote for vote in found if "speed" in vote],
         [vote for vote in found if vote != {"si"}],
     ):
-        agreed = set.intersection({"si", "metric", "us", "speed"}, *votes) - {"speed"}
+        agreed = set.intersection({*SYSTEMS, "speed"}, *votes) - {"speed"}
         if votes and agreed:
-            return next(name for name in ("si", "metric", "us") if name in agreed)
+            return next(name for name in SYSTEMS if name in agreed)
     return "si"
 
 
@@ -342,7 +346,7 @@ def _systems(text: str) -> set[str]:
     try:
         units = parse(text, _ANY_KIND, "")._units
     except UnitsError:
-        return {"si", "metric", "us"}
+        return {*SYSTEMS}
     names = {str(name) for name in units}
     speed = (
         {"speed"}
@@ -355,11 +359,7 @@ def _systems(text: str) -> set[str]:
         return speed | {"metric"}
     if names >= {"meter", "second"}:
         return speed | {"si"}
-    return (
-        {"si", "metric"}
-        if names & {"meter", "kilogram", "newton", "kilonewton"}
-        else {"si", "metric", "us"}
-    )
+    return {"si", "metric"} if names & {"meter", "kilogram", "newton", "kilonewton"} else {*SYSTEMS}
 
 
 def parse(text: str, unit: str, argument: str) -> Any:
@@ -375,11 +375,13 @@ def parse(text: str, unit: str, argument: str) -> Any:
     readable = (name in USUAL or re.fullmatch(_UNIT, name)) if name else not unit
     if number is None or not readable:
         how = "one plain number and one unit" if unit else "one plain number"
+        instead = f"; write {how}, such as {example(unit)}"
         raise UnitsError(
-            f"{argument}: cannot read {shown(text)}{_cure(stripped, unit)}; write {how}, such as "
-            f"{example(unit)}",
+            f"{argument}: cannot read {shown(text)}{_cure(stripped, unit)}{instead}",
             code="bad_units",
             argument=argument,
+            given=text,
+            instead=instead,
             text=text,
         )
     value = float(number.group())
@@ -424,7 +426,9 @@ def _units_of(registry: Any, read: dict[str, Any], name: str) -> Any:
                 for part in re.findall(_NAME, name):
                     meant = ["".join(found) for found in registry.parse_unit_name(part)]
                     if len(meant) > 1 and part not in registry._units:
-                        text = f"in this registry, made with case_sensitive=False, {part!r} may be "
+                        text = (
+                            f"in this registry, made with `case_sensitive=False`, {part!r} may be "
+                        )
                         text += (
                             f"{' or '.join(sorted(meant))}: write it in its own upper and lower "
                             "case"
@@ -439,8 +443,8 @@ def _cure(text: str, unit: str) -> str:
     """The hint for a text that is nearly one number and one unit; "" for others."""
     if re.match(r"\[[\[\s]*(?:[-+.]?[0-9]|nan\b|[-+]?inf\b)", text):
         return (
-            ": this is a printed array. A model of propagate is called with arrays of cases, and "
-            "the unit belongs in the distribution, Normal('30 mph', '2 mph')"
+            ": this is a printed array. A model of propagate is called with arrays of "
+            "cases, and the unit belongs in the distribution, `Normal('30 mph', '2 mph')`"
         )
     if len(text) > _LONGEST_TEXT:
         return f": a text of {len(text)} characters is no number"
@@ -464,7 +468,10 @@ def _cure(text: str, unit: str) -> str:
     if "\u2212" in text:
         return ": a minus is typed as a hyphen, " + repr(text.replace("\u2212", "-"))
     if re.search(r"\d\s*(?:-|\.\.|to|–|±|\+/?-)\s*\d", text):
-        return ": this is a range; ranges go to collisions.uncertainty.propagate"
+        return (
+            ": this is a range; `|ranges go to collisions.uncertainty.propagate|"
+            "this key takes one number`"
+        )
     cured = re.sub(r"(?<=[a-z])(\d)\b", r"**\1", re.sub(r"(?<=[a-z])-(?=[a-z])", "*", text))
     if cured != text:
         # Pounds beside seconds are a force: lb ft s2 is the yaw inertia of a US data sheet.
@@ -537,7 +544,7 @@ def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float,
         zero, one, two = (float(number.m_as(wanted)) for number in numbers)
         found = one, "" if numbers[1].unitless else f"{quantity.units}"
     except Exception as error:
-        other = "; its registry, made with case_sensitive=False, may have taken another unit"
+        other = "; its registry, made with `case_sensitive=False`, may have taken another unit"
         beside = "" if registry.case_sensitive else other
         raise _bad_units(given, unit, argument, error, beside=beside) from None
     if zero != 0.0 or two != 2.0 * one:
@@ -547,7 +554,12 @@ def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float,
     return found
 
 
-def shown(value: Any, longest: int = 80) -> str:
+def shown(value: Any) -> str:
+    """What was given, short and marked as code, for a message."""
+    return as_code(rendered(value))
+
+
+def rendered(value: Any, longest: int = 80) -> str:
     """A short rendering of what was given, safe for any object."""
     try:
         text = f"{value}" if is_quantity(value) else repr(value)
@@ -643,11 +655,13 @@ def _bad_units(
         hint = "; pounds here are a force: write 'lbf*ft*s**2' or 'slug*ft**2'"
     # pint's own words are about dimensions, and the hint says it better.
     reason = f" ({error})" if str(error or "") and not hint else ""
+    instead = f"; write for example {example(unit)}"
     return UnitsError(
-        f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}{beside}; write "
-        f"for example {example(unit)}",
+        f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}{beside}{instead}",
         code="bad_units",
         argument=argument,
+        given=given,
+        instead=instead,
         text=text,
     )
 

@@ -37,6 +37,7 @@ from .common import (
     read_drags,
     read_masses,
     run_forward,
+    state_instant,
     warn_of_condition,
 )
 
@@ -293,8 +294,8 @@ def _answer(
             f"va = {say(s.a.before.vx, 'speed')} with e = {s.restitution:.4g}" for s in solutions
         )
         return AmbiguousSolutionError(
-            f"two impacts fit {', '.join(known)}: {both}; both are in .solutions, and a velocity "
-            "of the other kind decides",
+            f"two impacts fit {', '.join(known)}: {both}`|; both are in .solutions|`, and a "
+            "velocity of the other kind decides",
             code="ambiguous",
             solutions=solutions,
         )
@@ -310,6 +311,8 @@ def _answer(
     )
     impact = finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
     warn_of_condition(origin)
+    if not held:
+        state_instant("central", "drag_a=, drag_b=, where A runs into the rear of B")
     return impact
 
 
@@ -488,7 +491,7 @@ def _refusal(
             if not incomplete and e > -1.0:
                 text += (
                     "; if they passed or tore before they had a common velocity, write "
-                    "incomplete=True"
+                    "`incomplete=True`"
                 )
         case Status.INVERSE_E0:
             apart = known["vb_after"] - known["va_after"]

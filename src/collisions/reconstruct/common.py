@@ -26,8 +26,9 @@ from ..messages.errors import (
     InputError,
     MissingInputError,
     Status,
+    placed,
 )
-from ..messages.warning import quietly, warn_of_cases
+from ..messages.warning import quietly, state_of_study, warn_of_cases
 from ..quantities.attributes import lock
 from ..quantities.precision import precision
 from ..quantities.reading import ArgumentReader, amount, broadcast
@@ -129,10 +130,15 @@ def read_drags(reader: ArgumentReader, duration: Any, drags: dict[str, Any]) -> 
     if (duration is None) == bool(given):
         lacking = "duration" if duration is None else "drag_a"
         text = (
-            f"{' and '.join(given)} need a duration, over which tyres act; write duration='100 ms'"
+            (
+                f"{' and '.join(given)} need a duration, over which tyres act; write "
+                "`duration='100 ms'`"
+            )
             if given
-            else "duration counts for drag_a and drag_b alone, and neither was given; write "
-            "drag_b=0.7, or leave it out"
+            else (
+                "duration counts for drag_a and drag_b alone, and neither was given; write "
+                "`drag_b=0.7`, or leave it out"
+            )
         )
         reader.refuse(MissingInputError(text, code="bad_combination", argument=lacking))
     if duration is None or not given:
@@ -368,6 +374,16 @@ def warn_of_condition(origin: Reconstruction) -> None:
     warn_of_cases(warning, {sentence: int(np.count_nonzero(ill)) if ill.ndim else None})
 
 
+def state_instant(solver: str, wheels: str = "tyres_a=, tyres_b=") -> None:
+    """State of a study that its impacts were found as instants."""
+    state_of_study(
+        f"{solver} found every case as an instant, which leaves out the tyres and the motion while "
+        f"the contact lasts; give duration= and {wheels}. The statements of one case say how much "
+        "that is",
+        "instant",
+    )
+
+
 def run_forward(
     inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconstruction, on_failure: Any = None
 ) -> Impact:
@@ -398,5 +414,5 @@ def raise_or_warn(
     if on_failure == "raise":
         index, place = first_case(status > Status.ENERGY_GAIN)
         problem = error(index)
-        raise type(problem)(f"{place}: {problem}", code=problem.code, **problem.fields)
+        raise placed(problem, place)
     warn_of_refusals(status)

@@ -13,11 +13,12 @@ import numpy as np
 from ..impact.run import error_of, warn_of_refusals
 from ..kernels.elementwise import POSITIVE, UNIT_INTERVAL
 from ..kernels.status import Status
-from ..messages.errors import InputError, OutOfRangeWarning, ShapeError
+from ..messages.errors import OutOfRangeWarning, ShapeError
 from ..messages.hints import hinted
 from ..messages.warning import warn
 from ..quantities.directions import Angle
 from ..quantities.reading import ArgumentReader, amount, largest, warn_if_large
+from ..quantities.refusals import must_be
 from ..quantities.units import Input, Value, has_unit, is_quantity, shown
 from .common import ASK_ALONE, Cases, input_faults, read_masses
 
@@ -99,22 +100,16 @@ def crush_energy(
     a = amount(reader, stiffness_a, "N/m", "stiffness_a")
     b = reader.number(stiffness_b, "N/m**2", "stiffness_b")
     if isinstance(b, float) and b <= 0.0:
-        reader.refuse(
-            InputError(
-                f"stiffness_b must be > 0, got {shown(stiffness_b)}",
-                code="not_positive",
-                argument="stiffness_b",
-            )
-        )
+        reader.refuse(must_be("stiffness_b", "> 0", stiffness_b, code="not_positive"))
     angle = Angle(*reader.angle(force_angle, "force_angle"))
     cosine = angle.direction[0]
     if isinstance(cosine, float) and cosine <= _RIGHT_ANGLE:
         reader.refuse(
-            InputError(
-                "force_angle must be less than 90 deg from the perpendicular of the damaged "
-                f"side, got {shown(force_angle)}",
+            must_be(
+                "force_angle",
+                "less than 90 deg from the perpendicular of the damaged side",
+                force_angle,
                 code="bad_angle",
-                argument="force_angle",
             )
         )
     reader.close()

@@ -285,7 +285,7 @@ def _check_position(label: str, body: Vehicle, contact: Any, purpose: str) -> No
         return
     if contact is None:
         raise MissingInputError(
-            f"{label} turns, so {purpose} needs the contact point; give point=(x, y)",
+            f"{label} turns, so {purpose} needs the contact point; give `point=(x, y)`",
             code="missing_point",
             argument="point",
         )

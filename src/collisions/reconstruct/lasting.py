@@ -17,7 +17,8 @@ from ..kernels.status import Status
 from ..messages.warning import quietly
 from ..vehicle.tyres import Tyres
 
-# Of the size of an unknown: far above rounding, and small enough that tyres bend nothing over it.
+# A share of the size of an unknown: far above rounding, and so small that tyres bend nothing
+# over it.
 _STEP = 2.0**-20
 # Shares of the size of what was known: below the first nothing better is looked for, below the
 # second it counts as reproduced.

@@ -29,10 +29,19 @@ from ..messages.warning import warn_of_cases
 from ..quantities.attributes import hypot, in_units_of, show
 from ..quantities.directions import Angle, angle_of, course, direction
 from ..quantities.reading import ArgumentReader, amount
+from ..quantities.refusals import yes_or_no
 from ..quantities.tables import said
-from ..quantities.units import Input, Pair, is_quantity, magnitude, shown, texts_of
+from ..quantities.units import Input, Pair, is_quantity, magnitude, texts_of
 from ..vehicle.tyres import Tyres
-from .common import NEARLY_COLLINEAR, Cases, exactly, input_faults, raise_or_warn, read_masses
+from .common import (
+    NEARLY_COLLINEAR,
+    Cases,
+    exactly,
+    input_faults,
+    raise_or_warn,
+    read_masses,
+    state_instant,
+)
 from .momentum_solution import MomentumSolution, Sensitivity
 from .momentum_tyres import MOST_CORRECTIONS, Lasting, read_tyres
 from .momentum_vector import NEARLY_CANCELLING, Whole, sought_whole
@@ -204,11 +213,7 @@ def momentum(
     (68.54, 56.02)
     """
     if not isinstance(together, bool):
-        raise InputError(
-            f"together must be True or False, got {shown(together)}",
-            code="bad_option",
-            argument="together",
-        )
+        raise yes_or_no("together", together, code="bad_option")
     check_options(on_failure)
     speeds = dict(zip(_SPEEDS, (speed_a, speed_b, speed_a_after, speed_b_after), strict=True))
     courses = dict(zip(_COURSES, (course_a, course_b, course_a_after, course_b_after), strict=True))
@@ -278,6 +283,8 @@ def momentum(
             (numbers[f"{name}[0]"], numbers[f"{name}[1]"]) if f"{name}[0]" in numbers else None
             for name in ("outside_impulse", "normal")
         )
+        if lasting is None:
+            state_instant("momentum")
         known = _Known(cases, numbers, angles, terms, impulse, normal, unlike, lasting)
         return in_units_of(
             _solve(known, given if cases.shape is None else None, on_failure),
@@ -550,8 +557,8 @@ def _refusal(status: Status, first: str, second: str, unsettled: bool) -> Collis
         )
     if status is Status.UNDETERMINED:
         return NoSolutionError(
-            f"the other momenta cancel, so {first} is 0 and there is no {second}; give {first}=0 "
-            "and leave two other speeds open",
+            f"the other momenta cancel, so {first} is 0 and there is no {second}; give "
+            f"`{first}=0` and leave two other speeds open",
             code="undetermined",
         )
     if status is Status.INFINITE_MASS:

@@ -120,7 +120,7 @@ class MomentumSolution(Shown):
         argument = _NEEDED[name]
         kind = argument.partition("_")[0]
         return MissingInputError(
-            f"{name} needs a {kind}, which was not given; write {argument}='30 deg'",
+            f"{name} needs a {kind}, which was not given; write `{argument}='30 deg'`",
             code=f"missing_{kind}",
             argument=argument,
         )

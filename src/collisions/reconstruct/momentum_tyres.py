@@ -137,8 +137,8 @@ def read_tyres(
         rates[label] = reader.number(rate, "rad/s", name)
         if tyres["ab".index(label)] is None:
             text = (
-                f"{name} counts for the tyres of {label.upper()} alone, and there are none: give "
-                f"duration= and tyres_{label}=, or leave it out"
+                f"{name} counts for the tyres of {label.upper()} alone, and there are none: "
+                f"give `duration=` and `tyres_{label}=`, or leave it out"
             )
             reader.refuse(InputError(text, code="bad_combination", argument=name))
     return Lasting(found["duration"], own, rates) if own and "duration" in found else None

@@ -34,8 +34,9 @@ from ..messages.errors import (
 from ..messages.hints import hinted
 from ..messages.warning import quietly, warn_of_cases
 from ..quantities.reading import ArgumentReader
+from ..quantities.refusals import one_of
 from ..quantities.tables import Sentences
-from ..quantities.units import Input, Pair, shown
+from ..quantities.units import Input, Pair
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle, moved
 from .common import (
@@ -47,6 +48,7 @@ from .common import (
     read_amounts,
     run_forward,
     split_texts,
+    state_instant,
 )
 from .lasting import numbers_of_times, settle, tyre_faults
 from .origins import End, Origin
@@ -194,13 +196,7 @@ def planar(
             )
         )
     if regime is not None and (not isinstance(regime, str) or regime not in _REGIMES):
-        reader.refuse(
-            InputError(
-                f"regime must be one of {', '.join(map(repr, _REGIMES))}, got {shown(regime)}",
-                code="bad_regime",
-                argument="regime",
-            )
-        )
+        reader.refuse(one_of("regime", _REGIMES, regime, code="bad_regime"))
     e = given.get("restitution", 0.0)
     arguments = (
         a_after,
@@ -218,14 +214,14 @@ def planar(
         raise InputError(
             f"reconstruct.planar cannot go back under law {inputs.law!r}; give {BRACH!r} or "
             f"{KUDLICH_SLIBAR!r}, or fit a model with this law to what is known after "
-            "(reconstruct.fit)",
+            "(`reconstruct.fit`)",
             code="law_not_reversible",
             argument="law",
         )
     if kind == "energy_loss" and shares_critical(inputs.rule, inputs.rule_value):
         raise InputError(
             "a critical_fraction between 0 and 1 cannot be used with energy_loss; give "
-            "impulse_ratio=, or the restitution or closing_speed instead of the energy",
+            "`impulse_ratio=`, or the restitution or closing_speed instead of the energy",
             code="bad_combination",
             argument="critical_fraction",
         )
@@ -347,6 +343,8 @@ def _answer(
         return planar(part_of(inputs.a, take), part_of(inputs.b, take), **contact)
 
     _warn(cases, end, sure & end.pressed, nearly)
+    if not inputs.tyres:
+        state_instant("planar")
     origin = origin_of(found, condition, count, sure)
     return finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
 
@@ -491,10 +489,10 @@ def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
         )
         least = float(np.min(np.where(nearly, abs(end.slip), np.inf)))
         text = (
-            f"{cases.how_many(nearly)}the slip after the impact, {end.say(least, 'speed', 3)}, "
-            "is so small that it may be none: then the contact stuck, and the slip before was "
-            f"anything {where}. The answer {which}; carry all digits, or decide with "
-            "impulse_ratio= of either sign"
+            f"{cases.how_many(nearly)}the slip after the impact, "
+            f"{end.say(least, 'speed', 3)}, is so small that it may be none: then the "
+            f"contact stuck, and the slip before was anything {where}. The answer {which}; "
+            "carry all digits, or decide with `impulse_ratio=` of either sign"
         )
         warning = IllConditionedWarning(text, code="nearly_sticking", slip_after=least)
         sentence = (
@@ -526,10 +524,13 @@ def _refusal(
                 f"{end.say(impact.closing_speed, 'speed')}"
                 for how, impact in zip(regimes, solutions, strict=True)
             )
-            deciding = " or ".join(f"regime={how!r}" for how in regimes if regimes.count(how) == 1)
+            deciding = " or ".join(
+                f"`regime={how!r}`" for how in regimes if regimes.count(how) == 1
+            )
             return AmbiguousSolutionError(
-                f"{len(solutions)} states before end so: {each}; all are in .solutions; what "
-                f"decides is {deciding}{', or ' if deciding else ''}impulse_ratio= of one of them",
+                f"{len(solutions)} states before end so: {each}`|; all are in "
+                ".solutions|`; what decides is "
+                f"{deciding}{', or ' if deciding else ''}`impulse_ratio=` of one of them",
                 code="ambiguous_inverse",
                 solutions=solutions,
             )
@@ -552,9 +553,9 @@ def _refusal(
 def _instead(end: End) -> str:
     """The inputs that could replace the restitution."""
     return (
-        "closing_speed="
+        "`closing_speed=`"
         if shares_critical(end.rule, end.bound)
-        else "closing_speed= or energy_loss="
+        else "`closing_speed=` or `energy_loss=`"
     )
 
 
@@ -568,12 +569,14 @@ def _stuck(end: End, slip: float, ends: int) -> str:
     held = ""
     if ends == 1:
         held = (
-            ".solutions holds the one end of the range, where friction is just used up; to the "
+            "`|.solutions holds the one end of the range, where friction is just used up; to the "
             f"other side it is open, for impulse ratios towards {jamming:.4g}, where the bodies "
-            "jam. "
+            "jam. |`"
         )
     elif ends:
-        held = f".solutions holds the {ends} ends of the range, where friction is just used up. "
+        held = (
+            f"`|.solutions holds the {ends} ends of the range, where friction is just used up. |`"
+        )
     low, high = (
         (-float(end.bound), float(end.bound)) if end.rule == FRICTION else (-math.inf, math.inf)
     )
@@ -582,15 +585,16 @@ def _stuck(end: End, slip: float, ends: int) -> str:
     allowed = _interval(low, high)
     # At rest the slip before is lost under the other law too.
     other = (
-        f", or law={KUDLICH_SLIBAR!r} if that is the model"
+        f", or `law={KUDLICH_SLIBAR!r}` if that is the model"
         if end.law == BRACH and abs(end.separation) > end.noise
         else ""
     )
     return (
-        f"the contact ended without slip (slip after {end.say(slip, 'speed', 3)}, no more than "
-        f"rounding leaves), and under {end.law!r} any slip before may end so: the motion across "
-        f"the normal is lost. {held}What decides is impulse_ratio=, the tangential over the "
-        f"normal impulse{f' ({allowed})' if allowed else ''}{other}"
+        f"the contact ended without slip (slip after {end.say(slip, 'speed', 3)}, no "
+        f"more than rounding leaves), and under {end.law!r} any slip before may end so: "
+        f"the motion across the normal is lost. {held}What decides is `impulse_ratio=`, "
+        "the tangential over the normal "
+        f"impulse{f' ({allowed})' if allowed else ''}{other}"
     )
 
 
@@ -620,7 +624,7 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
     """The reason why no origin fits, and a remedy."""
     here = f"separation speed {end.say(separation, 'speed')}, slip after {end.say(slip, 'speed')}"
     given, known, bound = f"{end.rule}={float(end.bound):g}", float(end.known), float(end.bound)
-    free = "give a finite friction=, or impulse_ratio="
+    free = "give a finite `friction=`, or `impulse_ratio=`"
     origins = end.origins(None)
     fitting = {one.regime for one in origins if one.fits}
     if regime is not None and (
@@ -629,7 +633,7 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
         found = f", the contact ended {' or '.join(sorted(fitting))}" if fitting else ""
         return (
             f"no motion before ends so in the regime {regime!r} under {end.law!r} with this "
-            f"{end.rule} and {end.kind}: {here}; leave out regime={found}"
+            f"{end.rule} and {end.kind}: {here}; leave out `regime={found}`"
         )
     if end.always_sticks():
         return (
@@ -639,9 +643,9 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
         )
     if end.kind == "closing_speed" and separation > known:
         return (
-            f"the contact points part faster than they met: {here}, closing_speed="
-            f"{end.say(known, 'speed')}; give at least the "
-            f"separation speed, or restitution= instead"
+            f"the contact points part faster than they met: {here}, "
+            f"`closing_speed={end.say(known, 'speed')}`; give at least the separation "
+            "speed, or `restitution=` instead"
         )
     if end.always_sticks(KUDLICH_SLIBAR):
         return (
@@ -653,9 +657,9 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
         limit = _jamming_ratio(end)
         limit = abs(limit) if end.rule == FRICTION else limit
         return (
-            f"{given} jams the bodies in a contact that ends so ({here}); give {end.rule}= "
-            f"{'below' if limit > 0.0 else 'above'} {limit:.4g}, or check the yaw rates and the "
-            "normal"
+            f"{given} jams the bodies in a contact that ends so ({here}); give "
+            f"`{end.rule}=` {'below' if limit > 0.0 else 'above'} {limit:.4g}, or check the "
+            "yaw rates and the normal"
         )
     if end.kind == "energy_loss":
         # Friction acts against the slip; under "kudlich-slibar" against that of compression, and
@@ -667,13 +671,14 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
         )
         if least > known:
             return (
-                f"energy_loss={end.say(known, 'energy')} is less than an impact with {given} "
+                f"`energy_loss={end.say(known, 'energy')}` is less than an impact with {given} "
                 f"loses that ends so ({here}); give at least "
-                f"{end.say(float(least), 'energy', 7)}, or restitution= or closing_speed= instead"
+                f"{end.say(float(least), 'energy', 7)}, or `restitution=` or `closing_speed=` "
+                "instead"
             )
     kind = {"energy_loss": "energy", "closing_speed": "speed"}.get(end.kind, "number")
     return (
         f"no motion before ends so under {end.law!r} with {given} and "
-        f"{end.kind}={end.say(known, kind)}: {here}; check the normal and the motions "
+        f"`{end.kind}={end.say(known, kind)}`: {here}; check the normal and the motions "
         f"after{', or give friction= or impulse_ratio=' if end.rule == CRITICAL_FRACTION else ''}"
     )

@@ -17,6 +17,7 @@ from ..messages.hints import hinted
 from ..messages.warning import warn
 from ..quantities.attributes import Shown, derived, in_units_of, lock
 from ..quantities.reading import ArgumentReader
+from ..quantities.refusals import must_be
 from ..quantities.tables import Cells, Part, Summary, all_numbers
 from ..quantities.units import Input, shown, texts_of
 from ..reference import RECORDER_ACCURACY, RECORDER_RESOLUTION
@@ -108,7 +109,7 @@ class RecordedPulse(Shown):
             "recorded left": (self.left, "m/s"),
         }
         if self.place is not None:
-            # Of the centre of mass.
+            # The place is that from the centre of mass.
             values |= {
                 "recorder ahead": (self.place[0], "m"),
                 "recorder to the left": (self.place[1], "m"),
@@ -148,14 +149,12 @@ class RecordedPulse(Shown):
             ``evidence``.
         """
         if not isinstance(label, str) or label not in ("a", "b"):
-            raise InputError(
-                f"label must be 'a' or 'b', got {shown(label)}", code="bad_option", argument="label"
-            )
+            raise must_be("label", "'a' or 'b'", label, code="bad_option")
         if not self.ended:
             cut = _cut(self.time, self.delta_v)
             raise InputError(
                 f"{cut}, and no range can be stated of it; give .evidence to "
-                "reconstruct.posterior, which takes it as a bound",
+                "`reconstruct.posterior`, which takes it as a bound",
                 code="pulse_cut",
             )
         parts = {"forward": self.delta_v_forward, "left": self.delta_v_left}
@@ -319,8 +318,8 @@ def _read_place(reader: ArgumentReader, forward: Any, left: Any) -> tuple[float,
     for name, value in given.items():
         if value is None:
             text = (
-                f"{name} is None, and the place of a recorder needs both; write {name}=0 for one "
-                "in line with the centre of mass"
+                f"{name} `|is None|is not given`, and the place of a recorder needs both; "
+                f"write `{name}=0` for one in line with the centre of mass"
             )
             reader.refuse(MissingInputError(text, code="missing_place", argument=name))
             return None

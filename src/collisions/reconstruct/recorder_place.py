@@ -31,7 +31,7 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.units import shown
 from ..vehicle.drag import read_duration
 from .speeds_algebra import Root, Seen
-from .speeds_components import ComponentScene
+from .speeds_components import CONTRADICTION, ComponentScene
 
 # Nodes of a Gauss-Legendre rule over each part of the pulse: turns of half a radian to 1e-12.
 _NODES = 8
@@ -68,8 +68,8 @@ def read_recorders(
         if duration is not None:
             text = (
                 f"duration = {shown(duration)} is that over which recorders turn or tyres act; "
-                "write axes='turning' (or 'fixed'), and recorder_a=(forward, left) for the place; "
-                "or give tyres_a=travel.Tyres"
+                "write `axes='turning'` (or 'fixed'), and `recorder_a=(forward, left)` for the "
+                "place; or give tyres_a=travel.Tyres"
             )
             reader.refuse(InputError(text, code="bad_combination", argument="duration"))
         return None
@@ -87,9 +87,9 @@ def read_recorders(
     turning = axes is None or read_axes(reader, axes) == "turning"
     if duration is None:
         text = (
-            "duration is None, and a recorder turns with its car while the contact lasts; write "
-            "duration='100 ms', such as that of the recorded pulse, or 0 for a contact in which "
-            "nothing turns"
+            "duration `|is None|is not given`, and a recorder turns with its car "
+            "while the contact lasts; write `duration='100 ms'`, such as that of the "
+            "recorded pulse, or 0 for a contact in which nothing turns"
         )
         reader.refuse(MissingInputError(text, code="missing_duration", argument="duration"))
         duration = 0.0
@@ -99,8 +99,9 @@ def read_recorders(
         place = given.get(label, (0.0, 0.0))
         if not isinstance(place, (tuple, list)) or len(place) != 2:
             text = (
-                f"{name} must be (forward, left), how far ahead of the centre of mass the recorder "
-                f"sits and how far to its left, such as ('0.5 m', 0), got {shown(place)}"
+                f"{name} must be `(forward, left)`, how far ahead of the centre of mass the "
+                "recorder sits and how far to its left, such as `('0.5 m', 0)`, got "
+                f"{shown(place)}"
             )
             reader.refuse(ShapeError(text, code="bad_shape", argument=name))
             continue
@@ -192,19 +193,27 @@ class RecorderScene(ComponentScene):
         plain: bool = False,
         regime: str | None = None,
         slid: str | None = None,
+        most: float = CONTRADICTION,
     ) -> None:
         self._recorders, self.recorders = recorders, recorders.names
-        super().__init__(given, rule, law, names, shape, plain, regime, slid)
+        super().__init__(given, rule, law, names, shape, plain, regime, slid, most)
         self._duration = self.given["duration"] * self.speed_unit
-        self._readings = list(self._momenta)
+        self._readings = [
+            self.numbers[f"{kind[-1]}.mass"] * self.numbers[kind] for kind in self.components
+        ]
         nx, ny = self.given["normal[0]"], self.given["normal[1]"]
         self._own: dict[str, tuple[Any, ...]] = {}
+        self._by_tyres: dict[str, tuple[Any, ...]] = {}
         for label in recorders.labels:
             sign = 1.0 if label == "b" else -1.0
             fx, fy = Angle(self.given[f"{label}.heading"], False).direction
             rx, ry = (self.given[f"point[{i}]"] - self.given[f"{label}.{x}"]
                 for i, x in enumerate("xy"))  # fmt: skip
             per_inertia = sign / self.numbers[f"{label}.yaw_inertia"]
+            # Of the tyres: forward, left, and the change of yaw rate.
+            x, y, moment = self._held_of(label)
+            by_tyres = moment / self.numbers[f"{label}.yaw_inertia"]
+            self._by_tyres[label] = fx * x + fy * y, fx * y - fy * x, by_tyres
             # Of the impulse along n and along t: forward, left, and the change of yaw rate.
             self._own[label] = (
                 (sign * (nx * fx + ny * fy), sign * (nx * fy - ny * fx)),
@@ -220,7 +229,10 @@ class RecorderScene(ComponentScene):
         for label, own in self._own.items():
             mass, spin = self.numbers[f"{label}.mass"], self.numbers[f"{label}.yaw_rate"]
             normal, tangential = impulses[label]
-            ahead, aside, change = (n * normal + t * tangential for n, t in own)
+            by_contact = [n * normal + t * tangential for n, t in own]
+            held = self._by_tyres[label]
+            # What tyres do passes as what the contact does.
+            ahead, aside, change = (one + more for one, more in zip(by_contact, held, strict=True))
             self._changes[label] = change
             turn, slope = turning(self.e, self._duration, spin, change)
             f, left = (self.given[f"recorder_{label}[{i}]"] for i in range(2))
@@ -251,7 +263,11 @@ class RecorderScene(ComponentScene):
                     one[0] * one[1][i] + other[0] * other[1][i] + mass * by * own[2][i]
                     for i in range(2)
                 )
-                rows[f"delta_v_{part}_{label}"] = row, mass * (by * change - extra)
+                known = mass * (by * by_contact[2] - extra)
+                if self.held:
+                    at = 0 if part == "forward" else 1
+                    known = known - (one[0] * held[at] + other[0] * held[1 - at])
+                rows[f"delta_v_{part}_{label}"] = row, known
         self._axes = [rows[kind][0] for kind in self.components]
         self._momenta = [
             reading + rows[kind][1]
@@ -280,9 +296,11 @@ class RecorderScene(ComponentScene):
         return super()._judged(regime, speeds, moved, stays_open)
 
 
-def by_own_names(known: Mapping[str, Any], recorders: Recorders | None) -> dict[str, Any]:
+def by_own_names(
+    known: Mapping[str, Any], recorders: Recorders | None, lasts: bool = False
+) -> dict[str, Any]:
     """What was known, with that of recorders by names of its own: the result has the delta-V of the
-    centre of mass, which the readings are not, and an instant for a contact.
+    centre of mass, which the readings are not, and an instant for a contact unless it ``lasts``.
     """
     own: dict[str, str] = {}
     for label in "" if recorders is None else recorders.labels:
@@ -291,6 +309,6 @@ def by_own_names(known: Mapping[str, Any], recorders: Recorders | None) -> dict[
             f"delta_v_left_{label}": f"reading_left_{label}",
             f"recorder_{label}[0]": f"recorder_forward_{label}",
             f"recorder_{label}[1]": f"recorder_left_{label}",
-            "duration": "recorder_duration",
+            **({} if lasts else {"duration": "recorder_duration"}),
         }
     return {own.get(name, name): value for name, value in known.items()}

@@ -17,8 +17,8 @@ from ..quantities.units import shown
 _LARGEST_FILE = 1_000_000  # bytes
 _LONGEST_CELL = 200  # characters
 _EXAMPLE = "time [ms],longitudinal [km/h],lateral [km/h]"
-# By column, its SI unit and the words of a head that name it. A lateral head may also say to
-# which side it is positive.
+# Each column with its SI unit and the words of a head that name it. A lateral head may also say
+# to which side it is positive.
 _COLUMNS = {
     "time": ("s", {"time", "t"}),
     "delta_v_forward": ("m/s", {"longitudinal", "long", "forward"}),
@@ -159,7 +159,7 @@ def _by_name(reader: ArgumentReader, heads: list[str], polarity: str) -> dict[st
         if words & {"left", "right"} and sides != {_SIDES[polarity]}:
             says = " or ".join(sorted(sides or words & {"left", "right"}))
             raise ValueError(
-                f"the head {shown(head)} says {says}, and by polarity={polarity!r} lateral is "
+                f"the head {shown(head)} says {says}, and by `polarity={polarity!r}` lateral is "
                 f"positive to the {_SIDES[polarity]}"
             )
         found[name] = at, _unit(groups, head, _COLUMNS[name][0])

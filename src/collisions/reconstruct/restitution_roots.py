@@ -30,7 +30,7 @@ _COMPARED = 16
 # Cases whose grids are looked at together, so that their arrays stay small.
 _BLOCK = 256
 
-# By restitution and case, arrays alike: the mismatch of each row.
+# The mismatch of each row, from restitution and case, which are arrays alike.
 _Mismatch = Callable[[Any, Any], Sequence[Any]]
 
 

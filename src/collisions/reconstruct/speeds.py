@@ -1,4 +1,4 @@
-"""``speeds``: both impact speeds from the geometry and two things that were found out."""
+"""``speeds``: both impact speeds from the geometry and two known quantities."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
-from itertools import chain
+from itertools import chain, combinations
 from operator import attrgetter
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from ..impact.impact import Impact
-from ..impact.inputs import Inputs, Law, check_flag, read_inputs
+from ..impact.inputs import TYRES, Inputs, Law, check_flag, read_inputs
 from ..impact.provenance import KNOWN, Reconstruction, bounds_of
 from ..impact.recorded import Axes
 from ..impact.run import error_of, warn_of_refusals
@@ -32,10 +32,11 @@ from ..messages.hints import hinted
 from ..messages.warning import quietly, warn_of_cases, warn_of_samples
 from ..quantities.directions import Angle, course
 from ..quantities.reading import ArgumentReader
+from ..quantities.refusals import must_be
 from ..quantities.tables import Sentences, said
-from ..quantities.units import Input, Pair, shown
+from ..quantities.units import Input, Pair
 from ..vehicle.tyres import Tyres
-from ..vehicle.vehicle import Vehicle, missing, moved
+from ..vehicle.vehicle import Vehicle, error_of_missing, moved
 from .common import (
     ASK_ALONE,
     PAIRS,
@@ -47,13 +48,14 @@ from .common import (
     read_amounts,
     run_forward,
     split_texts,
+    state_instant,
 )
 from .lasting import numbers_of_times, tyre_faults
 from .recorder_place import RecorderScene, by_own_names, read_recorders
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
-from .speeds_components import MAY_SLIDE, ComponentScene, friction_shown
-from .speeds_tyres import speeds_with_tyres
+from .speeds_components import CONTRADICTION, MAY_SLIDE, ComponentScene, friction_shown
+from .speeds_tyres import Attempt, in_balance, speeds_with_tyres
 
 # What may be known: any two, or else components of delta-V, with speeds or without.
 _TWO_OF = (
@@ -65,6 +67,9 @@ _TWO_OF = (
     *chain.from_iterable(PAIRS.items()),
 )
 _COMPONENTS = tuple(f"delta_v_{part}_{label}" for label in "ab" for part in ("forward", "left"))
+_LATERAL = (
+    "recorders count lateral delta-V as positive to the right, delta_v_left is positive to the left"
+)
 # Of the speeds: refined answers that differ by no more are one.
 _ONE_ANSWER = 1e-6
 # Above this restitution hardly any energy is lost along the normal.
@@ -72,6 +77,15 @@ _ELASTIC = 1.0 - 1e-6
 # Distances of two answers whose ratio is less: the fold, quadratic, is as near as the samples are
 # apart.
 _NEAR_FOLD = 0.7
+
+
+class Ways(NamedTuple):
+    """Other ways to solve a single case: with other arguments, and with the signs of lateral
+    components turned, which says of which components an answer results then.
+    """
+
+    again: Callable[..., Impact]
+    turned: Callable[[], str]
 
 
 @hinted
@@ -187,8 +201,9 @@ def speeds(
         headings are those of maximum engagement, as everywhere in an impulse.
     tyres_a, tyres_b : travel.Tyres, optional
         The wheels that act on the ground meanwhile, as for ``eccentric``. A known delta-V has their
-        part in it; known energies are those of the contact. Not together with a recorder, axes or
-        ``slid``, whose readings and bounds are those of a contact without tyres.
+        part in it, which is taken to pass as that of the contact does where axes turn; known
+        energies are those of the contact, and not taken together with a recorder, axes or
+        ``slid``.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
@@ -294,7 +309,8 @@ def speeds(
     known = read_amounts(reader, others)
     known |= {name: reader.number(value, "m/s", name) for name, value in components.items()}
     places = {"a": recorder_a, "b": recorder_b}
-    turning_for = None if times else duration
+    turns = not times or axes is not None or any(place is not None for place in places.values())
+    turning_for = duration if turns else None
     recorders = read_recorders(reader, places, axes, turning_for, tuple(components))
     courses = {
         label: _course(reader, label, body, angle, known.get(f"speed_{label}", np.nan), components)
@@ -337,41 +353,68 @@ def speeds(
         names, used_law, shape = counted(known), inputs.law or BRACH, cases.shape or ()
         also = ("restitution",) if function else ()
         of_components = ComponentScene if recorders is None else partial(RecorderScene, recorders)
-        kind: Callable[..., Scene] = (
-            partial(of_components, shape=shape, regime=regime, slid=slid)
-            if components
-            else partial(Scene, shape=shape)
-        )
-        fits_both: Any = False
-        if components and inputs.rule == FRICTION and np.any(np.isinf(inputs.rule_value)):
-            ratio, fits_both = friction_shown(
-                of_components, numbers, used_law, names, shape, regime
-            )
-            if ratio is not None:
-                if times:
-                    raise InputError(
-                        "friction=inf stands for the ratio of the components if the contact slid, "
-                        "and with tyres they do not show it; give the friction, or write "
-                        "regime='sticking' if it stuck",
-                        code="bad_combination",
-                        argument="friction",
-                    )
-                also = (FRICTION,)
-                numbers[FRICTION] = cases.values(ratio)
-                inputs = _with_friction(inputs, numbers[FRICTION])
 
-        def roots_of(plain: bool) -> tuple[Scene, list[tuple[Root, Any]]]:
-            scene = kind(numbers, inputs.rule, used_law, names, plain=plain)
-            if isinstance(scene, ComponentScene):
-                scene.leaves_slip = scene.leaves_slip | fits_both
-            roots = scene.roots() if function is None else _with_function(scene, function)
-            return scene, _in_order(scene, roots, forward_only)
+        def attempt(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
+            """The scene and its roots where these impulses of tyres act, and where known values may
+            differ by so much.
+            """
+            own, fits_both, of_inputs = {**numbers, **held}, False, inputs
+            if components and inputs.rule == FRICTION and np.any(np.isinf(inputs.rule_value)):
+                ratio, fits_both = friction_shown(
+                    partial(of_components, most=most), own, used_law, names, shape, regime
+                )
+                if ratio is not None:
+                    own[FRICTION] = cases.values(ratio)
+                    of_inputs = _with_friction(inputs, own[FRICTION])
+            kind: Callable[..., Scene] = partial(Scene, shape=shape)
+            if components:
+                kind = partial(of_components, shape=shape, regime=regime, slid=slid, most=most)
 
-        try:
-            scene, found = roots_of(cases.shape is None and function is None)
-        except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
-            scene, found = roots_of(False)
-        texts = by_own_names(reader.texts, recorders)
+            def roots_of(plain: bool) -> tuple[Scene, list[tuple[Root, Any]]]:
+                scene = kind(own, inputs.rule, used_law, names, plain=plain)
+                if isinstance(scene, ComponentScene):
+                    scene.leaves_slip = scene.leaves_slip | fits_both
+                roots = scene.roots() if function is None else _with_function(scene, function)
+                if most == math.inf:
+                    # Whether it stuck or slid is asked when the tyres are known.
+                    scene.ambiguous = np.zeros((), dtype=bool)
+                return scene, _in_order(scene, roots, forward_only)
+
+            try:
+                return Attempt(*roots_of(cases.shape is None and function is None), of_inputs)
+            except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
+                return Attempt(*roots_of(False), of_inputs)
+
+        balanced = bool(times and components) and not {"energy_loss", "ees_a"} & known.keys()
+
+        def solved(changes: dict[str, Any]) -> Attempt:
+            """The same with some numbers changed, in balance with the tyres."""
+
+            def changed(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
+                return attempt({**held, **changes}, most)
+
+            return in_balance(changed, numbers, cases) if balanced else changed({})
+
+        def turned() -> str:
+            """What a single case may have wrong: the lateral components with whose signs turned
+            both vehicles go forwards; "" for none.
+            """
+            lateral = [name for name in known if name.startswith("delta_v_left")]
+            best, said_of = math.inf, ""
+            for names in (names for n in (1, 2) for names in combinations(lateral, n)):
+                scene, found, _ = solved({name: -known[name] for name in names})
+                assert isinstance(scene, ComponentScene)
+                answer = found[0][0][:2] if found else scene.answer
+                fits = (bool(found) or bool(np.any(scene.ambiguous))) and min(answer) >= 0.0
+                if fits and scene.misfit < best:
+                    best, said_of = float(scene.misfit), " and ".join(names)
+            return said_of
+
+        asked = inputs
+        scene, found, inputs = solved({})
+        if inputs is not asked:
+            also = (FRICTION,)
+        texts = by_own_names(reader.texts, recorders, bool(times))
         inputs = replace(inputs, given={**texts, **(inputs.given or {})} or None)
         told = known | {
             f"course_{label}": angle.radians
@@ -383,34 +426,31 @@ def speeds(
             for name, number in (recorders.numbers if recorders else {}).items()
             if given[name.partition("[")[0]] is not None
         }
-        told = by_own_names(told, recorders)
+        told = by_own_names(told, recorders, bool(times))
 
         def again(**changes: Any) -> Impact:
-            # Bounds are those of a contact without tyres.
-            bare = {"duration": None, "tyres_a": None, "tyres_b": None} if times else {}
             with quietly():
-                return speeds(**{**given, **bare, **changes})[0]
+                return speeds(**{**given, **changes})[0]
 
+        if inputs.tyres and not balanced:
+            found = _while_tyres_act(cases, scene, found, inputs, known, forward_only)
+        if not times:
+            state_instant("speeds")
+        ways = Ways(again, turned)
         provenance = partial(cases.provenance, "speeds", given=told, also=also)
         return _answers(
-            cases, scene, found, inputs, known, function, forward_only, again, provenance
+            cases, scene, found, inputs, known, function, forward_only, ways, provenance
         )
 
 
 def _refuse_with_tyres(given: dict[str, Any]) -> None:
-    """Refuse what is known only of a contact without tyres."""
+    """Refuse an energy beside readings of recorders, or a bound, where tyres act."""
+    energies = [name for name in ("energy_loss", "ees_a", "ees_b") if given[name] is not None]
     for name in ("recorder_a", "recorder_b", "axes", "slid"):
-        if given[name] is not None:
-            cure = (
-                "its bound is that of a contact without them; leave out tyres_a, tyres_b and "
-                "duration, or give a speed instead"
-                if name == "slid"
-                else "with tyres the components must be those of the centre of mass in the axes of "
-                "the heading; leave it out, or leave out tyres_a and tyres_b and carry the "
-                "readings over"
-            )
+        if given[name] is not None and energies:
             raise InputError(
-                f"{name} and tyres cannot be taken together: {cure}",
+                f"{name}, {energies[0]} and tyres cannot be taken together; leave out "
+                f"{energies[0]}, or give a speed in its place",
                 code="bad_combination",
                 argument=name,
             )
@@ -448,6 +488,8 @@ def if_it_slid(impact: Impact) -> Impact | None:
     given |= {f"course_{label}": getattr(inputs, label).course for label in "ab"}
     given |= {name: getattr(inputs, name) for name in ("restitution", "normal", "point")}
     given |= {"law": inputs.law or BRACH, "incomplete": inputs.incomplete}
+    if inputs.tyres:
+        given |= {name: getattr(inputs, name) for name in ("duration", *TYRES)}
     ratio = abs(impact.impulse_ratio)
     try:
         with quietly():
@@ -468,23 +510,21 @@ def _check_branch(given: dict[str, Any]) -> None:
         if value is None:
             continue
         if not isinstance(value, str) or value not in allowed:
-            raise InputError(
-                f"{name} must be {' or '.join(map(repr, allowed))}, or None, got {shown(value)}",
-                code="bad_option",
-                argument=name,
+            raise must_be(
+                name, f"{' or '.join(map(repr, allowed))}`|, or None|`", value, code="bad_option"
             )
         by_ratio = any(given[rule] is not None for rule in RULES if rule != FRICTION)
         if by_ratio or all(given[one] is None for one in _COMPONENTS):
             raise InputError(
-                f"{name}={value!r} is for components of delta-V with friction=, which do not tell "
-                "whether the contact stuck or slid; leave it out, or give these",
+                f"`{name}={value!r}` is for components of delta-V with `friction=`, which do "
+                "not tell whether the contact stuck or slid; leave it out, or give these",
                 code="bad_combination",
                 argument=name,
             )
     if regime == "sticking" and slid:
         raise InputError(
-            "regime='sticking' says that the contact did not slide, so slid='bound' is about "
-            "nothing; leave out one of them",
+            "`regime='sticking'` says that the contact did not slide, so `slid='bound'` is "
+            "about nothing; leave out one of them",
             code="bad_combination",
             argument="slid",
         )
@@ -538,8 +578,8 @@ def _course(
     if given is None and np.any(np.not_equal(speed, 0.0)):
         reader.refuse(
             MissingInputError(
-                f"course_{label} is None, and speeds needs the course of every vehicle that "
-                "moves; only a known speed of 0 needs none",
+                f"course_{label} `|is None|is not given`, and speeds needs the course of "
+                "every vehicle that moves; only a known speed of 0 needs none",
                 code="missing_course",
                 argument=f"course_{label}",
             )
@@ -557,7 +597,7 @@ def _course(
         and body.heading is None
         and any(name[-1] == label for name in components)
     ):
-        reader.refuse(missing(body, "heading", "a component of its delta-V", label))
+        reader.refuse(error_of_missing(body, "heading", "a component of its delta-V", label))
     return Angle(0.0, False) if given is None else course(reader, given, f"course_{label}")
 
 
@@ -567,9 +607,9 @@ def _refuse_combinations(
     """Refuse what gives the same information twice, and what cannot be solved together."""
     if LAWS[inputs.law or BRACH].followed:
         raise InputError(
-            f"reconstruct.speeds cannot go back under law {inputs.law!r}, whose impulse is not "
-            "linear in the speeds; give another law, or fit a model with this one to what is "
-            "known (reconstruct.fit)",
+            f"reconstruct.speeds cannot go back under law {inputs.law!r}, whose impulse is "
+            "not linear in the speeds; give another law, or fit a model with this one to "
+            "what is known (`reconstruct.fit`)",
             code="law_not_reversible",
             argument="law",
         )
@@ -599,15 +639,16 @@ def _refuse_combinations(
     shares = shares_critical(inputs.rule, inputs.rule_value)
     if (function or shares) and components:
         raise InputError(
-            "components of delta-V take a number for the restitution, and no critical_fraction "
-            "between 0 and 1; give friction=, friction=inf or impulse_ratio=",
+            "components of delta-V take a number for the restitution, and no "
+            "critical_fraction between 0 and 1; give `friction=`, `friction=inf` or "
+            "`impulse_ratio=`",
             code="bad_combination",
             argument="restitution" if function else "critical_fraction",
         )
     if function and shares:
         raise InputError(
-            "a function of restitution and a critical_fraction between 0 and 1 cannot be solved "
-            "together; give impulse_ratio= or a number for the restitution",
+            "a function of restitution and a critical_fraction between 0 and 1 cannot be "
+            "solved together; give `impulse_ratio=` or a number for the restitution",
             code="bad_combination",
             argument="critical_fraction",
         )
@@ -694,11 +735,11 @@ def _answers(
     known: dict[str, Any],
     function: RestitutionOf | None,
     forward_only: bool,
-    again: Callable[..., Impact],
+    ways: Ways,
     provenance: Callable[..., Reconstruction],
 ) -> tuple[Impact, ...]:
-    """The impact of each root; raises for a single case without one. ``again`` solves it with
-    other arguments, and ``provenance`` says how it was found.
+    """The impact of each root; raises for a single case without one. ``provenance`` says how it was
+    found.
     """
     faults = input_faults(scene.numbers, inputs.incomplete)
     of_walls = [
@@ -729,7 +770,6 @@ def _answers(
 
     if inputs.tyres:
         faults += tyre_faults(inputs.duration, inputs.tyres)
-        found = _while_tyres_act(cases, scene, found, inputs, known, forward_only)
     nowhere = np.zeros(scene.shape, dtype=bool)
     count = sum((there.astype(np.int64) for _, there in found), nowhere.astype(np.int64))
     # Stuck and slid.
@@ -741,8 +781,8 @@ def _answers(
         if isinstance(status, int) and status != Status.OK:
             say = Sentences(inputs.texts)
             if status == Status.AMBIGUOUS and isinstance(scene, ComponentScene):
-                raise _stuck_or_slid(scene, known, say, again, bool(inputs.tyres))
-            raise _refusal(scene, status, known, function, forward_only, say)
+                raise _stuck_or_slid(scene, known, say, ways.again)
+            raise _refusal(scene, status, known, function, forward_only, say, ways.turned)
         names = (*scene.names, *getattr(scene, "recorders", ()))
         origin = provenance(names, root.condition, count)
         if isinstance(scene, ComponentScene):
@@ -777,6 +817,8 @@ def _answers(
             f"the speed of {whose} came out as {said(backward, 'speed', impacts[0]._texts())}: "
             f"{cure}"
         )
+        if wrong := ways.turned() if cases.shape is None else "":
+            text += f". With {wrong} of the other sign both go forwards: {_LATERAL}"
         warning = OutOfRangeWarning(
             cases.how_many(turned) + text, code="negative_speed", value=backward
         )
@@ -825,9 +867,9 @@ def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
         )
         text = f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and {why}. {then}"
         sentence = (
-            f"the contact was taken to stick at an impulse ratio of {MAY_SLIDE:g} or more, and "
-            f"{why}. If it slid, the speeds are those of one end of a family; slid='bound' says "
-            "which"
+            f"the contact was taken to stick at an impulse ratio of {MAY_SLIDE:g} or more, "
+            f"and {why}. If it slid, the speeds are those of one end of a family; "
+            "`slid='bound'` says which"
         )
         warning = IllConditionedWarning(
             cases.how_many(slides) + text, code="may_slide", ratio=ratio
@@ -837,9 +879,10 @@ def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
         left = (scene.ambiguous | scene.undetermined) & np.logical_not(answered)
         if np.any(left & scene.leaves_slip):
             text = (
-                "components of delta-V do not tell whether the contact stuck or slid, or it slid "
-                "and leaves the slip open: write regime='sticking' if it stuck, give one of the "
-                "speeds, or write slid='bound' for the end of the speeds that it may have had"
+                "components of delta-V do not tell whether the contact stuck or slid, or it "
+                "slid and leaves the slip open: write `regime='sticking'` if it stuck, give "
+                "one of the speeds, or write `slid='bound'` for the end of the speeds that it "
+                "may have had"
             )
             warning = IllConditionedWarning(cases.how_many(left) + text, code="stuck_or_slid")
             warn_of_cases(warning, {text: cases.number(left)})
@@ -850,7 +893,6 @@ def _stuck_or_slid(
     known: dict[str, Any],
     say: Sentences,
     again: Callable[..., Impact],
-    tyres: bool,
 ) -> AmbiguousSolutionError:
     """The error for a single case in which the contact either stuck or slid."""
     ratio = float(abs(scene.ratio))
@@ -861,18 +903,18 @@ def _stuck_or_slid(
     assert slid.reconstruction is not None
     bounds = " and ".join(bounds_of(slid.reconstruction.one_sided or {}, speeds))
     allowed = (
-        "friction=inf does not say that it stuck"
+        "`friction=inf` does not say that it stuck"
         if math.isinf(friction)
-        else f"friction={friction:.4g} is not clearly above that"
+        else f"`friction={friction:.4g}` is not clearly above that"
     )
     return AmbiguousSolutionError(
-        f"{' and '.join(known)} do not tell whether the contact stuck or slid: they have an "
-        f"impulse ratio of {ratio:.2f}, and {allowed}. If it stuck, the speed of A is "
-        f"{speeds['speed_a']} and that of B {speeds['speed_b']}; if it slid at that ratio, "
-        f"{bounds}. Write regime='sticking' or regime='sliding' if you know which, the latter "
-        "with one of the speeds or the energy lost; or slid='bound' for this end of the speeds "
-        f"that it may have had{', without the tyres' if tyres else ''}. "
-        f"Both answers{', of an instant without tyres,' if tyres else ''} are in .solutions",
+        f"{' and '.join(known)} do not tell whether the contact stuck or slid: they "
+        f"have an impulse ratio of {ratio:.2f}, and {allowed}. If it stuck, the speed "
+        f"of A is {speeds['speed_a']} and that of B {speeds['speed_b']}; if it slid at "
+        f"that ratio, {bounds}. Write `regime='sticking'` or `regime='sliding'` if you "
+        "know which, the latter with one of the speeds or the energy lost; or "
+        "`slid='bound'` for this end of the speeds that it may have had"
+        "`|. Both answers are in .solutions|`",
         code=Status.AMBIGUOUS.label,
         ratio=ratio,
         solutions=(stuck, slid),
@@ -943,6 +985,7 @@ def _refusal(
     function: RestitutionOf | None,
     forward_only: bool,
     say: Sentences,
+    turned: Callable[[], str],
 ) -> CollisionsError:
     """The error for a single case without a solution."""
     names = " and ".join(known)
@@ -969,16 +1012,16 @@ def _refusal(
             + ("the speed of the other vehicle" if speed_is_known else "one of the speeds")
         )
         if scene.rule == FRICTION and not scene.slid:
-            text += ", or write slid='bound' for the end of the speeds that it may have had"
+            text += ", or write `slid='bound'` for the end of the speeds that it may have had"
     elif isinstance(scene, ComponentScene) and (
         scene.stated == "sticking" and abs(scene.shown_ratio()) > scene.bound
     ):
         status = Status.CONTRADICTORY
         text = (
-            f"to stick, the contact needs an impulse ratio of "
-            f"{float(abs(scene.shown_ratio())):.2f}, and friction={float(scene.bound):.4g} allows "
-            "no more than that; give the friction that held it (or inf), or leave out "
-            "regime='sticking'"
+            "to stick, the contact needs an impulse ratio of "
+            f"{float(abs(scene.shown_ratio())):.2f}, and "
+            f"`friction={float(scene.bound):.4g}` allows no more than that; give the "
+            "friction that held it (or inf), or leave out `regime='sticking'`"
         )
     elif (
         not isinstance(scene, ComponentScene)
@@ -1015,4 +1058,6 @@ def _refusal(
             f"this restitution, {scene.rule} and geometry; check the courses, and the normal, "
             "which must point from A into B, or give another known in place of one of these"
         )
+    if status == Status.CONTRADICTORY and (wrong := turned()):
+        text += f". With {wrong} of the other sign there is an answer: {_LATERAL}"
     return error_of(status, text)

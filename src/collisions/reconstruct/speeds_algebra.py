@@ -60,6 +60,8 @@ _OF_BODY = [name for name in NUMBERS if name not in ("vx", "vy")]
 # part of spinning first.
 _FIXED = [f"{name}[{i}]" for name in ("normal", "point", "course_a", "course_b") for i in range(2)]
 _FIXED += [f"{label}.{name}" for label in "ab" for name in _OF_BODY]
+# Impulses of tyres on A and on B, along x and y and about the centre of mass, where they act.
+HELD = [f"held_{label}.{name}" for label in "ab" for name in ("impulse_x", "impulse_y", "moment")]
 
 
 class Root(NamedTuple):
@@ -108,13 +110,18 @@ def _observed(speed_a: Any, speed_b: Any, e: Any, bound: Any, *fixed: Any) -> Se
     """The kernel of free bodies at these speeds; with ``sticks`` the impulse and the loss are those
     of a sticking contact.
     """
-    *numbers, sticks, rule, law = fixed
+    *numbers, sticks, rule, law, held = fixed
+    outside = None
+    if held:
+        outside = tuple(numbers[-6:-3]), tuple(numbers[-3:])
+        numbers = numbers[:-6]
     spinning, nx, ny, px, py, *courses = numbers[:9]
     mass_a, inertia_a, *place_a = numbers[9:16]
     mass_b, inertia_b, *place_b = numbers[16:]
     body_a = mass_a, inertia_a, speed_a * courses[0], speed_a * courses[1], *place_a
     body_b = mass_b, inertia_b, speed_b * courses[2], speed_b * courses[3], *place_b
-    raw = forward(Contact(e, (nx, ny), bound, (px, py)), (body_a, body_b), rule, law)
+    contact = Contact(e, (nx, ny), bound, (px, py))
+    raw = forward(contact, (body_a, body_b), rule, law, outside=outside)
     closing, slip = raw.closing_speed, raw.slip_before
     normal, tangential, loss = raw.normal_impulse, raw.tangential_impulse, raw.energy_loss
     if sticks:
@@ -145,11 +152,12 @@ def _observed(speed_a: Any, speed_b: Any, e: Any, bound: Any, *fixed: Any) -> Se
 
 @lru_cache(maxsize=16)
 def _observed_of_floats(
-    sticks: bool, rule: str, law: str
+    sticks: bool, rule: str, law: str, held: bool
 ) -> Callable[[Sequence[float]], Seen | None]:
     """The same compiled for plain floats."""
+    count = 5 + len(_FIXED) + (len(HELD) if held else 0)
     return compile_for_floats(
-        _observed, tuple(f"[{i}]" for i in range(5 + len(_FIXED))), (sticks, rule, law)
+        _observed, tuple(f"[{i}]" for i in range(count)), (sticks, rule, law, held)
     )
 
 
@@ -189,7 +197,9 @@ class Scene:
             for label in "ab"
         }
         spinning = number(sum(abs(v[f"{label}.yaw_rate"]) * arm for label, arm in arms.items()))
-        self.fixed = [spinning, *(v[name] for name in _FIXED)]
+        # Whether impulses of tyres act on both besides.
+        self.held = HELD[0] in v
+        self.fixed = [spinning, *(v[name] for name in (*_FIXED, *(HELD if self.held else ())))]
         self.e, self.bound = v["restitution"], v[rule]
         # Both observations of what is seen.
         self.both: Callable[[Seen], Any] = attrgetter(*self.kinds)
@@ -219,6 +229,8 @@ class Scene:
             return value / self.mass_unit
         if kind == "energy_loss":
             return value / self.mass_unit / self.speed_unit / self.speed_unit
+        if name.startswith("held"):
+            return value / self.mass_unit / self.speed_unit
         return (
             value / self.speed_unit
             if kind.startswith(("speed", "delta_v", "ees", "max_crush", "yaw_rate"))
@@ -259,7 +271,7 @@ class Scene:
         rule, bound = IMPULSE_RATIO, regime
         if isinstance(regime, str):
             rule, bound = (FRICTION, 0.0) if regime is STICK else (self.rule, self.bound)
-        settings = regime is STICK, rule, self.law
+        settings = regime is STICK, rule, self.law, self.held
         if not self.plain:
             return _observed(speed_a, speed_b, e, bound, *self.fixed, *settings)
         numbers: list[Any] = [float(speed_a), float(speed_b), float(e), float(bound), *self.fixed]

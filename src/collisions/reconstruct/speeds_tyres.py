@@ -1,23 +1,139 @@
 """Both speeds of an instant, refined for a contact in which tyres act: those for which
 ``eccentric`` with its duration and tyres has what was known.
+
+From components of delta-V they are found as without tyres, with the impulse of the tyres in the
+balance. It follows from the speeds that are found, so they are found again with it until it changes
+no more. Other pairs are refined by Newton's method.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..impact.inputs import Inputs
+from ..impact.models import ECCENTRIC
+from ..impact.run import solve_inputs
+from ..impact.time_resolved_inputs import held_impulse
 from ..kernels.reverse import energy_of_speeds
+from ..messages.warning import quietly
 from ..quantities.directions import from_radians
 from ..vehicle.vehicle import moved
+from .common import Cases
 from .lasting import settle, slopes_at
+from .speeds_algebra import HELD, Root, Scene
 
+# Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
+# it has not settled; and how often it is worked out. Nearly all cases need fewer than 20.
+_SAME, _STEADY, _ROUNDS = 1e-12, 1e-9, 64
+# Of the speeds: answers that differ by no more are one.
+_ONE_ANSWER = 1e-6
 # The second of a pair that together is one energy.
 _STANDS_FOR_NONE = ("ees_b", "max_crush_speed_b")
+
+
+class Attempt(NamedTuple):
+    """A scene with what acts in it, its roots and where each is, and the inputs with the friction
+    that was used.
+    """
+
+    scene: Scene
+    found: list[tuple[Root, Any]]
+    inputs: Inputs
+
+
+def in_balance(
+    attempt: Callable[..., Attempt], numbers: Mapping[str, Any], cases: Cases
+) -> Attempt:
+    """The roots from components of delta-V with the impulse of the tyres in the balance: of each
+    root of the instant the one that it comes to.
+
+    ``attempt`` solves with given impulses of the tyres, by the names in ``HELD``. Until they have
+    settled, known values may differ by any amount, as the tyres may be what they differ by.
+    """
+    instant = attempt({}, math.inf)
+    results: list[Attempt] = []
+    kept: list[tuple[Root, Any]] = []
+    for slot in range(max(len(instant.found), 1)):
+        held, settled = _settled(attempt, instant, slot, numbers, cases)
+        last = attempt(held)
+        results.append(last)
+        if slot >= len(last.found):
+            continue
+        root, there = last.found[slot]
+        there = there & settled
+        size = np.hypot(root.speed_a, root.speed_b)
+        for earlier, before in kept:
+            apart = abs(earlier.speed_a - root.speed_a) + abs(earlier.speed_b - root.speed_b)
+            there = there & ~(before & (apart <= _ONE_ANSWER * size))
+        if np.any(there):
+            kept.append((root, there))
+    return results[0]._replace(found=kept)
+
+
+def _settled(
+    attempt: Callable[..., Attempt],
+    now: Attempt,
+    slot: int,
+    numbers: Mapping[str, Any],
+    cases: Cases,
+) -> tuple[dict[str, Any], Any]:
+    """The impulses of the tyres that lead to the speeds from which they follow, and where there are
+    some.
+
+    A case that has settled stays, so that it comes out of a batch as alone.
+    """
+    shape = cases.shape or ()
+    held = {name: np.zeros(shape) for name in HELD}
+    moving, settled = np.ones(shape, dtype=bool), np.zeros(shape, dtype=bool)
+    for _ in range(_ROUNDS):
+        if slot >= len(now.found):
+            break
+        root, there = now.found[slot]
+        new = _pushes(now, root, there, numbers, cases)
+        parts = [(held[name], new[name]) for name in HELD if not name.endswith("moment")]
+        size = np.sqrt(sum(part * part for _, part in parts))
+        change = np.sqrt(sum((part - was) ** 2 for was, part in parts))
+        moving = moving & np.isfinite(change)
+        held = {name: np.where(moving, new[name], was) for name, was in held.items()}
+        settled = settled | (moving & (change <= _STEADY * size))
+        moving = moving & (change > _SAME * size)
+        if not np.any(moving):
+            break
+        now = attempt(held if shape else {name: float(one) for name, one in held.items()}, math.inf)
+    return (held if shape else {name: float(one) for name, one in held.items()}), settled
+
+
+def _pushes(
+    now: Attempt, root: Root, there: Any, numbers: Mapping[str, Any], cases: Cases
+) -> dict[str, Any]:
+    """Impulses of the tyres at the speeds of a root, as ``eccentric`` works them out: by the
+    impact without them.
+    """
+    bodies = []
+    for label, body, speed in zip("ab", (now.inputs.a, now.inputs.b), root[:2], strict=True):
+        speed = np.where(there, speed * now.scene.speed_unit, np.nan)
+        course = (numbers[f"course_{label}[{i}]"] for i in range(2))
+        vx, vy = (cases.values(speed * part) for part in course)
+        bodies.append(moved(body, vx, vy, body.yaw_rate))
+    inputs = replace(
+        now.inputs, a=bodies[0], b=bodies[1], given=None, contact_velocity=None, duration=None
+    )
+    bare = replace(inputs, tyres_a=None, tyres_b=None)
+    with quietly(), np.errstate(all="ignore"):
+        answer = solve_inputs(ECCENTRIC, bare, "nan")
+        found: dict[str, Any] = {}
+        for label in "ab":
+            parts = held_impulse(replace(inputs, duration=now.inputs.duration), answer, label)
+            names = (name for name in HELD if name[5] == label)
+            found |= {
+                name: np.where(there, part, np.nan) for name, part in zip(names, parts, strict=True)
+            }
+    return found
 
 
 def speeds_with_tyres(

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from functools import partial
 
-from ..messages.errors import InputError
 from ..messages.hints import hinted
 from ..quantities.reading import ArgumentReader, single_number
-from ..quantities.units import Input, shown
+from ..quantities.refusals import must_be, one_of
+from ..quantities.units import Input
 from .published import Published
 
 _THIRTY = 30.0 * 0.44704
@@ -148,19 +148,15 @@ def drag_factor(surface: str, *, speed: Input) -> Published:
         reader, reader.number(speed, "m/s", "speed"), "speed", "takes one value; ask for each"
     )
     if fast < 0.0:
-        reader.refuse(
-            InputError(
-                f"speed must be >= 0, got {shown(speed)}", code="negative_speed", argument="speed"
-            )
-        )
+        reader.refuse(must_be("speed", ">= 0", speed, code="negative_speed"))
     if not isinstance(surface, str) or surface not in _BY_SURFACE:
         reader.refuse(
-            InputError(
-                f"surface must be one of {', '.join(map(repr, _BY_SURFACE))}, got "
-                f"{shown(surface)}; for any other there is no value here that could be checked: "
-                "measure it",
+            one_of(
+                "surface",
+                _BY_SURFACE,
+                surface,
+                "; for any other there is no value here that could be checked: measure it",
                 code="unknown_surface",
-                argument="surface",
             )
         )
     reader.close()

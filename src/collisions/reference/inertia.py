@@ -119,7 +119,7 @@ def yaw_inertia(
         found = "none" if wheelbase is None else "both"
         reader.refuse(
             InputError(
-                f"give exactly one of wheelbase= and width=, got {found}",
+                f"give exactly one of `wheelbase=` and `width=`, got {found}",
                 code="one_form",
                 argument="wheelbase",
             )

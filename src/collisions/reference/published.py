@@ -13,7 +13,8 @@ import numpy as np
 from ..messages.errors import InputError, OutOfRangeWarning
 from ..messages.warning import warn_of_cases
 from ..quantities.reading import ArgumentReader, single_number
-from ..quantities.units import Input, Value, shown, to_quantity
+from ..quantities.refusals import must_be
+from ..quantities.units import Input, Value, to_quantity
 
 Outside: TypeAlias = Literal["warn", "refuse"]
 
@@ -123,11 +124,8 @@ def check_outside(reader: ArgumentReader, outside: Any) -> None:
     """Raise unless ``outside`` is one of the choices."""
     if not isinstance(outside, str) or outside not in ("warn", "refuse"):
         reader.refuse(
-            InputError(
-                "outside must be 'warn' (a value with a warning) or 'refuse', got "
-                f"{shown(outside)}",
-                code="bad_option",
-                argument="outside",
+            must_be(
+                "outside", "'warn' (a value with a warning) or 'refuse'", outside, code="bad_option"
             )
         )
 
@@ -181,7 +179,7 @@ def _tell_of_one(fit: Fit, ranges: str, given: dict[str, Any], outside: str) -> 
     text = f"{fit.name}: {where} lies outside the range it holds for, {ranges} ({fit.source})"
     if outside == "refuse":
         raise InputError(
-            f"{text}; give a measured value, or accept one from outside with outside='warn'",
+            (f"{text}; give a measured value, or accept one from outside with `outside='warn'`"),
             code="outside_reference",
             argument=next(iter(fit.ranges)),
         )

@@ -10,6 +10,7 @@ from ..derivation.explain import NOT_EXPLAINED, impact_inputs, key_of, no_uncert
 from ..impact.impact import Impact
 from ..kernels.elementwise import UNIT_INTERVAL
 from ..messages.errors import InputError
+from ..messages.marked import type_of
 from ..quantities.reading import ArgumentReader, need_one_case, single_number
 from ..quantities.units import shown
 from ..reconstruct import Fit, MomentumSolution, Posterior
@@ -118,20 +119,20 @@ def checked(
     if notes is not None and not isinstance(notes, (str, list, tuple, Mapping)):
         refuse(
             "notes",
-            "notes must be a text, a list of texts, or a dict of them by input, got "
-            f"{type(notes).__name__}",
+            "notes must be a text, a list of texts, or `|a dict|a table` of them by input, got "
+            f"{type_of(notes)}",
             "not_a_text",
         )
     for name in ("figures", "derivation"):
         if not isinstance(options[name], bool):
-            refuse(name, f"{name} must be True or False, got {shown(options[name])}")
+            refuse(name, f"{name} must be `True` or `False`, got {shown(options[name])}")
     for one, uncertainty in results:
         if uncertainty is not None and not isinstance(uncertainty, Propagation):
             refuse(
                 "uncertainty",
                 "uncertainty must be what uncertainty.propagate returned, got "
-                f"{type(uncertainty).__name__}; standard deviations by name go to explain(impact, "
-                "uncertainty=...)",
+                f"{type(uncertainty).__name__}; standard deviations by name go to "
+                "explain(impact, `uncertainty=...`)",
             )
         if isinstance(one, (Fit, Posterior)) and isinstance(uncertainty, Propagation):
             reader.refuse(no_uncertainty(type(one).__name__))

@@ -21,12 +21,14 @@ from ..impact.inputs import TYRES
 from ..impact.records import tyres_of, tyres_record
 from ..kernels.elementwise import UNCHECKED
 from ..messages.errors import CollisionsError, CollisionsWarning, InputError
+from ..messages.marked import type_of
 from ..quantities.attributes import unit_of
 from ..quantities.formatting import SI_UNITS
 from ..quantities.reading import ArgumentReader
+from ..quantities.refusals import must_be
 from ..quantities.settings import computing, units_required
 from ..quantities.strict_json import strict
-from ..quantities.units import Texts, shown
+from ..quantities.units import Texts, rendered, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior, momentum
 from ..scene.run import Run
 from ..uncertainty import Propagation
@@ -380,11 +382,13 @@ def options(text: str) -> dict[str, Any]:
 def _whole(text: Any) -> Mapping[str, Any]:
     """The parsed record at the end of a report."""
     if not isinstance(text, str):
-        raise InputError(
-            f"text must be the text of a report, got {type(text).__name__}; write "
-            "replay(open(path, encoding='utf-8').read())",
+        raise must_be(
+            "text",
+            "the text of a report",
+            text,
+            "; write replay(open(path, encoding='utf-8').read())",
             code="not_a_text",
-            argument="text",
+            got=type_of(text),
         )
     text = text.removeprefix("\ufeff").replace("\r\n", "\n")
     if text.lstrip().startswith("<"):
@@ -451,7 +455,7 @@ def _differences(recorded: Any, found: Any, name: str, off: float) -> Iterator[s
         ):
             yield f"{name}, {recorded!r}, but {found!r}"
     elif recorded != found:
-        yield f"{name}, {shown(recorded)}, but {shown(found)}"
+        yield f"{name}, {rendered(recorded)}, but {rendered(found)}"
 
 
 def _bad(why: str) -> InputError:

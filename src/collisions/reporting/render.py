@@ -14,6 +14,7 @@ from typing import TypeAlias
 from ..derivation.expressions import System
 from ..derivation.page import HEAD, Page
 from ..quantities.formatting import SI_UNITS, number_with_unit, typeset
+from ..quantities.printed_tables import Part, in_html, in_markdown
 from ..quantities.units import with_symbol
 from .mathml import mathml
 
@@ -139,7 +140,7 @@ class _Sheet(Page):
         self.filed: tuple[str, ...] = ()
         # How many figures stand on the page.
         self.drawn = 0
-        # Of the headings: one level down within a part, of which the ids of figures have a prefix.
+        # Headings are one level down within a part, and the ids of its figures have a prefix.
         self.level, self.prefix = 2, ""
 
     def name(self, text: str) -> str:
@@ -248,13 +249,13 @@ class Html(_Sheet):
         for group in _alike(subjects):
             if len(group) > 1 and len(subjects[group[0]]) == 1 and not _VEHICLE.match(group[0]):
                 ((what, _),) = subjects[group[0]]
-                lines += _captioned(what, [(of, subjects[of][0][1]) for of in group])
+                lines += _within("wide", Part([(of, subjects[of][0][1]) for of in group], what))
                 continue
             if len(group) > 1:
-                lines += _side_by_side(group, [subjects[of] for of in group])
+                lines += _within("both", _side_by_side(subjects, group))
                 continue
             (of,) = group
-            lines += _captioned(of, subjects[of])
+            lines += _within("wide", Part(subjects[of], of))
         self.blocks += [*lines, "</div>"]
 
     def open_answer(self) -> None:
@@ -268,11 +269,7 @@ class Html(_Sheet):
         self.blocks.append("</section>")
 
     def figures_of_answer(self, rows: Sequence[tuple[str, str]]) -> None:
-        lines = [
-            f'<tr><th scope="row">{escape(what)}</th><td>{escape(text)}</td></tr>'
-            for what, text in rows
-        ]
-        self.blocks += ["<table><tbody>", *lines, "</tbody></table>"]
+        self.blocks += in_html(Part(rows))
 
     def fold(self, summary: str, printed: bool = True) -> None:
         kind = "<details>" if printed else '<details class="screen">'
@@ -350,8 +347,7 @@ class Markdown(_Sheet):
         self.blocks.append(f"**{_escaped(text)}**")
 
     def table(self, rows: Iterable[tuple[str, str, str]]) -> None:
-        first, *lines = (f"| {' | '.join(map(_escaped, row))} |" for row in (HEAD, *rows))
-        self.blocks.append("\n".join([first, "| --- | --- | --- |", *lines]))
+        self.blocks.append(in_markdown(Part(list(rows), columns=HEAD), _escaped))
 
     def items(self, lines: Sequence[tuple[str, str]]) -> None:
         texts = (
@@ -421,30 +417,18 @@ def _alike(subjects: Mapping[str, Sequence[tuple[str, str]]]) -> list[list[str]]
     return [sorted(group) if _VEHICLE.match(group[0]) else group for group in groups]
 
 
-def _captioned(caption: str, rows: Iterable[tuple[str, str]]) -> list[str]:
-    """A table of two columns below its caption."""
-    return [
-        '<div class="wide"><table>',
-        f"<caption>{escape(caption)}</caption>",
-        "<tbody>",
-        *(
-            f'<tr><th scope="row">{escape(what)}</th><td>{escape(value)}</td></tr>'
-            for what, value in rows
-        ),
-        "</tbody>",
-        "</table></div>",
-    ]
+def _within(kind: str, part: Part) -> list[str]:
+    """A table in a box that the style sheet lays out."""
+    first, *lines, last = in_html(part)
+    return [f'<div class="{kind}">{first}', *lines, f"{last}</div>"]
 
 
-def _side_by_side(subjects: Sequence[str], parts: Sequence[Sequence[tuple[str, str]]]) -> list[str]:
+def _side_by_side(subjects: Mapping[str, Sequence[tuple[str, str]]], group: Sequence[str]) -> Part:
     """The rows of several subjects in one table, each quantity once."""
-    columns = [dict(rows) for rows in parts]
-    heads = "".join(f'<th scope="col">{escape(of)}</th>' for of in subjects)
-    lines = ['<div class="both"><table>', f"<thead><tr><td></td>{heads}</tr></thead>", "<tbody>"]
-    for what in dict.fromkeys(what for rows in parts for what, _ in rows):
-        cells = "".join(f"<td>{escape(column.get(what, ''))}</td>" for column in columns)
-        lines.append(f'<tr><th scope="row">{escape(what)}</th>{cells}</tr>')
-    return [*lines, "</tbody>", "</table></div>"]
+    columns = [dict(subjects[of]) for of in group]
+    told = dict.fromkeys(what for of in group for what, _ in subjects[of])
+    rows = [(what, *(column.get(what, "") for column in columns)) for what in told]
+    return Part(rows, columns=tuple(group))
 
 
 def _footer(filed: Sequence[str]) -> str:

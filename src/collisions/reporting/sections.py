@@ -153,7 +153,7 @@ def inputs(
         )
         note = notes.get(key_of(of, names))
         value = _input(sheet, impact, vehicle, dict(zip(names, numbers, strict=True)), kind, texts)
-        # Of a contact that slid it is the impulse ratio, which the results have.
+        # Found of a contact that slid: the impulse ratio, which the results have too.
         value += ", found" if key_of(of, names) in found_names else ""
         rows.append((name, quantity, _with(value, note)))
         rows += [(name, what, text) for what, text in _published(impact, names[0])]
@@ -283,7 +283,6 @@ def _known(
     """
     names = Names(impact)
     for one in evidence_of(impact):
-        note = notes.get(one.name, "")
         if one.number is None and one.text is None:
             # Which axes a recorder's are is stated in words.
             value = "stated" if "_axes_" in one.name else "kept only in what was found from it"
@@ -297,9 +296,9 @@ def _known(
                 value += f"; {answer} in this answer"
         if one.number is not None and spread is not None:
             stated = spread.stated(sheet, one.name, one.kind, one.number)
-            # A note, such as that of a case file, may say the same.
-            value += f"; stated as {stated}" if stated and stated not in note else ""
-        yield "evidence", names(one.what), _with(value, note or None)
+            if stated and stated not in notes.get(one.name, ""):
+                value += f"; stated as {stated}"
+        yield "evidence", names(one.what), _with(value, notes.get(one.name))
 
 
 def evidence_names(impact: Impact) -> list[str]:

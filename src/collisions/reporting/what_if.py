@@ -65,7 +65,7 @@ _PATHS = (
     *(f"{label}.{name}" for label in "ab" for name in _OF_EACH),
 )
 _TO_DEGREES = 180.0 / math.pi
-# Of a table with a column for each vehicle, in its colour.
+# The class of a table with a column for each vehicle, in its colour.
 _SIDES = ' class="sides"'
 
 
@@ -307,9 +307,10 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
         reader.refuse(InputError(text, code=code, argument=argument))
 
     if not isinstance(ranges, Mapping) or not ranges:
-        example = "{'speed_a': ('40 km/h', '70 km/h')}"
+        example = "`{'speed_a': ('40 km/h', '70 km/h')}`"
         refuse(
-            f"ranges must be a dict of (low, high) by input, such as {example}, got {shown(ranges)}"
+            f"ranges must be `|a dict|a table` of `(low, high)` by input, such as {example}, got "
+            f"{shown(ranges)}"
         )
         ranges = {}
     for name, ends in ranges.items():
@@ -331,7 +332,7 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
             isinstance(end, float) and math.isfinite(end) for end in numbers
         ):
             refuse(
-                f"{name} must be a pair of finite numbers (low, high), got {shown(ends)}",
+                f"{name} must be a pair of finite numbers `(low, high)`, got {shown(ends)}",
                 name,
                 "bad_range",
             )
@@ -349,7 +350,7 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
                 else f", in {'rad' if kind == 'angle' else SI_UNITS[kind]}"
             )
             text = (
-                f"{name} must be a pair (low, high) in rising order around {now}, got "
+                f"{name} must be a pair `(low, high)` in rising order around {now}, got "
                 f"{shown(ends)}{bare}"
             )
             refuse(text, name, "bad_range")
@@ -377,7 +378,7 @@ def _evidence(impact: Impact, observed: Any) -> list[Evidence]:
     """
     reader, found = ArgumentReader(), []
     if observed is not None and not isinstance(observed, Mapping):
-        example = "{'a.delta_v': ('20 km/h', '24 km/h')}"
+        example = "`{'a.delta_v': ('20 km/h', '24 km/h')}`"
         text = f"observed must be a dict by result, such as {example}, got {shown(observed)}"
         reader.refuse(InputError(text, code="bad_inputs", argument="observed"))
         observed = None
@@ -394,11 +395,11 @@ def _evidence(impact: Impact, observed: Any) -> list[Evidence]:
         if len(reader.problems) > count:
             continue
         if len(numbers) != 2 or not all(isinstance(number, float) for number in numbers):
-            text = f"{name} must be a number or a pair of numbers (low, high), got {shown(given)}"
+            text = f"{name} must be a number or a pair of numbers `(low, high)`, got {shown(given)}"
             reader.refuse(InputError(text, code="bad_range", argument=name))
             continue
         if not numbers[0] <= numbers[1]:
-            text = f"{name} must be a pair (low, high) in rising order, got {shown(given)}"
+            text = f"{name} must be a pair `(low, high)` in rising order, got {shown(given)}"
             reader.refuse(InputError(text, code="bad_range", argument=name))
             continue
         side, _, result = path.partition(".")
@@ -444,7 +445,7 @@ def _fixed(impact: Impact, sliders: Sequence[Slider], system: Cells) -> list[tup
             return "–"
         if math.isinf(value):
             return in_words(value)
-        # Of an input six figures, more than a result has.
+        # An input has six figures, more than a result.
         number = value if kind == "angle" else system.converted(value, kind)
         return f"{number:.6g}" + ("°" if kind == "angle" else system.unit(kind))
 

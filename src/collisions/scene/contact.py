@@ -14,6 +14,7 @@ from ..messages.hints import hinted
 from ..quantities.attributes import Shown, lock, texts_given
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader, at_least_zero
+from ..quantities.refusals import must_be, yes_or_no
 from ..quantities.settings import Default
 from ..quantities.units import Input, Pair, Texts, Value, shown, texts_of
 from ..vehicle.drag import one_value, read_duration
@@ -160,11 +161,10 @@ class Contact(Shown):
             if not (option is None and name == "model") and not (
                 isinstance(option, str) and option in choices
             ):
-                text = f"{name} must be one of {', '.join(choices)}, got {shown(option)}"
-                reader.refuse(InputError(text, code="bad_option", argument=name))
+                listed = f"one of {', '.join(choices)}"
+                reader.refuse(must_be(name, listed, option, code="bad_option"))
         if not isinstance(incomplete, bool):
-            text = f"incomplete must be True or False, got {shown(incomplete)}"
-            reader.refuse(InputError(text, code="bad_option", argument="incomplete"))
+            reader.refuse(yes_or_no("incomplete", incomplete, code="bad_option"))
         instant = "eccentric" if duration is None else IN_TIME
         found["model"] = instant if model is None else model
         found["restitution"] = one_value(
@@ -352,8 +352,9 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
         listed = ", ".join(f"{name}=" for name in rules)
         got = " and ".join(f"{name}=" for name in given) or "none"
         text = (
-            f"give exactly one of {listed}; got {got}. There is no default, because it decides "
-            "cases: friction=0 is a frictionless contact, friction=inf one that never slips"
+            f"give exactly one of {listed}; got {got}. There is no default, because it "
+            "decides cases: `friction=0` is a frictionless contact, `friction=inf` one "
+            "that never slips"
         )
         reader.refuse(InputError(text, code="one_tangential", argument=FRICTION))
     if found["point"] is not None and found["normal"] is None:
@@ -362,13 +363,13 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
         )
         reader.refuse(MissingInputError(text, code="missing_normal", argument="normal"))
     if found["depth"] is not None and found["delay"] is not None:
-        refuse("give depth= or delay=, not both: each says when the impulse acts", "depth")
+        refuse("give `depth=` or `delay=`, not both: each says when the impulse acts", "depth")
     whole = found["normal"] is not None and (found["point"] is not None or model in _NO_POINT)
     for name in ("depth", "delay"):
         if found[name] is None:
             continue
         if not isinstance(found["at"], str):
-            refuse(f"{name} is counted from first touch; write at='touch' with it", name)
+            refuse(f"{name} is counted from first touch; write `at='touch'` with it", name)
         elif whole:
             refuse(
                 f"normal and point are given, so the impulse acts at first touch; leave {name} out",
@@ -381,12 +382,14 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
     ):
         refuse("plane says how the normal comes from the outlines; leave it or normal out", "plane")
     if found["tolerance"] is not None and model != "solve":
-        refuse("tolerance is for model='solve', which takes the least model within it", "tolerance")
+        refuse(
+            "tolerance is for `model='solve'`, which takes the least model within it", "tolerance"
+        )
     if model == IN_TIME:
         if found["duration"] is None:
             text = (
                 "model 'time_resolved' needs duration=, such as '100 ms'; for a contact of an "
-                "instant write model='eccentric'"
+                "instant write `model='eccentric'`"
             )
             reader.refuse(MissingInputError(text, code="one_stiffness", argument="duration"))
         for name in given:
@@ -409,4 +412,4 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
         and given not in ([], [FRICTION])
     ):
         other = next(name for name in given if name != FRICTION)
-        refuse(f"law {law!r} works with friction= alone, got {other}=", other)
+        refuse(f"law {law!r} works with `friction=` alone, got `{other}=`", other)

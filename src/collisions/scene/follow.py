@@ -19,6 +19,7 @@ from ..messages.errors import (
     MissingInputError,
     NoSolutionError,
     Status,
+    placed,
 )
 from ..quantities.settings import in_si
 from ..vehicle.vehicle import needed
@@ -293,9 +294,10 @@ class Followed:
         if self.single and wrong.any():
             one, other = pair.names
             raise InputError(
-                f"the outlines of {one} and {other} overlap by {-float(met.gap[0]):.3g} m at the "
-                "start, and no contact of these two is at time 0; correct x, y, heading or "
-                f"outline, or write Contact({one!r}, {other!r}, ...) at 0",
+                f"the outlines of {one} and {other} overlap by {-float(met.gap[0]):.3g} m "
+                "at the start, and no contact of these two is at time 0; correct x, y, "
+                f"heading or outline, or write `|Contact({one!r}, {other!r}, ...)|"
+                f'[[contact]] with a = "{one}", b = "{other}"` at 0',
                 code="overlap_at_start",
                 argument="movers",
                 movers=pair.names,
@@ -399,9 +401,9 @@ class Followed:
         if flat.any() and self.single:
             one, other = pair.names
             raise InputError(
-                f"{one} and {other} meet face to face, where the point at bare first touch depends "
-                "on the last digit of a heading, and with it which way they spin; give a delay= or "
-                "depth= above 0, or normal= and point=",
+                f"{one} and {other} meet face to face, where the point at bare first touch "
+                "depends on the last digit of a heading, and with it which way they spin; give "
+                "a `delay=` or `depth=` above 0, or `normal=` and `point=`",
                 code="bare_touch",
                 argument="delay",
             )
@@ -570,9 +572,10 @@ class Followed:
         if pair.shapes is None:
             lacks = [name for name in pair.names if self.movers[name].outline is None]
             raise MissingInputError(
-                f"{' and '.join(lacks)} has no outline, from which normal and point of the contact "
-                f"of {contact.a} and {contact.b} come; give outline=(length, width) to its Mover, "
-                "or normal= and point= to the Contact",
+                f"{' and '.join(lacks)} has no outline, from which normal and point of the "
+                f"contact of {contact.a} and {contact.b} come; give `outline=(length, width)` "
+                "to its `|Mover|[[mover]]`, or "
+                "`normal=` and `point=` to the `|Contact|[[contact]]`",
                 code="missing_outline",
                 argument="outline",
             )
@@ -588,7 +591,8 @@ class Followed:
                 raise InputError(
                     f"{contact.a} and {contact.b} are {float(met.gap[0]):.3g} m apart at "
                     f"{float(time[0]):.4g} s, where contact says that they meet; correct the "
-                    "states, at= or the outlines, write at='touch', or give normal= and point=",
+                    "states, `at=` or the outlines, write `at='touch'`, or give `normal=` and "
+                    "`point=`",
                     code="contact_missing",
                     argument="contacts",
                 )
@@ -653,11 +657,8 @@ class Followed:
             with in_si():
                 found: Impact = solver(a, b, numbers(contact.restitution), **options)
         except CollisionsError as error:
-            raise type(error)(
-                f"contacts[{rule}], {contact.a} and {contact.b} at {float(time[0]):.4g} s: {error}",
-                code=error.code,
-                **error.fields,
-            ) from None
+            where = f"contacts[{rule}], {contact.a} and {contact.b} at {float(time[0]):.4g} s"
+            raise placed(error, where) from None
         return found
 
     def _go_on(self, contact: Contact, which: Any, time: Any, states: Any, impact: Impact) -> Any:

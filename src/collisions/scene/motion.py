@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..impact.inputs import part_of
-from ..messages.errors import CollisionsError, MissingInputError, NoSolutionError, Status
+from ..messages.errors import CollisionsError, MissingInputError, NoSolutionError, Status, placed
 from ..messages.warning import quietly
 from ..quantities.settings import in_si
 from ..quantities.units import Texts, texts_of
@@ -307,7 +307,7 @@ class Course:
                 else "stands on a slope that is too steep for its drag"
             )
             raise NoSolutionError(
-                f"{self.name} {how}; give it tyres=, with the lock of its wheels",
+                f"{self.name} {how}; give it `tyres=`, with the lock of its wheels",
                 code="never_stops",
             )
         self._fail(which[spins | steep], "never_stops")
@@ -341,7 +341,7 @@ class Course:
                     tolerance=ground.tolerance,
                 )
         except CollisionsError as error:
-            raise type(error)(f"{self.name}: {error}", code=error.code, **error.fields) from None
+            raise placed(error, self.name) from None
         names = ("time", *STATE)
         table = np.array([getattr(path, name) for name in names]).reshape(7, ground.moments, -1)
         self._fail(which[~np.isfinite(table[:, -1]).all(axis=0)], "never_stops")
@@ -407,7 +407,8 @@ class Ground(NamedTuple):
 def no_rest(name: str) -> MissingInputError:
     """The error for the place of rest of a mover that nothing slows."""
     return MissingInputError(
-        f"{name} has no place of rest, as nothing slows it; give it tyres=, or drag=, in its Mover",
+        f"{name} has no place of rest, as nothing slows it; give it `tyres=`, or "
+        "`drag=`, in its `|Mover|[[mover]]`",
         code="missing_drag",
         argument=name,
     )

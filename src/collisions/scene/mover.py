@@ -92,14 +92,14 @@ class Mover(Shown):
             if not _LEAST <= size[0] <= size[1] <= _MOST:
                 text = (
                     f"outline is {size[1]:.3g} m long and {size[0]:.3g} m wide, and may be from "
-                    f"{_LEAST:g} to {_MOST:g} m; give metres, such as (4.5, 1.8)"
+                    f"{_LEAST:g} to {_MOST:g} m; give metres, such as `(4.5, 1.8)`"
                 )
                 reader.refuse(InputError(text, code="bad_outline", argument="outline"))
         if tyres is not None and not isinstance(tyres, Tyres):
             reader.refuse(not_tyres("tyres", tyres))
         read = None if drag is None else read_drag(reader, drag, "drag")
         if tyres is not None and drag is not None:
-            text = "give tyres= or drag=, not both: each says what slows the vehicle"
+            text = "give `tyres=` or `drag=`, not both: each says what slows the vehicle"
             reader.refuse(InputError(text, code="bad_combination", argument="drag"))
         reader.close()
         for name, value in (

@@ -16,13 +16,13 @@ import numpy as np
 from ..impact.impact import Impact, part_of_impact
 from ..impact.inputs import index_of, part_of
 from ..impact.side import Side
-from ..messages.errors import CollisionsError, InputError, MissingInputError
+from ..messages.errors import CollisionsError, InputError, MissingInputError, placed
 from ..quantities.attributes import attributes, unit_of
 from ..quantities.directions import direction
 from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader, at_least_zero
+from ..quantities.refusals import must_be
 from ..quantities.tables import cells
-from ..quantities.units import shown
 from ..vehicle.tyres import LOCKS, as_given
 from ..vehicle.vehicle import UNITS as OF_VEHICLE
 from ..vehicle.vehicle import Vehicle
@@ -112,11 +112,11 @@ def no_path(path: Any, known: Iterable[str], argument: str) -> InputError:
 def replaced(scene: Scene, changes: Any) -> Scene:
     """The scene with other numbers, each by its path."""
     if not isinstance(changes, Mapping) or not all(isinstance(path, str) for path in changes):
-        raise InputError(
-            "changes must be a dict from paths to numbers, such as {'Camry.vx': '30 mph'}, got "
-            f"{shown(changes)}",
+        raise must_be(
+            "changes",
+            "a dict from paths to numbers, such as `{'Camry.vx': '30 mph'}`",
+            changes,
             code="bad_shape",
-            argument="changes",
         )
     spread: dict[str, Any] = {}
     by: dict[str, str] = {}
@@ -207,7 +207,7 @@ def _change(
                 if not point:
                     text = (
                         f"contacts[{number}].point is not given, and comes from the outlines; "
-                        "write point= in the Contact to change it"
+                        "write `point=` in the `|Contact|[[contact]]` to change it"
                     )
                     raise InputError(text, code="unknown_name", argument="scene")
                 point[k] = parts.pop(f"point[{k}]")
@@ -215,9 +215,7 @@ def _change(
         arguments["contacts"][number] = contact.replace(**whole, **parts)
     except CollisionsError as error:
         path = "contacts[{}]" if kind in ("contact", "after") else "{}"
-        raise type(error)(
-            f"{path.format(owner[1])}: {error}", code=error.code, **error.fields
-        ) from None
+        raise placed(error, path.format(owner[1])) from None
 
 
 def _tyres_with(tyres: Any, parts: Mapping[str, Any]) -> Any:
@@ -267,7 +265,9 @@ def _moving(name: str, body: Vehicle, parts: dict[str, Any]) -> Vehicle:
             reader, read, polar["speed"], "speed", "negative_speed", "turn the course by 180 deg"
         )
         if np.any(np.less(read, 0.0)) and not reader.problems:
-            text = "speed must be >= 0 in every case; bound what is drawn, as by truncate=(0, high)"
+            text = (
+                "speed must be >= 0 in every case; bound what is drawn, as by `truncate=(0, high)`"
+            )
             reader.refuse(InputError(text, code="negative_speed", argument="speed"))
     if "course" in polar:
         cx, cy = direction(reader, polar["course"], "course")

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..messages.errors import InputError, ShapeError
-from ..quantities.units import shown
+from ..messages.errors import ShapeError
+from ..quantities.refusals import must_be
 from .run import Run
 
 
 def need_one_run(run: Any, function: str, argument: str = "run") -> Run:
     """The run of a single case; an error for anything else, with the name of the function."""
     if not isinstance(run, Run):
-        raise InputError(
-            f"{argument} must be a Run, got {shown(run)} of type {type(run).__name__}; write "
-            f"{function}(scene.run()), with a collisions.scene.Scene",
+        raise must_be(
+            argument,
+            "a Run",
+            run,
+            f" of type {type(run).__name__}; write {function}(scene.run()), with a "
+            "collisions.scene.Scene",
             code="not_a_run",
-            argument=argument,
         )
     shape = run.scene.shape
     if shape is not None:

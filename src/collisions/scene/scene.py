@@ -483,8 +483,8 @@ def _restored(arguments: dict[str, Any]) -> Scene:
 def _read_movers(reader: ArgumentReader, movers: Any) -> dict[str, Mover]:
     if not isinstance(movers, Mapping) or not movers:
         text = (
-            "movers must be a dict from names to Movers, such as {'Camry': Mover(camry)}, got "
-            f"{shown(movers)}"
+            "movers must be a dict from names to Movers, such as `{'Camry': "
+            f"Mover(camry)}}`, got {shown(movers)}"
         )
         reader.refuse(InputError(text, code="bad_shape", argument="movers"))
         return {}
@@ -541,7 +541,7 @@ def _read_contacts(
             if name in movers and movers[name].drag is not None:
                 text = (
                     f"contacts[{i}] gives {name!r} tyres, which moves by a drag before; give its "
-                    "Mover tyres= too"
+                    "`|Mover|[[mover]]` `tyres=` too"
                 )
                 reader.refuse(InputError(text, code="bad_combination", argument="contacts"))
         if contact.touches:
@@ -549,7 +549,8 @@ def _read_contacts(
                 if name in movers and movers[name].outline is None:
                     text = (
                         f"contacts[{i}] is at 'touch', and {name!r} has no outline; give "
-                        "outline=(length, width) to its Mover, or a time as at="
+                        "`outline=(length, width)` to its `|Mover|[[mover]]`, or a "
+                        "time as `at=`"
                     )
                     reader.refuse(
                         MissingInputError(text, code="missing_outline", argument="outline")
@@ -569,8 +570,9 @@ def _read_contacts(
         ):
             text = (
                 f"contacts[{i}] has a duration, which is for the impulse of tyres, and neither "
-                f"{names[0]} nor {names[1]} has tyres; give tyres= to a Mover, or leave duration "
-                "out"
+                f"{names[0]} nor {names[1]} has tyres; give `tyres=` to a `|Mover|[[mover]]`, or "
+                "leave "
+                "duration out"
             )
             reader.refuse(InputError(text, code="missing_tyres", argument="duration"))
     return tuple(found)
@@ -583,8 +585,8 @@ def _read_surfaces(reader: ArgumentReader, surfaces: Any) -> tuple[Any, ...]:
         corners = area[0] if isinstance(area, (list, tuple)) and len(area) == 2 else None
         if not isinstance(corners, (list, tuple)) or len(corners) < 3:
             text = (
-                f"surfaces[{i}] must be a pair of corners, three or more (x, y) in a list, and "
-                f"friction; got {shown(area)}"
+                f"surfaces[{i}] must be a pair of corners, three or more `(x, y)` in a list, "
+                f"and friction; got {shown(area)}"
             )
             reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))
             continue
@@ -634,8 +636,8 @@ def _read_shared(
     )
     if not good:
         text = (
-            "shared must be a dict from new names to tuples of paths, such as {'ground': "
-            f"('A.tyres.friction', 'B.tyres.friction')}}, got {shown(shared)}"
+            "shared must be a dict from new names to tuples of paths, such as `{'ground': "
+            f"('A.tyres.friction', 'B.tyres.friction')}}`, got {shown(shared)}"
         )
         reader.refuse(ShapeError(text, code="bad_shape", argument="shared"))
         return {}

@@ -188,7 +188,7 @@ def _first(points: tuple[Any, Any], edges: Any) -> tuple[Any, Any, Any]:
     steep = before - after
     part = before / np.where(crosses, steep, 1.0)
     at = np.where(crosses, np.arange(len(part))[:, None, None, None] + part, np.inf)
-    # Of wheels and edges together the first.
+    # The first of wheels and edges together.
     _, wheels, cases, count = at.shape
     flat = np.moveaxis(at.min(axis=0), 1, 0).reshape(cases, wheels * count)
     which = flat.argmin(axis=1)

@@ -43,7 +43,7 @@ _WIDEST, _SAFE = 1.5, 0.9
 # Rows of a step: time, place, heading, velocities, and accelerations at its start and at its end.
 ROWS = 13
 
-_WAYS = tuple(f"[{at}]" for at in range(OF_GROUND + 9))
+_NUMBERS = tuple(f"[{at}]" for at in range(OF_GROUND + 9))
 
 
 class Motion(NamedTuple):
@@ -68,9 +68,17 @@ def _of_floats(settings: Settings) -> tuple[Callable[..., Any], Callable[..., An
     """The step, and the accelerations, of one case of floats."""
     from ..engine.floats import compile_for_floats
 
-    return compile_for_floats(step, _WAYS, settings), compile_for_floats(
-        accelerations, _WAYS[: OF_GROUND + 5], settings
+    return compile_for_floats(step, _NUMBERS, settings), compile_for_floats(
+        accelerations, _NUMBERS[: OF_GROUND + 5], settings
     )
+
+
+@lru_cache(maxsize=1)
+def _ending_of_floats() -> Callable[..., Any]:
+    """``ending`` of one case of floats, with the roots that arrays have, to the last bit."""
+    from ..engine.floats import compile_for_floats
+
+    return compile_for_floats(ending, _NUMBERS[:6], ())
 
 
 def follow(motion: Motion) -> tuple[Any, Any]:
@@ -96,8 +104,8 @@ def follow(motion: Motion) -> tuple[Any, Any]:
 
 
 def _wider(wrong: Any, tolerance: float) -> Any:
-    """By how much the next step may be wider, from the error of the last one; NaN counts as a large
-    error.
+    """The factor by which the next step may be wider, from the error of the last one; NaN counts as
+    a large error.
     """
     if isinstance(wrong, float):
         ratio: float = (tolerance / max(wrong, 1e-300)) ** 0.2
@@ -141,15 +149,20 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
     areas, tolerance, spin, last = motion.areas, motion.tolerance, ground[17], _last(motion)
     alone, most = areas is None and not motion.settings.sloped, float(_settling(motion.ground)[0])
     stepped, forced = _of_floats(motion.settings)
+    ends = _ending_of_floats()
+    known: Any = None
     if going is None:
-        time, x, y, way, width = 0.0, 0.0, 0.0, 0.0, _FIRST_STEP
+        time, x, y, way, width, wanted = 0.0, 0.0, 0.0, 0.0, _FIRST_STEP, 0.0
         vx, vy, turn, heading = (float(number) for number in motion.start[:, 0])
     else:
-        time, x, y, heading, vx, vy, turn, way, width = going
+        time, x, y, heading, vx, vy, turn, *known, way, width, wanted = going
+        # Under the wheels the ground may be another from here.
+        known = None if areas is not None else tuple(known)
     rows: list[tuple[float, ...]] = []
-    found, wanted, known = NO_END, 0.0, None
+    found = NO_END
     for _ in range(_MOST_STEPS):
-        c, s = math.cos(heading), math.sin(heading)
+        # As of arrays, whose last bit may be another than that of ``math``.
+        c, s = float(np.cos(heading)), float(np.sin(heading))
         if known is None:
             if areas is not None:
                 ground[12:16] = areas.under(*_columns(x, y, heading, vx, vy, turn * spin))[
@@ -160,8 +173,10 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
                 break
             if not rows and going is None:
                 rows.append((time, x, y, heading, vx, vy, turn, *known, *known))
-        ax, ay, yaw = known
-        speed, slowing, aside, slides, spins = ending(vx, vy, turn, ax, ay, yaw)
+        ending_now = ends((vx, vy, turn, *known))
+        if ending_now is None:
+            break
+        speed, slowing, aside, slides, spins = ending_now
         if speed == 0.0 or not math.isfinite(speed + slowing):
             found = RESTS if speed == 0.0 else NO_END
             break
@@ -174,7 +189,7 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
             if left <= edge:
                 found = RESTS if stops else GOES_ON
                 break
-            after = max(speed * speed - 2.0 * slowing * edge, 0.0) ** 0.5
+            after = math.sqrt(max(speed * speed - 2.0 * slowing * edge, 0.0))
             took, share = 2.0 * edge / (speed + after), after / speed
             mean = 0.5 * (1.0 + share) * took
             time, way = time + took, way + edge
@@ -200,7 +215,7 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
         if not wrong <= tolerance:
             width *= min(_wider(wrong, tolerance), 0.9)
             continue
-        took, after = new[6], size(*new[:3])
+        took, after = new[6], math.sqrt(new[0] * new[0] + new[1] * new[1] + new[2] * new[2])
         row = (time + took, x + new[3], y + new[4], heading + new[5], *new[:3], *known, *new[7:10])
         if areas is not None:
             before = (time, x, y, heading, vx, vy, turn, *known, *known)
@@ -390,7 +405,7 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
     for left_over, one in enumerate(going.tolist()):
         rows, ended = _one(
             motion.of([one]),
-            [*state[:7, left_over].tolist(), *state[10:12, left_over].tolist()] if kept else None,
+            state[:, left_over].tolist() if kept else None,
         )
         found[one] = ended
         parts[one].append(rows)

@@ -9,21 +9,22 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import accumulate, pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ..kernels.elementwise import UNIT_INTERVAL, select
-from ..kernels.tyre import circle
-from ..messages.errors import OutOfRangeWarning
+from ..kernels.tyre import circle, tyre_forces
+from ..messages.errors import InputError, MissingInputError, OutOfRangeWarning
 from ..messages.hints import hinted
 from ..messages.warning import warn
 from ..quantities.attribute_stubs import RunOutQuantities
-from ..quantities.attributes import Shown, derived, hypot, in_units_of, numeric
+from ..quantities.attributes import Shown, derived, hypot, in_units_of, math_or_numpy
 from ..quantities.directions import angle_of
 from ..quantities.reading import ArgumentReader
 from ..quantities.units import Input, Pair, Texts, Value, texts_of
 from ..vehicle.drag import one_value, read_friction
+from ..vehicle.tyres import LOCKS, Tyres, kernel_numbers, lifts, not_tyres, refuse_lifting
 from .surfaces import (
     Segments,
     durations_along,
@@ -112,8 +113,10 @@ def path(
     points: Sequence[Pair] | Input,
     headings: Segments,
     *,
-    friction: Segments,
-    lock: Segments,
+    friction: Segments | None = None,
+    lock: Segments | None = None,
+    tyres: Tyres | None = None,
+    rotating_mass: Input = 0.0,
     grade: Segments = 0.0,
     end_speed: Input = 0.0,
     window: Input = "7 m",
@@ -131,6 +134,9 @@ def path(
         along = min(lock, |cos(crab)|)
         drag  = friction * (along * |cos(crab)| + sqrt(1 - along**2) * |sin(crab)|)
 
+    With ``tyres``, each segment has the drag of four wheels, each with its own lock and the slip of
+    its own place on the vehicle, to which the yaw adds, and with the side force of ``Tyres``.
+
     A list runs over positions or segments, and so does one array for all points or all headings.
     For many cases at once, give arrays in place of the single numbers: ``[(xs, ys), ...]``,
     ``[angles, ...]``, ``friction=factors``; they broadcast.
@@ -145,10 +151,17 @@ def path(
         deg for one that turned 290 deg to the left, 0, -70 deg for one that turned 70 deg to the
         right. From one point to the next, at most half a turn; give more points for a faster spin.
     friction : float, str, Quantity or array [-], or a list with one for each segment
-        Friction of locked tyres on the ground, >= 0.
+        Friction of locked tyres on the ground, >= 0. With ``tyres`` that of the ground, by default
+        theirs.
     lock : float, str, Quantity or array [-], or a list with one for each segment
         Braking of the wheels, from damage, brakes or an engaged gear, as a fraction of what locks
-        them: 0 if all roll freely, 1 if all are locked.
+        them: 0 if all roll freely, 1 if all are locked. One for the vehicle, where its wheels are
+        not told apart; needed without ``tyres``.
+    tyres : Tyres, optional
+        The four wheels, in place of ``lock``: for wheels that are braked unequally, for small crab
+        angles, and for a vehicle that yaws.
+    rotating_mass : float, str, Quantity or array [-]
+        What the rotation of the wheels adds to the mass, as in ``simulate``.
     grade : float, str, Quantity or array [-], or a list with one for each segment
         Rise over run, positive uphill in the direction of travel.
     end_speed : float, str, Quantity or array [m/s]
@@ -176,7 +189,8 @@ def path(
     InputError
         Naming every argument that cannot be used.
     MissingInputError
-        One of ``point_error`` and ``heading_error`` without the other.
+        One of ``point_error`` and ``heading_error`` without the other; neither ``tyres`` nor
+        ``friction`` and ``lock``.
     NoSolutionError
         No initial speed leads to this end.
 
@@ -185,23 +199,25 @@ def path(
     CollisionsWarning
         How many cases of a batch cannot be answered, and why.
     OutOfRangeWarning
-        More than a quarter turn between two points, where one crab angle stands for all of it. A
-        yaw rate at separation above 0.5 times the speed over 1.5 m: there the speed comes out 4 to
-        9 % too high, mostly 5 %, and beyond it soon more.
+        More than a quarter turn between two points, where one crab angle stands for all of it.
+        Without ``tyres``, a yaw rate at separation above 0.5 times the speed over 1.5 m: there the
+        speed comes out 4 to 9 % too high, mostly 5 %, and beyond it soon more.
     SuspectUnitsWarning
         A bare friction above 1.5, grade beyond 0.5 or heading beyond a turn, which is probably in
         another unit.
 
     Notes
     -----
-    The drag is that of the tyres of ``Tyres``, which ``simulate`` has too: a wheel that is braked
+    The drag is that of the wheels of ``Tyres``, which ``simulate`` has too: a wheel that is braked
     by a moment rolls until its brake can hold it, so the force along it is that of the brake, or
     less where it is locked, and what the friction circle leaves acts across it. The integrated spin
     of a wheel gives the same. Side forces are taken to be all that the circle leaves, as they are
-    from a crab angle of some degrees on. All wheels are taken to slip as the centre of mass does,
-    which leaves out what yawing adds to the slip of each wheel; steering and load transfer are left
-    out too. In ``simulate``, which includes the yawing, the drag along the path is lower by a
-    fraction of about 0.4 (yaw rate * 1.5 m / speed)**2, both taken at separation.
+    from a crab angle of some degrees on: a vehicle that points along its path, whose headings were
+    read with errors of some degrees, comes out too fast. All wheels are taken to slip as the centre
+    of mass does, which leaves out what yawing adds to the slip of each wheel; steering and load
+    transfer are left out too. ``tyres`` have all of these, of the turn per way from point to point.
+    In ``simulate``, which includes the yawing, the drag along the path is lower by a fraction of
+    about 0.4 (yaw rate * 1.5 m / speed)**2, both taken at separation.
 
     Positions and headings are smoothed first, each by a weighted least-squares parabola about its
     point (local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829, here of degree 2): chords
@@ -246,17 +262,26 @@ def path(
     0.6 km/h, 2.3 deg
     """
     reader = ArgumentReader()
+    _refuse_combination(reader, friction, lock, tyres)
     places = read_points(reader, points)
     headed = read_headings(reader, headings, None if places is None else len(places))
     legs = None if places is None else len(places) - 1
     surveyed = Texts(reader.texts)
-    frictions = for_each(reader, friction, "friction", legs, read_friction)
-    locks = for_each(reader, lock, "lock", legs, _read_lock)
+    wheels = tyres.named if isinstance(tyres, Tyres) else {}
+    if friction is None:
+        frictions = [wheels.get("friction", math.nan)] * (legs or 1)
+    else:
+        frictions = for_each(reader, friction, "friction", legs, read_friction)
+    locks = [0.0] if lock is None else for_each(reader, lock, "lock", legs, _read_lock)
+    rotating = one_value(reader, rotating_mass, "", "rotating_mass", UNIT_INTERVAL)
     grades = for_each(reader, grade, "grade", legs, read_grade)
     end = read_speed(reader, end_speed, "end_speed")
     length = read_length(reader, window, "window")
     errors = read_errors(reader, point_error, heading_error)
     reader.close()
+    if tyres is not None:
+        for mu in frictions:
+            refuse_lifting(wheels, mu)
     placed: dict[str, Any] = {f"points[{i}]": place for i, place in enumerate(places or ())}
     arguments = {
         "headings": [angle.value for angle in headed],
@@ -264,16 +289,21 @@ def path(
         "lock": locks,
         "grade": grades,
     }
-    beside = {"end_speed": [end], "window": [length], **errors}
-    lists, named, shape = in_one_precision(placed | arguments | beside)
-    *points, values, frictions, locks, grades, (end,), (length,) = lists[: len(lists) - len(errors)]
+    beside = {"end_speed": [end], "window": [length], "rotating_mass": [rotating], **errors}
+    of_tyres = {f"tyres.{name}": [value] for name, value in wheels.items()}
+    lists, named, shape = in_one_precision(placed | arguments | of_tyres | beside)
+    count = len(placed)
+    points, (values, frictions, locks, grades) = lists[:count], lists[count : count + 4]
+    numbers = [value for (value,) in lists[count + 4 :]]
+    flat = dict(zip(wheels, numbers, strict=False))
+    end, length, rotating, *read = numbers[len(wheels) :]
     kind = next(
         (value.dtype for part in lists for value in part if isinstance(value, np.ndarray)), None
     )
 
-    run_out = partial(
-        _run_out, frictions=frictions, locks=locks, grades=grades, end=end, window=length
-    )
+    wheeled = None if tyres is None else (tyres, flat)
+    ground = _Ground(frictions, locks, grades, wheeled, rotating)
+    run_out = partial(_run_out, ground=ground, end=end, window=length)
     with np.errstate(all="ignore"):
         turned = [
             in_radians(angle._replace(value=value))
@@ -281,8 +311,8 @@ def path(
         ]
         found, gaps = run_out(points, turned, kind=kind)
         if errors:
-            (place,), (turn,) = lists[-2:]
-            found |= _errors(run_out, points, turned, place, turn, shape or (), kind)
+            of_places, of_headings = read
+            found |= _errors(run_out, points, turned, of_places, of_headings, shape or (), kind)
         answered = found["time"] + found["distance"] + found["yaw_rate"]
         if shape is not None:
             checks = [
@@ -293,23 +323,35 @@ def path(
                 ("turns_too_far", abs(after - before) > HALF_TURN)
                 for before, after in pairwise(turned)
             ]
+            checks += _checks_of_tyres(flat, frictions)
             checks += [("contradictory", np.isnan(answer)) for answer in (*gaps, answered)]
             checks += [("out_of_range", np.isinf(answer)) for answer in (*gaps, answered)]
             checks += [("out_of_range", np.less_equal(gap, 0.0)) for gap in gaps]
             found = settle(found, named, shape, checks)
         elif not (min(gaps) > 0.0 and math.isfinite(answered)):
             raise out_of_range()
-        _warn_of_wide_segments(turned, locks)
-        _warn_of_fast_yaw(found["yaw_rate"], found["speed"])
+        _warn_of_wide_segments(turned, locks if tyres is None else [0.0] * len(frictions))
+        if tyres is None:
+            _warn_of_fast_yaw(found["yaw_rate"], found["speed"])
     return in_units_of(RunOut(**found), texts_of(surveyed))
+
+
+class _Ground(NamedTuple):
+    """What slows a vehicle on each segment: friction, lock, grade; tyres with their numbers, if
+    given, in place of the lock; and what the rotation of the wheels adds to the mass.
+    """
+
+    frictions: Sequence[Any]
+    locks: Sequence[Any]
+    grades: Sequence[Any]
+    tyres: tuple[Tyres, dict[str, Any]] | None
+    rotating: Any
 
 
 def _run_out(
     points: Sequence[Sequence[Any]],
     headings: Sequence[Any],
-    frictions: Sequence[Any],
-    locks: Sequence[Any],
-    grades: Sequence[Any],
+    ground: _Ground,
     end: Any,
     window: Any,
     kind: Any,
@@ -322,15 +364,19 @@ def _run_out(
     places = list(zip(xs, ys, strict=True))
     steps = [(x1 - x0, y1 - y0) for (x0, y0), (x1, y1) in pairwise(places)]
     lengths: list[Any] = [hypot(dx, dy) for dx, dy in steps]
+    turns = [after - before for before, after in pairwise(turned)]
     crabs = [
-        _wrapped(before + 0.5 * (after - before) - numeric(dx, dy).atan2(dy, dx))
-        for (dx, dy), (before, after) in zip(steps, pairwise(turned), strict=True)
+        _wrapped(before + 0.5 * turn - math_or_numpy(dx, dy).atan2(dy, dx))
+        for (dx, dy), before, turn in zip(steps, turned, turns, strict=False)
     ]
-    drags = [_drag(mu, part, crab) for mu, part, crab in zip(frictions, locks, crabs, strict=True)]
+    drags = _drags(ground, crabs, turns, lengths)
+    heavier = _heavier(ground, crabs)
+    after = heavier[-1] * end
     speeds = speeds_along(
-        lengths, [drag + rise for drag, rise in zip(drags, grades, strict=True)], end, _leg
+        lengths, [drag + rise for drag, rise in zip(drags, ground.grades, strict=True)], after, _leg
     )
-    durations = durations_along(lengths, grades, speeds)
+    speeds = [speed / more for speed, more in zip(speeds, heavier, strict=True)]
+    durations = durations_along(lengths, ground.grades, speeds)
     found = {
         "speed": speeds[0],
         "course": angle_of(*slopes(surveyed[:2], at, weights, kind)),
@@ -347,11 +393,94 @@ def _run_out(
     return found, durations
 
 
+def _drags(
+    ground: _Ground, crabs: Sequence[Any], turns: Sequence[Any], lengths: Sequence[Any]
+) -> list[Any]:
+    """The drag of each segment."""
+    if ground.tyres is None:
+        return [
+            _drag(mu, part, crab)
+            for mu, part, crab in zip(ground.frictions, ground.locks, crabs, strict=True)
+        ]
+    tyres, flat = ground.tyres
+    found = []
+    for mu, crab, turn, length in zip(ground.frictions, crabs, turns, lengths, strict=True):
+        xp = math_or_numpy(crab, length, mu, *flat.values())
+        wheels = kernel_numbers(flat, xp)
+        cosine, sine = xp.cos(crab), xp.sin(crab)
+        # The turn per way is all that the slip of the wheels needs.
+        turning = turn / select(length > 0.0, length, math.nan)
+        around = turning * hypot(wheels.ahead, wheels.left)
+        speed = (1.0 + around * around) ** 0.5
+        x, y, _ = tyre_forces(
+            wheels,
+            (mu, mu, mu, mu),
+            cosine / speed,
+            -sine / speed,
+            turning / speed,
+            steered=tyres.steered,
+            transfers=tyres.transfers,
+        )
+        found.append(y * sine - x * cosine)
+    return found
+
+
+def _heavier(ground: _Ground, crabs: Sequence[Any]) -> list[Any]:
+    """At every point by how much the rotation of the wheels lets the vehicle count as faster, as
+    the energy of both together is what the ground takes.
+    """
+    if isinstance(ground.rotating, float) and ground.rotating == 0.0:
+        return [1.0] * (len(crabs) + 1)
+    if ground.tyres is None:
+        turning = [select(part < 1.0, 1.0, 0.0) for part in ground.locks]
+    else:
+        flat = ground.tyres[1]
+        each = [flat[name] if name in flat else flat["lock"] for name in LOCKS]
+        turning = [0.25 * sum(select(part < 1.0, 1.0, 0.0) for part in each)] * len(crabs)
+    shares = [
+        ground.rotating * part * math_or_numpy(crab).cos(crab) ** 2
+        for part, crab in zip(turning, crabs, strict=True)
+    ]
+    ends = [shares[0], *(0.5 * (one + two) for one, two in pairwise(shares)), shares[-1]]
+    return [(1.0 + share) ** 0.5 for share in ends]
+
+
 def _drag(friction: Any, lock: Any, crab: Any) -> Any:
     """The drag of tyres that all slip at the crab angle."""
-    cosine, sine = numeric(crab).cos(crab), numeric(crab).sin(crab)
+    cosine, sine = math_or_numpy(crab).cos(crab), math_or_numpy(crab).sin(crab)
     along, across = circle(cosine, lock)
     return friction * (across * abs(sine) - along * cosine)
+
+
+def _refuse_combination(reader: ArgumentReader, friction: Any, lock: Any, tyres: Any) -> None:
+    """Refuses wheels that are told twice, or not at all."""
+    if tyres is not None:
+        if not isinstance(tyres, Tyres):
+            reader.refuse(not_tyres("tyres", tyres))
+        if lock is not None:
+            text = "lock is given beside tyres, which have the lock of every wheel; leave it out"
+            reader.refuse(InputError(text, code="bad_combination", argument="lock"))
+        return
+    for name, value in (("friction", friction), ("lock", lock)):
+        if value is None:
+            text = f"{name} is missing; give it, or tyres=travel.Tyres(...)"
+            reader.refuse(MissingInputError(text, code=f"missing_{name}", argument=name))
+
+
+def _checks_of_tyres(flat: dict[str, Any], frictions: Sequence[Any]) -> list[tuple[str, Any]]:
+    """What of the numbers of tyres cannot be, case by case of a batch."""
+    checks = [
+        ("not_positive", ~np.greater(flat[name], 0.0))
+        for name in ("wheelbase", "track", "cornering")
+        if name in flat
+    ]
+    for name in ("lock", *LOCKS):
+        if name in flat:
+            checks.append(("bad_fraction", np.less(flat[name], 0.0) | np.greater(flat[name], 1.0)))
+    if "height" in flat:
+        checks.append(("negative_length", np.less(flat["height"], 0.0)))
+        checks += [("wheel_lifts", lifts(flat, mu)) for mu in frictions]
+    return checks
 
 
 def _errors(

@@ -19,7 +19,7 @@ from ..messages.errors import (
     ShapeError,
 )
 from ..messages.warning import warn_of_cases
-from ..quantities.attributes import hypot, lock, numeric
+from ..quantities.attributes import hypot, lock, math_or_numpy
 from ..quantities.reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
 from ..quantities.units import Input
 from ..vehicle.drag import GRAVITY, one_value
@@ -39,6 +39,7 @@ _BELOW_ZERO = {
     "friction": "bad_friction",
     "height": "negative_length",
     "lock": "bad_fraction",
+    "rotating_mass": "bad_fraction",
     "window": "negative_distance",
     "point_error": "negative_length",
     "heading_error": "negative_length",
@@ -172,7 +173,7 @@ def durations_along(
     """
     found = []
     for plan, grade, before, after in zip(lengths, grades, speeds, speeds[1:], strict=False):
-        length = plan * numeric(grade).hypot(1.0, grade)
+        length = plan * math_or_numpy(grade).hypot(1.0, grade)
         double = before + after
         duration = 2.0 * length / select(double == 0.0, math.nan, double)
         # A speed that overflowed would make the duration 0, which looks like a result.

@@ -14,14 +14,15 @@ import numpy as np
 from ..messages.errors import InputError, MissingInputError, ShapeError
 from ..quantities.directions import Angle
 from ..quantities.reading import ArgumentReader, at_least_zero
-from ..quantities.units import is_quantity, shown
+from ..quantities.refusals import must_be
+from ..quantities.units import is_quantity
 from ..vehicle.drag import one_value
 
 # What a heading may turn by from one point to the next.
 HALF_TURN = math.pi * (1.0 + 1e-9)
-# Of the window: with this standard deviation, weights that fall off as a normal density err in the
-# slope at the end of a path as equal weights within the window do, by the errors of the points and
-# by a bend that changes along the way alike.
+# A share of the window: with this standard deviation, weights that fall off as a normal density err
+# in the slope at the end of a path as equal weights within the window do, by the errors of the
+# points and by a bend that changes along the way alike.
 _SPREAD = 0.384
 # The first lengths are those of the chords between the points, which errors of a dense survey make
 # too long.
@@ -64,13 +65,7 @@ def read_points(reader: ArgumentReader, points: Any) -> list[tuple[Any, Any]] | 
     for i, part in enumerate(parts):
         name = f"points[{i}]"
         if not _is_pair(part):
-            reader.refuse(
-                ShapeError(
-                    f"{name} must be a pair (x, y), got {shown(part)}",
-                    code="bad_shape",
-                    argument=name,
-                )
-            )
+            reader.refuse(must_be(name, "a pair `(x, y)`", part, code="bad_shape", kind=ShapeError))
             continue
         places.append(reader.pair(part, "m", name))
     if len(reader.problems) > wrong:
@@ -86,8 +81,8 @@ def read_points(reader: ArgumentReader, points: Any) -> list[tuple[Any, Any]] | 
         if all(isinstance(part, float) for part in (*before, *after)) and before == after:
             reader.refuse(
                 InputError(
-                    f"points[{i}] and points[{i + 1}] are the same place ({before[0]:.6g}, "
-                    f"{before[1]:.6g}), which has no course; leave one out",
+                    f"points[{i}] and points[{i + 1}] are the same place `({before[0]:.6g}, "
+                    f"{before[1]:.6g})`, which has no course; leave one out",
                     code="coincident_points",
                     argument="points",
                 )

@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from ..kernels.elementwise import select
-from ..messages.errors import InputError, NoSolutionError
+from ..messages.errors import NoSolutionError
 from ..messages.hints import hinted
-from ..quantities.attributes import hypot, numeric
+from ..quantities.attributes import hypot, math_or_numpy
 from ..quantities.reading import ArgumentReader, at_least_zero
-from ..quantities.units import Input, Value, shown
+from ..quantities.refusals import must_be
+from ..quantities.units import Input, Value
 from ..vehicle.drag import GRAVITY, one_value, read_friction
 from .surfaces import in_one_precision, out_of_range, read_length, settle
 
@@ -86,7 +87,7 @@ def throw_speed(distance: Input, *, friction: Input, angle: Input, height: Input
         {name: [value] for name, value in given.items()}
     )
     with np.errstate(all="ignore"):
-        cos, sin = numeric(up).cos(up), numeric(up).sin(up)
+        cos, sin = math_or_numpy(up).cos(up), math_or_numpy(up).sin(up)
         level = _level(far, rubbed, high)
         found = level / select(cos + rubbed * sin > 0.0, cos + rubbed * sin, math.nan)
         falls = hypot(found * sin, _root(2.0 * GRAVITY * high))
@@ -153,7 +154,7 @@ def throw_bounds(distance: Input, *, friction: Input, height: Input = 0.0) -> tu
     with np.errstate(all="ignore"):
         greatest = _level(far, rubbed, high)
         slides = far >= 2.0 * rubbed * high * (1.0 - _ROUNDING)
-        both = greatest / numeric(rubbed).hypot(1.0, rubbed), greatest
+        both = greatest / math_or_numpy(rubbed).hypot(1.0, rubbed), greatest
         bounds: tuple[Value, Value] = _settled(both, named, shape, (far, rubbed, slides), [])
     return bounds
 
@@ -176,11 +177,12 @@ def _read_angle(reader: ArgumentReader, value: Any) -> Any:
     read = one_value(reader, value, "rad", "angle")
     if isinstance(read, float) and not abs(read) < _QUARTER:
         return reader.refuse(
-            InputError(
-                f"angle must be between -90 and 90 degrees, got {shown(value)}; a bare number is "
-                "in radians, so write '20 deg'",
+            must_be(
+                "angle",
+                "between -90 and 90 degrees",
+                value,
+                "; a bare number is in radians, so write '20 deg'",
                 code="bad_angle",
-                argument="angle",
             )
         )
     return read

@@ -23,7 +23,7 @@ from .model import Model, count_failed
 from .result import Output, Shares, average, deviation
 from .sampling import Joint
 
-# Of a step, in standard deviations: the differences below err by its fourth power and by rounding
+# A step in standard deviations: the differences below err by its fourth power and by rounding
 # over its square.
 _STEP = 0.01
 _LEAST_STEP = 1e6  # roundings of the mean, so that the step itself is known to a millionth
@@ -123,7 +123,8 @@ def slopes(model: Model, joint: Joint, second: bool) -> tuple[dict[str, Slopes],
         if np.isnan(values).any():
             raise NoSolutionError(
                 f"the model has no answer for {name!r} at or beside the mean of the inputs, so "
-                "it has no derivative there; take method='quasi_random', which counts such cases",
+                "it has no derivative there; take `method='quasi_random'`, which counts such "
+                "cases",
                 code="no_derivative",
                 output=name,
             )
@@ -142,7 +143,7 @@ def slopes(model: Model, joint: Joint, second: bool) -> tuple[dict[str, Slopes],
             raise NoSolutionError(
                 f"the model has a bend or a jump in {name!r} at the mean of the inputs, along "
                 f"{list(joint.inputs)[int(np.argmax(kinked))]!r}, so its derivatives there tell "
-                "nothing of the spread; take method='quasi_random'",
+                "nothing of the spread; take `method='quasi_random'`",
                 code="no_derivative",
                 output=name,
             )

@@ -16,6 +16,7 @@ from ..messages.errors import InputError, ShapeError, UnitsError
 from ..quantities.attributes import same
 from ..quantities.formatting import typeset
 from ..quantities.reading import ArgumentReader, is_whole
+from ..quantities.refusals import must_be
 from ..quantities.units import factor, has_unit, is_quantity, parse, shown, si_unit, unit_as_written
 from .normal import both_tails
 
@@ -38,7 +39,7 @@ class GivenUnit(str):
         return made
 
 
-class Stated:
+class Statement:
     """Base of all statements about a quantity: a frozen value of SI numbers and the unit they are
     in.
 
@@ -111,7 +112,7 @@ class Stated:
         return typeset(text.replace(f"{unit} to ", " to ") if unit else text)
 
 
-class Distribution(Stated):
+class Distribution(Statement):
     """A quantity that is not known exactly, and how likely each of its values is.
 
     All numbers are bare SI floats, and describe the distribution as it is used: after truncation.
@@ -229,7 +230,7 @@ def _like(given: Any, found: Any) -> Any:
     return found if isinstance(given, np.ndarray) else float(found)
 
 
-T = TypeVar("T", bound=Stated)
+T = TypeVar("T", bound=Statement)
 
 
 def from_numbers(
@@ -251,24 +252,14 @@ def probability(given: Any, argument: str = "p") -> Any:
     if reader.problems or not (
         np.min(found, initial=0.0) >= 0.0 and np.max(found, initial=1.0) <= 1.0
     ):
-        raise InputError(
-            f"{argument} must be a probability from 0 to 1, got {shown(given)}",
-            code="bad_fraction",
-            argument=argument,
-        )
+        raise must_be(argument, "a probability from 0 to 1", given, code="bad_fraction")
     return found
 
 
 def _plain_number(reader: ArgumentReader, given: Any, argument: str) -> Any:
     """A float64 or an array of them, from a value without unit."""
     if isinstance(given, str) or is_quantity(given):
-        return reader.refuse(
-            InputError(
-                f"{argument} must be a plain number, got {shown(given)}",
-                code="not_a_number",
-                argument=argument,
-            )
-        )
+        return reader.refuse(must_be(argument, "a plain number", given, code="not_a_number"))
     found = reader.number(given, "", argument, UNCHECKED)
     return found.astype(np.float64, copy=False) if isinstance(found, np.ndarray) else found
 
@@ -322,24 +313,19 @@ def read_alike(
             what = "is NaN" if math.isnan(number) else f"must be finite, got {shown(given[name])}"
             reader.refuse(
                 InputError(
-                    f"{name} {what}; write None for an end that is open",
+                    f"{name} {what}; write `|None for an end that is open|-inf for a "
+                    "lower end that is open, inf for an upper one`",
                     code="not_finite",
                     argument=name,
                 )
             )
         if isinstance(number, np.ndarray) is not arrays and not reader.problems:
             what = (
-                "an array or a list of values"
+                "`|an array or a list|a list` of values"
                 if arrays
                 else "one number; for a set of measured values use Samples"
             )
-            reader.refuse(
-                ShapeError(
-                    f"{name} must be {what}, got {shown(given[name])}",
-                    code="bad_shape",
-                    argument=name,
-                )
-            )
+            reader.refuse(must_be(name, what, given[name], code="bad_shape", kind=ShapeError))
     reader.close()
     return [numbers.get(name) for name in (*needed, *optional)], unit
 
@@ -355,7 +341,6 @@ def check_order(low: float, high: float, what: str = "low and high", unit: str =
         if high < low
         else "of a quantity that is known exactly give the number itself"
     )
-    shown_ends = f"{show(low, unit)} and {show(high, unit)}"
     start, end = math.degrees(low), math.degrees(high)
     if unit == "rad" and high < low:
         onwards = (end - start) % 360.0
@@ -364,8 +349,12 @@ def check_order(low: float, high: float, what: str = "low and high", unit: str =
                 "an angle that goes on across the end of the turn is counted on: write "
                 f"'{start:.6g} deg' and '{start + onwards:.6g} deg'"
             )
-    raise InputError(
-        f"{what} must be in rising order, got {shown_ends}; {hint}",
+    raise must_be(
+        what,
+        "in rising order",
+        (low, high),
+        f"; {hint}",
         code="bad_range",
-        argument="low",
+        got=f"{show(low, unit)} and {show(high, unit)}",
+        named="low",
     )

@@ -13,8 +13,9 @@ import numpy as np
 from ..messages.errors import InputError, MissingInputError, ShapeError
 from ..messages.hints import hinted
 from ..quantities.attributes import lock
+from ..quantities.refusals import must_be
 from ..quantities.units import Input
-from .distribution import Distribution, Stated, check_order, from_numbers, read_alike, show
+from .distribution import Distribution, Statement, check_order, from_numbers, read_alike, show
 from .normal import power_of_two
 from .normal_family import LogNormal, Normal
 
@@ -294,7 +295,7 @@ def _checked(rows: Any, argument: str) -> Any:
     return rows.astype(np.float64)
 
 
-class Interval(Stated):
+class Interval(Statement):
     """Two bounds between which a quantity lies, and nothing more: no value is said to be likelier
     than another.
 
@@ -343,7 +344,7 @@ class Interval(Stated):
         self._set(low=low, high=high)
 
 
-class Censored(Stated):
+class Censored(Statement):
     """A reading known only to lie above a bound, below one, or between two.
 
     A recorder that ended early would have read at least what it had reached; a speed class or a
@@ -390,19 +391,21 @@ class Censored(Stated):
     def _derive(self, low: float | None, high: float | None, error: float | None) -> None:
         if low is None and high is None:
             raise MissingInputError(
-                "a censored reading needs a bound; write Censored(low=...) for at least, "
-                "Censored(high=...) for at most",
+                "a censored reading needs a bound; write `Censored(low=...)` for at least, "
+                "`Censored(high=...)` for at most",
                 code="missing_bound",
                 argument="low",
             )
         if low is not None and high is not None:
             check_order(low, high, unit=self.unit)
         if error is not None and not error > 0.0:
-            raise InputError(
-                f"error must be > 0, got {show(error, self.unit)}; leave it out where the bounds "
-                "are sharp",
+            raise must_be(
+                "error",
+                "> 0",
+                error,
+                "; leave it out where the bounds are sharp",
                 code="not_positive",
-                argument="error",
+                got=show(error, self.unit),
             )
         self._set(low=low, high=high, error=error)
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import Any
 
-from ..messages.errors import CollisionsError, InputError
+from ..messages.errors import CollisionsError, InputError, placed
 from .model import Model, check_names
 from .one_sided import Answers
 
@@ -64,10 +64,8 @@ def _unit(units: Mapping[str, str | None], name: str) -> str:
 
 def _of_finer(error: CollisionsError) -> CollisionsError:
     """The same error, saying that the model meant is the finer one."""
-    fields = dict(error.fields)
-    if fields.get("argument") == "model":
-        fields["argument"] = "finer"
-    found = type(error)(f"finer: {error}", code=error.code, **fields)
+    of_model = error.fields.get("argument") == "model"
+    found = placed(error, "finer", **({"argument": "finer"} if of_model else {}))
     for note in getattr(error, "__notes__", ()):
         found.add_note(note)
     return found

@@ -67,9 +67,7 @@ class Halved(Summarized):
 
     @property
     def q(self) -> dict[str, dict[str, Any]]:
-        """By input and output, the widths as Quantities; plain numbers where the model returned
-        them.
-        """
+        """Widths by input and output as Quantities; plain numbers where the model returned them."""
         return {
             name: {output: self._with_unit(output, width) for output, width in row.items()}
             for name, row in self.widths.items()
@@ -180,7 +178,7 @@ class _Halfway(Distribution):
 
 
 def _widths(found: Propagation) -> dict[str, float]:
-    """By output, the width of its range."""
+    """The width of the range of each output."""
     ends = {name: output.interval() for name, output in found.outputs.items()}
     return {name: high - low for name, (low, high) in ends.items()}
 
@@ -192,7 +190,7 @@ def _least_share(widths: Mapping[str, float], now: Mapping[str, float]) -> float
 
 
 def _change(width: float, now: float) -> str:
-    """By how much a range is narrower or wider than now, in percent."""
+    """The percentage by which a range is narrower or wider than now."""
     if not 0.0 < now < math.inf or math.isnan(width):
         return "no change known"
     percent = round(100.0 * (width / now - 1.0))

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..messages.errors import InputError, NoSolutionError
-from ..quantities.attributes import OWN, derived, returns
+from ..quantities.attributes import OWN_UNIT, derived, returns
 from ..quantities.strict_json import strict
 from . import turns
 from .derivatives import Local
@@ -94,7 +94,7 @@ def extremes(
             code="too_many_intervals",
             argument="inputs",
         )
-    places = _Places(model, bounds, common)
+    places = _GridPoints(model, bounds, common)
     grid = _grid(len(bounds), effort)
     first = places.count_directions(places.answers(grid))
     searches: list[_Search] = []
@@ -106,7 +106,7 @@ def extremes(
                 output=name,
             )
         for figure in _FIGURES if common else _FIGURES[:1]:
-            judged = _by_place(figure, values)
+            judged = _per_point(figure, values)
             if not np.isnan(judged).all():
                 searches += (
                     _Search(name, figure, _steps_to(grid, judged, sign, effort))
@@ -127,7 +127,7 @@ def extremes(
     return Extremes(found, listed, places.samples, places.failed, wrapped, places.cuts)
 
 
-class _Places:
+class _GridPoints:
     """The model at points between bounds, given as shares of the way from the lower to the upper
     bound.
     """
@@ -196,7 +196,7 @@ class _Search(NamedTuple):
     steps: Generator[Any, Any, tuple[Any, float]]
 
 
-def _in_lockstep(places: _Places, searches: Sequence[_Search]) -> list[tuple[Any, float]]:
+def _in_lockstep(places: _GridPoints, searches: Sequence[_Search]) -> list[tuple[Any, float]]:
     """The point and the figure where each search ends.
 
     All searches take each step together, so that the model is called once a step, and no figure is
@@ -223,7 +223,7 @@ def _in_lockstep(places: _Places, searches: Sequence[_Search]) -> list[tuple[Any
             missing = [key for key in keys[at] if key not in known]
             if missing:
                 rows = answers[name][[row[key[0]] for key in missing]]
-                known.update(zip(missing, map(float, _by_place(figure, rows)), strict=True))
+                known.update(zip(missing, map(float, _per_point(figure, rows)), strict=True))
             try:
                 asked[at] = steps.send(np.array([known[key] for key in keys[at]]))
             except StopIteration as ended:
@@ -264,7 +264,7 @@ def _means(values: Any) -> Any:
         return np.sum(np.where(known, values, 0.0), axis=1) / np.count_nonzero(known, axis=1)
 
 
-def _by_place(figure: Callable[[Any], Any], values: Any) -> Any:
+def _per_point(figure: Callable[[Any], Any], values: Any) -> Any:
     """The figure over the answered cases of every row; NaN for fewer than two. If the row is one
     case, its value.
     """
@@ -318,22 +318,22 @@ class Bounds(Output):
         """Whether intervals are all that is uncertain about it."""
         return bool(self.mean == self.interval())
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def mean_standard_error(self) -> Any:
         """The largest standard error among the means."""
         return max(case.mean_standard_error for case in self.cases)
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def std_standard_error(self) -> Any:
         """The largest standard error among the standard deviations."""
         return max(case.std_standard_error for case in self.cases)
 
-    @returns(OWN)
+    @returns(OWN_UNIT)
     def quantile_standard_error(self, p: Any) -> Any:
         """The largest standard error among the quantiles."""
         return np.max([case.quantile_standard_error(p) for case in self.cases], axis=0)
 
-    @returns(OWN)
+    @returns(OWN_UNIT)
     def interval(self, coverage: float = COVERAGE) -> tuple[float, float]:
         """The range (low, high) that holds the value with at least this probability wherever in the
         interval the truth lies.

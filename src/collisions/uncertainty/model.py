@@ -14,7 +14,7 @@ from typing import Any, Protocol, TypeAlias
 import numpy as np
 
 from ..kernels.elementwise import UNCHECKED
-from ..messages.errors import CollisionsError, InputError, ShapeError, UnitsError
+from ..messages.errors import CollisionsError, InputError, ShapeError, UnitsError, reworded
 from ..messages.warning import Noted, quietly
 from ..quantities.reading import ArgumentReader
 from ..quantities.settings import in_si
@@ -39,9 +39,9 @@ class ByPaths(Protocol):
 AnyModel: TypeAlias = Function | ByPaths
 
 _LOW_CASES = 4  # asked again together: as alone, a threshold of those few divides them
-# Of the width of the middle half of the answers: an iteration that goes on until every case has
-# converged ends a little differently for one case. A smaller difference, whatever its cause,
-# changes no digit that anyone reads.
+# A share of the width of the middle half of the answers: an iteration that goes on until every
+# case has converged ends a little differently for one case. A smaller difference, whatever its
+# cause, changes no digit that anyone reads.
 _UNNOTICED = 1e-6
 _ROUNDINGS = 64.0 * float(
     np.finfo(np.float64).eps
@@ -105,10 +105,10 @@ class Model:
         except Exception as error:
             called = (
                 f"called with arrays of {count} cases for {', '.join(values) or 'nothing'}, and "
-                "must work case by case: write numpy in place of math (numpy.sqrt), numpy.where "
-                "in place of if (numpy.where(x > 0, x, -x)), and let refused cases be NaN: "
-                "on_failure='nan' where the solver has it (reconstruct.speeds gives NaN by "
-                f"itself){pair_hints(self.fixed)}"
+                "must work case by case: write numpy in place of math (numpy.sqrt), "
+                "numpy.where in place of if (numpy.where(x > 0, x, -x)), and let refused cases "
+                "be NaN: `on_failure='nan'` where the solver has it (reconstruct.speeds gives "
+                f"NaN by itself){pair_hints(self.fixed)}"
             )
             # Raised by Python and numpy where an array is used as a number, or a number as a
             # Quantity.
@@ -121,8 +121,8 @@ class Model:
         if not isinstance(answered, Mapping) or not answered:
             got = "an empty one" if isinstance(answered, Mapping) else type(answered).__name__
             raise _bad_model(
-                f"model must return a dict of named outputs, such as {{'delta_v': "
-                f"impact.a.q.delta_v}}, got {got}"
+                "model must return a dict of named outputs, such as `{'delta_v': "
+                f"impact.a.q.delta_v}}`, got {got}"
             )
         sides = {
             name: value.sides for name, value in answered.items() if isinstance(value, OneSided)
@@ -247,9 +247,9 @@ def read_input(name: str, value: Any) -> Any:
         and all(isinstance(part, (Number, np.generic)) for part in value)
     ):
         raise ShapeError(
-            f"{name} is a list of {len(value)} number{'s' * (len(value) > 1)}; measured values "
-            "are given as Samples(values), the parts of a point as a tuple, and what the model "
-            "needs as an array is written into the model itself",
+            f"{name} is a list of {len(value)} number{'s' * (len(value) > 1)}; measured "
+            "values are given as `Samples(values)`, the parts of a point as a tuple, and "
+            "what the model needs as an array is written into the model itself",
             code="bad_shape",
             argument=name,
         )
@@ -264,11 +264,10 @@ def read_input(name: str, value: Any) -> Any:
     except UnitsError as error:
         if not isinstance(value, str):
             raise
-        raise UnitsError(
-            f"{error}; a text that is no quantity, such as the name of a law, is written into "
-            "the model itself",
-            code=error.code,
-            **error.fields,
+        raise reworded(
+            error,
+            f"{error.marked}; a text that is no quantity, such as the name of a law, is written "
+            "into the model itself",
         ) from None
     reader = ArgumentReader()
     number = reader.number(value, unit, name, UNCHECKED)
@@ -276,8 +275,8 @@ def read_input(name: str, value: Any) -> Any:
     if isinstance(number, np.ndarray):
         raise ShapeError(
             f"{name} is an array of shape {number.shape}; measured values are given as "
-            "Samples(values), and what the model needs as an array is written into the model "
-            "itself",
+            "`Samples(values)`, and what the model needs as an array is written into the "
+            "model itself",
             code="bad_shape",
             argument=name,
         )

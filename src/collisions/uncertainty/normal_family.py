@@ -19,7 +19,8 @@ from ..messages.errors import InputError, ShapeError
 from ..messages.hints import hinted
 from ..quantities.formatting import typeset
 from ..quantities.reading import ArgumentReader
-from ..quantities.units import Input, shown
+from ..quantities.refusals import must_be
+from ..quantities.units import Input
 from .distribution import Distribution, check_order, from_numbers, read_alike, show
 from .normal import cdf, density, power_of_two, quantile, score_of_coverage, survival
 
@@ -55,19 +56,18 @@ class NormalFamily(Distribution):
     given_mean: float
     given_sd: float
     truncate: tuple[float | None, float | None] | None
-    # Of the probability before truncation: below the lower bound, between both, and above the upper
-    # one.
+    # Shares of the probability before truncation: below the lower bound, between both, and above
+    # the upper one.
     _split: tuple[float, float, float] | None
-    # Derivative of the quantity's logarithm with respect to the score; 0 for Normal, which is
-    # linear in the score.
-    _steepness: float = 0.0
+    # Standard deviation of the quantity's logarithm; 0 for Normal, which is linear in the score.
+    _log_sd: float = 0.0
 
     # Mean and standard deviation, before truncation, for which two values have the scores -score
     # and +score.
-    _spanning: Callable[[float, float, float], tuple[float, float]]
+    _from_quantiles: Callable[[float, float, float], tuple[float, float]]
     # Moments and support before truncation, the value at a score there, and the difference of the
     # scores of two values.
-    _whole: Callable[[], tuple[float, float, float, float, tuple[float, float]]]
+    _untruncated: Callable[[], tuple[float, float, float, float, tuple[float, float]]]
     _value: Callable[[Any], Any]
     _between: Callable[[float, float], float]
     # Mean and standard deviation after truncation, from those about the anchor.
@@ -94,7 +94,7 @@ class NormalFamily(Distribution):
             *(f"{bound} {show(end, self.unit)}" for bound, end in ends if end is not None),
         ]
         # A mean ± a deviation alone is taken to be of a normal distribution.
-        if self._range is not None or self._steepness:
+        if self._range is not None or self._log_sd:
             parts.append(self._words)
         return typeset(", ".join(parts))
 
@@ -139,15 +139,16 @@ class NormalFamily(Distribution):
         share = reader.number(coverage, "", "coverage")
         reader.close()
         if not isinstance(share, float) or not 0.0 < share < 1.0:
-            raise InputError(
-                "coverage must be more than 0 and less than 1, such as 0.95, got "
-                f"{shown(coverage)}; a range that cannot be left is Uniform(low, high), or "
-                "Interval(low, high) where nothing is known of likelihood",
+            raise must_be(
+                "coverage",
+                "more than 0 and less than 1, such as 0.95",
+                coverage,
+                "; a range that cannot be left is `Uniform(low, high)`, or `Interval(low, "
+                "high)` where nothing is known of likelihood",
                 code="bad_fraction",
-                argument="coverage",
             )
         check_order(start, end, unit=unit)
-        mean, sd = cls._spanning(start, end, score_of_coverage(share))
+        mean, sd = cls._from_quantiles(start, end, score_of_coverage(share))
         return from_numbers(
             cls, unit, {"mean": mean, "sd": sd, "truncate": bounds}, (start, end, share)
         )
@@ -156,14 +157,16 @@ class NormalFamily(Distribution):
         self, mean: float, sd: float, truncate: tuple[float | None, float | None] | None
     ) -> None:
         if not sd > 0.0:
-            raise InputError(
-                f"sd must be > 0, got {show(sd, self.unit)}; of a quantity that is known exactly "
-                "give the number itself",
+            raise must_be(
+                "sd",
+                "> 0",
+                sd,
+                "; of a quantity that is known exactly give the number itself",
                 code="not_positive",
-                argument="sd",
+                got=show(sd, self.unit),
             )
         self._set(given_mean=mean, given_sd=sd, truncate=truncate, _split=None)
-        self._describe(*self._whole())
+        self._describe(*self._untruncated())
         if truncate is not None:
             low, high = (
                 (-math.inf if truncate[0] is None else truncate[0]),
@@ -174,26 +177,26 @@ class NormalFamily(Distribution):
 
     def _truncate(self, low: float, high: float) -> None:
         """Truncate to two bounds; refused if too little probability is left."""
-        steepness = self._steepness
+        log_sd = self._log_sd
         anchor = min(max(float(self._value(0.0)), low), high)
         left = None
         if low < high and abs(score := self._score(anchor)) <= _FARTHEST:
             start, end = self._between(anchor, low), self._between(anchor, high)
             if end - start >= _LEAST_SHARE:
-                left = moments(score, start, end, steepness)
+                left = moments(score, start, end, log_sd)
         if left is None or left.share < _LEAST_SHARE:
             raise InputError(
-                f"truncate={show(self.truncate, self.unit)} leaves less than {_LEAST_SHARE:g} of "
+                f"`truncate={show(self.truncate, self.unit)}` leaves less than {_LEAST_SHARE:g} of "
                 "the probability of "
-                f"{type(self).__name__}(mean={show(self.given_mean, self.unit)}, "
-                f"sd={show(self.given_sd, self.unit)}); look for a wrong bound, or state what is "
-                "known otherwise, for example by Uniform(low, high)",
+                f"`{type(self).__name__}(mean={show(self.given_mean, self.unit)}, "
+                f"sd={show(self.given_sd, self.unit)})`; look for a wrong bound, or state what is "
+                "known otherwise, for example by `Uniform(low, high)`",
                 code="truncated_away",
                 argument="truncate",
             )
         start, end = self._score(low), self._score(high)
         # The fourth moment looks this much further up than the probability does.
-        if cdf(start) + survival(end - 4.0 * steepness) < _UNNOTICED:
+        if cdf(start) + survival(end - 4.0 * log_sd) < _UNNOTICED:
             self._set(support=(low, high))
             return
         self._set(_split=(cdf(start), left.share, survival(end)))
@@ -201,9 +204,9 @@ class NormalFamily(Distribution):
 
     def _score(self, value: float) -> float:
         """The score of a value in the distribution before truncation, where the mean scores half
-        the steepness.
+        the standard deviation of the logarithm.
         """
-        return self._between(self.given_mean, value) + 0.5 * self._steepness
+        return self._between(self.given_mean, value) + 0.5 * self._log_sd
 
     def _scored(self, z: Any) -> Any:
         return self._inside(self._value(z)) if self._split is None else super()._scored(z)
@@ -269,10 +272,10 @@ class Normal(NormalFamily):
     _words = "normal"
 
     @staticmethod
-    def _spanning(low: float, high: float, score: float) -> tuple[float, float]:
+    def _from_quantiles(low: float, high: float, score: float) -> tuple[float, float]:
         return 0.5 * low + 0.5 * high, (0.5 * high - 0.5 * low) / score
 
-    def _whole(self) -> tuple[float, float, float, float, tuple[float, float]]:
+    def _untruncated(self) -> tuple[float, float, float, float, tuple[float, float]]:
         return self.given_mean, self.given_sd, 0.0, 3.0, (-math.inf, math.inf)
 
     def _value(self, score: Any) -> Any:
@@ -314,21 +317,21 @@ class LogNormal(NormalFamily):
     673067
     """
 
-    __slots__ = ("_median", "_steepness")
+    __slots__ = ("_log_sd", "_median")
 
     _words = "log-normal"
 
     _median: float
 
     @staticmethod
-    def _spanning(low: float, high: float, score: float) -> tuple[float, float]:
+    def _from_quantiles(low: float, high: float, score: float) -> tuple[float, float]:
         _check_positive("low", low)
         scale = 0.5 * (math.log(high) - math.log(low)) / score
         with np.errstate(over="ignore", invalid="ignore"):
             mean = float(math.sqrt(low) * math.sqrt(high) * np.exp(0.5 * scale * scale))
             return mean, mean * float(np.sqrt(np.expm1(scale * scale)))
 
-    def _whole(self) -> tuple[float, float, float, float, tuple[float, float]]:
+    def _untruncated(self) -> tuple[float, float, float, float, tuple[float, float]]:
         mean, sd = self.given_mean, self.given_sd
         _check_positive("mean", mean)
         relative = sd / mean
@@ -341,13 +344,13 @@ class LogNormal(NormalFamily):
             )
         growth = 1.0 + relative * relative
         scale = math.sqrt(math.log1p(relative * relative)) if relative > 1e-8 else relative
-        self._set(_median=mean / math.sqrt(growth), _steepness=scale)
+        self._set(_median=mean / math.sqrt(growth), _log_sd=scale)
         kurtosis = growth * growth * (growth * growth + 2.0 * growth + 3.0) - 3.0
         return mean, sd, relative * (growth + 2.0), kurtosis, (0.0, math.inf)
 
     def _value(self, score: Any) -> Any:
         with np.errstate(over="ignore"):
-            return self._median * np.exp(self._steepness * score)
+            return self._median * np.exp(self._log_sd * score)
 
     def _between(self, start: float, end: float) -> float:
         if end <= 0.0:
@@ -355,7 +358,7 @@ class LogNormal(NormalFamily):
         near = 0.5 * start <= end <= 2.0 * start
         return (
             math.log1p((end - start) / start) if near else math.log(end) - math.log(start)
-        ) / self._steepness
+        ) / self._log_sd
 
     def _moved(self, anchor: float, left: Moments) -> tuple[float, float]:
         return anchor * (1.0 + left.mean), anchor * left.sd
@@ -371,20 +374,20 @@ class Moments(NamedTuple):
     kurtosis: float
 
 
-def moments(anchor: float, low: float, high: float, steepness: float = 0.0) -> Moments:
-    """Moments of t between low <= 0 and high >= 0 from the anchor's score, or of exp(steepness t) -
-    1 if steepness > 0.
+def moments(anchor: float, low: float, high: float, log_sd: float = 0.0) -> Moments:
+    """Moments of t between low <= 0 and high >= 0 from the anchor's score, or of exp(log_sd t) -
+    1 if log_sd > 0.
     """
-    # The fourth power of exp(steepness t) has its peak this much further up.
-    tilt = 4.0 * steepness
-    start = max(low, -_fall(anchor))
-    end = min(high, max(0.0, tilt - anchor) + _fall(max(0.0, anchor - tilt)))
-    panels = max(1, math.ceil(max(_PANELS, steepness) * (end - start)))
+    # The fourth power of exp(log_sd t) has its peak this much further up.
+    tilt = 4.0 * log_sd
+    start = max(low, -_support_width(anchor))
+    end = min(high, max(0.0, tilt - anchor) + _support_width(max(0.0, anchor - tilt)))
+    panels = max(1, math.ceil(max(_PANELS, log_sd) * (end - start)))
     half = 0.5 * (end - start) / panels
     t = (start + half * (2.0 * np.arange(panels)[:, None] + 1.0 + _NODES)).reshape(-1)
     weighted = np.tile(_WEIGHTS, 2 * panels) * (half * np.exp(-0.5 * t * (t + 2.0 * anchor)))
     with np.errstate(all="ignore"):
-        value = np.expm1(steepness * t) if steepness else t
+        value = np.expm1(log_sd * t) if log_sd else t
         scale = power_of_two(value)
         value = value / scale
         total = float(np.sum(weighted))
@@ -396,7 +399,7 @@ def moments(anchor: float, low: float, high: float, steepness: float = 0.0) -> M
     return Moments(float(density(anchor)) * total, scale * mean, scale * sd, third, fourth)
 
 
-def _fall(score: float) -> float:
+def _support_width(score: float) -> float:
     """The distance from a score, away from the centre, over which the density is not negligible."""
     return 2.0 * _NEGLIGIBLE / (math.sqrt(score * score + 2.0 * _NEGLIGIBLE) + abs(score))
 
@@ -410,11 +413,12 @@ def _read(
     if truncate is None:
         truncate = (None, None)
     if not isinstance(truncate, (tuple, list)) or len(truncate) != 2:
-        raise ShapeError(
-            "truncate must be a pair (low, high), where None leaves a side open, got "
-            f"{shown(truncate)}",
+        raise must_be(
+            "truncate",
+            "a pair `(low, high)`, where `|None|-inf or inf` leaves a side open",
+            truncate,
             code="bad_shape",
-            argument="truncate",
+            kind=ShapeError,
         )
     (one, other, *bounds), unit = read_alike(
         needed, {f"truncate[{i}]": bound for i, bound in enumerate(truncate)}

@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ..messages.errors import InputError, ShapeError
+from ..messages.errors import ShapeError
 from ..quantities.reading import ArgumentReader
-from ..quantities.units import is_quantity, shown, si_unit
+from ..quantities.refusals import must_be
+from ..quantities.units import is_quantity, si_unit
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,13 +54,14 @@ class OneSided:
     sides: Any = 0
 
     def __post_init__(self) -> None:
-        sides = np.asarray(self.sides)
-        if sides.dtype.kind not in "iuf" or not np.isin(sides, (-1, 0, 1)).all():
-            raise InputError(
-                f"sides must be 1 (at least the value), -1 (at most) or 0 (known both ways), or an "
-                f"array of these, got {shown(self.sides)}",
+        of_sides = ArgumentReader(trusted=("sides",))
+        sides = np.asarray(of_sides.number(self.sides, "", "sides"))
+        if of_sides.problems or not np.isin(sides, (-1, 0, 1)).all():
+            raise must_be(
+                "sides",
+                "1 (at least the value), -1 (at most) or 0 (known both ways), or an array of these",
+                self.sides,
                 code="bad_option",
-                argument="sides",
             )
         unit = (si_unit(self.values, per_angle=True) or "") if is_quantity(self.values) else ""
         reader = ArgumentReader(trusted=("values",))

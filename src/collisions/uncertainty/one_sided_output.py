@@ -10,7 +10,7 @@ import numpy as np
 
 from ..messages.errors import InputError
 from ..messages.warning import Note
-from ..quantities.attributes import OWN, derived
+from ..quantities.attributes import OWN_UNIT, derived
 from ..quantities.formatting import Numbers
 from ..quantities.strict_json import strict
 from .result import COVERAGE, Histogram, Output, Sampled, Shares
@@ -67,12 +67,12 @@ class OneSidedOutput(Sampled):
         sides = self.sides[~np.isnan(self.values)]
         return float(np.mean(sides > 0)), float(np.mean(sides < 0))
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def mean_standard_error(self) -> Any:
         """NaN: without a mean it has no error."""
         return math.nan
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def std_standard_error(self) -> Any:
         """NaN: without a standard deviation it has no error."""
         return math.nan
@@ -96,9 +96,9 @@ class OneSidedOutput(Sampled):
             Always.
         """
         raise InputError(
-            f"{self.name!r} has no histogram, because some of its cases are known from one side "
-            "only; look at its interval(), or find a distribution with reconstruct.posterior and a "
-            "prior",
+            f"{self.name!r} has no histogram, because some of its cases are known from one "
+            "side only; look at its interval(), or find a distribution with "
+            "`reconstruct.posterior` and a prior",
             code="one_sided",
             argument=self.name,
         )
@@ -202,7 +202,7 @@ def one_sided_notes(outputs: Mapping[str, Output]) -> Iterator[Note]:
                     f"{name} is known from one side only in {100.0 * share:.3g} % of the "
                     f"cases, as {word} its value: the {end} end of a range is infinite where "
                     "these decide it, and mean and standard deviation do not exist. "
-                    "reconstruct.posterior with a prior for it has two sides",
+                    "`reconstruct.posterior` with a prior for it has two sides",
                     code="one_sided",
                     fields={"output": name, "share": share},
                 )

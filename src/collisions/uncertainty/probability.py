@@ -24,7 +24,7 @@ _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 def holds_of_one(condition: Condition, name: str, values: Any, sides: Any = None) -> Any:
-    """By sample of one output, 1 where the condition holds and 0 where not; NaN without an
+    """Samples of one output, 1 where the condition holds and 0 where not; NaN without an
     answer. Sides are 1 of a sample that says "at least", -1 of "at most", else 0.
     """
     answered = ~np.isnan(values)
@@ -43,7 +43,7 @@ def holds_of_one(condition: Condition, name: str, values: Any, sides: Any = None
 def holds(
     condition: Condition, columns: Mapping[str, Any], sides: Mapping[str, Any] | None = None
 ) -> Any:
-    """By joint sample, 1 where the condition holds and 0 where not; NaN where an output that it
+    """Joint samples, 1 where the condition holds and 0 where not; NaN where an output that it
     reads has no answer. Sides by name are those of outputs known from one side in some samples.
     """
     read = _Read(columns)
@@ -131,10 +131,10 @@ def _refuse_undecided(found: Any, others: Iterator[Any], names: list[str]) -> No
     if count := int(np.count_nonzero(differ)):
         these = f"{' and '.join(map(repr, names))} {'is' if len(names) == 1 else 'are'}"
         raise InputError(
-            f"in at least {count} of {np.count_nonzero(answered)} samples the condition may hold "
-            f"or not, because {these} known from one side only there, as at least or at most a "
-            "value; ask a condition that does not depend on what lies beyond, or find a "
-            "distribution with reconstruct.posterior and a prior",
+            f"in at least {count} of {np.count_nonzero(answered)} samples the condition may "
+            f"hold or not, because {these} known from one side only there, as at least or "
+            "at most a value; ask a condition that does not depend on what lies beyond, or "
+            "find a distribution with `reconstruct.posterior` and a prior",
             code="one_sided",
             argument="condition",
         )

@@ -15,14 +15,16 @@ import numpy as np
 
 from ..messages.errors import CollisionsWarning, InputError, NoSolutionError, OutOfRangeWarning
 from ..messages.hints import hinted
+from ..messages.marked import type_of
 from ..messages.progress import reporter
 from ..messages.warning import Note, notes_of_samples, warn_of
 from ..quantities.reading import ArgumentReader, is_whole
-from ..quantities.units import shown
+from ..quantities.refusals import must_be
+from ..quantities.units import rendered, shown
 from .correction import Corrected, CorrectedOutput, corrected
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
-from .distribution import Stated
+from .distribution import Statement
 from .distributions import Distribution, Interval
 from .finer import FinerModel
 from .halved import Halved, widths_if_halved
@@ -203,7 +205,7 @@ def propagate(
     model = function_of(model, stated, outputs, "outputs")
     finer = None if finer is None else function_of(finer, stated, outputs, "finer")
     if method is None:
-        kinds = {type(value) for value in stated.values() if isinstance(value, Stated)}
+        kinds = {type(value) for value in stated.values() if isinstance(value, Statement)}
         method = (
             "interval" if kinds == {Interval} and samples is tolerance is None else "quasi_random"
         )
@@ -288,17 +290,17 @@ def _propagated(
         censored = [
             name
             for name, value in stated.items()
-            if isinstance(value, Stated) and name in whole.fixed
+            if isinstance(value, Statement) and name in whole.fixed
         ]
-        advice = "; of intervals alone take method='interval'"
+        advice = "; of intervals alone take `method='interval'`"
         if censored:
             advice = (
                 f"; {censored[0]} is a reading with a bound, which is evidence for "
-                "reconstruct.posterior: give a distribution of what is known, or Interval(low, "
-                "high)"
+                "`reconstruct.posterior`: give a distribution of what is known, or "
+                "`Interval(low, high)`"
             )
         raise InputError(
-            f"method={method!r} needs an input with a distribution, and there is "
+            f"`method={method!r}` needs an input with a distribution, and there is "
             f"none{advice}{pair_hints(whole.fixed)}",
             code="nothing_uncertain",
             argument="inputs",
@@ -306,8 +308,9 @@ def _propagated(
     joint = Joint(drawn, correlation)
     if 2 * joint.dimensions > MOST_DIMENSIONS and method in (*LOCAL, "quasi_random"):
         raise InputError(
-            f"{joint.dimensions} independent inputs are more than the {MOST_DIMENSIONS // 2} that "
-            f"method={method!r} spreads its points over; take method='monte_carlo'",
+            f"{joint.dimensions} independent inputs are more than the "
+            f"{MOST_DIMENSIONS // 2} that `method={method!r}` spreads its points over; take "
+            "`method='monte_carlo'`",
             code="too_many_inputs",
             argument="inputs",
         )
@@ -382,25 +385,25 @@ def _read_finer(
     if finer is None:
         if wanted is not None:
             raise _bad_option(
-                "finer_samples", "finer_samples is for a finer model, and finer= is not given"
+                "finer_samples", ("finer_samples is for a finer model, and `finer=` is not given")
             )
         return 0
     intervals = [name for name, value in stated.items() if isinstance(value, Interval)]
     for argument, given, why in (
-        ("method", method not in (None, *DESIGNS), f"method={method!r} draws none"),
-        ("tolerance", tolerance is not None, "tolerance= asks for as many as it takes"),
+        ("method", method not in (None, *DESIGNS), f"`method={method!r}` draws none"),
+        ("tolerance", tolerance is not None, "`tolerance=` asks for as many as it takes"),
         ("inputs", bool(intervals), f"{', '.join(intervals)} is an Interval, which is searched"),
     ):
         if given:
             cure = {
-                "method": "take method='quasi_random'",
-                "tolerance": "give samples=",
+                "method": "take `method='quasi_random'`",
+                "tolerance": "give `samples=`",
                 "inputs": "give a distribution",
             }[argument]
             raise _bad_option(
                 argument,
-                f"finer= corrects a fixed number of samples, and {why}; {cure}, or run the finer "
-                "model alone",
+                f"`finer=` corrects a fixed number of samples, and {why}; {cure}, or run the "
+                "finer model alone",
                 "no_finer",
             )
     if wanted is not None and not (is_whole(wanted) and _LEAST_SAMPLES <= wanted <= MOST_SAMPLES):
@@ -427,10 +430,12 @@ def check_options(
             "method", f"method must be one of {', '.join(METHODS)}, got {shown(method)}"
         )
     if samples is not None and tolerance is not None:
-        raise _bad_option("tolerance", "give samples= or tolerance=, not both")
+        raise _bad_option("tolerance", "give `samples=` or `tolerance=`, not both")
     for name, value in (("samples", samples), ("tolerance", tolerance)):
         if value is not None and method not in DESIGNS:
-            raise _bad_option(name, f"{name} is for methods that draw; method={method!r} does not")
+            raise _bad_option(
+                name, (f"{name} is for methods that draw; `method={method!r}` does not")
+            )
     samples_fine = samples is None or (is_whole(samples) and least <= samples <= MOST_SAMPLES)
     progress_fine = progress is None or isinstance(progress, bool) or callable(progress)
     for name, value, fine, allowed in (
@@ -439,10 +444,10 @@ def check_options(
             "seed",
             seed,
             seed is None or (is_whole(seed) and seed >= 0),
-            "a whole number from 0, or None",
+            "a whole number from 0`|, or None|`",
         ),
         ("threads", threads, is_whole(threads) and threads >= 1, "a whole number from 1"),
-        ("progress", progress, progress_fine, "a function of (done, total), or True for a bar"),
+        ("progress", progress, progress_fine, "a function of (done, total), or `True` for a bar"),
     ):
         if not fine:
             raise _bad_option(name, f"{name} must be {allowed}, got {shown(value)}")
@@ -455,11 +460,12 @@ def _bad_option(argument: str, text: str, code: str = "bad_option") -> InputErro
 def _read_inputs(inputs: Any) -> dict[str, Any]:
     """The inputs by name: distributions and intervals as they are, numbers in SI."""
     if not isinstance(inputs, Mapping) or not all(isinstance(name, str) for name in inputs):
-        raise InputError(
-            f"inputs must be a dict of what is known by name, such as {{'speed': Normal(15.0, "
-            f"0.5)}}, got {type(inputs).__name__}",
+        raise must_be(
+            "inputs",
+            "a dict of what is known by name, such as `{'speed': Normal(15.0, 0.5)}`",
+            inputs,
             code="bad_inputs",
-            argument="inputs",
+            got=type_of(inputs),
         )
     return {name: read_input(name, value) for name, value in inputs.items()}
 
@@ -473,7 +479,7 @@ def _read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[st
             f"tolerance names {(*unknown, 'no output')[0]}; the model returned {', '.join(units)}"
         )
         raise _bad_option("tolerance", text, "bad_tolerance")
-    names = {name: f"tolerance[{shown(name)}]" for name in given}
+    names = {name: f"tolerance[{rendered(name)}]" for name in given}
     reader = ArgumentReader(trusted=tuple(names.values()))
     found = {
         name: reader.number(value, units[name] or "", names[name]) for name, value in given.items()
@@ -617,7 +623,7 @@ def _by_interval(model: Model, stated: dict[str, Any], correlation: Any) -> Prop
     """The least and the greatest value of every output between the bounds of the inputs."""
     if correlation is not None and (not isinstance(correlation, Mapping) or correlation):
         raise InputError(
-            "method='interval' knows no likelihood, so no correlation either; leave it out",
+            ("`method='interval'` knows no likelihood, so no correlation either; leave it out"),
             code="bad_correlation",
             argument="correlation",
         )
@@ -629,15 +635,15 @@ def _by_interval(model: Model, stated: dict[str, Any], correlation: Any) -> Prop
     for name, ends in bounds.items():
         if not all(map(math.isfinite, ends)):
             raise InputError(
-                f"{name} = {stated[name]!r} has no bounds for method='interval'; write "
-                "Interval(low, high), or truncate=(low, high)",
+                f"{name} = {shown(stated[name])} has no bounds for `method='interval'`; write "
+                "`Interval(low, high)`, or `truncate=(low, high)`",
                 code="unbounded",
                 argument=name,
             )
     if not bounds:
         raise InputError(
-            "method='interval' needs an input with bounds, such as Interval(low, "
-            f"high){pair_hints(model.fixed)}",
+            "`method='interval'` needs an input with bounds, such as `Interval(low, "
+            f"high)`{pair_hints(model.fixed)}",
             code="nothing_uncertain",
             argument="inputs",
         )
@@ -681,8 +687,10 @@ def _notes(
                 "are left out: the figures hold only where there is one",
                 ""
                 if any(note.code == "stuck_or_slid" for note in notes)
-                else ". Bound inputs that can be impossible, as by Normal(mean, sd, truncate=(low, "
-                "high))",
+                else (
+                    ". Bound inputs that can be impossible, as by `Normal(mean, sd, truncate=(low, "
+                    "high))`"
+                ),
                 "failed_cases",
                 {"failed": failed},
             )
@@ -768,9 +776,9 @@ def _not_local(method: str, runs: Sequence[Run], failed: int) -> Iterator[Note]:
     if reasons:
         yield Note(
             OutOfRangeWarning,
-            f"method={method!r} {' and '.join(reasons)}. A friction limit, a truncation or a "
-            "bend lies within the spread of the inputs, or an input is far from normal",
-            "; take method='quasi_random'",
+            f"`method={method!r}` {' and '.join(reasons)}. A friction limit, a truncation "
+            "or a bend lies within the spread of the inputs, or an input is far from normal",
+            "; take `method='quasi_random'`",
             "not_local",
             {"differences": worst, "failed": failed},
         )

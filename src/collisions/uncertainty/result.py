@@ -15,12 +15,13 @@ import numpy as np
 
 from ..messages.errors import InputError
 from ..messages.warning import Note
-from ..quantities.attributes import OWN, Derived, Quantities, derived, returns, same, show
+from ..quantities.attributes import OWN_UNIT, Derived, Quantities, derived, returns, same, show
 from ..quantities.formatting import KIND_OF, Numbers
 from ..quantities.reading import ArgumentReader, is_whole
+from ..quantities.refusals import must_be
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, as_sentence
-from ..quantities.units import shown, unit_as_written
+from ..quantities.units import rendered, shown, unit_as_written
 from . import turns as angles
 from .designs import REPLICATES
 from .distribution import probability
@@ -152,29 +153,29 @@ class Output(Summarized):
         """What a table says of an output whose figures are of another kind; None for others."""
         return None
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def mean(self) -> Any:
         """Expected value."""
         return self._mean()
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def std(self) -> Any:
         """Standard deviation."""
         return self._std()
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def mean_standard_error(self) -> Any:
         """Standard error of the mean due to sampling; NaN for a local method, which does not sample
         or know its error.
         """
         return math.nan
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def std_standard_error(self) -> Any:
         """Standard error of the standard deviation due to sampling; NaN for a local method."""
         return math.nan
 
-    @returns(OWN)
+    @returns(OWN_UNIT)
     def quantile(self, p: Any) -> Any:
         """The value that is not exceeded with probability p, a number from 0 to 1 or an array of
         them.
@@ -191,7 +192,7 @@ class Output(Summarized):
         """
         return self._quantile(probability(p))
 
-    @returns(OWN)
+    @returns(OWN_UNIT)
     def quantile_standard_error(self, p: Any) -> Any:
         """Standard error of a quantile due to sampling; NaN for a local method.
 
@@ -207,7 +208,7 @@ class Output(Summarized):
         """
         return probability(p) * math.nan
 
-    @returns(OWN)
+    @returns(OWN_UNIT)
     def interval(self, coverage: float = COVERAGE) -> tuple[float, float]:
         """The range (low, high) that holds the value with this probability and leaves equal
         probabilities below and above.
@@ -235,32 +236,28 @@ class Output(Summarized):
         """
         share = probability(coverage, "coverage")
         if not isinstance(share, float):
-            raise InputError(
-                f"coverage must be one number, got {shown(coverage)}",
-                code="bad_fraction",
-                argument="coverage",
-            )
+            raise must_be("coverage", "one number", coverage, code="bad_fraction")
         low, high = self._quantile(np.array([0.5 - 0.5 * share, 0.5 + 0.5 * share]))
         return float(low), float(high)
 
     @property
     def contributions(self) -> dict[str, float]:
-        """By input, the share of the variance due to it alone, largest first; the rest, up to 1, is
+        """Share of the variance due to each input alone, largest first; the rest, up to 1, is
         interaction.
         """
         return _ranked(self._shares().first)
 
     @property
     def total_contributions(self) -> dict[str, float]:
-        """By input, the share of the variance due to it with all its interactions: what is left
-        when the others are known.
+        """Share of the variance due to each input with all its interactions: what is left when
+        the others are known.
         """
         return _ranked(self._shares().total)
 
     @property
     def contribution_standard_errors(self) -> dict[str, tuple[float, float]]:
-        """By input, the standard errors of its contribution and of its total contribution; NaN for
-        a local method.
+        """Standard errors of the contribution and of the total contribution of each input; NaN
+        for a local method.
         """
         found = self._shares()
         return {
@@ -284,7 +281,7 @@ class Output(Summarized):
         """
         raise InputError(
             f"{self.name!r} has no histogram, because nothing was sampled; take "
-            "method='quasi_random'",
+            "`method='quasi_random'`",
             code="not_sampled",
             argument="method",
         )
@@ -334,7 +331,7 @@ class Output(Summarized):
         """
         raise InputError(
             f"{self.name!r} has no samples in which a condition could hold; take "
-            "method='quasi_random', which draws them",
+            "`method='quasi_random'`, which draws them",
             code="not_sampled",
             argument="method",
         )
@@ -417,7 +414,9 @@ class InUnit(Quantities):
         reader = ArgumentReader()
         # A text or a unit of pint; anything else is refused by how it is written.
         name = (
-            f"{unit}" if isinstance(unit, str) or hasattr(unit, "dimensionality") else shown(unit)
+            f"{unit}"
+            if isinstance(unit, str) or hasattr(unit, "dimensionality")
+            else rendered(unit)
         )
         factor = reader.number(f"1 {name}", owner.unit or "", "unit")
         reader.close()
@@ -523,7 +522,7 @@ class Sampled(Output):
             return angles.point_everywhere(found) or angles.point_to_opposite_sides(found)
         return self.unit is None and angles.jump(found)
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def mean_standard_error(self) -> Any:
         """Standard error of the mean due to sampling; of a probability, at least one over the
         number of cases.
@@ -538,12 +537,12 @@ class Sampled(Output):
         )
         return max(error, 1.0 / found.size) if seldom else error
 
-    @derived(OWN)
+    @derived(OWN_UNIT)
     def std_standard_error(self) -> Any:
         """Standard error of the standard deviation due to sampling."""
         return self._error(deviation)
 
-    @returns(OWN)
+    @returns(OWN_UNIT)
     def quantile_standard_error(self, p: Any) -> Any:
         """Standard error of a quantile due to sampling; NaN at 0 and 1, beyond which there is
         nothing to go by.
@@ -583,11 +582,7 @@ class Sampled(Output):
             Edges, shares and standard errors of the shares.
         """
         if not is_whole(bins) or not 1 <= bins <= _MOST_BINS:
-            raise InputError(
-                f"bins must be a whole number from 1 to {_MOST_BINS}, got {shown(bins)}",
-                code="bad_option",
-                argument="bins",
-            )
+            raise must_be("bins", f"a whole number from 1 to {_MOST_BINS}", bins, code="bad_option")
         try:
             with np.errstate(all="ignore"):
                 edges = np.histogram_bin_edges(self._answered, bins)
@@ -669,7 +664,7 @@ class Sampled(Output):
         if not 0.0 < share < 1.0 or found.size < 2:
             return math.nan
         at = np.quantile(found, share)
-        # Of points that lie evenly the shares can all be the same, and the quantile still lies
+        # The shares of points that lie evenly can all be the same, and the quantile still lies
         # anywhere between two of them.
         error = math.hypot(self._error(lambda values: np.mean(values <= at)), 0.5 / found.size)
         width = max(error, math.sqrt(share * (1.0 - share) / found.size))
@@ -879,7 +874,7 @@ class Propagation(Summarized):
         """What belongs with the figures, as sentences: every warning of the model, by how many
         cases, and of the method.
         """
-        return tuple(note.sentence for note in self.notes)
+        return tuple(note.statement for note in self.notes)
 
     def to_dict(self) -> dict[str, Any]:
         """Figures of all outputs and the inputs they are given, as nested plain values that strict
@@ -892,7 +887,7 @@ class Propagation(Summarized):
         """
         return {
             "method": self.method,
-            "inputs": {name: shown(value, 1000) for name, value in self.inputs.items()},
+            "inputs": {name: rendered(value, 1000) for name, value in self.inputs.items()},
             "samples": self.samples,
             "failed": self.failed,
             "seed": self.seed,

@@ -14,7 +14,9 @@ import numpy as np
 
 from ..engine.blocks import in_order
 from ..messages.errors import InputError
+from ..messages.marked import type_of
 from ..quantities.reading import is_whole
+from ..quantities.refusals import must_be
 from ..quantities.units import shown
 from . import normal, turns
 from .designs import REPLICATES, Design
@@ -161,11 +163,13 @@ def _read_correlation(
 ) -> dict[frozenset[str], float]:
     """The correlations by pair; invalid ones are refused."""
     if not isinstance(correlation, Mapping):
-        raise InputError(
-            f"correlation must be a dict such as {{('mass_a', 'mass_b'): 0.8}}, got "
-            f"{type(correlation).__name__}",
+        raise must_be(
+            "correlation",
+            "`|a dict such as {('mass_a', 'mass_b'): 0.8}|rows such as "
+            '[["a.mass", "b.mass", 0.5]]`',
+            correlation,
             code="bad_correlation",
-            argument="correlation",
+            got=type_of(correlation),
         )
     found: dict[frozenset[str], float] = {}
     for pair, value in correlation.items():

@@ -102,7 +102,7 @@ def jump(values: Any) -> bool:
         or not (found.min() <= -_NEAR_PI and found.max() >= _NEAR_PI)
     ):
         return False
-    # Of directions to all sides a third lies within 1 of 0; of a quantity spread about 0, more.
+    # A third of directions to all sides lies within 1 of 0; more of a quantity spread about 0.
     return bool(np.mean(np.abs(found) < 1.0) < 0.16)
 
 

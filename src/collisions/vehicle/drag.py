@@ -8,8 +8,10 @@ import math
 from typing import Any
 
 from ..kernels.elementwise import FINITE, UNCHECKED, Domain
-from ..messages.errors import InputError, ShapeError, UnitsError
+from ..messages.errors import ShapeError, UnitsError
+from ..messages.marked import a_type_of
 from ..quantities.reading import ArgumentReader, at_least_zero, warn_if_large
+from ..quantities.refusals import must_be
 from ..quantities.settings import Default
 from ..quantities.units import is_quantity, shown
 
@@ -23,7 +25,7 @@ HIGHEST_DRAG = 1.5
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
 LONGEST_CONTACT = 1.0
 USUAL_DURATION = Default(0.1)
-"""Of a contact [s], where none is given."""
+"""Duration of a contact [s], where none is given."""
 
 
 def one_value(
@@ -33,8 +35,8 @@ def one_value(
     if isinstance(value, (list, tuple)):
         return reader.refuse(
             ShapeError(
-                f"{name} is a {type(value).__name__}, and takes one value; many cases go in a "
-                "numpy array",
+                f"{name} is {a_type_of(value)}, and takes one value"
+                "`|; many cases go in a numpy array|`",
                 code="bad_shape",
                 argument=name,
             )
@@ -63,11 +65,7 @@ def read_friction(reader: ArgumentReader, value: Any, name: str) -> Any:
     if len(reader.problems) > wrong:
         return read
     if isinstance(read, float) and not math.isfinite(read):
-        return reader.refuse(
-            InputError(
-                f"{name} must be finite, got {shown(value)}", code="not_finite", argument=name
-            )
-        )
+        return reader.refuse(must_be(name, "finite", value, code="not_finite"))
     read = at_least_zero(reader, read, value, name, "bad_friction", "its direction is worked out")
     warn_if_large(value, read, HIGHEST_DRAG, name, "a fraction of the load", "%")
     return read

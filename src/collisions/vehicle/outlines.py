@@ -34,8 +34,9 @@ def read_outline(reader: ArgumentReader, given: Any, argument: str) -> Any:
         if corners is None or np.all(np.abs(corners) <= _LARGEST):
             return corners
         raise InputError(
-            f"{argument} has a corner {np.max(np.abs(corners)):.3g} m from the centre of mass, "
-            f"and may be {_LARGEST:g} m large at most; give metres, such as (4.5, 1.8)",
+            f"{argument} has a corner {np.max(np.abs(corners)):.3g} m from the centre of "
+            f"mass, and may be {_LARGEST:g} m large at most; give metres, such as `(4.5, "
+            "1.8)`",
             code="out_of_range",
             argument=argument,
         )
@@ -72,8 +73,8 @@ def _read(reader: ArgumentReader, given: Any, argument: str) -> Any:
 
 def _bad_shape(given: Any, argument: str) -> ShapeError:
     return ShapeError(
-        f"{argument} must be (length, width), (length, width, how far the centre of mass is "
-        "ahead of the middle), or at least three corners (forward, left) from the centre of "
+        f"{argument} must be `(length, width)`, `|(|[`length, width, how far the centre of mass is "
+        "ahead of the middle`|)|]`, or at least three corners `(forward, left)` from the centre of "
         f"mass; got {shown(given)}",
         code="bad_shape",
         argument=argument,
@@ -141,8 +142,8 @@ def _convex(corners: Any, argument: str) -> Any:
             problem = "has a dent, a corner twice, or sides that cross"
     if problem:
         raise InputError(
-            f"{argument} {problem}; give corners (forward, left) one after another around a "
-            "convex outline, such as [(2.2, 0.8), (-2.3, 0.9), (-2.3, -0.9), (2.2, -0.8)]",
+            f"{argument} {problem}; give corners `(forward, left)` one after another around a "
+            "convex outline, such as `[(2.2, 0.8), (-2.3, 0.9), (-2.3, -0.9), (2.2, -0.8)]`",
             code="bad_outline",
             argument=argument,
         )
@@ -159,7 +160,7 @@ class Placed(NamedTuple):
     corners: Any
 
 
-def placed(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> Placed:
+def in_scene(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> Placed:
     """The outline at this time after the impact."""
     x, y, heading = (
         needed(vehicle, name, f"outline_{label}", label) for name in ("x", "y", "heading")

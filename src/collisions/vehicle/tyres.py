@@ -20,10 +20,12 @@ from ..kernels.elementwise import (
 )
 from ..kernels.tyre import Tyres as Numbers
 from ..messages.errors import InputError, ShapeError
-from ..messages.hints import no_argument, open_to_hints
+from ..messages.hints import hinted, no_argument
+from ..messages.marked import type_of
 from ..quantities.attribute_stubs import TyresQuantities
 from ..quantities.attributes import Shown, lock
 from ..quantities.reading import ArgumentReader, at_least_zero, warn_if_large
+from ..quantities.refusals import must_be
 from ..quantities.settings import Default, in_si
 from ..quantities.units import Input, Texts, Value, shown, texts_of
 from .drag import one_value, read_friction
@@ -106,7 +108,7 @@ class Tyres(Shown):
     cornering: Value = field(metadata={"unit": ""})
     height: Value | None = field(metadata={"unit": "m"})
 
-    @open_to_hints
+    @hinted
     def __init__(
         self,
         friction: Input,
@@ -214,7 +216,7 @@ class Tyres(Shown):
 
 NAMES = tuple(f.name for f in fields(Tyres))
 UNITS: dict[str, str] = {f.name: f.metadata["unit"] for f in fields(Tyres)}
-# Of the values of a batch, which are looked at case by case where the tyres are used.
+# Domains of the values of a batch, which are looked at case by case where the tyres are used.
 DOMAINS = {
     "friction": FINITE._replace(name="friction", faults=(*FINITE.faults, *NOT_NEGATIVE.faults)),
     "lock": UNIT_INTERVAL,
@@ -341,9 +343,11 @@ def kernel_numbers(flat: Mapping[str, Any], xp: Any = math) -> Numbers:
 
 def not_tyres(label: str, given: Any) -> InputError:
     """The error for an argument that is not Tyres."""
-    return InputError(
-        f"{label} must be Tyres, got {type(given).__name__}; write "
-        "collisions.travel.Tyres(friction, lock, wheelbase, track)",
+    return must_be(
+        label,
+        "Tyres",
+        given,
+        "; write collisions.travel.Tyres(friction, lock, wheelbase, track)",
         code="not_tyres",
-        argument=label,
+        got=type_of(given),
     )

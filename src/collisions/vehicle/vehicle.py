@@ -11,14 +11,16 @@ import numpy as np
 
 from ..kernels.elementwise import FINITE, POSITIVE, not_about_pivot, select, turning_velocity
 from ..messages.errors import InputError, MissingInputError
-from ..messages.hints import no_argument, open_to_hints
+from ..messages.hints import hinted, no_argument
+from ..messages.marked import type_of
 from ..quantities.attribute_stubs import VehicleQuantities
 from ..quantities.attributes import Quantities, derived, hypot, lock, returns, same, show
 from ..quantities.directions import Angle, angle_of, direction
 from ..quantities.reading import ArgumentReader, broadcast, widened
+from ..quantities.refusals import must_be
 from ..quantities.settings import in_si, units_required
 from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, label_of
-from ..quantities.units import Input, Pair, Texts, Value, shown, texts_of
+from ..quantities.units import Input, Pair, Texts, Value, rendered, shown, texts_of
 
 _isfinite = math.isfinite
 _ABSENT: Any = object()
@@ -30,8 +32,8 @@ class _AsGiven(Summarized):
     __slots__ = ("given",)
 
     given: Texts | None
-    """By field, or "speed" and "course", the text of what was given with a unit; None if all
-    numbers were plain floats.
+    """Texts of what was given with a unit, by field or "speed" and "course"; None if all numbers
+    were plain floats.
     """
 
 
@@ -88,7 +90,7 @@ class Vehicle(_AsGiven):
     pivot: tuple[Value, Value] | None = field(metadata={"unit": "m", "domain": FINITE})
     name: str = field()
 
-    @open_to_hints
+    @hinted
     def __init__(
         self,
         *unnamed: Never,
@@ -106,7 +108,7 @@ class Vehicle(_AsGiven):
     ) -> None:
         if unnamed:
             raise TypeError(
-                f"Vehicle takes its arguments by name, as in mass={shown(unnamed[0])}: "
+                f"Vehicle takes its arguments by name, as in mass={rendered(unnamed[0])}: "
                 f"{', '.join(NAMES)}"
             )
         if unknown:
@@ -199,7 +201,7 @@ class Vehicle(_AsGiven):
                     f"{np.min(magnitude, where=below, initial=0.0):g} m/s, below 0 in "
                     f"{np.sum(below)} of {np.size(below)} cases"
                 )
-                cure = ", or bound what is drawn, as by Normal(mean, sd, truncate=(low, high))"
+                cure = ", or bound what is drawn, as by `Normal(mean, sd, truncate=(low, high))`"
             reader.refuse(
                 InputError(
                     f"speed must be >= 0, got {given}; turn the course by 180 deg to go the "
@@ -351,7 +353,7 @@ class Vehicle(_AsGiven):
             forward is _ABSENT and left is _ABSENT
         ):
             raise InputError(
-                "give forward= and left=, or distance= and angle=",
+                "give `forward=` and `left=`, or `distance=` and `angle=`",
                 code="bad_point",
                 argument="point",
             )
@@ -414,7 +416,7 @@ class Vehicle(_AsGiven):
             return vx + turn_x, vy + turn_y
 
     def _missing(self, name: str) -> MissingInputError | None:
-        return None if name in ("pivot", "given") else missing(self, name, f".q.{name}")
+        return None if name in ("pivot", "given") else error_of_missing(self, name, f".q.{name}")
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Vehicle):
@@ -628,21 +630,21 @@ def needed(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle"
     """The value of an optional field, or a MissingInputError that names the purpose."""
     value = getattr(vehicle, name)
     if value is None:
-        raise missing(vehicle, name, purpose, label)
+        raise error_of_missing(vehicle, name, purpose, label)
     return value
 
 
-def missing(
+def error_of_missing(
     vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle"
 ) -> MissingInputError:
     """The error for a vehicle without a field that is needed."""
     who = with_name(label, vehicle)
     example = {
-        "yaw_inertia": "yaw_inertia='1800 kg*m**2', or inf for a body that does not rotate",
-        "x": "x='2.5 m' (the centre of mass at the moment of impact)",
-        "y": "y='0 m' (the centre of mass at the moment of impact)",
+        "yaw_inertia": "`yaw_inertia='1800 kg*m**2'`, or inf for a body that does not rotate",
+        "x": "`x='2.5 m'` (the centre of mass at the moment of impact)",
+        "y": "`y='0 m'` (the centre of mass at the moment of impact)",
         "heading": (
-            "heading='30 deg' (where it points, counter-clockwise from +x, whatever way it moves)"
+            "`heading='30 deg'` (where it points, counter-clockwise from +x, whatever way it moves)"
         ),
     }[name]
     code = {
@@ -666,10 +668,8 @@ def not_a_vehicle(label: str, given: Any) -> InputError:
         if isinstance(getattr(given, "after", None), Vehicle)
         else "collisions.Vehicle(mass=...)"
     )
-    return InputError(
-        f"{label} must be a Vehicle, got {type(given).__name__}; write {write}",
-        code="not_a_vehicle",
-        argument=label,
+    return must_be(
+        label, "a Vehicle", given, f"; write {write}", code="not_a_vehicle", got=type_of(given)
     )
 
 
@@ -713,18 +713,15 @@ def _read_fields(
         elif label in ("vx", "vy", "yaw_rate"):
             reader.refuse(
                 InputError(
-                    f"{label} is None; leave it out for 0", code="not_a_number", argument=label
+                    f"{label} `|is None|is not given`; leave it out for 0",
+                    code="not_a_number",
+                    argument=label,
                 )
             )
         read[label] = value
     if not isinstance(name, str):
-        reader.refuse(
-            InputError(
-                f"name must be a text, got {type(name).__name__}",
-                code="not_a_text",
-                argument="name",
-            )
-        )
+        quotes = "`||; put it in quotes`" if isinstance(name, (int, float)) else ""
+        reader.refuse(must_be("name", "a text", name, quotes, code="not_a_text", got=type_of(name)))
     pin = None if pivot is None else reader.pair(pivot, "m", "pivot")
     reader.close()
     broadcast(read if pin is None else {**read, "pivot[0]": pin[0], "pivot[1]": pin[1]})
@@ -751,14 +748,14 @@ def _pinned_velocity(
         if isinstance(value, float) and math.isinf(value):
             raise InputError(
                 f"{label} is inf and pivot is given; a pinned body turns, so give its {label}, "
-                "or use Vehicle.barrier()",
+                "or `|use Vehicle.barrier()|leave out the pivot`",
                 code="pinned_infinite",
                 argument=label,
             )
     for label, value in (("x", x), ("y", y)):
         if value is None:
             raise MissingInputError(
-                f"{label} is missing; a pivot needs the position of the centre of mass (x, y)",
+                (f"{label} is missing; a pivot needs the position of the centre of mass `(x, y)`"),
                 code="missing_position",
                 argument=label,
             )
@@ -775,9 +772,9 @@ def _pinned_velocity(
                 )
             if (vx != 0.0 or vy != 0.0) and not_about_pivot(vx, vy, yaw_rate, x, y, *pin):
                 raise InputError(
-                    f"vx, vy = ({vx:g}, {vy:g}) m/s cannot be the velocity of a body that turns "
-                    f"about its pivot: yaw rate times arm gives ({wanted_x + 0.0:.10g}, "
-                    f"{wanted_y + 0.0:.10g}) m/s; leave vx and vy out, or correct yaw_rate",
+                    f"vx, vy = `({vx:g}, {vy:g})` m/s cannot be the velocity of a body that turns "
+                    f"about its pivot: yaw rate times arm gives `({wanted_x + 0.0:.10g}, "
+                    f"{wanted_y + 0.0:.10g})` m/s; leave vx and vy out, or correct yaw_rate",
                     code="pinned_velocity",
                     argument="vx",
                 )
