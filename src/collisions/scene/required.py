@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -43,7 +43,7 @@ class Cost:
     level : Level
         A model like the scene itself.
     seconds : float [s]
-        The time of one run, on this machine.
+        The processor time of one run, on this machine.
     seconds_a_case : float [s]
         That of one of the draws, worked out together; NaN without unknowns.
     differences : dict of float
@@ -212,7 +212,7 @@ def required(
     costs = []
     for level, own, spent, case in zip(levels, answers, seconds, in_batch, strict=True):
         differences = {
-            path: margin * _point(_apart(own[path], finest[path], unit)[good])
+            path: _with_margin(_point(_apart(own[path], finest[path], unit)[good]), margin, unit)
             for path, unit in units.items()
         }
         holds = all(differences[path] <= within[path] for path in units)
@@ -225,14 +225,14 @@ def required(
 
 
 def _time(model: Any, **values: Any) -> tuple[Any, float]:
-    """What a model answers, None where it is refused, and the time it took [s]."""
-    begun = perf_counter()
+    """What a model answers, None where it is refused, and the processor time it took [s]."""
+    begun = process_time()
     try:
         with quietly([]):
             found = model(**values)
     except CollisionsError:
         found = None
-    return found, perf_counter() - begun
+    return found, process_time() - begun
 
 
 def _apart(own: Any, finest: Any, unit: str) -> Any:
@@ -241,6 +241,12 @@ def _apart(own: Any, finest: Any, unit: str) -> Any:
     if unit == "rad":
         off = (off + math.pi) % math.tau - math.pi
     return np.where(np.isnan(own), np.inf, np.abs(off))
+
+
+def _with_margin(difference: float, margin: float, unit: str) -> float:
+    """A difference with a margin; that of an angle is half a turn at most, or there is none."""
+    found = margin * difference
+    return min(found, math.pi) if unit == "rad" and math.isfinite(found) else found
 
 
 def _point(differences: Any) -> float:
