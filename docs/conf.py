@@ -129,6 +129,7 @@ GALLERY = {
         "truck_against_car",
         "sideswipe",
         "pole_impact",
+        "parked_truck",
     ),
     "From what was found to the speeds before": (
         "example_2_backwards",
@@ -136,6 +137,7 @@ GALLERY = {
         "in_line_by_momentum_and_ees",
         "rear_end_from_recorder",
         "two_accounts",
+        "rest_positions",
     ),
     "Many cases": ("million_cases", "table_of_cases", "study_over_processes", "study_with_dask"),
 }

@@ -4,6 +4,8 @@ open.
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 import collisions as col
@@ -67,3 +69,21 @@ def test_evidence_of_one_impact_is_refused() -> None:
         col.diagnose(many)
     with pytest.raises(col.ShapeError, match=r"explain\(run.case\(0\)\)"):
         col.explain(many)
+
+
+def test_what_would_move_each_impact_is_that_of_the_impact() -> None:
+    """In order of the impacts, with the names of the vehicles, in the report too."""
+    run = three_cars()
+    found = col.diagnose(run)
+    wanted = []
+    for number, (impact, pair) in enumerate(zip(run.impacts, run.pairs, strict=True), 1):
+        own = col.diagnose(impact).moves
+        wanted += [
+            (f"impact {number}, {pair[0]} (A) and {pair[1]} (B): {move.what}", move.share)
+            for move in own
+        ]
+    assert [(move.what, move.share) for move in found.moves] == wanted
+    page = col.report(run, form="markdown", figures=False)
+    assert page.count("change of the delta-V of A, of B") == sum(
+        math.isfinite(move.share) for move in found.moves
+    )

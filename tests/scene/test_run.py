@@ -428,7 +428,7 @@ def test_a_record_keeps_texts_that_read_as_the_number() -> None:
         "at": "100 ms",
     }
     assert contact["point"] == ["1 ft", 0.0]
-    assert record["movers"][0]["drag"] == scene.movers["A"].drag
+    assert record["movers"][0]["drag"] == scene.movers["A"].as_given("drag")
     assert record["slope"] == ["2 %", 0.0]
     assert Scene.from_dict(record) == scene
 

@@ -10,6 +10,7 @@ from ..messages.errors import InputError
 from ..scene.one_run import need_one_run
 from ..scene.run import Run
 from .finding import NOTE, Finding, Findings
+from .moves import Move, Moves
 
 # What is said of a single impact, with what to write in its place.
 _OF_ONE = (
@@ -30,7 +31,7 @@ def diagnose_run(
     run: Run, options: Mapping[str, Any], units: str, diagnose: Callable[..., Findings]
 ) -> Findings:
     """The findings of every impact in order, each with its number and time, and then those of the
-    scene.
+    scene; and what would move each impact.
     """
     need_one_run(run, "diagnose", "impact")
     for name in _OF_ONE:
@@ -48,6 +49,7 @@ def diagnose_run(
     shared = {name: options[name] for name in ("duration", "drag", "limits")}
     found: list[Finding] = []
     measured: set[str] = set()
+    moves: list[Move] = []
     for number, (time, pair, impact) in enumerate(
         zip(run.times, run.pairs, run.impacts, strict=True)
     ):
@@ -58,6 +60,8 @@ def diagnose_run(
             replace(one, sentence=f"{where}: {one.sentence}", impact=number, time=time)
             for one in own
         ]
+        of = f"impact {number + 1}, {pair[0]} (A) and {pair[1]} (B)"
+        moves += [replace(move, what=f"{of}: {move.what}") for move in own.moves]
     found += [
         Finding(
             code=notice.code,
@@ -70,7 +74,7 @@ def diagnose_run(
         )
         for notice in run.findings
     ]
-    return Findings(found, measured, units)
+    return Findings(found, measured, units, Moves(moves, units))
 
 
 def _outlines(run: Run, number: int) -> dict[str, Any]:

@@ -81,6 +81,7 @@ def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -
     if uncertainty is not None:
         spread.write(sheet, uncertainty)
     sections.findings(sheet, found)
+    sections.moves(sheet, found.moves)
     if paragraphs:
         sheet.heading("Notes")
         for paragraph in paragraphs:

@@ -15,12 +15,14 @@ from ..impact.records import (
     vehicle_record,
 )
 from ..messages.errors import InputError
+from ..messages.warning import quietly
 from ..quantities.attributes import equal
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader
 from ..quantities.settings import in_si
 from ..quantities.strict_json import strict
 from ..quantities.units import shown
+from ..vehicle.drag import read_drag
 from .contact import NAMES, UNITS, Contact
 from .mover import Mover
 from .scene import Scene, arguments_of
@@ -44,7 +46,7 @@ def scene_record(scene: Scene) -> dict[str, Any]:
                 "vehicle": vehicle_record(mover.vehicle),
                 "outline": None if mover.outline is None else mover.outline.tolist(),
                 "tyres": tyres_record(mover.tyres),
-                "drag": strict(mover.drag),
+                "drag": _drag_record(mover),
             }
             for name, mover in scene.movers.items()
         ],
@@ -65,6 +67,16 @@ def scene_record(scene: Scene) -> dict[str, Any]:
         "order": None if scene.order is None else [list(pair) for pair in scene.order],
         "shared": {name: list(paths) for name, paths in scene.shared.items()},
     }
+
+
+def _drag_record(mover: Mover) -> Any:
+    """The text that a drag was given as if it still reads as that number, or else the number."""
+    text = mover.as_given("drag")
+    if isinstance(text, str) and isinstance(mover.drag, float):
+        with quietly([]):
+            if read_drag(ArgumentReader(), text, "drag") == mover.drag:
+                return text
+    return strict(mover.drag)
 
 
 def _contact_record(contact: Contact) -> dict[str, Any]:

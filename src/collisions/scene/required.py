@@ -212,7 +212,7 @@ def required(
     costs = []
     for level, own, spent, case in zip(levels, answers, seconds, in_batch, strict=True):
         differences = {
-            path: margin * _point(_apart(own[path], finest[path], unit)[good])
+            path: _with_margin(_point(_apart(own[path], finest[path], unit)[good]), margin, unit)
             for path, unit in units.items()
         }
         holds = all(differences[path] <= within[path] for path in units)
@@ -241,6 +241,12 @@ def _apart(own: Any, finest: Any, unit: str) -> Any:
     if unit == "rad":
         off = (off + math.pi) % math.tau - math.pi
     return np.where(np.isnan(own), np.inf, np.abs(off))
+
+
+def _with_margin(difference: float, margin: float, unit: str) -> float:
+    """A difference with a margin; that of an angle is half a turn at most, or there is none."""
+    found = margin * difference
+    return min(found, math.pi) if unit == "rad" and math.isfinite(found) else found
 
 
 def _point(differences: Any) -> float:
