@@ -210,7 +210,7 @@ def test_the_same_table_of_observations_holds_for_one_impact() -> None:
         ('name = "B"\n', "", "mover[1].name: is missing; give the vehicle a name of its own"),
         ('name = "B"', "name = 2", "mover[1].name: must be a text in quotes, got 2"),
         ('name = "B"', 'name = "A"', "mover[1].name: is 'A', as that of another mover"),
-        ('b = "B"', 'b = "C"', "contacts: contacts[0] names 'C', and the movers are A, B"),
+        ('b = "B"', 'b = "C"', "contacts[0].b: contacts[0] names 'C', and the movers are A, B"),
         ("restitution = 0.1\n", "", "contacts[0].restitution: is missing; give it: Coefficient"),
         ("restitution = 0.1", "restitution = 1.2", "contacts[0].restitution: must be"),
         ('"linear_central"', '"linear"', "contacts[0].model: must be one of"),

@@ -4,6 +4,7 @@ cannot be.
 
 import re
 import warnings
+from collections import Counter
 
 import pytest
 
@@ -32,13 +33,27 @@ def refused(text):
 
 
 def keys_of(text):
-    """Each line of a file that gives a key in one line, with the whole name of that key."""
-    table, lines = "", text.splitlines()
+    """Each line of a file that gives a key in one line, with the whole name of that key.
+
+    What a mover has stands at its name; contacts and surfaces are counted.
+    """
+    table, counts, lines = "", Counter(), text.splitlines()
     for at, line in enumerate(lines):
-        if found := re.match(r"\[([\w.]+)\]", line):
+        if found := re.match(r"\[\[(\w+)\]\]", line):
+            number = counts[found[1]]
+            counts[found[1]] += 1
+            table = f"{found[1]}s[{number}]"
+            if found[1] == "mover":
+                table = re.search(r'name = "(.*)"', "\n".join(lines[at:]))[1]
+        elif found := re.match(r"\[([\w.]+)\]", line):
             table = found[1]
         elif (found := re.match(r'("?[\w.]+"?) = ', line)) and not line.endswith("["):
-            yield at, f"{table}.{found[1]}".lstrip(".")
+            if found[1] == "name" and counts["mover"]:
+                yield at, f"mover[{counts['mover'] - 1}].name"
+            elif table.startswith("surfaces"):
+                yield at, table
+            else:
+                yield at, f"{table}.{found[1]}".lstrip(".")
 
 
 def names(key, problems):
@@ -54,11 +69,15 @@ def test_a_wrong_value_is_refused_at_its_key(number):
     sought = sum(line.count("..") + line.count("+/-") for line in text.splitlines()) == 2
     for at, key in keys_of(text):
         for wrong in WRONG:
+            if key.startswith("mover[") and wrong.startswith('"'):
+                continue  # a right name, which other lines do not have
             lines = text.splitlines()
             lines[at] = f"{lines[at].partition(' = ')[0]} = {wrong}"
             found = refused("\n".join(lines) + "\n")
             if found and not (sought and found[0][1].startswith("has nothing to find")):
-                assert names(key, found), (key, wrong, found)
+                # What a scene shares is refused as a whole.
+                place = "scene.shared" if key.startswith("scene.shared.") else key
+                assert names(place, found) or key in str(found), (key, wrong, found)
                 of_wrong += 1
     assert of_wrong > 20
 

@@ -533,10 +533,11 @@ def _read_contacts(
             continue
         found.append(contact)
         names = (contact.a, contact.b)
-        for name in names:
+        for label, name in zip("ab", names, strict=True):
             if movers and name not in movers:
                 text = f"contacts[{i}] names {name!r}, and the movers are {', '.join(movers)}"
-                reader.refuse(InputError(text, code="unknown_name", argument="contacts"))
+                where = f"contacts[{i}].{label}"
+                reader.refuse(InputError(text, code="unknown_name", argument=where))
         for name in contact.tyres_after:
             if name in movers and movers[name].drag is not None:
                 text = (
@@ -636,8 +637,9 @@ def _read_shared(
     )
     if not good:
         text = (
-            "shared must be a dict from new names to tuples of paths, such as `{'ground': "
-            f"('A.tyres.friction', 'B.tyres.friction')}}`, got {shown(shared)}"
+            "shared must be `|a dict|a table` from new names to `|tuples|lists` of "
+            "paths, such as `{'ground': ('A.tyres.friction', 'B.tyres.friction')}`, "
+            f"got {shown(shared)}"
         )
         reader.refuse(ShapeError(text, code="bad_shape", argument="shared"))
         return {}
