@@ -260,7 +260,8 @@ def by_components(
     """Components of these recorders, and the speed that one of them tells.
 
     Whether the contact stuck or slid is left to the friction, and answered by a bound where that
-    does not tell, unless the ``regime`` is stated or a speed is known.
+    does not tell, unless the ``regime`` is stated, or a speed is known beside a friction. With
+    ``ratio_shown`` no friction is stated.
     """
     inputs = reading.known | {"restitution": Uniform(*RESTITUTION)}
     parts = reading.recorded.items()
@@ -271,7 +272,7 @@ def by_components(
         given[f"speed_{speed}"] = Uniform(told - RECORDED_SPEED, told + RECORDED_SPEED)
     if regime or ratio_shown:
         # Of a contact that slid, the components show the friction.
-        fixed = {"friction": math.inf} | ({"regime": regime} if regime else {})
+        fixed = {"friction": math.inf} | ({"regime": regime} if regime else {"slid": "bound"})
     else:
         inputs |= {"friction": Uniform(*FRICTION)}
         fixed = {} if speed else {"slid": "bound"}

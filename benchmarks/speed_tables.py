@@ -52,6 +52,28 @@ CHOICES = (
 COLOURS = {"ours": OURS, "other": TEXTBOOK, "time": GREY}
 
 
+class Call(NamedTuple):
+    """A row of the first table: for whom, what to call, its rung, and its cost in a batch if it is
+    one.
+    """
+
+    cases: str
+    call: str
+    rung: str
+    batch: str | None = None
+
+
+_IMPULSE = "eccentric, geometry of maximum engagement"
+CALLS = (
+    Call("one, or a few", "`eccentric`", _IMPULSE),
+    Call("one, or a few", "`time_resolved(..., steps=10)`", "time_resolved, 10 steps"),
+    Call("one, or a few", "`time_resolved(..., steps=100)`", "time_resolved, 100 steps"),
+    Call("hundreds to millions", "`eccentric` with arrays", _IMPULSE, "eccentric"),
+    Call("millions, little memory", "the same in float32", _IMPULSE, "eccentric_float32"),
+)
+FORMULA = 2e-6  # s: about what the unit takes, for the column of cases in a second alone
+
+
 def load() -> dict[str, Any]:
     """The numbers."""
     return json.loads((DATA / "speed.json").read_text(encoding="utf-8"))
@@ -275,6 +297,34 @@ def cost(known: dict[str, Any], choice: Choice, key: str) -> float | None:
     return known[key]["median"] + (
         known["eccentric"]["median"] if choice.error == "left_out" else 0.0
     )
+
+
+def calls(found: dict[str, Any], rungs: dict[str, Any]) -> str:
+    """For this many cases, this accuracy and this much time, call this."""
+    single, batch, lines = rows(found, "single"), rows(found, "batch"), []
+    for one in CALLS:
+        error = rungs["rungs"][one.rung]
+        each = (
+            single["eccentric"]["median"] * cost_of(rungs, one.rung)
+            if one.batch is None
+            else batch[one.batch]["median"]
+        )
+        half, most = (f"{100.0 * error[name]:.2g}\u00a0%" for name in ("median", "most_of_10"))
+        within = f"{half}; 9 of 10 within {most}"
+        second = f"{float(f'{1.0 / (each * FORMULA):.1g}'):,.0f}".replace(",", "\u202f")
+        lines.append([one.cases, within, second, one.call])
+    asked = single["eccentric"]["median"] * rungs["costs"]["required_model, 0.1 s"]
+    second = f"{float(f'{1.0 / (asked * FORMULA):.1g}'):,.0f}".replace(",", "\u202f")
+    lines.append(
+        ["one, and you do not know", "what you accept", second,
+         "`required_model(..., tolerance=, duration=)`"]
+    )  # fmt: skip
+    lines.append(
+        ["a study that calls a dear model thousands of times", "that of the dear model", "–",
+         "`posterior`, `propagate` or `fit` with [`finer=`](#the-dearer-model-where-it-matters)"]
+    )  # fmt: skip
+    text = table(["cases", "off by, of delta-V", "cases in a second", "call"], lines)
+    return text.replace("| --- | ---: | ---: | ---: |", "| --- | --- | ---: | --- |")
 
 
 def chosen(found: dict[str, Any]) -> str:
@@ -597,125 +647,53 @@ def ladder_figure(plt: Any, found: dict[str, Any]) -> Any:
 
 
 def choices_figure(plt: Any, found: dict[str, Any]) -> Any:
-    """Error against cost: circles are one case at a time, squares a batch; the numbers are those of
-    the key.
+    """A row for every choice: what it errs by, the worst first, and what it costs; circles are one
+    case at a time, squares a batch.
     """
     errors = found["errors"]["choices"]
     known = {group: rows(found, group) for group in ("single", "batch")}
-    figure, (top, low) = plt.subplots(
-        2, 1, figsize=(11.5, 7.6), sharex=True, height_ratios=(3.1, 1.0)
-    )
-    marked: list[tuple[Any, float, float, str, str]] = []
-    for at, choice in enumerate(CHOICES, 1):
-        error = errors[choice.error]
-        if error is None:
-            continue
-        axis = low if error["mean"] < 1e-9 else top
-        places = []
+    shown = [
+        (errors[choice.error], at, choice)
+        for at, choice in enumerate(CHOICES, 1)
+        if errors[choice.error] is not None
+    ]
+    shown.sort(key=lambda row: -row[0]["mean"])
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11.5, 5.6), sharey=True)
+    for row, (error, _, choice) in enumerate(shown):
+        colour = COLOURS[choice.kind]
+        left.plot([error["mean"], error["p95"]], [row, row], color=colour, lw=1.6, alpha=0.6)
+        left.plot(error["mean"], row, "D", ms=7, color=colour)
         for group, key, mark in (("single", choice.single, "o"), ("batch", choice.batch, "s")):
             x = None if key is None else cost(known[group], choice, key)
             if x is not None:
-                places.append((x, mark))
-        colour = COLOURS[choice.kind]
-        axis.plot(
-            [x for x, _ in places],
-            [error["mean"]] * len(places),
-            color=colour,
-            lw=1.0,
-            alpha=0.35,
-            zorder=1,
-        )
-        for x, mark in places:
-            axis.plot(
-                [x, x], [error["mean"], error["p95"]], color=colour, lw=1.2, alpha=0.6, zorder=1
-            )
-            axis.plot(x, error["mean"], mark, ms=8, mfc="white", mec=colour, mew=2.0, zorder=2)
-            marked.append((axis, x, error["mean"], str(at), colour))
-    top.set(yscale="log", xscale="log", ylim=(3e-8, 2.0))
-    low.set(yscale="log", ylim=(3e-17, 3e-14))
-    top.set_yticks(
-        [10.0**k for k in range(-7, 1)],
-        ["10⁻⁷", "10⁻⁶", "10⁻⁵", "0.01 %", "0.1 %", "1 %", "10 %", "100 %"],
-    )
-    low.set_yticks([1e-16, 1e-15, 1e-14], ["10⁻¹⁶", "10⁻¹⁵", "10⁻¹⁴"])
-    left, right = top.get_xlim()
-    low.set_xlim(left / 1.6, right * 1.6)
-    for axis in (top, low):
+                right.plot(x, row, mark, ms=8, mfc="white", mec=colour, mew=2.0)
+    left.set_yticks(range(len(shown)), [f"{choice.name}  {at}" for _, at, choice in shown])
+    for label, (_, _, choice) in zip(left.get_yticklabels(), shown, strict=True):
+        label.set_color(COLOURS[choice.kind])
+    left.invert_yaxis()
+    for axis, ticks in ((left, range(-16, 1, 4)), (right, range(-2, 4))):
+        axis.set_xscale("log")
         axis.minorticks_off()
         axis.grid(color="#e3e3e3", lw=0.8)
         axis.set_axisbelow(True)
         axis.spines[["top", "right"]].set_visible(False)
-    top.set_ylabel("mean error, relative to delta-V")
-    low.set_xlabel("cost of a case; 1 is the textbook formula as a bare function of floats")
-    ticks = range(
-        math.ceil(math.log10(low.get_xlim()[0])), math.floor(math.log10(low.get_xlim()[1])) + 1
-    )
-    low.set_xticks(
-        [10.0**k for k in ticks],
-        [f"{10.0**k:g}" if -3 < k < 4 else f"10{_raised(k)}" for k in ticks],
-    )
+        axis.set_xticks([10.0**k for k in ticks], [_power(k, axis is left) for k in ticks])
+    left.set_xlabel("mean error, of delta-V; line: 19 in 20 err by less")
+    right.set_xlabel("cost of a case; 1 is the formula in bare floats")
     marks = [
-        plt.Line2D(
-            [], [], ls="", marker="o", mfc="white", mec=INK, ms=9, label="one case at a time"
-        ),
-        plt.Line2D([], [], ls="", marker="s", mfc="white", mec=INK, ms=9, label="in a batch"),
-        plt.Line2D([], [], color=INK, lw=1.2, label="19 in 20 scenes err by less"),
+        plt.Line2D([], [], ls="", marker=mark, mfc="white", mec=INK, ms=9, label=label)
+        for mark, label in (("o", "one case at a time"), ("s", "in a batch"))
     ]
-    figure.legend(
-        handles=marks, loc="upper left", bbox_to_anchor=(0.665, 0.97), frameon=False, fontsize=10
-    )
-    figure.text(
-        0.672, 0.80, "\n".join(_key("ours")), color=OURS, fontsize=10, va="top", linespacing=1.5
-    )
-    figure.text(
-        0.672,
-        0.545,
-        "\n".join(_key("other")),
-        color=TEXTBOOK,
-        fontsize=10,
-        va="top",
-        linespacing=1.5,
-    )
-    figure.text(
-        0.672, 0.425, "\n".join(_key("time")), color=GREY, fontsize=10, va="top", linespacing=1.5
-    )
-    figure.tight_layout(rect=(0, 0, 0.665, 1))
-    _number(marked, figure.dpi / 72.0)
+    right.legend(handles=marks, loc="lower right", frameon=True, fontsize=10)
+    figure.tight_layout()
     return figure
 
 
-# Where a number may stand beside its mark, in points.
-AROUND = ((12, 0), (-12, 0), (0, -13), (0, 13), (10, 9), (-10, 9), (10, -10), (-10, -10))
-
-
-def _number(marked: list[tuple[Any, float, float, str, str]], points: float) -> None:
-    """The numbers of the marks, each where it is farthest from other marks and numbers; ``points``
-    is pixels a point.
-    """
-    taken = [axis.transData.transform((x, y)) for axis, x, y, *_ in marked]
-    for (axis, x, y, text, colour), (px, py) in zip(marked, list(taken), strict=True):
-        best, most = AROUND[0], 0.0
-        for shift in AROUND:
-            place = px + shift[0] * points, py + shift[1] * points
-            room = min(math.dist(place, other) for other in taken if tuple(other) != (px, py))
-            if min(room, 20.0 * points) > most + 0.1 * points:
-                best, most = shift, min(room, 20.0 * points)
-        taken.append((px + best[0] * points, py + best[1] * points))
-        axis.annotate(
-            text,
-            (x, y),
-            best,
-            textcoords="offset points",
-            ha="center",
-            va="center",
-            fontsize=10,
-            color=colour,
-            fontweight="bold",
-        )
-
-
-def _key(kind: str) -> list[str]:
-    return [f"{at}  {choice.name}" for at, choice in enumerate(CHOICES, 1) if choice.kind == kind]
+def _power(k: int, share: bool) -> str:
+    """A tick: a share from a ten thousandth on is in percent, other small numbers are powers."""
+    if share and k >= -4:
+        return f"{100.0 * 10.0**k:g} %"
+    return f"{10.0**k:g}" if -3 < k < 4 else f"10{_raised(k)}"
 
 
 def _raised(power: int) -> str:

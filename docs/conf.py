@@ -85,6 +85,7 @@ def render_examples(source: Path, target: Path) -> None:
             cell["id"] = f"cell-{index}"  # the same at every build
             if re.match(r"(axes\[.*\]|right|plot)\.", cell.source.rpartition("\n")[2]):
                 cell.source += ";"  # a picture is shown, and not the name of its axes
+        fold_checks(notebook)
         notebook.metadata = NotebookNode(
             kernelspec={"name": "python3", "display_name": "Python 3", "language": "python"},
         )
@@ -94,6 +95,15 @@ def render_examples(source: Path, target: Path) -> None:
         if not folder.name.startswith((".", "_")):
             shutil.copytree(folder, target / folder.name, dirs_exist_ok=True)
     write(target / "index.md", gallery_of(told))
+
+
+def fold_checks(notebook: NotebookNode) -> None:
+    """Fold the cells under the heading of the checks: what teaches stands before it."""
+    checks = False
+    for cell in notebook.cells:
+        checks = checks or cell.source.startswith("## Checks")
+        if checks and cell.cell_type == "code":
+            cell.metadata["tags"] = ["hide-cell"]
 
 
 def title_and_caption(notebook: NotebookNode, otherwise: str) -> tuple[str, str]:
@@ -143,8 +153,8 @@ def gallery_of(told: dict[str, tuple[str, str]]) -> str:
         raise ValueError(f"GALLERY in docs/conf.py and examples/ differ: {set(placed) ^ set(told)}")
     page += [
         (
-            "Each example is a script in `examples/` and ends with checks of its answers. It was "
-            "run as these pages were built."
+            "Each example is a script in `examples/`, run as these pages were built. It ends with "
+            "checks of its answers, which are folded here."
         ),
         (
             "Pictures need the extra `plot`, tables and dask the extra `tools`: in the folder of "

@@ -57,6 +57,7 @@ from collisions.uncertainty.distribution import GivenUnit
 from strategies import (
     EXTREMES,
     NEVER,
+    NUMBERS,
     ODD_UNITS,
     PLACES,
     RANGES,
@@ -417,25 +418,6 @@ _TEXTS = (
     "sliding",
     "both",
 )
-_NUMBERS = (
-    "1",
-    "-.5",
-    "1e3",
-    "1e400",
-    "-1e-400",
-    "+inf",
-    "nan",
-    "1_0",
-    "٣",
-    "1.",
-    ".",
-    "1e",
-    "--1",
-    "0x1",
-    "1,5",
-    "½",
-    "²",
-)
 _SPELLED = [text for group in SPELLINGS.values() for text in group] + list(ODD_UNITS)
 
 
@@ -635,7 +617,7 @@ class Case(random.Random):
         if kind == 1:
             return "".join(self.choices(_ALPHABET, k=self.randrange(70)))
         number = (
-            self.choice(_NUMBERS)
+            self.choice(NUMBERS)
             if kind == 2
             else repr(self.extreme())
             if kind == 3

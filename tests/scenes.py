@@ -15,6 +15,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 import collisions as col
+from collisions.travel import Tyres
 from reference import SINGULAR, Answer, Body, Scene, evaluate
 
 LAWS = ("brach", "kudlich-slibar")
@@ -36,6 +37,35 @@ FAMILIES = (
     "B pinned",
     "both pinned",
 )
+
+
+# Two cars that several files of tests let collide: both moving and turning; at rest beside each
+# other; in US units and without a motion; and unlike in all their numbers, with their tyres.
+TURNING = (
+    col.Vehicle(mass=1500.0, yaw_inertia=2400.0, vx=15.0, vy=2.0, yaw_rate=0.1, x=-2.0, y=0.4),
+    col.Vehicle(mass=1200.0, yaw_inertia=1700.0, vy=9.0, x=2.0, y=-0.2),
+)
+BESIDE = (
+    col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.0),
+    col.Vehicle(mass=1300.0, yaw_inertia=2000.0, x=2.0, y=0.8),
+)
+IN_POUNDS = (
+    col.Vehicle(
+        mass="3400 lb", yaw_inertia="1770 slug*ft**2", x="-6.5 ft", y="1.3 ft", heading="0 deg"
+    ),
+    col.Vehicle(
+        mass="2900 lb", yaw_inertia="1250 slug*ft**2", x="2.6 ft", y="-4 ft", heading="90 deg"
+    ),
+)
+UNLIKE = (
+    col.Vehicle(mass=1437.0, yaw_inertia=2311.0, vx=14.0, vy=1.0, x=-2.0, y=0.4, heading=0.1),
+    col.Vehicle(mass=1213.0, yaw_inertia=1877.0, vy=6.0, x=2.0, y=0.0, heading=1.3),
+)
+WHEELS = {
+    "duration": 0.1013,
+    "tyres_a": Tyres(0.6713, (0.1719, 0.2317, 0.3137, 0.4179), 2.7139, 1.5317, steer=0.0917),
+    "tyres_b": Tyres(0.5713, 1.0, 2.6319, 1.4731, height=0.5179),
+}
 
 
 def _decade(rng: random.Random, low: float, high: float) -> float:

@@ -290,6 +290,26 @@ def never_numbers() -> Any:
     return st.sampled_from(NEVER).map(lambda make: make())
 
 
+# Texts for numbers, some of which are none.
+NUMBERS = (
+    "1",
+    "-.5",
+    "1e3",
+    "1e400",
+    "-1e-400",
+    "+inf",
+    "nan",
+    "1_0",
+    "٣",
+    "1.",
+    ".",
+    "1e",
+    "--1",
+    "0x1",
+    "1,5",
+    "½",
+    "²",
+)
 # numpy's longest kind holds no more than a float on Windows and on some Macs.
 BEYOND_A_DOUBLE = (
     (lambda: np.longdouble("1e4000"), lambda: np.array([np.longdouble("1e4000"), 1]))
@@ -402,27 +422,7 @@ def texts() -> Any:
     )
     number = st.one_of(
         st.floats().map(repr),
-        st.sampled_from(
-            (
-                "1",
-                "-.5",
-                "1e3",
-                "1e400",
-                "-1e-400",
-                "+inf",
-                "nan",
-                "1_0",
-                "٣",
-                "1.",
-                ".",
-                "1e",
-                "--1",
-                "0x1",
-                "1,5",
-                "½",
-                "²",
-            )
-        ),
+        st.sampled_from(NUMBERS),
         st.integers(-(10**30), 10**30).map(str),
     )
     gap = st.sampled_from((" ", "", "  ", "\t", "\n", "\u00a0", " *", "\x00", "\u2009"))

@@ -20,6 +20,7 @@ from collisions.derivation.symbols import Symbol
 from collisions.impact.impact import build
 from collisions.kernels.contact_laws import LAWS, RULES, Law, Rule
 from collisions.kernels.elementwise import FINITE
+from scenes import BESIDE
 from strategies import other_registry
 
 # Rounding of the same formula in another order, in shares of the sizes of its terms: a few hundred
@@ -191,8 +192,7 @@ def reverse():
             friction=0.0,
         ),
     )
-    a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.0, y=0.0)
-    b = col.Vehicle(mass=1300, yaw_inertia=2000, x=2.0, y=0.8)
+    a, b = BESIDE
     contact = {"restitution": 0.1, "normal": 0.0, "point": (0.0, 0.4), "friction": 0.5}
     for known in (
         {"delta_v_a": 6.0},
@@ -1623,7 +1623,7 @@ def test_a_fourth_rule_is_not_explained_as_friction(friction, value, monkeypatch
     """
     impact = crossroads(friction=friction)
     monkeypatch.setitem(
-        RULES, "slope", Rule("slope", FINITE, "slope of the contact", RULES["friction"].decide)
+        RULES, "slope", Rule("slope", FINITE, "slope of the contact", RULES["friction"].decide, 0.1)
     )
     text = explain(
         build(replace(impact.inputs, rule="slope", rule_value=value), impact._answer), form="text"

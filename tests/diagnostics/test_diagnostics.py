@@ -636,7 +636,15 @@ def test_a_pair_of_delta_vs_by_momentum_and_what_acts_from_outside():
         "damage_delta_v_b": (7.0 * math.sin(math.pi / 3) - solution.speed_b, -3.5),
     }
     assert of("delta_v_pair", solution, **pairs, limits={"delta_v_pair": 1e-12}) == []
+    sizes = {name: math.hypot(*pair) for name, pair in pairs.items()}
+    apart = abs(1500 * sizes["damage_delta_v_a"] - 1000 * sizes["damage_delta_v_b"])
+    assert 100.0 < apart < 5000.0
+    assert of("delta_v_pair", solution, **sizes, limits={"delta_v_pair": 1e-12}) == []
     alone = reconstruct.momentum(1500, 1000, **known)
+    (in_size,) = of("delta_v_pair", alone, **sizes, limits={"delta_v_pair": 1e-12})
+    mean = 750.0 * sizes["damage_delta_v_a"] + 500.0 * sizes["damage_delta_v_b"]
+    assert in_size.measured == pytest.approx(apart / mean, rel=1e-12)
+    assert "in size" in in_size.sentence
     (finding,) = of("delta_v_pair", alone, **pairs)
     mean = 0.5 * (
         1500 * math.hypot(*pairs["damage_delta_v_a"])

@@ -78,6 +78,61 @@ def test_what_an_impulse_leaves_out_is_what_left_out_says():
     assert "0.08 s, drag 0.5" in moves["tyres"].what
 
 
+def test_tyres_given_to_a_diagnosis_are_those_of_left_out():
+    """In the moves, and in the finding of what tyres can give, of a slow impact."""
+    tyres = {"tyres_a": Tyres(0.6, 0.0, 2.7, 1.5), "tyres_b": Tyres(0.5, 1.0, 2.6, 1.5)}
+    slow = impact(a=A.replace(vx=1.5, vy=0.2), b=B.replace(vy=0.3))
+    found = diagnose(slow, duration=0.08, **tyres)
+    left = col.left_out(slow, duration=0.08, **tyres)
+    (move,) = (move for move in found.moves if move.name == "tyres")
+    assert move.what == "tyres as given, 0.08 s"
+    assert (move.delta_v_a, move.delta_v_b) == (left.a.tyre_delta_v, left.b.tyre_delta_v)
+    sentences = {one.vehicle: one for one in found if one.code == "tyre_impulse"}
+    assert sentences["a"].measured == left.a.tyre_share_bound
+    assert "with a friction of 0.6 give up to" in sentences["a"].sentence
+    assert left.a.tyre_delta_v_bound == pytest.approx(0.6 * 9.80665 * 0.08, rel=1e-12)
+    assert left.b.tyre_impulse_bound == pytest.approx(1213.0 * 0.5 * 9.80665 * 0.08, rel=1e-12)
+    # Wheels that roll take less than those that slide.
+    assert move.share < by_name(slow, duration=0.08)["tyres"].share
+    alone = diagnose(slow, tyres_b=tyres["tyres_b"])
+    assert {one.vehicle for one in alone if one.code == "tyre_impulse"} == {"b"}
+    assert col.left_out(slow, tyres_b=tyres["tyres_b"]).a.tyre_impulse_bound == 0.0
+
+
+def test_a_reconstruction_says_what_the_tyres_given_do_to_it():
+    """In the finding on what an instant leaves out, with the share of ``left_out``."""
+    end = impact()
+    found = col.reconstruct.planar(end.a.after, end.b.after, restitution=0.15, **CONTACT)
+    tyres = {"tyres_a": Tyres(0.7, 1.0, 2.7, 1.5), "tyres_b": Tyres(0.7, 1.0, 2.6, 1.5)}
+    limits = {"instant": 0.0}
+    (plain,) = (one for one in diagnose(found, limits=limits) if one.code == "instant")
+    (given,) = (one for one in diagnose(found, limits=limits, **tyres) if one.code == "instant")
+    assert "for tyres that slide with a drag of 0.7" in plain.sentence
+    assert "for the tyres as given" in given.sentence
+    left = col.left_out(found, **tyres)
+    sides = (left.a, left.b)
+    assert given.measured == max(
+        *(side.tyre_share for side in sides), *(side.geometry_share for side in sides)
+    )
+
+
+def test_tyres_of_no_use_to_a_diagnosis_are_refused():
+    """Of an answer that has them, was followed in time, or is of momentum."""
+    tyres = Tyres(0.7, 0.1, 2.7, 1.5)
+    after = {"speed_a_after": 7.0, "speed_b_after": 7.0, "course_a_after": 0.7}
+    momentum = col.reconstruct.momentum(
+        1500.0, 1200.0, course_a=0.0, course_b=1.5, course_b_after=0.7, **after
+    )
+    for answer, said in (
+        (impact(duration=0.1, tyres_a=tyres), "impact has its tyres"),
+        (col.time_resolved(A, B, 0.15, **CONTACT, duration=0.1), "followed in time"),
+        (momentum, "to reconstruct.momentum"),
+    ):
+        with pytest.raises(col.InputError, match=said) as caught:
+            diagnose(answer, tyres_a=tyres)
+        assert caught.value.code == "bad_combination"
+
+
 def test_the_largest_is_first():
     shares = [move.share for move in diagnose(impact()).moves]
     assert len(shares) == 6

@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from scripts import benchmarks
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 
 pytestmark = [
@@ -29,13 +31,7 @@ def committed():
 @pytest.fixture(scope="module")
 def scripts():
     """The script and its tables."""
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        import evidence
-        import evidence_tables
-    finally:
-        sys.path.remove(str(ROOT / "benchmarks"))
-    return evidence, evidence_tables
+    return benchmarks("evidence", "evidence_tables")
 
 
 def test_every_route_holds_the_truth_as_often_as_it_states(committed, scripts):

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from scripts import benchmarks
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 
 pytestmark = [
@@ -22,12 +24,7 @@ def committed():
 
 @pytest.fixture(scope="module")
 def script():
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        import finer
-    finally:
-        sys.path.remove(str(ROOT / "benchmarks"))
-    return finer
+    return benchmarks("finer")
 
 
 def test_a_quick_run_has_the_columns_of_the_committed_file(committed, script, tmp_path):

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from scripts import benchmarks
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 WRONG = (92, 104, 161, 172)
 
@@ -26,12 +28,7 @@ def committed():
 
 @pytest.fixture(scope="module")
 def script():
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        import posterior
-    finally:
-        sys.path.remove(str(ROOT / "benchmarks"))
-    return posterior
+    return benchmarks("posterior")
 
 
 def test_a_quick_run_has_the_rows_of_the_committed_file(committed, script, tmp_path):

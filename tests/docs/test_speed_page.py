@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 import collisions as col
+from scripts import benchmarks
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 # The file keeps three digits.
@@ -33,12 +34,7 @@ pytestmark = [
 @pytest.fixture(scope="module")
 def tables():
     """What makes the tables of the page."""
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        import speed_tables
-    finally:
-        sys.path.remove(str(ROOT / "benchmarks"))
-    return speed_tables
+    return benchmarks("speed_tables")
 
 
 @pytest.fixture(scope="module")
@@ -143,12 +139,7 @@ def test_the_figures_can_be_drawn(tables, committed, tmp_path):
 @pytest.fixture(scope="module")
 def ladder():
     """The script of the rungs."""
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        import ladder
-    finally:
-        sys.path.remove(str(ROOT / "benchmarks"))
-    return ladder
+    return benchmarks("ladder")
 
 
 def test_every_rung_is_nearer_than_the_one_before(tables):
@@ -227,14 +218,8 @@ def test_the_rungs_measured_again_are_the_committed_ones(tables, ladder):
 @pytest.fixture(scope="module")
 def yardsticks():
     """The scripts that hold what is compared with, and the budgets."""
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        import batch_speed
-        import budgets
-        import speed_rivals
-    finally:
-        sys.path.remove(str(ROOT / "benchmarks"))
-    return {"budgets": budgets, "batch_speed": batch_speed, "speed_rivals": speed_rivals}
+    names = ("budgets", "batch_speed", "speed_rivals")
+    return dict(zip(names, benchmarks(*names), strict=True))
 
 
 def test_the_yardsticks_square_by_a_product(yardsticks):
@@ -347,11 +332,7 @@ def test_errors_of_the_choices_are_found_again(committed):
     """From the seeded scenes: to the digits that are kept; what is rounding, to a fifth, as another
     numpy may round otherwise.
     """
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        import speed_errors
-    finally:
-        sys.path.remove(str(ROOT / "benchmarks"))
+    speed_errors = benchmarks("speed_errors")
     found, contacts = committed
     again = speed_errors.choices(found["effort"]["scenes"], contacts, None)
     rounding = {"float64", "textbook", "float32"}
@@ -410,3 +391,28 @@ def test_errors_of_the_choices_are_what_the_page_says(committed):
     assert choices["left_out"]["mean"] < 0.2 * choices["impulse"]["mean"]
     if choices["pymunk"] is not None:
         assert choices["pymunk"]["p95"] < 1e-3
+
+
+def test_what_to_call_has_the_numbers_of_the_files(tables, committed):
+    """Each row of the first table: its error is that of its rung, and what it costs is what was
+    measured; every call in it takes the arguments that it is shown with.
+    """
+    ladder = tables.load_ladder()
+    text = tables.calls(committed[0], ladder)
+    lines = [line.strip("| ").split(" | ") for line in text.splitlines()[2:]]
+    single, batch = (tables.rows(committed[0], group) for group in ("single", "batch"))
+    assert len(lines) == len(tables.CALLS) + 2
+    for line, row in zip(lines, tables.CALLS, strict=False):
+        error = ladder["rungs"][row.rung]
+        assert line[1].startswith(f"{100.0 * error['median']:.2g}\u00a0%")
+        assert line[1].endswith(f"within {100.0 * error['most_of_10']:.2g}\u00a0%")
+        each = (
+            single["eccentric"]["median"] * tables.cost_of(ladder, row.rung)
+            if row.batch is None
+            else batch[row.batch]["median"]
+        )
+        seconds = float(re.sub(r"\D", "", line[2])) * each * tables.FORMULA
+        assert seconds == pytest.approx(1.0, rel=0.5)
+        assert line[3] == row.call
+        for option in re.findall(r"(\w+)=", row.call):
+            assert option in inspect.signature(col.time_resolved).parameters

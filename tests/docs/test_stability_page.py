@@ -5,11 +5,12 @@ keep the promises.
 import json
 import math
 import re
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+
+from scripts import benchmarks
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 PAGE = ROOT / "docs" / "numerical_stability.md"
@@ -23,13 +24,7 @@ pytestmark = [
 @pytest.fixture(scope="module")
 def scripts():
     """The script and its tables."""
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        import stability
-        import stability_tables
-    finally:
-        sys.path.remove(str(ROOT / "benchmarks"))
-    return stability, stability_tables
+    return benchmarks("stability", "stability_tables")
 
 
 @pytest.fixture(scope="module")

@@ -12,6 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from scripts import benchmarks
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 PAGE = ROOT / "docs" / "uncertainty.md"
 
@@ -28,17 +30,10 @@ RARE = 3.5
 @pytest.fixture(scope="module")
 def scripts():
     """The script, its scenes, its simulations and its tables."""
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        import uncertainty_coverage
-        import uncertainty_figures  # noqa: F401
-        import uncertainty_scenes
-        import uncertainty_tables
-
-        import uncertainty
-    finally:
-        sys.path.remove(str(ROOT / "benchmarks"))
-    return uncertainty, uncertainty_scenes, uncertainty_coverage, uncertainty_tables
+    benchmarks("uncertainty_figures")
+    return benchmarks(
+        "uncertainty", "uncertainty_scenes", "uncertainty_coverage", "uncertainty_tables"
+    )
 
 
 @pytest.fixture(scope="module")

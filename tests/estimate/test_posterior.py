@@ -24,7 +24,7 @@ from collisions.estimate import readings
 from collisions.estimate.evidence import read_evidence, read_reading
 from collisions.estimate.islands import Island
 from collisions.estimate.posterior import _Problem
-from collisions.estimate.readings import CensoredReading
+from collisions.estimate.readings import CensoredReading, ValueReading
 from collisions.reconstruct import posterior
 from collisions.uncertainty import (
     Censored,
@@ -194,6 +194,23 @@ def test_censored_readings_of_a_normal_prior(case):
         assert found["x"].values.max() <= (math.inf if high is None else high)
         assert math.isnan(found.p_value)
         assert found.consistent is None
+
+
+def test_a_reading_of_bounds_is_missed_by_what_is_observed_less_what_is_computed():
+    """Below them more was observed than computed, above them less."""
+    reading = CensoredReading("x", Censored(0.3, 0.4, 0.05))
+    found = reading.residual(np.array([0.0, 0.35, 1.0]), False)
+    assert found == pytest.approx([0.3, 0.0, -0.6])
+
+
+@pytest.mark.parametrize("sigma", [0.1, 1.0, 3.0])
+def test_the_density_of_an_angle_is_one_in_all_round_the_circle(sigma):
+    """However wide its error: two accounts with it are compared by such densities."""
+    reading = ValueReading("x", Normal(0.4, sigma))
+    turn = (np.arange(20000) + 0.5) / 20000.0 * math.tau - math.pi
+    for angle, whole in ((True, 1.0), (False, math.erf(math.pi / (sigma * math.sqrt(2.0))))):
+        density = np.exp(reading.log_likelihood(0.4 + turn, angle))
+        assert np.mean(density) * math.tau == pytest.approx(whole, rel=1e-6)
 
 
 @pytest.mark.parametrize("angle", [False, True])

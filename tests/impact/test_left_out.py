@@ -19,6 +19,7 @@ import pytest
 import collisions as col
 from collisions.impact.left_out import LeftOut, LeftOutSide
 from collisions.travel import GRAVITY
+from scripts import benchmarks
 from strategies import other_registry
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -914,12 +915,7 @@ def script():
     """The benchmark."""
     if not (ROOT / "benchmarks").is_dir():
         pytest.skip("the sdist has no benchmarks")
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        import time_resolved
-    finally:
-        sys.path.remove(str(ROOT / "benchmarks"))
-    return time_resolved
+    return benchmarks("time_resolved")
 
 
 @pytest.fixture(scope="module")

@@ -629,6 +629,10 @@ def calls() -> Iterator[tuple[str, Call]]:
             downhill,
         ),
     )
+    thrown = {"distance": 20.0, "friction": 0.66, "height": 1.0}
+    low = ({"height": 40.0}, {"distance": 1e308, "friction": 1e308})
+    yield "throw_bounds", Call(lambda **given: travel.throw_bounds(**given)[1], thrown, low)
+    yield "throw_speed", Call(travel.throw_speed, {**thrown, "angle": 0.3}, low)
     places = {
         "x[0]": 0.0,
         "x[1]": 6.0,

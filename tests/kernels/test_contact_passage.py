@@ -15,10 +15,9 @@ import pytest
 import collisions as col
 from collisions.derivation import explain
 from reference import EPS, evaluate
-from scenes import FAMILIES, cases, draw, solved, solved_together
+from scenes import FAMILIES, TURNING, cases, draw, solved, solved_together
 
-A = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, vx=15.0, vy=2.0, yaw_rate=0.1, x=-2.0, y=0.4)
-B = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, vy=9.0, x=2.0, y=-0.2)
+A, B = TURNING
 PLACE = {"normal": 0.3, "point": (0.1, 0.2)}
 # A light bar struck beside its centre: slip stops early, and the levers push it back faster than
 # friction can hold.

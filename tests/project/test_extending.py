@@ -18,11 +18,9 @@ from collisions.impact import inputs
 from collisions.kernels import central, contact_laws, eccentric
 from collisions.kernels.elementwise import select
 from collisions.reporting import report
+from scenes import TURNING
 
-A = col.Vehicle(
-    mass=1500.0, yaw_inertia=2400.0, vx=15.0, vy=2.0, yaw_rate=0.1, x=-2.0, y=0.4, name="A"
-)
-B = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, vy=9.0, x=2.0, y=-0.2, name="B")
+A, B = TURNING
 CONTACT = {"normal": 0.3, "point": (0.1, 0.2), "friction": 2.0, "law": "half back"}
 
 
@@ -43,7 +41,7 @@ def test_type_checkers_and_docstrings_know_the_laws(monkeypatch):
     monkeypatch.delitem(contact_laws.LAWS, "half back")
     assert get_args(inputs.Law) == tuple(contact_laws.LAWS)
     listed = ", ".join(f'"{name}"' for name in contact_laws.LAWS)
-    for solver in (col.oblique_central, col.eccentric):
+    for solver in (col.oblique_central, col.eccentric, col.scene.Contact):
         assert f"law : {{{listed}}}" in solver.__doc__
 
 

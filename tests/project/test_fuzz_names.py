@@ -571,7 +571,7 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
         "diagnose",
         col.diagnose,
         impact,
-        **case.spoil({**known, "units": case.option(*UNIT_SYSTEMS)}),
+        **case.spoil({**known, **wheels(case), "units": case.option(*UNIT_SYSTEMS)}),
     )
     if not isinstance(findings, Exception):
         numbers = "delta_v_a", "delta_v_b", "yaw_rate_a", "yaw_rate_b", "share"
@@ -1546,6 +1546,8 @@ def test_simulated_travel(case: Case) -> None:
         ground["slope"] = case.option((0.02, "1 %"), case.garbage())
     if case.maybe(0.2):
         ground["rotating_mass"] = case.option(0.03, "4 %", case.value("lock"))
+    if case.maybe(0.2):
+        ground["until"] = case.option("2 s", 30.0)
     ground |= {"moments": case.option(2, 9), "tolerance": case.option(1e-4, 1e-5)}
     # What hardly slows takes ten thousand steps, and is refused for it as after fifteen hundred.
     with mock.patch.object(motion_of_wheels, "_MOST_STEPS", 10_000 if case.maybe(0.01) else 1_500):

@@ -1,6 +1,5 @@
 """Simulated crashes that last: balances, symmetry, another integrator, the limit of an impulse."""
 
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,6 +7,7 @@ import numpy as np
 import pytest
 
 import collisions as col
+from scripts import benchmarks
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
@@ -21,14 +21,7 @@ SEED = 31
 @pytest.fixture(scope="module")
 def scripts():
     """The simulator, its population, and what is read of it."""
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    try:
-        import coverage_in_crashes
-        import lasting_crashes
-        import lasting_population
-    finally:
-        sys.path.remove(str(ROOT / "benchmarks"))
-    return lasting_crashes, lasting_population, coverage_in_crashes
+    return benchmarks("lasting_crashes", "lasting_population", "coverage_in_crashes")
 
 
 @pytest.fixture(scope="module")

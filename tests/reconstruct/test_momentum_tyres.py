@@ -17,6 +17,7 @@ from collisions.derivation import explain
 from collisions.reporting import replay
 from collisions.travel import Tyres
 from collisions.uncertainty import Normal, propagate
+from scenes import UNLIKE
 
 G = 9.80665
 MASSES = {"mass_a": 1437.0, "mass_b": 1823.0}
@@ -267,8 +268,7 @@ def test_without_tyres_it_says_what_that_leaves_out():
 
 
 def test_what_a_planar_reconstruction_leaves_out_is_said():
-    a = col.Vehicle(mass=1437.0, yaw_inertia=2311.0, vx=14.0, x=-2.0, y=0.4, heading=0.1)
-    b = col.Vehicle(mass=1213.0, yaw_inertia=1877.0, vy=6.0, x=2.0, y=0.0, heading=1.3)
+    a, b = UNLIKE[0].replace(vy=0.0), UNLIKE[1]
     contact = {"normal": 0.07, "point": (0.05, 0.09), "friction": 0.08}
     end = col.eccentric(a, b, 0.15, **contact)
     assert end.statements == ()

@@ -16,16 +16,11 @@ from collisions.derivation import explain
 from collisions.reporting import replay
 from collisions.travel import Tyres
 from collisions.uncertainty import Normal, propagate
+from scenes import UNLIKE, WHEELS
 
 MOTION = ("vx", "vy", "yaw_rate")
-A = col.Vehicle(mass=1437.0, yaw_inertia=2311.0, vx=14.0, vy=1.0, x=-2.0, y=0.4, heading=0.1)
-B = col.Vehicle(mass=1213.0, yaw_inertia=1877.0, vy=6.0, yaw_rate=0.3, x=2.0, y=0.0, heading=1.3)
+A, B = UNLIKE[0], UNLIKE[1].replace(yaw_rate=0.3)
 CONTACT = {"normal": 0.0713, "point": (0.0531, 0.0917), "friction": 0.0837}
-WHEELS = {
-    "duration": 0.1013,
-    "tyres_a": Tyres(0.6713, (0.1719, 0.2317, 0.3137, 0.4179), 2.7139, 1.5317, steer=0.0917),
-    "tyres_b": Tyres(0.5713, 1.0, 2.6319, 1.4731, height=0.5179),
-}
 
 
 def drawn(rng):

@@ -14,6 +14,7 @@ import pytest
 import collisions as col
 from collisions import reference, uncertainty
 from collisions.reconstruct import posterior, recorded_pulse, speeds
+from scenes import BESIDE
 
 KMH = 1 / 3.6
 TIME = np.arange(0.0, 0.2501, 0.01)
@@ -147,8 +148,7 @@ def test_it_goes_into_speeds():
     )
     inputs = pulse.inputs("a")
     assert list(inputs) == ["delta_v_forward_a", "delta_v_left_a"]
-    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.0, heading=0.0)
-    b = col.Vehicle(mass=1300.0, yaw_inertia=2000.0, x=2.0, y=0.8)
+    a, b = BESIDE[0].replace(heading=0.0), BESIDE[1]
     contact = {
         "course_a": 0.0,
         "course_b": 1.4,

@@ -14,7 +14,7 @@ import pytest
 import collisions as col
 from collisions.kernels.reverse import PLACES, parabola_roots, quartic_roots
 from collisions.reconstruct import momentum, speeds
-from scenes import LAWS, RULES
+from scenes import BESIDE, LAWS, RULES
 from strategies import other_registry
 
 VALUES = {
@@ -29,8 +29,7 @@ PAIRS = [
     )
     if pair not in (("speed_a", "speed_b"), ("delta_v_a", "delta_v_b"))
 ]
-A = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.0)
-B = col.Vehicle(mass=1300.0, yaw_inertia=2000.0, x=2.0, y=0.8)
+A, B = BESIDE
 CONTACT = {"normal": 0.0, "point": (0.0, 0.4), "friction": 0.05}
 COURSES = {"course_a": 0.1, "course_b": 2.0}
 HIT = col.eccentric(

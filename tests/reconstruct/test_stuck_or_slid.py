@@ -15,14 +15,10 @@ import collisions as col
 from collisions import reference, reporting, uncertainty
 from collisions.diagnostics import diagnose
 from collisions.reconstruct import speeds
+from scenes import IN_POUNDS
 
 MPH = 0.44704
-A = col.Vehicle(
-    mass="3400 lb", yaw_inertia="1770 slug*ft**2", x="-6.5 ft", y="1.3 ft", heading="0 deg"
-)
-B = col.Vehicle(
-    mass="2900 lb", yaw_inertia="1250 slug*ft**2", x="2.6 ft", y="-4 ft", heading="90 deg"
-)
+A, B = IN_POUNDS
 MET = {
     "course_a": "0 deg",
     "course_b": "90 deg",

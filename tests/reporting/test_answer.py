@@ -12,20 +12,15 @@ import pytest
 import collisions as col
 from collisions import reconstruct, uncertainty
 from collisions.diagnostics import diagnose
+from collisions.diagnostics.finding import is_note
 from collisions.reporting import options, replay, report
 from collisions.reporting.mathml import mathml
 from collisions.reporting.render import Html, Markdown, Printed
 from collisions.reporting.sections import _round_limit
 from pages import section
+from scenes import IN_POUNDS
 
-A = col.Vehicle(
-    mass="3400 lb", yaw_inertia="1770 slug*ft**2", x="-6.5 ft", y="1.3 ft", heading="0 deg",
-    name="Accord",
-)  # fmt: skip
-B = col.Vehicle(
-    mass="2900 lb", yaw_inertia="1250 slug*ft**2", x="2.6 ft", y="-4 ft", heading="90 deg",
-    name="Civic",
-)  # fmt: skip
+A, B = (car.replace(name=name) for car, name in zip(IN_POUNDS, ("Accord", "Civic"), strict=True))
 PLACE = {"normal": "0 deg", "point": ("0 ft", "0 ft"), "friction": 0.5}
 
 
@@ -78,6 +73,62 @@ def test_a_wide_range_has_no_decimals():
     half = 1.959963985 * 12.0
     text = box(report(crash(), form="markdown", units="us", uncertainty=known))
     assert f"{40 - half:.0f} to {40 + half:.0f} mph (95 %)" in text
+
+
+def test_two_figures_are_those_of_the_half_width_and_not_of_the_width():
+    """Half of it is 0.78 mph, so hundredths; all of it, 1.57, would end at the tenth."""
+    inputs = {"va": uncertainty.Normal("30 mph", "0.4 mph")}
+    known = uncertainty.propagate(lambda va: {"a.before.speed": va}, inputs, method="first_order")
+    text = box(report(crash(), form="markdown", units="us", uncertainty=known))
+    half = 1.959963985 * 0.4
+    assert f"{30 - half:.2f} to {30 + half:.2f} mph (95 %)" in text
+
+
+def test_a_note_is_no_finding_that_matters():
+    """It stands among the findings, not in the box."""
+    points = [car.replace(yaw_inertia=None, x=None, y=None) for car in (A, B)]
+    points = points[0].replace(vx="30 mph"), points[1].replace(vy="25 mph", vx=0.0)
+    impact = col.oblique_central(*points, 0.1, normal="0 deg", friction=0.5)
+    notes = [finding for finding in diagnose(impact) if is_note(finding)]
+    assert notes
+    page = re.sub(r"\\(.)", r"\1", report(impact, form="markdown"))
+    for note in notes:
+        label = f"**{note.code.replace('_', ' ')}"
+        assert label not in box(page)
+        assert label in section(page, "Findings")
+
+
+@pytest.fixture(scope="module")
+def one_of_two():
+    """By delta-V and energy, which two pairs of speeds share."""
+    angle = math.radians(150.0)
+    b = B.replace(vx=8.0 * math.cos(angle), vy=8.0 * math.sin(angle))
+    truth = col.eccentric(A.replace(vx=14.0), b, 0.1, **PLACE)
+    found = reconstruct.speeds(
+        A, B, course_a="0 deg", course_b="150 deg", restitution=0.1, **PLACE,
+        delta_v_a=truth.a.delta_v, energy_loss=truth.energy_loss,
+    )  # fmt: skip
+    assert len(found) == 2
+    return found[0]
+
+
+def test_another_answer_is_said_in_the_box_also_without_its_finding(one_of_two):
+    """Once either way."""
+    text = re.sub(r"\\(.)", r"\1", box(report(one_of_two, form="markdown")))
+    assert "**not unique:**" in text
+    assert "Not the only answer" not in text
+    limits = {"not_unique": math.inf}
+    text = box(report(one_of_two, form="markdown", limits=limits))
+    assert "- Not the only answer: 2 impacts fit what was known.\n" in text
+    assert "unique" not in text
+
+
+def test_what_was_known_is_no_figure_of_the_answer(one_of_two):
+    """Energy and delta-V were given; delta-V of the other vehicle was found."""
+    text = box(report(one_of_two, form="markdown"))
+    assert "- **Energy lost:**" not in text
+    assert "- **Accord: delta-V:**" not in text
+    assert "- **Civic: delta-V:**" in text
 
 
 def test_no_range_is_said_before_anything_else():

@@ -218,6 +218,30 @@ def test_what_a_drag_cannot_stop_is_refused_or_is_a_case_without_an_answer() -> 
         assert standing(np.array([1.0])).status.tolist() == ["never_stops"]
 
 
+def test_a_car_that_rolls_on_after_a_contact_is_where_its_speed_takes_it() -> None:
+    """On wheels that nothing brakes: after its slip has faded, evenly on; it has no rest."""
+
+    def run_of(lock: Any) -> Run:
+        tyres = Tyres(0.7, lock, 2.6, 1.5)
+        movers = {
+            "A": car(1500.0, 14.0, -6.0, yaw_inertia=2400.0, y=0.4, tyres=tyres),
+            "B": car(1200.0, 0.0, 0.0, yaw_inertia=1700.0, heading=1.57, tyres=tyres),
+        }
+        given = {"restitution": 0.1, "friction": 0.5, "at": "touch"}
+        return Scene(movers=movers, contacts=[Contact("A", "B", **given)]).run()
+
+    run = run_of(0.0)
+    early, late = run.at(20.0)["A"], run.at(30.0)["A"]
+    assert late.speed == pytest.approx(early.speed, rel=1e-6)
+    assert late.x - early.x == pytest.approx(10.0 * late.vx, rel=1e-6)
+    with pytest.raises(col.CollisionsError):
+        _ = run.rest["A"]
+    many = run_of(np.array([0.0, 0.3]))
+    assert many.status.tolist() == ["ok", "ok"]
+    assert many.at(20.0)["A"].x[0] == pytest.approx(early.x, abs=0.02)
+    assert many.at(20.0)["A"].vx[1] == 0.0
+
+
 def test_cars_that_do_not_fit_on_their_outlines_are_refused_case_by_case() -> None:
     scene = two().replace({"B.x": np.array([6.5, 3.0])})
     with pytest.warns(col.CollisionsWarning, match="1 overlap_at_start"):
@@ -503,3 +527,18 @@ def test_a_scene_without_a_contact_ends_as_it_begins_where_nothing_slows() -> No
     assert run.impacts == ()
     assert run.paths["A"].time.tolist() == [0.0]
     assert run.at(3.0)["A"].x == 30.0
+
+
+@pytest.mark.parametrize("tolerance", ["0.05 m/s", "3 m/s"])
+def test_the_tolerance_of_a_contact_is_that_of_solve(tolerance: str) -> None:
+    """A larger one lets a smaller model pass, as where the same impact is solved by itself."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.3, heading=0.0, vx=12.0)
+    b = col.Vehicle(mass=1300.0, yaw_inertia=2100.0, x=2.0, y=-0.2, heading=0.0)
+    where: dict[str, Any] = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.4}
+    alone = col.solve(a, b, 0.1, **where, tolerance=tolerance)
+    contact = Contact("A", "B", restitution=0.1, **where, model="solve", tolerance=tolerance)
+    movers = {"A": Mover(a, drag=0.5), "B": Mover(b, drag=0.5)}
+    (impact,) = Scene(movers=movers, contacts=[contact]).run().impacts
+    assert impact.model == alone.model
+    assert impact.model == ("linear_central" if tolerance == "3 m/s" else "eccentric")
+    assert impact.b.delta_v == pytest.approx(alone.b.delta_v, rel=1e-12)

@@ -365,6 +365,73 @@ def test_wheels_that_turn_in_a_batch_and_in_a_mirror():
     assert many.rest.x[0] == pytest.approx(free.rest.x, abs=1e-3)
 
 
+# Until a time
+
+
+def test_a_car_that_nothing_slows_is_followed_until_a_time_and_has_no_rest():
+    """Straight on it is where its speed takes it; spun, it rolls on with what its tyres leave."""
+    with pytest.raises(col.NoSolutionError, match="or until, the time") as caught:
+        drive(CAR, lock=0.0)
+    assert caught.value.code == "never_stops"
+    path = drive(CAR, lock=0.0, until="3 s")
+    assert path.time[-1] == pytest.approx(3.0, rel=1e-12)
+    assert (path.end.x, path.end.vx) == pytest.approx((42.0, 14.0), rel=1e-12)
+    assert path.at(1.5).x == pytest.approx(21.0, rel=1e-12)
+    spun = drive(moving(12.0, 2.0, 2.5), lock=0.0, until=20.0)
+    early, late = spun.at(10.0), spun.end
+    assert late.speed == pytest.approx(early.speed, rel=1e-6)
+    assert late.x - early.x == pytest.approx(10.0 * late.vx, rel=1e-6)
+    assert late.speed < 12.0
+    for stopped in (path, spun):
+        with pytest.raises(col.NoSolutionError, match="did not come to rest within") as caught:
+            _ = stopped.rest
+        assert caught.value.code == "never_stops"
+        with pytest.raises(col.InputError, match="give simulate a later until"):
+            stopped.at(21.0)
+        assert "end.x=" in repr(stopped)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_until_a_time_is_the_beginning_of_the_whole(name):
+    """At the time where it is left, and before; a later time changes nothing."""
+    vx, vy, w, heading, lock, steer = CASES[name]
+    lock = list(lock) if np.ndim(lock) else lock
+    whole = drive(moving(vx, vy, w, heading), lock=lock, steer=steer, moments=1001)
+    part = drive(moving(vx, vy, w, heading), lock=lock, steer=steer, moments=1001, until=1.0)
+    for time in (0.4, 1.0):
+        one, other = whole.at(time), part.at(time)
+        for what in ("x", "y", "heading", "vx", "vy", "yaw_rate"):
+            assert getattr(one, what) == pytest.approx(getattr(other, what), abs=2e-4), what
+    later = drive(moving(vx, vy, w, heading), lock=lock, steer=steer, until="1 min")
+    assert later.rest.x == whole.rest.x
+    assert later.time[-1] == whole.time[-1]
+
+
+def test_until_a_time_in_a_batch():
+    """Each case as alone; those that move at its end have no rest and no later place."""
+    locks, until = np.linspace(0.0, 1.0, 24), np.where(np.arange(24) % 2, 2.0, 30.0)
+    many = drive(moving(12.0, 1.0, 1.0), lock=locks, until=until)
+    for at in (0, 1, 2, 23):
+        one = drive(moving(12.0, 1.0, 1.0), lock=locks[at], until=until[at])
+        assert many.end.x[at] == pytest.approx(one.end.x, abs=2e-3)
+        assert many.end.vx[at] == pytest.approx(one.end.vx, abs=2e-3)
+    moves = many.end.vx != 0.0
+    assert moves[:2].all()
+    assert not moves[-1]
+    assert np.isnan(many.rest.x).tolist() == moves.tolist()
+    assert many.rest.vx[-1] == 0.0
+    assert np.isnan(many.at(40.0).x).tolist() == moves.tolist()
+    with pytest.warns(col.CollisionsWarning, match="1 of 2 cases .*1 not_positive"):
+        drive(CAR, lock=np.array([0.1, 0.2]), until=np.array([1.0, -1.0]))
+
+
+def test_what_slides_on_down_a_slope_is_followed_until_a_time():
+    """A slope of 20 % against locked wheels of friction 0.1: half g times the difference."""
+    path = drive(CAR, friction=0.1, lock=1.0, slope=(-0.2, 0.0), until=2.0)
+    assert path.end.x == pytest.approx(28.0 + 0.5 * 0.1 * G * 4.0, rel=1e-6)
+    assert path.end.vx == pytest.approx(14.0 + 0.1 * G * 2.0, rel=1e-6)
+
+
 @pytest.mark.parametrize("name", CASES)
 def test_places_and_velocities_on_the_way(name):
     """Against the same integration: within 2 mm and 1 mrad beside the promise, and velocities
@@ -871,6 +938,8 @@ def test_places_of_rest_are_evidence_for_fit():
             "moments must be a whole number from 2 to 100000, got 1",
         ),
         (CAR, {"moments": 10.0}, "bad_option", "got 10.0"),
+        (CAR, {"until": 0.0}, "not_positive", "until must be > 0"),
+        (CAR, {"rotating_mass": "11 kg"}, "bad_units", "rotating_mass"),
         (CAR, {"surfaces": 0.7}, "bad_shape", "surfaces[0] must be a pair of corners"),
         (
             CAR,

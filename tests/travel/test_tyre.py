@@ -21,6 +21,7 @@ from collisions.kernels.tyre import (
     tyre_forces,
     wheel_forces,
 )
+from collisions.vehicle.tyres import kernel_numbers
 
 # Of a wheel: radius [m], inertia [kg*m**2], load [N], speed of its hub [m/s]; what it comes to does
 # not depend on them.
@@ -209,6 +210,26 @@ def test_load_transfer_holds_the_vehicle_upright():
     assert sum(load * y for load, (_, y) in zip(loads, places, strict=True)) == pytest.approx(
         -height * fy, abs=1e-3
     )
+
+
+def test_load_transfer_balances_whichever_way_the_vehicle_slides():
+    """Round the circle, by the same moments and to the same thousandth: braked wheels that take and
+    give back load from pass to pass end nearer than that.
+    """
+    height, ahead, left, mu = 0.6, 1.3, 0.75, 0.9
+    given = travel.Tyres(mu, (1.0, 0.2, 0.5, 0.0), 2.0 * ahead, 2.0 * left, height=height)
+    angle = np.linspace(-math.pi, math.pi, 2000, endpoint=False)
+    rows = kernel_numbers({name: np.full(2000, one) for name, one in given.named.items()}, np)
+    wheels = wheel_forces(
+        rows, (rows.friction,) * 4, np.cos(angle), np.sin(angle), 0.0 * angle, transfers=True
+    )
+    fx, fy = (sum(mu * 0.25 * wheel[2] * wheel[at] for wheel in wheels) for at in (0, 1))
+    places = [(ahead, left), (ahead, -left), (-ahead, left), (-ahead, -left)]
+    over_x, over_y = (
+        sum(0.25 * wheel[2] * place[at] for wheel, place in zip(wheels, places, strict=True))
+        for at in (0, 1)
+    )
+    assert np.max(np.hypot(over_x + height * fx, over_y + height * fy)) < 1e-3
 
 
 # Tyres

@@ -192,3 +192,20 @@ def test_warnings_are_given_once():
     with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
         found = propagate(model, {"x": Normal(1.0, 1.0)}, samples=512, seed=1)
     assert found.if_halved()["x"]["root"] < found.if_halved().now["root"]
+
+
+def test_the_input_that_narrows_some_range_the_most_comes_first():
+    """By the best share of any output, whatever the names: z halves the range of one output, a
+    narrows both by less. Of normal x and y the width of x + y follows by squares.
+    """
+    inputs = {"a": Normal(0.0, 1.0), "z": Normal(0.0, 2.0), "m": Normal(0.0, 1.0)}
+
+    def model(a, z, m):
+        return {"one": a + 2.0 * m, "other": 0.5 * a + 0.5 * m + z}
+
+    halved = propagate(model, inputs, method="first_order").if_halved()
+    # Shares that are left: of "one" m sqrt(1 + 1) / sqrt(5), a sqrt(1/4 + 4) / sqrt(5); of "other"
+    # z sqrt(0.5 + 1) / sqrt(4.5).
+    assert list(halved) == ["z", "m", "a"]
+    left = [min(halved[name][of] / halved.now[of] for of in halved.now) for name in halved]
+    assert left == pytest.approx([math.sqrt(1.5 / 4.5), math.sqrt(2 / 5), math.sqrt(4.25 / 5)])

@@ -35,7 +35,6 @@ from ..uncertainty import Interval
 from .crash import SCENE
 from .crash_answers import crash_model, found_run, usual_outputs
 from .read import (
-    FORWARD,
     FUNCTIONS,
     SOLVERS,
     STUDIES,
@@ -437,7 +436,7 @@ def _propagated(case: Case, results: tuple[Any, ...], count: int) -> Any:
         )
         raise CaseError(("answer", text), refused=True, code="ambiguous")
     options = dict(case.options)
-    outputs = options.pop("outputs", _usual(case, results[0]))
+    outputs = options.pop("outputs", _usual(results[0]))
     if (
         not isinstance(outputs, tuple)
         or not outputs
@@ -516,13 +515,13 @@ def _output(result: Any, name: str, place: str, there: Any, shape: tuple[int, ..
     return to_quantity(np.broadcast_to(np.where(there, value, np.nan), shape), unit)
 
 
-def _usual(case: Case, result: Any) -> tuple[str, ...]:
+def _usual(result: Any) -> tuple[str, ...]:
     """The outputs where the file names none: what was sought of a reverse solver, and what people
     ask of an impact.
     """
     if isinstance(result, Run):
         return usual_outputs(result)
     if isinstance(result, MomentumSolution):
-        return (*result.unknowns, "delta_v_a", "delta_v_b")
-    found = ("a.delta_v", "b.delta_v", "energy_loss")
-    return found if case.solver in FORWARD else ("a.before.speed", "b.before.speed", *found)
+        return (*result.found, "delta_v_a", "delta_v_b")
+    speeds = ("a.before.speed", "b.before.speed") if result.found else ()
+    return (*speeds, "a.delta_v", "b.delta_v", "energy_loss")

@@ -13,10 +13,14 @@ from typing import Any
 from .. import uncertainty
 from ..messages.marked import in_other_words
 from ..quantities.units import rendered
+from ..uncertainty.distribution import Statement
 
-DISTRIBUTIONS = {
-    name: getattr(uncertainty, name)
-    for name in ("Normal", "LogNormal", "Uniform", "Triangular", "Samples", "Interval", "Censored")
+# All that can be stated of a quantity.
+DISTRIBUTIONS: dict[str, Any] = {
+    name: kind
+    for name, kind in vars(uncertainty).items()
+    if name in uncertainty.__all__ and isinstance(kind, type) and issubclass(kind, Statement)
+    if kind is not uncertainty.Distribution
 }
 _STUDIES = ("fit", "posterior")  # functions of ``reconstruct`` that are tables of a file
 _LONGEST = 80  # characters of a value in a message

@@ -5,7 +5,8 @@ number formatting.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 from typing import Any, NamedTuple, TypeAlias
 
@@ -23,6 +24,7 @@ from ..quantities.directions import from_degrees
 from ..quantities.formatting import decimals_of, in_words, places, rounded, scale_of, unit_of
 from ..reconstruct import MomentumSolution
 from ..vehicle.outlines import in_scene, overlap
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle, with_name
 from .moves import Moves, moves
 
@@ -58,12 +60,15 @@ class VehicleResult(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Case:
-    """One result to examine, with the evidence given with it; sentences are in ``units``."""
+    """One result to examine, with the evidence given with it, and the tyres by vehicle label that
+    count in place of the drag; sentences are in ``units``.
+    """
 
     damage: dict[str, Damage]
     crush_energy: float | None
     duration: float
     drag: float
+    tyres: Mapping[str, Tyres] = field(default_factory=dict)
     units: str
 
     def number(self, value: float, kind: str) -> str:

@@ -131,10 +131,16 @@ def tyre_impulse(case: Case) -> Iterator[Measured]:
         else:
             most = case.drag * GRAVITY * case.duration
             part, how = share(most, vehicle.delta_v), "up to"
+        if case.tyres:
+            if label not in case.tyres:
+                continue
+            slide = f"that slide for {case.duration:.3g} s with a friction of "
+            slide += f"{case.tyres[label].friction:.2g}"
+        else:
+            slide = f"that slide for {case.duration:.3g} s with a drag of {case.drag:.2g}"
         sentence = (
-            f"tyres of {vehicle.who} that slide for {case.duration:.3g} s with a drag of "
-            f"{case.drag:.2g} give {how} {case.text(most, 'speed')}, {percent(part)} of its "
-            f"delta-V of {case.text(vehicle.delta_v, 'speed')}"
+            f"tyres of {vehicle.who} {slide} give {how} {case.text(most, 'speed')}, "
+            f"{percent(part)} of its delta-V of {case.text(vehicle.delta_v, 'speed')}"
         )
         yield Measured(part, sentence, label)
 
@@ -151,7 +157,7 @@ def instant(case: Case) -> Iterator[Measured]:
         if left is not None:
             yield Measured(left.share, left.sentence)
     elif case.left_out is not None:
-        neglect = neglected(case.answer, case.left_out)
+        neglect = neglected(case.answer, case.left_out, wheels=bool(case.tyres))
         if neglect is not None:
             yield Measured(neglect.share, neglect.sentence)
 

@@ -23,6 +23,7 @@ from ..reconstruct import MomentumSolution
 from ..scene.run import Run
 from ..vehicle.drag import USUAL_DURATION, read_drag, read_duration
 from ..vehicle.outlines import read_outline
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle, error_of_missing
 from . import checks_consistency, checks_inputs, checks_reliability
 from .case import Case, Damage, ImpactCase, MomentumCase
@@ -53,6 +54,8 @@ def diagnose(
     outline_b: Any = None,
     duration: Input = USUAL_DURATION,
     drag: Input = 0.7,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
     limits: Mapping[str, Any] | None = None,
     crush_energy: Input | None = None,
     damage_pdof_a: Input | None = None,
@@ -87,6 +90,9 @@ def diagnose(
         the impact.
     drag : float, str or Quantity [-]
         Drag factor of the tyres, as for ``left_out``.
+    tyres_a, tyres_b : travel.Tyres, optional
+        For an Impact that was solved without them: the wheels of each vehicle in place of the drag,
+        as for ``left_out``, in findings and moves. The vehicle then needs a heading.
     limits : dict of str to float, str or Quantity, optional
         Limits that replace the defaults, by code, units allowed, such as ``{"near_collinear": "15
         deg"}``; inf switches off a finding that appears above its limit, 0 one that appears below
@@ -121,8 +127,9 @@ def diagnose(
     ------
     InputError
         An argument that cannot be used, an unknown code, a batch (``ShapeError``), an answer that
-        was refused, outlines for an answer of planar momentum, which has no positions, or a
-        ``reconstruct.Fit`` (diagnose the impact at its values instead).
+        was refused, tyres for an answer that has its own or was followed in time, outlines for an
+        answer of planar momentum, which has no positions, or a ``reconstruct.Fit`` (diagnose the
+        impact at its values instead).
     MissingInputError
         An outline of a vehicle without position or heading, or a PDOF from the damage of a vehicle
         without heading.
@@ -184,9 +191,16 @@ def diagnose(
             "b": _read_damage(reader, impact, damage_pdof_b, damage_delta_v_b, "b"),
         }
         left = None
+        wheels = {"tyres_a": tyres_a, "tyres_b": tyres_b}
+        given_wheels = {name: one for name, one in wheels.items() if one is not None}
+        if given_wheels and not (isinstance(impact, Impact) and impact.pulse is None):
+            reader.refuse(_no_use_for_tyres(impact, *given_wheels))
         if isinstance(impact, Impact):
             reader.close()
-            left = left_out(impact, duration=duration, drag=drag) if impact.pulse is None else None
+            if impact.pulse is None:
+                left = left_out(
+                    impact, duration=duration, drag=drag, tyres_a=tyres_a, tyres_b=tyres_b
+                )
         # What an impulse leaves out comes with the duration and drag that it was asked for.
         time = _single(
             reader, read_duration(reader, duration) if left is None else left.duration, "duration"
@@ -200,6 +214,7 @@ def diagnose(
         "crush_energy": crush_energy,
         "duration": time,
         "drag": pull,
+        "tyres": {name[-1]: one for name, one in given_wheels.items()},
         "units": units,
     }
     case: Case
@@ -214,6 +229,18 @@ def diagnose(
             findings += check.findings(values, allowed[check.code])
             measured += [check.code] if values else []
     return Findings(findings, measured, units, getattr(case, "moves", None))
+
+
+def _no_use_for_tyres(answer: Impact | MomentumSolution, name: str, *_: str) -> InputError:
+    """Why an answer is not judged with tyres beside it."""
+    text = (
+        "the impact was followed in time; give tyres_a and tyres_b to time_resolved, which has "
+        "them act in it"
+        if isinstance(answer, Impact)
+        else "a MomentumSolution takes them itself; give duration, tyres_a and tyres_b to "
+        "reconstruct.momentum"
+    )
+    return InputError(f"{name} is of no use here: {text}", code="bad_combination", argument=name)
 
 
 def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:

@@ -200,9 +200,11 @@ def _of_idealisation(case: ImpactCase) -> Iterator[Move]:
         return
     held = bool(case.answer.inputs.tyres)
     time = f"{left.duration:.3g} s"
+    sliding = f"tyres sliding {time}, drag {left.drag:.2g}"
+    tyres = f"tyres as given, {time}" if case.tyres else sliding
     for name, what, of in (
         ("geometry", f"motion during contact, {time}", "geometry"),
-        ("tyres", f"tyres sliding {time}, drag {left.drag:.2g}", "tyre"),
+        ("tyres", tyres, "tyre"),
     ):
         changes = [getattr(side, f"{of}_delta_v") for side in (left.a, left.b)]
         if None in changes or (name == "tyres" and held):

@@ -16,6 +16,8 @@ from .moves import Move, Moves
 _OF_ONE = (
     "outline_a",
     "outline_b",
+    "tyres_a",
+    "tyres_b",
     "crush_energy",
     "damage_pdof_a",
     "damage_pdof_b",

@@ -21,7 +21,7 @@ from ..kernels.status import EPS, Passed, Status, WithTyres
 from ..messages.errors import InputError, placed
 from ..messages.progress import halves, reporter
 from ..messages.warning import quietly
-from ..quantities.attributes import Shown, derived, lock, math_or_numpy, same
+from ..quantities.attributes import Shown, derived, equal, lock, math_or_numpy
 from ..quantities.formatting import Numbers
 from ..quantities.reading import ArgumentReader, broadcast
 from ..quantities.tables import Cells, Summary, all_numbers, sided
@@ -87,7 +87,7 @@ class ByModel(Mapping[str, Any]):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Mapping):
             return NotImplemented
-        return same(self, other)
+        return equal(self, other)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return ByModel, (self._values, self._unit)

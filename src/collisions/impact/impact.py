@@ -21,13 +21,13 @@ from ..quantities.attributes import (
     Quantities,
     attributes,
     derived,
+    equal,
+    format_value,
     hypot,
     in_units_of,
     lock,
     math_or_numpy,
     returns,
-    same,
-    show,
     unit_of,
 )
 from ..quantities.directions import angle_of
@@ -771,7 +771,7 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Impact):
             return NotImplemented
-        return self.inputs == other.inputs and all(map(same, self._answer, other._answer))
+        return self.inputs == other.inputs and all(map(equal, self._answer, other._answer))
 
     def __getstate__(self) -> dict[str, Any]:
         return {
@@ -794,7 +794,7 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
 
     def __repr__(self) -> str:
         shown = ", ".join(
-            f"{name}={show(getattr(self, name), unit)}"
+            f"{name}={format_value(getattr(self, name), unit)}"
             for name, unit in (
                 ("closing_speed", "m/s"),
                 ("restitution", None),
@@ -803,8 +803,8 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
             )
         )
         return (
-            f"<Impact {self.model}: {shown}, delta_v a={show(self.a.delta_v)} "
-            f"b={show(self.b.delta_v, 'm/s')}>"
+            f"<Impact {self.model}: {shown}, delta_v a={format_value(self.a.delta_v)} "
+            f"b={format_value(self.b.delta_v, 'm/s')}>"
         )
 
     def _summary(self, numbers: Cells) -> Summary:
@@ -867,7 +867,7 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
             if name in ("a", "b", "pulse") and value is not None:
                 yield from ((f"{name}.{inner}", text) for inner, text in value._rows())
             elif value is not None:
-                yield name, show(value, unit_of(Impact, name))
+                yield name, format_value(value, unit_of(Impact, name))
 
 
 # The rows of a summary on the contact; a linear impact has no tangential ones.

@@ -18,7 +18,7 @@ from ..kernels.contact_laws import FRICTION, LAWS, RULES
 from ..kernels.elementwise import restitution_domain
 from ..kernels.problem import Body, Contact, Problem
 from ..messages.errors import InputError, MissingInputError, ShapeError, placed
-from ..quantities.attributes import lock, same
+from ..quantities.attributes import equal, lock
 from ..quantities.directions import direction, from_radians
 from ..quantities.reading import OUTSIDE_UNITS, ArgumentReader, broadcast, is_whole, largest
 from ..quantities.refusals import must_be, yes_or_no
@@ -187,7 +187,7 @@ class Inputs:
         if not isinstance(other, Inputs):
             return NotImplemented
         return all(
-            same(getattr(self, f.name), getattr(other, f.name))
+            equal(getattr(self, f.name), getattr(other, f.name))
             for f in fields(self)
             if f.name != "given"
         )

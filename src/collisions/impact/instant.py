@@ -27,10 +27,12 @@ class Neglect(NamedTuple):
     sentence: str
 
 
-def neglected(impact: Impact, found: LeftOut | None = None) -> Neglect | None:
+def neglected(
+    impact: Impact, found: LeftOut | None = None, *, wheels: bool = False
+) -> Neglect | None:
     """What a reconstruction as an instant leaves out, as ``left_out`` estimates it, of the worse of
     both vehicles and in a batch in the median; None of an impact that was not reconstructed, or
-    that has tyres or a drag.
+    that has tyres or a drag. ``wheels`` says that it was estimated with tyres, and not with a drag.
     """
     origin = impact.reconstruction
     lasts = bool(impact.inputs.tyres) or (origin is not None and origin.duration is not None)
@@ -47,10 +49,15 @@ def neglected(impact: Impact, found: LeftOut | None = None) -> Neglect | None:
         _worst(getattr(found.a, name), getattr(found.b, name))
         for name in ("tyre_share", "geometry_share")
     )
+    by_tyres = (
+        "for the tyres as given"
+        if wheels
+        else f"for tyres that slide with a drag of {_middle(found.drag):.2g}"
+    )
     parts = [
         f"{percent(share)} {what}"
         for share, what in (
-            (tyres, f"for tyres that slide with a drag of {_middle(found.drag):.2g}"),
+            (tyres, by_tyres),
             (motion, "for point and normal that move on"),
         )
         if math.isfinite(share)

@@ -581,6 +581,12 @@ def _estimated(
         pulls = Pull.of(impact.a, e, most), Pull.of(impact.b, e, most)
         if wheels:
             pulls = by_wheels(impact, time, wheels, pulls)
+        bounds = {
+            label: wheels[f"tyres_{label}"].friction * GRAVITY * time
+            if f"tyres_{label}" in wheels
+            else 0.0 * most
+            for label in "ab"
+        }
         # A refused single case cannot be solved again.
         tyres = [math.nan] * 2 if impact.refused is True else with_tyres(impact, pulls)
         moved = with_motion(impact, time, geometry)
@@ -603,7 +609,7 @@ def _estimated(
             before, delta_v = side.before, side.delta_v
             mass = finite_mass(before)
             of_side = {
-                "tyre_impulse_bound": mass * most,
+                "tyre_impulse_bound": mass * (bounds[label] if wheels else most),
                 "tyre_delta_v_bound": pull.most,
                 "tyre_share_bound": _share(pull.most, delta_v),
                 "tyre_impulse": mass * hypot(pull.x, pull.y),

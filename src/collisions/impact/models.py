@@ -289,7 +289,18 @@ def read_eccentric(
     reader = ArgumentReader()
     times = read_lasting(reader, ECCENTRIC.name, *arguments[:2], duration, (tyres_a, tyres_b))
     inputs = read_inputs(ECCENTRIC.name, arguments, reader.problems, **more)
-    return replace(inputs, given={**(inputs.given or {}), **reader.texts} or None, **times)
+    times["given"] = {**(inputs.given or {}), **reader.texts} or None
+    if vars(inputs).get("shape", ()) is None and _single(times["duration"], tyres_a, tyres_b):
+        # Nobody else has these inputs yet, and they stay those of one case.
+        vars(inputs).update(times)
+        return inputs
+    return replace(inputs, **times)
+
+
+def _single(duration: Any, *tyres: Any) -> bool:
+    """Whether a duration and tyres are those of one case."""
+    numbers = [value for one in tyres if one is not None for value in one.named.values()]
+    return type(duration) is float and not any(isinstance(value, np.ndarray) for value in numbers)
 
 
 def read_for_solve(

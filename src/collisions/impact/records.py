@@ -15,7 +15,7 @@ import numpy as np
 from ..kernels.contact_laws import RULES
 from ..kernels.elementwise import UNCHECKED
 from ..messages.errors import InputError, Status
-from ..quantities.attributes import attributes, lock, same, unit_of
+from ..quantities.attributes import attributes, equal, lock, unit_of
 from ..quantities.directions import direction
 from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader
@@ -60,7 +60,7 @@ def to_record(impact: Any) -> dict[str, Any]:
 def _inputs(inputs: Inputs) -> dict[str, Any]:
     texts = dict(inputs.given or {})
     text = texts.pop("normal", None)
-    as_text = isinstance(text, str) and same(
+    as_text = isinstance(text, str) and equal(
         direction(ArgumentReader(), text, "normal"), inputs.normal
     )
     return {

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from functools import partial
-from operator import attrgetter
+from operator import add, attrgetter
 from typing import Any
 
 import numpy as np
@@ -43,10 +43,16 @@ from ..quantities.tables import Sentences, said
 from ..vehicle.tyres import DOMAINS as TYRE_DOMAINS
 from ..vehicle.tyres import Tyres, could_lift
 from ..vehicle.vehicle import DOMAINS, with_name
-from .inputs import Inputs, first_case, numbers_in, part_of_inputs
+from .inputs import NO_IMPULSE, Inputs, first_case, numbers_in, part_of_inputs
 from .models import TIME_RESOLVED, Model, float_function, model_of, read_again, variant_of
 from .time_resolved_inputs import DOMAINS as TIME_DOMAINS
-from .time_resolved_inputs import solve_case_in_time, solve_cases_in_time, with_tyres
+from .time_resolved_inputs import (
+    beside_tyres,
+    held_impulse,
+    solve_case_in_time,
+    solve_cases_in_time,
+    with_tyres,
+)
 
 _REFUSED = Answer(*[False if name == "sticks" else math.nan for name in Answer._fields])
 
@@ -63,6 +69,10 @@ def solve_inputs(
         check_options(on_failure, threads, progress)
     if inputs.tyres_a is not None or inputs.tyres_b is not None:
         if model.name == "eccentric":
+            if inputs.shape is None:
+                found = _single_with_tyres(model, inputs)
+                if found is not None:
+                    return found
 
             def solve(one: Inputs, quiet: bool) -> Any:
                 quiet = quiet or inputs.shape is not None
@@ -104,6 +114,21 @@ def solve_inputs(
         gained = said(-raw.energy_loss, "energy", inputs.texts)
         _warn_of_gain(f"the impact gains {gained} of energy", -raw.energy_loss, None, inputs)
     return raw
+
+
+def _single_with_tyres(model: Model, inputs: Inputs) -> Any:
+    """``with_tyres`` of one case in plain floats; None where its status is not plainly OK."""
+    variant, given = variant_of(inputs), vars(inputs)
+    first = float_function(model, *variant)(given)
+    if first is None:
+        return None
+    pushes = {label: held_impulse(inputs, first, label) for label in "ab"}
+    outside = {
+        f"outside_{label}": tuple(map(add, getattr(inputs, f"outside_{label}") or NO_IMPULSE, push))
+        for label, push in pushes.items()
+    }
+    raw = float_function(model, *variant[:-2], True, False)({**given, **outside})
+    return None if raw is None else beside_tyres(inputs, raw, pushes)
 
 
 def solve_cases(

@@ -20,10 +20,10 @@ from ..quantities.attributes import (
     Quantities,
     attributes,
     derived,
+    format_value,
     hypot,
     math_or_numpy,
     returns,
-    show,
     unit_of,
 )
 from ..quantities.directions import Angle, angle_of
@@ -529,7 +529,8 @@ class Side(Frozen, Summarized):
         return self.before.mass * dv - pushed
 
     def __repr__(self) -> str:
-        return f"<{'ab'[self._index]}: delta_v={show(self.delta_v, 'm/s')}, after={self.after!r}>"
+        delta_v = format_value(self.delta_v, "m/s")
+        return f"<{'ab'[self._index]}: delta_v={delta_v}, after={self.after!r}>"
 
     def _summary(self, numbers: Cells) -> Summary:
         numbers.answered = self._answer.status <= Status.ENERGY_GAIN
@@ -544,7 +545,7 @@ class Side(Frozen, Summarized):
         for name in attributes(type(self)):
             value = getattr(self, name)
             if value is not None and not isinstance(value, Vehicle):
-                yield name, show(value, vars(type(self))[name].unit)
+                yield name, format_value(value, vars(type(self))[name].unit)
 
 
 SIGNS = (

@@ -5,7 +5,7 @@ the kernel.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
 from typing import Any, Literal, TypeAlias, get_args
@@ -312,22 +312,29 @@ def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
                 for name, parts in outside.items()
             }
     raw = solve(_alike(inputs, tyres_a=None, tyres_b=None, duration=None, **outside), False)
-    found: dict[str, Any] = {}
     with np.errstate(all="ignore"):
-        answered = 0.0 * raw.normal_impulse
-        for label, body in (("a", inputs.a), ("b", inputs.b)):
-            push = [part + answered for part in pushes[label]]
-            means = (
-                was + 0.5 * getattr(raw, f"delta_{name}_{label}")
-                for name, was in (("vx", body.vx), ("vy", body.vy), ("yaw_rate", body.yaw_rate))
-            )
-            names = ("tyre_impulse_x", "tyre_impulse_y", "tyre_moment")
-            found |= {f"{name}_{label}": part for name, part in zip(names, push, strict=True)}
-            found[f"tyre_loss_{label}"] = (
-                answered + 0.0 - sum(part * mean for part, mean in zip(push, means, strict=True))
-            )
+        return beside_tyres(inputs, raw, pushes)
+
+
+def beside_tyres(inputs: Inputs, raw: Any, pushes: Mapping[str, tuple[Any, Any, Any]]) -> Any:
+    """The answer with what the tyres did in it: their impulses, moments and losses."""
+    found: dict[str, Any] = {}
+    answered = 0.0 * raw.normal_impulse
+    for label, body, (dvx, dvy, dw) in (
+        ("a", inputs.a, (raw.delta_vx_a, raw.delta_vy_a, raw.delta_yaw_rate_a)),
+        ("b", inputs.b, (raw.delta_vx_b, raw.delta_vy_b, raw.delta_yaw_rate_b)),
+    ):
+        x, y, yaw = (part + answered for part in pushes[label])
+        found[f"tyre_impulse_x_{label}"] = x
+        found[f"tyre_impulse_y_{label}"] = y
+        found[f"tyre_moment_{label}"] = yaw
+        means = body.vx + 0.5 * dvx, body.vy + 0.5 * dvy, body.yaw_rate + 0.5 * dw
+        found[f"tyre_loss_{label}"] = answered - (x * means[0] + y * means[1] + yaw * means[2])
     if inputs.shape is not None:
         found = {name: np.asarray(value, raw.delta_vx_a.dtype) for name, value in found.items()}
+    # A single Answer has its fields in this order.
+    if isinstance(raw, Answer):
+        return WithTyres(*raw, **found)
     return WithTyres(*(getattr(raw, name) for name in Answer._fields), **lock(found))
 
 
@@ -348,9 +355,12 @@ def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any
         return NO_IMPULSE
     changes = [getattr(answer, f"delta_{name}_{label}") for name in ("vx", "vy", "yaw_rate")]
     inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
-    with np.errstate(all="ignore"):
-        # Refused cases of a batch are looked at like all others.
+    if inputs.shape is None:
         half = passed(inputs.restitution, 0.5)
+    else:
+        # Refused cases of a batch are looked at like all others.
+        with np.errstate(all="ignore"):
+            half = passed(inputs.restitution, 0.5)
     return impulse_of(
         tyres,
         (body.mass, inertia, body.heading),
@@ -373,17 +383,20 @@ def impulse_of(
     """The same from mass, yaw inertia and heading of a body, its motion before and what the contact
     changes of it, and of the times the share of the change at half of the duration, and that.
     """
-    from ..kernels.held import held
-
     mass, inertia, heading = body
     numbers = [mass, inertia, *from_radians(heading), *before, *changes, *times, GRAVITY]
-    with np.errstate(all="ignore"):
+    if single:
+        own = kernel_numbers(tyres.named)
+    else:
         # Here too.
-        own = tyres_numbers(tyres, lambda value: value)
+        with np.errstate(all="ignore"):
+            own = tyres_numbers(tyres, lambda value: value)
     numbers += [*own.locks, *own[1:]]
     settings = tyres.steered, tyres.transfers
     found = _held_function(*settings)(numbers) if single else None
     if found is None:
+        from ..kernels.held import held
+
         with np.errstate(all="ignore"):
             found = held(
                 *(value if single else np.asarray(value, np.float64) for value in numbers),

@@ -34,6 +34,9 @@ from .tyre import Tyres
 _CORRECTIONS, _NEAR, _NEAREST = 20, 3e-3, 1e-2
 # Before that it is corrected with these parts of the steps; with fewer a contact is not followed.
 _PARTS, _FEWEST = (0.05, 0.1, 0.2), 5
+# With this part of the steps it is found how the end changes with the start, where that has to move
+# by no more than so many times what is near enough: the change is found to a few hundredths.
+_DIFFERENCE, _NOT_FAR, _DIFFERENCES, _BLUR = 0.1, 20.0, 4, 0.1
 # A friction whose product with a force of 0 is 0.
 _MOST_FRICTION = 1e150
 # Rounding of a sum over the steps of a contact, as a share.
@@ -314,7 +317,8 @@ def _found(
 
     What the bodies move and turn until then is guessed, and corrected by what they do, with the
     step of a secant: first with few steps, as their error hardly matters, then with more, and with
-    all until what is reached is near enough.
+    all until what is reached is near enough. Where the first time with all steps comes near, what a
+    last correction changes is worked out with few steps, and added to what all of them reached.
     """
     on_a, on_b, passing = moving
     names = ("dx", "dy", "c", "s")
@@ -322,20 +326,51 @@ def _found(
     left: Any = usable & (passing.closing == passing.closing)
     older: tuple[list[Any], list[Any]] | None = None
 
-    def followed(step: Any) -> tuple[Fixed, Moving, Any, list[Any], list[Any]]:
-        """Start, end, whether they approach there, what is reached, and what by rights should be
-        the next guess.
-        """
-        nonlocal older
-        start = _moved_back(fixed[0]._replace(step=step), *fixed[1:], guess)
+    def ran(step: Any, from_here: list[Any], to: Any) -> tuple[Fixed, Moving, Any, list[Any]]:
+        """Start, end, whether they approach there, and what is reached."""
+        start = _moved_back(fixed[0]._replace(step=step), *fixed[1:], from_here)
         closing, _ = approach(place_of(*start, *moving), on_a, on_b)
         before = passing._replace(closing=closing, active=(closing > 0.0) & left)
-        end = run(start, (on_a, on_b, before), True, None if note is None else note.append)
+        end = run(start, (on_a, on_b, before), True, to)
         reached = [*(getattr(one, name) for one in end[:2] for name in names), end[2].c, end[2].s]
+        return start, end, closing > 0.0, reached
+
+    def followed(step: Any) -> tuple[Fixed, Moving, Any, list[Any], list[Any]]:
+        """Start, end, whether they approach there, by how much they miss, and what by rights should
+        be the next guess.
+        """
+        nonlocal older
+        start, end, approaching, reached = ran(step, guess, None if note is None else note.append)
         off = [new - old for new, old in zip(reached, guess, strict=True)]
         trial = reached if older is None else _secant(reached, off, *older)
         older = off, reached
-        return start, end, closing > 0.0, off, trial
+        return start, end, approaching, off, trial
+
+    def moved_on(off: list[Any], trial: list[Any]) -> tuple[Moving, Moving, list[Any], Any]:
+        """With few steps the ends from here and from where all steps would arrive by what few say,
+        that start, and whether they do.
+        """
+        nonlocal left, older
+        every, step = left, 1.0 / (max(_DIFFERENCE, _PARTS[0]) * fewest * steps)
+        whole = [now + miss for now, miss in zip(guess, off, strict=True)]
+        _, here, _, were = ran(step, guess, None)
+        there, hits = here, every ^ every
+        for _ in range(_DIFFERENCES):
+            _, end, approaching, are = ran(step, trial, None)
+            there = _where(left, end, there)
+            reached = [one + (now - was) for one, now, was in zip(whole, are, were, strict=True)]
+            missed = [now - then for now, then in zip(reached, trial, strict=True)]
+            moved: Any = sum(abs(then - now) for then, now in zip(trial, guess, strict=True))
+            far: Any = sum(abs(one) for one in missed) + _BLUR * moved
+            hits = hits | (left & approaching & (far <= near))
+            left = every & (hits ^ True)
+            if not np.any(left):
+                break
+            ahead = reached if older is None else _secant(reached, missed, *older)
+            older = missed, reached
+            trial = [select(left, new, old) for new, old in zip(ahead, trial, strict=True)]
+        left = every
+        return here, there, trial, hits
 
     fewest = max(_FEWEST / _PARTS[0] / steps, 1.0)
     for part in _PARTS:
@@ -358,8 +393,69 @@ def _found(
         left = left & (((far <= near) & approaching) ^ True)
         if not np.any(left):
             break
+        close = left & approaching & (far <= _NOT_FAR * near)
+        if np.any(close):
+            every, left = left, close
+            here, there, trial, hits = moved_on(off, trial)
+            if np.any(hits):
+                begun = _where(hits, _moved_back(*fixed, trial), begun)
+                later = _shifted(fixed[1:], moving, engaged, (here, there), note)
+                engaged = _where(hits, later, engaged)
+            left = every & (hits ^ True)
+            if not np.any(left):
+                break
         guess = [select(left, new, old) for new, old in zip(trial, guess, strict=True)]
     return (begun or fixed, moving), engaged, usable & (left ^ True)
+
+
+def _shifted(
+    bodies: tuple[Body, ...],
+    begin: Moving,
+    end: Moving,
+    ends: tuple[Moving, Moving],
+    note: list[tuple[float, ...]] | None,
+) -> Moving:
+    """The end of a motion, from another start than that from which it was followed: by the
+    difference of two ends. The work of the contact is such that no energy is lost in that, and what
+    was noted on the way takes it by and by.
+    """
+    found: list[Any] = []
+    wholes: tuple[tuple[Any, ...], ...] = end, *ends
+    for parts, was, now in zip(*wholes, strict=True):
+        moved = {
+            name: getattr(parts, name) + (getattr(now, name) - getattr(was, name))
+            for name in parts._fields
+            if name not in ("sticks", "active")
+        }
+        size = (moved["c"] * moved["c"] + moved["s"] * moved["s"]) ** 0.5
+        found.append(parts._replace(**moved | {name: moved[name] / size for name in "cs"}))
+    on_a, on_b, passing = found
+    taken = on_a.tyre_work + on_b.tyre_work - passing.work_n - passing.work_t
+    gained = _energy(bodies, (on_a, on_b)) - _energy(bodies, begin[:2])
+    passing = passing._replace(work_n=passing.work_n + (taken - gained))
+    if note:
+        new, old = (
+            np.array([(*one, *other, *last)], dtype=np.float64)
+            for one, other, last in ((on_a, on_b, passing), end)
+        )
+        rows = np.array(note, dtype=np.float64)
+        time = 2 * len(Motion._fields) + Passing._fields.index("time")
+        rows += rows[:, time : time + 1] / old[0, time] * (new - old)
+        note[:] = map(tuple, rows.tolist())
+    return on_a, on_b, passing
+
+
+def _energy(bodies: tuple[Body, ...], motions: tuple[Motion, ...]) -> Any:
+    """The energy of motion, but of what is fixed."""
+    total: Any = 0.0
+    for body, motion in zip(bodies, motions, strict=True):
+        for per, square in (
+            (body.per_mass, motion.vx * motion.vx + motion.vy * motion.vy),
+            (body.per_inertia, motion.spin * motion.spin),
+        ):
+            moves = per > 0.0
+            total = total + 0.5 * select(moves, square, 0.0) / select(moves, per, 1.0)
+    return total
 
 
 def _where(some: Any, new: Any, old: Any) -> Any:

@@ -128,7 +128,9 @@ def path(
         )
         back = line[0][0] - line[-1][0], line[0][1] - line[-1][1]
         picture.label(line[0], f"{name} at separation", back, colour, of=index)
-        picture.body(line[-1], index, f"{who(index, way.rest)} at rest", at_rest)
+        moves = way.end.speed or way.end.yaw_rate
+        stays = "at the end" if moves else "at rest"
+        picture.body(line[-1], index, f"{who(index, way.end)} {stays}", at_rest)
     axes.set(xlabel=labels.label("x", "m"), ylabel=labels.label("y", "m"))
     axes.set_title("From separation to rest", fontsize=10.5)
     tidy(axes, (-3, 8))
@@ -173,4 +175,4 @@ def _stops(way: SimulatedPath) -> list[Vehicle]:
     turned = (
         (x, y, math.remainder(heading, math.tau)) for x, y, heading in zip(*places, strict=True)
     )
-    return [*(way.rest.replace(x=x, y=y, heading=heading) for x, y, heading in turned), way.rest]
+    return [*(way.end.replace(x=x, y=y, heading=heading) for x, y, heading in turned), way.end]

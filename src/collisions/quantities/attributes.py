@@ -1,5 +1,5 @@
 """``@derived(unit)`` declares an attribute with its SI unit; ``.q`` gives it as a Quantity,
-``show`` with its unit.
+``format_value`` with its unit.
 """
 
 from __future__ import annotations
@@ -232,11 +232,11 @@ def hypot(x: Value, y: Value) -> Value:
     return length
 
 
-def show(value: Any, unit: str | None = None) -> str:
+def format_value(value: Any, unit: str | None = None) -> str:
     """A value for people: six digits and the unit; an array by its shape and range."""
     suffix = f" {unit}" if unit else ""
     if isinstance(value, tuple):
-        return "(" + ", ".join(show(part) for part in value) + ")" + suffix
+        return "(" + ", ".join(format_value(part) for part in value) + ")" + suffix
     if isinstance(value, np.ndarray):
         if value.dtype.kind == "f" and value.size:
             if np.all(np.isnan(value)):
@@ -250,18 +250,18 @@ def show(value: Any, unit: str | None = None) -> str:
     return str(value)
 
 
-def same(one: Any, other: Any) -> bool:
+def equal(one: Any, other: Any) -> bool:
     """Equality by value for numbers, arrays, pairs, mappings and None, NaN equal to itself."""
     if isinstance(one, Mapping) and isinstance(other, Mapping):
         return one.keys() == other.keys() and all(
-            same(value, other[name]) for name, value in one.items()
+            equal(value, other[name]) for name, value in one.items()
         )
     if isinstance(one, tuple) or isinstance(other, tuple):
         return (
             isinstance(one, tuple)
             and isinstance(other, tuple)
             and len(one) == len(other)
-            and all(map(same, one, other))
+            and all(map(equal, one, other))
         )
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
         if one is None or other is None or np.shape(one) != np.shape(other):
@@ -276,7 +276,7 @@ def same_fields(one: Any, other: Any) -> bool:
     be arrays.
     """
     return type(one) is type(other) and all(
-        same(getattr(one, f.name), getattr(other, f.name)) for f in fields(one)
+        equal(getattr(one, f.name), getattr(other, f.name)) for f in fields(one)
     )
 
 
@@ -329,7 +329,7 @@ class Shown(SuggestsNames, Summarized):
 
     def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
         for name, value, unit in self._values(prefix):
-            yield name, show(value, unit)
+            yield name, format_value(value, unit)
 
 
 def texts_given(result: Shown) -> Texts:

@@ -312,7 +312,7 @@ def _answer(
     impact = finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
     warn_of_condition(origin)
     if not held:
-        state_instant("central", "drag_a=, drag_b=, where A runs into the rear of B")
+        state_instant("central", "`drag_a=`, `drag_b=`, where A runs into the rear of B")
     return impact
 
 

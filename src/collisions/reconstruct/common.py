@@ -374,12 +374,12 @@ def warn_of_condition(origin: Reconstruction) -> None:
     warn_of_cases(warning, {sentence: int(np.count_nonzero(ill)) if ill.ndim else None})
 
 
-def state_instant(solver: str, wheels: str = "tyres_a=, tyres_b=") -> None:
+def state_instant(solver: str, wheels: str = "`tyres_a=`, `tyres_b=`") -> None:
     """State of a study that its impacts were found as instants."""
     state_of_study(
-        f"{solver} found every case as an instant, which leaves out the tyres and the motion while "
-        f"the contact lasts; give duration= and {wheels}. The statements of one case say how much "
-        "that is",
+        f"{solver} found every case as an instant, which leaves out the tyres and the "
+        f"motion while the contact lasts; give `duration=` and {wheels}. The statements "
+        "of one case say how much that is",
         "instant",
     )
 

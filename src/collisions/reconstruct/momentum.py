@@ -26,7 +26,7 @@ from ..messages.errors import (
 )
 from ..messages.hints import hinted
 from ..messages.warning import warn_of_cases
-from ..quantities.attributes import hypot, in_units_of, show
+from ..quantities.attributes import format_value, hypot, in_units_of
 from ..quantities.directions import Angle, angle_of, course, direction
 from ..quantities.reading import ArgumentReader, amount
 from ..quantities.refusals import yes_or_no
@@ -313,7 +313,8 @@ def _share(given: dict[str, Any], kind: str) -> Any:
     )
     if np.ndim(unlike) == 0 and unlike:
         both = " and ".join(
-            show(value.radians.item() if isinstance(value, Angle) else value) for value in found
+            format_value(value.radians.item() if isinstance(value, Angle) else value)
+            for value in found
         )
         raise InputError(
             f"{names[0]} and {names[1]} differ ({both}), which vehicles that leave together "

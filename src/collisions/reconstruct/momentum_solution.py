@@ -14,7 +14,7 @@ import numpy as np
 from ..kernels.status import Status
 from ..messages.errors import MissingInputError
 from ..quantities.attribute_stubs import MomentumSolutionQuantities
-from ..quantities.attributes import Shown, derived, same
+from ..quantities.attributes import Shown, derived, equal
 from ..quantities.tables import Cells, Part, Sentences, Summary, all_numbers, as_sentence, sided
 from ..quantities.units import Value, to_quantity
 from ..vehicle.drag import USUAL_DURATION
@@ -46,7 +46,7 @@ class Sensitivity(dict[str, dict[str, Value]]):
         }
 
     def __eq__(self, other: object) -> bool:
-        return same(self, other) if isinstance(other, Mapping) else NotImplemented
+        return equal(self, other) if isinstance(other, Mapping) else NotImplemented
 
     def __ne__(self, other: object) -> bool:
         return not self == other

@@ -197,7 +197,8 @@ def neglected(
     ]
     sentence = (
         f"found as an instant, which leaves out the tyres: if all wheels slid for {duration:.3g} s "
-        f"with a drag of {drag:.2g}, {' and '.join(parts)}; give duration= and tyres_a=, tyres_b="
+        f"with a drag of {drag:.2g}, {' and '.join(parts)}; give `duration=` and `tyres_a=`, "
+        "`tyres_b=`"
     )
     return Neglect(changes, max(shares), sentence)
 

@@ -196,6 +196,10 @@ class RecorderScene(ComponentScene):
         most: float = CONTRADICTION,
     ) -> None:
         self._recorders, self.recorders = recorders, recorders.names
+        # By regime, which is kept with what was found for it: what is seen at unit speeds, and the
+        # answer with the axes and the turns that go with it.
+        self._seen: dict[Any, tuple[Any, list[Seen]]] = {}
+        self._roots: dict[Any, tuple[Any, tuple[Root, Any, Any], tuple[Any, Any, Any]]] = {}
         super().__init__(given, rule, law, names, shape, plain, regime, slid, most)
         self._duration = self.given["duration"] * self.speed_unit
         self._readings = [
@@ -274,8 +278,27 @@ class RecorderScene(ComponentScene):
             for kind, reading in zip(self.components, self._readings, strict=True)
         ]
 
+    def at_unit_speeds(self, regime: Any) -> list[Seen]:
+        """As in any scene; it does not depend on the axes, so each regime is asked once."""
+        key = regime if isinstance(regime, str) else id(regime)
+        if key not in self._seen:
+            self._seen[key] = regime, super().at_unit_speeds(regime)
+        return self._seen[key][1]
+
     def _solved(self, regime: Any) -> tuple[Root, Any, Any]:
-        """The least squares of a regime, with the turn of the cars that its own answer leads to."""
+        """The least squares of a regime, with the turn of the cars that its own answer leads to.
+
+        Each regime is solved once; its axes are those that count after any call.
+        """
+        key = regime if isinstance(regime, str) else id(regime)
+        if key not in self._roots:
+            found = self._solved_once(regime)
+            self._roots[key] = regime, found, (self._axes, self._momenta, dict(self._changes))
+        _, found, (self._axes, self._momenta, changes) = self._roots[key]
+        self._changes = dict(changes)
+        return found
+
+    def _solved_once(self, regime: Any) -> tuple[Root, Any, Any]:
         self._linear_about(dict.fromkeys(self._own, (0.0, 0.0)))
         moved: Any = math.inf
         for _ in range(_ROUNDS):

@@ -388,13 +388,13 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
     if model == IN_TIME:
         if found["duration"] is None:
             text = (
-                "model 'time_resolved' needs duration=, such as '100 ms'; for a contact of an "
-                "instant write `model='eccentric'`"
+                "model 'time_resolved' needs `duration=`, such as '100 ms'; for a contact of "
+                "an instant write `model='eccentric'`"
             )
             reader.refuse(MissingInputError(text, code="one_stiffness", argument="duration"))
         for name in given:
             if name != FRICTION:
-                refuse(f"model 'time_resolved' works with friction= alone, got {name}=", name)
+                refuse(f"model 'time_resolved' works with `friction=` alone, got `{name}=`", name)
         if found["law"] != BRACH:
             refuse("model 'time_resolved' has a law of its own; leave law out", "law")
         if found["incomplete"] is True:

@@ -469,6 +469,8 @@ class Followed:
         self.many[which] += 1
         before = self._closings(pair, which, time)
         ends = self._go_on(contact, which, time, states, impact)
+        if self.single and pair.rule is None and float(pair.touch[0]) <= float(time[0]):
+            pair.touched.append((float(pair.touch[0]), float(pair.closing[0])))
         pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
         pair.least[which], pair.begun[which] = _AGAIN, np.nan
         for other in self._pairs:
@@ -548,8 +550,8 @@ class Followed:
         if meanwhile.any() and self.single:
             raise NoSolutionError(
                 f"contacts[{rule}], {contact.a} and {contact.b}, is at {float(time[0]):.4g} s, "
-                f"while another contact of one of them lasts until {float(until[0]):.4g} s; give "
-                "a later time, a shorter duration, or at='touch'",
+                f"while another contact of one of them lasts until {float(until[0]):.4g} s; "
+                "give a later time, a shorter duration, or `at='touch'`",
                 code="contact_meanwhile",
                 time=float(time[0]),
                 movers=(contact.a, contact.b),

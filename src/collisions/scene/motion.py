@@ -26,6 +26,9 @@ STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate")
 _PLACES, _RATES = slice(0, 3), slice(3, 6)
 # A wheel whose slip is below this share of the speed rolls straight.
 _ROLLS = 1e-9
+# Longer than anything takes that comes to rest [s]. What rolls straight on then, its velocity the
+# same to this share and its yaw over the speed [1/m] below it, goes on for ever.
+_FOR_EVER, _SAME = 1e4, 1e-7
 # From the speed over gravity: below it, a drag stops nothing.
 _LEAST_DRAG = 1e-9
 
@@ -80,7 +83,8 @@ class Leg(NamedTuple):
         """When each case has come to rest [s]; infinite where it does not."""
         last = np.where(self.tabled, 0.0, self.stops)
         if self.table is not None:
-            last = np.where(self.tabled, self.table[0, -1], last)
+            moves = np.any(self.table[1:][_RATES, -1] != 0.0, axis=0)
+            last = np.where(self.tabled, np.where(moves, np.inf, self.table[0, -1]), last)
         still = ~np.any(self.state[_RATES] != 0.0, axis=0)
         return self.start + np.where(still & ~self.tabled, 0.0, self.hold + last)
 
@@ -101,8 +105,10 @@ def _between(table: Any, time: Any, cases: Any) -> Any:
     twist = v + w - 2.0 * rise
     places = p + part * (v + part * (bend + part * twist))
     rates = (v + part * (2.0 * bend + part * 3.0 * twist)) / np.where(width > 0.0, width, 1.0)
-    ended = time >= last
-    return np.concatenate([np.where(ended, q, places), np.where(ended, 0.0, rates)])
+    ended, final = time >= last, table[1:, -1, cases][_RATES]
+    # At rest, or rolling on.
+    beyond = q + np.where(ended, time - last, 0.0) * final
+    return np.concatenate([np.where(ended, beyond, places), np.where(ended, final, rates)])
 
 
 class Course:
@@ -337,6 +343,7 @@ class Course:
                     wheels,
                     surfaces=ground.surfaces_for(take) or None,
                     slope=tuple(part_of(part, take) for part in ground.slope),
+                    until=_FOR_EVER,
                     moments=ground.moments,
                     tolerance=ground.tolerance,
                 )
@@ -345,11 +352,29 @@ class Course:
         names = ("time", *STATE)
         table = np.array([getattr(path, name) for name in names]).reshape(7, ground.moments, -1)
         self._fail(which[~np.isfinite(table[:, -1]).all(axis=0)], "never_stops")
+        slows = ~_rolls_on(table)
+        if one and slows.any():
+            raise NoSolutionError(
+                f"{self.name}: it does not come to rest, and does not roll straight on either; "
+                "give the lock that stopped it, or the resistance to rolling as a lock such as "
+                "0.02",
+                code="never_stops",
+            )
+        self._fail(which[slows], "never_stops")
         return table
 
     def _fail(self, cases: Any, code: str) -> None:
         fresh = cases[self.failed[cases] == ""]
         self.failed[fresh] = code
+
+
+def _rolls_on(table: Any) -> Any:
+    """Whether each case is at rest at its last moment, or rolls straight on from then."""
+    before, last = (table[4:7, at] for at in (-2, -1))
+    speed = np.hypot(last[0], last[1])
+    same = np.hypot(*(last - before)[:2]) <= _SAME * speed
+    still = ~np.any(last != 0.0, axis=0)
+    return still | (same & (np.abs(last[2]) <= _SAME * speed)) | ~np.isfinite(speed)
 
 
 def _as_it_is(value: Any) -> Any:

@@ -16,7 +16,7 @@ from ..impact.records import (
 )
 from ..messages.errors import InputError
 from ..messages.warning import quietly
-from ..quantities.attributes import same
+from ..quantities.attributes import equal
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader
 from ..quantities.settings import in_si
@@ -84,7 +84,7 @@ def _contact_record(contact: Contact) -> dict[str, Any]:
     for name, unit in UNITS.items():
         text, value = contact.as_given(name), getattr(contact, name)
         if name == "normal":
-            as_text = isinstance(text, str) and same(
+            as_text = isinstance(text, str) and equal(
                 direction(ArgumentReader(), text, name), contact.normal
             )
             found[name] = text if as_text else strict(value)

@@ -19,7 +19,7 @@ from ..messages.errors import (
     ShapeError,
 )
 from ..messages.warning import warn_of_cases
-from ..quantities.attributes import Frozen, Quantities, Shown, derived, lock, show
+from ..quantities.attributes import Frozen, Quantities, Shown, derived, format_value, lock
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers
 from ..quantities.units import Input, Texts, texts_of
@@ -649,7 +649,7 @@ class Run(Frozen, Summarized):
 
     def _rows(self) -> Iterator[tuple[str, str]]:
         for number in range(self._most):
-            yield f"times[{number}]", show(self._time(number), "s")
+            yield f"times[{number}]", format_value(self._time(number), "s")
         if self._followed.single:
             for number, impact in enumerate(self.impacts):
                 yield from ((f"impacts[{number}].{name}", text) for name, text in impact._rows())

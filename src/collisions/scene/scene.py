@@ -14,7 +14,7 @@ import numpy as np
 from ..kernels.elementwise import POSITIVE_FINITE
 from ..messages.errors import InputError, MissingInputError, ShapeError
 from ..messages.hints import hinted
-from ..quantities.attributes import Shown, lock, same, texts_given
+from ..quantities.attributes import Shown, equal, lock, texts_given
 from ..quantities.reading import ArgumentReader, broadcast
 from ..quantities.settings import Default
 from ..quantities.tables import Cells, Part, Summary, all_numbers
@@ -450,8 +450,8 @@ class Scene(Shown):
             and all(mover == other.movers[name] for name, mover in self.movers.items())
             and len(self.contacts) == len(other.contacts)
             and all(one == two for one, two in zip(self.contacts, other.contacts, strict=True))
-            and same(self.surfaces, other.surfaces)
-            and same(self.slope, other.slope)
+            and equal(self.surfaces, other.surfaces)
+            and equal(self.slope, other.slope)
             and self.order == other.order
             and dict(self.shared) == dict(other.shared)
         )

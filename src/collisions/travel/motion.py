@@ -18,8 +18,8 @@ from ..kernels.run_out import OF_GROUND, Settings, accelerations, ending, size, 
 from .areas import Areas
 
 # Found for a case: at rest; nothing slows it, or it does not stay where it stops; its steps do not
-# come to an end.
-RESTS, GOES_ON, NO_END = 0, 1, 2
+# come to an end; it was followed for as long as was asked for.
+RESTS, GOES_ON, NO_END, IN_TIME = 0, 1, 2, 3
 # Once the motion is down to this part of the first, by the way that is left, it goes on straight.
 _ENDING, _ENDING_ON_AREAS = 1e-2, 1e-3
 # The time until rest is then at most this part of the whole, where the motion turns aside as fast
@@ -47,8 +47,8 @@ _NUMBERS = tuple(f"[{at}]" for at in range(OF_GROUND + 9))
 
 
 class Motion(NamedTuple):
-    """Cases to follow: numbers of the ground by rows, velocities and heading at the start, and
-    areas of other friction.
+    """Cases to follow: numbers of the ground by rows, velocities and heading at the start, areas of
+    other friction, and the time of each until which it is followed.
     """
 
     ground: Any
@@ -56,11 +56,15 @@ class Motion(NamedTuple):
     areas: Areas | None
     settings: Settings
     tolerance: float
+    until: Any = None
 
     def of(self, which: Any) -> Motion:
         """Those of some of the cases."""
         areas = None if self.areas is None else self.areas.of(which)
-        return self._replace(ground=self.ground[:, which], start=self.start[:, which], areas=areas)
+        until = None if self.until is None else self.until[which]
+        return self._replace(
+            ground=self.ground[:, which], start=self.start[:, which], areas=areas, until=until
+        )
 
 
 @lru_cache(maxsize=8)
@@ -97,6 +101,8 @@ def follow(motion: Motion) -> tuple[Any, Any]:
         _several(motion, parts, found)
     if motion.settings.sloped:
         for case in np.flatnonzero(found == RESTS).tolist():
+            if motion.until is not None and parts[case][-1][0, -1] >= motion.until[case]:
+                continue
             last = parts[case][-1]
             if not _holds(motion.of([case]), *last[1:4, -1]):
                 found[case] = GOES_ON
@@ -158,9 +164,13 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
         time, x, y, heading, vx, vy, turn, *known, way, width, wanted = going
         # Under the wheels the ground may be another from here.
         known = None if areas is not None else tuple(known)
+    until = math.inf if motion.until is None else float(motion.until[0])
     rows: list[tuple[float, ...]] = []
     found = NO_END
     for _ in range(_MOST_STEPS):
+        if time >= until:
+            found = IN_TIME
+            break
         # As of arrays, whose last bit may be another than that of ``math``.
         c, s = float(np.cos(heading)), float(np.sin(heading))
         if known is None:
@@ -188,6 +198,9 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
                 edge = float(areas.ahead(*_columns(x, y, heading, vx / speed, vy / speed, left))[0])
             if left <= edge:
                 found = RESTS if stops else GOES_ON
+                if not stops:
+                    # With the forces under which it goes on.
+                    rows.append((time, x, y, heading, vx, vy, turn, *known, *known))
                 break
             after = math.sqrt(max(speed * speed - 2.0 * slowing * edge, 0.0))
             took, share = 2.0 * edge / (speed + after), after / speed
@@ -299,6 +312,13 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
         kept.append((going[which], rows))
 
     for _ in range(_MOST_STEPS):
+        if motion.until is not None:
+            on = state[0] < motion.until[going]
+            if not on.all():
+                found[going[~on]] = IN_TIME
+                ground, state, going = ground[:, on], state[:, on], going[on]
+                fresh, first = fresh[on], first[on]
+                areas = None if areas is None else areas.of(on)
         if len(going) <= _FEW:
             break
         c, s = np.cos(state[3]), np.sin(state[3])
@@ -336,6 +356,7 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
         )
         moved = rests & (speed > 0.0)
         noted(moved, _to_rest(state[:10, moved], spin[moved]))
+        noted(goes_on, np.concatenate([state[:10, goes_on], state[7:10, goes_on]]))
         found[going[rests]], found[going[goes_on]] = RESTS, GOES_ON
         fresh = np.zeros(len(going), dtype=bool)
         slid = straight & ~rests & ~goes_on
@@ -423,6 +444,23 @@ def _sorted_into(parts: list[list[Any]], kept: list[tuple[Any, Any]]) -> None:
     rows, counts = rows[:, order], np.bincount(cases, minlength=len(parts))
     for part, end, count in zip(parts, np.cumsum(counts), counts, strict=True):
         part.append(rows[:, end - count : end])
+
+
+def went_on(rows: Any, until: float, spin: float) -> Any:
+    """The rows of a case that nothing slows, followed until a time: its forces stay as they are,
+    and it slides, rolls or spins on under them.
+    """
+    time, x, y, heading, vx, vy, turn = rows[:7, -1]
+    ax, ay, yaw = rows[10:, -1]
+    takes = until - time
+    if not takes > 0.0:
+        return rows
+    half = 0.5 * takes
+    after = [vx + takes * ax, vy + takes * ay, turn + takes * yaw]
+    place = [x + half * (vx + after[0]), y + half * (vy + after[1])]
+    place.append(heading + half * (turn + after[2]) * spin)
+    row = np.array([[until, *place, *after, ax, ay, yaw, ax, ay, yaw]]).T
+    return np.concatenate([rows, row], axis=1)
 
 
 def _holds(motion: Motion, x: float, y: float, heading: float) -> bool:

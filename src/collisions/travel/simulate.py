@@ -27,7 +27,7 @@ from ..vehicle.drag import GRAVITY, one_value, read_friction
 from ..vehicle.tyres import LOCKS, Tyres, kernel_numbers, lifts, not_tyres, refuse_lifting
 from ..vehicle.vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehicle_of
 from .areas import Areas
-from .motion import GOES_ON, RESTS, ROWS, Motion, between, follow
+from .motion import GOES_ON, IN_TIME, RESTS, ROWS, Motion, between, follow, went_on
 from .surfaces import out_of_range, settle
 
 # Cases that are followed together: few calls of numpy, and memory that is kept small.
@@ -42,13 +42,13 @@ _FINEST, _COARSEST = 1e-10, 1e-2
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class SimulatedPath(Shown):
-    """The motion of a vehicle from separation to rest, by ``simulate``; arrays are over moments,
-    then over cases of a batch.
+    """The motion of a vehicle from separation to rest, or for as long as it was followed, by
+    ``simulate``; arrays are over moments, then over cases of a batch.
 
     Attributes
     ----------
     time : array [s]
-        Equal steps from separation to rest.
+        From separation to the last moment.
     x, y : array [m]
         Position of the centre of mass at these moments.
     heading : array [rad]
@@ -61,8 +61,8 @@ class SimulatedPath(Shown):
         For each wheel (front left, front right, rear left, rear right), x and y of its track where
         the tyre slides and so leaves a mark, that is where it uses 90 % of the friction or more;
         NaN elsewhere.
-    rest : Vehicle
-        The vehicle at rest.
+    end : Vehicle
+        The vehicle at the last moment: at rest, or at the time ``until``.
     """
 
     _title: ClassVar[str] = "Simulated path"
@@ -75,10 +75,40 @@ class SimulatedPath(Shown):
     vy: Any = field(metadata={"unit": "m/s"})
     yaw_rate: Any = field(metadata={"unit": "rad/s"})
     marks: tuple[tuple[Any, Any], ...] = field(metadata={"unit": "m"})
-    rest: Vehicle
+    end: Vehicle
+
+    @property
+    def rest(self) -> Vehicle:
+        """The vehicle at rest; NaN in the cases of a batch that do not rest by ``until``.
+
+        Raises
+        ------
+        NoSolutionError
+            The vehicle was followed for a while, and did not come to rest.
+        """
+        end, moves = self.end, _moves(self.end)
+        if not np.any(moves):
+            return end
+        if moves.ndim == 0:
+            raise NoSolutionError(
+                f"the vehicle did not come to rest within the {float(self.time[-1]):.6g} s for "
+                f"which it was followed: it moves at {end.speed:.6g} m/s then. end has the vehicle "
+                "at that time, and at(time) before; for a place of rest, leave until out or give a "
+                "later one",
+                code="never_stops",
+            )
+        still = {name: np.where(moves, np.nan, 0.0) for name in ("vx", "vy", "yaw_rate")}
+        at_rest = {
+            name: np.where(moves, np.nan, getattr(end, name)) for name in ("x", "y", "heading")
+        }
+        kept = {name: getattr(end, name) for name in NAMES}
+        found = {name: part.astype(self.x.dtype) for name, part in (still | at_rest).items()}
+        return vehicle_of(kept | found, given=Texts(units=self._texts()))
 
     def at(self, time: Input) -> Vehicle:
         """The vehicle at a time after separation; before it as at separation, later at rest.
+
+        A case of a batch that still moves at the last moment is NaN after it.
 
         Parameters
         ----------
@@ -89,6 +119,11 @@ class SimulatedPath(Shown):
         Returns
         -------
         Vehicle
+
+        Raises
+        ------
+        InputError
+            The time is after the last moment, and the vehicle is not at rest then.
         """
         reader = ArgumentReader()
         read = one_value(reader, time, "s", "time")
@@ -103,13 +138,22 @@ class SimulatedPath(Shown):
                 f"case: {cases}"
             )
             raise ShapeError(text, code="bad_shape", argument="time")
-        last = self.time[-1]
+        last, end = self.time[-1], self.end
+        moves = _moves(end)
+        lost = moves & (wanted > last)
+        if lost.ndim == 0 and lost:
+            raise InputError(
+                f"time is {float(wanted):.6g} s, and the vehicle was followed for "
+                f"{float(last):.6g} s and moves on then; give simulate a later until",
+                code="out_of_range",
+                argument="time",
+            )
         with np.errstate(all="ignore"):
             before = np.clip(np.sum(self.time <= wanted, axis=0) - 1, 0, len(self.time) - 2)
             start = _at(self.time, before)
             width = _at(self.time, before + 1) - start
             part = np.clip((wanted - start) / np.where(width > 0.0, width, 1.0), 0.0, 1.0)
-            state = dict.fromkeys(NAMES, 0.0) | {name: getattr(self.rest, name) for name in NAMES}
+            state = {name: getattr(end, name) for name in NAMES}
             for place, rate in (("x", "vx"), ("y", "vy"), ("heading", "yaw_rate")):
                 (p, q), (v, w) = (
                     [_at(getattr(self, name), before + i) for i in (0, 1)] for name in (place, rate)
@@ -123,9 +167,9 @@ class SimulatedPath(Shown):
                     2.0 * (3.0 * rise - 2.0 * v - w) + part * 3.0 * (v + w - 2.0 * rise)
                 )
                 state[rate] = np.where(width > 0.0, rates / np.where(width > 0.0, width, 1.0), 0.0)
-                at_rest = wanted >= last
-                state[rate] = np.where(at_rest, 0.0 * q, state[rate])
-                state[place] = np.where(at_rest, q, state[place])
+                at_rest = (wanted >= last) & ~moves
+                state[rate] = np.where(at_rest, 0.0 * q, np.where(lost, np.nan, state[rate]))
+                state[place] = np.where(at_rest, q, np.where(lost, np.nan, state[place]))
                 if wanted.ndim == 0:
                     state[place], state[rate] = float(state[place]), float(state[rate])
                 else:
@@ -141,10 +185,17 @@ class SimulatedPath(Shown):
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         # The marks are for drawing; the end is what is compared with the scene.
         yield from (row for row in Shown._values(self, prefix) if row[0] != "marks")
+        label = "end" if np.any(_moves(self.end)) else "rest"
         yield from (
-            (f"rest.{name}", getattr(self.rest, name), UNITS[name])
+            (f"{label}.{name}", getattr(self.end, name), UNITS[name])
             for name in ("x", "y", "heading")
         )
+
+
+def _moves(end: Vehicle) -> Any:
+    """Whether a vehicle has not come to rest; NaN counts as rest."""
+    rates = (np.abs(np.asarray(getattr(end, name))) for name in ("vx", "vy", "yaw_rate"))
+    return sum(rates) > 0.0
 
 
 def _at(values: Any, moment: Any) -> Any:
@@ -162,6 +213,7 @@ def simulate(
     surfaces: Sequence[tuple[Sequence[Pair], Input]] | None = None,
     slope: Pair = (0.0, 0.0),
     rotating_mass: Input = 0.0,
+    until: Input | None = None,
     moments: int = 101,
     tolerance: float = _TOLERANCE,
 ) -> SimulatedPath:
@@ -188,6 +240,9 @@ def simulate(
         What the rotation of the wheels adds to the mass that has to be slowed, as a fraction of it:
         four times the moment of inertia of a wheel, over the square of its radius and the mass.
         "3 %" is about that of a car with no gear engaged.
+    until : float, str, Quantity or array, optional [s]
+        Time after separation until which the motion is followed, > 0, where rest is not what is
+        asked for: also of a vehicle that nothing slows. Without it, to rest.
     moments : int
         Number of moments in the arrays, 2 or more.
     tolerance : float [-]
@@ -206,8 +261,9 @@ def simulate(
     MissingInputError
         The vehicle has no yaw inertia, position or heading.
     NoSolutionError
-        The vehicle does not come to rest: nothing slows it, as where no wheel is braked and it
-        rolls on, or it does not stay on a slope where it stops. An infinite mass.
+        The vehicle does not come to rest and there is no ``until``: nothing slows it, as where no
+        wheel is braked and it rolls on, or it does not stay on a slope where it stops, which
+        ``until`` does not follow either. An infinite mass.
 
     Warns
     -----
@@ -270,6 +326,7 @@ def simulate(
     ground = {f"surfaces[{i}]": mu for i, (_, mu) in enumerate(areas)}
     rises = dict(zip(("slope[0]", "slope[1]"), reader.pair(slope, "", "slope"), strict=True))
     rotating = one_value(reader, rotating_mass, "", "rotating_mass", UNIT_INTERVAL)
+    ends = math.inf if until is None else one_value(reader, until, "s", "until", POSITIVE_FINITE)
     if not is_whole(moments) or not 2 <= moments <= _MOST_MOMENTS:
         text = f"moments must be a whole number from 2 to {_MOST_MOMENTS}, got {shown(moments)}"
         reader.refuse(InputError(text, code="bad_option", argument="moments"))
@@ -299,6 +356,8 @@ def simulate(
     body = {name: needed(vehicle, name, "simulate") for name in ("mass", "yaw_inertia", *_MOTION)}
     wheels = tyres.named
     named = body | wheels | ground | rises | {"rotating_mass": rotating}
+    if until is not None:
+        named["until"] = ends
     for friction in ground.values():
         refuse_lifting(wheels, friction)
     unknown = _brakes_unknown(wheels, bool(areas))
@@ -335,6 +394,7 @@ def simulate(
             body["mass"],
             body["yaw_inertia"],
             *(wheels[name] for name in ("wheelbase", "track", "cornering")),
+            ends,
         )
         checks = [("not_positive", ~np.greater(number, 0.0)) for number in positive]
         checks += [("infinite_mass", np.isinf(body["mass"]))]
@@ -347,7 +407,8 @@ def simulate(
             ("wheel_lifts", lifts(wheels, mu)) for mu in (wheels["friction"], *ground.values())
         ]
         ended = ended.reshape(shape)
-        checks += [("never_stops", ended == GOES_ON), ("no_convergence", ended != RESTS)]
+        answered = (ended == RESTS) | (ended == IN_TIME)
+        checks += [("never_stops", ended == GOES_ON), ("no_convergence", ~answered)]
         kind = precision(named.values())
         with np.errstate(all="ignore"):
             checks += [
@@ -361,14 +422,13 @@ def simulate(
         with np.errstate(all="ignore"):
             found = (way.reshape(len(way), moments, *shape) + still).astype(kind)
     time, x, y, heading, vx, vy, yaw_rate, *tracks = write_locked(tuple(found))
-    end = {"x": x[-1], "y": y[-1], "heading": heading[-1]}
-    state = {name: getattr(vehicle, name) for name in NAMES} | dict.fromkeys(
-        ("vx", "vy", "yaw_rate"), still
-    )
-    state |= {name: float(part) if shape is None else part for name, part in end.items()}
+    last = {"x": x[-1], "y": y[-1], "heading": heading[-1]}
+    last |= {"vx": vx[-1], "vy": vy[-1], "yaw_rate": yaw_rate[-1]}
+    state = {name: getattr(vehicle, name) for name in NAMES}
+    state |= {name: float(part) if shape is None else part for name, part in last.items()}
     marks = tuple(zip(tracks[::2], tracks[1::2], strict=True))
     texts = texts_of(vehicle.given)
-    rest = vehicle_of(state, given=Texts(units=texts))
+    end = vehicle_of(state, given=Texts(units=texts))
     path = SimulatedPath(
         time=time,
         x=x,
@@ -378,7 +438,7 @@ def simulate(
         vy=vy,
         yaw_rate=yaw_rate,
         marks=marks,
-        rest=rest,
+        end=end,
     )
     return in_units_of(path, texts)
 
@@ -444,7 +504,8 @@ def _prepared(
         ahead = np.multiply.outer([1.0, 1.0, -1.0, -1.0], own.ahead)
         left = np.multiply.outer([1.0, -1.0, 1.0, -1.0], own.left)
         areas = Areas(corners, frictions, flat["friction"], origin, length, ahead, left)
-    return Motion(ground, start, areas, settings, tolerance), np.array(
+    until = flat["until"] / time if "until" in flat else None
+    return Motion(ground, start, areas, settings, tolerance, until), np.array(
         [*origin, time, length, reach]
     )
 
@@ -458,7 +519,12 @@ def _way(motion: Motion, units: Any, moments: int) -> tuple[Any, Any]:
     for case, rows in enumerate(found):
         if not rows.shape[1]:
             rows = np.full((ROWS, 1), np.nan)
-        at = time[:, case] = _moments(rows[0], moments)
+        stop = math.inf if motion.until is None else motion.until[case]
+        if ended[case] == GOES_ON and stop < math.inf and np.any(rows[4:7, -1]):
+            rows, ended[case] = went_on(rows, stop, motion.ground[17, case]), IN_TIME
+        elif stop < rows[0, -1] and ended[case] in (RESTS, GOES_ON):
+            ended[case] = IN_TIME
+        at = time[:, case] = _moments(np.minimum(rows[0], stop), moments)
         step = np.clip(np.searchsorted(rows[0], at, side="right"), 1, max(rows.shape[1] - 1, 1))
         before[:, :, case] = rows[:, np.minimum(step - 1, rows.shape[1] - 1)]
         after[:, :, case] = rows[:, np.minimum(step, rows.shape[1] - 1)]
@@ -466,9 +532,14 @@ def _way(motion: Motion, units: Any, moments: int) -> tuple[Any, Any]:
     share = np.clip((time - before[0]) / np.where(took > 0.0, took, 1.0), 0.0, 1.0)
     spin = motion.ground[17]
     (x, y, heading), (vx, vy, turning) = between(before, after, share, spin)
-    vx[-1], vy[-1], turning[-1] = 0.0, 0.0, 0.0
-    # At the last moment the vehicle stands, with the marks that it came with.
-    moving = [np.concatenate([part[:-1], part[-2:-1]]) for part in (vx, vy, turning / spin)]
+    stands = ended != IN_TIME
+    for part in (vx, vy, turning):
+        part[-1, stands] = 0.0
+    # At rest the vehicle stands, with the marks that it came with.
+    moving = [
+        np.concatenate([part[:-1], np.where(stands, part[-2:-1], part[-1:])])
+        for part in (vx, vy, turning / spin)
+    ]
     origin_x, origin_y, second, length, reach = units
     # All moments of all cases in one row.
     ground = ground_of(tuple(np.tile(motion.ground, moments)))
@@ -533,10 +604,11 @@ def _refuse_one(ended: int, way: Any, sloped: bool) -> None:
         raise NoSolutionError(
             "the vehicle does not come to rest: nothing slows it, since friction or lock are 0 "
             f"(a wheel of lock 0 rolls on),{on_slope} or the wheels are not braked; give the "
-            "lock that stopped it, or the resistance to rolling as a lock such as 0.02",
+            "lock that stopped it, or the resistance to rolling as a lock such as 0.02, or until, "
+            "the time for which it is to be followed",
             code="never_stops",
         )
-    if ended != RESTS:
+    if ended not in (RESTS, IN_TIME):
         raise NoSolutionError(
             "the motion of the vehicle cannot be followed to its end: it spins too fast, or "
             "hardly anything slows it",

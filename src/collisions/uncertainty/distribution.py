@@ -13,7 +13,7 @@ import numpy as np
 
 from ..kernels.elementwise import FINITE, UNCHECKED
 from ..messages.errors import InputError, ShapeError, UnitsError
-from ..quantities.attributes import same
+from ..quantities.attributes import equal
 from ..quantities.formatting import typeset
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
@@ -81,7 +81,7 @@ class Statement:
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        return self.unit == other.unit and same(self._parts, other._parts)
+        return self.unit == other.unit and equal(self._parts, other._parts)
 
     def __hash__(self) -> int:
         return hash((type(self), self.unit, *self._parts.values()))

@@ -15,7 +15,15 @@ import numpy as np
 
 from ..messages.errors import InputError
 from ..messages.warning import Note
-from ..quantities.attributes import OWN_UNIT, Derived, Quantities, derived, returns, same, show
+from ..quantities.attributes import (
+    OWN_UNIT,
+    Derived,
+    Quantities,
+    derived,
+    equal,
+    format_value,
+    returns,
+)
 from ..quantities.formatting import KIND_OF, Numbers
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
@@ -59,7 +67,7 @@ class Histogram(NamedTuple):
     standard_errors: Any
 
     def __eq__(self, other: object) -> bool:
-        return same(tuple(self), tuple(other)) if isinstance(other, Histogram) else NotImplemented
+        return equal(tuple(self), tuple(other)) if isinstance(other, Histogram) else NotImplemented
 
     def __ne__(self, other: object) -> bool:
         return not self == other
@@ -346,21 +354,11 @@ class Output(Summarized):
         """
         low, high = self.interval()
         unit = f" {self.unit}" if self.unit else ""
+        mean, std = format_value(self.mean), format_value(self.std)
         if math.isnan(self.std):
-            return (
-                self.name,
-                (
-                    f"{show(self.mean)}{unit} in the one case that has an answer, so no spread "
-                    "is known"
-                ),
-            )
-        return (
-            self.name,
-            (
-                f"{show(self.mean)} ± {show(self.std)}{unit}, 95 percent from {low:.6g} to "
-                f"{high:.6g}{unit}"
-            ),
-        )
+            why = "in the one case that has an answer, so no spread is known"
+            return self.name, f"{mean}{unit} {why}"
+        return self.name, f"{mean} ± {std}{unit}, 95 percent from {low:.6g} to {high:.6g}{unit}"
 
     def record(self) -> dict[str, Any]:
         """The figures as plain values that strict JSON can hold.

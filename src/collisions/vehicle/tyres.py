@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -181,24 +182,29 @@ class Tyres(Shown):
     @property
     def named(self) -> dict[str, Any]:
         """Every number by its name; four locks as lock[0] to lock[3]."""
-        several = isinstance(self.lock, tuple)
-        locks = dict(zip(LOCKS, self.locks, strict=True)) if several else {"lock": self.lock}
-        rest = {name: getattr(self, name) for name in NAMES if name not in ("friction", "lock")}
-        return {
-            "friction": self.friction,
-            **locks,
-            **{name: value for name, value in rest.items() if value is not None},
-        }
+        found: dict[str, Any] = {"friction": self.friction}
+        if isinstance(self.lock, tuple):
+            found |= zip(LOCKS, self.lock, strict=True)
+        else:
+            found["lock"] = self.lock
+        for name, value in zip(_OTHERS, _others(self), strict=True):
+            if value is not None:
+                found[name] = value
+        return found
 
     @property
     def steered(self) -> bool:
         """Whether the front wheels may be turned, in any case of a batch."""
-        return bool(np.any(self.steer != 0.0))
+        steer = self.steer
+        return steer != 0.0 if isinstance(steer, float) else bool(np.any(steer != 0.0))
 
     @property
     def transfers(self) -> bool:
         """Whether loads follow the forces, in any case of a batch."""
-        return self.height is not None and bool(np.any(self.height != 0.0))
+        height = self.height
+        if height is None or isinstance(height, float):
+            return height is not None and height != 0.0
+        return bool(np.any(height != 0.0))
 
     def _texts(self) -> Iterable[Any]:
         return texts_of(_given(self))
@@ -215,6 +221,8 @@ class Tyres(Shown):
 
 
 NAMES = tuple(f.name for f in fields(Tyres))
+_OTHERS = tuple(name for name in NAMES if name not in ("friction", "lock"))
+_others = attrgetter(*_OTHERS)
 UNITS: dict[str, str] = {f.name: f.metadata["unit"] for f in fields(Tyres)}
 # Domains of the values of a batch, which are looked at case by case where the tyres are used.
 DOMAINS = {

@@ -14,7 +14,7 @@ from ..messages.errors import InputError, MissingInputError
 from ..messages.hints import hinted, no_argument
 from ..messages.marked import type_of
 from ..quantities.attribute_stubs import VehicleQuantities
-from ..quantities.attributes import Quantities, derived, hypot, lock, returns, same, show
+from ..quantities.attributes import Quantities, derived, equal, format_value, hypot, lock, returns
 from ..quantities.directions import Angle, angle_of, direction
 from ..quantities.reading import ArgumentReader, broadcast, widened
 from ..quantities.refusals import must_be
@@ -421,7 +421,7 @@ class Vehicle(_AsGiven):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Vehicle):
             return NotImplemented
-        return all(same(getattr(self, name), getattr(other, name)) for name in NAMES)
+        return all(equal(getattr(self, name), getattr(other, name)) for name in NAMES)
 
     def __repr__(self) -> str:
         return f"Vehicle({', '.join(f'{name}={text}' for name, text in self._rows())})"
@@ -447,7 +447,10 @@ class Vehicle(_AsGiven):
                 type(value) in (float, str) and value in (0.0, "") and f.name in _QUIET
             ):
                 continue
-            yield f.name, repr(value) if f.name == "name" else show(value, f.metadata["unit"])
+            yield (
+                f.name,
+                repr(value) if f.name == "name" else format_value(value, f.metadata["unit"]),
+            )
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: getattr(self, name) for name in (*NAMES, "given")}
