@@ -1707,3 +1707,14 @@ def test_angles_given_in_degrees_are_printed_in_degrees():
                                  friction=0.4), form="text")  # fmt: skip
     assert answer(text, "A", "heading") == "0.5 rad"
     assert answer(text, "A", "yaw rate") == "20 deg/s"
+
+
+@pytest.mark.parametrize("mass", [1e9, 1e15, 1e25, 4e38])
+def test_a_body_that_is_all_but_fixed_is_explained(mass):
+    """The common velocity is then the rounding of a difference, which a large mass makes large."""
+    a, heavy = col.Vehicle(mass=1500.0, vx=13.55773100485501), col.Vehicle(mass=mass)
+    for impact in (
+        col.linear_central(a, heavy, 0.1),
+        col.linear_central(heavy.replace(vx=3.0), a.replace(vx=-0.1), 0.1),
+    ):
+        assert "Common velocity" in explain(impact)

@@ -109,7 +109,9 @@ def _between_free(page: Page, s: Symbols) -> None:
         s.b.straight(AFTER),
     )
     both = m_a + m_b
-    common = Symbol("v_c", s.a.along("n", COMPRESSED).value, "speed")
+    compressed = s.a.along("n", COMPRESSED)
+    # Between bodies of very unlike masses it is a small difference of large velocities.
+    common = Symbol("v_c", compressed.value, "speed", size=compressed.size)
     page.equation(
         "Common velocity at the end of compression (3)", common, (m_a * v_a + m_b * v_b) / both
     )
