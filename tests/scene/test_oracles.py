@@ -129,7 +129,9 @@ def straight(seed: int) -> tuple[Pair, float]:
             found.append(state)
         return found[0], found[1]
 
-    return Pair(shapes[0], shapes[1], states, lambda cases: (0.0, 0.0, 0.0, 0.0)), 2.0
+    return Pair(
+        shapes[0], shapes[1], states, lambda cases: (0.0, 0.0, 0.0, 0.0), lambda *_: math.inf
+    ), 2.0
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -258,8 +258,7 @@ def simulate(
     """
     reader = ArgumentReader()
     areas = [] if surfaces is None else _read_surfaces(reader, surfaces)
-    ground = {f"surfaces[{i}]": mu for i, (_, mu) in enumerate(areas)}
-    rises = dict(zip(("slope[0]", "slope[1]"), reader.pair(slope, "", "slope"), strict=True))
+    rises = reader.pair(slope, "", "slope")
     if not is_whole(moments) or not 2 <= moments <= _MOST_MOMENTS:
         text = f"moments must be a whole number from 2 to {_MOST_MOMENTS}, got {shown(moments)}"
         reader.refuse(InputError(text, code="bad_option", argument="moments"))
@@ -281,6 +280,88 @@ def simulate(
     if not isinstance(tyres, Tyres):
         reader.refuse(not_tyres("tyres", tyres))
     reader.close()
+    made = prepared(vehicle, tyres, areas, rises, within)
+    motion, units, shape = made.motion, made.units, made.shape
+    with np.errstate(all="ignore"):
+        count = motion.start.shape[1]
+        blocks = [slice(i, i + _BLOCK) for i in range(0, count or 1, _BLOCK)]
+        parts = [_way(motion.of(cases), units[:, cases], moments) for cases in blocks]
+        way, ended = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
+    if shape is None:
+        refuse_one(int(ended[0]), motion.settings.sloped)
+        if not np.all(np.isfinite(way[:4])):
+            raise out_of_range()
+        found, still = way[..., 0], 0.0
+    else:
+        ended = ended.reshape(shape)
+        checks = [
+            *made.checks,
+            ("never_stops", ended == GOES_ON),
+            ("no_convergence", ended != RESTS),
+        ]
+        kind = precision(made.named.values())
+        with np.errstate(all="ignore"):
+            checks += [
+                ("out_of_range", ~np.isfinite(way[:4].astype(kind)).all(axis=(0, 1)).reshape(shape))
+            ]
+        # 0, or NaN where a case is refused.
+        still = write_locked(settle(np.zeros(shape), made.finite, shape, checks).astype(kind))
+        with np.errstate(all="ignore"):
+            found = (way.reshape(len(way), moments, *shape) + still).astype(kind)
+    time, x, y, heading, vx, vy, yaw_rate, *tracks = write_locked(tuple(found))
+    end = {"x": x[-1], "y": y[-1], "heading": heading[-1]}
+    state = {name: getattr(vehicle, name) for name in NAMES} | dict.fromkeys(
+        ("vx", "vy", "yaw_rate"), still
+    )
+    state |= {name: float(part) if shape is None else part for name, part in end.items()}
+    marks = tuple(zip(tracks[::2], tracks[1::2], strict=True))
+    texts = texts_of(vehicle.given)
+    rest = vehicle_of(state, given=Texts(units=texts))
+    path = SimulatedPath(
+        time=time,
+        x=x,
+        y=y,
+        heading=heading,
+        vx=vx,
+        vy=vy,
+        yaw_rate=yaw_rate,
+        marks=marks,
+        rest=rest,
+    )
+    return in_units_of(path, texts)
+
+
+class Prepared(NamedTuple):
+    """Cases that are ready to be followed: their motion, the units of each, shape, numbers by name,
+    and what a case of a batch is refused for.
+    """
+
+    motion: Motion
+    units: Any
+    shape: tuple[int, ...] | None
+    named: dict[str, Any]
+    checks: list[tuple[str, Any]]
+
+    @property
+    def finite(self) -> dict[str, Any]:
+        """The numbers that have to be finite."""
+        return {
+            name: number
+            for name, number in self.named.items()
+            if name not in ("mass", "yaw_inertia")
+        }
+
+
+def prepared(
+    vehicle: Vehicle,
+    tyres: Tyres,
+    areas: Sequence[tuple[Any, Any]],
+    slope: tuple[Any, Any],
+    tolerance: float,
+) -> Prepared:
+    """What ``simulate`` follows, from arguments that were read; raises what it raises."""
+    ground = {f"surfaces[{i}]": mu for i, (_, mu) in enumerate(areas)}
+    rises = dict(zip(("slope[0]", "slope[1]"), slope, strict=True))
     if isinstance(vehicle.mass, float) and math.isinf(vehicle.mass):
         raise NoSolutionError(
             "the mass of the vehicle is infinite, which friction does not stop",
@@ -309,15 +390,9 @@ def simulate(
         tyres.steered, tyres.transfers, any(bool(np.any(rise != 0.0)) for rise in rises.values())
     )
     with np.errstate(all="ignore"):
-        motion, units = _prepared(flat, [corners for corners, _ in areas], settings, within)
-        count = motion.start.shape[1]
-        blocks = [slice(i, i + _BLOCK) for i in range(0, count or 1, _BLOCK)]
-        parts = [_way(motion.of(cases), units[:, cases], moments) for cases in blocks]
-        way, ended = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
-    if shape is None:
-        _refuse_one(int(ended[0]), way[:, :, 0], settings.sloped)
-        found, still = way[..., 0], 0.0
-    else:
+        motion, units = _prepared(flat, [corners for corners, _ in areas], settings, tolerance)
+    checks: list[tuple[str, Any]] = []
+    if shape is not None:
         positive = (
             body["mass"],
             body["yaw_inertia"],
@@ -333,41 +408,7 @@ def simulate(
         checks += [
             ("wheel_lifts", lifts(wheels, mu)) for mu in (wheels["friction"], *ground.values())
         ]
-        ended = ended.reshape(shape)
-        checks += [("never_stops", ended == GOES_ON), ("no_convergence", ended != RESTS)]
-        kind = precision(named.values())
-        with np.errstate(all="ignore"):
-            checks += [
-                ("out_of_range", ~np.isfinite(way[:4].astype(kind)).all(axis=(0, 1)).reshape(shape))
-            ]
-        finite = {
-            name: number for name, number in named.items() if name not in ("mass", "yaw_inertia")
-        }
-        # 0, or NaN where a case is refused.
-        still = write_locked(settle(np.zeros(shape), finite, shape, checks).astype(kind))
-        with np.errstate(all="ignore"):
-            found = (way.reshape(len(way), moments, *shape) + still).astype(kind)
-    time, x, y, heading, vx, vy, yaw_rate, *tracks = write_locked(tuple(found))
-    end = {"x": x[-1], "y": y[-1], "heading": heading[-1]}
-    state = {name: getattr(vehicle, name) for name in NAMES} | dict.fromkeys(
-        ("vx", "vy", "yaw_rate"), still
-    )
-    state |= {name: float(part) if shape is None else part for name, part in end.items()}
-    marks = tuple(zip(tracks[::2], tracks[1::2], strict=True))
-    texts = texts_of(vehicle.given)
-    rest = vehicle_of(state, given=Texts(units=texts))
-    path = SimulatedPath(
-        time=time,
-        x=x,
-        y=y,
-        heading=heading,
-        vx=vx,
-        vy=vy,
-        yaw_rate=yaw_rate,
-        marks=marks,
-        rest=rest,
-    )
-    return in_units_of(path, texts)
+    return Prepared(motion, units, shape, named, checks)
 
 
 def _brakes_unknown(wheels: Mapping[str, Any], areas: bool) -> Any:
@@ -437,7 +478,7 @@ def _prepared(
 
 def _way(motion: Motion, units: Any, moments: int) -> tuple[Any, Any]:
     """Time, place, motion and marks of some cases at their moments; and how each ended."""
-    found, ended = follow(motion)
+    found, ended, _ = follow(motion)
     count = len(found)
     before, after = np.empty((2, ROWS, moments, count))
     time = np.empty((moments, count))
@@ -452,6 +493,7 @@ def _way(motion: Motion, units: Any, moments: int) -> tuple[Any, Any]:
     share = np.clip((time - before[0]) / np.where(took > 0.0, took, 1.0), 0.0, 1.0)
     spin = motion.ground[17]
     (x, y, heading), (vx, vy, turning) = between(before, after, share, spin)
+    x[-1], y[-1], heading[-1] = after[1:4, -1]
     vx[-1], vy[-1], turning[-1] = 0.0, 0.0, 0.0
     # At the last moment the vehicle stands, with the marks that it came with.
     moving = [np.concatenate([part[:-1], part[-2:-1]]) for part in (vx, vy, turning / spin)]
@@ -508,7 +550,7 @@ def _corners(ground: Any, reach: Any) -> list[tuple[Any, Any]]:
     return [(ahead, left), (ahead, -left), (-ahead, left), (-ahead, -left)]
 
 
-def _refuse_one(ended: int, way: Any, sloped: bool) -> None:
+def refuse_one(ended: int, sloped: bool) -> None:
     """Raises if a single case did not come to rest."""
     if ended == GOES_ON:
         on_slope = (
@@ -528,8 +570,6 @@ def _refuse_one(ended: int, way: Any, sloped: bool) -> None:
             "hardly anything slows it",
             code="no_convergence",
         )
-    if not np.all(np.isfinite(way[:4])):
-        raise out_of_range()
 
 
 def _read_surfaces(reader: ArgumentReader, surfaces: Any) -> list[tuple[Any, Any]]:
