@@ -125,27 +125,23 @@ def followed(seed: int) -> str:
     """What becomes of a scene: "answered", or the label of its refusal. Contacts that do not come
     are left out, one after another.
     """
-    drawn = Drawn(seed)
-    refused: col.CollisionsError
-    try:
-        crash = drawn.scene()
-    except col.CollisionsError as error:
-        return labelled(error)
-    while True:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
         try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", col.CollisionsWarning)
-                looked_at(crash.run(tolerance=1e-3))
-            return "answered"
+            crash = Drawn(seed).scene()
+            while True:
+                try:
+                    looked_at(crash.run(tolerance=1e-3))
+                    return "answered"
+                except col.NoSolutionError as error:
+                    if error.code != "contact_missing" or "movers" not in error.fields:
+                        raise
+                    missing = {*error.fields["movers"]}
+                kept = [one for one in crash.contacts if {one.a, one.b} != missing]
+                ground = {"surfaces": crash.surfaces, "slope": crash.slope}
+                crash = Scene(movers=crash.movers, contacts=kept, **ground)
         except col.CollisionsError as error:
-            refused = error
-        if refused.code != "contact_missing" or "movers" not in refused.fields:
-            return labelled(refused)
-        missing = {*refused.fields["movers"]}
-        kept = [one for one in crash.contacts if {one.a, one.b} != missing]
-        crash = Scene(
-            movers=crash.movers, contacts=kept, surfaces=crash.surfaces, slope=crash.slope
-        )
+            return labelled(error)
 
 
 def labelled(error: col.CollisionsError) -> str:
