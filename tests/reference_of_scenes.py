@@ -49,7 +49,9 @@ def _accelerations(state: State, tyres: Tyres, body: col.Vehicle) -> tuple[float
     )
 
 
-def motion(mover: Mover, state: State, begin: float) -> tuple[Callable[[float], State], float]:
+def motion(
+    mover: Mover, state: State, begin: float, rtol: float = 1e-9
+) -> tuple[Callable[[float], State], float]:
     """The state at any time from ``begin`` on, and the time of rest."""
     tyres, body = mover.tyres, mover.vehicle
     speed = math.hypot(state[3], state[4], state[5])
@@ -74,8 +76,8 @@ def motion(mover: Mover, state: State, begin: float) -> tuple[Callable[[float], 
         lambda _, now: [*now[3:], *_accelerations(now, tyres, body)],
         (begin, begin + 200.0),
         state,
-        rtol=1e-9,
-        atol=1e-10,
+        rtol=rtol,
+        atol=0.1 * rtol,
         events=slow,
         dense_output=True,
         max_step=0.05,

@@ -129,7 +129,9 @@ def straight(seed: int) -> tuple[Pair, float]:
             found.append(state)
         return found[0], found[1]
 
-    return Pair(shapes[0], shapes[1], states, lambda cases: (0.0, 0.0, 0.0, 0.0)), 2.0
+    return Pair(
+        shapes[0], shapes[1], states, lambda cases: (0.0, 0.0, 0.0, 0.0), lambda *_: math.inf
+    ), 2.0
 
 
 @pytest.mark.slow
@@ -190,6 +192,55 @@ def test_energy_closes_and_every_contact_keeps_momentum() -> None:
         for before, after in run.momentum:
             size = max(abs(part) for part in before)
             assert after == pytest.approx(before, abs=1e-12 * size)
+
+
+STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate")
+
+
+def row_of(body: col.Vehicle) -> Any:
+    return np.array([getattr(body, name) for name in STATE])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("group", range(30))
+def test_all_ways_of_a_scene_are_as_an_independent_integration_has_them(group: int) -> None:
+    """Ten scenes each, of two to four cars with one to many contacts: from every contact to the
+    next, and to rest; at every contact what the outlines do, the balance of momentum, and that of
+    energy over the whole.
+    """
+    for movers, crash in crashes(1000 + 100 * group, 10, (2, 3, 4)):
+        run = crash.run(tolerance=1e-6)
+        assert abs(balance(run)) < 1e-6
+        for before, after in run.momentum:
+            assert after == pytest.approx(before, abs=1e-12 * max(map(abs, before)))
+        for name, mover in movers.items():
+            state, begin = row_of(mover.vehicle), 0.0
+            for time, pair, impact in zip(run.times, run.pairs, run.impacts, strict=True):
+                if name in pair:
+                    side = impact.a if name == pair[0] else impact.b
+                    way, _ = independent.motion(mover, state, begin, 1e-7)
+                    found = row_of(side.before)
+                    # A tenth of what ``simulate`` promises of the way, at ten times its steps.
+                    near = 1e-4 * (1.0 + math.hypot(*state[3:]))
+                    assert found == pytest.approx(way(time), rel=0, abs=near)
+                    state, begin = row_of(side.after), time
+            way, end = independent.motion(mover, state, begin, 1e-7)
+            rest, place = run.rest[name], way(1e6 if math.isfinite(end) else begin)
+            moved = 1.0 + math.hypot(place[0] - state[0], place[1] - state[1])
+            assert math.hypot(rest.x - place[0], rest.y - place[1]) < 2e-3 * moved
+            assert abs(rest.heading - place[2]) < 5e-3
+        for time, (a, b) in zip(run.times, run.pairs, strict=True):
+            # The impulse acts 0.03 s after first touch at most.
+            there, before = (run.at(max(time - late, 0.0)) for late in (0.0, 0.035))
+            gap = max(g for g, _ in independent.gaps(movers[a], movers[b], *states(there, a, b)))
+            assert gap <= 1e-8
+            if time == run.times[0] and time > 0.035:
+                apart = independent.gaps(movers[a], movers[b], *states(before, a, b))
+                assert max(g for g, _ in apart) > 0.0
+
+
+def states(bodies: dict[str, col.Vehicle], a: str, b: str) -> tuple[Any, Any]:
+    return row_of(bodies[a]), row_of(bodies[b])
 
 
 def turned(movers: dict[str, Mover], angle: float) -> dict[str, Mover]:

@@ -207,12 +207,20 @@ class Followed:
                 kept.append(np.array([np.broadcast_to(row, self.count) for row in rows]))
             return kept[0][:, cases]
 
-        return Pair(*pair.shapes, states, bounds)
+        reach_a, reach_b = (shape.reach for shape in pair.shapes)
+
+        def speeds(cases: Any, state_a: Any, state_b: Any) -> Any:
+            return one.fastest(cases, state_a, reach_a) + other.fastest(cases, state_b, reach_b)
+
+        return Pair(*pair.shapes, states, bounds, speeds)
 
     def _horizon(self, pair: _Between, cases: Any) -> Any:
         """Until when two movers may touch [s]."""
         one, other = (self.courses[name] for name in pair.names)
         assert pair.shapes is not None
+        goes_on = one.unslowed(cases) | other.unslowed(cases)
+        if not goes_on.any():
+            return np.maximum(one.known_rests[cases], other.known_rests[cases])
         ends = np.array([one.rests[cases], other.rests[cases]])
         never = np.isinf(ends)
         last = np.where(never, 0.0, ends).max(axis=0)

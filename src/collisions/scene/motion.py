@@ -16,7 +16,9 @@ from ..messages.errors import CollisionsError, MissingInputError, NoSolutionErro
 from ..messages.warning import quietly
 from ..quantities.settings import in_si
 from ..quantities.units import Texts, texts_of
-from ..travel import simulate
+from ..travel.following import ROLLS_ON, Following
+from ..travel.motion import GOES_ON, RESTS
+from ..travel.simulate import prepared, refuse_one
 from ..vehicle.drag import GRAVITY
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import NAMES, Vehicle, needed, vehicle_of
@@ -26,9 +28,6 @@ STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate")
 _PLACES, _RATES = slice(0, 3), slice(3, 6)
 # A wheel whose slip is below this share of the speed rolls straight.
 _ROLLS = 1e-9
-# Longer than anything takes that comes to rest [s]. What rolls straight on then, its velocity the
-# same to this share and its yaw over the speed [1/m] below it, goes on for ever.
-_FOR_EVER, _SAME = 1e4, 1e-7
 # From the speed over gravity: below it, a drag stops nothing.
 _LEAST_DRAG = 1e-9
 
@@ -37,9 +36,10 @@ class Leg(NamedTuple):
     """The motion of some cases from ``start`` [s] on, until the next leg.
 
     Until ``hold`` [s] after the start the motion is unslowed; or, where ``during`` is not NaN, that
-    of a contact followed in time, between the two moments of that table. Then it is that of the
-    ``table`` (time and state, of (7, moments, cases)) where ``tabled``, and else straight on,
-    slowed evenly to rest within ``stops`` [s], which is infinite for a motion that nothing slows.
+    of a contact followed in time, between the two moments of that table (time and state, of (7,
+    moments, cases)). Then it is that on tyres where ``place``, that of the case in ``followed``, is
+    not -1; and else straight on, slowed evenly to rest within ``stops`` [s], which is infinite for
+    a motion that nothing slows.
     """
 
     which: Any
@@ -47,8 +47,8 @@ class Leg(NamedTuple):
     hold: Any
     state: Any
     stops: Any
-    tabled: Any
-    table: Any
+    place: Any
+    followed: Following | None
     tyres: Tyres | None
     during: Any = None
 
@@ -56,6 +56,12 @@ class Leg(NamedTuple):
         """The states of some of its cases, by their places in it, at a time of each."""
         after = np.maximum(time - self.start[cases], 0.0)
         hold, begin = self.hold[cases], self.state[:, cases]
+        some: Any = None
+        if self.followed is not None:
+            on = (self.place[cases] >= 0) & (after > hold)
+            if on.all():
+                return self.followed.at(after - hold, self.place[cases])
+            some = np.flatnonzero(on)
         held = np.minimum(after, hold)
         after = after - held
         found = np.empty_like(begin)
@@ -68,9 +74,9 @@ class Leg(NamedTuple):
         )
         found[_PLACES] = begin[_PLACES] + passed * begin[_RATES]
         found[_RATES] = begin[_RATES] * np.where(after > 0.0, 1.0 - np.where(whole, 0.0, part), 1.0)
-        some = np.flatnonzero(self.tabled[cases] & (after > 0.0))
-        if len(some):
-            found[:, some] = _between(self.table, after[some], cases[some])
+        if some is not None and len(some):
+            assert self.followed is not None
+            found[:, some] = self.followed.at(after[some], self.place[cases[some]])
         if self.during is not None:
             inside = (held < hold) & np.isfinite(self.during[0, 1, cases])
             some = np.flatnonzero(inside)
@@ -78,21 +84,24 @@ class Leg(NamedTuple):
                 found[:, some] = _between(self.during, held[some], cases[some])
         return found
 
-    @property
-    def rests(self) -> Any:
-        """When each case has come to rest [s]; infinite where it does not."""
-        last = np.where(self.tabled, 0.0, self.stops)
-        if self.table is not None:
-            moves = np.any(self.table[1:][_RATES, -1] != 0.0, axis=0)
-            last = np.where(self.tabled, np.where(moves, np.inf, self.table[0, -1]), last)
-        still = ~np.any(self.state[_RATES] != 0.0, axis=0)
-        return self.start + np.where(still & ~self.tabled, 0.0, self.hold + last)
+    def rests(self, cases: Any, *, known: bool = False) -> Any:
+        """When some of its cases have come to rest [s]; infinite where they do not, or, with
+        ``known``, where they were not followed so far.
+        """
+        last, place = self.stops[cases].copy(), self.place[cases]
+        some = np.flatnonzero(place >= 0)
+        if self.followed is not None and len(some):
+            last[some] = np.inf
+            if known:
+                some = some[self.followed.known(place[some])]
+            last[some] = self.followed.rests(place[some])
+        still = ~np.any(self.state[:, cases][_RATES] != 0.0, axis=0)
+        return self.start[cases] + np.where(still & (place < 0), 0.0, self.hold[cases] + last)
 
 
 def _between(table: Any, time: Any, cases: Any) -> Any:
     """States between the moments of a table: cubics with their places and velocities."""
     moments = table[0][:, cases]
-    last = moments[-1]
     before = np.clip(np.sum(moments <= time, axis=0) - 1, 0, len(moments) - 2)
     start, end = (table[0, at, cases] for at in (before, before + 1))
     width = end - start
@@ -105,10 +114,7 @@ def _between(table: Any, time: Any, cases: Any) -> Any:
     twist = v + w - 2.0 * rise
     places = p + part * (v + part * (bend + part * twist))
     rates = (v + part * (2.0 * bend + part * 3.0 * twist)) / np.where(width > 0.0, width, 1.0)
-    ended, final = time >= last, table[1:, -1, cases][_RATES]
-    # At rest, or rolling on.
-    beyond = q + np.where(ended, time - last, 0.0) * final
-    return np.concatenate([np.where(ended, beyond, places), np.where(ended, final, rates)])
+    return np.concatenate([places, rates])
 
 
 class Course:
@@ -131,6 +137,9 @@ class Course:
         self._waiting: list[tuple[Any, Any, Any, Any, Tyres | None, Any]] = [
             (every, none, none, np.array(rows), mover.tyres, None)
         ]
+        # Of each leg, the places of the cases in it, or -1; and which leg each case is in now.
+        self._places: list[Any] = []
+        self._present: Any = np.zeros(count, dtype=int)
         self.fixed = mover.fixed
         if mover.drag is not None:
             self._refuse_drags()
@@ -163,6 +172,11 @@ class Course:
         if tyres is not None:
             self.wheels_of[which] = len(self.wheels)
             self.wheels.append(tyres)
+        for leg, places in zip(self.legs, self._places, strict=True):
+            if leg.followed is not None:
+                some = places[which]
+                some = leg.place[some[some >= 0]]
+                leg.followed.leave(some[some >= 0])
         on = self.wheels_of[which]
         for kind in np.unique(on).tolist():
             some = np.flatnonzero(on == kind)
@@ -185,7 +199,7 @@ class Course:
         return start[cases]
 
     def settled(self) -> list[Leg]:
-        """All legs, worked out."""
+        """All legs."""
         while self._waiting:
             which, start, hold, state, tyres, during = self._waiting.pop(0)
             # Nobody asks for the motion of a leg that ends as it begins.
@@ -194,6 +208,10 @@ class Course:
                 next_start = np.full(self.count, np.inf)
                 next_start[others] = begun
                 brief |= next_start[which] <= start
+            self._present[which] = len(self.legs)
+            places = np.full(self.count, -1)
+            places[which] = np.arange(len(which))
+            self._places.append(places)
             leg = self._leg(which, start, hold, state, tyres, brief)
             self.legs.append(leg._replace(during=during))
         return self.legs
@@ -206,18 +224,36 @@ class Course:
             # The start needs no motion.
             return self._waiting[0][3][:, cases]
         legs = self.settled()
+        if self.count == 1 and len(cases) == 1:
+            return self._of_one(float(time[0]), before)
         if len(legs) == 1:
             return legs[0].at(time, cases)
         found = np.empty((6, len(cases)))
-        for number, leg in enumerate(legs):
-            place = np.full(self.count, -1)
-            place[leg.which] = np.arange(len(leg.which))
-            at = place[cases]
-            begun = leg.start[at] < time if before and number else leg.start[at] <= time
-            some = np.flatnonzero((at >= 0) & begun)
+        left = np.arange(len(cases))
+        for number in range(len(legs) - 1, -1, -1):
+            leg = legs[number]
+            at = self._places[number][cases[left]]
+            now = time[left]
+            begun = leg.start[at] < now if before and number else leg.start[at] <= now
+            begun &= at >= 0
+            some, at, left = left[begun], at[begun], left[~begun]
             if len(some):
-                found[:, some] = leg.at(time[some], at[some])
+                found[:, some] = leg.at(time[some], at)
+            if not len(left):
+                break
         return found
+
+    def _of_one(self, time: float, before: bool) -> Any:
+        """The state of a single case at one time."""
+        for number in range(len(self.legs) - 1, -1, -1):
+            leg = self.legs[number]
+            start = float(leg.start[0])
+            if not number or start < time or (start == time and not before):
+                break
+        after = max(time - start, 0.0) - float(leg.hold[0])
+        if leg.followed is not None and after > 0.0:
+            return leg.followed.of_one(after)
+        return leg.at(np.array([time]), np.zeros(1, dtype=int))
 
     def leg_at(self, time: float) -> Leg:
         """The leg of the one case of a scene that is no batch."""
@@ -227,11 +263,49 @@ class Course:
 
     @property
     def rests(self) -> Any:
-        """When each case has come to rest for good [s]; infinite where it does not."""
+        """When each case has come to rest for good [s], to which it is followed for it; infinite
+        where it does not.
+        """
+        return self._rests(known=False)
+
+    @property
+    def known_rests(self) -> Any:
+        """The same, infinite also where a case was not followed so far."""
+        return self._rests(known=True)
+
+    def _rests(self, *, known: bool) -> Any:
         found = np.empty(self.count)
-        for leg in self.settled():
-            found[leg.which] = leg.rests
+        for number, leg in enumerate(self.settled()):
+            mine = np.flatnonzero(self._present[leg.which] == number)
+            if len(mine):
+                found[leg.which[mine]] = leg.rests(mine, known=known)
         return found
+
+    def unslowed(self, cases: Any) -> Any:
+        """Whether some cases go on and on, as nothing slows them."""
+        found = np.zeros(self.count, dtype=bool)
+        for leg in self.settled():
+            moves = np.any(leg.state[_RATES] != 0.0, axis=0)
+            found[leg.which] = np.isinf(leg.stops) & (leg.place < 0) & moves
+        return found[cases]
+
+    def fastest(self, cases: Any, state: Any, reach: float) -> Any:
+        """The most that any point within ``reach`` can move at from a state on; infinite where that
+        is not known.
+        """
+        if self.fixed:
+            return 0.0
+        if self.ground.steepest:
+            return np.inf
+        speed, turning = np.hypot(state[3], state[4]), np.abs(state[5])
+        body = self.mover.vehicle
+        if len(self.wheels) == 1 and self.wheels[0] is None:
+            return speed + reach * turning
+        # Wheels may turn the one into the other.
+        square = self.ground.taker(cases)(body.yaw_inertia / body.mass)
+        return np.sqrt(speed * speed + square * turning * turning) + reach * np.sqrt(
+            turning * turning + speed * speed / square
+        )
 
     def bounds(self, cases: Any) -> tuple[Any, Any]:
         """Bounds of what the motion may change by: of the acceleration and the yaw acceleration."""
@@ -272,20 +346,21 @@ class Course:
         still = (speed == 0.0) & (state[5] == 0.0)
         count = len(which)
         stops = np.where(still, 0.0, np.inf)
-        tabled, table = np.zeros(count, dtype=bool), None
+        place: Any = np.full(count, -1)
+        followed = None
         begun = state.copy()
         begun[_PLACES] = state[_PLACES] + hold * state[_RATES]
         if self.fixed or count == 0:
             pass
         elif tyres is not None:
             rolling = self._rolls(tyres, which, state, speed)
-            tabled = ~(rolling | brief | (still & (self.ground.steepest == 0.0)))
-            if tabled.any():
-                table = np.full((7, self.ground.moments, count), np.nan)
-                table[:, :, tabled] = self._simulated(which[tabled], begun[:, tabled], tyres)
+            moves = ~(rolling | brief | (still & (self.ground.steepest == 0.0)))
+            if moves.any():
+                place[moves] = np.arange(int(moves.sum()))
+                followed = self._followed(which[moves], begun[:, moves], tyres)
         elif self.mover.drag is not None:
             stops = self._slides(which, state, speed, still)
-        return Leg(which, start, hold, state, stops, tabled, table, tyres)
+        return Leg(which, start, hold, state, stops, place, followed, tyres)
 
     def _rolls(self, tyres: Tyres, which: Any, state: Any, speed: Any) -> Any:
         """Whether all wheels roll freely straight on, so that nothing slows the vehicle."""
@@ -321,8 +396,8 @@ class Course:
         stops = np.where(usable, speed / (GRAVITY * np.where(usable, slowing, 1.0)), np.inf)
         return np.where(still, 0.0, stops)
 
-    def _simulated(self, which: Any, state: Any, tyres: Tyres) -> Any:
-        """Time and states at the moments of ``simulate``."""
+    def _followed(self, which: Any, state: Any, tyres: Tyres) -> Following:
+        """The motion of some cases on tyres."""
         body, ground = self.mover.vehicle, self.ground
         for name in ("yaw_inertia", "x", "y", "heading"):
             needed(body, name, "motion on tyres", self.name)
@@ -336,45 +411,42 @@ class Course:
         else:
             numbers |= {"mass": take(body.mass), "yaw_inertia": take(body.yaw_inertia), **rows}
             wheels = part_of(tyres, take)
+        areas = [(np.array(corners), mu) for corners, mu in ground.surfaces_for(take)]
+        slope = tuple(part_of(part, take) for part in ground.slope)
         try:
             with quietly([]), in_si():
-                path = simulate(
-                    vehicle_of(numbers),
-                    wheels,
-                    surfaces=ground.surfaces_for(take) or None,
-                    slope=tuple(part_of(part, take) for part in ground.slope),
-                    until=_FOR_EVER,
-                    moments=ground.moments,
-                    tolerance=ground.tolerance,
-                )
+                made = prepared(vehicle_of(numbers), wheels, areas, slope, ground.tolerance)
         except CollisionsError as error:
             raise placed(error, self.name) from None
-        names = ("time", *STATE)
-        table = np.array([getattr(path, name) for name in names]).reshape(7, ground.moments, -1)
-        self._fail(which[~np.isfinite(table[:, -1]).all(axis=0)], "never_stops")
-        slows = ~_rolls_on(table)
-        if one and slows.any():
-            raise NoSolutionError(
-                f"{self.name}: it does not come to rest, and does not roll straight on either; "
-                "give the lock that stopped it, or the resistance to rolling as a lock such as "
-                "0.02",
-                code="never_stops",
-            )
-        self._fail(which[slows], "never_stops")
-        return table
+        wrong = np.zeros(len(which), dtype=bool)
+        for code, found in made.checks:
+            new = np.broadcast_to(found, len(which)) & ~wrong
+            self._fail(which[new], code)
+            wrong |= new
+
+        def ended(some: Any, how: Any) -> None:
+            if one and how[0] == GOES_ON:
+                raise NoSolutionError(
+                    f"{self.name}: it does not come to rest, and does not roll straight on "
+                    "either; give the lock that stopped it, or the resistance to rolling as a "
+                    "lock such as 0.02",
+                    code="never_stops",
+                )
+            if one and how[0] != ROLLS_ON:
+                try:
+                    refuse_one(int(how[0]), made.motion.settings.sloped)
+                except CollisionsError as error:
+                    raise placed(error, self.name) from None
+                return
+            self._fail(which[some[how == GOES_ON]], "never_stops")
+            found = np.isin(how, (RESTS, GOES_ON, ROLLS_ON))
+            self._fail(which[some[~found]], "no_convergence")
+
+        return Following(made, ended)
 
     def _fail(self, cases: Any, code: str) -> None:
         fresh = cases[self.failed[cases] == ""]
         self.failed[fresh] = code
-
-
-def _rolls_on(table: Any) -> Any:
-    """Whether each case is at rest at its last moment, or rolls straight on from then."""
-    before, last = (table[4:7, at] for at in (-2, -1))
-    speed = np.hypot(last[0], last[1])
-    same = np.hypot(*(last - before)[:2]) <= _SAME * speed
-    still = ~np.any(last != 0.0, axis=0)
-    return still | (same & (np.abs(last[2]) <= _SAME * speed)) | ~np.isfinite(speed)
 
 
 def _as_it_is(value: Any) -> Any:
@@ -390,7 +462,6 @@ class Ground(NamedTuple):
 
     surfaces: tuple[tuple[Any, Any], ...]
     slope: tuple[Any, Any]
-    moments: int
     tolerance: float
     shape: tuple[int, ...] | None
 

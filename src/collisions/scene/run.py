@@ -112,7 +112,7 @@ class Run(Frozen, Summarized):
     """
 
     def __init__(self, scene: Scene, tolerance: float) -> None:
-        ground = Ground(scene.surfaces, scene.slope, moments_for(tolerance), tolerance, scene.shape)
+        ground = Ground(scene.surfaces, scene.slope, tolerance, scene.shape)
         # What cannot be answered is NaN, of which numpy need not warn.
         with np.errstate(all="ignore"):
             found = Followed(scene.movers, scene.contacts, ground, scene.order)
@@ -400,7 +400,7 @@ class Run(Frozen, Summarized):
         """Work out all motions to their rest, so that what cannot be followed is refused."""
         with np.errstate(all="ignore"):
             for course in self._followed.courses.values():
-                course.settled()
+                _ = course.rests
         answered = self._followed.failed == ""
         self._followed.gather()
         _warn_of(self._followed, answered & (self._followed.failed != ""))
@@ -496,7 +496,9 @@ class Run(Frozen, Summarized):
         if found.single and not math.isfinite(rests[0]):
             raise no_rest(name)
         with np.errstate(all="ignore"):
-            state = course.at(np.where(np.isfinite(rests), rests, 0.0), np.arange(found.count))
+            # Ever after: at the moment itself, rounding may leave it a last digit short.
+            late = np.where(np.isfinite(rests), np.inf, 0.0)
+            state = course.at(late, np.arange(found.count))
         # Where nothing stops it there is no such place.
         state[:3] += np.where(np.isfinite(rests), 0.0, np.nan)
         state[3:] = 0.0
@@ -716,8 +718,3 @@ def _warn_of(found: Followed, wrong: Any) -> None:
 def _tyre_loss(side: Any) -> float:
     loss: float = side.tyre_loss
     return loss
-
-
-def moments_for(tolerance: float) -> int:
-    """Moments of the motion to rest between which places are cubics: more for a finer tolerance."""
-    return int(min(2001, max(101, 101 * (1e-5 / tolerance) ** 0.5)))

@@ -102,14 +102,16 @@ def _along(axes: Any, corners: Any) -> Any:
 
 
 class Pair(NamedTuple):
-    """Two outlines and how both move: ``states(times, cases)`` of each, and the bounds of their
-    accelerations.
+    """Two outlines and how both move: ``states(times, cases)`` of each, the bounds of their
+    accelerations, and ``speeds(cases, state, state)``, the bound of how fast any two points of them
+    come together from then on.
     """
 
     a: Shape
     b: Shape
     states: Callable[[Any, Any], tuple[Any, Any]]
     bounds: Callable[[Any], Any]
+    speeds: Callable[[Any, Any, Any], Any]
 
     def at(self, time: Any, cases: Any) -> tuple[Meeting, Any, Any]:
         """The outlines, and both states, at a time of each case."""
@@ -208,8 +210,12 @@ def first_touch(pair: Pair, begin: Any, until: Any, cases: Any) -> Touch:
         bend = _bending(pair, pair.bounds(mine), state_a, state_b)
         step = _steps(gaps, rates, bend).min(axis=(0, 1))
         step = np.where(bend > 0.0, np.minimum(step, _LONGEST_STEP), step)
-        # Without a number there is no motion to follow.
-        on = ~touch & (now + step <= until[going]) & np.isfinite(gap)
+        # No energy comes to vehicles that the ground slows.
+        with np.errstate(all="ignore"):
+            step = np.fmax(step, gap / pair.speeds(mine, state_a, state_b))
+        # Without a number there is no motion to follow, and those that rest stay where they are.
+        moves = np.any(state_a[3:] != 0.0, axis=0) | np.any(state_b[3:] != 0.0, axis=0)
+        on = ~touch & (now + step <= until[going]) & np.isfinite(gap) & moves
         time[going] = now + np.maximum(step, _SHORTEST_STEP)
         going = going[on]
     return found
@@ -233,7 +239,8 @@ def first_apart(pair: Pair, begin: Any, until: Any, cases: Any, gap: float) -> A
         step = _steps(np.maximum(gap - met.gap, 0.0), away, bend)
         step = np.where(bend > 0.0, np.minimum(step, _LONGEST_STEP), step)
         time[going] = now + np.maximum(step, _SHORTEST_LOOK)
-        going = going[~apart & (now < until[going]) & np.isfinite(met.gap)]
+        moves = np.any(state_a[3:] != 0.0, axis=0) | np.any(state_b[3:] != 0.0, axis=0)
+        going = going[~apart & (now < until[going]) & np.isfinite(met.gap) & moves]
     return found
 
 
@@ -270,19 +277,16 @@ def engaged(
         return p.max(axis=0) - q.min(axis=0), -met.gap
 
     count = len(cases)
-    width, most = (_SEARCH, _MOST_SEARCHES) if delay is None else (delay / _PARTS, _PARTS)
-    time, before = np.array(touch, dtype=float), np.zeros(count)
-    reached, parted = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
-    for _ in range(most):
-        going = ~(reached | parted)
-        if not going.any():
-            break
-        time = np.where(going, time + width, time)
-        now, least = deep(time)
-        hit = going & (least >= 0.0) & (now >= (np.inf if depth is None else depth))
-        falls = now < before if delay is None else np.zeros(count, dtype=bool)
-        parts = going & ~hit & ((least < 0.0) | falls)
-        reached, parted, before = reached | hit, parted | parts, np.where(going, now, before)
+    if delay is None:
+        time, width, reached, parted = _searched(deep, touch, depth)
+    else:
+        width, reached = delay / _PARTS, np.zeros(count, dtype=bool)
+        # All looks at once.
+        times = np.add.accumulate([touch, *[np.broadcast_to(width, count)] * _PARTS])[1:]
+        met, *_ = pair.at(times.ravel(), np.tile(cases, _PARTS))
+        apart = met.gap.reshape(times.shape) > 0.0
+        parted = apart.any(axis=0)
+        time = times[np.where(parted, apart.argmax(axis=0), -1), np.arange(count)]
     due = time if delay is None else touch + delay
     if reached.any():
         left, right = np.maximum(time - width, touch), time
@@ -300,6 +304,27 @@ def engaged(
             left, right = np.where(more, left, one), np.where(more, two, right)
         due = np.where(parted, 0.5 * (left + right), due)
     return due, parted
+
+
+def _searched(
+    deep: Callable[[Any], tuple[Any, Any]], touch: Any, depth: Any
+) -> tuple[Any, float, Any, Any]:
+    """The look at which a depth is reached, or the pair parts before; the time between looks; and
+    which of both it is.
+    """
+    count = len(touch)
+    time, before = np.array(touch, dtype=float), np.zeros(count)
+    reached, parted = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
+    for _ in range(_MOST_SEARCHES):
+        going = ~(reached | parted)
+        if not going.any():
+            break
+        time = np.where(going, time + _SEARCH, time)
+        now, least = deep(time)
+        hit = going & (least >= 0.0) & (now >= depth)
+        parts = going & ~hit & ((least < 0.0) | (now < before))
+        reached, parted, before = reached | hit, parted | parts, np.where(going, now, before)
+    return time, _SEARCH, reached, parted
 
 
 def overlap_of(one: Any, other: Any) -> tuple[Any, Any, Any]:

@@ -14,11 +14,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..kernels.elementwise import select
 from ..kernels.run_out import OF_GROUND, Settings, accelerations, ending, size, step
 from .areas import Areas
 
 # Found for a case: at rest; nothing slows it, or it does not stay where it stops; its steps do not
-# come to an end; it was followed for as long as was asked for.
+# come to an end; it was followed for as long as was asked for, and can be followed on.
 RESTS, GOES_ON, NO_END, IN_TIME = 0, 1, 2, 3
 # Once the motion is down to this part of the first, by the way that is left, it goes on straight.
 _ENDING, _ENDING_ON_AREAS = 1e-2, 1e-3
@@ -40,15 +41,18 @@ _FEW = 16
 # A step is wider than the one before by this at most, and by this share of what the error of smooth
 # forces allows: theirs bend, and a step that failed was taken in vain.
 _WIDEST, _SAFE = 1.5, 0.9
-# Rows of a step: time, place, heading, velocities, and accelerations at its start and at its end.
+# Rows of a step: time, place, heading, velocities, accelerations at its start and at its end.
 ROWS = 13
+# Rows from which a case is followed on: time, place, heading, velocities, accelerations, way,
+# width, and the width that was wanted before an edge.
+_STATE = 13
 
 _NUMBERS = tuple(f"[{at}]" for at in range(OF_GROUND + 9))
 
 
 class Motion(NamedTuple):
     """Cases to follow: numbers of the ground by rows, velocities and heading at the start, areas of
-    other friction, and the time of each until which it is followed.
+    other friction.
     """
 
     ground: Any
@@ -56,15 +60,11 @@ class Motion(NamedTuple):
     areas: Areas | None
     settings: Settings
     tolerance: float
-    until: Any = None
 
     def of(self, which: Any) -> Motion:
         """Those of some of the cases."""
         areas = None if self.areas is None else self.areas.of(which)
-        until = None if self.until is None else self.until[which]
-        return self._replace(
-            ground=self.ground[:, which], start=self.start[:, which], areas=areas, until=until
-        )
+        return self._replace(ground=self.ground[:, which], start=self.start[:, which], areas=areas)
 
 
 @lru_cache(maxsize=8)
@@ -85,28 +85,40 @@ def _ending_of_floats() -> Callable[..., Any]:
     return compile_for_floats(ending, _NUMBERS[:6], ())
 
 
-def follow(motion: Motion) -> tuple[Any, Any]:
-    """The rows of all steps of all cases, each of (``ROWS``, steps) in order of time, and what
-    became of each case.
+class Followed(NamedTuple):
+    """The rows of all steps of all cases, each of (``ROWS``, steps) in order of time; what became
+    of each case, and from where those that wait are followed on.
+    """
+
+    rows: list[Any]
+    ended: Any
+    state: Any
+
+
+def follow(motion: Motion, until: Any = None, going: Any = None) -> Followed:
+    """Follow all cases until they rest, or to the first step that ends at or after a time of each;
+    from the start, or ``going`` on from the state of those that waited.
     """
     count = motion.start.shape[1]
+    until = np.full(count, np.inf) if until is None else until
     parts: list[list[Any]] = [[] for _ in range(count)]
     found: Any = np.full(count, NO_END)
+    state = np.zeros((_STATE, count))
     if count <= _FEW:
         for case in range(count):
-            rows, ended = _one(motion.of([case]))
-            found[case] = ended
+            start = None if going is None else going[:, case].tolist()
+            rows, found[case], state[:, case] = _one(motion.of([case]), start, float(until[case]))
             parts[case].append(rows)
     else:
-        _several(motion, parts, found)
+        _several(motion, parts, found, state, going, until)
     if motion.settings.sloped:
         for case in np.flatnonzero(found == RESTS).tolist():
-            if motion.until is not None and parts[case][-1][0, -1] >= motion.until[case]:
-                continue
             last = parts[case][-1]
-            if not _holds(motion.of([case]), *last[1:4, -1]):
+            place = last[1:4, -1] if last.shape[1] else going[1:4, case]
+            if not _holds(motion.of([case]), *place):
                 found[case] = GOES_ON
-    return [part[0] if len(part) == 1 else np.concatenate(part, axis=1) for part in parts], found
+    rows = [part[0] if len(part) == 1 else np.concatenate(part, axis=1) for part in parts]
+    return Followed(rows, found, state)
 
 
 def _wider(wrong: Any, tolerance: float) -> Any:
@@ -147,9 +159,11 @@ def _ends(time: Any, speed: Any, slowing: Any, aside: Any, tolerance: float) -> 
     return speed * aside <= part * time * slowing * slowing
 
 
-def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int]:
-    """The rows of one case, and what became of it, in plain floats; from the start, or ``going`` on
-    from a state.
+def _one(
+    motion: Motion, going: Sequence[float] | None, until: float
+) -> tuple[Any, int, Sequence[float]]:
+    """The rows of one case, what became of it, and its state, in plain floats; from the start, or
+    ``going`` on from a state.
     """
     ground = [float(number) for number in motion.ground[:, 0]]
     areas, tolerance, spin, last = motion.areas, motion.tolerance, ground[17], _last(motion)
@@ -164,11 +178,10 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
         time, x, y, heading, vx, vy, turn, *known, way, width, wanted = going
         # Under the wheels the ground may be another from here.
         known = None if areas is not None else tuple(known)
-    until = math.inf if motion.until is None else float(motion.until[0])
     rows: list[tuple[float, ...]] = []
     found = NO_END
     for _ in range(_MOST_STEPS):
-        if time >= until:
+        if time >= until and (rows or going is not None):
             found = IN_TIME
             break
         # As of arrays, whose last bit may be another than that of ``math``.
@@ -251,7 +264,8 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
     if found == RESTS and known is not None and (vx, vy, turn) != (0.0, 0.0, 0.0):
         state = np.array([[time, x, y, heading, vx, vy, turn, *known]]).T
         table = np.concatenate([table, _to_rest(state, np.array([spin]))], axis=1)
-    return table, found
+    forces = (0.0, 0.0, 0.0) if known is None else known
+    return table, found, (time, x, y, heading, vx, vy, turn, *forces, way, width, wanted)
 
 
 def _settling(ground: Any) -> Any:
@@ -294,31 +308,29 @@ def _to_rest(state: Any, spin: Any) -> Any:
     return np.array([time + takes, *place, none, none, none, *slowed, *slowed])
 
 
-def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
+def _several(
+    motion: Motion, parts: list[list[Any]], found: Any, states: Any, start: Any, until: Any
+) -> None:
     """The rows of all cases, followed together in arrays; those that are left over one by one."""
     areas, tolerance, last = motion.areas, motion.tolerance, _last(motion)
     alone = areas is None and not motion.settings.sloped
     ground: Any = motion.ground.copy()
     going: Any = np.arange(motion.start.shape[1])
-    # Rows: time, place, heading, velocities, accelerations, way, width, and the width that was
-    # wanted before an edge.
-    state: Any = np.zeros((13, len(going)))
-    state[4:7], state[3], state[11] = motion.start[:3], motion.start[3], _FIRST_STEP
-    first: Any = np.ones(len(going), dtype=bool)
-    fresh: Any = first
+    if start is None:
+        state: Any = np.zeros((_STATE, len(going)))
+        state[4:7], state[3], state[11] = motion.start[:3], motion.start[3], _FIRST_STEP
+    else:
+        state = start.copy()
+    first: Any = np.full(len(going), start is None)
+    # Under the wheels the ground may be another from here.
+    fresh: Any = first if areas is None else np.ones(len(going), dtype=bool)
+    later = until
     kept: list[tuple[Any, Any]] = []
 
     def noted(which: Any, rows: Any) -> None:
         kept.append((going[which], rows))
 
     for _ in range(_MOST_STEPS):
-        if motion.until is not None:
-            on = state[0] < motion.until[going]
-            if not on.all():
-                found[going[~on]] = IN_TIME
-                ground, state, going = ground[:, on], state[:, on], going[on]
-                fresh, first = fresh[on], first[on]
-                areas = None if areas is None else areas.of(on)
         if len(going) <= _FEW:
             break
         c, s = np.cos(state[3]), np.sin(state[3])
@@ -413,22 +425,27 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
             if areas is not None:
                 fresh[done] = True
         on = ~(rests | goes_on | stuck)
+        waits = on & (state[0] >= later)
+        found[going[waits]], states[:, going[waits]] = IN_TIME, state[:, waits]
+        on &= ~waits
         if not on.all():
-            ground, state, going, fresh, first = (
+            ground, state, going, fresh, first, later = (
                 ground[:, on],
                 state[:, on],
                 going[on],
                 fresh[on],
                 first[on],
+                later[on],
             )
             areas = None if areas is None else areas.of(on)
     _sorted_into(parts, kept)
+    begun = bool(kept) or start is not None
     for left_over, one in enumerate(going.tolist()):
-        rows, ended = _one(
+        rows, found[one], states[:, one] = _one(
             motion.of([one]),
-            state[:, left_over].tolist() if kept else None,
+            state[:, left_over].tolist() if begun else None,
+            float(until[one]),
         )
-        found[one] = ended
         parts[one].append(rows)
 
 
@@ -515,8 +532,10 @@ def between(before: Any, after: Any, share: Any, spin: Any) -> tuple[Any, Any]:
     """
     took = after[0] - before[0]
     u = share
-    u2, u3, u4, u5 = u * u, u**3, u**4, u**5
-    scale = np.where(took > 0.0, took, 1.0)
+    u2 = u * u
+    u3, u4 = u2 * u, u2 * u2
+    u5 = u4 * u
+    scale = select(took > 0.0, took, 1.0)
     places, rates = [], []
     for at, factor in ((0, 1.0), (1, 1.0), (2, spin)):
         p, q = before[1 + at], after[1 + at]
@@ -535,4 +554,6 @@ def between(before: Any, after: Any, share: Any, spin: Any) -> tuple[Any, Any]:
             + 4.0 * (-15.0 * rise + 8.0 * v + 7.0 * w + 1.5 * a - b) * u3
             + 5.0 * (6.0 * rise - 3.0 * (v + w) - 0.5 * (a - b)) * u4
         ) / scale)  # fmt: skip
+    if isinstance(share, float):
+        return places, rates
     return np.array(places), np.array(rates)

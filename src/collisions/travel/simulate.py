@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -323,10 +323,9 @@ def simulate(
     """
     reader = ArgumentReader()
     areas = [] if surfaces is None else _read_surfaces(reader, surfaces)
-    ground = {f"surfaces[{i}]": mu for i, (_, mu) in enumerate(areas)}
-    rises = dict(zip(("slope[0]", "slope[1]"), reader.pair(slope, "", "slope"), strict=True))
+    rises = reader.pair(slope, "", "slope")
     rotating = one_value(reader, rotating_mass, "", "rotating_mass", UNIT_INTERVAL)
-    ends = math.inf if until is None else one_value(reader, until, "s", "until", POSITIVE_FINITE)
+    ends = None if until is None else one_value(reader, until, "s", "until", POSITIVE_FINITE)
     if not is_whole(moments) or not 2 <= moments <= _MOST_MOMENTS:
         text = f"moments must be a whole number from 2 to {_MOST_MOMENTS}, got {shown(moments)}"
         reader.refuse(InputError(text, code="bad_option", argument="moments"))
@@ -348,6 +347,94 @@ def simulate(
     if not isinstance(tyres, Tyres):
         reader.refuse(not_tyres("tyres", tyres))
     reader.close()
+    made = prepared(vehicle, tyres, areas, rises, within, rotating, ends)
+    motion, units, shape = made.motion, made.units, made.shape
+    with np.errstate(all="ignore"):
+        count = motion.start.shape[1]
+        blocks = [slice(i, i + _BLOCK) for i in range(0, count or 1, _BLOCK)]
+        parts = [
+            _way(motion.of(cases), units[:, cases], moments, made.until[cases]) for cases in blocks
+        ]
+        way, ended = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
+    if shape is None:
+        refuse_one(int(ended[0]), motion.settings.sloped)
+        if not np.all(np.isfinite(way[:4])):
+            raise out_of_range()
+        found, still = way[..., 0], 0.0
+    else:
+        ended = ended.reshape(shape)
+        answered = (ended == RESTS) | (ended == IN_TIME)
+        checks = [
+            *made.checks,
+            ("never_stops", ended == GOES_ON),
+            ("no_convergence", ~answered),
+        ]
+        kind = precision(made.named.values())
+        with np.errstate(all="ignore"):
+            checks += [
+                ("out_of_range", ~np.isfinite(way[:4].astype(kind)).all(axis=(0, 1)).reshape(shape))
+            ]
+        # 0, or NaN where a case is refused.
+        still = write_locked(settle(np.zeros(shape), made.finite, shape, checks).astype(kind))
+        with np.errstate(all="ignore"):
+            found = (way.reshape(len(way), moments, *shape) + still).astype(kind)
+    time, x, y, heading, vx, vy, yaw_rate, *tracks = write_locked(tuple(found))
+    last = {"x": x[-1], "y": y[-1], "heading": heading[-1]}
+    last |= {"vx": vx[-1], "vy": vy[-1], "yaw_rate": yaw_rate[-1]}
+    state = {name: getattr(vehicle, name) for name in NAMES}
+    state |= {name: float(part) if shape is None else part for name, part in last.items()}
+    marks = tuple(zip(tracks[::2], tracks[1::2], strict=True))
+    texts = texts_of(vehicle.given)
+    end = vehicle_of(state, given=Texts(units=texts))
+    path = SimulatedPath(
+        time=time,
+        x=x,
+        y=y,
+        heading=heading,
+        vx=vx,
+        vy=vy,
+        yaw_rate=yaw_rate,
+        marks=marks,
+        end=end,
+    )
+    return in_units_of(path, texts)
+
+
+class Prepared(NamedTuple):
+    """Cases that are ready to be followed: their motion, the units of each, shape, numbers by name,
+    what a case of a batch is refused for, and the time of each, in units of the motion, until which
+    it is followed.
+    """
+
+    motion: Motion
+    units: Any
+    shape: tuple[int, ...] | None
+    named: dict[str, Any]
+    checks: list[tuple[str, Any]]
+    until: Any
+
+    @property
+    def finite(self) -> dict[str, Any]:
+        """The numbers that have to be finite."""
+        return {
+            name: number
+            for name, number in self.named.items()
+            if name not in ("mass", "yaw_inertia")
+        }
+
+
+def prepared(
+    vehicle: Vehicle,
+    tyres: Tyres,
+    areas: Sequence[tuple[Any, Any]],
+    slope: tuple[Any, Any],
+    tolerance: float,
+    rotating: Any = 0.0,
+    until: Any = None,
+) -> Prepared:
+    """What ``simulate`` follows, from arguments that were read; raises what it raises."""
+    ground = {f"surfaces[{i}]": mu for i, (_, mu) in enumerate(areas)}
+    rises = dict(zip(("slope[0]", "slope[1]"), slope, strict=True))
     if isinstance(vehicle.mass, float) and math.isinf(vehicle.mass):
         raise NoSolutionError(
             "the mass of the vehicle is infinite, which friction does not stop",
@@ -357,7 +444,7 @@ def simulate(
     wheels = tyres.named
     named = body | wheels | ground | rises | {"rotating_mass": rotating}
     if until is not None:
-        named["until"] = ends
+        named["until"] = until
     for friction in ground.values():
         refuse_lifting(wheels, friction)
     unknown = _brakes_unknown(wheels, bool(areas))
@@ -381,20 +468,14 @@ def simulate(
         bool(np.any(rotating != 0.0)),
     )
     with np.errstate(all="ignore"):
-        motion, units = _prepared(flat, [corners for corners, _ in areas], settings, within)
-        count = motion.start.shape[1]
-        blocks = [slice(i, i + _BLOCK) for i in range(0, count or 1, _BLOCK)]
-        parts = [_way(motion.of(cases), units[:, cases], moments) for cases in blocks]
-        way, ended = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
-    if shape is None:
-        _refuse_one(int(ended[0]), way[:, :, 0], settings.sloped)
-        found, still = way[..., 0], 0.0
-    else:
+        motion, units = _prepared(flat, [corners for corners, _ in areas], settings, tolerance)
+    checks: list[tuple[str, Any]] = []
+    if shape is not None:
         positive = (
             body["mass"],
             body["yaw_inertia"],
             *(wheels[name] for name in ("wheelbase", "track", "cornering")),
-            ends,
+            *(() if until is None else (until,)),
         )
         checks = [("not_positive", ~np.greater(number, 0.0)) for number in positive]
         checks += [("infinite_mass", np.isinf(body["mass"]))]
@@ -406,41 +487,8 @@ def simulate(
         checks += [
             ("wheel_lifts", lifts(wheels, mu)) for mu in (wheels["friction"], *ground.values())
         ]
-        ended = ended.reshape(shape)
-        answered = (ended == RESTS) | (ended == IN_TIME)
-        checks += [("never_stops", ended == GOES_ON), ("no_convergence", ~answered)]
-        kind = precision(named.values())
-        with np.errstate(all="ignore"):
-            checks += [
-                ("out_of_range", ~np.isfinite(way[:4].astype(kind)).all(axis=(0, 1)).reshape(shape))
-            ]
-        finite = {
-            name: number for name, number in named.items() if name not in ("mass", "yaw_inertia")
-        }
-        # 0, or NaN where a case is refused.
-        still = write_locked(settle(np.zeros(shape), finite, shape, checks).astype(kind))
-        with np.errstate(all="ignore"):
-            found = (way.reshape(len(way), moments, *shape) + still).astype(kind)
-    time, x, y, heading, vx, vy, yaw_rate, *tracks = write_locked(tuple(found))
-    last = {"x": x[-1], "y": y[-1], "heading": heading[-1]}
-    last |= {"vx": vx[-1], "vy": vy[-1], "yaw_rate": yaw_rate[-1]}
-    state = {name: getattr(vehicle, name) for name in NAMES}
-    state |= {name: float(part) if shape is None else part for name, part in last.items()}
-    marks = tuple(zip(tracks[::2], tracks[1::2], strict=True))
-    texts = texts_of(vehicle.given)
-    end = vehicle_of(state, given=Texts(units=texts))
-    path = SimulatedPath(
-        time=time,
-        x=x,
-        y=y,
-        heading=heading,
-        vx=vx,
-        vy=vy,
-        yaw_rate=yaw_rate,
-        marks=marks,
-        end=end,
-    )
-    return in_units_of(path, texts)
+    stop = np.full(motion.start.shape[1], math.inf) if until is None else flat["until"] / units[2]
+    return Prepared(motion, units, shape, named, checks, stop)
 
 
 def _brakes_unknown(wheels: Mapping[str, Any], areas: bool) -> Any:
@@ -504,22 +552,23 @@ def _prepared(
         ahead = np.multiply.outer([1.0, 1.0, -1.0, -1.0], own.ahead)
         left = np.multiply.outer([1.0, -1.0, 1.0, -1.0], own.left)
         areas = Areas(corners, frictions, flat["friction"], origin, length, ahead, left)
-    until = flat["until"] / time if "until" in flat else None
-    return Motion(ground, start, areas, settings, tolerance, until), np.array(
+    return Motion(ground, start, areas, settings, tolerance), np.array(
         [*origin, time, length, reach]
     )
 
 
-def _way(motion: Motion, units: Any, moments: int) -> tuple[Any, Any]:
-    """Time, place, motion and marks of some cases at their moments; and how each ended."""
-    found, ended = follow(motion)
+def _way(motion: Motion, units: Any, moments: int, until: Any) -> tuple[Any, Any]:
+    """Time, place, motion and marks of some cases at their moments up to a time of each; and how
+    each ended.
+    """
+    found, ended, _ = follow(motion, until)
     count = len(found)
     before, after = np.empty((2, ROWS, moments, count))
     time = np.empty((moments, count))
     for case, rows in enumerate(found):
         if not rows.shape[1]:
             rows = np.full((ROWS, 1), np.nan)
-        stop = math.inf if motion.until is None else motion.until[case]
+        stop = until[case]
         if ended[case] == GOES_ON and stop < math.inf and np.any(rows[4:7, -1]):
             rows, ended[case] = went_on(rows, stop, motion.ground[17, case]), IN_TIME
         elif stop < rows[0, -1] and ended[case] in (RESTS, GOES_ON):
@@ -535,6 +584,8 @@ def _way(motion: Motion, units: Any, moments: int) -> tuple[Any, Any]:
     stands = ended != IN_TIME
     for part in (vx, vy, turning):
         part[-1, stands] = 0.0
+    for part, last in zip((x, y, heading), after[1:4, -1], strict=True):
+        part[-1, stands] = last[stands]
     # At rest the vehicle stands, with the marks that it came with.
     moving = [
         np.concatenate([part[:-1], np.where(stands, part[-2:-1], part[-1:])])
@@ -593,7 +644,7 @@ def _corners(ground: Any, reach: Any) -> list[tuple[Any, Any]]:
     return [(ahead, left), (ahead, -left), (-ahead, left), (-ahead, -left)]
 
 
-def _refuse_one(ended: int, way: Any, sloped: bool) -> None:
+def refuse_one(ended: int, sloped: bool) -> None:
     """Raises if a single case did not come to rest."""
     if ended == GOES_ON:
         on_slope = (
@@ -614,8 +665,6 @@ def _refuse_one(ended: int, way: Any, sloped: bool) -> None:
             "hardly anything slows it",
             code="no_convergence",
         )
-    if not np.all(np.isfinite(way[:4])):
-        raise out_of_range()
 
 
 def _read_surfaces(reader: ArgumentReader, surfaces: Any) -> list[tuple[Any, Any]]:

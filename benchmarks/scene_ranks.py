@@ -1,0 +1,134 @@
+"""Ranks of the truth among the samples of posteriors of whole scenes, and how often their ranges
+hold the speeds before.
+
+Each scene is drawn from the priors, run, and read with the errors below: the places where both cars
+rest, and with the route "recorder" also the delta-V along the first car. A posterior that is right
+has ranks that are spread evenly, and 95 percent ranges that hold 95 percent.
+
+    python benchmarks/scene_ranks.py RESULT.json [--scenes 200] [--samples 1024]
+        [--route recorder|rests]
+
+A run that was ended goes on where it was: every scene is written as it is done, with its seed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+import time
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "src"))
+
+import collisions as col
+from collisions import reconstruct, travel
+from collisions.scene import Contact, Mover, Scene
+from collisions.uncertainty import Normal, Uniform
+
+SEED = 40
+PLACE_ERROR, HEADING_ERROR = 0.3, math.radians(3.0)
+DELTA_V_ERROR = 0.4
+PRIORS: dict[str, Any] = {
+    "A.speed": Uniform(5.0, 30.0),
+    "B.speed": Uniform(5.0, 25.0),
+    "contacts[0].friction": Uniform(0.3, 0.8),
+    "contacts[0].restitution": Uniform(0.0, 0.3),
+    "ground": Normal(0.7, 0.05, truncate=(0.4, 1.0)),
+}
+SPEEDS = ("A.speed", "B.speed")
+PLACES = {"x": PLACE_ERROR, "y": PLACE_ERROR, "heading": HEADING_ERROR}
+RESTS = {f"{name}.rest.{part}": PLACES[part] for name in "AB" for part in PLACES}
+RECORDED = {"impacts[0].a.delta_v_forward": DELTA_V_ERROR}
+
+
+def crash() -> Scene:
+    """Two cars that meet at a crossing, each with its own wheels braked by the damage."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, x=-2.3, y=0.0, heading=0.0, vx=14.0, vy=0.0)
+    b = col.Vehicle(
+        mass=1200.0, yaw_inertia=1700.0, x=0.9, y=-0.6, heading=math.pi / 2, vx=0.0, vy=9.0
+    )
+    contact = Contact("A", "B", restitution=0.1, friction=0.5, normal=0.0, point=(0.0, -0.2))
+    return Scene(
+        movers={
+            "A": Mover(a, tyres=travel.Tyres(0.7, [1.0, 0.1, 0.1, 0.1], 2.78, 1.55)),
+            "B": Mover(b, tyres=travel.Tyres(0.7, 0.3, 2.62, 1.48)),
+        },
+        contacts=[contact],
+        shared={"ground": ("A.tyres.friction", "B.tyres.friction")},
+    )
+
+
+def one(number: int, samples: int, route: str) -> dict[str, Any]:
+    """One scene from the priors, read and reconstructed: ranks of the truth, from 0 to 1, and which
+    ranges hold.
+    """
+    rng = np.random.default_rng([SEED, number])
+    errors = RESTS | (RECORDED if route == "recorder" else {})
+    model, start = crash().as_model(list(PRIORS), list(errors)), time.process_time()
+    while True:
+        share = rng.uniform(size=len(PRIORS))
+        truth = {
+            name: float(prior.quantile(part))
+            for (name, prior), part in zip(PRIORS.items(), share, strict=True)
+        }
+        try:
+            read = model(**truth)
+            break
+        except col.CollisionsError:
+            continue
+    observed = {
+        name: Normal(float(read[name].magnitude) + error * rng.normal(), error)
+        for name, error in errors.items()
+    }
+    found = reconstruct.posterior(crash(), PRIORS, observed, samples=samples, seed=number)
+    ranks = {name: float(np.mean(found[name].values < truth[name])) for name in PRIORS}
+    return {
+        "scene": number,
+        "truth": truth,
+        "ranks": ranks,
+        "held": {name: 0.025 <= ranks[name] <= 0.975 for name in SPEEDS},
+        "seconds": round(time.process_time() - start, 1),
+    }
+
+
+def summed(rows: list[dict[str, Any]]) -> dict[str, Any]:
+    """By unknown, how many ranks are in each tenth; by speed, the share of ranges that hold."""
+    tenths = {
+        name: np.histogram([row["ranks"][name] for row in rows], 10, (0.0, 1.0))[0].tolist()
+        for name in PRIORS
+    }
+    held = {name: float(np.mean([row["held"][name] for row in rows])) for name in SPEEDS}
+    return {"scenes": len(rows), "tenths": tenths, "held": held}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("result", type=Path)
+    parser.add_argument("--scenes", type=int, default=200)
+    parser.add_argument("--samples", type=int, default=1024)
+    parser.add_argument("--route", choices=("recorder", "rests"), default="recorder")
+    given = parser.parse_args()
+    settings = {"samples": given.samples, "route": given.route, "seed": SEED}
+    rows: list[dict[str, Any]] = []
+    if given.result.exists():
+        kept = json.loads(given.result.read_text())
+        if kept["settings"] != settings:
+            parser.error(f"{given.result} is of other settings: {kept['settings']}")
+        rows = kept["rows"]
+    warnings.simplefilter("ignore", col.CollisionsWarning)
+    for number in range(len(rows), given.scenes):
+        rows.append(one(number, given.samples, given.route))
+        whole = {"settings": settings, "summary": summed(rows), "rows": rows}
+        given.result.write_text(json.dumps(whole, indent=1) + "\n")
+        print(number, rows[-1]["held"], rows[-1]["seconds"], flush=True)
+    print(json.dumps(summed(rows), indent=1))
+
+
+if __name__ == "__main__":
+    main()

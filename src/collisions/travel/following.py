@@ -1,0 +1,219 @@
+"""Motion on tyres that is followed as far as it is asked for, and where its cases are then."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .motion import GOES_ON, IN_TIME, RESTS, Motion, between, follow
+from .simulate import Prepared
+
+# Cases that are followed together: few calls of numpy, and memory that is kept small.
+_BLOCK = 2048
+# Motions are followed on by this much more [s] than was asked for, all together, and once one was
+# asked for up to this time, to their ends: most contacts come within a moment of another.
+_AHEAD, _TO_THE_END = 0.3, 0.6
+# Found for a case beside what ``follow`` finds: nothing slows it, and it rolls straight on.
+ROLLS_ON = 4
+# Longer than anything takes that comes to rest [s]. What changes its velocity in that by less than
+# this share, and turns by less than that over the speed, goes straight on for ever.
+_FOR_EVER, _SAME = 1e4, 1e-7
+
+
+class _Piece(NamedTuple):
+    """Steps of some cases: the place of each case in it or -1, where its rows begin and end, and
+    all rows.
+    """
+
+    place: Any
+    first: Any
+    last: Any
+    rows: Any
+
+
+class Following:
+    """Cases in motion on their tyres, by their places in ``made``; ``ended`` is told which of them
+    came to their end, and how.
+    """
+
+    def __init__(self, made: Prepared, ended: Callable[[Any, Any], None]) -> None:
+        self._motion: Motion = made.motion
+        self._tell = ended
+        self.count = made.motion.start.shape[1]
+        self._x, self._y, self._second, self._length, _ = made.units
+        self._spin = made.motion.ground[17]
+        self._ended: Any = np.full(self.count, IN_TIME)
+        self._reached: Any = np.zeros(self.count)
+        self._state: Any = np.zeros((13, self.count))
+        self._left: Any = np.zeros(self.count, dtype=bool)
+        self._pieces: list[_Piece] = []
+        # The steps of a single case, and their times.
+        self._steps: list[list[float]] = []
+        self._times: list[float] = []
+        if self.count == 1:
+            self._units = float(self._second[0]), float(self._length[0])
+            self._turns = float(self._spin[0])
+
+    def at(self, time: Any, cases: Any) -> Any:
+        """Places, heading and velocities of some cases, (6, ...), at a time of each from the start
+        [s]; NaN beyond the end of one that neither comes to rest nor rolls straight on.
+        """
+        scaled = time / self._second[cases]
+        self._reach(scaled, cases)
+        found = np.full((6, len(cases)), np.nan)
+        left = np.arange(len(cases))
+        for piece in reversed(self._all_pieces()):
+            place = piece.place[cases[left]]
+            inside = place >= 0
+            inside &= scaled[left] >= piece.rows[0, piece.first[place]]
+            some, left = left[inside], left[~inside]
+            if len(some):
+                found[:, some] = self._within(piece, scaled[some], cases[some], place[inside])
+            if not len(left):
+                break
+        return found
+
+    def of_one(self, time: float) -> Any:
+        """The same of a single case, (6, 1), in floats."""
+        second, length = self._units
+        time = time / second
+        if not self._times or time >= self._times[-1]:
+            self._reach(np.array([time]), np.zeros(1, dtype=int))
+        steps, after = self._steps, bisect_right(self._times, time)
+        x, y = float(self._x[0]), float(self._y[0])
+        if after >= len(steps):
+            last, px, py, heading, vx, vy, *_ = steps[-1]
+            if self._ended[0] == ROLLS_ON:
+                px, py = px + (time - last) * vx, py + (time - last) * vy
+            elif self._ended[0] == RESTS:
+                vx = vy = 0.0
+            else:
+                return np.full((6, 1), np.nan)
+            rate = length / second
+            state = [x + length * px, y + length * py, heading, rate * vx, rate * vy, 0.0]
+            return np.array([state]).T
+        before, row = steps[max(after - 1, 0)], steps[after]
+        took = row[0] - before[0]
+        share = (time - before[0]) / took if took > 0.0 else 0.0
+        (px, py, heading), (vx, vy, turning) = between(before, row, share, self._turns)
+        rate = length / second
+        state = [x + length * px, y + length * py, heading, rate * vx, rate * vy, turning / second]
+        return np.array([state]).T
+
+    def leave(self, cases: Any) -> None:
+        """Follow some cases no further than is asked for, as they go on otherwise."""
+        self._left[cases] = True
+
+    def rests(self, cases: Any) -> Any:
+        """When some cases rest [s], which are followed to their end for it."""
+        self._reach(np.full(len(cases), np.inf), cases)
+        rests = self._reached[cases] * self._second[cases]
+        return np.where(self._ended[cases] == RESTS, rests, np.inf)
+
+    def known(self, cases: Any) -> Any:
+        """Whether some cases have been followed to their end."""
+        return self._ended[cases] != IN_TIME
+
+    def _all_pieces(self) -> list[_Piece]:
+        """All steps; those of a single case as one piece."""
+        if self.count > 1 or not self._steps:
+            return self._pieces
+        ends = np.array([len(self._steps) - 1])
+        none = np.zeros(1, dtype=int)
+        return [_Piece(none, none, ends, np.array(self._steps).T)]
+
+    def _reach(self, time: Any, cases: Any) -> None:
+        """Follow some cases on until they have passed a time of each, in the units of steps."""
+        short = (self._reached[cases] <= time) & (self._ended[cases] == IN_TIME)
+        if not short.any():
+            return
+        wanted = float(np.max((time * self._second[cases])[short]))
+        waits = (self._ended == IN_TIME) & ~self._left
+        waits[cases[short]] = True
+        which = np.flatnonzero(waits)
+        until = wanted + _AHEAD if wanted < _TO_THE_END else np.inf
+        until = np.minimum(until, _FOR_EVER) / self._second[which]
+        until = np.maximum(until, self._reached[which])
+        for begin in range(0, len(which), _BLOCK):
+            part = slice(begin, begin + _BLOCK)
+            self._follow(which[part], until[part])
+
+    def _follow(self, which: Any, until: Any) -> None:
+        fresh = self._reached[which] == 0.0
+        for some in (fresh, ~fresh):
+            if some.any():
+                self._follow_on(which[some], until[some], begun=not fresh[some][0])
+
+    def _follow_on(self, which: Any, until: Any, *, begun: bool) -> None:
+        motion = self._motion if len(which) == self.count else self._motion.of(which)
+        start = self._state[:, which] if begun else None
+        with np.errstate(all="ignore"):
+            rows, ended, state = follow(motion, until, start)
+        if start is not None:
+            # Steps begin where the ones before ended.
+            leads = np.concatenate([start[:10], start[7:10]])
+            rows = [np.concatenate([leads[:, [k]], row], axis=1) for k, row in enumerate(rows)]
+        counts = np.array([row.shape[1] for row in rows])
+        last = np.cumsum(counts) - 1
+        whole = np.concatenate(rows, axis=1)
+        answered = counts > 0
+        ends = np.where(answered, whole[0, last] if whole.shape[1] else 0.0, 0.0)
+        ended[(ended == IN_TIME) & (ends >= _FOR_EVER / self._second[which])] = GOES_ON
+        goes = np.flatnonzero((ended == GOES_ON) & answered)
+        ended[goes[self._rolls_on(whole[:, last[goes]], which[goes])]] = ROLLS_ON
+        self._state[:, which], self._ended[which] = state, ended
+        self._reached[which] = ends
+        if self.count == 1:
+            more = whole[:, begun:].T.tolist()
+            self._steps += more
+            self._times += [row[0] for row in more]
+        else:
+            place = np.full(self.count, -1)
+            place[which[answered]] = np.flatnonzero(answered)
+            self._pieces.append(_Piece(place, last - counts + 1, last, whole))
+        done = ended != IN_TIME
+        if done.any():
+            self._tell(which[done], ended[done])
+
+    def _rolls_on(self, rows: Any, which: Any) -> Any:
+        """Whether each of some cases, of which the last row is given, goes straight on."""
+        _, _, _, _, vx, vy, turn, *_, ax, ay, yaw = rows
+        speed, takes = np.hypot(vx, vy), _FOR_EVER / self._second[which]
+        straight = np.maximum(np.abs(turn), np.abs(yaw) * takes) <= _SAME * speed
+        return straight & (np.hypot(ax, ay) * takes <= _SAME * speed) & (speed > 0.0)
+
+    def _within(self, piece: _Piece, time: Any, cases: Any, place: Any) -> Any:
+        """The states of some cases in a piece, at or after its begin."""
+        low, high = piece.first[place], piece.last[place]
+        last, moments = high, piece.rows[0]
+        for _ in range(int(np.max(high - low)).bit_length()):
+            middle = (low + high + 1) // 2
+            passed = moments[middle] <= time
+            low, high = np.where(passed, middle, low), np.where(passed, high, middle - 1)
+        before, after = piece.rows[:, low], piece.rows[:, np.minimum(low + 1, last)]
+        took = after[0] - before[0]
+        share = (time - before[0]) / np.where(took > 0.0, took, 1.0)
+        ended = low >= last
+        share = np.where(ended, 0.0, share)
+        (px, py, heading), rates = between(before, after, share, self._spin[cases])
+        length, second = self._length[cases], self._second[cases]
+        how = self._ended[cases]
+        beyond = np.where(ended & (how != RESTS) & (how != ROLLS_ON), np.nan, 0.0)
+        # At rest, or rolling straight on from the last row.
+        rolls = np.where(how == ROLLS_ON, [before[4], before[5], 0.0 * before[6]], 0.0 * rates)
+        rates = np.where(ended, rolls + beyond, rates)
+        passed = np.where(ended & (how == ROLLS_ON), time - before[0], 0.0)
+        px, py = px + passed * before[4], py + passed * before[5]
+        return np.array(
+            [
+                self._x[cases] + length * px + beyond,
+                self._y[cases] + length * py + beyond,
+                heading + beyond,
+                length / second * rates[0],
+                length / second * rates[1],
+                rates[2] / second,
+            ]
+        )
