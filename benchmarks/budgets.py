@@ -38,6 +38,7 @@ import speed_rivals
 
 import collisions as col
 from collisions import reconstruct, travel
+from collisions.scene import Contact, Mover, Scene
 from collisions.uncertainty import Normal, Uniform, propagate
 
 RUNS = 5
@@ -118,6 +119,12 @@ BUDGETS = (
         "run_out_batch",
         "a batch of 1000 `travel.simulate` for places of rest, lock 0.3, a case against that "
         "formula",
+        200.0,
+    ),
+    Budget("scene", "one `Scene.run` of two cars that meet at touch, to rest", 12_000.0),
+    Budget(
+        "scene_batch",
+        "a batch of 1000 of these, a car of a case against that formula",
         200.0,
     ),
     Budget("in_time", "one `time_resolved` of 100 steps with a drag against that formula", 2_500.0),
@@ -229,6 +236,20 @@ def singles(wanted: set[str]) -> dict[str, float]:
 SPUN = {"vy": (0.0, 3.0), "yaw_rate": (0.0, 2.0)}
 
 
+def crash(speed: Any) -> Scene:
+    """Two cars that meet at a crossing and run out, the one with a jammed wheel."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, x=-6.0, y=-0.4, heading=0.1, vx=speed, vy=0.0)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=0.0, y=-5.0, heading=1.5, vx=0.0, vy=9.0)
+    jammed = travel.Tyres(0.7, [1.0, 0.05, 0.05, 0.05], 2.78, 1.55)
+    return Scene(
+        movers={
+            "A": Mover(a, outline=(4.8, 1.8), tyres=jammed),
+            "B": Mover(b, outline=(4.5, 1.7), tyres=travel.Tyres(0.7, 0.3, 2.62, 1.48)),
+        },
+        contacts=[Contact("A", "B", restitution=0.1, friction=0.5, at="touch")],
+    )
+
+
 def followed(wanted: set[str]) -> dict[str, float]:
     """Run-outs to rest and contacts in time, in calls of the formula."""
     numbers, (a, b) = speed_rivals.numbers(batch_speed.scenes(1)), cars()
@@ -238,19 +259,22 @@ def followed(wanted: set[str]) -> dict[str, float]:
     motion = {name: rng.normal(*about, 1000) for name, about in SPUN.items()}
     many = spun.replace(vx=rng.uniform(6.0, 16.0, 1000), **motion)
     half, free = (travel.Tyres(0.7, lock, 2.7, 1.5) for lock in (0.3, 0.05))
+    one_scene, scenes = crash(14.0), crash(np.linspace(10.0, 18.0, 1000))
     lasting = {**CASE, "duration": 0.1, "drag": 0.7}
     fast = a.replace(vx=rng.uniform(8.0, 20.0, 1000))
     calls: Calls = {
         "run_out": lambda: travel.simulate(spun, half),
         "run_out_free": lambda: travel.simulate(spun, free),
         "run_out_batch": lambda: travel.simulate(many, half, moments=2),
+        "scene": one_scene.run,
+        "scene_batch": scenes.run,
         "in_time": lambda: col.time_resolved(a, b, 0.1, **lasting),
         "in_time_batch": lambda: col.time_resolved(fast, b, 0.1, **lasting, on_failure="nan"),
         "required_in_time": lambda: col.required_model(a, b, 0.1, **lasting, tolerance=0.3),
     }
     calls = {key: call for key, call in calls.items() if key in wanted}
     best = fastest({"formula": lambda: speed_rivals.formula(*one), **calls}, 9, 0.004)
-    cases = {key: 1000 if key.endswith("batch") else 1 for key in calls}
+    cases = {key: 1000 if key.endswith("batch") else 1 for key in calls} | {"scene_batch": 2000}
     return {key: best[key] / best["formula"] / cases[key] for key in calls}
 
 

@@ -259,6 +259,8 @@ def test_every_budget_is_that_of_the_design(committed, yardsticks):
         "run_out": 5_000.0,
         "run_out_free": 10_000.0,
         "run_out_batch": 200.0,
+        "scene": 12_000.0,
+        "scene_batch": 200.0,
         "in_time": 2_500.0,
         "in_time_batch": 400.0,
         "required_in_time": 900.0,

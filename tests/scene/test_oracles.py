@@ -210,7 +210,8 @@ def test_all_ways_of_a_scene_are_as_an_independent_integration_has_them(group: i
     """
     for movers, crash in crashes(1000 + 100 * group, 10, (2, 3, 4)):
         run = crash.run(tolerance=1e-6)
-        assert abs(balance(run)) < 1e-6
+        # A few times the tolerance, as ``run`` says.
+        assert abs(balance(run)) < 3e-6
         for before, after in run.momentum:
             assert after == pytest.approx(before, abs=1e-12 * max(map(abs, before)))
         for name, mover in movers.items():
