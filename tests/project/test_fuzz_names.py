@@ -1735,8 +1735,7 @@ def test_scenes(case: Case) -> None:
         if not isinstance(found, scene.Run):
             found = known_scene().run()
         ran(case, found)
-        if case.maybe(0.1):
-            levels(case, known_scene())
+        levels(case, known_scene())
 
 
 def levels(case: Case, crash: scene.Scene) -> None:
@@ -1746,7 +1745,12 @@ def levels(case: Case, crash: scene.Scene) -> None:
     unknowns = case.option(
         {"A.vx": uncertainty.Normal(8.0, 0.5)}, {"A.mass": uncertainty.Uniform("1 t", "2 t")}, {}
     )
-    given = {"tolerances": {result: case.value(kind)}, "unknowns": unknowns, "tolerance": 1e-3}
+    given = {
+        "tolerances": {result: case.value(kind)},
+        "unknowns": unknowns,
+        "draws": case.option(32, 40),
+        "tolerance": 1e-3,
+    }
     found = case.call("scene.Scene.required", crash.required, **case.spoil(given))
     if isinstance(found, Exception):
         found = known_scene().required({"B.rest.x": 0.3}, tolerance=1e-3)

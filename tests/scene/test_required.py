@@ -168,6 +168,7 @@ def test_it_is_shown_and_recorded() -> None:
         (({"A.rest.z": 1},), "unknown_name", "near it are A.rest"),
         (({"A.rest.x": "1 kg"},), "bad_units", "cannot be taken as m"),
         (({"A.rest.x": 0.0},), "not_positive", "must be > 0"),
+        (({"A.rest.x": np.array([0.1, 0.2])},), "bad_shape", "must be one number, got an array"),
         (({"A.rest.x": 1}, {}), "bad_inputs", "unknowns must be a dict from inputs"),
         (({"A.rest.x": 1}, {"A.vx": 3.0}), "bad_inputs", "unknowns must be a dict"),
         (({"A.rest.x": 1}, {"A.v": Normal(3, 1)}), "unknown_name", "near it are A.v"),
@@ -178,6 +179,14 @@ def test_what_cannot_be_is_refused(given: Any, code: str, says: str) -> None:
     with pytest.raises(col.InputError, match=says) as caught:
         crash().required(*given)
     assert caught.value.code == code
+
+
+@pytest.mark.parametrize(("names", "outputs"), [(["A.vx"], 1e38), ("A.vx", ["A.rest.x"])])
+def test_a_model_takes_lists_of_paths(names: Any, outputs: Any) -> None:
+    for model in (crash(), crash().required({"A.rest.x": 1.0}).level):
+        with pytest.raises(col.InputError, match="must be a list of paths") as caught:
+            model.as_model(names, outputs)
+        assert caught.value.code == "bad_shape"
 
 
 def test_numbers_of_draws_and_batches_are_refused() -> None:

@@ -474,9 +474,16 @@ def as_function(
     """A function of some numbers of a scene, by their paths, that returns some of its results as
     Quantities; ``at_level`` makes the scene that is run of the one with these numbers.
     """
-    from ..quantities.units import to_quantity
+    from ..quantities.units import shown, to_quantity
     from .run import Run
 
+    for argument, listed in (("names", names), ("outputs", outputs)):
+        if isinstance(listed, str) or not isinstance(listed, Iterable):
+            raise InputError(
+                f"{argument} must be a list of paths, such as ['Camry.vx'], got {shown(listed)}",
+                code="bad_shape",
+                argument=argument,
+            )
     known, wanted = {*inputs_of(scene)}, tuple(outputs)
     for name in names:
         if name not in known:

@@ -265,10 +265,13 @@ def _read_tolerances(scene: Scene, given: Any) -> tuple[dict[str, float], dict[s
         )
     units = {path: unit_of_result(scene, path, "tolerances") for path in given}
     reader = ArgumentReader()
-    found = {
-        path: reader.number(value, units[path], f"tolerances[{path!r}]", POSITIVE_FINITE)
-        for path, value in given.items()
-    }
+    found = {}
+    for path, value in given.items():
+        label = f"tolerances[{path!r}]"
+        found[path] = reader.number(value, units[path], label, POSITIVE_FINITE)
+        if isinstance(found[path], np.ndarray):
+            text = f"{label} must be one number, got an array of shape {found[path].shape}"
+            reader.refuse(InputError(text, code="bad_shape", argument="tolerances"))
     reader.close()
     return {path: float(value) for path, value in found.items()}, units
 
