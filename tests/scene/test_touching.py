@@ -41,7 +41,11 @@ def evenly(a, b, shapes=(SQUARE, SQUARE)):
     def states(time, cases):
         return state(a, np.asarray(time)), state(b, np.asarray(time))
 
-    return Pair(*shapes, states, lambda cases: np.zeros((4, len(cases))))
+    # Nothing is said of how fast they may come together: steps follow from the accelerations.
+    unbound = np.full(1, math.inf)
+    return Pair(
+        *shapes, states, lambda cases: np.zeros((4, len(cases))), lambda cases, *both: unbound
+    )
 
 
 @pytest.mark.parametrize("spins", ["a", "b"])

@@ -18,9 +18,11 @@ _BLOCK = 2048
 _AHEAD, _TO_THE_END = 0.3, 0.6
 # Found for a case beside what ``follow`` finds: nothing slows it, and it rolls straight on.
 ROLLS_ON = 4
-# Longer than anything takes that comes to rest [s]. What changes its velocity in that by less than
-# this share, and turns by less than that over the speed, goes straight on for ever.
-_FOR_EVER, _SAME = 1e4, 1e-7
+# Longer than anything takes that comes to rest [s].
+_FOR_EVER = 1e4
+# What nothing slows goes straight on where it is not sped up or turned either, in units of gravity,
+# and hardly turns for its speed.
+_NO_FORCE, _STRAIGHT = 1e-9, 1e-7
 
 
 class _Piece(NamedTuple):
@@ -163,7 +165,7 @@ class Following:
         ends = np.where(answered, whole[0, last] if whole.shape[1] else 0.0, 0.0)
         ended[(ended == IN_TIME) & (ends >= _FOR_EVER / self._second[which])] = GOES_ON
         goes = np.flatnonzero((ended == GOES_ON) & answered)
-        ended[goes[self._rolls_on(whole[:, last[goes]], which[goes])]] = ROLLS_ON
+        ended[goes[_rolls_on(whole[:, last[goes]])]] = ROLLS_ON
         self._state[:, which], self._ended[which] = state, ended
         self._reached[which] = ends
         if self.count == 1:
@@ -177,13 +179,6 @@ class Following:
         done = ended != IN_TIME
         if done.any():
             self._tell(which[done], ended[done])
-
-    def _rolls_on(self, rows: Any, which: Any) -> Any:
-        """Whether each of some cases, of which the last row is given, goes straight on."""
-        _, _, _, _, vx, vy, turn, *_, ax, ay, yaw = rows
-        speed, takes = np.hypot(vx, vy), _FOR_EVER / self._second[which]
-        straight = np.maximum(np.abs(turn), np.abs(yaw) * takes) <= _SAME * speed
-        return straight & (np.hypot(ax, ay) * takes <= _SAME * speed) & (speed > 0.0)
 
     def _within(self, piece: _Piece, time: Any, cases: Any, place: Any) -> Any:
         """The states of some cases in a piece, at or after its begin."""
@@ -217,3 +212,10 @@ class Following:
                 rates[2] / second,
             ]
         )
+
+
+def _rolls_on(rows: Any) -> Any:
+    """Whether each of some cases, of which the last row is given, goes straight on."""
+    _, _, _, _, vx, vy, turn, *_, ax, ay, yaw = rows
+    speed, force = np.hypot(vx, vy), np.maximum(np.hypot(ax, ay), np.abs(yaw))
+    return (speed > 0.0) & (force <= _NO_FORCE) & (np.abs(turn) <= _STRAIGHT * speed)
