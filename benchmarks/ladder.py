@@ -33,7 +33,7 @@ import collisions as col
 from collisions.engine.float_loops import compile_loop
 from collisions.impact.time_resolved_inputs import kernel_arguments as arguments
 from collisions.kernels.contact_step import Motion, Passing
-from collisions.kernels.time_resolved import float_run, time_resolved
+from collisions.kernels.time_resolved import Noted, float_run, time_resolved
 
 DURATION, DRAG = 0.1, 0.7
 SCENES, CHOICES, SEED = 1500, 5100, 20250101
@@ -196,7 +196,7 @@ def engaged(scene: dict[str, Any]) -> dict[str, Any]:
             a, b, one["restitution"], normal=normal, point=(0.0, 0.0), friction=one["friction"],
             duration=DURATION, drag=DRAG, geometry="first_contact",
         )  # fmt: skip
-        note: list[tuple[float, ...]] = []
+        note = Noted()
         time_resolved(
             **arguments(impact.inputs, lambda value: value),
             run=partial(float_run, compiled=compile_loop),

@@ -380,6 +380,8 @@ def whole_crash() -> float:
         order=[("A", "B")],
     )
     run: scene.Run = crash.replace({"A.vx": "50 km/h"}).run(tolerance=1e-5)
+    required = crash.required({"A.rest.x": "1 m"}, {"A.vx": Normal("50 km/h", "2 km/h")})
+    print(required.level, required.finest, required.summary("us"), *required.costs)
     again = scene.Run.from_dict(run.to_dict())
     found = uncertainty.propagate(
         crash, {"A.vx": Normal("50 km/h", 1)}, outputs=["B.rest.x"], samples=256

@@ -232,9 +232,10 @@ def _one(value: Any, case: int, cut: Callable[..., Any]) -> Any:
 
 def _followed_alone(inputs: Inputs, cut: Callable[[Any], Any]) -> Any:
     """One case of plain floats; None where it has no answer by itself."""
+    from ..kernels.time_resolved import Noted
     from .time_resolved_inputs import follow_case
 
-    rows: list[tuple[float, ...]] = []
+    rows = Noted()
     found = follow_case(inputs, cut, rows)
     if found.status > Status.ENERGY_GAIN or not rows:
         return None
@@ -249,7 +250,7 @@ def _followed_together(inputs: Inputs, cut: Callable[[Any], Any], count: int) ->
     steps = _Steps(count)
     with np.errstate(all="ignore"):
         found = kernel.time_resolved(
-            **kernel_arguments(inputs, cut), run=partial(_kept_run, steps=steps)
+            **kernel_arguments(inputs, cut), run=partial(_kept_run, steps=steps), note=steps
         )
         time, crush, *motion = steps.columns()
         start = start_of(inputs, cut)
@@ -279,7 +280,10 @@ class _Steps:
         """The active cases are followed anew from first contact."""
         self.count[active] = 0
 
-    def keep(self, moving: tuple[Any, Any, Any], active: Any) -> None:
+    def clear(self) -> None:
+        """Nothing is forgotten of cases that are not followed again."""
+
+    def append(self, moving: tuple[Any, Any, Any], active: Any) -> None:
         """One more step of the cases that were active in it."""
         on_a, on_b, passing = moving
         cases = np.flatnonzero(active)
@@ -289,6 +293,18 @@ class _Steps:
         parts = passing.time, passing.crush, *on_a[:3], *on_b[:3]
         self._kept[at, :, cases] = np.array([part[cases] for part in parts]).T
         self.count[cases] += 1
+
+    def shift(self, some: Any, new: tuple[Any, ...], old: tuple[Any, ...]) -> None:
+        """Let the ways of some cases end at ``new`` and not at ``old``, by as much as time has
+        passed.
+        """
+        cases = np.flatnonzero(some)
+        end, was = (
+            np.array([passing.time, passing.crush, *on_a[:3], *on_b[:3]])[:, cases]
+            for on_a, on_b, passing in (new, old)
+        )
+        kept = self._kept[:, :, cases]
+        self._kept[:, :, cases] = kept + kept[:, :1] / was[0] * (end - was)
 
     def columns(self) -> Any:
         """Numbers, steps and cases; beyond its end a case stays as it ended."""
@@ -309,7 +325,8 @@ def _kept_run(settings: Any, steps: _Steps) -> Any:
         engaging: bool,
         note: Any,
     ) -> tuple[Any, Any, Any]:
-        if engaging:
+        # Without a note only the end is asked for.
+        if engaging and note is not None:
             steps.begin(moving[2].active)
         for _ in range(40 * settings.steps):
             active = moving[2].active
@@ -317,7 +334,8 @@ def _kept_run(settings: Any, steps: _Steps) -> Any:
                 break
             wheels = settings.wheels_a, settings.wheels_b
             moving = advance(*fixed, *moving, engaging, moves, *wheels)
-            steps.keep(moving, active)
+            if note is not None:
+                note(moving, active)
         return moving
 
     return run

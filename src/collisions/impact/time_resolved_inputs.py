@@ -447,9 +447,10 @@ def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) 
     """
     if cut is not None:
         return follow_case(inputs, cut, None)
+    from ..kernels.time_resolved import Noted
     from .recorded import curve_of, motions_of, own_axes, start_of
 
-    rows: list[tuple[float, ...]] = []
+    rows = Noted()
     found = follow_case(inputs, lambda value: value, rows)
     if found.history is not None:
         motions = motions_of(rows, found, start_of(inputs, lambda value: value))
@@ -467,9 +468,7 @@ def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) 
     return found
 
 
-def follow_case(
-    inputs: Inputs, cut: Callable[[Any], Any], rows: list[tuple[float, ...]] | None
-) -> Passed:
+def follow_case(inputs: Inputs, cut: Callable[[Any], Any], rows: Any) -> Passed:
     """Step through one case; ``rows`` keeps what moved in every step."""
     # A twentieth of the import of the package, and impulses need none of it.
     from ..engine.float_loops import compile_loop

@@ -83,12 +83,13 @@ def time_resolved(
     bodies: tuple[tuple[Any, ...], tuple[Any, ...]],
     settings: Settings,
     run: Callable[[Settings], Run],
-    note: list[tuple[float, ...]] | None = None,
+    note: Any = None,
 ) -> Passed:
     """Solve one case of floats, or a block of arrays, as ``run`` does; SI in and out.
 
     ``spring`` is the nominal duration or a stiffness, as ``settings.timed`` says. ``bodies`` have
     mass, inertia, velocity, yaw rate, position, and cosine and sine of the heading, or None.
+    ``note``, a ``Noted`` for one case, keeps what moves in every step.
     """
     e, (nx, ny), steps = restitution, normal, run(settings)
     own = [_own(body, *point) for body in bodies]
@@ -165,8 +166,8 @@ def time_resolved(
         braked(b, moving[1], owed, settings.wheels_b),
     )
     separating, slip_after = approach(place_of(contact, a, b, on_a, on_b, passing), on_a, on_b)
-    if note:
-        note[-1] = (*on_a, *on_b, *passing)
+    if isinstance(note, Noted):
+        note[-1:] = [(*on_a, *on_b, *passing)]
     most = contact.stiffness * passing.deepest
     absorbed = 0.5 * most * passing.deepest
     impulse, energy = mass * closing, mass * closing * closing
@@ -241,16 +242,29 @@ def time_resolved(
         # What the steps err by, near a restitution of 1, beyond rounding.
         (loss < -_ROUNDED * absorbed, Status.ENERGY_GAIN),
     )
-    if note and status <= Status.ENERGY_GAIN:
+    if isinstance(note, Noted) and status <= Status.ENERGY_GAIN:
         found["history"] = _history(
             note, contact, start, closing, duration, length, impulse / duration
         )
     return Passed(status=status, **found)
 
 
-def _history(
-    note: list[tuple[float, ...]], contact: Contact, start: list[Motion], *units: float
-) -> tuple[Any, ...]:
+class Noted(list[tuple[float, ...]]):
+    """What moves in every step of one case."""
+
+    def shift(self, some: Any, new: tuple[Any, ...], old: tuple[Any, ...]) -> None:
+        """Let the way end at ``new`` and not at ``old``, by as much as time has passed."""
+        end, was = (
+            np.array([(*on_a, *on_b, *passing)], dtype=np.float64)
+            for on_a, on_b, passing in (new, old)
+        )
+        rows = np.array(self, dtype=np.float64)
+        time = 2 * len(Motion._fields) + Passing._fields.index("time")
+        rows += rows[:, time : time + 1] / was[0, time] * (end - was)
+        self[:] = map(tuple, rows.tolist())
+
+
+def _history(note: Noted, contact: Contact, start: list[Motion], *units: float) -> tuple[Any, ...]:
     """Time, force, crush, delta-V of A and B, and their yaw rates, at the start and after every
     step.
     """
@@ -310,7 +324,7 @@ def _found(
     run: Run,
     usable: Any,
     steps: int,
-    note: list[tuple[float, ...]] | None,
+    note: Any,
 ) -> tuple[tuple[Fixed, Moving], Moving, Any]:
     """The geometry at first contact for which that given is reached at maximum engagement, with the
     motions there.
@@ -399,7 +413,9 @@ def _found(
             here, there, trial, hits = moved_on(off, trial)
             if np.any(hits):
                 begun = _where(hits, _moved_back(*fixed, trial), begun)
-                later = _shifted(fixed[1:], moving, engaged, (here, there), note)
+                later = _shifted(fixed[1:], moving, engaged, (here, there))
+                if note is not None:
+                    note.shift(hits, later, engaged)
                 engaged = _where(hits, later, engaged)
             left = every & (hits ^ True)
             if not np.any(left):
@@ -413,11 +429,9 @@ def _shifted(
     begin: Moving,
     end: Moving,
     ends: tuple[Moving, Moving],
-    note: list[tuple[float, ...]] | None,
 ) -> Moving:
     """The end of a motion, from another start than that from which it was followed: by the
-    difference of two ends. The work of the contact is such that no energy is lost in that, and what
-    was noted on the way takes it by and by.
+    difference of two ends. The work of the contact is such that no energy is lost in that.
     """
     found: list[Any] = []
     wholes: tuple[tuple[Any, ...], ...] = end, *ends
@@ -433,15 +447,6 @@ def _shifted(
     taken = on_a.tyre_work + on_b.tyre_work - passing.work_n - passing.work_t
     gained = _energy(bodies, (on_a, on_b)) - _energy(bodies, begin[:2])
     passing = passing._replace(work_n=passing.work_n + (taken - gained))
-    if note:
-        new, old = (
-            np.array([(*one, *other, *last)], dtype=np.float64)
-            for one, other, last in ((on_a, on_b, passing), end)
-        )
-        rows = np.array(note, dtype=np.float64)
-        time = 2 * len(Motion._fields) + Passing._fields.index("time")
-        rows += rows[:, time : time + 1] / old[0, time] * (new - old)
-        note[:] = map(tuple, rows.tolist())
     return on_a, on_b, passing
 
 
