@@ -864,3 +864,19 @@ def test_only_what_a_reverse_solver_takes_can_have_been_given():
     record["inputs"]["known"] = {"vb_after": 5.0}
     with pytest.raises(col.InputError, match="is no dict of texts"):
         col.Impact.from_dict(record)
+
+
+def test_a_record_of_a_version_without_tyres_replays():
+    """What came later and was not given may be missing from what was asked."""
+    impact = col.eccentric(
+        col.Vehicle(mass=1500.0, vx=13.9, yaw_inertia=2400.0, x=-2.0, y=0.4),
+        col.Vehicle(mass=1200.0, vy=11.1, yaw_inertia=1700.0, x=0.8, y=-1.2),
+        0.1,
+        normal=0.1,
+        point=(0.0, 0.0),
+        friction=0.5,
+    )
+    record = impact.to_dict()
+    for name in ("tyres_a", "tyres_b"):
+        del record["inputs"][name]
+    assert col.Impact.from_dict(record) == impact

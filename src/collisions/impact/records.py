@@ -161,7 +161,8 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
     try:
         if not isinstance(record["format"], str) or record["format"] != FORMAT:
             raise bad_record(f"its format is {shown(record['format'])} and not {FORMAT!r}")
-        found = record["inputs"]
+        # A record of a version without tyres has none.
+        found = {**dict.fromkeys(TYRES_OF), **record["inputs"]}
         model, rule, law = (found[name] for name in _LABELS)
         if rule not in RULES or not isinstance(model, str):
             raise bad_record(f"its model is {shown(model)} and its rule {shown(rule)}")
