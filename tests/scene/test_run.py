@@ -236,7 +236,8 @@ def test_a_car_that_rolls_on_after_a_contact_is_where_its_speed_takes_it() -> No
     assert late.x - early.x == pytest.approx(10.0 * late.vx, rel=1e-6)
     with pytest.raises(col.CollisionsError):
         _ = run.rest["A"]
-    many = run_of(np.array([0.0, 0.3]))
+    with pytest.warns(col.OutOfRangeWarning, match="in 1 of 2 cases .* through each other"):
+        many = run_of(np.array([0.0, 0.3]))
     assert many.status.tolist() == ["ok", "ok"]
     assert many.at(20.0)["A"].x[0] == pytest.approx(early.x, abs=0.02)
     assert many.at(20.0)["A"].vx[1] == 0.0
@@ -300,7 +301,11 @@ def test_a_contact_without_end_leaves_its_case_without_an_answer() -> None:
         movers={"A": car(1000.0, 5.0, 0.0, drag=0.0), **walls},
         contacts=[Contact("left", "A", **rule), Contact("A", "right", **rule)],
     )
-    with pytest.warns(col.CollisionsWarning, match="1 never_ends"):
+    # Below 1 m/s a pair is passed over: the other case goes through a wall in the end.
+    with (
+        pytest.warns(col.OutOfRangeWarning, match="through each other"),
+        pytest.warns(col.CollisionsWarning, match="1 never_ends"),
+    ):
         run = scene.run()
     assert run.status[1] == "never_ends"
     with pytest.raises(col.NoSolutionError, match="a lower restitution") as caught:
@@ -542,3 +547,64 @@ def test_the_tolerance_of_a_contact_is_that_of_solve(tolerance: str) -> None:
     assert impact.model == alone.model
     assert impact.model == ("linear_central" if tolerance == "3 m/s" else "eccentric")
     assert impact.b.delta_v == pytest.approx(alone.b.delta_v, rel=1e-12)
+
+
+DRIVEN = {"normal": 0.0, "model": "linear_central", "at": "touch", "restitution": 0.05}
+
+
+def braked(mass: float, x: float, drag: float, speed: float = 0.0) -> Mover:
+    vehicle = col.Vehicle(mass=mass, vx=speed, x=x, y=0.0, heading=0.0)
+    return Mover(vehicle, outline=(4.6, 1.8), drag=drag)
+
+
+def test_a_striker_that_is_braked_less_is_found_to_go_through_the_struck_car() -> None:
+    """What pushes without a blow is not followed: single cases say so, batches count them."""
+    crash = Scene(
+        movers={"pickup": braked(2359.0, -4.9, 0.1, 13.4), "sedan": braked(1497.0, 0.0, 0.7)},
+        contacts=[Contact("pickup", "sedan", **DRIVEN)],
+    )
+    run = crash.run()
+    assert run.rest["pickup"].x > run.rest["sedan"].x
+    (notice,) = run.findings
+    assert notice.code == "driven_through"
+    assert notice.movers == ("pickup", "sedan")
+    assert "pickup and sedan do not part after their contact" in notice.sentence
+    alike = crash.replace({"pickup.drag": 0.7})
+    assert not alike.run().findings
+    with pytest.warns(col.OutOfRangeWarning, match="in 1 of 2 cases") as warned:
+        crash.replace({"pickup.drag": np.array([0.1, 0.7])}).run()
+    assert warned[0].message.code == "driven_through"
+
+
+def test_a_little_more_push_is_an_overlap_at_rest() -> None:
+    crash = Scene(
+        movers={"pickup": braked(2359.0, -4.9, 0.55, 9.0), "sedan": braked(1497.0, 0.0, 0.7)},
+        contacts=[Contact("pickup", "sedan", **(DRIVEN | {"restitution": 0.0}))],
+    )
+    run = crash.run()
+    overlap = run.rest["pickup"].x + 4.6 - run.rest["sedan"].x
+    assert 0.3 < overlap < 1.8
+    (notice,) = run.findings
+    assert notice.code == "driven_together"
+    assert f"overlap by {overlap:.2g} m" in notice.sentence
+
+
+def test_a_touch_that_was_ahead_and_slow_is_looked_for_again_after_another_impact() -> None:
+    """Of three cars in line: the first would touch the second again at below 1 m/s, but the second
+    is stopped by the third before that, and is struck at 6 m/s.
+    """
+    crash = Scene(
+        movers={
+            "A": braked(2359.0, -4.88, 0.37, 18.8),
+            "B": braked(1497.0, 0.0, 0.49),
+            "C": braked(1950.0, 6.4, 0.49),
+        },
+        contacts=[Contact("A", "B", **DRIVEN), Contact("B", "C", **DRIVEN)],
+    )
+    for restitution in (0.03, 0.04, 0.05, 0.06):
+        changes = {f"contacts[{i}].restitution": restitution for i in range(2)}
+        run = crash.replace(changes).run()
+        assert [(hit.a.before.name, hit.b.before.name) for hit in run.impacts[:3]] == [
+            ("A", "B"), ("B", "C"), ("A", "B"),
+        ]  # fmt: skip
+        assert run.rest["A"].x < run.rest["B"].x < run.rest["C"].x

@@ -47,6 +47,11 @@ MOST_CONTACTS = 20
 _MOST_ROUNDS = 200
 # Outlines overlap at the start beyond this [m].
 _OVERLAPS = 1e-6
+# Two that do not part are driven into each other where they overlap by so much more than at their
+# contact [m].
+_DEEPER = 0.3
+# Later than this [s] motion that nothing slows comes together by rounding alone.
+_SOON = 1e3
 # Faces within this angle [rad] of each other meet face to face.
 _FACE_TO_FACE = math.radians(1.0)
 # A contact at a time that comes within this [s] of a touch is that of the touch.
@@ -98,6 +103,10 @@ class _Between:
         self.rule: int | None = None
         self.timed: list[int] = []
         self.apart: Any = np.ones(count, dtype=bool)
+        # From one to the other along the normal of their last contact; 0 before there was one.
+        self.way: Any = np.zeros((2, count))
+        # How deep the outlines of a single case overlapped at their last contact [m].
+        self.depth = 0.0
         self.least: Any = np.full(count, _LEAST_CLOSING)
         # The next touch and how fast it closes; NaN where it has to be looked for.
         self.touch: Any = np.full(count, np.nan)
@@ -134,6 +143,8 @@ class Followed:
         self.hits: list[Hit] = []
         self.notices: list[Notice] = []
         self.failed: Any = np.full(self.count, "", dtype=object)
+        # Whether two vehicles of a case go through each other after their contact.
+        self.driven: Any = np.zeros(self.count, dtype=bool)
         # The contacts of each case in order, and when they came; -1 and NaN after the last.
         self.rules: Any = np.full((MOST_CONTACTS, self.count), -1)
         self.times: Any = np.full((MOST_CONTACTS, self.count), np.nan)
@@ -352,6 +363,8 @@ class Followed:
             near = ~pair.apart[cases]
             if near.any():
                 begin[near] = first_apart(moving, begin[near], until[near], cases[near], APART)
+                still = np.where(np.isfinite(begin), begin, until)
+                self._note_through(pair, moving, cases[near], still[near])
             touch = first_touch(moving, begin, until, cases)
             pair.apart[cases] = np.isfinite(begin)
             closer = touch.nearest < pair.nearest[cases]
@@ -367,6 +380,44 @@ class Followed:
             pair.touch[over], pair.begun[over], pair.apart[over] = np.nan, touch.time[passes], False
             if not passes.any():
                 return
+
+    def _note_through(self, pair: _Between, moving: Pair, cases: Any, time: Any) -> None:
+        """Note two that were in contact and are on the other side of each other as they part, or as
+        they rest, or overlap more than then: what pushes them without a blow is not followed.
+        """
+        soon = time <= _SOON
+        cases, time = cases[soon], time[soon]
+        if not len(cases):
+            return
+        met, state_a, state_b = moving.at(time, cases)
+        way = pair.way[:, cases]
+        along = way[0] * (state_b[0] - state_a[0]) + way[1] * (state_b[1] - state_a[1])
+        through = along < 0.0
+        self.driven[cases[through]] = True
+        if not self.single or not way.any():
+            return
+        (one, other), at, overlap = pair.names, float(time[0]), -float(met.gap[0])
+        if through[0]:
+            text = (
+                f"{one} and {other} do not part after their contact, and are followed through each "
+                f"other, to the other side at {at:.3g} s: one is slowed less and would push the "
+                "other, which is not followed; their motion from there on is not what happened"
+            )
+            self._notice_once("driven_through", text, at, pair.names)
+        elif overlap > pair.depth + _DEEPER:
+            text = (
+                f"{one} and {other} do not part after their contact, and overlap by {overlap:.2g} "
+                f"m at {at:.3g} s, more than then: what pushes or turns them into each other "
+                "without a blow is not followed"
+            )
+            self._notice_once("driven_together", text, at, pair.names)
+
+    def _notice_once(self, code: str, text: str, time: float, movers: tuple[str, str]) -> None:
+        """Note something of a pair of which the last word counts."""
+        self.notices[:] = [
+            notice for notice in self.notices if (notice.code, notice.movers) != (code, movers)
+        ]
+        self.notices.append(Notice(code, text, time, movers))
 
     def _arrange(self, pair: _Between, cases: Any) -> None:
         """When the impulse of a touch acts."""
@@ -481,6 +532,12 @@ class Followed:
             pair.touched.append((float(pair.touch[0]), float(pair.closing[0])))
         pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
         pair.least[which], pair.begun[which] = _AGAIN, np.nan
+        if self.single and pair.shapes is not None:
+            met, *_ = self._pair(pair).at(time, which)
+            pair.depth = max(-float(met.gap[0]), 0.0)
+        sign = 1.0 if contact.a == pair.names[0] else -1.0
+        for row, part in zip(pair.way, impact.normal, strict=True):
+            row[which] = sign * part
         for other in self._pairs:
             if other is pair or not {contact.a, contact.b} & {*other.names}:
                 continue
@@ -521,6 +578,9 @@ class Followed:
             if touch <= float(struck[0]):
                 pair.touched.append((touch, float(pair.closing[0])))
                 pair.apart[which], pair.begun[which] = False, touch
+        # A touch that was still ahead when it was passed over is none any more.
+        ahead = which[pair.begun[which] > struck]
+        pair.begun[ahead], pair.apart[ahead] = np.nan, True
         # A touch that has begun goes on to its impulse.
         waiting = np.isfinite(pair.due[which]) & (pair.touch[which] <= struck)
         pair.touch[which] = np.where(waiting, pair.touch[which], np.nan)

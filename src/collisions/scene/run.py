@@ -16,6 +16,7 @@ from ..messages.errors import (
     CollisionsError,
     CollisionsWarning,
     InputError,
+    OutOfRangeWarning,
     ShapeError,
 )
 from ..messages.warning import warn_of_cases
@@ -118,6 +119,7 @@ class Run(Frozen, Summarized):
             found = Followed(scene.movers, scene.contacts, ground, scene.order)
         vars(self).update(scene=scene, tolerance=tolerance, _followed=found)
         _warn_of(found, found.failed != "")
+        _warn_of_driven(found)
 
     scene: Scene
     tolerance: float
@@ -713,6 +715,23 @@ def _warn_of(found: Followed, wrong: Any) -> None:
         ),
         {f"without an answer, as {code}": count for code, count in many.items()},
     )
+
+
+def _warn_of_driven(found: Followed) -> None:
+    """Say in how many cases of a batch vehicles go through each other; of a single case that is a
+    finding.
+    """
+    count = int(np.count_nonzero(found.driven & (found.failed == "")))
+    if found.single or not count:
+        return
+    text = (
+        "two vehicles do not part after their contact and are followed through each other: one is "
+        "slowed less and would push the other, which is not followed"
+    )
+    warning = OutOfRangeWarning(
+        f"in {count} of {found.count} cases of the scene {text}", code="driven_through"
+    )
+    warn_of_cases(warning, {text: count})
 
 
 def _tyre_loss(side: Any) -> float:
