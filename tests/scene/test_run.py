@@ -608,3 +608,23 @@ def test_a_touch_that_was_ahead_and_slow_is_looked_for_again_after_another_impac
             ("A", "B"), ("B", "C"), ("A", "B"),
         ]  # fmt: skip
         assert run.rest["A"].x < run.rest["B"].x < run.rest["C"].x
+
+
+def test_what_is_said_of_a_scene_is_in_the_units_of_its_vehicles() -> None:
+    """Distances and closing speeds of refusals and findings, in feet and mph where these were
+    given.
+    """
+    bodies = {
+        "A": col.Vehicle(mass="3300 lb", vx="30 mph", x="-40 ft", y="0 ft", heading="0 deg"),
+        "B": col.Vehicle(mass="2800 lb", vx="0 mph", x="0 ft", y="0 ft", heading="0 deg"),
+    }
+    movers = {
+        name: Mover(body, outline=("15 ft", "6 ft"), drag=0.7) for name, body in bodies.items()
+    }
+    (notice,) = Scene(movers=movers, contacts=[]).run().findings
+    assert "closing by 19.4 mph, and no contact" in notice.sentence
+    far = movers | {
+        "B": Mover(bodies["B"].replace(x="150 ft"), outline=("15 ft", "6 ft"), drag=0.7)
+    }
+    with pytest.raises(col.NoSolutionError, match=r"are 13\d ft apart at their closest"):
+        Scene(movers=far, contacts=[Contact("A", "B", **IN_LINE)]).run()

@@ -33,7 +33,7 @@ li { break-inside: avoid; }
 .filed { margin: 0 0 .6em; color: #444; }
 .stressed { font-weight: bold; border: 2px solid #a01040; padding: .4em .6em; }
 .answer { display: flex; flex-wrap: wrap; gap: 1em; align-items: flex-start; border: 2px solid \
-#1a1a1a; padding: .7em 1em; margin: .6em 0 1em; break-inside: avoid; }
+#1a1a1a; padding: .7em 1em; margin: .6em 0 1em; }
 .answer > div { flex: 1.15 1 20em; min-width: 0; }
 .answer > figure { flex: 1 1 17em; margin: 0; min-width: 0; }
 .answer h2 { border: 0; margin: 0 0 .2em; }

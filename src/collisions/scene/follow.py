@@ -22,6 +22,8 @@ from ..messages.errors import (
     placed,
 )
 from ..quantities.settings import in_si
+from ..quantities.tables import Sentences
+from ..quantities.units import texts_of
 from ..vehicle.vehicle import needed
 from .contact import IN_TIME, USUAL_DELAY, Contact
 from .motion import Course, Ground, body_at
@@ -140,6 +142,10 @@ class Followed:
         self.courses = {
             name: Course(name, mover, ground, self.count) for name, mover in movers.items()
         }
+        # Numbers in sentences, in the units that the vehicles were given in.
+        self._say = Sentences(
+            [text for mover in movers.values() for text in texts_of(mover.vehicle.given)]
+        )
         self.hits: list[Hit] = []
         self.notices: list[Notice] = []
         self.failed: Any = np.full(self.count, "", dtype=object)
@@ -313,7 +319,8 @@ class Followed:
         if self.single and wrong.any():
             one, other = pair.names
             raise InputError(
-                f"the outlines of {one} and {other} overlap by {-float(met.gap[0]):.3g} m "
+                f"the outlines of {one} and {other} overlap by "
+                f"{self._say(-float(met.gap[0]), 'length', 3)} "
                 "at the start, and no contact of these two is at time 0; correct x, y, "
                 f"heading or outline, or write `|Contact({one!r}, {other!r}, ...)|"
                 f'[[contact]] with a = "{one}", b = "{other}"` at 0',
@@ -406,8 +413,9 @@ class Followed:
             self._notice_once("driven_through", text, at, pair.names)
         elif overlap > pair.depth + _DEEPER:
             text = (
-                f"{one} and {other} do not part after their contact, and overlap by {overlap:.2g} "
-                f"m at {at:.3g} s, more than then: what pushes or turns them into each other "
+                f"{one} and {other} do not part after their contact, and overlap by "
+                f"{self._say(overlap, 'length', 2)} at {at:.3g} s, more than then: "
+                "what pushes or turns them into each other "
                 "without a blow is not followed"
             )
             self._notice_once("driven_together", text, at, pair.names)
@@ -659,7 +667,8 @@ class Followed:
         if not contact.touches and apart.any():
             if self.single:
                 raise InputError(
-                    f"{contact.a} and {contact.b} are {float(met.gap[0]):.3g} m apart at "
+                    f"{contact.a} and {contact.b} are "
+                    f"{self._say(float(met.gap[0]), 'length', 3)} apart at "
                     f"{float(time[0]):.4g} s, where contact says that they meet; correct the "
                     "states, `at=` or the outlines, write `at='touch'`, or give `normal=` and "
                     "`point=`",
@@ -837,7 +846,8 @@ class Followed:
             if any(0.0 <= at - time <= _LATE for at in timed):
                 continue
             text = (
-                f"{one} and {other} touch at {time:.3g} s, closing by {closing:.3g} m/s, and no "
+                f"{one} and {other} touch at {time:.3g} s, closing by "
+                f"{self._say(closing, 'speed', 3)}, and no "
                 "contact says what happens; they are followed as if they passed through each other"
             )
             self.notices.append(Notice("touch_without_contact", text, time, pair.names))
@@ -853,7 +863,7 @@ class Followed:
                 f"{contact.b} where the impulse would act"
             )
         else:
-            reason = f"are {near:.3g} m apart at their closest, at {at:.3g} s"
+            reason = f"are {self._say(near, 'length', 3)} apart at their closest, at {at:.3g} s"
         return NoSolutionError(
             f"contacts[{rule}] does not come: {contact.a} and {contact.b} {reason}; correct what "
             "leads there, or leave the contact out",
