@@ -54,6 +54,8 @@ _OVERLAPS = 1e-6
 _DEEPER = 0.3
 # Later than this [s] motion that nothing slows comes together by rounding alone.
 _SOON = 1e3
+# So many moments are looked at for how near two vehicles come that do not touch.
+_LOOKS = 129
 # Faces within this angle [rad] of each other meet face to face.
 _FACE_TO_FACE = math.radians(1.0)
 # A contact at a time that comes within this [s] of a touch is that of the touch.
@@ -854,7 +856,7 @@ class Followed:
 
     def _missing(self, rule: int, contact: Contact) -> CollisionsError:
         pair = next(p for p in self._pairs if {contact.a, contact.b} == {*p.names})
-        near, at = float(pair.nearest[0]), float(pair.nearest_at[0])
+        near, at = self._nearest(pair)
         if not math.isfinite(near):
             reason = "do not part and meet again"
         elif near <= TOUCHING:
@@ -872,6 +874,32 @@ class Followed:
             time=at,
             movers=(contact.a, contact.b),
         )
+
+    def _nearest(self, pair: _Between) -> tuple[float, float]:
+        """How near two vehicles of a single case come to each other [m], and when [s]; infinite
+        where they were not looked for.
+
+        The search for a touch passes over what cannot touch, so that it has seen but a bound.
+        """
+        near, at, one = float(pair.nearest[0]), float(pair.nearest_at[0]), np.zeros(1, dtype=int)
+        if not math.isfinite(near) or near <= TOUCHING:
+            return near, at
+        moving, last = self._pair(pair), float(self._horizon(pair, one)[0])
+
+        def gap(time: float) -> float:
+            return float(moving.at(np.array([time]), one)[0].gap[0])
+
+        times = np.linspace(0.0, min(last, _SOON), _LOOKS).tolist()
+        gaps = [gap(time) for time in times]
+        best = min(range(_LOOKS), key=gaps.__getitem__)
+        low, high = times[max(best - 1, 0)], times[min(best + 1, _LOOKS - 1)]
+        for _ in range(40):
+            one_third, two_thirds = low + (high - low) / 3.0, high - (high - low) / 3.0
+            low, high = (
+                (low, two_thirds) if gap(one_third) <= gap(two_thirds) else (one_third, high)
+            )
+        found = min((gap(time), time) for time in (0.5 * (low + high), times[best]))
+        return found if found[0] < near else (near, at)
 
 
 def _followed(
