@@ -988,3 +988,28 @@ def test_an_island_counts_by_its_evidence():
     # mean, to first order.
     first_order = np.std(np.arange(1.0, 9.0), ddof=1) / math.sqrt(8.0) / 4.5
     assert found.log_evidence_error == pytest.approx(first_order, rel=0.05)
+
+
+def test_a_bare_observation_is_written_in_the_unit_of_what_the_model_predicts():
+    """93112 J beside a prediction in ft·lbf would be read as the larger of the two."""
+
+    def model(speed):
+        impact = col.linear_central(
+            col.Vehicle(mass="3300 lb", vx=speed), col.Vehicle(mass="2800 lb"), 0.1
+        )
+        return {"energy": impact.q.energy_loss, "share": impact.a.delta_v / speed}
+
+    found = posterior(
+        model,
+        {"speed": Uniform("0 mph", "60 mph")},
+        {"energy": (93112.0, 18622.0), "share": (0.5, 0.2)},
+        samples=512,
+        seed=1,
+    )
+    stated = {
+        row[0]: row[1] for part in found.summary("us").parts for row in part.rows if len(row) > 2
+    }
+    assert stated["energy"].endswith("ft*lbf") or stated["energy"].endswith("ft·lbf")
+    number = float(stated["energy"].split(" ± ")[0])
+    assert number == pytest.approx(93112.0 / 1.3558179483314004, rel=1e-4)
+    assert stated["share"] == "0.5 ± 0.2"

@@ -13,9 +13,11 @@ import numpy as np
 
 from ..messages.errors import CollisionsWarning, IllConditionedWarning, InputError
 from ..messages.warning import Note
+from ..quantities.formatting import KIND_OF
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence
 from ..quantities.units import rendered, shown
+from ..uncertainty.distribution import stated_in
 from ..uncertainty.distributions import Censored, Distribution, Normal, Samples, Uniform
 from ..uncertainty.normal import power_of_two
 from ..uncertainty.probability import holds
@@ -285,8 +287,13 @@ class Posterior(SpeedsFound, Summarized):
         return written
 
     def _summary(self, numbers: Cells) -> Summary:
+        kinds = {name: KIND_OF.get(one.unit or "", "") for name, one in self.predicted.items()}
         observed = [
-            (name, str(one), f"{self.residuals[name].over_sigma:+.2f}")
+            (
+                name,
+                stated_in(one, numbers, kinds[name]) if kinds[name] else str(one),
+                f"{self.residuals[name].over_sigma:+.2f}",
+            )
             for name, one in self.observed.items()
         ]
         parts = [

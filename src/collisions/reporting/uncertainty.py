@@ -13,12 +13,12 @@ from ..derivation.explain import kinds_of_answers, spread_of, words_of_answers
 from ..impact.impact import Impact
 from ..kernels.contact_laws import RULES
 from ..messages.errors import InputError
-from ..quantities.formatting import SI_UNITS, typeset, with_decimals
+from ..quantities.formatting import typeset, with_decimals
 from ..quantities.tables import as_sentence
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..scene.run import Run
 from ..uncertainty import Interval, Output, Propagation
-from ..uncertainty.distribution import GivenUnit, from_numbers
+from ..uncertainty.distribution import stated_in
 from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies
 from .render import Sheet, plain
 from .words import Names
@@ -159,12 +159,8 @@ class Spread:
 
 def _in_words(sheet: Sheet, value: Any, kind: str) -> str:
     """What was stated of an input of some kind; bare numbers in the unit of the page."""
-    if value.unit != "":
-        return plain(str(value))
-    unit = GivenUnit(SI_UNITS[kind])
-    unit.written = sheet.system.label(kind)
-    unit.factor = 1.0 / sheet.system.scale(kind)
-    return typeset(str(from_numbers(type(value), unit, value._parts, value._range)))
+    text = stated_in(value, sheet.system, kind)
+    return plain(text) if value.unit != "" else typeset(text)
 
 
 def _ends(value: Any) -> tuple[float, float]:

@@ -14,7 +14,7 @@ import numpy as np
 from ..kernels.elementwise import FINITE, UNCHECKED
 from ..messages.errors import InputError, ShapeError, UnitsError
 from ..quantities.attributes import equal
-from ..quantities.formatting import typeset
+from ..quantities.formatting import SI_UNITS, Numbers, typeset
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
 from ..quantities.units import factor, has_unit, is_quantity, parse, shown, si_unit, unit_as_written
@@ -243,6 +243,18 @@ def from_numbers(
     made = object.__new__(kind)
     made._make(unit, given_range, **parts)
     return made
+
+
+def stated_in(value: Statement, numbers: Numbers, kind: str) -> str:
+    """What was stated of a quantity of this kind; bare numbers in the unit that it is written
+    in.
+    """
+    if value.unit != "":
+        return str(value)
+    unit = GivenUnit(SI_UNITS[kind])
+    unit.written = numbers.label(kind)
+    unit.factor = 1.0 / numbers.scale(kind)
+    return str(from_numbers(type(value), unit, value._parts, value._range))
 
 
 def probability(given: Any, argument: str = "p") -> Any:
