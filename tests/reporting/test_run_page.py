@@ -222,3 +222,9 @@ def test_html_has_both_figures_or_says_how_to_have_them(monkeypatch: pytest.Monk
     page = unescape(col.report(run))
     assert "<svg" not in page
     assert "None: matplotlib cannot be imported here. Install it with: python -m pip" in page
+
+
+def test_a_run_among_other_results_is_refused_with_its_own_page() -> None:
+    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.1)
+    with pytest.raises(col.InputError, match=r"write report\(run\)"):
+        col.report([impact, slid()])

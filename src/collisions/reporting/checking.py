@@ -14,6 +14,7 @@ from ..messages.marked import type_of
 from ..quantities.reading import ArgumentReader, need_one_case, single_number
 from ..quantities.units import shown
 from ..reconstruct import Fit, MomentumSolution, Posterior
+from ..scene.run import Run
 from ..uncertainty import Propagation
 from ..vehicle.outlines import read_outline
 from . import sections
@@ -54,6 +55,13 @@ def results_of(impact: Any, uncertainty: Any) -> list[tuple[Any, Any]]:
             argument="impact",
         )
     for one in impact:
+        if isinstance(one, Run):
+            raise InputError(
+                "impact has a run of a scene in its list, which has a page of its own with a part "
+                "for each impact: write `report(run)`, and `uncertainty=` for what was propagated",
+                code="not_an_impact",
+                argument="impact",
+            )
         need_one_case(one, _RESULTS, "report", instead=NOT_EXPLAINED)
     if uncertainty is None:
         return [(one, None) for one in impact]
