@@ -239,3 +239,23 @@ def test_the_least_model_within_a_tolerance_may_be_that_in_time(at: Any) -> None
     energy = run.energy
     kept = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
     assert kept == pytest.approx(0.0, abs=1e-3 * energy["before"])
+
+
+def test_a_contact_whose_impulse_is_due_while_another_lasts_waits_for_its_end() -> None:
+    """The struck car is touched from behind 13 ms before it is struck; the impulse of that would
+    act within the contact, and acts as it ends.
+    """
+
+    def mover(x: float, vx: float) -> Mover:
+        return Mover(car(x=x, y=0.1 * x, vx=vx), outline=(4.5, 1.8))
+
+    given = {"restitution": 0.1, "friction": 0.5, "at": "touch"}
+    run = Scene(
+        movers={"A": mover(-8.2, 15.0), "B": mover(0.0, 0.0), "C": mover(8.0, -15.0)},
+        contacts=[Contact("A", "B", duration=0.1, **given), Contact("B", "C", **given)],
+    ).run()
+    assert run.pairs[:2] == (("A", "B"), ("B", "C"))
+    first, second = run.times[:2]
+    assert first == pytest.approx((8.2 - 4.5) / 15.0, rel=1e-9)
+    assert (8.0 - 4.5) / 15.0 + 0.03 < first + 0.1
+    assert second == pytest.approx(first + run.impacts[0].pulse.duration, rel=1e-9)
