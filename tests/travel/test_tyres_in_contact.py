@@ -569,3 +569,37 @@ def test_the_wheels_of_a_car_that_is_pushed_aside_drag_along_its_course_at_three
     found = impact.a.tyre_impulse_x, impact.a.tyre_impulse_y
     # The velocities at these moments are those without the tyres, which change them by one percent.
     assert found == pytest.approx(exact, rel=0.02)
+
+
+@pytest.mark.parametrize("law", ["brach", "stronge"])
+def test_the_period_of_deformation_has_the_tyres_of_the_whole_contact(law):
+    """What the tyres gave, given as impulses from outside: every part of the contact is the same,
+    and the derivation agrees with it.
+    """
+    contact = {"normal": 0.0, "point": (0.0, 0.4), "friction": 0.3, "law": law}
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.0, y=0.0, heading=0.0, vx=12.0)
+    b = col.Vehicle(mass=1200, yaw_inertia=1900, x=2.0, y=0.8, heading=1.2, vy=6.0)
+    locked = Tyres(0.7, 1, 2.7, 1.5)
+    impact = col.eccentric(a, b, 0.15, **contact, duration=0.1, tyres_a=locked, tyres_b=locked)
+    pushed = {
+        f"outside_{label}": (side.tyre_impulse_x, side.tyre_impulse_y, side.tyre_moment)
+        for label, side in (("a", impact.a), ("b", impact.b))
+    }
+    given = col.eccentric(a, b, 0.15, **contact, **pushed)
+    for name in (
+        "compression_impulse",
+        "restitution_impulse",
+        "energy_absorbed",
+        "common_velocity",
+    ):
+        assert getattr(impact, name) == pytest.approx(getattr(given, name), rel=1e-12)
+    for label in "ab":
+        own, other = (getattr(one, label).at_compression for one in (impact, given))
+        assert own.vx == pytest.approx(other.vx, rel=1e-12)
+        assert own.yaw_rate == pytest.approx(other.yaw_rate, rel=1e-12)
+    assert "period of deformation" in col.explain(impact)
+    many = col.eccentric(
+        a.replace(vx=np.full(30, 12.0)), b, 0.15, **contact, duration=0.1, tyres_a=locked,
+        tyres_b=locked,
+    )  # fmt: skip
+    assert many.compression_impulse[7] == pytest.approx(impact.compression_impulse, rel=1e-12)

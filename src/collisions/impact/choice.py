@@ -27,6 +27,7 @@ from ..quantities.reading import ArgumentReader, broadcast
 from ..quantities.tables import Cells, Summary, all_numbers, sided
 from ..quantities.units import Value, to_quantity
 from .inputs import (
+    OUTSIDE,
     Inputs,
     ModelName,
     errors_of_missing,
@@ -423,7 +424,7 @@ def until_compressed(
     e, found = inputs.restitution, [getattr(answer, name) for name in names]
     refused = answer.status > Status.ENERGY_GAIN
     if LAWS[inputs.law or BRACH].followed:
-        plastic = replace(inputs, restitution=0.0 * e, given=None)
+        plastic = replace(inputs, restitution=0.0 * e, given=None, **_as_pushed(inputs, answer))
         with quietly():
             if choice is None:
                 answer = solve_inputs(model_of(plastic), plastic, on_failure="nan")
@@ -437,6 +438,21 @@ def until_compressed(
     return (
         [select(e < 0.0, whole, part) for whole, part in pairs] if inputs.incomplete else compressed
     )
+
+
+def _as_pushed(inputs: Inputs, answer: Any) -> dict[str, Any]:
+    """What tyres did during an impulse, as impulses from outside in their place: the same contact
+    up to another moment has the same, and would else be given that of its own motion.
+    """
+    if not inputs.tyres or not hasattr(answer, "tyre_impulse_x_a"):
+        return {}
+    parts = "tyre_impulse_x", "tyre_impulse_y", "tyre_moment"
+    found: dict[str, Any] = dict.fromkeys(("tyres_a", "tyres_b", "duration"))
+    for name in OUTSIDE:
+        pushes = [getattr(answer, f"{part}_{name[-1]}") for part in parts]
+        given = getattr(inputs, name) or (0.0, 0.0, 0.0)
+        found[name] = tuple(one + more for one, more in zip(given, pushes, strict=True))
+    return found
 
 
 @lru_cache(maxsize=64)
