@@ -171,3 +171,23 @@ def test_the_cases_of_a_batch_that_cannot_be_are_nan():
             drag_b=np.array([0.7, 0.7, 0.7, -0.1]),
         )
     assert np.isfinite(found.b.after.vx).tolist() == [True, False, False, False]
+
+
+def test_an_energy_that_two_restitutions_lose_while_tyres_act_is_ambiguous():
+    """Tyres that slow A more than B take from the separation: of 8000 J lost at 5 m/s one bounce
+    gives the one, and another is stopped by them.
+    """
+    given = {"va": 5.0, "vb": 0.0, "duration": "150 ms", "drag_a": 0.5}
+    with pytest.raises(col.AmbiguousSolutionError) as caught:
+        reconstruct.central(1500, 1500, energy_loss=8000.0, **given)
+    assert len(caught.value.solutions) == 2
+    for one in caught.value.solutions:
+        again = reconstruct.central(1500, 1500, restitution=one.restitution, **given)
+        assert again.energy_loss == pytest.approx(8000.0, rel=1e-9)
+        assert again.a.after.vx == pytest.approx(one.a.after.vx, rel=1e-9)
+    first, second = (one.a.after.vx for one in caught.value.solutions)
+    assert abs(first - second) > 0.3
+    many = reconstruct.central(
+        1500, 1500, energy_loss=np.array([8000.0, 8000.0]), on_failure="nan", **given
+    )
+    assert set(many.status.tolist()) == {col.Status.AMBIGUOUS}

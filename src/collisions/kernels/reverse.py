@@ -62,7 +62,9 @@ def inline_speeds(
     if len(v) == 1:
         closing = losing_speed(known["energy_loss"] / reduced, restitution, more)
         return [(closing, restitution * closing + (1.0 - restitution) * more)]
-    return _from_energy(v, share_a, share_b, squared, eps, incomplete)
+    # Where tyres take from the approach, a separation below 0 here may be none of the bodies.
+    both = incomplete or bool(np.any(np.less(more, 0.0)))
+    return _from_energy(v, share_a, share_b, squared, eps, both)
 
 
 def allowed_losses(
@@ -157,9 +159,9 @@ def _names(v: dict[str, Any]) -> tuple[str, str]:
 
 
 def _from_energy(
-    v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, eps: float, incomplete: bool
+    v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, eps: float, both: bool
 ) -> list[Pair]:
-    """With (g - r)(g + r) given."""
+    """With (g - r)(g + r) given; ``both`` asks for a separation speed below 0 too."""
     p, q, difference = _relation(v, share_a, share_b)
     root = np.sqrt(squared)
     match _names(v):
@@ -168,9 +170,7 @@ def _from_energy(
             # Rounding may leave a value below 0 for an impact that loses all it can.
             parting = np.sqrt(np.where((left < 0.0) & (left >= -16.0 * eps * squared), 0.0, left))
             return (
-                [(difference, parting), (difference, -parting)]
-                if incomplete
-                else [(difference, parting)]
+                [(difference, parting), (difference, -parting)] if both else [(difference, parting)]
             )
         case ("va_after", "vb_after"):
             return [(np.hypot(difference, root), difference)]
