@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pickle
+import re
 import subprocess
 import sys
 import warnings
@@ -971,3 +972,33 @@ def test_a_unit_that_pint_refuses_without_a_word_leaves_no_empty_brackets():
     with pytest.raises(col.UnitsError, match=r"'3 dB\*m/s' cannot be taken as m/s") as refused:
         col.Vehicle(mass=1000.0, vx="3 dB*m/s")
     assert "()" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        (
+            {"heading": -90.0},
+            "heading = -90 is read as rad; if degrees were meant, write '-90 deg'",
+        ),
+        ({"heading": np.array([10.0, -90.0])}, "write '-90 deg'"),
+        ({"heading": 90.0}, "write '90 deg'"),
+        ({"yaw_rate": -40.0}, "write '-40 deg/s'"),
+    ],
+)
+def test_a_suspect_number_keeps_its_sign_in_what_to_write(given, says):
+    with pytest.warns(col.SuspectUnitsWarning) as caught:
+        col.Vehicle(mass=1500.0, vx=10.0, **given)
+    assert says in str(caught[0].message)
+
+
+def test_a_suspect_number_of_some_samples_is_counted():
+    """Of a drag that is normal around 1.4, the share above 1.5 and not all samples."""
+    drags = uncertainty.Normal(1.4, 0.3)
+    with pytest.warns(col.CollisionsWarning):
+        found = uncertainty.propagate(
+            lambda drag: {"v": travel.speed(20.0, drag=drag)}, {"drag": drags}, seed=1, samples=4096
+        )
+    (said,) = [one for one in found.statements if "drag = " in one]
+    cases = int(re.match(r"(\d+) of 4096 cases", said)[1])
+    assert 0.3 < cases / 4096 < 0.45

@@ -792,3 +792,13 @@ def test_an_incomplete_impact_has_its_restitution_moved_below_zero():
         assert at["a.delta_v"] == pytest.approx(wanted.a.delta_v, rel=1e-14)
     with pytest.raises(col.InputError, match="restitution must be from 0 to 1"):
         what_if(IMPACT, ranges)
+
+
+def test_the_page_of_an_in_line_answer_with_drags():
+    """The duration and drags that were stated are no results that could change."""
+    found = col.reconstruct.central(
+        1500, 1500, vb=0.0, vb_after="4 km/h", restitution=0.1, duration="100 ms", drag_b=0.7
+    )
+    page = what_if(found, {"restitution": (0.0, 0.4)})
+    assert 'data-path="b.after.vx"' in page
+    assert "reconstruction" not in page

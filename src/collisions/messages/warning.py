@@ -56,13 +56,13 @@ _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 _sampling: ContextVar[list[Noted] | None] = ContextVar("sampling", default=None)
 
 
-def warn(warning: CollisionsWarning) -> None:
+def warn(warning: CollisionsWarning, cases: int | None = None) -> None:
     """Warn at the line of the first caller outside this package; within a study it is noted, as of
-    all cases.
+    so many cases, or of all.
     """
     noted = _sampling.get()
     if noted is not None:
-        noted.append(Noted(warning.marked, type(warning), warning.code, None))
+        noted.append(Noted(warning.marked, type(warning), warning.code, cases))
         return
     level, package = 1, __name__.partition(".")[0]
     frame: Any = sys._getframe()

@@ -231,11 +231,16 @@ def widened(parts: Collection[Any], beside: Iterable[Any] = ()) -> Any:
 
 def largest(value: Any) -> float:
     """The largest magnitude among the numbers, 0 without one; NaN is passed over."""
+    return abs(_farthest(value))
+
+
+def _farthest(value: Any) -> float:
+    """The number of the largest magnitude, with its sign."""
     if not isinstance(value, np.ndarray):
-        return abs(float(value))
+        return float(value)
     # fmin and fmax pass over NaN, and reductions make no temporary.
     low, high = (float(bound.reduce(value, axis=None, initial=0.0)) for bound in (np.fmin, np.fmax))
-    return max(-low, high)
+    return low if -low > high else high
 
 
 def warn_if_large(
@@ -244,8 +249,8 @@ def warn_if_large(
     """Warns that a number without a unit is so large that it may have been meant in one of these
     units.
     """
-    worst = largest(read)
-    if limit < worst < math.inf and not has_unit(given):
+    worst = _farthest(read)
+    if limit < abs(worst) < math.inf and not has_unit(given):
         spelled = " or ".join(f"'{worst:g} {unit}'" for unit in units)
         warn(
             SuspectUnitsWarning(
@@ -254,8 +259,17 @@ def warn_if_large(
                 code="suspect_units",
                 argument=argument,
                 value=worst,
-            )
+            ),
+            _count_beyond(read, limit),
         )
+
+
+def _count_beyond(value: Any, limit: float) -> int | None:
+    """How many numbers of an array are larger than a limit; None of a single number, which all
+    cases have.
+    """
+    beyond = np.abs(value) > limit if isinstance(value, np.ndarray) else None
+    return None if beyond is None else int(np.count_nonzero(beyond))
 
 
 def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
@@ -496,8 +510,8 @@ def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:
     limit = _PLAUSIBLE.get(unit)
     if limit is None:
         return
-    worst = largest(value)
-    if worst > limit and not math.isinf(worst):
+    worst = _farthest(value)
+    if abs(worst) > limit and not math.isinf(worst):
         degrees = "deg" if unit == "rad" else "deg/s"
         warn(
             SuspectUnitsWarning(
@@ -506,7 +520,8 @@ def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:
                 code="suspect_units",
                 argument=argument,
                 value=worst,
-            )
+            ),
+            _count_beyond(value, limit),
         )
 
 

@@ -409,7 +409,9 @@ def _evidence(impact: Impact, observed: Any) -> list[Evidence]:
     origin = impact.reconstruction
     known = () if origin is None else (KNOWN[name] for name in origin.known if name in KNOWN)
     for what, kind, path, _ in known:
-        value = attrgetter(path)(impact) if path else None
+        # What is stated of the contact and not an output of it stays as it was.
+        stated = path.startswith("reconstruction.")
+        value = attrgetter(path)(impact) if path and not stated else None
         if isinstance(value, float) and math.isfinite(value) and path not in (observed or {}):
             found.append(Evidence(what, kind, path, value, value))
     return found
