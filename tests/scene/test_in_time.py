@@ -259,3 +259,16 @@ def test_a_contact_whose_impulse_is_due_while_another_lasts_waits_for_its_end() 
     assert first == pytest.approx((8.2 - 4.5) / 15.0, rel=1e-9)
     assert first + 0.1 > (8.0 - 4.5) / 15.0 + 0.03
     assert second == pytest.approx(first + run.impacts[0].pulse.duration, rel=1e-9)
+
+
+def test_a_drag_does_not_act_during_a_contact_in_time_and_that_is_said() -> None:
+    movers = {
+        "A": Mover(car(x=-8.0, vx=12.0), outline=(4.0, 1.8), drag=0.7),
+        "B": Mover(car(x=0.0), outline=(4.0, 1.8), drag=0.0),
+    }
+    hit = Contact("A", "B", restitution=0.1, friction=0.5, at="touch", duration=0.1)
+    run = Scene(movers=movers, contacts=[hit]).run()
+    (notice,) = [one for one in run.findings if one.code == "drag_during_contact"]
+    assert "the drag of A does not act" in notice.sentence
+    bare = Scene(movers=movers | {"A": movers["A"].replace(drag=0.0)}, contacts=[hit]).run()
+    assert all(one.code != "drag_during_contact" for one in bare.findings)

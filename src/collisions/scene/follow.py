@@ -542,6 +542,8 @@ class Followed:
             pair.touched.append((float(pair.touch[0]), float(pair.closing[0])))
         pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
         pair.least[which], pair.begun[which] = _AGAIN, np.nan
+        if self.single and contact.in_time:
+            self._note_drags(contact, float(time[0]))
         if self.single and pair.shapes is not None:
             met, *_ = self._pair(pair).at(time, which)
             pair.depth = max(-float(met.gap[0]), 0.0)
@@ -552,6 +554,20 @@ class Followed:
             if other is pair or not {contact.a, contact.b} & {*other.names}:
                 continue
             self._disturbed(other, which, (time, ends), before.get(id(other)))
+
+    def _note_drags(self, contact: Contact, time: float) -> None:
+        """Note vehicles whose drag does not act during a contact that is followed in time."""
+        slid = [
+            name
+            for name in (contact.a, contact.b)
+            if self.movers[name].drag is not None and np.any(self.movers[name].drag)
+        ]
+        if slid:
+            text = (
+                f"during the contact of {contact.a} and {contact.b}, which is followed in time, "
+                f"the drag of {' and '.join(slid)} does not act; tyres in place of a drag do"
+            )
+            self.notices.append(Notice("drag_during_contact", text, time, (contact.a, contact.b)))
 
     def _pass_over(self, pair: _Between, which: Any, time: Any) -> None:
         """A touch in which nothing pushes: the search goes on once the two were apart."""
