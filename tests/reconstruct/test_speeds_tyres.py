@@ -191,7 +191,11 @@ def test_speeds_takes_tyres(names):
     assert min(off) < 1e-8
     best = answers[int(np.argmin(off))]
     assert best.inputs.duration == WHEELS["duration"]
-    assert best.statements == ()
+    # Components of recorders are found with the tyres in the balance, other knowns are refined.
+    refined = not any("forward" in name for name in best.reconstruction.known)
+    assert [one[:16] for one in best.statements] == ["found with tyres"] * refined
+    page = col.report(best, form="markdown")
+    assert ("Found with tyres: answers are refined" in page) == refined
     for name, value in known.items():
         if not name.startswith(("ees", "max")):
             assert read(best, name) == pytest.approx(value, rel=1e-8)
@@ -315,3 +319,18 @@ def test_a_contact_that_slid_with_tyres_has_a_bound_that_the_truth_lies_beyond()
         assert abs(found.slip_after) < 1e-6
         assert 0.9 < abs(found.impulse_ratio) / contact["friction"] < 1.0 + 1e-9
         assert found.normal_impulse == pytest.approx(impact.normal_impulse, rel=0.05)
+
+
+def test_speeds_that_no_instant_leads_to_are_refused_with_where_to_look():
+    """12 and 5 m/s have these values by ``eccentric``, and none is found from an instant."""
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2, y=0.3, heading=0, vx=12.0)
+    b = col.Vehicle(mass=1500, yaw_inertia=2500, x=0.9, y=-0.3, heading="90 deg", vy=5.0)
+    locked = Tyres(0.7, 1, 2.7, 1.5)
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, "duration": 0.1}
+    contact |= {"tyres_a": locked, "tyres_b": locked}
+    impact = col.eccentric(a, b, 0.1, **contact)
+    with pytest.raises(col.NoSolutionError, match=r"none there\. .* posterior with wide priors"):
+        reconstruct.speeds(
+            a, b, course_a="0 deg", course_b="90 deg", restitution=0.1,
+            delta_v_a=impact.a.delta_v, energy_loss=impact.energy_loss, **contact,
+        )  # fmt: skip

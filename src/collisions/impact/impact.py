@@ -487,12 +487,14 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
     @property
     def statements(self) -> tuple[str, ...]:
         """What has to be said beside the numbers: of an impact that was found backwards as an
-        instant, how much of delta-V that leaves out, as ``left_out`` estimates it.
+        instant, how much of delta-V that leaves out, as ``left_out`` estimates it; of one that was
+        refined for tyres, that there may be others.
         """
-        from .instant import neglected
+        from .instant import neglected, refined
 
         found = neglected(self)
-        return () if found is None else (found.sentence,)
+        said = () if found is None else (found.sentence,)
+        return (*said, *refined(self))
 
     @derived()
     def complete(self) -> Any:

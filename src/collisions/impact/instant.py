@@ -14,6 +14,11 @@ from ..vehicle.drag import USUAL_DURATION
 from .impact import Impact
 from .left_out import LeftOut, left_out
 
+# Of pairs of known values that are not the components of recorders.
+REFINED = (
+    "answers are refined from those of an instant without tyres, and others may fit that have none "
+    "there"
+)
 # The reverse solvers that take a duration and tyres.
 TAKE_TYRES = ("planar", "speeds")
 
@@ -80,6 +85,16 @@ def neglected(
         f"{_middle(found.duration):.3g} s{median}; {advice}"
     )
     return Neglect(max(share for share in (tyres, motion) if math.isfinite(share)), sentence)
+
+
+def refined(impact: Impact) -> tuple[str, ...]:
+    """That an impact found with tyres is refined from one without, where it is."""
+    origin = impact.reconstruction
+    if origin is None or origin.method != "speeds" or not impact.inputs.tyres:
+        return ()
+    components = any("forward" in name or "left" in name for name in origin.known)
+    energy = any(name.startswith(("energy", "ees")) for name in origin.known)
+    return () if components and not energy else (f"found with tyres: {REFINED}",)
 
 
 def _worst(one: Any, other: Any) -> float:

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES, Inputs, Law, check_flag, read_inputs
+from ..impact.instant import REFINED
 from ..impact.provenance import KNOWN, Reconstruction, bounds_of
 from ..impact.recorded import Axes
 from ..impact.run import error_of, warn_of_refusals
@@ -29,7 +30,7 @@ from ..messages.errors import (
     OutOfRangeWarning,
 )
 from ..messages.hints import hinted
-from ..messages.warning import quietly, warn_of_cases, warn_of_samples
+from ..messages.warning import quietly, state_of_study, warn_of_cases, warn_of_samples
 from ..quantities.directions import Angle, course
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import must_be
@@ -203,7 +204,8 @@ def speeds(
         The wheels that act on the ground meanwhile, as for ``eccentric``. A known delta-V has their
         part in it, which is taken to pass as that of the contact does where axes turn; known
         energies are those of the contact, and not taken together with a recorder, axes or
-        ``slid``.
+        ``slid``. Of other knowns than components the answers are refined from those of an instant
+        without tyres: one that has none there is not found, and ``.statements`` say so.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
@@ -433,6 +435,7 @@ def speeds(
                 return speeds(**{**given, **changes})[0]
 
         if inputs.tyres and not balanced:
+            state_of_study(f"speeds with tyres: {REFINED}", "refined")
             found = _while_tyres_act(cases, scene, found, inputs, known, forward_only)
         if not times:
             state_instant("speeds")
@@ -782,6 +785,14 @@ def _answers(
             say = Sentences(inputs.texts)
             if status == Status.AMBIGUOUS and isinstance(scene, ComponentScene):
                 raise _stuck_or_slid(scene, known, say, ways.again)
+            if inputs.tyres and status == Status.CONTRADICTORY:
+                raise error_of(
+                    status,
+                    f"no speeds were found with which a contact with these tyres has "
+                    f"{' and '.join(known)}: {REFINED}. Give another known in place of one of "
+                    "these, check the courses and the normal, or take `reconstruct.posterior` with "
+                    "wide priors for the speeds, which looks everywhere",
+                )
             raise _refusal(scene, status, known, function, forward_only, say, ways.turned)
         names = (*scene.names, *getattr(scene, "recorders", ()))
         origin = provenance(names, root.condition, count)
