@@ -106,7 +106,7 @@ def _one(way: SimulatedPath, i: int) -> SimulatedPath:
     return SimulatedPath(
         **{name: getattr(way, name)[:, i] for name in curves},
         marks=(),
-        rest=col.Vehicle(mass=float(rest.mass[i]), x=float(rest.x[i]), y=float(rest.y[i])),
+        end=col.Vehicle(mass=float(rest.mass[i]), x=float(rest.x[i]), y=float(rest.y[i])),
     )
 
 

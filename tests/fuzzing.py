@@ -113,6 +113,9 @@ def public() -> dict[str, Any]:
         module = importlib.import_module(f"collisions.{prefix}".rstrip("."))
         for name in getattr(module, "__all__", ()) or [explain.__name__]:
             value = getattr(module, name)
+            # A protocol is for type checkers: nobody calls it.
+            if getattr(value, "_is_protocol", False):
+                continue
             if callable(value) and all(value is not other for other in found.values()):
                 found[f"{prefix}.{name}".lstrip(".")] = value
     for kind in GIVEN_BACK:

@@ -301,6 +301,8 @@ class Course:
         body = self.mover.vehicle
         if len(self.wheels) == 1 and self.wheels[0] is None:
             return speed + reach * turning
+        if body.yaw_inertia is None:
+            return np.inf
         # Wheels may turn the one into the other.
         square = self.ground.taker(cases)(body.yaw_inertia / body.mass)
         return np.sqrt(speed * speed + square * turning * turning) + reach * np.sqrt(

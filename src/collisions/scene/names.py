@@ -478,7 +478,7 @@ def as_function(
     from .run import Run
 
     for argument, listed in (("names", names), ("outputs", outputs)):
-        if isinstance(listed, str) or not isinstance(listed, Iterable):
+        if isinstance(listed, str) or not _can_be_listed(listed):
             raise InputError(
                 f"{argument} must be a list of paths, such as ['Camry.vx'], got {shown(listed)}",
                 code="bad_shape",
@@ -497,3 +497,12 @@ def as_function(
 
     vars(model)["answers_by_case"] = True
     return model
+
+
+def _can_be_listed(value: Any) -> bool:
+    """Whether something is a collection; a Quantity of one number has the method, and is none."""
+    try:
+        iter(value)
+    except TypeError:
+        return False
+    return True
