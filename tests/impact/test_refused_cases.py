@@ -972,6 +972,17 @@ def test_every_output_of_a_refused_case(name: str) -> None:
     assert refused
 
 
+def test_a_start_that_is_hard_to_find_is_found_beside_others() -> None:
+    """Each case of a batch is corrected by what it did itself, however many others are left."""
+    columns = columns_of("time_resolved")
+    (case,) = (number for number, one in enumerate(columns) if one["duration"] == 1.0)
+    found = together(CALLS["time_resolved"], columns)
+    assert found.status[case] == col.Status.OK
+    assert found.closing_speed[case] == pytest.approx(
+        alone("time_resolved", case).closing_speed, rel=1e-9
+    )
+
+
 @pytest.mark.slow
 @settings(max_examples=150, deadline=None, derandomize=True, database=None)
 @given(st.data(), st.sampled_from(sorted(CALLS)))

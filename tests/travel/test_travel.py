@@ -1128,6 +1128,22 @@ def test_refused_paths_of_a_batch_leave_their_neighbours():
     assert np.all(np.isnan(run.drags[0][1:]))
 
 
+@pytest.mark.parametrize("last", [9.1e15, 1e17])
+def test_a_segment_that_is_lost_beside_the_others_has_no_tangent(last):
+    """The way to both of the last points is the same number, so no parabola passes through them."""
+    points, ground = [(0.0, last), (0.0, 0.0), (0.0, 1.0)], {"lock": 1.0, "end_speed": 1.0}
+    with pytest.raises(col.InputError) as caught:
+        travel.path(points, [0.0] * 3, friction=0.125, **ground)
+    assert caught.value.code == "out_of_range"
+    places = [(0.0, np.array([last, 5.0])), *points[1:]]
+    with pytest.warns(col.CollisionsWarning) as warned:
+        run = travel.path(places, [0.0] * 3, friction=np.array([0.125, 0.125]), **ground)
+    (refused,) = [one.message for one in warned if one.message.code == "refused_cases"]
+    assert refused.fields["counts"] == {"out_of_range": 1}
+    for name in ("speed", "course", "yaw_rate", "time", "distance"):
+        assert np.isnan(getattr(run, name)).tolist() == [True, False], name
+
+
 def test_paths_in_units_of_every_kind():
     """Texts, arrays and Quantities of another registry, whole or part by part."""
     other = other_registry()

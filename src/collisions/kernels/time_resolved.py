@@ -2,7 +2,7 @@
 and answered in SI.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from math import nan, pi
 from typing import Any, NamedTuple
@@ -338,7 +338,7 @@ def _found(
     names = ("dx", "dy", "c", "s")
     guess = [*(getattr(one, name) for one in (on_a, on_b) for name in names), passing.c, passing.s]
     left: Any = usable & (passing.closing == passing.closing)
-    older: tuple[list[Any], list[Any]] | None = None
+    older: tuple[tuple[Any, ...], tuple[Any, ...]] | None = None
 
     def ran(step: Any, from_here: list[Any], to: Any) -> tuple[Fixed, Moving, Any, list[Any]]:
         """Start, end, whether they approach there, and what is reached."""
@@ -357,7 +357,7 @@ def _found(
         start, end, approaching, reached = ran(step, guess, None if note is None else note.append)
         off = [new - old for new, old in zip(reached, guess, strict=True)]
         trial = reached if older is None else _secant(reached, off, *older)
-        older = off, reached
+        older = tuple(off), tuple(reached)
         return start, end, approaching, off, trial
 
     def moved_on(off: list[Any], trial: list[Any]) -> tuple[Moving, Moving, list[Any], Any]:
@@ -381,7 +381,8 @@ def _found(
             if not np.any(left):
                 break
             ahead = reached if older is None else _secant(reached, missed, *older)
-            older = missed, reached
+            # The other cases of a block have not been followed here: their secant stays.
+            older = _where(left, (tuple(missed), tuple(reached)), older)
             trial = [select(left, new, old) for new, old in zip(ahead, trial, strict=True)]
         left = every
         return here, there, trial, hits
@@ -490,7 +491,10 @@ def put(parts: Any, some: Any, new: Any) -> Any:
 
 
 def _secant(
-    reached: list[Any], off: list[Any], off_before: list[Any], reached_before: list[Any]
+    reached: Sequence[Any],
+    off: Sequence[Any],
+    off_before: Sequence[Any],
+    reached_before: Sequence[Any],
 ) -> list[Any]:
     """The next guess, from where the last two led and by how much they missed."""
     change = [now - then for now, then in zip(off, off_before, strict=True)]

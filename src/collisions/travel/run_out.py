@@ -327,8 +327,9 @@ def path(
             checks += [("contradictory", np.isnan(answer)) for answer in (*gaps, answered)]
             checks += [("out_of_range", np.isinf(answer)) for answer in (*gaps, answered)]
             checks += [("out_of_range", np.less_equal(gap, 0.0)) for gap in gaps]
+            checks += [("out_of_range", np.isnan(found["course"]))]
             found = settle(found, named, shape, checks)
-        elif not (min(gaps) > 0.0 and math.isfinite(answered)):
+        elif not (min(gaps) > 0.0 and math.isfinite(answered + found["course"])):
             raise out_of_range()
         _warn_of_wide_segments(turned, locks if tyres is None else [0.0] * len(frictions))
         if tyres is None:
@@ -356,8 +357,8 @@ def _run_out(
     window: Any,
     kind: Any,
 ) -> tuple[dict[str, Any], list[Any]]:
-    """The fields of the run-out from plain numbers, one case or many, and the duration of each
-    segment.
+    """The fields of the run-out from plain numbers, one case or many, and what has to be positive
+    and finite of each segment: its duration, and whether it adds to the way and the time before it.
     """
     surveyed = *map(list, zip(*points, strict=True)), list(headings)
     (xs, ys, turned), (at, weights) = smooth(surveyed, window, kind)
@@ -377,12 +378,15 @@ def _run_out(
     )
     speeds = [speed / more for speed, more in zip(speeds, heavier, strict=True)]
     durations = durations_along(lengths, ground.grades, speeds)
+    times = list(accumulate(durations, initial=0.0))
+    # Beside a way or a time that is so much longer a segment is lost, and with it the tangent.
+    adds = [
+        select(one > other, 1.0, 0.0) for sums in (list(at), times) for other, one in pairwise(sums)
+    ]
     found = {
         "speed": speeds[0],
         "course": angle_of(*slopes(surveyed[:2], at, weights, kind)),
-        "yaw_rate": slopes(surveyed[2:], list(accumulate(durations, initial=0.0)), weights, kind)[
-            0
-        ],
+        "yaw_rate": slopes(surveyed[2:], times, weights, kind)[0],
         "time": sum(durations),
         "distance": sum(lengths),
         "straight_course": angle_of(points[-1][0] - points[0][0], points[-1][1] - points[0][1]),
@@ -390,7 +394,7 @@ def _run_out(
         "crab_angles": tuple(crabs),
         "drags": tuple(drags),
     }
-    return found, durations
+    return found, durations + adds
 
 
 def _drags(
