@@ -429,7 +429,7 @@ def test_a_deceleration_is_taken_on_the_level():
         ({"drag": np.array([0.7, 70.0, math.nan])}, "'70 m/s**2' or '70 %'"),
         (
             {"drag": 0.7, "grade": -4},
-            "grade = 4 is read as the rise over the run; if another unit was meant, write '4 %'",
+            "grade = -4 is read as the rise over the run; if another unit was meant, write '-4 %'",
         ),
     ],
 )
