@@ -578,7 +578,10 @@ def test_one_case_equals_the_same_case_in_a_batch(
     """
     scene, answer = data.draw(scenes(model, constraint, law))
     impact = solved(model, scene)
-    batch = solved_together(model, [scene, replace(scene, restitution=0.5), scene])
+    with warnings.catch_warnings():
+        # The case between, of another restitution, may have no answer.
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        batch = solved_together(model, [scene, replace(scene, restitution=0.5), scene])
     assert batch.normal_impulse.shape == (3,)
 
     class Case:
