@@ -488,13 +488,13 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
     def statements(self) -> tuple[str, ...]:
         """What has to be said beside the numbers: of an impact that was found backwards as an
         instant, how much of delta-V that leaves out, as ``left_out`` estimates it; of one that was
-        refined for tyres, that there may be others.
+        found with tyres, that there may be others.
         """
-        from .instant import neglected, refined
+        from .instant import looked_for, neglected
 
         found = neglected(self)
         said = () if found is None else (found.sentence,)
-        return (*said, *refined(self))
+        return (*said, *looked_for(self))
 
     @derived()
     def complete(self) -> Any:

@@ -15,9 +15,9 @@ from .impact import Impact
 from .left_out import LeftOut, left_out
 
 # Of pairs of known values that are not the components of recorders.
-REFINED = (
-    "answers are refined from those of an instant without tyres, and others may fit that have none "
-    "there"
+LOOKED_FOR = (
+    "answers are looked for from those of an instant without tyres and from a grid of other "
+    "speeds, and one that none of these leads to is missed"
 )
 # The reverse solvers that take a duration and tyres.
 TAKE_TYRES = ("planar", "speeds")
@@ -87,14 +87,14 @@ def neglected(
     return Neglect(max(share for share in (tyres, motion) if math.isfinite(share)), sentence)
 
 
-def refined(impact: Impact) -> tuple[str, ...]:
-    """That an impact found with tyres is refined from one without, where it is."""
+def looked_for(impact: Impact) -> tuple[str, ...]:
+    """How the speeds of an impact with tyres were looked for, where others may have been missed."""
     origin = impact.reconstruction
     if origin is None or origin.method != "speeds" or not impact.inputs.tyres:
         return ()
     components = any("forward" in name or "left" in name for name in origin.known)
     energy = any(name.startswith(("energy", "ees")) for name in origin.known)
-    return () if components and not energy else (f"found with tyres: {REFINED}",)
+    return () if components and not energy else (f"found with tyres: {LOOKED_FOR}",)
 
 
 def _worst(one: Any, other: Any) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES, Inputs, Law, check_flag, read_inputs
-from ..impact.instant import REFINED
+from ..impact.instant import LOOKED_FOR
 from ..impact.provenance import KNOWN, Reconstruction, bounds_of
 from ..impact.recorded import Axes
 from ..impact.run import error_of, warn_of_refusals
@@ -56,7 +56,7 @@ from .recorder_place import RecorderScene, by_own_names, read_recorders
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import CONTRADICTION, MAY_SLIDE, ComponentScene, friction_shown
-from .speeds_tyres import Attempt, in_balance, speeds_with_tyres
+from .speeds_tyres import Attempt, in_balance, other_starts, speeds_with_tyres
 
 # What may be known: any two, or else components of delta-V, with speeds or without.
 _TWO_OF = (
@@ -71,8 +71,6 @@ _COMPONENTS = tuple(f"delta_v_{part}_{label}" for label in "ab" for part in ("fo
 _LATERAL = (
     "recorders count lateral delta-V as positive to the right, delta_v_left is positive to the left"
 )
-# Of the speeds: refined answers that differ by no more are one.
-_ONE_ANSWER = 1e-6
 # Above this restitution hardly any energy is lost along the normal.
 _ELASTIC = 1.0 - 1e-6
 # Distances of two answers whose ratio is less: the fold, quadratic, is as near as the samples are
@@ -130,9 +128,8 @@ def speeds(
     """Impact speeds of both vehicles from the geometry of the impact and two known quantities.
 
     The model is that of ``eccentric``: lever arms, rotation, friction and both laws. All pairs of
-    speeds that fit are returned. With ``duration`` and ``tyres_a``, ``tyres_b`` each answer of the
-    instant is refined to the speeds for which ``eccentric`` with the same arguments has what is
-    known.
+    speeds that fit are returned. With ``duration`` and ``tyres_a``, ``tyres_b`` they are those at
+    which ``eccentric`` with the same arguments has what is known.
 
     Parameters
     ----------
@@ -204,8 +201,9 @@ def speeds(
         The wheels that act on the ground meanwhile, as for ``eccentric``. A known delta-V has their
         part in it, which is taken to pass as that of the contact does where axes turn; known
         energies are those of the contact, and not taken together with a recorder, axes or
-        ``slid``. Of other knowns than components the answers are refined from those of an instant
-        without tyres: one that has none there is not found, and ``.statements`` say so.
+        ``slid``. From other knowns than components, answers are looked for from those of an instant
+        without tyres and from a grid of other speeds: one that none of these leads to is missed, as
+        ``.statements`` say.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
@@ -435,7 +433,7 @@ def speeds(
                 return speeds(**{**given, **changes})[0]
 
         if inputs.tyres and not balanced:
-            state_of_study(f"speeds with tyres: {REFINED}", "refined")
+            state_of_study(f"speeds with tyres: {LOOKED_FOR}", "looked_for")
             found = _while_tyres_act(cases, scene, found, inputs, known, forward_only)
         if not times:
             state_instant("speeds")
@@ -789,7 +787,7 @@ def _answers(
                 raise error_of(
                     status,
                     f"no speeds were found with which a contact with these tyres has "
-                    f"{' and '.join(known)}: {REFINED}. Give another known in place of one of "
+                    f"{' and '.join(known)}: {LOOKED_FOR}. Give another known in place of one of "
                     "these, check the courses and the normal, or take `reconstruct.posterior` with "
                     "wide priors for the speeds, which looks everywhere",
                 )
@@ -945,29 +943,39 @@ def _while_tyres_act(
     known: dict[str, Any],
     forward_only: bool,
 ) -> list[tuple[Root, Any]]:
-    """Each root refined for a contact in which the tyres act, and where there is one; those that
-    come to another are left out.
+    """The roots of a contact in which the tyres act, in order, and where each is: those to which
+    the roots of the instant and other speeds lead.
     """
     directions = {
         label: (scene.numbers[f"course_{label}[0]"], scene.numbers[f"course_{label}[1]"])
         for label in "ab"
     }
-    refined: list[tuple[Root, Any]] = []
-    for root, there in found:
-        instant = root.speed_a * scene.speed_unit, root.speed_b * scene.speed_unit
-        start = tuple(np.where(there, speed, np.nan) for speed in instant)
-        one, other, settled = speeds_with_tyres(
-            inputs, directions, (start[0], start[1]), known, cases.shape or ()
+    shape, unit = cases.shape or (), scene.speed_unit
+    starts = [
+        tuple(np.where(there, speed * unit, np.nan) for speed in (root.speed_a, root.speed_b))
+        for root, there in found
+    ]
+    starts += other_starts(inputs, known, shape)
+    if not starts:
+        return []
+    begins = np.stack([np.stack(np.broadcast_arrays(*start)) for start in starts], axis=1)
+    answer = speeds_with_tyres(
+        inputs, directions, (begins[0], begins[1]), known, (len(starts), *shape)
+    )
+    roots = []
+    for i in range(len(starts)):
+        instant = found[i][0] if i < len(found) else NO_ROOT
+        condition = instant.condition if answer.condition is None else answer.condition[i]
+        roots.append(
+            Root(
+                answer.speed_a[i] / unit,
+                answer.speed_b[i] / unit,
+                np.where(np.isfinite(answer.speed_a[i]), inputs.restitution, np.nan),
+                condition,
+                np.where(answer.settled[i], answer.closing[i] / unit, np.nan),
+            )
         )
-        size = np.hypot(one, other)
-        if forward_only:
-            settled = settled & (np.minimum(one, other) >= -ROOT_TOL * size)
-        root = root._replace(speed_a=one / scene.speed_unit, speed_b=other / scene.speed_unit)
-        for earlier, before in refined:
-            apart = abs(earlier.speed_a - root.speed_a) + abs(earlier.speed_b - root.speed_b)
-            settled = settled & ~(before & (apart * scene.speed_unit <= _ONE_ANSWER * size))
-        refined.append((root, settled))
-    return [(root, settled) for root, settled in refined if np.any(settled)]
+    return _in_order(scene, roots, forward_only)
 
 
 def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> None:

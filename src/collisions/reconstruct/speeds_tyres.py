@@ -3,7 +3,7 @@
 
 From components of delta-V they are found as without tyres, with the impulse of the tyres in the
 balance. It follows from the speeds that are found, so they are found again with it until it changes
-no more. Other pairs are refined by Newton's method.
+no more. Other pairs are found by Newton's method from the instant and from other speeds.
 """
 
 from __future__ import annotations
@@ -34,6 +34,21 @@ _SAME, _STEADY, _ROUNDS = 1e-12, 1e-9, 64
 _ONE_ANSWER = 1e-6
 # The second of a pair that together is one energy.
 _STANDS_FOR_NONE = ("ees_b", "max_crush_speed_b")
+# Speeds that are tried beside those of the instant, as parts of what the known values stand for:
+# where tyres weigh much there are answers that have none there.
+_PARTS = (0.1, 0.3, 0.6, 1.0, 1.5)
+
+
+class Found(NamedTuple):
+    """Speeds of A and B along their courses, where they have what was known, the closing speed, and
+    the condition, None where it is that of the instant.
+    """
+
+    speed_a: Any
+    speed_b: Any
+    settled: Any
+    closing: Any
+    condition: Any
 
 
 class Attempt(NamedTuple):
@@ -142,8 +157,8 @@ def speeds_with_tyres(
     instant: tuple[Any, Any],
     known: Mapping[str, Any],
     shape: tuple[int, ...],
-) -> tuple[Any, Any, Any]:
-    """Speeds of A and B along their courses, and where they were found.
+) -> Found:
+    """Speeds of A and B along their courses at which a contact with these tyres has what was known.
 
     ``inputs`` are those of ``eccentric`` with duration and tyres, in which the velocities count for
     nothing; ``directions`` has cosine and sine of each course by "a" and "b", ``instant`` the
@@ -174,7 +189,16 @@ def speeds_with_tyres(
 
     rows = slopes_at(inputs_at, start, sizes, off)
     if len(rows) == 2:
-        return _found(*settle(inputs_at, start, sizes, off))
+        values, settled = settle(inputs_at, start, sizes, off)
+        slopes = slopes_at(inputs_at, values, sizes, off)
+        closing = _closing(inputs_at(values))
+        weights = [
+            _as_speed(name, value, known, inputs)
+            for name, value in known.items()
+            if name not in _STANDS_FOR_NONE
+        ]
+        condition = _condition(slopes, sizes, weights, closing)
+        return Found(values[0], values[1], settled, closing, condition)
 
     exact = [
         not name.startswith(("delta_v_forward", "delta_v_left"))
@@ -199,11 +223,66 @@ def speeds_with_tyres(
         )
         return [*met, rest][:2]
 
-    return _found(*settle(inputs_at, start, sizes, equations))
+    values, settled = settle(inputs_at, start, sizes, equations)
+    return Found(values[0], values[1], settled, _closing(inputs_at(values)), None)
 
 
-def _found(values: Sequence[Any], settled: Any) -> tuple[Any, Any, Any]:
-    return values[0], values[1], settled
+def other_starts(
+    inputs: Inputs, known: Mapping[str, Any], shape: tuple[int, ...]
+) -> list[tuple[Any, Any]]:
+    """Speeds to begin from beside those of the instant; none where more than two values are known.
+
+    The largest is one and a half times what all known values together stand for.
+    """
+    alone = [name for name in known if name not in _STANDS_FOR_NONE]
+    if len(alone) != 2 or any("forward" in name or "left" in name for name in alone):
+        return []
+    # Of an energy its relative error counts half in the speed that it stands for.
+    sizes = [
+        _as_speed(name, known[name], known, inputs) * (2.0 if name == "energy_loss" else 1.0)
+        for name in alone
+    ]
+    most = np.broadcast_to(np.asarray(2.0 * sum(sizes), dtype=np.float64), shape)
+    of_each = [
+        [np.broadcast_to(np.asarray(known[f"speed_{label}"], dtype=np.float64), shape)]
+        if f"speed_{label}" in known
+        else [part * most for part in _PARTS]
+        for label in "ab"
+    ]
+    return [(one, other) for one in of_each[0] for other in of_each[1]]
+
+
+def _closing(inputs: Inputs) -> Any:
+    with quietly(), np.errstate(all="ignore"):
+        return solve_inputs(ECCENTRIC, inputs, "nan").closing_speed
+
+
+def _condition(
+    slopes: Sequence[Sequence[Any]], sizes: Sequence[Any], weights: Sequence[Any], closing: Any
+) -> Any:
+    """By how much relative errors of what was known grow in the speeds, in closing speeds: by the
+    inverse of how the known values change with the speeds; infinite where they do not.
+    """
+    with np.errstate(all="ignore"):
+        (p, q), (r, s) = (
+            [part * size for part, size in zip(row, sizes, strict=True)] for row in slopes
+        )
+        determinant = p * s - q * r
+        moved = (abs(s) + abs(r)) * weights[0] + (abs(q) + abs(p)) * weights[1]
+        found = moved / abs(determinant * closing)
+        return np.where(np.isfinite(found), found, np.inf)
+
+
+def _as_speed(name: str, value: Any, known: Mapping[str, Any], inputs: Inputs) -> Any:
+    """What a known value changes by, as a speed, where it changes by the whole of itself."""
+    masses = inputs.a.mass, inputs.b.mass
+    if name == "energy_loss":
+        return 0.5 * np.sqrt(2.0 * abs(value) / np.minimum(*masses))
+    if name.startswith(("ees", "max_crush")):
+        other = known[f"{name[:-1]}b"]
+        energy = energy_of_speeds(masses[0], value, masses[1], other)
+        return np.sqrt(2.0 * energy / np.minimum(*masses))
+    return abs(value)
 
 
 def _missed(

@@ -17,7 +17,7 @@ from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note
 from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
-from ..impact.instant import neglected, refined
+from ..impact.instant import looked_for, neglected
 from ..impact.left_out import LeftOutSide, left_out
 from ..impact.models import BY_NAME
 from ..kernels.contact_laws import FRICTION, LAWS
@@ -468,7 +468,7 @@ def assumptions(
         neglect = None if found is None else neglected(impact, found)
         if neglect is not None:
             sheet.say(as_sentence(neglect.sentence))
-        for sentence in refined(impact):
+        for sentence in looked_for(impact):
             sheet.say(as_sentence(sentence))
     sheet.heading("Assumptions")
     lines = [("Model:", BY_NAME[impact.model].assumptions)]

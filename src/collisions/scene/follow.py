@@ -52,6 +52,8 @@ _OVERLAPS = 1e-6
 # Two that do not part are driven into each other where they overlap by so much more than at their
 # contact [m].
 _DEEPER = 0.3
+# Between their contact and the time they part, where it is looked how deep they are.
+_SHARES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 # Later than this [s] motion that nothing slows comes together by rounding alone.
 _SOON = 1e3
 # So many moments are looked at for how near two vehicles come that do not touch.
@@ -109,8 +111,9 @@ class _Between:
         self.apart: Any = np.ones(count, dtype=bool)
         # From one to the other along the normal of their last contact; 0 before there was one.
         self.way: Any = np.zeros((2, count))
-        # How deep the outlines of a single case overlapped at their last contact [m].
-        self.depth = 0.0
+        # When that was [s], and how deep their outlines overlapped [m].
+        self.struck: Any = np.zeros(count)
+        self.depth: Any = np.zeros(count)
         self.least: Any = np.full(count, _LEAST_CLOSING)
         # The next touch and how fast it closes; NaN where it has to be looked for.
         self.touch: Any = np.full(count, np.nan)
@@ -151,8 +154,10 @@ class Followed:
         self.hits: list[Hit] = []
         self.notices: list[Notice] = []
         self.failed: Any = np.full(self.count, "", dtype=object)
-        # Whether two vehicles of a case go through each other after their contact.
+        # Whether two vehicles of a case go through or into each other after their contact, and
+        # whether a drag does not act in one that is followed in time.
         self.driven: Any = np.zeros(self.count, dtype=bool)
+        self.dragless: Any = np.zeros(self.count, dtype=bool)
         # The contacts of each case in order, and when they came; -1 and NaN after the last.
         self.rules: Any = np.full((MOST_CONTACTS, self.count), -1)
         self.times: Any = np.full((MOST_CONTACTS, self.count), np.nan)
@@ -372,8 +377,7 @@ class Followed:
             near = ~pair.apart[cases]
             if near.any():
                 begin[near] = first_apart(moving, begin[near], until[near], cases[near], APART)
-                still = np.where(np.isfinite(begin), begin, until)
-                self._note_through(pair, moving, cases[near], still[near])
+                self._note_through(pair, moving, cases[near], begin[near])
             touch = first_touch(moving, begin, until, cases)
             pair.apart[cases] = np.isfinite(begin)
             closer = touch.nearest < pair.nearest[cases]
@@ -390,35 +394,49 @@ class Followed:
             if not passes.any():
                 return
 
-    def _note_through(self, pair: _Between, moving: Pair, cases: Any, time: Any) -> None:
-        """Note two that were in contact and are on the other side of each other as they part, or as
-        they rest, or overlap more than then: what pushes them without a blow is not followed.
+    def _note_through(self, pair: _Between, moving: Pair, cases: Any, parts: Any) -> None:
+        """Note two that were in contact and go through each other before they part, or rest in each
+        other deeper than they were then: what pushes them without a blow is not followed.
+
+        ``parts`` is when they are apart [s]; not finite where they never are.
         """
-        soon = time <= _SOON
-        cases, time = cases[soon], time[soon]
+        had = np.any(pair.way[:, cases] != 0.0, axis=0)
+        cases, parts = cases[had], parts[had]
+        apart = np.isfinite(parts)
+        one, other = (self.courses[name] for name in pair.names)
+        ends = np.where(apart, parts, np.maximum(one.rests_of(cases), other.rests_of(cases)))
+        soon = ends <= _SOON
+        cases, apart, ends = cases[soon], apart[soon], ends[soon]
         if not len(cases):
             return
-        met, state_a, state_b = moving.at(time, cases)
+        met, state_a, state_b = moving.at(ends, cases)
         way = pair.way[:, cases]
-        along = way[0] * (state_b[0] - state_a[0]) + way[1] * (state_b[1] - state_a[1])
-        through = along < 0.0
-        self.driven[cases[through]] = True
-        if not self.single or not way.any():
+        beyond = way[0] * (state_b[0] - state_a[0]) + way[1] * (state_b[1] - state_a[1]) < 0.0
+        overlap = np.where(apart, 0.0, -met.gap)
+        # One that only glances off may be beyond the other too, but not by way of its middle.
+        some = np.flatnonzero(beyond & apart)
+        for share in _SHARES if len(some) else ():
+            begun = pair.struck[cases[some]]
+            between, *_ = moving.at(begun + share * (ends[some] - begun), cases[some])
+            overlap[some] = np.maximum(overlap[some], -between.gap)
+        driven = overlap > pair.depth[cases] + _DEEPER
+        self.driven[cases[driven]] = True
+        if not self.single or not driven[0]:
             return
-        (one, other), at, overlap = pair.names, float(time[0]), -float(met.gap[0])
-        if through[0]:
+        (first, second), at = pair.names, float(ends[0])
+        deep = self._say(float(overlap[0]), "length", 2)
+        if beyond[0]:
             text = (
-                f"{one} and {other} do not part after their contact, and are followed through each "
-                f"other, to the other side at {at:.3g} s: one is slowed less and would push the "
-                "other, which is not followed; their motion from there on is not what happened"
+                f"{first} and {second} do not part after their contact, and are followed through "
+                f"each other, to the other side at {at:.3g} s: one is slowed less and would push "
+                "the other, which is not followed; their motion from there on is not what happened"
             )
             self._notice_once("driven_through", text, at, pair.names)
-        elif overlap > pair.depth + _DEEPER:
+        else:
             text = (
-                f"{one} and {other} do not part after their contact, and overlap by "
-                f"{self._say(overlap, 'length', 2)} at {at:.3g} s, more than then: "
-                "what pushes or turns them into each other "
-                "without a blow is not followed"
+                f"{first} and {second} do not part after their contact, and overlap by {deep} at "
+                f"{at:.3g} s, more than then: what pushes or turns them into each other without a "
+                "blow is not followed"
             )
             self._notice_once("driven_together", text, at, pair.names)
 
@@ -542,11 +560,11 @@ class Followed:
             pair.touched.append((float(pair.touch[0]), float(pair.closing[0])))
         pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
         pair.least[which], pair.begun[which] = _AGAIN, np.nan
-        if self.single and contact.in_time:
-            self._note_drags(contact, float(time[0]))
-        if self.single and pair.shapes is not None:
+        if contact.in_time:
+            self._note_drags(contact, which, time)
+        if pair.shapes is not None:
             met, *_ = self._pair(pair).at(time, which)
-            pair.depth = max(-float(met.gap[0]), 0.0)
+            pair.struck[which], pair.depth[which] = time, np.maximum(-met.gap, 0.0)
         sign = 1.0 if contact.a == pair.names[0] else -1.0
         for row, part in zip(pair.way, impact.normal, strict=True):
             row[which] = sign * part
@@ -555,19 +573,20 @@ class Followed:
                 continue
             self._disturbed(other, which, (time, ends), before.get(id(other)))
 
-    def _note_drags(self, contact: Contact, time: float) -> None:
+    def _note_drags(self, contact: Contact, which: Any, time: Any) -> None:
         """Note vehicles whose drag does not act during a contact that is followed in time."""
-        slid = [
-            name
-            for name in (contact.a, contact.b)
-            if self.movers[name].drag is not None and np.any(self.movers[name].drag)
-        ]
-        if slid:
+        drags = {name: self.movers[name].drag for name in (contact.a, contact.b)}
+        slid = [name for name, drag in drags.items() if drag is not None and np.any(drag)]
+        if not slid:
+            return
+        self.dragless[which] = True
+        if self.single:
             text = (
                 f"during the contact of {contact.a} and {contact.b}, which is followed in time, "
                 f"the drag of {' and '.join(slid)} does not act; tyres in place of a drag do"
             )
-            self.notices.append(Notice("drag_during_contact", text, time, (contact.a, contact.b)))
+            names = contact.a, contact.b
+            self.notices.append(Notice("drag_during_contact", text, float(time[0]), names))
 
     def _pass_over(self, pair: _Between, which: Any, time: Any) -> None:
         """A touch in which nothing pushes: the search goes on once the two were apart."""

@@ -281,6 +281,16 @@ class Course:
                 found[leg.which[mine]] = leg.rests(mine, known=known)
         return found
 
+    def rests_of(self, cases: Any) -> Any:
+        """The same of some cases, of which alone the motion is followed to its end."""
+        found = np.empty(self.count)
+        for number, leg in enumerate(self.settled()):
+            places = self._places[number][cases]
+            mine = places[(places >= 0) & (self._present[cases] == number)]
+            if len(mine):
+                found[leg.which[mine]] = leg.rests(mine)
+        return found[cases]
+
     def unslowed(self, cases: Any) -> Any:
         """Whether some cases go on and on, as nothing slows them."""
         found = np.zeros(self.count, dtype=bool)

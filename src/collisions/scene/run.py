@@ -119,7 +119,7 @@ class Run(Frozen, Summarized):
             found = Followed(scene.movers, scene.contacts, ground, scene.order)
         vars(self).update(scene=scene, tolerance=tolerance, _followed=found)
         _warn_of(found, found.failed != "")
-        _warn_of_driven(found)
+        _warn_of_notices(found)
 
     scene: Scene
     tolerance: float
@@ -717,21 +717,25 @@ def _warn_of(found: Followed, wrong: Any) -> None:
     )
 
 
-def _warn_of_driven(found: Followed) -> None:
-    """Say in how many cases of a batch vehicles go through each other; of a single case that is a
-    finding.
-    """
-    count = int(np.count_nonzero(found.driven & (found.failed == "")))
-    if found.single or not count:
-        return
-    text = (
-        "two vehicles do not part after their contact and are followed through each other: one is "
-        "slowed less and would push the other, which is not followed"
-    )
-    warning = OutOfRangeWarning(
-        f"in {count} of {found.count} cases of the scene {text}", code="driven_through"
-    )
-    warn_of_cases(warning, {text: count})
+def _warn_of_notices(found: Followed) -> None:
+    """Say of how many cases of a batch that holds of which a single case has a finding."""
+
+    def counted(cases: Any) -> int:
+        return 0 if found.single else int(np.count_nonzero(cases & (found.failed == "")))
+
+    if count := counted(found.driven):
+        text = (
+            "two vehicles do not part after their contact and are followed through or into each "
+            "other: what pushes them without a blow is not followed"
+        )
+        said = f"in {count} of {found.count} cases of the scene {text}"
+        warn_of_cases(OutOfRangeWarning(said, code="driven_through"), {text: count})
+    if count := counted(found.dragless):
+        text = (
+            "a drag does not act during a contact that is followed in time; tyres in its place do"
+        )
+        said = f"in {count} of {found.count} cases of the scene {text}"
+        warn_of_cases(OutOfRangeWarning(said, code="drag_during_contact"), {text: count})
 
 
 def _tyre_loss(side: Any) -> float:
