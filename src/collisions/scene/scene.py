@@ -43,7 +43,9 @@ class Scene(Shown):
     ``run`` follows it from the start until all vehicles rest or go on unhindered. Contacts at
     "touch" are rules and not a list in order: whichever comes next happens, as often as it comes.
     Everything is optional until a step needs it. A driver who brakes or steers on the way, trailers
-    and rollover are not described.
+    and rollover are not described, nor what pushes without a blow: two that stay together after
+    their contact may be driven through each other, which is a finding of a run and a warning of a
+    batch.
 
     Parameters
     ----------
