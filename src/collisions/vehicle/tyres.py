@@ -118,7 +118,7 @@ class Tyres(Shown):
         track: Input,
         *,
         steer: Input = 0.0,
-        cornering: Input = Default(9.5),  # noqa: B008
+        cornering: Input = Default(9.5),  # noqa: B008 - Default cannot change
         height: Input | None = None,
         **unknown: Any,
     ) -> None:
@@ -243,7 +243,7 @@ _HINTS = {
 
 def _given(tyres: Tyres) -> Texts:
     """The texts that the arguments were given as."""
-    texts: Texts = getattr(tyres, "_inputs_as_texts")  # noqa: B009
+    texts: Texts = getattr(tyres, "_inputs_as_texts")  # noqa: B009 - mypy knows no such field
     return texts
 
 
