@@ -51,7 +51,7 @@ struck = Mover(
     tyres=rolls,
 )
 parked = Mover(
-    col.Vehicle(mass="7 t", yaw_inertia=30000, x="6.5 m", y="9 m", heading="90 deg"),
+    col.Vehicle(mass="7 t", yaw_inertia=30000, x="6.5 m", y="7.5 m", heading="90 deg"),
     outline=("6.5 m", "2.4 m"),
     tyres=Tyres(0.7, 1, "3.9 m", "1.9 m"),
 )

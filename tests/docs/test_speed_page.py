@@ -367,7 +367,7 @@ def test_the_other_law_is_compared_where_it_sticks(committed):
 
 
 def test_memory_of_a_batch_is_stated(tables, committed):
-    """All work in blocks: a whole array of a million cases is 7.6 MiB, and left_out has some 150 of
+    """All work in blocks: a whole array of a million cases is 7.6 MiB, and left_out has some 120 of
     a block of 16384 cases.
     """
     taken = committed[0]["memory"]

@@ -2028,6 +2028,7 @@ B = col.Vehicle(mass=1200.0, yaw_inertia=1800.0, vy=9.0, x=0.9, y=-1.0, heading=
         {"answers": 99},
         {"method": "guess"},
         {"known": ["restitution", "energy_loss", "va"]},
+        {"found": ["friction"]},
     ],
 )
 def test_what_a_record_says_of_its_reconstruction_is_worked_out_again(changed):
@@ -2038,3 +2039,42 @@ def test_what_a_record_says_of_its_reconstruction_is_worked_out_again(changed):
             replay(
                 tampered(page, lambda r: r["impact"]["results"]["reconstruction"].update(changed))
             )
+
+
+def _found_from_recorders():
+    """From a recorder off the centre of mass, its place known; and one whose friction was found."""
+    ahead = col.eccentric(A, B, 0.1, normal=0.2, point=(0.0, 0.0), friction=0.3)
+    contact = {"normal": 0.2, "point": (0.0, 0.0), "restitution": 0.1}
+    contact |= {"course_a": 0.0, "course_b": math.pi / 2}
+    yield from reconstruct.speeds(
+        A,
+        B,
+        delta_v_forward_a=ahead.a.delta_v_forward,
+        delta_v_left_a=ahead.a.delta_v_left,
+        recorder_a=(0.4, 0.0),
+        speed_b=9.0,
+        duration=0.1,
+        friction=math.inf,
+        **contact,
+    )
+    yield from reconstruct.speeds(
+        A, B, delta_v_a=ahead.a.delta_v, speed_b=9.0, friction=0.3, **contact
+    )
+
+
+def test_each_number_that_a_record_was_given_leads_to_its_speeds():
+    """Whatever of them is changed, the record is refused."""
+    tried = 0
+    for impact in (*_found(), *_found_from_recorders()):
+        page = report(impact, form="markdown")
+        assert report(replay(page), **options(page)) == page
+        for name in impact.reconstruction.given:
+
+            def change(record, name=name):
+                given = record["impact"]["results"]["reconstruction"]["given"]
+                given[name] = 1.02 * given[name] + 0.01
+
+            with pytest.raises(col.InputError):
+                replay(tampered(page, change))
+            tried += 1
+    assert tried > 20

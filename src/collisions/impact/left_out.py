@@ -155,6 +155,21 @@ def with_motion(impact: Impact, time: Any, geometry: str) -> list[Any]:
         return [None] * 2
     if impact.refused is True or not np.any(placed):
         return [math.nan] * 2
+    # In a function of its own: what it works with is freed before the impact is solved again.
+    bodies, point, normal = _acted_on(impact, point, time, geometry)
+    again = solve_changed(impact, a=bodies[0], b=bodies[1], point=point, normal=normal)
+    return [
+        select(placed, hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy), math.nan)
+        for old, new in ((impact.a, again.a), (impact.b, again.b))
+    ]
+
+
+def _acted_on(
+    impact: Impact, point: Any, time: Any, geometry: str
+) -> tuple[list[Vehicle], Any, Any]:
+    """Both bodies, point and normal as the impulse of a moving contact finds them: where they are
+    on the mean while the force acts, with what the end sees of the velocities.
+    """
     e = impact.restitution
     passed = pulse.mean_passed(e)
     # Shares of the duration times the velocity before, and times its change, that a body has gone
@@ -169,39 +184,37 @@ def with_motion(impact: Impact, time: Any, geometry: str) -> list[Any]:
     # A drift of the closing speed counts most at first for what the spring takes up, and at last
     # for what it gives back.
     taking, giving = pulse.drifting(e)
-    moments = (0.0, 0.0), most, acting, last, taking, (most[0] + giving[0], most[1] + giving[1])
-    start, engaged, mean, end, taken, given_back = (
-        _moved(
-            impact, point, time, *(here - there for here, there in zip(moment, given, strict=True))
-        )
-        for moment in moments
-    )
+
+    def at(moment: tuple[Any, Any]) -> tuple[list[Vehicle], Any, Any]:
+        shares = (here - there for here, there in zip(moment, given, strict=True))
+        return _moved(impact, point, time, *shares)
+
+    def closing(moment: tuple[Any, Any], *shares: Any) -> list[tuple[Any, Any]]:
+        place = at(moment)
+        return [_closing(impact, share, *place) for share in shares]
+
+    bodies, mean_point, (nx, ny) = mean = at(acting)
     # The impulse acts at the mean, but what is left of the velocities at the contact is what the
     # end sees of them.
-    early, late = _closing(impact, 1.0, *mean), _closing(impact, 1.0, *end)
+    early, (late,) = _closing(impact, 1.0, *mean), closing(last, 1.0)
     by_n, by_t = late[0] - early[0], late[1] - early[1]
     # What closes while the spring is pressed, of which restitution gives back a share, and what of
     # that a drift then takes.
-    gained, lost = (
-        _closing(impact, share, *then)[0] - _closing(impact, share, *before)[0]
-        for share, before, then in (
-            (taking[1] / taking[0], start, taken),
-            (pulse.restoring(e), engaged, given_back),
-        )
-    )
-    pressed = _closing(impact, 0.0, *start)[0] + gained
+    share = taking[1] / taking[0]
+    start, at_first = closing((0.0, 0.0), share, 0.0)
+    (taken,) = closing(taking, share)
+    share = pulse.restoring(e)
+    (engaged,) = closing(most, share)
+    (given_back,) = closing((most[0] + giving[0], most[1] + giving[1]), share)
+    gained, lost = taken[0] - start[0], given_back[0] - engaged[0]
+    pressed = at_first[0] + gained
     by_n = (by_n + e * (pressed - _closing(impact, 0.0, *mean)[0]) - lost) / (1.0 + e)
-    bodies, point, (nx, ny) = mean
-    free = next((at for at, body in enumerate(bodies) if body.pivot is None), None)
+    free = next((place for place, body in enumerate(bodies) if body.pivot is None), None)
     if free is not None:
         body, sign = bodies[free], 1.0 - 2.0 * free
         by_x, by_y = nx * by_n - ny * by_t, ny * by_n + nx * by_t
         bodies[free] = body.replace(vx=body.vx + sign * by_x, vy=body.vy + sign * by_y)
-    again = solve_changed(impact, a=bodies[0], b=bodies[1], point=point, normal=(nx, ny))
-    return [
-        select(placed, hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy), math.nan)
-        for old, new in ((impact.a, again.a), (impact.b, again.b))
-    ]
+    return bodies, mean_point, (nx, ny)
 
 
 def _moved(

@@ -6,21 +6,23 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 from operator import attrgetter
-from typing import Any
+from typing import Any, get_args
 
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES
 from ..impact.provenance import KNOWN, Reconstruction
-from ..kernels.contact_laws import BRACH, RULES
+from ..kernels.contact_laws import BRACH, FRICTION, RULES
 from ..messages.errors import AmbiguousSolutionError, CollisionsError
 from ..reconstruct import central, planar, speeds
+from ..reconstruct.planar import Regime
 
 # What is worked out from an answer that was rounded differs in its later digits; a changed record
 # differs in its first ones.
 _SAME_CONDITION = 0.01
 _METHODS = ("central", "planar", "speeds")
+_MOTION = ("vx", "vy", "yaw_rate")
 _AS_ARGUMENTS = {"contact_duration": "duration"}
 _AS_RESULTS = {"restitution": "restitution"} | dict.fromkeys(RULES, "inputs.rule_value")
 
@@ -50,7 +52,17 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
         return
     again = _again(impact, origin)
     if again is None:
+        if origin.given is not None:
+            yield "what it says was given to its reverse solver does not lead to its speeds"
         return
+    # Of a restitution that was a function of the impact the record has the number only.
+    by_function = origin.method == "speeds" and "restitution" in origin.found
+    found = (*again.found, *(("restitution",) if by_function else ()))
+    if set(found) != set(origin.found):
+        yield (
+            f"solving it again finds {', '.join(found) or 'nothing'}, and it says "
+            f"{', '.join(origin.found) or 'nothing'}"
+        )
     if not math.isclose(again.condition, origin.condition, rel_tol=_SAME_CONDITION):
         yield (
             f"its inputs give a condition of {again.condition:.6g}, and it says "
@@ -87,45 +99,92 @@ def _again(impact: Impact, origin: Reconstruction) -> Reconstruction | None:
     Of an answer at a fold, of an infinite range, or near the rounding of its inputs, nothing can be
     worked out again.
     """
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            found = _solved_again(impact, origin)
-    except AmbiguousSolutionError as error:
-        found = error.solutions
-    except (CollisionsError, TypeError):
-        # A known value that the method does not take; such a record was refused above, or is of an
-        # older version.
-        return None
-    near = [
-        one.reconstruction
-        for one in found
-        if _is_same(one, impact) and one.reconstruction is not None
-    ]
-    return near[0] if near else None
+    near: list[Reconstruction] = []
+    # A record of planar does not say whether it was asked how the contact ended.
+    asked = (None, *get_args(Regime)) if origin.method == "planar" else (None,)
+    for regime in asked:
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                found = _solved_again(impact, origin, regime)
+        except AmbiguousSolutionError as error:
+            found = error.solutions
+        except (CollisionsError, TypeError):
+            # A known value that the method does not take; such a record was refused above, or is of
+            # an older version.
+            continue
+        near += [
+            one.reconstruction
+            for one in found
+            if _is_same(one, impact) and one.reconstruction is not None
+        ]
+        if any(one.answers == origin.answers for one in near):
+            break
+    # Of several, the one that leads to what the record says.
+    return max(near, key=lambda one: one.answers == origin.answers, default=None)
 
 
-def _solved_again(impact: Impact, origin: Reconstruction) -> tuple[Any, ...]:
-    """The reverse solver's answers to what the impact shows of its known values."""
+def _solved_again(impact: Impact, origin: Reconstruction, regime: Any) -> tuple[Any, ...]:
+    """The reverse solver's answers to the numbers that it was given; of an earlier version, whose
+    records have no such numbers, to what the impact shows of them.
+    """
     paths = _AS_RESULTS | {name: known.path for name, known in KNOWN.items() if known.path}
-    known = {name: attrgetter(paths[name])(impact) for name in origin.known if name in paths}
-    inputs = impact.inputs
+    inputs, given = impact.inputs, dict(origin.given or {})
+    shown = {name: attrgetter(paths[name])(impact) for name in origin.known if name in paths}
+    # A recorder reads in place of the delta-V of the centre of mass.
+    shown |= {
+        name: given[reading]
+        for name in shown
+        if (reading := name.replace("delta_v", "reading")) in given
+    }
+    known = {name: given.get(name, value) for name, value in shown.items()}
+    recorded = {name for name in origin.known if name.startswith("recorder_")}
+    if not known.keys() | recorded >= set(origin.known) or (recorded and not given):
+        return ()
     contact: dict[str, Any] = {"normal": inputs.normal, "point": inputs.point}
     contact |= {"law": inputs.law or BRACH, "incomplete": inputs.incomplete}
-    if len(known) < len(origin.known):
-        return ()
     wheels = {name: getattr(inputs, name) for name in ("duration", *TYRES)}
     if origin.method == "central":
         known = {_AS_ARGUMENTS.get(name, name): value for name, value in known.items()}
         return (central(inputs.a.mass, inputs.b.mass, **known, incomplete=inputs.incomplete),)
     if origin.method == "planar":
-        return (planar(impact.a.after, impact.b.after, **known, **contact, **wheels),)
+        # What is worked out after it may be rounded to where another answer, or none, is found.
+        after_a, after_b = (
+            getattr(impact, label).after.replace(
+                **{
+                    part: given[name]
+                    for part in _MOTION
+                    if (name := f"{label}_after.{part}") in given
+                }
+            )
+            for label in "ab"
+        )
+        return (planar(after_a, after_b, regime=regime, **known, **contact, **wheels),)
     if any(name.startswith(("delta_v_forward", "delta_v_left")) for name in known):
         slid = None if origin.one_sided is None else "bound"
         contact |= {"regime": origin.regime, "slid": slid}
-    courses = {f"course_{label}": getattr(inputs, label).course for label in "ab"}
-    more: dict[str, Any] = {**courses, **contact, **known, inputs.rule: inputs.rule_value}
+    if recorded:
+        contact |= _recorders(given, recorded)
+        wheels["duration"] = given.get("recorder_duration", inputs.duration)
+    bodies = {
+        f"course_{label}": given.get(f"course_{label}", getattr(inputs, label).course)
+        for label in "ab"
+    }
+    # A friction that was found was given as infinite.
+    rule_value = math.inf if FRICTION in origin.found else inputs.rule_value
+    more: dict[str, Any] = {**bodies, **contact, **known, inputs.rule: rule_value}
     return speeds(inputs.a, inputs.b, restitution=inputs.restitution, **more, **wheels)
+
+
+def _recorders(given: Mapping[str, float], names: Collection[str]) -> dict[str, Any]:
+    """Places and axes of recorders, as arguments of ``speeds``."""
+    found: dict[str, Any] = {
+        name: (given[f"recorder_forward_{name[-1]}"], given[f"recorder_left_{name[-1]}"])
+        for name in ("recorder_a", "recorder_b")
+        if f"recorder_forward_{name[-1]}" in given
+    }
+    axes = [name.removeprefix("recorder_axes_") for name in names if "_axes_" in name]
+    return found | ({"axes": axes[0]} if axes else {})
 
 
 def _is_same(one: Impact, other: Impact) -> bool:
