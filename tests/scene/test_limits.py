@@ -6,6 +6,7 @@ import pytest
 
 import collisions as col
 from collisions.scene import Contact, Mover, Scene
+from collisions.travel import Tyres
 
 BODY = {"mass": 1000.0, "yaw_inertia": 1500.0, "heading": 0.0, "y": 0.0}
 OUTLINE = (4.0, 2.0)
@@ -93,3 +94,29 @@ def test_a_contact_at_a_time_is_that_of_a_touch_half_a_second_before(later, note
     codes = [finding.code for finding in col.diagnose(run)]
     assert ("touch_without_contact" in codes) is noted
     assert run.times[0] == pytest.approx(0.5 + later)
+
+
+@pytest.mark.parametrize("after", [0.05, 0.2, 0.4, 0.6])
+@pytest.mark.parametrize(
+    ("push", "hold"), [(0.02, 1.0), (0.02, 0.3), (0.5, 0.5)], ids=["pushes", "presses", "parts"]
+)
+def test_a_fly_that_hits_one_of_two_in_contact_changes_nothing(push, hold, after):
+    """Nor does it make another impact of them, whether they part or are driven together."""
+    a, b = (
+        Mover(
+            col.Vehicle(**{**BODY, "x": x, "y": y, "vx": vx}),
+            outline=OUTLINE,
+            tyres=Tyres(0.7, lock, 2.6, 1.5),
+        )
+        for x, y, vx, lock in ((0.0, 0.3, 12.0, push), (5.0, 0.0, 0.0, hold))
+    )
+    rule = touching("A", "B", 0.1)
+    alone = Scene(movers={"A": a, "B": b}, contacts=[rule]).run()
+    fly = Mover(col.Vehicle(mass=1e-6, yaw_inertia=1.0, x=50.0, y=0.0, vx=-200.0))
+    at = alone.times[0] + after
+    hit = Contact("A", "fly", restitution=0.0, friction=0.0, normal=0.0, point=(50, 0), at=at)
+    run = Scene(movers={"A": a, "B": b, "fly": fly}, contacts=[rule, hit]).run()
+    assert [pair for pair in run.pairs if "fly" not in pair] == [*alone.pairs]
+    for name in ("A", "B"):
+        assert run.rest[name].x == pytest.approx(alone.rest[name].x, abs=1e-3)
+        assert run.rest[name].y == pytest.approx(alone.rest[name].y, abs=1e-3)

@@ -626,6 +626,7 @@ class Followed:
         # A touch that was still ahead when it was passed over is none any more.
         ahead = which[pair.begun[which] > struck]
         pair.begun[ahead], pair.apart[ahead] = np.nan, True
+        self._not_yet_apart(pair, which, struck)
         # A touch that has begun goes on to its impulse.
         waiting = np.isfinite(pair.due[which]) & (pair.touch[which] <= struck)
         pair.touch[which] = np.where(waiting, pair.touch[which], np.nan)
@@ -640,7 +641,10 @@ class Followed:
         closing, gap, widest = self._closing(pair, which, time)
         least = pair.least[which]
         in_contact = ~pair.apart[which] & ~waiting & (gap < APART)
-        driven = in_contact & (closing >= least) & (before[0] < least)
+        together = in_contact & (closing >= least) & (before[0] < least)
+        driven = together & (gap <= TOUCHING)
+        # Outlines that have parted a little meet anew.
+        pair.apart[which[together & ~driven]] = True
         some = which[driven]
         if not len(some):
             return
@@ -653,6 +657,20 @@ class Followed:
         if contact.from_outlines and bare.any():
             pair.due[which[bare]] = np.inf
             self._arrange(pair, which[bare])
+
+    def _not_yet_apart(self, pair: _Between, which: Any, time: Any) -> None:
+        """Take back that two are apart which are so only later than an impact that comes before:
+        their next touch was looked for from when they part.
+        """
+        if pair.shapes is None:
+            return
+        blow = np.where(np.any(pair.way[:, which] != 0.0, axis=0), pair.struck[which], np.nan)
+        since = np.fmax(blow, pair.begun[which])
+        some = pair.apart[which] & (since < time)
+        if some.any():
+            cases, until = which[some], time[some]
+            parts = first_apart(self._pair(pair), since[some], until, cases, APART)
+            pair.apart[cases] = parts <= until
 
     def _refuse_meanwhile(self, rule: int, contact: Contact, which: Any, time: Any) -> Any:
         """The cases in which no other contact of the two lasts, to which a contact at a time would
