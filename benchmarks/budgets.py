@@ -13,6 +13,7 @@ import argparse
 import ctypes
 import gc
 import json
+import math
 import multiprocessing
 import shutil
 import statistics
@@ -48,6 +49,8 @@ clock = CLOCKS["--busy" in sys.argv]
 effort = 0.1 if "--quick" in sys.argv else 1.0
 SIZES = (10, 100, 1_000, 8_192, 10_000, 100_000, 1_000_000, 10_000_000)
 Calls = dict[str, Callable[[], Any]]
+# A call that another is measured against.
+_FIXED = ", fixed"
 
 
 class Budget(NamedTuple):
@@ -129,6 +132,13 @@ BUDGETS = (
     ),
     Budget("in_time", "one `time_resolved` of 100 steps with a drag against that formula", 2_500.0),
     Budget("in_time_batch", "a batch of 1000 of these, a case against that formula", 400.0),
+    Budget(
+        "engaged",
+        "one `time_resolved` with tyres, places given at maximum engagement, against the same with "
+        "a fixed geometry",
+        2.0,
+    ),
+    Budget("engaged_batch", "a batch of 1000 of these against the same with a fixed geometry", 2.0),
     Budget(
         "required_in_time",
         "one `required_model` with duration and drag against that formula",
@@ -272,10 +282,29 @@ def followed(wanted: set[str]) -> dict[str, float]:
         "in_time_batch": lambda: col.time_resolved(fast, b, 0.1, **lasting, on_failure="nan"),
         "required_in_time": lambda: col.required_model(a, b, 0.1, **lasting, tolerance=0.3),
     }
-    calls = {key: call for key, call in calls.items() if key in wanted}
+    calls |= engaging(a, b, fast, {**CASE, "duration": 0.1, "tyres_a": half, "tyres_b": half})
+    calls = {key: call for key, call in calls.items() if key.removesuffix(_FIXED) in wanted}
     best = fastest({"formula": lambda: speed_rivals.formula(*one), **calls}, 9, 0.004)
     cases = {key: 1000 if key.endswith("batch") else 1 for key in calls} | {"scene_batch": 2000}
-    return {key: best[key] / best["formula"] / cases[key] for key in calls}
+    return {
+        key: best[key] / best[key + _FIXED]
+        if key + _FIXED in calls
+        else best[key] / best["formula"] / cases[key]
+        for key in calls
+        if not key.endswith(_FIXED)
+    }
+
+
+def engaging(a: col.Vehicle, b: col.Vehicle, many: col.Vehicle, contact: dict[str, Any]) -> Calls:
+    """Contacts in time whose start is found, and the same with a geometry that is not to be found;
+    one and many.
+    """
+    calls: Calls = {}
+    facing = b.replace(heading=math.pi / 2)
+    for key, body, more in (("engaged", a, {}), ("engaged_batch", many, {"on_failure": "nan"})):
+        call = partial(col.time_resolved, body.replace(heading=0.0), facing, 0.1, **contact, **more)
+        calls |= {key: call, key + _FIXED: partial(call, geometry="fixed")}
+    return calls
 
 
 def quantities(six: dict[str, float]) -> Calls:

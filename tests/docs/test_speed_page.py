@@ -263,6 +263,8 @@ def test_every_budget_is_that_of_the_design(committed, yardsticks):
         "scene_batch": 200.0,
         "in_time": 2_500.0,
         "in_time_batch": 400.0,
+        "engaged": 2.0,
+        "engaged_batch": 2.0,
         "required_in_time": 900.0,
     }
     for row in committed[0]["budgets"]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+import os
 import random
 from collections.abc import Iterator
 from typing import Any
@@ -18,6 +19,9 @@ from collisions.scene.touching import Meeting, Pair, Shape, first_touch, meeting
 from collisions.travel import Tyres
 
 RULE = {"at": "touch", "restitution": 0.15, "friction": 0.5}
+# So many times ten scenes against an independent integration, which takes its time:
+# COLLISIONS_SCENES=30 has 300 of them.
+GROUPS = int(os.environ.get("COLLISIONS_SCENES", "10"))
 
 
 def car(rng: random.Random, place: tuple[float, float], toward: tuple[float, float]) -> Mover:
@@ -202,7 +206,7 @@ def row_of(body: col.Vehicle) -> Any:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("group", range(30))
+@pytest.mark.parametrize("group", range(GROUPS))
 def test_all_ways_of_a_scene_are_as_an_independent_integration_has_them(group: int) -> None:
     """Ten scenes each, of two to four cars with one to many contacts: from every contact to the
     next, and to rest; at every contact what the outlines do, the balance of momentum, and that of

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import collisions as col
@@ -240,6 +240,8 @@ def test_answers_of_any_kind(call: dict[str, Any], data: Any) -> None:
 
 
 @examples(2)
+@example("latin_hypercube", -1e155, 1e155, 1e155, 0)
+@example("second_order", 1e150, 1e155, 1e150, 0)
 @given(st.sampled_from(METHODS), extreme(), extreme(), extreme(), st.integers(0, 3))
 def test_numbers_of_any_size(
     method: str, middle: float, spread: float, factor: float, registry: int

@@ -17,6 +17,9 @@ def select(condition: Any, yes: Any, no: Any) -> Any:
         return yes
     if condition is False:
         return no
+    if type(condition) is np.ndarray:
+        # Of numpy, whatever the others are: said first, since batches come here most.
+        return np.where(condition, yes, no)
     xp = library(condition, yes, no)
     if xp is not np:
         yes, no = (

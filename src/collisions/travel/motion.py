@@ -367,8 +367,10 @@ def _several(
             | (speed == 0.0)
         )
         moved = rests & (speed > 0.0)
-        noted(moved, _to_rest(state[:10, moved], spin[moved]))
-        noted(goes_on, np.concatenate([state[:10, goes_on], state[7:10, goes_on]]))
+        if moved.any():
+            noted(moved, _to_rest(state[:10, moved], spin[moved]))
+        if goes_on.any():
+            noted(goes_on, np.concatenate([state[:10, goes_on], state[7:10, goes_on]]))
         found[going[rests]], found[going[goes_on]] = RESTS, GOES_ON
         fresh = np.zeros(len(going), dtype=bool)
         slid = straight & ~rests & ~goes_on

@@ -86,7 +86,9 @@ class Local(Output):
             z = np.maximum(z, turn) if self.skewness > 0.0 else np.minimum(z, turn)
             with np.errstate(invalid="ignore"):
                 z = np.where(np.isinf(z), z, z + (z * z - 1.0) * (self.skewness / 6.0))
-        found = mean + std * z
+        # Beyond the greatest float it is infinite.
+        with np.errstate(over="ignore"):
+            found = mean + std * z
         return found if np.ndim(found) else float(found)
 
     def _shares(self) -> Shares:

@@ -639,9 +639,12 @@ class Sampled(Output):
         return deviation(self._answered)
 
     def _quantile(self, p: Any) -> Any:
+        values = self._answered
         with np.errstate(all="ignore"):
+            # Between two values numpy takes their difference, which may leave the range of floats.
+            scale = 0.5 if np.isinf(values[-1] - values[0]) else 1.0
             # Raveled: numpy takes two dimensions at most.
-            found = np.quantile(self._answered, np.ravel(p)).reshape(np.shape(p))
+            found = np.quantile(scale * values, np.ravel(p)).reshape(np.shape(p)) / scale
         return found if found.ndim else float(found)
 
     def _shares(self) -> Shares:
