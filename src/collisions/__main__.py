@@ -59,14 +59,14 @@ def _run(options: Any) -> int:
         found = answers(read(options.case))
         whole = found.to_dict() if options.json else found.text(options.units)
     except CaseError as error:
-        return _refused(options, error, {})
+        _warned(options, error.warnings)
+        return _refused(options, error, {"warnings": error.warnings} if error.warnings else {})
     code = 0
     try:
         _write(_pages(options, found))
     except CaseError as error:
         code = _refused(options, error, whole)
-    for warning in found.warnings:
-        print(f"{options.case}: warning: {warning}", file=sys.stderr)
+    _warned(options, found.warnings)
     if isinstance(whole, str):
         print(whole, end="")
     elif not code:
@@ -186,6 +186,12 @@ def _refused(options: Any, error: CaseError, whole: Any) -> int:
     for key, text in error.problems:
         print(": ".join(filter(None, (options.case, key, text))), file=sys.stderr)
     return 1 if error.refused else 2
+
+
+def _warned(options: Any, warnings: Sequence[str]) -> None:
+    """Say each warning on a line of its own."""
+    for warning in warnings:
+        print(f"{options.case}: warning: {warning}", file=sys.stderr)
 
 
 def _as_json(whole: Any) -> str:

@@ -200,6 +200,41 @@ def test_backwards_gives_what_the_call_gives():
     assert back is None or back.a.before.vx == pytest.approx(impact.a.before.vx, rel=1e-9)
 
 
+TYRES_OF_A = (
+    'duration = "100 ms"\n[{0}.tyres_a]\nfriction = 0.7\nlock = [1, 1, 0, 0]\n'
+    'wheelbase = "2.7 m"\ntrack = "1.5 m"\n'
+)
+
+
+@pytest.mark.parametrize("solver", ["eccentric", "solve", "time_resolved"])
+def test_tyres_stand_in_a_table_below_that_of_their_solver(solver):
+    text = ECCENTRIC.replace("[eccentric]", f"[{solver}]") + TYRES_OF_A.format(solver)
+    found = solved(text)
+    a, b = found.a.before, found.b.before
+    tyres = col.travel.Tyres(0.7, [1, 1, 0, 0], "2.7 m", "1.5 m")
+    known = {"restitution": 0.1, "normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
+    by_call = getattr(col, solver)(a, b, **known, duration=0.1, tyres_a=tyres)
+    assert found.b.delta_v == by_call.b.delta_v
+    assert found.b.delta_v != solved(ECCENTRIC).b.delta_v
+    uncertain = text.replace("friction = 0.7", 'friction = "0.6 .. 0.8"') + (
+        '[propagate]\noutputs = ["b.delta_v"]\nsamples = 64\nmethod = "monte_carlo"\n'
+    )
+    spread = answers(read_text(uncertain.encode())).propagation
+    assert [*spread.inputs] == ["tyres_a.friction"]
+    assert spread["b.delta_v"].std > 0.0
+    for old, new, line in (
+        ("wheelbase", "wheel_base", f"{solver}.tyres_a.wheel_base: is not known here"),
+        ('"2.7 m"', '"-2.7 m"', f"{solver}.tyres_a.wheelbase: must be"),
+        ('track = "1.5 m"\n', "", f"{solver}.tyres_a.track: is missing"),
+    ):
+        assert problems(text.replace(old, new))[0].startswith(line)
+
+
+def test_a_solver_without_tyres_takes_no_table_of_them():
+    text = REAR_END + TYRES_OF_A.format("linear_central")
+    assert any(line.startswith("linear_central.tyres_a: is not known") for line in problems(text))
+
+
 @pytest.mark.parametrize(
     ("text", "wanted"),
     [
@@ -670,9 +705,18 @@ def test_the_command(tmp_path, capsys):
         "separating",
         "linear_central",
     )
+    # Refused, it still says what was odd in it.
     file.write_text(
-        REAR_END.replace('"80 km/h"', "80") + "normal = 6.283185307179587\n", encoding="utf-8"
+        REAR_END.replace("80 km/h", "-80 km/h").replace('"950 kg"', '"950 kg"\nheading = 90'),
+        encoding="utf-8",
     )
+    code, text, complaints = run(capsys, file)
+    warned, refused = complaints.splitlines()
+    assert (code, text) == (1, "")
+    assert warned.startswith(f"{file}: warning: heading = 90 is read as rad")
+    assert refused.startswith(f"{file}: linear_central: no impact: ")
+    code, text, _ = run(capsys, file, "--json")
+    assert json.loads(text)["warnings"] == [warned.removeprefix(f"{file}: warning: ")]
     file.write_text(REAR_END + "[report]\nduration = 100\n", encoding="utf-8")
     code, text, complaints = run(capsys, file)
     assert (code, complaints.startswith(f"{file}: warning: "), text.startswith("Impact of A")) == (

@@ -8,6 +8,7 @@ import math
 import pytest
 
 import collisions as col
+from collisions import reconstruct
 from collisions.diagnostics import Move, diagnose
 from collisions.travel import Tyres
 
@@ -191,3 +192,15 @@ def test_momentum_has_none():
         speed_a_after=8.0, speed_b_after=9.0,
     )  # fmt: skip
     assert diagnose(answer).moves == ()
+
+
+def test_the_drags_of_an_in_line_answer_are_no_tyres_left_out():
+    """Given to the reverse solver, they are in the answer."""
+    known = {"va": 12.0, "vb": 0.0, "vb_after": 7.0}
+    drags = {"duration": 0.1, "drag_a": 0.7, "drag_b": 0.7}
+    for given, left_out in (({}, True), (drags, False)):
+        found = diagnose(
+            reconstruct.central(1500.0, 1300.0, **known, **given), limits={"tyre_impulse": 0.0}
+        )
+        assert ("tyres" in [move.name for move in found.moves]) is left_out
+        assert ("tyre_impulse" in [one.code for one in found]) is left_out

@@ -6,11 +6,13 @@ import math
 import warnings
 from itertools import pairwise
 
+import mpmath
 import numpy as np
 import pytest
 
 import collisions as col
 from collisions import travel
+from collisions.uncertainty import Uniform, propagate
 from travel.test_travel import slide
 
 TENTH = 0.1 / math.sqrt(3.0)  # standard deviation of a reading that may be off by 0.1 m, evenly
@@ -121,6 +123,39 @@ def test_a_parabola_is_found_whatever_the_window():
             assert run.course == pytest.approx(0.0, abs=2e-5), window
             assert run.distance == pytest.approx(12.0, rel=1e-4)
             assert run.yaw_rate == pytest.approx(0.1 * run.speed, rel=1e-2)
+
+
+@pytest.mark.parametrize("ways", [(1.0, 2.0), (1e6, 1.0), (1.0, 1e6), (1e-3, 1e4)])
+def test_the_tangent_at_the_first_of_three_points_loses_no_digits(ways):
+    """However unequal the two ways are; against the parabola over the way in 50 digits."""
+    points = [(0.0, 0.0), (ways[0], 0.0), (ways[0], ways[1])]
+    run = travel.path(points, [0.0, 0.0, 0.0], friction=0.7, lock=1.0)
+    with mpmath.workdps(50):
+        one, whole = mpmath.mpf(ways[0]), mpmath.mpf(ways[0]) + mpmath.mpf(ways[1])
+        # The slope at 0 of the parabola through 0 and two others.
+        x, y = (
+            first / one - (second / whole - first / one) / (whole - one) * one
+            for first, second in ((one, one), (mpmath.mpf(0), mpmath.mpf(ways[1])))
+        )
+        course = mpmath.atan2(y, x)
+    assert run.course == pytest.approx(float(course), rel=1e-9, abs=1e-15)
+
+
+def test_a_warning_of_a_batch_is_of_its_own_cases():
+    """Within a study both warnings of a path count the samples that they are of."""
+
+    def model(turn):
+        run = travel.path(
+            [(0.0, 0.0), (4.0, -0.8), (8.0, -0.8)], [0.0, turn, 2.0 * turn], friction=0.7, lock=0.2
+        )
+        return {"speed": run.speed}
+
+    turns = Uniform(math.radians(60.0), math.radians(120.0))
+    with pytest.warns(col.OutOfRangeWarning):
+        found = propagate(model, {"turn": turns}, samples=512, seed=1)
+    counted = {note.code: note.fields["cases"] for note in found.notes}
+    assert counted["wide_segment"] == pytest.approx(256, abs=8)
+    assert 0 < counted["fast_yaw"] < 512
 
 
 def test_windows_and_errors_of_a_batch(body):

@@ -349,6 +349,16 @@ def _slider(key: str) -> str:
 def answers(case: Case) -> Answers:
     """Solve a case, and do what it asks of its uncertain numbers."""
     noted: list[str] = []
+    try:
+        results, propagation = _answered(case, noted)
+    except CaseError as error:
+        error.warnings = noted
+        raise
+    return Answers(case, results, propagation, noted)
+
+
+def _answered(case: Case, noted: list[str]) -> tuple[Any, Any]:
+    """The results of a case, and what a propagation found of them; warnings go to ``noted``."""
     if case.study in ("", "propagate"):
         with _noting(noted) as of_the_case:
             roots = _roots(case.call({}))
@@ -381,7 +391,7 @@ def answers(case: Case) -> Answers:
                 {"model": model, "unknowns": unknowns, **case.options},
             )
             results, propagation = (study({}),), None
-    return Answers(case, results, propagation, noted)
+    return results, propagation
 
 
 @contextmanager
@@ -398,8 +408,18 @@ def _noting(
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("ignore")
         warnings.simplefilter("always", CollisionsWarning)
-        yield found
-    found += [one.message for one in caught if isinstance(one.message, CollisionsWarning)]
+        try:
+            yield found
+        finally:
+            # Also of a case that is refused then.
+            found += [one.message for one in caught if isinstance(one.message, CollisionsWarning)]
+            _add(found, texts, before)
+
+
+def _add(
+    found: list[CollisionsWarning], texts: list[str], before: list[CollisionsWarning] | None
+) -> None:
+    """Add warnings to the texts, as ``_noting`` says."""
     codes = {one.code for one in before or ()} | (
         {"suspect_units"} if before is not None else set()
     )

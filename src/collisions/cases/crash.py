@@ -93,9 +93,7 @@ def _mover(reader: Reader, name: str, table: dict[str, Any]) -> Call:
     reader.known(table, name, [*OF_MOVER, *keys])
     body = reader.moving(name, {key: value for key, value in table.items() if key in keys})
     beside: dict[str, Any] = {"vehicle": body}
-    if "tyres" in table:
-        beside["tyres"] = reader.call(f"{name}.tyres", Tyres, table["tyres"])
-    inside = {key: table[key] for key in ("outline", "drag") if key in table}
+    inside = {key: table[key] for key in ("outline", "tyres", "drag") if key in table}
     return reader.call(name, Mover, inside, beside)
 
 

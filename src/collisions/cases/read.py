@@ -25,6 +25,7 @@ from ..quantities.units import example, to_quantity, unit_as_written
 from ..reporting import report
 from ..reporting.what_if import SLIDERS
 from ..scene import Contact
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle
 from . import crash
 from .words import DISTRIBUTIONS, as_in_file, in_file_words
@@ -85,7 +86,7 @@ _LONGEST_MESSAGE = 4000  # of one problem; what it quotes is shorter, but it may
 
 class CaseError(Exception):
     """What is wrong with a case, as pairs of key and text; ``refused`` if it was read, but has no
-    answer.
+    answer; and the ``warnings`` that were given before it was found.
     """
 
     def __init__(
@@ -97,6 +98,7 @@ class CaseError(Exception):
         ]
         self.refused = refused
         self.code = code
+        self.warnings: list[str] = []
         super().__init__("; ".join(f"{key}: {text}" for key, text in self.problems))
 
 
@@ -166,8 +168,10 @@ class Call:
         for own, value in self.arguments.items():
             if isinstance(value, dict) and name in value:
                 return name if own in ("inputs", "unknowns") else f"{self.key}.{own}.{name}"
-        if isinstance(self.arguments.get(body), Call) or "vehicle" in error.fields:
-            return f"{body}.{name.rpartition('.')[2]}".rstrip(".")
+        inside = self.arguments.get(body)
+        if isinstance(inside, Call) or "vehicle" in error.fields:
+            place = inside.key if isinstance(inside, Call) else body
+            return f"{place}.{name.rpartition('.')[2]}".rstrip(".")
         first = name.partition("[")[0]
         if self.key == crash.SCENE and first in crash.FROM_TABLES:
             return name
@@ -671,7 +675,11 @@ class Reader:
         return Call(key, function, {**unknown, **(beside or {}), **read})
 
     def value(self, key: str, value: Any, kind: str) -> Any:
-        """An argument: a number or a text as it is, or what stands there in place of a number."""
+        """An argument: a number or a text as it is, what stands there in place of a number, or the
+        table of a vehicle's tyres.
+        """
+        if kind.removesuffix(" | None") == "Tyres":
+            return self.call(key, Tyres, value)
         if not any(name in kind for name in ("Input", *SEVERAL)):
             return value
         if kind.removesuffix(" | None") == "Pair" and not (

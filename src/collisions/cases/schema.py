@@ -29,6 +29,7 @@ _TYPES: dict[str, Schema] = {
     "bool": {"type": "boolean"},
     "int": {"type": "integer"},
     "Any": {},
+    "Tyres": {"$ref": "#/$defs/tyres"},
     "Input": _ONE,
     "Pair": {"allOf": [_PAIR]},
     "Impulse": {"allOf": [_PAIR]},
@@ -110,7 +111,7 @@ def _of_vehicles() -> Schema:
 def _tables_of_scenes() -> Schema:
     """The tables of a whole crash: of some a file has several."""
     tyres = {"$ref": "#/$defs/tyres"}
-    mover = _of_vehicles() | _arguments(Mover)["properties"] | {"tyres": tyres}
+    mover = _of_vehicles() | _arguments(Mover)["properties"]
     mover = {name: one for name, one in mover.items() if name not in ("pivot", "vehicle")}
     for name in OF_MOVER:
         mover.setdefault(name, TEXT)

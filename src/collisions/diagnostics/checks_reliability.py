@@ -10,7 +10,7 @@ from typing import Any
 
 from ..impact.impact import Impact
 from ..impact.inputs import PLACED
-from ..impact.instant import neglected
+from ..impact.instant import neglected, tyres_acted
 from ..impact.provenance import bounds_of, how_many, known_in_words
 from ..impact.side import Side
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
@@ -120,7 +120,7 @@ def tyre_impulse(case: Case) -> Iterator[Measured]:
         return
     for label, vehicle in case.vehicles.items():
         if isinstance(case, ImpactCase) and (
-            case.answer.inputs.tyres or (case.answer.inputs.drag and case.left_out is None)
+            tyres_acted(case.answer) or (case.answer.inputs.drag and case.left_out is None)
         ):
             continue
         if isinstance(case, ImpactCase) and case.left_out is not None:

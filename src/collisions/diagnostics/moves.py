@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..impact.impact import Impact, solve_changed
 from ..impact.inputs import PLACED
+from ..impact.instant import tyres_acted
 from ..kernels.contact_laws import RULES
 from ..quantities.attributes import Quantities, same_fields
 from ..quantities.directions import from_degrees
@@ -198,7 +199,7 @@ def _of_idealisation(case: ImpactCase) -> Iterator[Move]:
     left = case.left_out
     if left is None:
         return
-    held = bool(case.answer.inputs.tyres)
+    held = tyres_acted(case.answer)
     time = f"{left.duration:.3g} s"
     sliding = f"tyres sliding {time}, drag {left.drag:.2g}"
     tyres = f"tyres as given, {time}" if case.tyres else sliding

@@ -40,8 +40,7 @@ def neglected(
     that has tyres or a drag. ``wheels`` says that it was estimated with tyres, and not with a drag.
     """
     origin = impact.reconstruction
-    lasts = bool(impact.inputs.tyres) or (origin is not None and origin.duration is not None)
-    if origin is None or lasts or np.all(impact.refused):
+    if origin is None or tyres_acted(impact) or np.all(impact.refused):
         return None
     if found is None:
         try:
@@ -85,6 +84,12 @@ def neglected(
         f"{_middle(found.duration):.3g} s{median}; {advice}"
     )
     return Neglect(max(share for share in (tyres, motion) if math.isfinite(share)), sentence)
+
+
+def tyres_acted(impact: Impact) -> bool:
+    """Whether the tyres are in the answer: those given, or the drags that a reverse solver took."""
+    origin = impact.reconstruction
+    return bool(impact.inputs.tyres) or (origin is not None and origin.duration is not None)
 
 
 def looked_for(impact: Impact) -> tuple[str, ...]:

@@ -546,13 +546,13 @@ def _read_lock(reader: ArgumentReader, value: Any, name: str) -> Any:
     return one_value(reader, value, "", name, UNIT_INTERVAL)
 
 
-def _warn_of_wide_segments(turned: Sequence[float], locks: Sequence[float]) -> None:
+def _warn_of_wide_segments(turned: Sequence[Any], locks: Sequence[Any]) -> None:
     turns = [abs(after - before) for before, after in pairwise(turned)]
-    wide = [
-        i
-        for i, (turn, part) in enumerate(zip(turns, locks, strict=True))
-        if np.any((turn > _QUARTER_TURN) & (part < 1.0))
+    each = [
+        np.greater(turn, _QUARTER_TURN) & np.less(part, 1.0)
+        for turn, part in zip(turns, locks, strict=True)
     ]
+    wide = [i for i, cases in enumerate(each) if np.any(cases)]
     if wide:
         named = ", ".join(_leg(i) for i in wide)
         warn(
@@ -561,7 +561,8 @@ def _warn_of_wide_segments(turned: Sequence[float], locks: Sequence[float]) -> N
                 "stands for all of it; give points between",
                 code="wide_segment",
                 segments=tuple(wide),
-            )
+            ),
+            _count(np.any(np.broadcast_arrays(*each), axis=0)),
         )
 
 
@@ -575,5 +576,11 @@ def _warn_of_fast_yaw(yaw_rate: Any, speed: Any) -> None:
                 "there, more beyond; travel.simulate has the slip of each wheel",
                 code="fast_yaw",
                 cases=int(np.count_nonzero(fast)),
-            )
+            ),
+            _count(fast),
         )
+
+
+def _count(cases: Any) -> int | None:
+    """In how many cases of a batch it is so; None where it is not told apart by cases."""
+    return int(np.count_nonzero(cases)) if np.ndim(cases) else None

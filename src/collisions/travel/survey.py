@@ -230,6 +230,12 @@ def _parabola(at: Any, values: Any, weights: Any, i: int) -> tuple[Any, Any]:
     By polynomials that are orthogonal over the points, and from point i: coordinates of a map lose
     no digits.
     """
+    if len(at) == 3:
+        # By divided differences, which lose no digits however unequal the two ways are.
+        j, k = (other for other in range(3) if other != i)
+        first = (values[:, j] - values[:, i]) / (at[j] - at[i])
+        second = ((values[:, k] - values[:, j]) / (at[k] - at[j]) - first) / (at[k] - at[i])
+        return values[:, i], first - second * (at[j] - at[i])
     size = at[-1]
     t = (at - at[i]) / size
     rise = values - values[:, i : i + 1]
