@@ -554,3 +554,17 @@ def test_shares_of_values_whose_sums_leave_the_range_of_floats():
             abs(found.contributions[name] - share)
             < 6.0 * found.contribution_standard_errors[name][0] + 1e-12
         )
+
+
+@pytest.mark.parametrize("method", ["first_order", "second_order", "monte_carlo", "quasi_random"])
+def test_an_output_that_differs_by_rounding_alone_has_nothing_to_share(method):
+    """No input is named as what moves it."""
+    found = propagate(
+        lambda x, y: {"same": 3.0 + ((x + 0.1) - x) * y / y, "sum": x + y},
+        {"x": Normal(20.0, 1.0), "y": Normal(1.0, 0.1)},
+        method=method,
+    )
+    assert found["same"].std < 1e-12
+    for shares in (found["same"].contributions, found["same"].total_contributions):
+        assert all(math.isnan(share) for share in shares.values())
+    assert found["sum"].contributions["x"] > 0.9

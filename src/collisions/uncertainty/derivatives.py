@@ -28,6 +28,7 @@ from .sampling import Joint
 _STEP = 0.01
 _LEAST_STEP = 1e6  # roundings of the mean, so that the step itself is known to a millionth
 _EPSILON = float(np.finfo(np.float64).eps)
+_ROUNDING = 64.0 * _EPSILON / _STEP  # of a slope over a step
 _LEAST = float(np.finfo(np.float64).tiny)  # below, floats have few digits
 PROBES = 4096  # cases drawn from the inputs
 _NOTICED = (
@@ -197,6 +198,8 @@ def local_output(name: str, unit: str | None, joint: Joint, slope: Slopes, secon
             output=name,
         )
     first, total = {}, {}
+    # What differs by the rounding of its derivatives alone has nothing to share.
+    varies = std > _ROUNDING * abs(mean)
     order = {key: i for i, key in enumerate(joint.inputs)}
     for label, group in zip(joint.labels, joint.rows, strict=True):
         rows = [order[key] for key in group]
@@ -212,8 +215,8 @@ def local_output(name: str, unit: str | None, joint: Joint, slope: Slopes, secon
             + float(np.sum(skewed[rows]))
         )
         shared = float(np.trace(part @ mixed @ correlated[np.ix_(others, others)] @ mixed.T))
-        first[label] = own / variance if variance else math.nan
-        total[label] = (own + shared) / variance if variance else math.nan
+        first[label] = own / variance if varies else math.nan
+        total[label] = (own + shared) / variance if varies else math.nan
     unknown = dict.fromkeys(first, math.nan)
     # The skewness of the inputs stays out of a first-order answer, which knows them only by mean
     # and standard deviation.

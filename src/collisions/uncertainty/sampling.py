@@ -36,6 +36,7 @@ _FIRST_SHOWN = 1024  # with a progress report: a slow model soon has one, and ca
 # of a Gauss-Hermite rule: exact for the scores of normals, 1e-12 for smooth quantile functions
 _NODES = 64
 _STEPS = 1024  # equal shares of probability instead, where a quantile function has steps
+_ROUNDING = 64.0 * float(np.finfo(np.float64).eps)  # of what a model works out
 _PIVOT_TOL = 1e-12  # of the correlation matrix, which has ones on its diagonal
 
 
@@ -360,7 +361,8 @@ def _shares(one: Any, other: Any, mixed: Any) -> tuple[float, ...]:
         both = np.concatenate((a, b))
         # In units of its standard deviation, so that squares cannot overflow.
         middle, scale = average(both), deviation(both)
-        if not scale > 0.0:
+        # What differs by rounding alone is constant, and has nothing to share.
+        if not scale > _ROUNDING * abs(middle):
             return math.nan, math.nan
         a, b, c, both = ((part - middle) / scale for part in (a, b, c, both))
         variance = float(np.var(both))
