@@ -20,9 +20,9 @@ from collisions.cases.read import (
     STUDIES,
     CaseError,
     parameters,
+    parse_uncertain,
     read,
     read_text,
-    stated,
     vehicles,
 )
 from collisions.cases.schema import case_schema
@@ -250,11 +250,11 @@ def test_a_solver_without_tyres_takes_no_table_of_them():
 )
 def test_texts_of_what_is_not_known_exactly(text, wanted):
     """As written; nothing else is one."""
-    found = stated(text)
+    found = parse_uncertain(text)
     assert type(found) is type(wanted)
     assert found.unit == wanted.unit
     assert found.quantile(0.1) == pytest.approx(wanted.quantile(0.1), rel=1e-14)
-    assert stated("50 km/h") is None
+    assert parse_uncertain("50 km/h") is None
 
 
 @pytest.mark.parametrize(
@@ -1151,7 +1151,7 @@ def test_the_share_of_a_normal_distribution_leaves_its_unit():
     """What is stated in lb is given back in lb; two standard deviations are 95.45 percent (tables
     of the normal).
     """
-    found = stated("3300 lb +/- 90 lb (95 %)")
+    found = parse_uncertain("3300 lb +/- 90 lb (95 %)")
     assert str(found) == "3210 to 3390 lb (95 percent), normal"
     assert found.sd == pytest.approx(90 / 1.959964 * 0.45359237, rel=1e-6)
 

@@ -43,8 +43,8 @@ from .read import (
     CaseError,
     Uncertain,
     descriptions,
-    nearest,
     parameters,
+    suggestion,
     vehicles,
 )
 from .words import as_in_file, in_file_words
@@ -167,7 +167,7 @@ class Answers:
                 "what its spread does:",
             )
             shares = [
-                self._made(_shares, {"output": output}, "propagate")
+                self._made(_variance_shares, {"output": output}, "propagate")
                 for output in self.propagation.outputs.values()
             ]
             found += [self.propagation.summary(system), "\n".join(filter(None, shares))]
@@ -305,7 +305,7 @@ def _uncertain(value: Any) -> bool:
     return any(isinstance(part, Uncertain) for part in parts)
 
 
-def _shares(output: Any) -> str:
+def _variance_shares(output: Any) -> str:
     """The inputs that the spread of an output comes from, as shares of its variance; "" where there
     are none.
     """
@@ -456,7 +456,7 @@ def _propagated(case: Case, results: tuple[Any, ...], count: int) -> Any:
         )
         raise CaseError(("answer", text), refused=True, code="ambiguous")
     options = dict(case.options)
-    outputs = options.pop("outputs", _usual(results[0]))
+    outputs = options.pop("outputs", _default_outputs(results[0]))
     if (
         not isinstance(outputs, tuple)
         or not outputs
@@ -527,7 +527,7 @@ def _output(result: Any, name: str, place: str, there: Any, shape: tuple[int, ..
         names = result.to_columns() if isinstance(result, Impact) else result.__dataclass_fields__
         names = [one for one in names if _found(result, one)[3] is not None]
         raise CaseError(
-            (place, f"{rendered(name)} is no number of the answer; {nearest(name, names)}")
+            (place, f"{rendered(name)} is no number of the answer; {suggestion(name, names)}")
         )
     if value is None:
         why = owner._missing(last) if hasattr(owner, "_missing") else "this case has none"
@@ -535,7 +535,7 @@ def _output(result: Any, name: str, place: str, there: Any, shape: tuple[int, ..
     return to_quantity(np.broadcast_to(np.where(there, value, np.nan), shape), unit)
 
 
-def _usual(result: Any) -> tuple[str, ...]:
+def _default_outputs(result: Any) -> tuple[str, ...]:
     """The outputs where the file names none: what was sought of a reverse solver, and what people
     ask of an impact.
     """

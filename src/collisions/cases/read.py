@@ -134,20 +134,22 @@ class Call:
         """The result for these values of the uncertain numbers, by key; a refusal names the key in
         the file.
         """
-        arguments = {name: _filled(argument, values) for name, argument in self.arguments.items()}
+        arguments = {
+            name: _with_values(argument, values) for name, argument in self.arguments.items()
+        }
         try:
             return self.function(**arguments, **options)
         except CollisionsError as error:
             parts = error.fields.get("problems", (error,))
-            places = [self._place(part) for part in parts]
+            places = [self._key_of(part) for part in parts]
             problems = [
-                (key, self._said(part, key)) for part, key in zip(parts, places, strict=True)
+                (key, self._message(part, key)) for part, key in zip(parts, places, strict=True)
             ]
             raise CaseError(
                 *problems, refused=not isinstance(error, InputError), code=error.code
             ) from error
 
-    def _said(self, error: CollisionsError, key: str) -> str:
+    def _message(self, error: CollisionsError, key: str) -> str:
         """What an error says, beside the key of its argument; of a range it names both ends, not
         what stands for them.
         """
@@ -161,7 +163,7 @@ class Call:
             return in_file_words(f"{without}{error.fields.get('instead', '')}")
         return in_file_words(_beside_key(error, key))
 
-    def _place(self, error: CollisionsError) -> str:
+    def _key_of(self, error: CollisionsError) -> str:
         """The key that an error is about: an argument, that of a vehicle, or the table."""
         name = str(error.fields.get("argument", ""))
         body = error.fields.get("vehicle") or name.partition(".")[0]
@@ -353,14 +355,14 @@ def descriptions(function: Callable[..., Any]) -> dict[str, str]:
     return found
 
 
-def nearest(given: str, names: Iterable[str]) -> str:
+def suggestion(given: str, names: Iterable[str]) -> str:
     """What to write in place of a name that is not known."""
     listed = list(names)
     near = get_close_matches(given.lower(), listed, 1, 0.7)
     return f"did you mean {near[0]}?" if near else f"write one of {', '.join(listed)}"
 
 
-def stated(text: str, bounds: Callable[[str, str], Any] = uncertainty.Uniform) -> Any:
+def parse_uncertain(text: str, bounds: Callable[[str, str], Any] = uncertainty.Uniform) -> Any:
     """What a text says of an uncertain number: "50 km/h +/- 3 km/h", "0.4 .. 0.7", either with "
     (95 %)"; None for others.
 
@@ -400,7 +402,7 @@ def stated(text: str, bounds: Callable[[str, str], Any] = uncertainty.Uniform) -
     return uncertainty.Normal.between(low, high, coverage)
 
 
-def _open(name: str, value: Any) -> Any:
+def _open_ended(name: str, value: Any) -> Any:
     """A value of a distribution; an infinite end of a truncation, which a file can write, becomes
     an open one.
     """
@@ -414,7 +416,7 @@ def _open(name: str, value: Any) -> Any:
     )
 
 
-def _filled(node: Any, values: Mapping[str, Any]) -> Any:
+def _with_values(node: Any, values: Mapping[str, Any]) -> Any:
     if isinstance(node, Uncertain):
         if node.key not in values:
             return node.nominal
@@ -426,8 +428,8 @@ def _filled(node: Any, values: Mapping[str, Any]) -> Any:
     if isinstance(node, Call):
         return node(values)
     if isinstance(node, dict):
-        return {name: _filled(part, values) for name, part in node.items()}
-    return tuple(_filled(part, values) for part in node) if isinstance(node, tuple) else node
+        return {name: _with_values(part, values) for name, part in node.items()}
+    return tuple(_with_values(part, values) for part in node) if isinstance(node, tuple) else node
 
 
 class Reader:
@@ -437,13 +439,13 @@ class Reader:
         self.problems: list[tuple[str, str]] = []
         self.uncertain: dict[str, Uncertain] = {}
         self.solver = ""
-        self.document: dict[str, Any] = self.plain(document)
+        self.document: dict[str, Any] = self.as_tuples(document)
         # The reverse solvers under their names, as the others are.
         if isinstance(inside := self.document.get("reconstruct"), dict):
             del self.document["reconstruct"]
             self.document |= {f"reconstruct.{name}": table for name, table in inside.items()}
 
-    def plain(self, node: Any, key: str = "") -> Any:
+    def as_tuples(self, node: Any, key: str = "") -> Any:
         """A part of the document with its lists as tuples; whole numbers beyond those of TOML are
         refused.
         """
@@ -461,10 +463,11 @@ class Reader:
                 most = f"a key has {_LONGEST_TEXT} at most, write its name"
                 self.refuse(short, f"is a key of {len(name)} characters; {most}")
             return {
-                name: self.plain(part, f"{key}.{name}".lstrip(".")) for name, part in parts.items()
+                name: self.as_tuples(part, f"{key}.{name}".lstrip("."))
+                for name, part in parts.items()
             }
         if isinstance(node, list):
-            return tuple(self.plain(part, f"{key}[{at}]") for at, part in enumerate(node))
+            return tuple(self.as_tuples(part, f"{key}[{at}]") for at, part in enumerate(node))
         if type(node) is int and not -(2**63) <= node < 2**63:
             self.refuse(
                 key,
@@ -587,7 +590,7 @@ class Reader:
         for key in table:
             if key not in names:
                 self.refuse(
-                    f"{place}.{key}".lstrip("."), f"is not known here; {nearest(key, names)}"
+                    f"{place}.{key}".lstrip("."), f"is not known here; {suggestion(key, names)}"
                 )
 
     def table(self, name: str) -> dict[str, Any]:
@@ -665,7 +668,7 @@ class Reader:
                 )
                 self.refuse(f"{key}.{name}", f"is missing; give it: {what}{such}")
         read = {
-            name: _open(name, value)
+            name: _open_ended(name, value)
             if plain
             else self.value(f"{key}.{name}", value, str(takes[name].annotation))
             for name, value in given.items()
@@ -703,7 +706,7 @@ class Reader:
         elif isinstance(value, str) and not self.fits(key, value):
             return None
         elif isinstance(value, str) and _UNCERTAIN.fullmatch(value):
-            return self.stated(key, Call(key, stated, {"text": value}))
+            return self.stated(key, Call(key, parse_uncertain, {"text": value}))
         elif isinstance(value, str) and (found := _RANGE.fullmatch(value.strip())):
             low, high = (f"{found[at]} {found[3] or ''}".strip() for at in (1, 2))
             self.refuse(
@@ -735,7 +738,7 @@ class Reader:
                     if name in DISTRIBUTIONS and len(self.problems) == count
                     else call
                 )
-        cure = nearest(".".join(table), FUNCTIONS)
+        cure = suggestion(".".join(table), FUNCTIONS)
         self.refuse(
             key,
             "is a table that names no function which may stand for a number, got "
@@ -765,7 +768,7 @@ class Reader:
             )
         elif middle is not None and hasattr(found.unit, "written"):
             middle = f"{middle / found.unit.factor:.15g} {found.unit.written}"
-        elif middle is not None and call.function is stated:
+        elif middle is not None and call.function is parse_uncertain:
             middle = f"{middle:.15g}"  # a text without a unit is refused where one is needed
         name = key.removeprefix(f"{self.solver}.")
         self.uncertain[name] = Uncertain(name, found, middle)
@@ -819,7 +822,7 @@ class Reader:
         elif isinstance(value, str) and _UNCERTAIN.fullmatch(value):
             # For an observation, two dots say that it lies between, not how probable each place is.
             found = self.stated(
-                key, Call(key, stated, {"text": value, "bounds": uncertainty.Interval})
+                key, Call(key, parse_uncertain, {"text": value, "bounds": uncertainty.Interval})
             )
         elif isinstance(value, dict) and not value.keys() & {
             name.partition(".")[0] for name in FUNCTIONS

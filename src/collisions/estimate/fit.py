@@ -16,7 +16,7 @@ from ..messages.errors import AmbiguousSolutionError, InputError, NoSolutionErro
 from ..messages.hints import hinted
 from ..messages.marked import as_code, type_of
 from ..messages.warning import Note, notes_of_samples, warn_of
-from ..quantities.attributes import lock
+from ..quantities.attributes import read_only
 from ..quantities.units import is_quantity
 from ..uncertainty.distribution import read_alike
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform
@@ -643,7 +643,7 @@ def _answer(found: _Candidate) -> Fit:
         bounds=dict(
             zip(names, zip(problem.low.tolist(), problem.high.tolist(), strict=True), strict=True)
         ),
-        covariance=lock(np.array(determined.covariance)),
+        covariance=read_only(np.array(determined.covariance)),
         residuals=residuals,
         contributions={
             name: row if known else {}

@@ -17,7 +17,7 @@ from ..messages.hints import hinted
 from ..messages.marked import as_code, type_of
 from ..messages.progress import reporter
 from ..messages.warning import notes_of_samples, warn_of
-from ..quantities.attributes import lock
+from ..quantities.attributes import read_only
 from ..uncertainty.distributions import Distribution
 from ..uncertainty.finer import FinerModel
 from ..uncertainty.model import AnyModel, Model, function_of, range_hint
@@ -385,7 +385,7 @@ class _Problem:
         return Posterior(
             priors=dict(self.joint.inputs),
             observed={row.name: row.reading.value for row in self.rows},
-            draws=lock(answers | values),
+            draws=read_only(answers | values),
             unknowns={
                 name: PosteriorOutput(name, units[name] or None, column, labels)
                 for name, column in values.items()

@@ -1,5 +1,5 @@
-"""``solve_least`` and ``ModelChoice``: the simplest model that a scene allows within a tolerance,
-and the reason.
+"""``solve_with_simplest`` and ``ModelChoice``: the simplest model that a scene allows within a
+tolerance, and the reason.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ..kernels.status import EPS, Passed, Status, WithTyres
 from ..messages.errors import InputError, placed
 from ..messages.progress import halves, reporter
 from ..messages.warning import quietly
-from ..quantities.attributes import Shown, derived, equal, lock, math_or_numpy
+from ..quantities.attributes import Shown, derived, equal, math_or_numpy, read_only
 from ..quantities.formatting import Numbers
 from ..quantities.reading import ArgumentReader, broadcast
 from ..quantities.tables import Cells, Summary, all_numbers, sided
@@ -64,7 +64,7 @@ class ByModel(Mapping[str, Any]):
     __slots__ = ("_unit", "_values")
 
     def __init__(self, values: Mapping[str, Any], unit: str | None = None) -> None:
-        self._values = lock(dict(values))
+        self._values = read_only(dict(values))
         self._unit = unit
 
     @property
@@ -129,7 +129,7 @@ class ModelChoice(Shown):
 
     def __post_init__(self) -> None:
         if isinstance(self._which, np.ndarray):
-            lock((self._which, self._predicted, self._refused, self._timed))
+            read_only((self._which, self._predicted, self._refused, self._timed))
 
     @property
     def model(self) -> ModelName:
@@ -138,7 +138,9 @@ class ModelChoice(Shown):
         """
         which = self._which
         found = (
-            lock(np.array(_NAMES).take(which)) if isinstance(which, np.ndarray) else _NAMES[which]
+            read_only(np.array(_NAMES).take(which))
+            if isinstance(which, np.ndarray)
+            else _NAMES[which]
         )
         return cast(ModelName, found)
 
@@ -308,7 +310,7 @@ def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
     reader.close()
 
 
-def solve_least(
+def solve_with_simplest(
     inputs: Inputs,
     on_failure: Any,
     threads: Any,
@@ -344,7 +346,7 @@ def solve_least(
 
     def one(take: Any) -> Any:
         case = read_again(part_of_inputs(inputs, take))
-        return solve_least(case, None, 1, None, part_of_choice(chosen, take))
+        return solve_with_simplest(case, None, 1, None, part_of_choice(chosen, take))
 
     chosen = choice
     raise_or_warn(inputs, raw, on_failure, one)
@@ -367,7 +369,7 @@ def _held(inputs: Inputs, raw: Any, some: Any, threads: int) -> WithTyres:
             )
         for name, value in found.items():
             value[some] = getattr(held, name)
-    return WithTyres(**lock(found))
+    return WithTyres(**read_only(found))
 
 
 def _in_time(inputs: Inputs, raw: Any, choice: ModelChoice, late: Any, threads: int) -> Passed:
@@ -410,7 +412,7 @@ def _in_time(inputs: Inputs, raw: Any, choice: ModelChoice, late: Any, threads: 
         )
         found[name] = np.array(np.broadcast_to(value, late.shape), dtype=kind)
         found[name][late] = getattr(passed, name)
-    return Passed(**lock(found))
+    return Passed(**read_only(found))
 
 
 def until_compressed(
@@ -429,7 +431,7 @@ def until_compressed(
             if choice is None:
                 answer = solve_inputs(model_of(plastic), plastic, on_failure="nan")
             else:
-                answer, _ = solve_least(plastic, "nan", 1, None, choice)
+                answer, _ = solve_with_simplest(plastic, "nan", 1, None, choice)
         # The plastic one may answer where the restitution itself was refused.
         compressed = [select(refused, math.nan, getattr(answer, name)) for name in names]
     else:

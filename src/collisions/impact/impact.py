@@ -25,8 +25,8 @@ from ..quantities.attributes import (
     format_value,
     hypot,
     in_units_of,
-    lock,
     math_or_numpy,
+    read_only,
     returns,
     unit_of,
 )
@@ -540,7 +540,7 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
             found |= left | {"residual_crush": sum(left.values())}
         curves = () if passed.history is None else passed.history
         return in_units_of(
-            Pulse(**lock(found), **dict(zip(CURVES, curves, strict=False))), self._texts()
+            Pulse(**read_only(found), **dict(zip(CURVES, curves, strict=False))), self._texts()
         )
 
     @derived()
@@ -782,9 +782,9 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Arrays come out of a pickle unlocked; those of inputs and choice lock themselves."""
-        vars(self).update(lock(state))
+        vars(self).update(read_only(state))
         if self.reconstruction is not None:
-            lock(
+            read_only(
                 (
                     self.reconstruction.condition,
                     self.reconstruction.answers,
@@ -901,9 +901,9 @@ def solved(
     """Solve the inputs; ``choice`` if the model was chosen before."""
     if inputs.model != "solve":
         return build(inputs, solve_inputs(model_of(inputs), inputs, on_failure, threads, progress))
-    from .choice import solve_least, where_answered
+    from .choice import solve_with_simplest, where_answered
 
-    answer, choice = solve_least(inputs, on_failure, threads, progress, choice)
+    answer, choice = solve_with_simplest(inputs, on_failure, threads, progress, choice)
     impact = build(inputs, answer)
     choice = where_answered(choice, answer.status > Status.ENERGY_GAIN)
     given = inputs.a.given or inputs.b.given or inputs.given
@@ -967,7 +967,7 @@ def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> I
         ).astype(code.dtype)
     elif code > Status.ENERGY_GAIN and status != Status.OK:
         code = Status(status)
-    impact = build(inputs, raw._replace(status=lock(code)))
+    impact = build(inputs, raw._replace(status=read_only(code)))
     vars(impact)["reconstruction"] = origin_where_answered(origin, code)
     return impact
 

@@ -18,7 +18,7 @@ from ..kernels.contact_laws import FRICTION, LAWS, RULES
 from ..kernels.elementwise import restitution_domain
 from ..kernels.problem import Body, Contact, Problem
 from ..messages.errors import InputError, MissingInputError, ShapeError, placed
-from ..quantities.attributes import equal, lock
+from ..quantities.attributes import equal, read_only
 from ..quantities.directions import direction, from_radians
 from ..quantities.reading import OUTSIDE_UNITS, ArgumentReader, broadcast, is_whole, largest
 from ..quantities.refusals import must_be, yes_or_no
@@ -194,7 +194,7 @@ class Inputs:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Arrays come out of a pickle unlocked."""
-        vars(self).update(lock(state))
+        vars(self).update(read_only(state))
 
 
 # The numbers and pairs with their units: records and their schema list each by name.
@@ -549,7 +549,7 @@ def _beyond_a_turn(normal: Any) -> dict[str, Any]:
         return {}
     radians: Any = np.array(normal.magnitude if is_quantity(normal) else normal, dtype=np.float64)
     return (
-        {"normal": lock(radians) if radians.ndim else float(radians)}
+        {"normal": read_only(radians) if radians.ndim else float(radians)}
         if largest(radians) > math.tau
         else {}
     )

@@ -16,7 +16,7 @@ from ..kernels.contact_laws import BRACH
 from ..kernels.elementwise import select, turning_velocity
 from ..messages.errors import InputError
 from ..messages.warning import quietly
-from ..quantities.attributes import Shown, hypot, in_units_of, lock, math_or_numpy
+from ..quantities.attributes import Shown, hypot, in_units_of, math_or_numpy, read_only
 from ..quantities.directions import from_radians
 from ..quantities.precision import precision
 from ..quantities.reading import ArgumentReader, broadcast, widened
@@ -665,7 +665,7 @@ def _extent(impact: Impact, time: Any, drag: Any) -> Any:
 
 def _assembled(found: dict[str, Any], texts: tuple[str, ...]) -> LeftOut:
     """A ``LeftOut`` from its fields by name, in the units of these texts."""
-    lock(found)
+    read_only(found)
     a, b = (
         in_units_of(
             LeftOutSide(

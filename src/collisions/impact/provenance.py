@@ -13,7 +13,7 @@ import numpy as np
 
 from ..kernels.elementwise import select
 from ..kernels.status import Status
-from ..quantities.attributes import lock, same_fields
+from ..quantities.attributes import read_only, same_fields
 from ..quantities.units import Value
 
 
@@ -206,16 +206,16 @@ def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction
         select(refused, math.nan, origin.condition),
         select(refused > several, 0, origin.answers),
     )
-    velocity = origin.contact_velocity and lock(
+    velocity = origin.contact_velocity and read_only(
         tuple(select(refused, math.nan, part) for part in origin.contact_velocity)
     )
     sides = origin.one_sided and {
-        name: lock(select(refused, 0, side)) for name, side in origin.one_sided.items()
+        name: read_only(select(refused, 0, side)) for name, side in origin.one_sided.items()
     }
     return replace(
         origin,
-        condition=lock(condition),
-        answers=lock(answers),
+        condition=read_only(condition),
+        answers=read_only(answers),
         contact_velocity=velocity,
         one_sided=sides,
     )

@@ -20,7 +20,7 @@ import numpy as np
 from ..kernels.elementwise import FINITE
 from ..kernels.status import Passed, Status
 from ..messages.errors import InputError, ShapeError
-from ..quantities.attributes import lock
+from ..quantities.attributes import read_only
 from ..quantities.reading import ArgumentReader
 from ..quantities.units import shown
 from .inputs import Inputs
@@ -222,7 +222,7 @@ def recorded(
         return float(forward[0]), float(left[0])
     if not times.ndim:
         forward, left = forward[0], left[0]
-    lock((forward, left))
+    read_only((forward, left))
     return forward, left
 
 

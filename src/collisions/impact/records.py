@@ -15,7 +15,7 @@ import numpy as np
 from ..kernels.contact_laws import RULES
 from ..kernels.elementwise import UNCHECKED
 from ..messages.errors import InputError, Status
-from ..quantities.attributes import attributes, equal, lock, unit_of
+from ..quantities.attributes import attributes, equal, read_only, unit_of
 from ..quantities.directions import direction
 from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader
@@ -259,7 +259,7 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
     if found is None:
         return None
     known = tuple(str(name) for name in found["known"])
-    condition, answers = lock(read_strict(found["condition"])), _count(found["answers"])
+    condition, answers = read_only(read_strict(found["condition"])), _count(found["answers"])
     method = str(found["method"])
     # A record of an earlier version has neither what was found nor the numbers that were given.
     names = found.get("found", found_from(method, known))
@@ -273,7 +273,10 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
         one_sided=_sides(found.get("one_sided")),
         found=tuple(str(name) for name in names),
         given=_given_numbers(found.get("given")),
-        **{name: lock(read_strict(found.get(name))) for name in ("duration", "drag_a", "drag_b")},
+        **{
+            name: read_only(read_strict(found.get(name)))
+            for name in ("duration", "drag_a", "drag_b")
+        },
     )
 
 
@@ -288,7 +291,7 @@ def _given_numbers(found: Any) -> dict[str, Any] | None:
         if not isinstance(number, (float, int, np.ndarray)):
             raise bad_record(f"{name}, which a reverse solver was given, is {shown(number)}")
     return {
-        name: lock(number) if isinstance(number, np.ndarray) else float(number)
+        name: read_only(number) if isinstance(number, np.ndarray) else float(number)
         for name, number in numbers.items()
     }
 
@@ -323,7 +326,7 @@ def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
     )
     if not np.shape(closing) == np.shape(slip) == shape:
         raise bad_record("its contact_velocity is not that of its cases")
-    return lock((closing, slip))
+    return read_only((closing, slip))
 
 
 def _texts(known: Mapping[str, Any], origin: Reconstruction | None) -> dict[str, str]:
@@ -484,7 +487,7 @@ def _count(value: Any) -> Any:
     """An integer, or a batch of them, as ``strict`` wrote it."""
     if isinstance(value, Mapping):
         counts = [_count(count) for count in value["values"]]
-        return lock(np.array(counts, dtype=np.int64).reshape(value["shape"]))
+        return read_only(np.array(counts, dtype=np.int64).reshape(value["shape"]))
     if value == "inf":
         return math.inf
     if type(value) is not int:  # int() would read "1_0" as 10, and cut 2.7 to 2

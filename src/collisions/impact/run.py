@@ -37,7 +37,7 @@ from ..messages.errors import (
 )
 from ..messages.progress import reporter
 from ..messages.warning import quietly, warn_of_cases
-from ..quantities.attributes import lock
+from ..quantities.attributes import read_only
 from ..quantities.refusals import must_be
 from ..quantities.tables import Sentences, said
 from ..vehicle.tyres import DOMAINS as TYRE_DOMAINS
@@ -404,7 +404,7 @@ def _where_tyres_hold(inputs: Inputs, raw: Any) -> Any:
         for name in raw._fields[1:]
     }
     kinds = {name: value.astype(getattr(raw, name).dtype) for name, value in found.items()}
-    return raw._replace(status=lock(status), **lock(kinds))
+    return raw._replace(status=read_only(status), **read_only(kinds))
 
 
 def _first_refusal(

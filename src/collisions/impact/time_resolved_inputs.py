@@ -16,7 +16,7 @@ from ..kernels.contact_laws import BRACH
 from ..kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE, select
 from ..kernels.status import Answer, Passed, Status, WithTyres
 from ..messages.errors import InputError, MissingInputError, ShapeError
-from ..quantities.attributes import lock
+from ..quantities.attributes import read_only
 from ..quantities.directions import from_radians
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.units import shown
@@ -335,7 +335,7 @@ def beside_tyres(inputs: Inputs, raw: Any, pushes: Mapping[str, tuple[Any, Any, 
     # A single Answer has its fields in this order.
     if isinstance(raw, Answer):
         return WithTyres(*raw, **found)
-    return WithTyres(*(getattr(raw, name) for name in Answer._fields), **lock(found))
+    return WithTyres(*(getattr(raw, name) for name in Answer._fields), **read_only(found))
 
 
 def _alike(inputs: Inputs, **changes: Any) -> Inputs:
@@ -464,7 +464,7 @@ def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) 
             )
         ]
         found = found._replace(history=(*found.history, *own))
-    lock(found.history)
+    read_only(found.history)
     return found
 
 
@@ -537,7 +537,7 @@ def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
         return len(status)
 
     each_block(solve, range(0, size, length), size, cases.threads, progress)
-    return Passed(**{name: lock(output.reshape(shape)) for name, output in outputs.items()})
+    return Passed(**{name: read_only(output.reshape(shape)) for name, output in outputs.items()})
 
 
 def kernel_arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:

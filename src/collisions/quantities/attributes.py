@@ -51,7 +51,7 @@ class Derived(Generic[T]):
         else:
             # Refused cases are NaN or infinite; numpy need not warn of them again.
             with np.errstate(all="ignore"):
-                value = lock(self.work_out(owner))
+                value = read_only(self.work_out(owner))
         # The first of several threads that worked it out keeps its own: all see one object.
         return value if kept is None else kept.setdefault(self.name, value)
 
@@ -204,13 +204,13 @@ def in_quantities(function: Callable[P, Any], unit: str) -> Callable[P, Any]:
     return with_unit
 
 
-def lock(value: Any) -> Any:
+def read_only(value: Any) -> Any:
     """The value with its arrays made read-only, also those in a tuple or a dict."""
     if isinstance(value, np.ndarray):
         value.setflags(write=False)
     elif isinstance(value, (tuple, dict)):
         for part in value.values() if isinstance(value, dict) else value:
-            lock(part)
+            read_only(part)
     return value
 
 
@@ -346,4 +346,4 @@ def in_units_of(result: T, texts: Iterable[Any]) -> T:
 
 def _restored(kind: type[Any], values: dict[str, Any], texts: Iterable[Any] = ()) -> Any:
     """An unpickled result; pickle restores arrays writable, so they are locked again."""
-    return in_units_of(kind(**lock(values)), texts)
+    return in_units_of(kind(**read_only(values)), texts)

@@ -29,7 +29,7 @@ from ..messages.errors import (
     placed,
 )
 from ..messages.warning import quietly, state_of_study, warn_of_cases
-from ..quantities.attributes import lock
+from ..quantities.attributes import read_only
 from ..quantities.precision import precision
 from ..quantities.reading import ArgumentReader, amount, broadcast
 from ..quantities.units import Texts, shown
@@ -210,7 +210,7 @@ class Cases(NamedTuple):
             return float(found)
         # The forward solver reports values too large for float32.
         with np.errstate(over="ignore"):
-            return lock(np.array(np.broadcast_to(found, self.shape), dtype=self.dtype))
+            return read_only(np.array(np.broadcast_to(found, self.shape), dtype=self.dtype))
 
     def where(self, keep: Any, found: Any) -> Any:
         """The values, NaN in the cases where the condition does not hold."""
@@ -225,7 +225,7 @@ class Cases(NamedTuple):
         """An int, or infinity, for a single case, a locked array of ints for a batch."""
         if self.shape is None:
             return found if found == math.inf else int(found)
-        return lock(np.array(np.broadcast_to(found, self.shape), dtype=np.int64))
+        return read_only(np.array(np.broadcast_to(found, self.shape), dtype=np.int64))
 
     def first_status(self, findings: Sequence[tuple[Any, int]]) -> Any:
         """Code of the first finding that holds, 0 without one: an int, or an array for a batch."""
@@ -291,7 +291,7 @@ class Cases(NamedTuple):
 
 def _kept(number: Any) -> Any:
     """A number as an answer keeps it: a float, or a locked array."""
-    return lock(number) if np.ndim(number) else float(number)
+    return read_only(number) if np.ndim(number) else float(number)
 
 
 def input_faults(numbers: Mapping[str, Any], incomplete: bool = False) -> list[tuple[Any, int]]:

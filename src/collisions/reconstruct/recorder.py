@@ -15,7 +15,7 @@ from ..impact.recorded import read_place
 from ..messages.errors import InputError, MissingInputError, OutOfRangeWarning, ShapeError
 from ..messages.hints import hinted
 from ..messages.warning import warn
-from ..quantities.attributes import Shown, derived, in_units_of, lock
+from ..quantities.attributes import Shown, derived, in_units_of, read_only
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import must_be
 from ..quantities.tables import Cells, Part, Summary, all_numbers
@@ -302,9 +302,9 @@ def recorded_pulse(
         duration=float(times[at] - times[0]),
         ended=ended,
         polarity=polarity,
-        time=lock(times),
-        forward=lock(ahead),
-        left=lock(aside),
+        time=read_only(times),
+        forward=read_only(ahead),
+        left=read_only(aside),
         place=place,
     )
     return in_units_of(found, texts_of(reader.texts))

@@ -30,7 +30,7 @@ from ..quantities.directions import Angle
 from ..quantities.reading import ArgumentReader
 from ..quantities.units import shown
 from ..vehicle.drag import read_duration
-from .speeds_algebra import Root, Seen
+from .speeds_algebra import Observed, Root
 from .speeds_components import CONTRADICTION, ComponentScene
 
 # Nodes of a Gauss-Legendre rule over each part of the pulse: turns of half a radian to 1e-12.
@@ -198,7 +198,7 @@ class RecorderScene(ComponentScene):
         self._recorders, self.recorders = recorders, recorders.names
         # By regime, which is kept with what was found for it: what is seen at unit speeds, and the
         # answer with the axes and the turns that go with it.
-        self._seen: dict[Any, tuple[Any, list[Seen]]] = {}
+        self._seen: dict[Any, tuple[Any, list[Observed]]] = {}
         self._roots: dict[Any, tuple[Any, tuple[Root, Any, Any], tuple[Any, Any, Any]]] = {}
         super().__init__(given, rule, law, names, shape, plain, regime, slid, most)
         self._duration = self.given["duration"] * self.speed_unit
@@ -278,11 +278,11 @@ class RecorderScene(ComponentScene):
             for kind, reading in zip(self.components, self._readings, strict=True)
         ]
 
-    def at_unit_speeds(self, regime: Any) -> list[Seen]:
+    def unit_responses(self, regime: Any) -> list[Observed]:
         """As in any scene; it does not depend on the axes, so each regime is asked once."""
         key = regime if isinstance(regime, str) else id(regime)
         if key not in self._seen:
-            self._seen[key] = regime, super().at_unit_speeds(regime)
+            self._seen[key] = regime, super().unit_responses(regime)
         return self._seen[key][1]
 
     def _solved(self, regime: Any) -> tuple[Root, Any, Any]:
@@ -314,7 +314,7 @@ class RecorderScene(ComponentScene):
     def _judged(
         self, regime: Any, speeds: Sequence[Any], moved: Any, stays_open: Any
     ) -> tuple[Root, Any, Any]:
-        here: Seen = self.observe(regime, *speeds)
+        here: Observed = self.observe(regime, *speeds)
         self._linear_about(dict.fromkeys(self._own, (here.normal, here.tangential)))
         return super()._judged(regime, speeds, moved, stays_open)
 

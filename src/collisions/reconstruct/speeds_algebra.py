@@ -82,7 +82,7 @@ class Root(NamedTuple):
 NO_ROOT = Root(*[math.nan] * 5)
 
 
-class Seen(NamedTuple):
+class Observed(NamedTuple):
     """What the forward kernel tells at two speeds; an observation times ``weight`` is a polynomial
     of them.
     """
@@ -106,7 +106,7 @@ class Seen(NamedTuple):
     weight: Any = 1.0
 
 
-def _observed(speed_a: Any, speed_b: Any, e: Any, bound: Any, *fixed: Any) -> Seen:
+def _observed(speed_a: Any, speed_b: Any, e: Any, bound: Any, *fixed: Any) -> Observed:
     """The kernel of free bodies at these speeds; with ``sticks`` the impulse and the loss are those
     of a sticking contact.
     """
@@ -131,7 +131,7 @@ def _observed(speed_a: Any, speed_b: Any, e: Any, bound: Any, *fixed: Any) -> Se
             law, e, closing, slip, slip_after, True, 0.0, normal, tangential, None, EPS
         )[2]
     whole = abs(speed_a) + abs(speed_b) + spinning
-    return Seen(
+    return Observed(
         status=raw.status,
         speed_a=speed_a,
         speed_b=speed_b,
@@ -153,7 +153,7 @@ def _observed(speed_a: Any, speed_b: Any, e: Any, bound: Any, *fixed: Any) -> Se
 @lru_cache(maxsize=16)
 def _observed_of_floats(
     sticks: bool, rule: str, law: str, held: bool
-) -> Callable[[Sequence[float]], Seen | None]:
+) -> Callable[[Sequence[float]], Observed | None]:
     """The same compiled for plain floats."""
     count = 5 + len(_FIXED) + (len(HELD) if held else 0)
     return compile_for_floats(
@@ -202,7 +202,7 @@ class Scene:
         self.fixed = [spinning, *(v[name] for name in (*_FIXED, *(HELD if self.held else ())))]
         self.e, self.bound = v["restitution"], v[rule]
         # Both observations of what is seen.
-        self.both: Callable[[Seen], Any] = attrgetter(*self.kinds)
+        self.both: Callable[[Observed], Any] = attrgetter(*self.kinds)
         self.targets = {
             kind: number(self._target(name)) for kind, name in zip(self.kinds, names, strict=True)
         }
@@ -258,7 +258,7 @@ class Scene:
         finite = select(abs(self.bound) == np.inf, np.nan, self.bound)
         return [finite, select(self.bound > 0.0, -finite, np.nan), STICK]
 
-    def observe(self, regime: Any, speed_a: Any, speed_b: Any, e_step: float = 0.0) -> Seen:
+    def observe(self, regime: Any, speed_a: Any, speed_b: Any, e_step: float = 0.0) -> Observed:
         """The observations at these speeds if the contact is in this regime, or in the one that the
         law leads to.
         """
@@ -277,7 +277,7 @@ class Scene:
         numbers: list[Any] = [float(speed_a), float(speed_b), float(e), float(bound), *self.fixed]
         return _observed_of_floats(*settings)(numbers) or _observed(*numbers, *settings)
 
-    def at_unit_speeds(self, regime: Any) -> list[Seen]:
+    def unit_responses(self, regime: Any) -> list[Observed]:
         """What is seen of vehicles that do not move, and of each moving by itself at a
         speed of 1.
         """
@@ -285,11 +285,11 @@ class Scene:
         return [self.observe(regime, *pair) for pair in ((zero, zero), (one, zero), (zero, one))]
 
     @cached_property
-    def _linear(self) -> tuple[Seen, tuple[Any, Any], tuple[Any, Any]]:
+    def _linear(self) -> tuple[Observed, tuple[Any, Any], tuple[Any, Any]]:
         """What is seen of vehicles that do not move, and the closing speed and the slip per unit of
         each speed.
         """
-        rest, by_a, by_b = self.at_unit_speeds(STICK)
+        rest, by_a, by_b = self.unit_responses(STICK)
         return (
             rest,
             (by_a.closing - rest.closing, by_b.closing - rest.closing),
@@ -332,7 +332,7 @@ class Scene:
         fixed, kind = self.kinds
         target = self.targets[kind]
 
-        def seen(x: Any) -> Seen:
+        def seen(x: Any) -> Observed:
             return self.observe(regime, *self._with_known_speed(x))
 
         def excess(x: Any) -> Any:
@@ -362,7 +362,7 @@ class Scene:
         """With two quadratic observations: their ratio depends on slip over closing speed alone."""
         (k1, c1), (k2, c2) = self.targets.items()
 
-        def apart(seen: Seen) -> Any:
+        def apart(seen: Observed) -> Any:
             one, other = self.both(seen)
             return c2 * one - c1 * other
 
@@ -393,14 +393,14 @@ class Scene:
             pairs.append(self.speeds_at(closing, ratio * closing))
         return pairs
 
-    def _per_closing(self, regime: Any, slip: Any) -> Seen:
+    def _per_closing(self, regime: Any, slip: Any) -> Observed:
         """The observations at unit closing speed and this slip."""
         return self.observe(regime, *self.speeds_at(np.ones(()), slip))
 
-    def _samples(self, regime: Any) -> list[Seen]:
+    def _samples(self, regime: Any) -> list[Observed]:
         return [self._per_closing(regime, np.full((), slip)) for slip in (-1.0, 0.0, 1.0)]
 
-    def _redundant(self, p1: Any, p2: Any, samples: Sequence[Seen]) -> Any:
+    def _redundant(self, p1: Any, p2: Any, samples: Sequence[Observed]) -> Any:
         """Whether both observations have the ratio p1 to p2 at every slip."""
         pairs = [(p2 * one, p1 * other) for one, other in map(self.both, samples)]
         scale = sum(abs(one) + abs(other) for one, other in pairs)
@@ -422,16 +422,16 @@ class Scene:
     def _polished_where_likely(
         self, regime: Any, speed_a: Any, speed_b: Any, function: RestitutionOf | None
     ) -> Root:
-        """The root polished in those cases in which the law leads to this regime, or nearly; in
+        """The root polished in those cases in which the law ends in this regime, or nearly; in
         others NaN.
         """
         here, seen = (self.observe(which, speed_a, speed_b) for which in (regime, LAW))
         apart = abs(here.normal - seen.normal) + abs(here.tangential - seen.tangential)
         near = _UNPOLISHED * here.whole
-        led = (here.closing > 0.0) & (
+        ends_so = (here.closing > 0.0) & (
             apart <= _IMPULSE_UNPOLISHED * abs(here.normal) + here.effective_mass * near
         )
-        likely = led | (abs(here.closing) <= near)
+        likely = ends_so | (abs(here.closing) <= near)
         if "energy_loss" in self.kinds:
             # An energy that is rounding beside those before and after says little of where the root
             # is.
@@ -475,7 +475,7 @@ class Scene:
             )
             ahead = self.observe(regime, speed_a - step_a, speed_b - step_b)
             # Where two roots meet the derivative is rounding, and a step over it may lead anywhere.
-            away = self._off(ahead, here) > self._off(here, here)
+            away = self._misfit_of(ahead, here) > self._misfit_of(here, here)
             usable = (step_a - step_a == 0.0) & (step_b - step_b == 0.0) & (away ^ True)
             speed_a = speed_a - select(usable, step_a, 0.0)
             speed_b = speed_b - select(usable, step_b, 0.0)
@@ -484,9 +484,9 @@ class Scene:
             here = (
                 ahead
                 if usable is True
-                else Seen._make(select(usable, *pair) for pair in zip(ahead, here, strict=True))
+                else Observed._make(select(usable, *pair) for pair in zip(ahead, here, strict=True))
             )
-        closing = self._closing_if_led(
+        closing = self._closing_if_reproduced(
             speed_a, speed_b, [abs(one) + abs(other) for one, other in zip(by_a, by_b, strict=True)]
         )
         many = np.any(closing > 0.0) and self._one_of_many(speed_a, speed_b)
@@ -510,14 +510,14 @@ class Scene:
             speed_a, speed_b, self.e, self._condition(by_a, by_b, here.closing), closing, many
         )
 
-    def _slopes(self, step: Any, ahead: Seen, behind: Seen) -> list[Any]:
+    def _slopes(self, step: Any, ahead: Observed, behind: Observed) -> list[Any]:
         """Central difference of each observation."""
         return [
             (up - down) / (2.0 * step)
             for up, down in zip(self.both(ahead), self.both(behind), strict=True)
         ]
 
-    def _off(self, seen: Seen, here: Seen) -> Any:
+    def _misfit_of(self, seen: Observed, here: Observed) -> Any:
         """Largest relative residual of both observations; an energy loss is measured against
         closing speed times impulse.
         """
@@ -542,14 +542,14 @@ class Scene:
         moved = np.maximum(abs(d1 * j22) + abs(d2 * j12), abs(d2 * j11) + abs(d1 * j21))
         return moved / abs((j11 * j22 - j12 * j21) * closing)
 
-    def _closing_if_led(self, speed_a: Any, speed_b: Any, slopes: Sequence[Any]) -> Any:
-        """The closing speed where the given law leads from these speeds to the observed values,
-        elsewhere NaN.
+    def _closing_if_reproduced(self, speed_a: Any, speed_b: Any, slopes: Sequence[Any]) -> Any:
+        """The closing speed where the kernel reproduces the observed values from these speeds under
+        the given law, elsewhere NaN.
 
         The speeds of a root are themselves rounded, which moves an observation by its slope; the
         kernel adds the rounding of the parts that it sums up. What is off by more belongs to
-        another regime than the law leads to. Near grazing rounding grows beyond the observation
-        itself and tells nothing: there a part of the observation is the bound.
+        another regime than that in which the law ends. Near grazing rounding grows beyond the
+        observation itself and tells nothing: there a part of the observation is the bound.
         """
         seen = self.observe(LAW, speed_a, speed_b)
         fits = pushed(seen)
@@ -596,7 +596,7 @@ class Scene:
         places = [self._with_known_speed(low + part * (high - low)) for part in _PARTS]
         return self._can_occur(regime) & wide & self._all_fit(places)
 
-    def _conditions(self, regime: Any, stuck: Seen) -> list[Any]:
+    def _conditions(self, regime: Any, stuck: Observed) -> list[Any]:
         """The expressions that must be positive for the law to lead to a regime."""
         if self.rule == IMPULSE_RATIO:
             return [stuck.closing]
@@ -647,7 +647,7 @@ class Scene:
         restitution of 1 it tells amounts apart that are far smaller.
         """
         fit: Any = True
-        first: Seen | None = None
+        first: Observed | None = None
         for pair in pairs:
             seen = self.observe(LAW, *pair)
             first = first or seen
@@ -674,7 +674,7 @@ def shares_critical(rule: str, value: Any) -> bool:
     return rule == CRITICAL_FRACTION and bool(np.any(np.greater(value, 0.0) & np.less(value, 1.0)))
 
 
-def pushed(seen: Seen) -> Any:
+def pushed(seen: Observed) -> Any:
     """Whether these speeds are answered, with a closing speed beyond rounding.
 
     A course at a right angle to the normal, in radians, leaves a cosine of 1e-16: a closing speed
@@ -689,7 +689,7 @@ def _power_of_two(size: Any) -> Any:
     return np.ldexp(1.0, np.frexp(np.where(usable, size, 1.0))[1] - 1)
 
 
-def _observation_rounding(kind: str, seen: Seen) -> Any:
+def _observation_rounding(kind: str, seen: Observed) -> Any:
     """Worst rounding error of an observation that was itself computed from speeds.
 
     An energy that is the difference of those before and after is known to the rounding of the

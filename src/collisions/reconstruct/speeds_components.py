@@ -27,7 +27,7 @@ from ..quantities.directions import Angle
 from ..reference import INTER_VEHICLE_FRICTION, RECORDER_ACCURACY
 from .common import NEARLY_COLLINEAR, Cases
 from .restitution_roots import RestitutionOf
-from .speeds_algebra import HELD, LAW, REDUNDANT, ROOT_TOL, STICK, Root, Scene, Seen, pushed
+from .speeds_algebra import HELD, LAW, REDUNDANT, ROOT_TOL, STICK, Observed, Root, Scene, pushed
 
 ACCURACY = RECORDER_ACCURACY.high
 # Beyond three times the stated accuracy the known values contradict each other.
@@ -187,7 +187,7 @@ class ComponentScene(Scene):
         """With one speed known: whether the other does not show in the closing speed, so that a
         contact that slid leaves it open.
         """
-        rest, *moving = self.at_unit_speeds(STICK)
+        rest, *moving = self.unit_responses(STICK)
         effects = [abs(one.closing - rest.closing) for one in moving]
         return effects[self.unknown[0]] <= _NO_EFFECT * np.maximum(*effects)
 
@@ -281,7 +281,7 @@ class ComponentScene(Scene):
         here = self.observe(STICK, *root[:2])
         return self._misfit(here)
 
-    def _misfit(self, here: Seen) -> Any:
+    def _misfit(self, here: Observed) -> Any:
         """What the components differ by from those seen, relative to the impulse."""
         left = self._left(here)
         size = np.hypot(here.normal, here.tangential)
@@ -325,7 +325,7 @@ class ComponentScene(Scene):
         """What the components are at rest, the effect of each speed on them, the inverse for the
         unknown speeds, and where it leaves one open.
         """
-        rest, *moving = map(self._seen_momenta, self.at_unit_speeds(regime))
+        rest, *moving = map(self._seen_momenta, self.unit_responses(regime))
         effects = [
             [at - still for at, still in zip(momenta, rest, strict=True)] for momenta in moving
         ]
@@ -390,10 +390,10 @@ class ComponentScene(Scene):
         )
         return root, np.where(usable, misfit, np.inf), np.where(leaves_open, misfit, np.inf)
 
-    def _seen_momenta(self, seen: Seen) -> list[Any]:
+    def _seen_momenta(self, seen: Observed) -> list[Any]:
         return [n * seen.normal + t * seen.tangential for n, t in self._axes]
 
-    def _left(self, seen: Seen) -> list[Any]:
+    def _left(self, seen: Observed) -> list[Any]:
         return [
             target - one
             for target, one in zip(self._momenta, self._seen_momenta(seen), strict=True)

@@ -11,7 +11,7 @@ from ..kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from ..kernels.elementwise import FINITE, Domain, restitution_domain
 from ..messages.errors import InputError, MissingInputError
 from ..messages.hints import hinted
-from ..quantities.attributes import Shown, lock, texts_given
+from ..quantities.attributes import Shown, read_only, texts_given
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.refusals import must_be, yes_or_no
@@ -194,7 +194,7 @@ class Contact(Shown):
         )
         texts.units = reader.texts.units
         for name in NAMES:
-            object.__setattr__(self, name, lock(found[name]))
+            object.__setattr__(self, name, read_only(found[name]))
         object.__setattr__(self, "_inputs_as_texts", texts)
 
     def replace(self, **changes: Any) -> Contact:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..messages.errors import InputError
 from ..messages.hints import hinted
-from ..quantities.attributes import Shown, lock, texts_given
+from ..quantities.attributes import Shown, read_only, texts_given
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Cells, Part, Summary, all_numbers
 from ..quantities.units import Input, Texts, Value, texts_of
@@ -104,9 +104,9 @@ class Mover(Shown):
         reader.close()
         for name, value in (
             ("vehicle", vehicle),
-            ("outline", lock(corners)),
+            ("outline", read_only(corners)),
             ("tyres", tyres),
-            ("drag", lock(read)),
+            ("drag", read_only(read)),
             ("_inputs_as_texts", Texts(reader.texts)),
         ):
             object.__setattr__(self, name, value)

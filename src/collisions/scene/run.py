@@ -20,7 +20,7 @@ from ..messages.errors import (
     ShapeError,
 )
 from ..messages.warning import warn_of_cases
-from ..quantities.attributes import Frozen, Quantities, Shown, derived, format_value, lock
+from ..quantities.attributes import Frozen, Quantities, Shown, derived, format_value, read_only
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers
 from ..quantities.units import Input, Texts, texts_of
@@ -420,7 +420,7 @@ class Run(Frozen, Summarized):
         found = np.zeros(self._followed.count, dtype=bool)
         for hit, some in self._hits(number):
             found[hit.which[some]] = hit.deepest[some]
-        return lock(found)
+        return read_only(found)
 
     def _refuse_batch(self, what: str) -> None:
         if not self._followed.single:
@@ -452,7 +452,7 @@ class Run(Frozen, Summarized):
             return float(found.times[number, 0])
         many = found.times[number] if number < len(found.times) else np.full(found.count, np.nan)
         times = np.where(found.failed == "", many, np.nan)
-        return lock(times.reshape(self._shape))
+        return read_only(times.reshape(self._shape))
 
     def _whole(self, number: int) -> Impact:
         """The impacts of one number over all cases, NaN where there is none."""
@@ -558,15 +558,15 @@ class Run(Frozen, Summarized):
         shape = (len(time), *self._shape)
         if not found.single:
             state = state + self._missing(name)
-        rows = {one: lock(row.reshape(shape)) for one, row in zip(STATE, state, strict=True)}
+        rows = {one: read_only(row.reshape(shape)) for one, row in zip(STATE, state, strict=True)}
         tracks: dict[str, Any] = {}
         if found.single and mover.tyres is not None and marks:
             whole = np.concatenate(marks, axis=2)
             tracks = {
-                wheel: (lock(x.copy()), lock(y.copy()))
+                wheel: (read_only(x.copy()), read_only(y.copy()))
                 for wheel, (x, y) in zip(_WHEELS, whole, strict=True)
             }
-        return Track(time=lock(time.reshape(shape)), **rows, marks=tracks)
+        return Track(time=read_only(time.reshape(shape)), **rows, marks=tracks)
 
     def _marks(self, name: str, clock: Any, state: Any) -> Any:
         _, marks = self._power(name, clock, state)

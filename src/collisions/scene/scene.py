@@ -14,7 +14,7 @@ import numpy as np
 from ..kernels.elementwise import POSITIVE_FINITE
 from ..messages.errors import InputError, MissingInputError, ShapeError
 from ..messages.hints import hinted
-from ..quantities.attributes import Shown, equal, lock, texts_given
+from ..quantities.attributes import Shown, equal, read_only, texts_given
 from ..quantities.reading import ArgumentReader, broadcast
 from ..quantities.settings import Default
 from ..quantities.tables import Cells, Part, Summary, all_numbers
@@ -122,7 +122,7 @@ class Scene(Shown):
         found["shared"] = MappingProxyType(_read_shared(reader, shared, found["movers"]))
         reader.close()
         for name, value in found.items():
-            object.__setattr__(self, name, lock(value))
+            object.__setattr__(self, name, read_only(value))
         object.__setattr__(self, "_inputs_as_texts", Texts(reader.texts))
         shape = broadcast(dict(self._numbers()))
         if shape is not None and (len(shape) != 1 or not shape[0]):

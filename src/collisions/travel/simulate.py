@@ -16,8 +16,7 @@ from ..kernels.run_out import Settings, ground_of
 from ..kernels.tyre import wheel_forces
 from ..messages.errors import InputError, NoSolutionError, ShapeError
 from ..messages.hints import hinted
-from ..quantities.attributes import Shown, hypot, in_units_of
-from ..quantities.attributes import lock as write_locked
+from ..quantities.attributes import Shown, hypot, in_units_of, read_only
 from ..quantities.precision import precision
 from ..quantities.reading import ArgumentReader, broadcast, is_whole
 from ..quantities.settings import Default
@@ -375,10 +374,10 @@ def simulate(
                 ("out_of_range", ~np.isfinite(way[:4].astype(kind)).all(axis=(0, 1)).reshape(shape))
             ]
         # 0, or NaN where a case is refused.
-        still = write_locked(settle(np.zeros(shape), made.finite, shape, checks).astype(kind))
+        still = read_only(settle(np.zeros(shape), made.finite, shape, checks).astype(kind))
         with np.errstate(all="ignore"):
             found = (way.reshape(len(way), moments, *shape) + still).astype(kind)
-    time, x, y, heading, vx, vy, yaw_rate, *tracks = write_locked(tuple(found))
+    time, x, y, heading, vx, vy, yaw_rate, *tracks = read_only(tuple(found))
     last = {"x": x[-1], "y": y[-1], "heading": heading[-1]}
     last |= {"vx": vx[-1], "vy": vy[-1], "yaw_rate": yaw_rate[-1]}
     state = {name: getattr(vehicle, name) for name in NAMES}

@@ -19,7 +19,7 @@ from ..messages.errors import (
     ShapeError,
 )
 from ..messages.warning import warn_of_cases
-from ..quantities.attributes import hypot, lock, math_or_numpy
+from ..quantities.attributes import hypot, math_or_numpy, read_only
 from ..quantities.reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
 from ..quantities.units import Input
 from ..vehicle.drag import GRAVITY, one_value
@@ -235,4 +235,4 @@ def settle(
         # as much memory again.
         return answer if np.shape(answer) == shape else np.array(np.broadcast_to(answer, shape))
 
-    return lock(settled(found))
+    return read_only(settled(found))

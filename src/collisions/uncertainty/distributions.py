@@ -12,7 +12,7 @@ import numpy as np
 
 from ..messages.errors import InputError, MissingInputError, ShapeError
 from ..messages.hints import hinted
-from ..quantities.attributes import lock
+from ..quantities.attributes import read_only
 from ..quantities.refusals import must_be
 from ..quantities.units import Input
 from .distribution import Distribution, Statement, check_order, from_numbers, read_alike, show
@@ -231,8 +231,8 @@ class Samples(Distribution):
         }
 
     def _derive(self, rows: Any, group: str | None) -> None:
-        ordered = lock(np.sort(rows))
-        self._set(rows=lock(rows), group=group, _sorted=ordered)
+        ordered = read_only(np.sort(rows))
+        self._set(rows=read_only(rows), group=group, _sorted=ordered)
         with np.errstate(over="ignore", invalid="ignore"):
             away = rows - rows[0]
             scale = power_of_two(away)

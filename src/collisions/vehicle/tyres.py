@@ -24,7 +24,7 @@ from ..messages.errors import InputError, ShapeError
 from ..messages.hints import hinted, no_argument
 from ..messages.marked import type_of
 from ..quantities.attribute_stubs import TyresQuantities
-from ..quantities.attributes import Shown, lock
+from ..quantities.attributes import Shown, read_only
 from ..quantities.reading import ArgumentReader, at_least_zero, warn_if_large
 from ..quantities.refusals import must_be
 from ..quantities.settings import Default, in_si
@@ -257,7 +257,7 @@ def as_given(tyres: Tyres, name: str) -> Any:
 
 def _set(tyres: Tyres, values: Mapping[str, Any], texts: Texts) -> None:
     for name in NAMES:
-        object.__setattr__(tyres, name, lock(values[name]))
+        object.__setattr__(tyres, name, read_only(values[name]))
     object.__setattr__(tyres, "_inputs_as_texts", texts)
 
 

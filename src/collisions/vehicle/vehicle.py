@@ -14,7 +14,15 @@ from ..messages.errors import InputError, MissingInputError
 from ..messages.hints import hinted, no_argument
 from ..messages.marked import type_of
 from ..quantities.attribute_stubs import VehicleQuantities
-from ..quantities.attributes import Quantities, derived, equal, format_value, hypot, lock, returns
+from ..quantities.attributes import (
+    Quantities,
+    derived,
+    equal,
+    format_value,
+    hypot,
+    read_only,
+    returns,
+)
 from ..quantities.directions import Angle, angle_of, direction
 from ..quantities.reading import ArgumentReader, broadcast, widened
 from ..quantities.refusals import must_be
@@ -226,8 +234,8 @@ class Vehicle(_AsGiven):
             )
             (magnitude,) = widened((magnitude,), numbers_of(vehicle).values())
             with np.errstate(all="ignore"):
-                _set_vx(vehicle, lock(magnitude * cx + 0.0))
-                _set_vy(vehicle, lock(magnitude * cy + 0.0))
+                _set_vx(vehicle, read_only(magnitude * cx + 0.0))
+                _set_vy(vehicle, read_only(magnitude * cy + 0.0))
         if reader.texts or reader.texts.units:
             # Both, so that a record can hold them in place of vx and vy.
             bare: Any = (("speed", speed, "m/s"), ("course", course, "rad"))
@@ -457,7 +465,7 @@ class Vehicle(_AsGiven):
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         for name, value in state.items():
-            object.__setattr__(self, name, lock(value))
+            object.__setattr__(self, name, read_only(value))
 
 
 def _refuse_setting(vehicle: Vehicle, name: str, value: Any = None) -> None:
@@ -551,7 +559,7 @@ def moved(
             yaw_rate, vehicle.x, vehicle.y, vehicle.pivot[0], vehicle.pivot[1]
         )
     if isinstance(vx, np.ndarray):
-        lock((vx, vy, yaw_rate))
+        read_only((vx, vy, yaw_rate))
         texts: Texts | None = Texts(given)
     else:
         texts = None if given is None else Texts(given)
@@ -798,5 +806,5 @@ def _pinned_velocity(
         moved = np.broadcast_arrays(
             np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy)
         )
-    found: tuple[Any, Any] = lock(tuple(part.astype(kind) for part in moved))
+    found: tuple[Any, Any] = read_only(tuple(part.astype(kind) for part in moved))
     return found
