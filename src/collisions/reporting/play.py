@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from html import escape
+from itertools import repeat
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from ..plot.canvas import SMALLEST
 from ..plot.run import COLOURS, tracks_of
 from ..quantities.document import Document
 from ..quantities.formatting import UnitSystem, decimals_of, typeset
+from ..quantities.printed_tables import html_row
 from ..quantities.tables import Cells, cells
 from ..scene.frames import Frames, frames_of
 from ..scene.mover import Mover
@@ -23,6 +25,8 @@ from .render import plain
 
 _PAGE = Path(__file__).with_name("play.html")
 _STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate")
+# What the table of states has, by the names that the script fills in, with the kinds of quantity.
+_SHOWN = {"speed": "speed", "yaw": "yaw rate", "x": "length", "y": "length", "heading": "angle"}
 # Parts of the dashes of a track, by vehicle, as in the pictures.
 _DASHES: tuple[list[float], ...] = ([], [6, 2], [6, 2, 1, 2], [2, 1.5])
 # As shares of the larger extent of the view: its margin, and the longest arrow and scale bar.
@@ -142,19 +146,14 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
         f"Contact {number + 1}: {escape(' and '.join(names[name] for name in pair))}</button>"
         for number, pair in enumerate(run.pairs)
     )
+    # The script fills them in.
     rows = "\n".join(
-        f'<tr><th scope="row" style="color:{COLOURS[index % len(COLOURS)]}">{escape(name)}</th>'
-        + "".join(
-            f'<td id="{index}.{part}" data-kind="{kind}"></td>'
-            for part, kind in (
-                ("speed", "speed"),
-                ("yaw", "yaw rate"),
-                ("x", "length"),
-                ("y", "length"),
-                ("heading", "angle"),
-            )
+        html_row(
+            name,
+            *repeat("", len(_SHOWN)),
+            of_head=f' scope="row" style="color:{COLOURS[index % len(COLOURS)]}"',
+            of_cells=(f' id="{index}.{part}" data-kind="{kind}"' for part, kind in _SHOWN.items()),
         )
-        + "</tr>"
         for index, name in enumerate(names.values())
     )
     text = _PAGE.read_text(encoding="utf-8")

@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from html import escape
+from itertools import repeat
 from operator import attrgetter
 from pathlib import Path
 from types import SimpleNamespace
@@ -26,6 +27,7 @@ from ..plot.canvas import who
 from ..quantities.directions import angle_of, direction, from_degrees
 from ..quantities.document import Document
 from ..quantities.formatting import SI_UNITS, UnitSystem, decimals_of, in_words, typeset
+from ..quantities.printed_tables import html_row
 from ..quantities.reading import OUTSIDE_UNITS, ArgumentReader, need_one_case
 from ..quantities.tables import Cells, cells, said
 from ..quantities.units import Input, Texts, has_unit, shown
@@ -540,18 +542,12 @@ def _written(
     seen = []
     for one in evidence:
         bounds = f' data-low="{one.low!r}" data-high="{one.high!r}"' if one.low < one.high else ""
-        seen.append(
-            f'<tr><th scope="row">{escape(one.words)}</th>'
-            f"<td>{escape(system.span(one.low, one.high, one.kind))}</td>"
-            f'<td id="seen.{one.path}" data-path="{one.path}" data-kind="{one.kind}"{bounds}></td>'
-            "</tr>"
-        )
+        # The script fills in what the model gives now.
+        now = f' id="seen.{one.path}" data-path="{one.path}" data-kind="{one.kind}"{bounds}'
+        given = system.span(one.low, one.high, one.kind)
+        seen.append(html_row(one.words, given, "", of_cells=("", now)))
     not_moved = [
-        f'<tr><th scope="row">{escape(what)}</th>'
-        + "".join(
-            f"<td{' colspan=2' if len(texts) == 1 else ''}>{escape(text)}</td>" for text in texts
-        )
-        + "</tr>"
+        html_row(what, *texts, of_cells=repeat(" colspan=2" if len(texts) == 1 else ""))
         for what, texts in _fixed(impact, sliders, system)
     ]
     text = _PAGE.read_text(encoding="utf-8")
