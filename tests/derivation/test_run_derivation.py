@@ -62,7 +62,7 @@ def test_both_forms_and_what_is_refused() -> None:
     assert "## Impact 1: " in page
     assert "\n### Given" in page
     text = col.explain(coasting(), form="text")
-    assert "<A & co> (A) and B (B), at 0.00 s\n----" in text
+    assert "<A & co> as A and B as B, at 0.00 s\n----" in text
     with pytest.raises(col.InputError, match=r"explain\(run.impacts\[0\], uncertainty=...\)"):
         col.explain(coasting(), uncertainty={"energy_loss": 1.0})
     with pytest.raises(col.InputError, match="form"):

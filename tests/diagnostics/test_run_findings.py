@@ -5,11 +5,13 @@ open.
 from __future__ import annotations
 
 import math
+import re
 
 import pytest
 
 import collisions as col
-from collisions.scene import Scene
+from collisions.scene import Contact, Mover, Scene
+from collisions.travel import Tyres
 from crashes import three_cars
 
 
@@ -79,7 +81,7 @@ def test_what_would_move_each_impact_is_that_of_the_impact() -> None:
     for number, (impact, pair) in enumerate(zip(run.impacts, run.pairs, strict=True), 1):
         own = col.diagnose(impact).moves
         wanted += [
-            (f"impact {number}, {pair[0]} (A) and {pair[1]} (B): {move.what}", move.share)
+            (f"impact {number}, {pair[0]} as A and {pair[1]} as B: {move.what}", move.share)
             for move in own
         ]
     assert [(move.what, move.share) for move in found.moves] == wanted
@@ -87,3 +89,26 @@ def test_what_would_move_each_impact_is_that_of_the_impact() -> None:
     assert page.count("change of the delta-V of A, of B") == sum(
         math.isfinite(move.share) for move in found.moves
     )
+
+
+def test_movers_called_by_the_letters_of_the_other_are_told_apart() -> None:
+    """A mover named B that is the first of its contact is "A (named B)", and findings of a run
+    have no letters of their own.
+    """
+    tyres = Tyres(0.7, 0.3, 2.7, 1.5)
+    first, second = (
+        Mover(
+            col.Vehicle(mass=1500, yaw_inertia=2500, x=x, y=0.3, vx=vx, heading=0.0),
+            outline=(4.5, 1.8),
+            tyres=tyres,
+        )
+        for x, vx in ((-6.0, 14.0), (0.0, 0.0))
+    )
+    touch = Contact("B", "A", restitution=0.1, friction=0.5, at="touch")
+    run = Scene(movers={"B": first, "A": second}, contacts=[touch]).run()
+    found = col.diagnose(run, limits={"tyre_impulse": 0.0})
+    text = " ".join(f"{found} {found.moves} {col.explain(run)}".split())
+    assert not re.search(r"B \(A\)|A \(B\)", text)
+    assert "A (named B)" in text
+    assert "impact 1, B as A and A as B" in text
+    assert not any(re.match(r"\s*\w+ \([AB]\)", line) for line in str(found).splitlines())

@@ -24,6 +24,7 @@ from ..scene.one_run import need_one_run
 from ..scene.run import Run
 from ..uncertainty.distributions import Interval
 from ..uncertainty.result import Output, Propagation, ends_of, varies
+from ..vehicle.vehicle import named
 from .contact import motions, normal
 from .evidence import MOMENTUM_ANSWERS, fit, momentum
 from .expressions import System
@@ -383,7 +384,8 @@ def _inputs(page: Page, impact: Impact) -> None:
         if "normal" in names and bare is not None:
             text += f", given as {bare:.6g} without a unit"
         name = vehicles.get(of, "")
-        rows.append((f"{of} ({page.name(name)})" if name not in ("", of) else of, what, text))
+        letter = of if name in ("", of) else f"{of} ({page.name(named(name))})"
+        rows.append((letter, what, text))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution", impact.law.title()))
     rows += [

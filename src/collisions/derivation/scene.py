@@ -26,7 +26,7 @@ def scene_steps(page: Page, run: Run, steps: Callable[[Page, Impact], None]) -> 
         zip(run.times, run.pairs, run.impacts, strict=True)
     ):
         one, other = (page.name(name) for name in pair)
-        page.heading(f"Impact {number + 1}: {one} (A) and {other} (B), at {time:.2f} s")
+        page.heading(f"Impact {number + 1}: {one} as A and {other} as B, at {time:.2f} s")
         with page.one_level_down():
             steps(page, impact)
     page.heading("Places of rest")

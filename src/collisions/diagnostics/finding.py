@@ -96,6 +96,13 @@ def is_note(finding: Finding) -> bool:
     return finding.source == NOTE
 
 
+def letter_of(finding: Finding) -> str:
+    """The letter of the vehicle that a finding is about, in brackets; none in a run, whose
+    sentences have the names.
+    """
+    return f" ({finding.vehicle.upper()})" if finding.vehicle and finding.impact is None else ""
+
+
 class Findings(tuple[Finding, ...], Summarized):
     """A tuple of findings; ``measured`` has the codes of all checks that were made, whether they
     found anything or not, ``moves`` what would move the answer.
@@ -142,7 +149,7 @@ class Findings(tuple[Finding, ...], Summarized):
     def _summary(self, numbers: Cells) -> Summary:
         rows = []
         for finding in self:
-            of = f" ({finding.vehicle.upper()})" if finding.vehicle else ""
+            of = letter_of(finding)
             sizes = (None, None) if is_note(finding) else (finding.measured, finding.limit)
             measured, limit = (numbers.text(size, finding.unit) for size in sizes)
             rows.append((f"{finding.code}{of}", finding.sentence, measured, limit))

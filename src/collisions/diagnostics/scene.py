@@ -60,7 +60,7 @@ def diagnose_run(
             replace(one, sentence=f"{where}: {one.sentence}", impact=number, time=time)
             for one in own
         ]
-        of = f"impact {number + 1}, {pair[0]} (A) and {pair[1]} (B)"
+        of = f"impact {number + 1}, {pair[0]} as A and {pair[1]} as B"
         moves += [replace(move, what=f"{of}: {move.what}") for move in own.moves]
     found += [
         Finding(

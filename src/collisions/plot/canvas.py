@@ -23,7 +23,7 @@ from ..quantities.formatting import (
 from ..quantities.reading import need_one_case
 from ..quantities.tables import Summarized, cells
 from ..quantities.units import shown
-from ..vehicle.vehicle import Vehicle
+from ..vehicle.vehicle import Vehicle, named
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -152,7 +152,9 @@ def size_of(known: list[tuple[float, float]], labels: Units, sketched: bool) -> 
 def who(index: int, vehicle: Vehicle) -> str:
     """The letter of a vehicle, and its name if that says more, in short lines."""
     letter = "AB"[index]
-    return letter if vehicle.name in ("", letter) else in_lines(f"{letter} ({vehicle.name})")
+    if vehicle.name in ("", letter):
+        return letter
+    return in_lines(f"{letter} ({named(vehicle.name)})")
 
 
 def drawable(text: str) -> str:

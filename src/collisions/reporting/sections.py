@@ -14,7 +14,7 @@ from ..derivation.explain import impact_answers, impact_inputs, key_of
 from ..derivation.reverse import evidence_of, found_inputs, number_of_text
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
-from ..diagnostics.finding import Findings, is_note
+from ..diagnostics.finding import Findings, is_note, letter_of
 from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
 from ..impact.instant import looked_for, neglected
@@ -38,7 +38,7 @@ from ..reconstruct import MomentumSolution, Posterior
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..vehicle.drag import read_drag, read_duration
 from ..vehicle.tyres import Tyres
-from ..vehicle.vehicle import Vehicle
+from ..vehicle.vehicle import Vehicle, named
 from .render import Sheet, given_as, plain
 from .uncertainty import Spread
 from .words import Names
@@ -147,7 +147,7 @@ def inputs(
                 for one, text in own.given.items()
             }
         name = (
-            f"{of} ({plain(vehicle.name)})"
+            f"{of} ({plain(named(vehicle.name))})"
             if vehicle is not None and vehicle.name not in ("", of)
             else of
         )
@@ -751,7 +751,7 @@ def findings(sheet: Sheet, found: Findings) -> None:
         return
     lines = []
     for finding in found:
-        of = f" ({finding.vehicle.upper()})" if finding.vehicle else ""
+        of = letter_of(finding)
         sentence = plain(finding.sentence).rstrip(".")
         end = "" if sentence.endswith("?") else "."
         judged = ""

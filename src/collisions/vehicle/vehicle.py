@@ -630,11 +630,18 @@ _HINTS = {
 
 
 def with_name(label: str, vehicle: Vehicle) -> str:
-    """A label that ends in the letter of a vehicle, and the name of the vehicle if that
-    says more.
+    """A label that ends in the letter of a vehicle, and the name of the vehicle if that says more;
+    a name that is the letter of the other is said to be one.
     """
     name = " ".join(vehicle.name.split())
-    return label if name.lower() in ("", label.rpartition(" ")[2].lower()) else f"{label} ({name})"
+    if name.lower() in ("", label.rpartition(" ")[2].lower()):
+        return label
+    return f"{label} ({named(name)})"
+
+
+def named(name: str) -> str:
+    """A name beside the letter of its vehicle; one that is a letter is said to be a name."""
+    return f"named {name}" if name.lower() in ("a", "b") else name
 
 
 def needed(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle") -> Any:
