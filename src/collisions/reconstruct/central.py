@@ -323,7 +323,7 @@ def _mass(known: dict[str, Any], label: str) -> Any:
 
 
 def _slowed(known: dict[str, Any]) -> dict[str, Any]:
-    """By how much tyres slow each vehicle while the contact lasts."""
+    """What tyres slow each vehicle by while the contact lasts."""
     if "duration" not in known:
         return {"a": 0.0, "b": 0.0}
     return {

@@ -387,7 +387,7 @@ class _Known(NamedTuple):
     lasting: Lasting | None
 
     def velocities(self, speeds: dict[str, Any]) -> dict[str, tuple[Any, Any]]:
-        """By the names of speeds, along x and y; a vehicle at rest has no course."""
+        """Velocities along x and y by the names of speeds; a vehicle at rest has no course."""
         found = {}
         for name, course_name in zip(_SPEEDS, _COURSES, strict=True):
             c, s = self.angles[course_name].direction if course_name in self.angles else (0.0, 0.0)
@@ -424,7 +424,7 @@ class _Known(NamedTuple):
         return [whole.course]
 
     def tyre_impulses(self, speeds: dict[str, Any]) -> dict[str, tuple[Any, Any]]:
-        """By vehicle, what its tyres give while the contact lasts."""
+        """What the tyres of each vehicle give while the contact lasts."""
         if self.lasting is None:
             return {}
         return self.lasting.impulses(

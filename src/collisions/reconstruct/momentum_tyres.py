@@ -145,7 +145,7 @@ def read_tyres(
 
 
 class Neglect(NamedTuple):
-    """By how much tyres would change the speeds, or the speed and the course, that were found; the
+    """How far tyres would change the speeds, or the speed and the course, that were found; the
     largest change of a velocity as a share of its speed; and the sentence for it.
     """
 
@@ -206,7 +206,7 @@ def neglected(
 def _along(
     solution: MomentumSolution, push_x: Any, push_y: Any
 ) -> Iterator[tuple[str, tuple[Any, Any]]]:
-    """By unknown speed along its course, its change, and that as a share of it."""
+    """The change of each unknown speed along its course, and that as a share of it."""
     names = solution.unknowns
     courses = [getattr(solution, name.replace("speed", "course")) for name in names]
     for name, own, other in zip(names, courses, courses[::-1], strict=True):
@@ -218,7 +218,7 @@ def _along(
 def _whole(
     solution: MomentumSolution, push_x: Any, push_y: Any
 ) -> Iterator[tuple[str, tuple[Any, Any]]]:
-    """Of a speed and its course the change, and for both that of the velocity as a share of it."""
+    """The change of a speed and of its course, and for both that of the velocity as a share."""
     name, course = solution.unknowns
     speed, angle = getattr(solution, name), getattr(solution, course)
     by = -_taken(solution, name)

@@ -710,7 +710,7 @@ def _in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple
     speeds_a, speeds_b, _, _, closing, _ = np.moveaxis(whole, 1, 0)
 
     def sort() -> None:
-        """By closing speed in every case, those left out last."""
+        """Sort the answers by closing speed in every case, those left out last."""
         order = np.argsort(closing, axis=0, kind="stable")
         whole[:] = np.take_along_axis(whole, order[:, np.newaxis], axis=0)
 

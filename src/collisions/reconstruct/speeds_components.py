@@ -211,7 +211,7 @@ class ComponentScene(Scene):
         return first, second
 
     def _beyond(self, ratio: Any, speeds: Sequence[Any]) -> Any:
-        """By how much the tangential impulse that sticking takes passes this ratio, signed."""
+        """The excess of the tangential impulse that sticking takes over this ratio, signed."""
         stuck = self.observe(STICK, *speeds)
         return stuck.tangential - ratio * stuck.normal
 
@@ -307,7 +307,7 @@ class ComponentScene(Scene):
         return self._judged(regime, speeds, moved, stays_open)
 
     def _moved(self, inverse: Sequence[Any], effects: Sequence[Any], momenta: Sequence[Any]) -> Any:
-        """By how much relative errors of the momenta and of a known speed may move the speeds."""
+        """How far relative errors of the momenta and of a known speed may move the speeds."""
         moved: Any = 0.0
         for row in inverse:
             by_momenta = sum(

@@ -180,7 +180,7 @@ def speeds_with_tyres(
         return replace(inputs, a=a, b=b, given=None, contact_velocity=None)
 
     def off(tried: Inputs, answer: Any) -> list[Any]:
-        """By how much each known value is missed, as a share of its size."""
+        """The miss of each known value, as a share of its size."""
         return [
             part / sizes[0]
             for name, value in known.items()
@@ -260,7 +260,7 @@ def _closing(inputs: Inputs) -> Any:
 def _condition(
     slopes: Sequence[Sequence[Any]], sizes: Sequence[Any], weights: Sequence[Any], closing: Any
 ) -> Any:
-    """By how much relative errors of what was known grow in the speeds, in closing speeds: by the
+    """The growth of relative errors of what was known in the speeds, in closing speeds: by the
     inverse of how the known values change with the speeds; infinite where they do not.
     """
     with np.errstate(all="ignore"):
@@ -293,7 +293,7 @@ def _missed(
     answer: Any,
     directions: Mapping[str, tuple[Any, Any]],
 ) -> list[Any]:
-    """By how much a known value is missed, as a speed: none for what another one stands for."""
+    """The miss of a known value, as a speed: none for what another one stands for."""
     label = name[-1]
     body: Any = getattr(tried, label, None)
     if name.startswith("speed"):

@@ -21,7 +21,7 @@ _WHEELS = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
 
 
 def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any) -> tuple[Any, Any]:
-    """Of one case, the power that tyres take [W] and the marks, (4, 2, moments), at its states."""
+    """The power that tyres take [W] and the marks, (4, 2, moments), at the states of one case."""
     numbers = {name: np.full(state.shape[1], value) for name, value in tyres.named.items()}
     own = kernel_numbers(numbers, np)
     x, y, heading, vx, vy, turn = state
@@ -67,7 +67,7 @@ def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any) -> tuple[An
 
 
 def on_drag(mover: Mover, ground: Ground, state: Any, slowing: float) -> Any:
-    """Of one case, the power that a drag takes [W], the yaw included, which falls as the speed
+    """The power that a drag takes of one case [W], the yaw included, which falls as the speed
     does.
     """
     body = mover.vehicle
@@ -81,5 +81,5 @@ def on_drag(mover: Mover, ground: Ground, state: Any, slowing: float) -> Any:
 
 
 def on_slope(mover: Mover, ground: Ground, state: Any) -> Any:
-    """Of one case, the power that climbing takes [W]."""
+    """The power that climbing takes of one case [W]."""
     return mover.vehicle.mass * GRAVITY * (ground.slope[0] * state[3] + ground.slope[1] * state[4])

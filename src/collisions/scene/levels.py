@@ -182,7 +182,7 @@ def _contact(contact: Contact, level: str, movers: Mapping[str, Mover]) -> Conta
 
 
 def _drags(run: Run, names: Sequence[str]) -> dict[str, float]:
-    """By vehicle, the share of the friction that its tyres took on average, by their work along
+    """The share of the friction that the tyres of each vehicle took on average, by their work along
     the way; of one that hardly moves, the mean of its locks.
     """
     return dict(_shares(run, names))

@@ -148,7 +148,7 @@ class Run(Frozen, Summarized):
 
     @derived()
     def rules(self) -> tuple[int, ...]:
-        """Of each impact, which contact of the scene it is, by its place in the list."""
+        """The contact of the scene that each impact is, by its place in the list."""
         self._refuse_orders()
         return tuple(self._followed.longest)
 
@@ -159,7 +159,7 @@ class Run(Frozen, Summarized):
 
     @derived()
     def status(self) -> Any:
-        """Of each case "ok", or a label that says why it has no answer; of a batch an array."""
+        """The label "ok", or one that says why a case has no answer; of a batch an array."""
         found = self._followed
         if found.single:
             return "ok"
@@ -184,7 +184,7 @@ class Run(Frozen, Summarized):
 
     @derived()
     def deepest(self) -> tuple[Any, ...]:
-        """Of each impact, whether the vehicles parted before the depth or delay that was asked for,
+        """Whether the vehicles of each impact parted before the depth or delay that was asked for,
         so that it acts at their deepest.
         """
         found = self._followed
@@ -239,7 +239,7 @@ class Run(Frozen, Summarized):
 
     @derived("kg*m/s")
     def momentum(self) -> tuple[Any, ...]:
-        """Of each impact, the momentum (x, y) of both vehicles together, before and after
+        """The momentum (x, y) of both vehicles of each impact together, before and after
         [kg*m/s].
         """
         found = []
@@ -416,7 +416,7 @@ class Run(Frozen, Summarized):
         return self._followed.most
 
     def _deepest(self, number: int) -> Any:
-        """Of one impact of every case of a batch, whether it acts at the deepest."""
+        """Whether one impact of every case of a batch acts at the deepest."""
         found = np.zeros(self._followed.count, dtype=bool)
         for hit, some in self._hits(number):
             found[hit.which[some]] = hit.deepest[some]
