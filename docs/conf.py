@@ -135,6 +135,7 @@ GALLERY = {
         "example_2_backwards",
         "intersection_reconstruction",
         "in_line_by_momentum_and_ees",
+        "pole_from_crush",
         "rear_end_from_recorder",
         "two_accounts",
         "rest_positions",

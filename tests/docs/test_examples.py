@@ -45,6 +45,7 @@ def test_there_are_examples():
         "paper_examples",
         "parked_truck",
         "pivoted_vehicle",
+        "pole_from_crush",
         "pole_impact",
         "published_solutions",
         "rear_end_from_recorder",
