@@ -22,6 +22,8 @@ os.environ["PYTHONPATH"] = os.pathsep.join(
 # Pages run on the Python that builds them, whatever kernel of that name the machine has.
 os.environ["JUPYTER_PATH"] = str(HERE / "_ext" / "jupyter")
 os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"
+# Another backend than that of notebooks would leave the figures out.
+os.environ.pop("MPLBACKEND", None)
 
 import collisions
 

@@ -1,6 +1,6 @@
 """Looks at pages in a browser: ``python docs/look.py docs/_build/html`` fails on raw markup, errors
-in outputs, a page or cell that scrolls sideways, labels of a figure that cover one another, and no
-answer. Without Chromium it says so and passes.
+in outputs, a page or cell that scrolls sideways, labels of a figure that cover one another, a page
+of pictures without one, and no answer. Without Chromium it says so and passes.
 
 Looked at are a report, the view of a notebook, and pages of the documentation, at 1400 and 800
 pixels.
@@ -19,6 +19,7 @@ from pathlib import Path
 
 WIDTHS = (1400, 800)
 PAGES = ("index", "start_here", "three_impacts", "glossary", "plots", "report")
+ILLUSTRATED = ("plots",)  # of these pages, whose cells draw
 RAW = re.compile(r"\$\\math|\\mathdefault|\\\*|ERROR:|<(?:table|div|span)\b")
 SECONDS = 180
 # Loads the page in a frame of some width and writes what it measures into the page that is dumped.
@@ -46,6 +47,7 @@ pre.textContent);
   document.getElementById("found").textContent = JSON.stringify({
     scrolls: page.documentElement.scrollWidth - page.documentElement.clientWidth, covered: \
 covered, text: clone.textContent,
+    pictures: page.querySelectorAll(".cell_output img, .cell_output svg").length,
     wide: wide.map(pre => pre.textContent.split("\\n").reduce((one, other) => other.length > \
 one.length ? other : one).trim()),
     errors: printed.flatMap(text => text.split("\\n")).filter(line => line.includes("ERROR:"))});
@@ -135,6 +137,8 @@ def look(chromium: str, page: Path, width: int, folder: Path) -> list[str]:
     faults = (
         [f"scrolls sideways by {measured['scrolls']} pixels"] if measured["scrolls"] > 1 else []
     )
+    if page.stem in ILLUSTRATED and not measured["pictures"]:
+        faults.append("has no picture, though its cells draw")
     faults += [f"a label covers another: {pair}" for pair in measured["covered"]]
     faults += [f"a cell scrolls sideways: {line!r}" for line in measured["wide"]]
     faults += [f"an error in an output: {line.strip()!r}" for line in measured["errors"]]

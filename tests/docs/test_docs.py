@@ -221,6 +221,24 @@ def test_a_page_with_a_fault_is_found_at_fault(body, fault, looking, tmp_path):
     assert looking.look(chromium, page, 800, tmp_path) == ([] if fault is None else [fault])
 
 
+@pytest.mark.parametrize(
+    ("body", "faults"),
+    [("<svg></svg>", []), ("", ["has no picture, though its cells draw"])],
+    ids=["drawn", "left out"],
+)
+def test_a_page_of_pictures_without_one_is_at_fault(body, faults, looking, tmp_path):
+    """Where another backend than that of notebooks was asked for, the figures were left out."""
+    chromium = looking.browser()
+    if chromium is None:
+        pytest.skip("needs Chromium")
+    page = tmp_path / f"{looking.ILLUSTRATED[0]}.html"
+    page.write_text(
+        f"<!DOCTYPE html><meta charset='utf-8'><body><div class='cell_output'>{body}</div></body>",
+        encoding="utf-8",
+    )
+    assert looking.look(chromium, page, 800, tmp_path) == faults
+
+
 @pytest.mark.parametrize("times", [1, 2])
 def test_a_browser_that_gives_no_answer_is_asked_once_more(
     times, looking, tmp_path, monkeypatch, capsys
