@@ -139,6 +139,8 @@ BUDGETS = (
         2.0,
     ),
     Budget("engaged_batch", "a batch of 1000 of these against the same with a fixed geometry", 2.0),
+    Budget("engaged_bare", "one without tyres against the same with a fixed geometry", 2.0),
+    Budget("engaged_bare_batch", "a batch of 1000 without tyres against the same", 2.0),
     Budget(
         "required_in_time",
         "one `required_model` with duration and drag against that formula",
@@ -282,7 +284,9 @@ def followed(wanted: set[str]) -> dict[str, float]:
         "in_time_batch": lambda: col.time_resolved(fast, b, 0.1, **lasting, on_failure="nan"),
         "required_in_time": lambda: col.required_model(a, b, 0.1, **lasting, tolerance=0.3),
     }
-    calls |= engaging(a, b, fast, {**CASE, "duration": 0.1, "tyres_a": half, "tyres_b": half})
+    contact = {**CASE, "duration": 0.1}
+    calls |= engaging("engaged", a, b, fast, {**contact, "tyres_a": half, "tyres_b": half})
+    calls |= engaging("engaged_bare", a, b, fast, contact)
     calls = {key: call for key, call in calls.items() if key.removesuffix(_FIXED) in wanted}
     best = fastest({"formula": lambda: speed_rivals.formula(*one), **calls}, 9, 0.004)
     cases = {key: 1000 if key.endswith("batch") else 1 for key in calls} | {"scene_batch": 2000}
@@ -295,15 +299,17 @@ def followed(wanted: set[str]) -> dict[str, float]:
     }
 
 
-def engaging(a: col.Vehicle, b: col.Vehicle, many: col.Vehicle, contact: dict[str, Any]) -> Calls:
+def engaging(
+    key: str, a: col.Vehicle, b: col.Vehicle, many: col.Vehicle, contact: dict[str, Any]
+) -> Calls:
     """Contacts in time whose start is found, and the same with a geometry that is not to be found;
     one and many.
     """
     calls: Calls = {}
     facing = b.replace(heading=math.pi / 2)
-    for key, body, more in (("engaged", a, {}), ("engaged_batch", many, {"on_failure": "nan"})):
+    for own, body, more in ((key, a, {}), (f"{key}_batch", many, {"on_failure": "nan"})):
         call = partial(col.time_resolved, body.replace(heading=0.0), facing, 0.1, **contact, **more)
-        calls |= {key: call, key + _FIXED: partial(call, geometry="fixed")}
+        calls |= {own: call, own + _FIXED: partial(call, geometry="fixed")}
     return calls
 
 

@@ -230,6 +230,18 @@ def test_tyres_stand_in_a_table_below_that_of_their_solver(solver):
         assert problems(text.replace(old, new))[0].startswith(line)
 
 
+def test_the_report_says_what_is_stated_of_tyres():
+    """Beside each of their numbers; of a list as a whole."""
+    text = ECCENTRIC + TYRES_OF_A.format("eccentric").replace("= 0.7", '= "0.6 .. 0.8"').replace(
+        "[1, 1, 0, 0]", '[1, 1, 0, "0.1 .. 0.3"]'
+    )
+    page = answers(read_text(text.encode())).report("markdown")
+    assert "| 0.7. Stated as 0.6 to 0.8, all values equally likely |" in page
+    assert page.count("Stated as 1, 1, 0, 0.1 to 0.3, all values equally likely |") == 4
+    whole = " ".join(page.split())
+    assert "tyres of A: braking of the rear right wheel | 0.1 to 0.3" in whole
+
+
 def test_a_solver_without_tyres_takes_no_table_of_them():
     text = REAR_END + TYRES_OF_A.format("linear_central")
     assert any(line.startswith("linear_central.tyres_a: is not known") for line in problems(text))

@@ -265,6 +265,8 @@ def test_every_budget_is_that_of_the_design(committed, yardsticks):
         "in_time_batch": 400.0,
         "engaged": 2.0,
         "engaged_batch": 2.0,
+        "engaged_bare": 2.0,
+        "engaged_bare_batch": 2.0,
         "required_in_time": 900.0,
     }
     for row in committed[0]["budgets"]:

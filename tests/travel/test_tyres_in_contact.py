@@ -379,7 +379,7 @@ def test_records_batches_and_balances(solver):
     page = col.report(one, form="markdown")
     assert replay(page) == one
     for text in (
-        "tyres of A: braking (lock), front left",
+        "tyres of A: braking of the front left wheel (lock)",
         "tyres of B: height of the centre of mass",
         "270 cm",
     ):

@@ -45,7 +45,6 @@ from .read import (
     descriptions,
     parameters,
     suggestion,
-    vehicles,
 )
 from .words import as_in_file, in_file_words
 
@@ -201,17 +200,19 @@ class Answers:
             return Call(key, function, arguments)({})
 
 
-def _stated(call: Call, inputs: list[str], own: tuple[Any, ...]) -> Iterator[str | dict[str, str]]:
+def _stated(
+    call: Call, inputs: list[str], own: tuple[Any, ...], place: str = ""
+) -> Iterator[str | dict[str, str]]:
     """What a file states of inputs other than a number: beside the inputs of a page, or in a
-    paragraph each.
+    paragraph each. ``place`` is the table within that of the solver, such as "a." or "tyres_a.".
     """
     beside = {name: text for one in own if isinstance(one, dict) for name, text in one.items()}
     for key, value in call.arguments.items():
-        if isinstance(value, Call) and key in vehicles(call.function):
-            yield from _stated(value, inputs, own)
+        if _is_table(value):
+            yield from _stated(value, inputs, own, f"{key}.")
             continue
         text = _in_words(value)
-        name = key if call.key in SOLVERS else f"{call.key}.{key}"
+        name = f"{place}{key}"
         on_page = next((one for one in (name, name.replace("_after.", ".")) if one in inputs), None)
         if text and on_page:
             yield {
@@ -223,12 +224,16 @@ def _stated(call: Call, inputs: list[str], own: tuple[Any, ...]) -> Iterator[str
             yield f"{name}: {text}."
 
 
+def _is_table(value: Any) -> bool:
+    """Whether a call stands for a table, of a vehicle or its tyres, and not for a number."""
+    return isinstance(value, Call) and value.function not in FUNCTIONS.values()
+
+
 def _numbers_of_scene(node: Any) -> Iterator[tuple[str, Call | None, Any]]:
     """The numbers that a file gives of a scene: key, the call that each is of, and value."""
     if isinstance(node, Call):
         for name, value in node.arguments.items():
-            inside = isinstance(value, Call) and value.function not in FUNCTIONS.values()
-            if inside or name in ("movers", "contacts", "surfaces", "tyres_after"):
+            if _is_table(value) or name in ("movers", "contacts", "surfaces", "tyres_after"):
                 yield from _numbers_of_scene(value)
             elif value is not None and name not in ("order", "shared"):
                 yield f"{node.key}.{name}", node, value
@@ -264,12 +269,9 @@ def _in_words(value: Any, given: bool = False) -> str:
         ]
         return f"{'' if given else 'Worked out by '}{name} from {'; '.join(parts)}"
     if isinstance(value, tuple):
-        parts = [_in_words(part, given) for part in value]
-        return (
-            ", ".join(part or str(one) for part, one in zip(parts, value, strict=True))
-            if any(parts)
-            else ""
-        )
+        whole = ", ".join(_in_words(part, given=True) for part in value)
+        stated = f"Stated as {whole}" if any(map(_in_words, value)) else ""
+        return whole if given else stated
     return str(value) if given else ""
 
 

@@ -639,12 +639,7 @@ class Sampled(Output):
         return deviation(self._answered)
 
     def _quantile(self, p: Any) -> Any:
-        values = self._answered
-        with np.errstate(all="ignore"):
-            # Between two values numpy takes their difference, which may leave the range of floats.
-            scale = 0.5 if np.isinf(values[-1] - values[0]) else 1.0
-            # Raveled: numpy takes two dimensions at most.
-            found = np.quantile(scale * values, np.ravel(p)).reshape(np.shape(p)) / scale
+        found = _quantiles(self._answered, p)
         return found if found.ndim else float(found)
 
     def _shares(self) -> Shares:
@@ -664,13 +659,13 @@ class Sampled(Output):
         found = self._answered
         if not 0.0 < share < 1.0 or found.size < 2:
             return math.nan
-        at = np.quantile(found, share)
+        at = float(_quantiles(found, share))
         # The shares of points that lie evenly can all be the same, and the quantile still lies
         # anywhere between two of them.
         error = math.hypot(self._error(lambda values: np.mean(values <= at)), 0.5 / found.size)
         width = max(error, math.sqrt(share * (1.0 - share) / found.size))
         low, high = max(0.0, share - width), min(1.0, share + width)
-        ends = np.quantile(found, (low, high))
+        ends = _quantiles(found, (low, high))
         return error * float(ends[1] - ends[0]) / (high - low)
 
     def _error(self, figure: Callable[[Any], Any]) -> Any:
@@ -1025,6 +1020,15 @@ def deviation(values: Any) -> float:
     """
     scale = power_of_two(values)
     return float(np.std(values / scale, ddof=1)) * scale if len(values) > 1 else math.nan
+
+
+def _quantiles(values: Any, p: Any) -> Any:
+    """Quantiles of sorted values, in the shape of ``p``."""
+    with np.errstate(all="ignore"):
+        # Between two values numpy takes their difference, which may leave the range of floats.
+        scale = 0.5 if np.isinf(values[-1] - values[0]) else 1.0
+        # Raveled: numpy takes two dimensions at most.
+        return np.quantile(scale * values, np.ravel(p)).reshape(np.shape(p)) / scale
 
 
 def _ranked(shares: Mapping[str, float]) -> dict[str, float]:
