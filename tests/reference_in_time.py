@@ -1,11 +1,11 @@
 """An independent evaluation, in 40 digits, of the steps by which ``time_resolved`` follows a
 contact.
 
-Written in complex numbers from the description of the scheme (half a drift, the impulses of a step
-at one place, half a drift; the impulse of the tyres between two steps), and not from the code of
-the package, in SI where that works in units of the contact. What the package differs by is
-rounding. What the steps differ by from the contact itself is another question, for which the tests
-have closed forms and integrations of other kinds.
+Written in complex numbers from the description of the scheme (the impulses of a step at one place,
+then a drift to that of the next, in whose middle the tyres act), and not from the code of the
+package, in SI where that works in units of the contact. What the package differs by is rounding.
+What the steps differ by from the contact itself is another question, for which the tests have
+closed forms and integrations of other kinds.
 """
 
 from __future__ import annotations
@@ -142,15 +142,17 @@ def _follow(scene: Scene, duration: float, drag: float, steps: int, moves: bool)
         return None
     nominal = num(duration)
     stiffness = ((1 + e) * mp.pi / (2 * nominal)) ** 2 / k_nn
-    crush = deepest = time = owed = loss_n = loss_t = num(0)
+    crush = deepest = time = owed = late = loss_n = loss_t = num(0)
     impulse = mpmath.mpc(0)
 
-    def brake(seconds: Any) -> None:
+    def brake(seconds: Any, ahead: Any) -> None:
+        """Let the tyres act for so many seconds, with the headings of a moment that lies ahead."""
         for one in (a, b):
             hold = num(drag) * num(GRAVITY) * one.mass / 4 * seconds if one.wheels else 0
             total, moment = mpmath.mpc(0), num(0)
+            heading = one.turn * turned(one.w * ahead)
             for wheel in one.wheels:
-                place = one.turn * wheel
+                place = heading * wheel
                 u = one.at(place)
                 at_most = (
                     1 / (4 * (1 / one.mass + abs(wheel) ** 2 / one.inertia))
@@ -161,19 +163,23 @@ def _follow(scene: Scene, duration: float, drag: float, steps: int, moves: bool)
                 total, moment = total + held, moment + cross(place, held)
             one.push(total, moment)
 
-    def drift(seconds: Any) -> None:
+    def turned(angle: Any) -> Any:
+        return (1 + 1j * angle / 2) / (1 - 1j * angle / 2)
+
+    def drift(seconds: Any, braking: Any = None) -> None:
+        """Move and turn, and let the tyres act for so many seconds in the middle."""
         nonlocal carried
+        before = [(one.v, one.w) for one in (a, b)]
+        if braking is not None:
+            brake(braking, seconds / 2 if moves else 0)
         if not moves:
             return
-        for one in (a, b):
-            one.way += one.v * seconds
-
-        def turned(rate: Any) -> Any:
-            half = rate * seconds / 2
-            return (1 + 1j * half) / (1 - 1j * half)
-
-        carried *= turned(normal_on_a * a.w + (1 - normal_on_a) * b.w)
-        a.turn, b.turn = a.turn * turned(a.w), b.turn * turned(b.w)
+        rates = []
+        for one, (v, w) in zip((a, b), before, strict=True):
+            one.way += (one.v + v) / 2 * seconds
+            rates.append((one.w + w) / 2)
+            one.turn *= turned(rates[-1] * seconds)
+        carried *= turned((normal_on_a * rates[0] + (1 - normal_on_a) * rates[1]) * seconds)
 
     def tangential(p: Any, slip: Any, k_nt: Any, k_tt: Any) -> Any:
         if abs(k_nt) > mu * k_tt and slip * k_nt < 0:
@@ -203,7 +209,11 @@ def _follow(scene: Scene, duration: float, drag: float, steps: int, moves: bool)
         if not active:
             if not engaging:
                 break
-            engaged = [a.way, a.turn, b.way, b.turn, carried]
+            engaged = [
+                *(a.way + a.v * late, a.turn * turned(a.w * late)),
+                *(b.way + b.v * late, b.turn * turned(b.w * late)),
+                carried * turned((normal_on_a * a.w + (1 - normal_on_a) * b.w) * late),
+            ]
             left_over = most
             engaging, step = (
                 False,
@@ -217,8 +227,7 @@ def _follow(scene: Scene, duration: float, drag: float, steps: int, moves: bool)
             if closing < 0 and left < -closing * this:
                 this = left / -closing
         paid = max(owed + this / 2, num(0))
-        brake(paid)
-        drift(this / 2)
+        drift(late + this / 2, paid)
         n, arm_a, arm_b, closing, slip, k_nn, k_nt, k_tt = now()
         depth = crush + this / 2 * closing
         p = (stiffness * depth if engaging else back(depth)) * this
@@ -238,14 +247,14 @@ def _follow(scene: Scene, duration: float, drag: float, steps: int, moves: bool)
         deepest = max(deepest, crush)
         loss_n += p * (closing + after) / 2
         loss_t -= q * (slip + slip + k_nt * p + k_tt * q) / 2
-        time, owed = time + took, owed + took - paid
-        drift(took - this / 2)
+        time, owed, late = time + took, owed + took - paid, took - this / 2
         closing = after
         whole = e * e * deepest
         active = time < 3 * nominal and (
             not ends if engaging else crush - (deepest - whole) > num(10) ** -9 * whole
         )
-    brake(max(owed, num(0)))
+    drift(late)
+    brake(max(owed, num(0)), num(0))
     if time >= 3 * nominal or deepest <= 0:
         return None
     changes = [(one.v - one.start[0], one.w - one.start[1]) for one in (a, b)]

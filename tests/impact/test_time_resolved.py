@@ -504,8 +504,8 @@ def test_against_an_independent_integration(name):
         "point": (point.real, point.imag),
         "friction": contact["friction"],
     }
-    found = col.time_resolved(*moved, e, **place, stiffness=1e6, drag=0.7, steps=400)
-    assert off(change(found), wanted) < 2e-5
+    found = col.time_resolved(*moved, e, **place, stiffness=1e6, drag=0.7, steps=800)
+    assert off(change(found), wanted) < 1e-5
     assert found.pulse.max_crush == pytest.approx(engaged[8], rel=1e-5)
     # The state at the end of compression is that of the places given.
     for side, at in ((found.a, 0), (found.b, 4)):
@@ -1263,7 +1263,7 @@ def test_the_least_model_with_a_duration():
         if model == "time_resolved":
             assert change(impact) == pytest.approx(change(t_bone()), rel=1e-12)
             assert impact.pulse == t_bone().pulse
-            assert "would err by 1.2 m/s over this duration" in impact.choice.reason
+            assert f"would err by {error:.3g} m/s over this duration" in impact.choice.reason
         elif model == "eccentric":
             assert impact == col.solve(a, b, 0.1, **STRAIGHT, **time, tolerance=tolerance)
             assert change(impact) == pytest.approx(change(eccentric), rel=1e-12)

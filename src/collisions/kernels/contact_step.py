@@ -1,10 +1,10 @@
 """One step of a contact that takes time: force over penetration, friction, tyres, and bodies that
 move and turn meanwhile.
 
-Each step is a half drift, the impulses of the contact, and a half drift (position Verlet); the
-impulse of the tyres comes between two steps. It changes motions by equal and opposite impulses at
-one point, so momentum is kept to rounding, and the energies are those of the same steps. All in
-units of the contact: its effective mass, closing speed and nominal duration.
+Each step pushes the bodies by the impulses of the contact; between two pushes they drift, and in
+the middle of that the tyres act (position Verlet). A step changes motions by equal and opposite
+impulses at one point, so momentum is kept to rounding, and the energies are those of the same
+steps. All in units of the contact: its effective mass, closing speed and nominal duration.
 """
 
 from collections.abc import Iterator
@@ -32,6 +32,11 @@ class Rolling(NamedTuple):
 # Of wheels that slide whatever way they move, where each is: ahead and left by half the wheelbase
 # and half the track.
 Wheels: TypeAlias = tuple[tuple[float, float], ...] | Rolling
+
+
+# The force of the tyres along both axes of the scene.
+Pull: TypeAlias = tuple[Any, Any]
+_NO_PULL: Pull = 0.0, 0.0
 
 
 class Body(NamedTuple):
@@ -110,6 +115,10 @@ class Contact(NamedTuple):
 class Passing(NamedTuple):
     """How far the contact has come: turn of the normal, penetration and the deepest one, impulse on
     B, work along n and t.
+
+    ``late`` is the time since the push of the last step for which the bodies have not drifted yet,
+    less than 0 where a step was cut short before its middle; ``owed`` the time for which the tyres
+    have not acted yet.
     """
 
     c: Any = 1.0
@@ -117,6 +126,7 @@ class Passing(NamedTuple):
     crush: Any = 0.0
     deepest: Any = 0.0
     time: Any = 0.0
+    late: Any = 0.0
     owed: Any = 0.0
     closing: Any = 1.0
     impulse_x: Any = 0.0
@@ -174,8 +184,8 @@ def force_back(contact: Contact, depth: Any, deepest: Any) -> tuple[Any, Any]:
 
 def turned(c: Any, s: Any, half: Any) -> tuple[Any, Any]:
     """Cosine and sine of an angle that grows by twice the arc tangent of ``half``."""
-    by = 2.0 / (1.0 + half * half)
-    sine, versed = half * by, half * (half * by)
+    sine = half * (2.0 / (1.0 + half * half))
+    versed = half * sine
     return c - (versed * c + sine * s), s - (versed * s - sine * c)
 
 
@@ -300,20 +310,36 @@ def _rolling(
         yield at, (share * x, share * y)
 
 
-def drifted(motion: Motion, time: Any) -> Motion:
-    """The motion some time later, with the velocities that it has."""
+def _headed(motion: Motion, time: Any) -> Motion:
+    """The motion with the heading of some time later."""
     c, s = turned(motion.c, motion.s, 0.5 * time * motion.spin)
-    return motion._replace(
-        dx=motion.dx + time * motion.vx, dy=motion.dy + time * motion.vy, c=c, s=s
-    )
+    return motion._replace(c=c, s=s)
 
 
-def _drifted(
-    contact: Contact, on_a: Motion, on_b: Motion, passing: Passing, time: Any
+def drifted(
+    contact: Contact,
+    bodies: tuple[Motion, Motion],
+    passing: Passing,
+    time: Any,
+    held: tuple[Motion, Motion] | None = None,
 ) -> tuple[Motion, Motion, Passing]:
-    spin = contact.turn_a * on_a.spin + (1.0 - contact.turn_a) * on_b.spin
-    c, s = turned(passing.c, passing.s, 0.5 * time * spin)
-    return drifted(on_a, time), drifted(on_b, time), passing._replace(c=c, s=s)
+    """Both bodies and the normal some time later; ``held`` are the bodies after their tyres have
+    acted in the middle of that time.
+    """
+    half, spins, after = 0.5 * time, [], []
+    for before, body in zip(bodies, held or bodies, strict=True):
+        vx, vy, spin = body[:3]
+        if held is not None:
+            vx, vy, spin = (
+                0.5 * (was + now) for was, now in zip(before[:3], (vx, vy, spin), strict=True)
+            )
+        c, s = turned(before.c, before.s, half * spin)
+        moved = {"dx": before.dx + time * vx, "dy": before.dy + time * vy}
+        after.append(body._replace(c=c, s=s, **moved))
+        spins.append(spin)
+    spin = contact.turn_a * spins[0] + (1.0 - contact.turn_a) * spins[1]
+    c, s = turned(passing.c, passing.s, half * spin)
+    return after[0], after[1], passing._replace(c=c, s=s)
 
 
 def _pushed(
@@ -323,12 +349,15 @@ def _pushed(
     y: Any,
     arm: tuple[Any, Any],
     per_time: Any,
-    tyres: tuple[Any, Any],
+    tyres: Pull,
 ) -> Motion:
     """The motion after an impulse, and the square of its largest acceleration so far, by that and
     by the force of the tyres.
     """
-    ax, ay = body.per_mass * (x * per_time + tyres[0]), body.per_mass * (y * per_time + tyres[1])
+    force_x, force_y = x * per_time, y * per_time
+    if tyres is not _NO_PULL:
+        force_x, force_y = force_x + tyres[0], force_y + tyres[1]
+    ax, ay = body.per_mass * force_x, body.per_mass * force_y
     square = ax * ax + ay * ay
     return motion._replace(
         vx=motion.vx + body.per_mass * x,
@@ -336,6 +365,17 @@ def _pushed(
         spin=motion.spin + body.per_inertia * (arm[0] * y - arm[1] * x),
         acceleration=select(square > motion.acceleration, square, motion.acceleration),
     )
+
+
+def _rate(time: Any) -> Any:
+    """1 over a time; 0 for none."""
+    some = time > 0.0
+    return select(some, 1.0, 0.0) / select(some, time, 1.0)
+
+
+def _pull(before: Motion, after: Motion, per_time: Any) -> Pull:
+    """The mean force of the tyres between two motions."""
+    return (after.tyre_x - before.tyre_x) * per_time, (after.tyre_y - before.tyre_y) * per_time
 
 
 def step_length(contact: Contact, passing: Passing, engaging: bool) -> Any:
@@ -418,14 +458,21 @@ def advance(
     """
     active, crush, deepest = passing.active, passing.crush, passing.deepest
     step = step_length(contact, passing, engaging)
-    # The tyres are owed their impulse since half of the last step.
-    pay = passing.owed + 0.5 * step
-    pay = select(active & (pay > 0.0), pay, 0.0)
-    per_tyres = select(pay > 0.0, 1.0, 0.0) / select(pay > 0.0, pay, 1.0)
-    held_before = (on_a.tyre_x, on_a.tyre_y), (on_b.tyre_x, on_b.tyre_y)
-    on_a, on_b = braked(a, on_a, pay, wheels_a), braked(b, on_b, pay, wheels_b)
+    # Since the push of the last step.
+    drift = select(active, passing.late + 0.5 * step, 0.0)
+    before, pulls, pays = (on_a, on_b), (_NO_PULL, _NO_PULL), bool(wheels_a or wheels_b)
+    if pays:
+        due = passing.owed + 0.5 * step
+        due = select(active & (due > 0.0), due, 0.0)
+        if moves:
+            on_a, on_b = _headed(on_a, 0.5 * drift), _headed(on_b, 0.5 * drift)
+        on_a, on_b = braked(a, on_a, due, wheels_a), braked(b, on_b, due, wheels_b)
+        per_due = _rate(due)
+        pulls = _pull(before[0], on_a, per_due), _pull(before[1], on_b, per_due)
+        passing = passing._replace(owed=passing.owed - due)
     if moves:
-        on_a, on_b, passing = _drifted(contact, on_a, on_b, passing, 0.5 * step)
+        held = (on_a, on_b) if pays else None
+        on_a, on_b, passing = drifted(contact, before, passing, drift, held)
 
     place = place_of(contact, a, b, on_a, on_b, passing)
     closing, slip = approach(place, on_a, on_b)
@@ -438,13 +485,9 @@ def advance(
     slip_after = slip + (k.nt * normal + k.tt * along)
     px, py = place.nx * normal - place.ny * along, place.ny * normal + place.nx * along
     took = part * step
-    per_time = select(took > 0.0, 1.0, 0.0) / select(took > 0.0, took, 1.0)
-    pull_a, pull_b = (
-        ((motion.tyre_x - x) * per_tyres, (motion.tyre_y - y) * per_tyres)
-        for motion, (x, y) in zip((on_a, on_b), held_before, strict=True)
-    )
-    on_a = _pushed(a, on_a, -px, -py, (place.ax, place.ay), per_time, pull_a)
-    on_b = _pushed(b, on_b, px, py, (place.bx, place.by), per_time, pull_b)
+    per_time = _rate(took)
+    on_a = _pushed(a, on_a, -px, -py, (place.ax, place.ay), per_time, pulls[0])
+    on_b = _pushed(b, on_b, px, py, (place.bx, place.by), per_time, pulls[1])
     mean = 0.5 * (closing + after)
     crush = crush + took * mean
     deepest = select(crush > deepest, crush, deepest)
@@ -458,7 +501,8 @@ def advance(
         crush=crush,
         deepest=deepest,
         time=time,
-        owed=select(active, passing.owed + took - pay, passing.owed),
+        late=passing.late + took - drift if moves else passing.late,
+        owed=passing.owed + took if pays else passing.owed,
         closing=select(active, after, passing.closing),
         impulse_x=passing.impulse_x + px,
         impulse_y=passing.impulse_y + py,
@@ -467,6 +511,4 @@ def advance(
         sticks=select(active, sticks, passing.sticks),
         active=still & (time < LONGEST),
     )
-    if moves:
-        return _drifted(contact, on_a, on_b, passing, took - 0.5 * step)
     return on_a, on_b, passing

@@ -21,6 +21,7 @@ from .contact_step import (
     approach,
     braked,
     compliance,
+    drifted,
     force_back,
     place_of,
 )
@@ -34,9 +35,11 @@ from .tyre import Tyres
 _CORRECTIONS, _NEAR, _NEAREST = 20, 3e-3, 1e-2
 # Before that it is corrected with these parts of the steps; with fewer a contact is not followed.
 _PARTS, _FEWEST = (0.05, 0.1, 0.2), 5
+# How near it has to come with each of these parts, and how often it is corrected until then.
+_ROUGHLY, _ROUGH_CORRECTIONS = 0.3, 12
 # With this part of the steps it is found how the end changes with the start, where that has to move
 # by no more than so many times what is near enough: the change is found to a few hundredths.
-_DIFFERENCE, _NOT_FAR, _DIFFERENCES, _BLUR = 0.1, 20.0, 4, 0.1
+_DIFFERENCE, _NOT_FAR, _DIFFERENCES, _BLUR = 0.1, 20.0, 8, 0.1
 # A friction whose product with a force of 0 is 0.
 _MOST_FRICTION = 1e150
 # Rounding of a sum over the steps of a contact, as a share.
@@ -72,6 +75,40 @@ def wheels_of(heading: Any, drag: Any) -> Wheels:
     return () if isinstance(drag, float) and drag == 0.0 else _ONE if heading is None else _FOUR
 
 
+class Units(NamedTuple):
+    """What is 1 inside a contact, in SI: its effective mass, closing speed, nominal duration and
+    the way of that speed in that time.
+    """
+
+    mass: Any
+    closing: Any
+    duration: Any
+    length: Any
+
+    @property
+    def impulse(self) -> Any:
+        """Of impulses."""
+        return self.mass * self.closing
+
+    @property
+    def energy(self) -> Any:
+        """Of energies."""
+        return self.mass * self.closing * self.closing
+
+
+class SetUp(NamedTuple):
+    """A contact before anything has moved: what is fixed and what moves, in its own units, and what
+    is known of the places given.
+    """
+
+    fixed: Fixed
+    moving: Moving
+    units: Units
+    closing_speed: Any
+    coupling: Any
+    yields: Any
+
+
 def time_resolved(
     restitution: Any,
     normal: tuple[Any, Any],
@@ -91,27 +128,80 @@ def time_resolved(
     mass, inertia, velocity, yaw rate, position, and cosine and sine of the heading, or None.
     ``note``, a ``Noted`` for one case, keeps what moves in every step.
     """
-    e, (nx, ny), steps = restitution, normal, run(settings)
-    own = [_own(body, *point) for body in bodies]
+    steps = run(settings)
+    start = _set_up(restitution, normal, friction, point, gravity, tyres, spring, bodies, settings)
+    append = None if note is None else note.append
+    converged: Any = True
+    if settings.geometry == "maximum_engagement":
+        search = _Search(start.fixed, start.moving, steps, settings, note)
+        fixed, engaged, converged = search.found((start.closing_speed > 0.0) & start.yields)
+        start = start._replace(fixed=fixed)
+    else:
+        fixed, (on_a, on_b, passing) = start.fixed, start.moving
+        closing, _ = approach(place_of(*fixed, *start.moving), on_a, on_b)
+        passing = passing._replace(closing=closing, active=closing > 0.0)
+        engaged = steps(fixed, (on_a, on_b, passing), True, append)
+    contact, a, b = fixed
+    on_a, on_b, passing = engaged
+    _, parting = force_back(contact, passing.crush, passing.deepest)
+    more = (passing.crush > parting) & (passing.time < LONGEST)
+    end = steps(fixed, (on_a, on_b, passing._replace(active=more)), False, append)
+    on_a, on_b, passing = settled(contact, end, settings)
+    owed = select(passing.owed > 0.0, passing.owed, 0.0)
+    end = (
+        braked(a, on_a, owed, settings.wheels_a),
+        braked(b, on_b, owed, settings.wheels_b),
+        passing,
+    )
+    if isinstance(note, Noted):
+        note[-1:] = [tuple(value for part in end for value in part)]
+    engaged = settled(contact, engaged, settings)
+    found = _of_contact(start, normal, engaged, end)
+    # The places given are those of maximum engagement, or of the start.
+    given = engaged if settings.geometry == "maximum_engagement" else start.moving
+    met, parted = engaged[2], end[2]
+    found |= _of_body(
+        "a", start.units, a, start.moving[0], (engaged[0], met), (end[0], parted), given[0], -1.0
+    )
+    found |= _of_body(
+        "b", start.units, b, start.moving[1], (engaged[1], met), (end[1], parted), given[1], 1.0
+    )
+    status = _status(start, found, converged, end)
+    if isinstance(note, Noted) and status <= Status.ENERGY_GAIN:
+        found["history"] = _history(note, start)
+    return Passed(status=status, **found)
+
+
+def _set_up(
+    e: Any,
+    normal: tuple[Any, Any],
+    friction: Any,
+    point: tuple[Any, Any],
+    gravity: float,
+    tyres: tuple[Tyres, Tyres],
+    spring: Any,
+    bodies: tuple[tuple[Any, ...], tuple[Any, ...]],
+    settings: Settings,
+) -> SetUp:
+    """The contact in its own units, from SI."""
+    (nx, ny), own = normal, [_own(body, *point) for body in bodies]
     (a, on_a), (b, on_b) = own
     place = Place(nx, ny, a.rx, a.ry, b.rx, b.ry)
     closing_speed, _ = approach(place, on_a, on_b)
     k_nn, k_nt, k_tt = compliance(place, a, b)
     yields = k_nn > (64.0 * EPS) ** 2 * (k_nn + k_tt)
     mass, closing = 1.0 / select(yields, k_nn, 1.0), select(closing_speed > 0.0, closing_speed, 1.0)
+    # A quarter of a swing to maximum engagement, and back in e times that.
     swing = 0.5 * pi * (1.0 + e)
     duration = spring if settings.timed else swing * (mass / spring) ** 0.5
-    length = closing * duration
+    units = Units(mass, closing, duration, closing * duration)
     weight = gravity * (duration / closing)
     (a, on_a), (b, on_b) = (
         (
-            scaled(body, numbers[7], mass, length, weight, held),
+            scaled(body, numbers[7], mass, units.length, weight, held),
             Motion(motion.vx / closing, motion.vy / closing, motion.spin * duration),
         )
-        for body, motion, numbers, held in (
-            (a, on_a, bodies[0], tyres[0]),
-            (b, on_b, bodies[1], tyres[1]),
-        )
+        for (body, motion), numbers, held in zip(own, bodies, tyres, strict=True)
     )
     step = 1.0 / settings.steps
     back = e**0.5 * step
@@ -132,121 +222,115 @@ def time_resolved(
     zero = 0.0 * (
         closing + contact.step_back + contact.friction + on_a.vx + on_b.vx + sum((*a, *b))
     )
-    start = [Motion(*(value + zero for value in motion)) for motion in (on_a, on_b)]
+    on_a, on_b = (Motion(*(value + zero for value in motion)) for motion in (on_a, on_b))
     none = zero != zero
     passing = Passing(*(zero for _ in Passing._fields))._replace(
         c=1.0 + zero, sticks=none, active=none ^ True
     )
-    moving: Moving = start[0], start[1], passing
-    begun = (contact, a, b), moving
-    converged: Any = True
-    if settings.geometry == "maximum_engagement":
-        begun, engaged, converged = _found(
-            *begun, steps, (closing_speed > 0.0) & yields, settings.steps, note
-        )
-    fixed, moving = begun
-    contact, a, b = fixed
-    first = place_of(contact, a, b, *moving)
-    closing_before, slip_before = approach(first, *moving[:2])
-    if settings.geometry != "maximum_engagement":
-        moving = *moving[:2], passing._replace(closing=closing_before, active=closing_before > 0.0)
-        engaged = steps(fixed, moving, True, None if note is None else note.append)
-    _, parting = force_back(contact, engaged[2].crush, engaged[2].deepest)
-    more = (engaged[2].crush > parting) & (engaged[2].time < LONGEST)
-    moving = steps(
-        fixed,
-        (*engaged[:2], engaged[2]._replace(active=more)),
-        False,
-        None if note is None else note.append,
-    )
-    passing = moving[2]
-    owed = select(passing.owed > 0.0, passing.owed, 0.0)
-    on_a, on_b = after = (
-        braked(a, moving[0], owed, settings.wheels_a),
-        braked(b, moving[1], owed, settings.wheels_b),
-    )
-    separating, slip_after = approach(place_of(contact, a, b, on_a, on_b, passing), on_a, on_b)
-    if isinstance(note, Noted):
-        note[-1:] = [(*on_a, *on_b, *passing)]
+    # Broadcast too, as answers are.
+    units, coupling = units._replace(mass=mass + 0.0 * zero), k_nt + 0.0 * zero
+    return SetUp((contact, a, b), (on_a, on_b, passing), units, closing_speed, coupling, yields)
+
+
+def _of_contact(
+    start: SetUp, normal: tuple[Any, Any], engaged: Moving, end: Moving
+) -> dict[str, Any]:
+    """What is answered of the contact, in SI."""
+    (contact, a, b), units, (nx, ny) = start.fixed, start.units, normal
+    on_a, on_b, passing = end
+    before = approach(place_of(contact, a, b, *start.moving), *start.moving[:2])
+    after = approach(place_of(contact, a, b, *end), on_a, on_b)
+    there = place_of(contact, a, b, *engaged)
     most = contact.stiffness * passing.deepest
-    absorbed = 0.5 * most * passing.deepest
-    impulse, energy = mass * closing, mass * closing * closing
-    x, y = passing.impulse_x * impulse, passing.impulse_y * impulse
-    found: dict[str, Any] = {
-        "closing_speed": closing_before * closing,
-        "slip_before": slip_before * closing,
-        "slip_after": slip_after * closing,
+    x, y = passing.impulse_x * units.impulse, passing.impulse_y * units.impulse
+    met = engaged[2]
+    return {
+        "closing_speed": before[0] * units.closing,
+        "slip_before": before[1] * units.closing,
+        "slip_after": after[1] * units.closing,
         "normal_impulse": nx * x + ny * y,
         "tangential_impulse": nx * y - ny * x,
-        "compression_impulse": (nx * engaged[2].impulse_x + ny * engaged[2].impulse_y) * impulse,
+        "compression_impulse": (nx * met.impulse_x + ny * met.impulse_y) * units.impulse,
         "sticks": passing.sticks,
-        "effective_mass": mass + 0.0 * zero,
-        "coupling": k_nt + 0.0 * zero,
-        "energy_loss_normal": passing.work_n * energy,
-        "energy_loss_tangential": passing.work_t * energy,
-        "energy_loss": (passing.work_n + passing.work_t) * energy,
+        "effective_mass": units.mass,
+        "coupling": start.coupling,
+        "energy_loss_normal": passing.work_n * units.energy,
+        "energy_loss_tangential": passing.work_t * units.energy,
+        "energy_loss": (passing.work_n + passing.work_t) * units.energy,
         "impulse_x": x,
         "impulse_y": y,
-        "separation_speed": -separating * closing,
-        "energy_absorbed": absorbed * energy,
-        "duration": passing.time * duration,
-        "peak_force": most * (impulse / duration),
-        "max_crush": passing.deepest * length,
-        "engaged_time": engaged[2].time * duration,
+        "separation_speed": -after[0] * units.closing,
+        "energy_absorbed": 0.5 * most * passing.deepest * units.energy,
+        "duration": passing.time * units.duration,
+        "peak_force": most * (units.impulse / units.duration),
+        "max_crush": passing.deepest * units.length,
+        "engaged_time": met.time * units.duration,
+        "common_velocity": units.closing
+        * (
+            there.nx * (engaged[0].vx - engaged[0].spin * there.ay)
+            + there.ny * (engaged[0].vy + engaged[0].spin * there.ax)
+        ),
     }
-    there = place_of(contact, a, b, *engaged)
-    found["common_velocity"] = closing * (
-        there.nx * (engaged[0].vx - engaged[0].spin * there.ay)
-        + there.ny * (engaged[0].vy + engaged[0].spin * there.ax)
-    )
-    for label, sign, body, before, most_engaged, end in zip(
-        "ab", (-1.0, 1.0), (a, b), start, engaged, after, strict=False
-    ):
-        for prefix, motion, at in (
-            ("compression", most_engaged, engaged[2]),
-            ("delta", end, passing),
-        ):
-            found[f"{prefix}_vx_{label}"] = (
-                body.per_mass * (sign * at.impulse_x + motion.tyre_x) * closing
-            )
-            found[f"{prefix}_vy_{label}"] = (
-                body.per_mass * (sign * at.impulse_y + motion.tyre_y) * closing
-            )
-            found[f"{prefix}_yaw_rate_{label}"] = (motion.spin - before.spin) / duration
-        found[f"tyre_impulse_x_{label}"] = end.tyre_x * impulse
-        found[f"tyre_impulse_y_{label}"] = end.tyre_y * impulse
-        found[f"tyre_moment_{label}"] = end.tyre_yaw * (impulse * length)
-        found[f"tyre_loss_{label}"] = -end.tyre_work * energy
-        found[f"peak_acceleration_{label}"] = end.acceleration**0.5 * (closing / duration)
-        # The places given are those of maximum engagement, or of the start.
-        given = most_engaged if settings.geometry == "maximum_engagement" else before
-        found[f"moved_x_{label}"] = (end.dx - given.dx) * length
-        found[f"moved_y_{label}"] = (end.dy - given.dy) * length
-        found[f"turn_c_{label}"] = end.c * given.c + end.s * given.s
-        found[f"turn_s_{label}"] = end.s * given.c - end.c * given.s
-    total = sum((0.0 * value for value in found.values()), start=0.0 * length)
+
+
+def _of_body(
+    label: str,
+    units: Units,
+    body: Body,
+    begin: Motion,
+    engaged: tuple[Motion, Passing],
+    end: tuple[Motion, Passing],
+    given: Motion,
+    sign: float,
+) -> dict[str, Any]:
+    """What is answered of A or B, in SI, from its motions and what has passed by then; ``given`` is
+    its motion where its place is given, ``sign`` that of the impulse on it.
+    """
+    found = {}
+    for prefix, (motion, passing) in (("compression", engaged), ("delta", end)):
+        x, y = sign * passing.impulse_x + motion.tyre_x, sign * passing.impulse_y + motion.tyre_y
+        found[f"{prefix}_vx"] = body.per_mass * x * units.closing
+        found[f"{prefix}_vy"] = body.per_mass * y * units.closing
+        found[f"{prefix}_yaw_rate"] = (motion.spin - begin.spin) / units.duration
+    last = end[0]
+    found |= {
+        "tyre_impulse_x": last.tyre_x * units.impulse,
+        "tyre_impulse_y": last.tyre_y * units.impulse,
+        "tyre_moment": last.tyre_yaw * (units.impulse * units.length),
+        "tyre_loss": -last.tyre_work * units.energy,
+        "peak_acceleration": last.acceleration**0.5 * (units.closing / units.duration),
+        "moved_x": (last.dx - given.dx) * units.length,
+        "moved_y": (last.dy - given.dy) * units.length,
+        "turn_c": last.c * given.c + last.s * given.s,
+        "turn_s": last.s * given.c - last.c * given.s,
+    }
+    return {f"{name}_{label}": value for name, value in found.items()}
+
+
+def _status(start: SetUp, found: dict[str, Any], converged: Any, end: Moving) -> Any:
+    """How the contact went; of several reasons against it the first."""
+    passing = end[2]
+    total = sum((0.0 * value for value in found.values()), start=0.0 * start.units.length)
     finite = total - total == 0.0
     # Levers in units of a contact that is so short overflow, and no start can be found then.
-    reach = sum(one.per_inertia * (one.rx * one.rx + one.ry * one.ry) for one in (a, b))
+    reach = sum(
+        body.per_inertia * (body.rx * body.rx + body.ry * body.ry) for body in start.fixed[1:]
+    )
     loss = passing.work_n + passing.work_t
-    status = first_status(
-        (yields ^ True, Status.IMMOVABLE),
-        (closing_speed < 0.0, Status.SEPARATING),
-        (closing_speed == 0.0, Status.GRAZING),
+    absorbed = 0.5 * (start.fixed[0].stiffness * passing.deepest) * passing.deepest
+    return first_status(
+        (start.yields ^ True, Status.IMMOVABLE),
+        (start.closing_speed < 0.0, Status.SEPARATING),
+        (start.closing_speed == 0.0, Status.GRAZING),
         (reach - reach != 0.0, Status.OUT_OF_RANGE),
         (converged ^ True, Status.NO_START),
-        (closing_before <= 0.0, Status.SEPARATING),
+        (found["closing_speed"] <= 0.0, Status.SEPARATING),
         (finite ^ True, Status.OUT_OF_RANGE),
         (passing.deepest <= 0.0, Status.NO_SLIP_PULLS),
         (passing.time >= LONGEST, Status.ENDLESS_CONTACT),
         # What the steps err by, near a restitution of 1, beyond rounding.
         (loss < -_ROUNDED * absorbed, Status.ENERGY_GAIN),
     )
-    if isinstance(note, Noted) and status <= Status.ENERGY_GAIN:
-        found["history"] = _history(
-            note, contact, start, closing, duration, length, impulse / duration
-        )
-    return Passed(status=status, **found)
 
 
 class Noted(list[tuple[float, ...]]):
@@ -264,13 +348,13 @@ class Noted(list[tuple[float, ...]]):
         self[:] = map(tuple, rows.tolist())
 
 
-def _history(note: Noted, contact: Contact, start: list[Motion], *units: float) -> tuple[Any, ...]:
+def _history(note: Noted, start: SetUp) -> tuple[Any, ...]:
     """Time, force, crush, delta-V of A and B, and their yaw rates, at the start and after every
     step.
     """
-    closing, duration, length, newton = units
+    contact, units = start.fixed[0], start.units
     on_a, on_b, passing = _moving_of(
-        np.array([(*start[0], *start[1], *Passing()), *note], dtype=np.float64).T
+        np.array([(*start.moving[0], *start.moving[1], *Passing()), *note], dtype=np.float64).T
     )
     crush, deepest = passing.crush, passing.deepest
     with np.errstate(all="ignore"):
@@ -280,11 +364,14 @@ def _history(note: Noted, contact: Contact, start: list[Motion], *units: float) 
     if contact.restitution == 0.0 or crush[-1] < deepest[-1]:
         force[-1] = 0.0
     return (
-        passing.time * duration,
-        force * newton,
-        crush * length,
-        *(np.hypot(body.vx - body.vx[0], body.vy - body.vy[0]) * closing for body in (on_a, on_b)),
-        *(body.spin / duration for body in (on_a, on_b)),
+        passing.time * units.duration,
+        force * (units.impulse / units.duration),
+        crush * units.length,
+        *(
+            np.hypot(body.vx - body.vx[0], body.vy - body.vy[0]) * units.closing
+            for body in (on_a, on_b)
+        ),
+        *(body.spin / units.duration for body in (on_a, on_b)),
     )
 
 
@@ -318,111 +405,150 @@ def scaled(body: Body, heading: Any, mass: Any, length: Any, weight: Any, tyres:
     return Body(*(per_mass, per_inertia, body.rx / length, body.ry / length, *heading, *numbers))
 
 
-def _found(
-    fixed: Fixed,
-    moving: Moving,
-    run: Run,
-    usable: Any,
-    steps: int,
-    note: Any,
-) -> tuple[tuple[Fixed, Moving], Moving, Any]:
-    """The geometry at first contact for which that given is reached at maximum engagement, with the
-    motions there.
+class _Search:
+    """The search for what the bodies and the normal move and turn until maximum engagement.
 
-    What the bodies move and turn until then is guessed, and corrected by what they do, with the
-    step of a secant: first with few steps, as their error hardly matters, then with more, and with
-    all until what is reached is near enough. Where the first time with all steps comes near, what a
-    last correction changes is worked out with few steps, and added to what all of them reached.
+    A guess of that gives the geometry at first contact, and what is reached from there should be
+    the guess. It is corrected with the step of a secant: with few steps first, as their error
+    hardly matters, then with more, and with all until what is reached is near enough. Where the
+    first time with all steps comes near, what a last correction changes is worked out with few
+    steps, and added to what all of them reached. The cases of a block are independent.
     """
-    on_a, on_b, passing = moving
-    names = ("dx", "dy", "c", "s")
-    guess = [*(getattr(one, name) for one in (on_a, on_b) for name in names), passing.c, passing.s]
-    left: Any = usable & (passing.closing == passing.closing)
-    older: tuple[tuple[Any, ...], tuple[Any, ...]] | None = None
 
-    def ran(step: Any, from_here: list[Any], to: Any) -> tuple[Fixed, Moving, Any, list[Any]]:
-        """Start, end, whether they approach there, and what is reached."""
-        start = _moved_back(fixed[0]._replace(step=step), *fixed[1:], from_here)
-        closing, _ = approach(place_of(*start, *moving), on_a, on_b)
-        before = passing._replace(closing=closing, active=(closing > 0.0) & left)
-        end = run(start, (on_a, on_b, before), True, to)
-        reached = [*(getattr(one, name) for one in end[:2] for name in names), end[2].c, end[2].s]
-        return start, end, closing > 0.0, reached
+    def __init__(
+        self, fixed: Fixed, moving: Moving, run: Run, settings: Settings, note: Any
+    ) -> None:
+        self.fixed, self.moving, self.run, self.settings = fixed, moving, run, settings
+        self.note = note
+        self.guess = _way(moving)
+        self.older: tuple[list[Any], list[Any]] | None = None
+        self.near = min(_NEAR * (100.0 / settings.steps) ** 3.0, _NEAREST)
+        self.fewest = max(_FEWEST / _PARTS[0] / settings.steps, 1.0)
 
-    def followed(step: Any) -> tuple[Fixed, Moving, Any, list[Any], list[Any]]:
-        """Start, end, whether they approach there, by how much they miss, and what by rights should
-        be the next guess.
+    def found(self, usable: Any) -> tuple[Fixed, Moving, Any]:
+        """The geometry at first contact, the motions at maximum engagement, and where they were
+        found.
         """
-        nonlocal older
-        start, end, approaching, reached = ran(step, guess, None if note is None else note.append)
-        off = [new - old for new, old in zip(reached, guess, strict=True)]
-        trial = reached if older is None else _secant(reached, off, *older)
-        older = tuple(off), tuple(reached)
-        return start, end, approaching, off, trial
+        near = left = self.roughly(usable)
+        begun, engaged = self.fixed, self.moving
+        for turn in range(_CORRECTIONS):
+            if self.note is not None:
+                self.note.clear()
+            append = None if self.note is None else self.note.append
+            start, end, approaching, reached = self.follow(1.0, self.guess, left, append)
+            # Of a block only the cases that have not arrived are followed again.
+            begun = start if turn == 0 else _where(left, start, begun)
+            engaged = end if turn == 0 else _where(left, end, engaged)
+            off = _minus(reached, self.guess)
+            trial = self.next_guess(left, reached, off)
+            far = _size(off)
+            left = left & (((far <= self.near) & approaching) ^ True)
+            close = left & approaching & (far <= _NOT_FAR * self.near)
+            if np.any(close):
+                here, there, arrived, hits = self.moved_on(off, trial, close)
+                if np.any(hits):
+                    begun = _where(hits, _moved_back(*self.fixed, arrived), begun)
+                    later = _shifted(self.fixed[1:], self.moving, engaged, (here, there))
+                    if self.note is not None:
+                        self.note.shift(hits, later, engaged)
+                    engaged = _where(hits, later, engaged)
+                left = left & (hits ^ True)
+                trial = _chosen(close, arrived, trial)
+            if not np.any(left):
+                break
+            self.guess = _chosen(left, trial, self.guess)
+        return begun, engaged, near & (left ^ True)
 
-    def moved_on(off: list[Any], trial: list[Any]) -> tuple[Moving, Moving, list[Any], Any]:
-        """With few steps the ends from here and from where all steps would arrive by what few say,
-        that start, and whether they do.
+    def roughly(self, usable: Any) -> Any:
+        """Correct the guesses with few steps, then with more; which cases come near in that."""
+        near = usable
+        for part in (part * self.fewest for part in _PARTS if part * self.fewest < 0.5):
+            far = near
+            for _ in range(_ROUGH_CORRECTIONS):
+                _, _, _, reached = self.follow(part, self.guess, far)
+                off = _minus(reached, self.guess)
+                self.guess = _chosen(far, self.next_guess(far, reached, off), self.guess)
+                far = far & ((_size(off) <= _ROUGHLY) ^ True)
+                if not np.any(far):
+                    break
+            near = near & (far ^ True)
+        return near
+
+    def moved_on(
+        self, off: list[Any], trial: list[Any], close: Any
+    ) -> tuple[Moving, Moving, list[Any], Any]:
+        """With few steps the ends from the guess and from where all steps would arrive by what few
+        say, that start, and which of the close cases arrive.
         """
-        nonlocal left, older
-        every, step = left, 1.0 / (max(_DIFFERENCE, _PARTS[0]) * fewest * steps)
-        whole = [now + miss for now, miss in zip(guess, off, strict=True)]
-        _, here, _, were = ran(step, guess, None)
-        there, hits = here, every ^ every
+        left, part = close, max(_DIFFERENCE, _PARTS[0]) * self.fewest
+        whole = [now + miss for now, miss in zip(self.guess, off, strict=True)]
+        _, here, _, were = self.follow(part, self.guess, left)
+        there, hits = here, left ^ left
         for _ in range(_DIFFERENCES):
-            _, end, approaching, are = ran(step, trial, None)
+            _, end, approaching, are = self.follow(part, trial, left)
             there = _where(left, end, there)
             reached = [one + (now - was) for one, now, was in zip(whole, are, were, strict=True)]
-            missed = [now - then for now, then in zip(reached, trial, strict=True)]
-            moved: Any = sum(abs(then - now) for then, now in zip(trial, guess, strict=True))
-            far: Any = sum(abs(one) for one in missed) + _BLUR * moved
-            hits = hits | (left & approaching & (far <= near))
-            left = every & (hits ^ True)
+            missed = _minus(reached, trial)
+            far = _size(missed) + _BLUR * _size(_minus(trial, self.guess))
+            hits = hits | (left & approaching & (far <= self.near))
+            left = close & (hits ^ True)
             if not np.any(left):
                 break
-            ahead = reached if older is None else _secant(reached, missed, *older)
-            # The other cases of a block have not been followed here: their secant stays.
-            older = _where(left, (tuple(missed), tuple(reached)), older)
-            trial = [select(left, new, old) for new, old in zip(ahead, trial, strict=True)]
-        left = every
+            trial = _chosen(left, self.next_guess(left, reached, missed), trial)
         return here, there, trial, hits
 
-    fewest = max(_FEWEST / _PARTS[0] / steps, 1.0)
-    for part in _PARTS:
-        if part * fewest < 0.5:
-            *_, guess = followed(1.0 / (part * fewest * steps))
-    near = min(_NEAR * (100.0 / steps) ** 3.0, _NEAREST)
-    begun: Fixed | None = None
-    engaged = moving
-    for _ in range(_CORRECTIONS):
-        if note is not None:
-            note.clear()
-        start, end, approaching, off, trial = followed(fixed[0].step)
-        # Of a block only the cases that have not arrived are followed again.
-        begun, engaged = (
-            (start, end)
-            if begun is None
-            else (_where(left, start, begun), _where(left, end, engaged))
+    def follow(
+        self, part: float, guess: list[Any], some: Any, append: Any = None
+    ) -> tuple[Fixed, Moving, Any, list[Any]]:
+        """With a part of the steps the start and the end of some cases from a guess, whether they
+        approach there, and what is reached.
+        """
+        contact, a, b = self.fixed
+        start = _moved_back(contact._replace(step=contact.step / part), a, b, guess)
+        on_a, on_b, passing = self.moving
+        closing, _ = approach(place_of(*start, *self.moving), on_a, on_b)
+        passing = passing._replace(closing=closing, active=(closing > 0.0) & some)
+        end = self.run(start, (on_a, on_b, passing), True, append)
+        return start, end, closing > 0.0, _way(settled(start[0], end, self.settings))
+
+    def next_guess(self, some: Any, reached: list[Any], off: list[Any]) -> list[Any]:
+        """The next guess of some cases, from what they reached and by how much they missed."""
+        trial = reached if self.older is None else _secant(reached, off, *self.older)
+        # The other cases of a block have not been followed: their secant stays.
+        self.older = (
+            (off, reached)
+            if self.older is None
+            else (_chosen(some, off, self.older[0]), _chosen(some, reached, self.older[1]))
         )
-        far: Any = sum(abs(one) for one in off)
-        left = left & (((far <= near) & approaching) ^ True)
-        if not np.any(left):
-            break
-        close = left & approaching & (far <= _NOT_FAR * near)
-        if np.any(close):
-            every, left = left, close
-            here, there, trial, hits = moved_on(off, trial)
-            if np.any(hits):
-                begun = _where(hits, _moved_back(*fixed, trial), begun)
-                later = _shifted(fixed[1:], moving, engaged, (here, there))
-                if note is not None:
-                    note.shift(hits, later, engaged)
-                engaged = _where(hits, later, engaged)
-            left = every & (hits ^ True)
-            if not np.any(left):
-                break
-        guess = [select(left, new, old) for new, old in zip(trial, guess, strict=True)]
-    return (begun or fixed, moving), engaged, usable & (left ^ True)
+        return trial
+
+
+def _way(moving: Moving) -> list[Any]:
+    """What the bodies and the normal have moved and turned."""
+    on_a, on_b, passing = moving
+    way = [(one.dx, one.dy, one.c, one.s) for one in (on_a, on_b)]
+    return [*way[0], *way[1], passing.c, passing.s]
+
+
+def _minus(one: list[Any], other: list[Any]) -> list[Any]:
+    return [value - less for value, less in zip(one, other, strict=True)]
+
+
+def _size(parts: list[Any]) -> Any:
+    return sum(abs(part) for part in parts)
+
+
+def _chosen(some: Any, new: list[Any], old: list[Any]) -> list[Any]:
+    """The new values of some cases, and the old ones of the others."""
+    return [select(some, *pair) for pair in zip(new, old, strict=True)]
+
+
+def settled(contact: Contact, moving: Moving, settings: Settings) -> Moving:
+    """What moves, drifted for the time that its last step left."""
+    if settings.geometry == "fixed":
+        return moving
+    on_a, on_b, passing = moving
+    return drifted(contact, (on_a, on_b), passing, passing.late)
 
 
 def _shifted(
