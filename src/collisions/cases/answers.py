@@ -20,9 +20,9 @@ import numpy as np
 from ..diagnostics import diagnose
 from ..impact.impact import Impact
 from ..messages.errors import CollisionsWarning, InputError, as_marked
-from ..quantities.attributes import unit_of
+from ..quantities.attributes import missing_error, unit_of
 from ..quantities.formatting import percent
-from ..quantities.tables import spoken_system
+from ..quantities.tables import given_texts, spoken_system
 from ..quantities.units import rendered, to_quantity
 from ..reconstruct import MomentumSolution, Posterior
 from ..reporting import report
@@ -190,7 +190,7 @@ class Answers:
         return {"results": results, "uncertainty": ranges, "warnings": self.warnings}
 
     def _units(self, units: str | None) -> Any:
-        return units or self.case.report.get("units") or spoken_system(self.results[0]._texts())
+        return units or self.case.report.get("units") or spoken_system(given_texts(self.results[0]))
 
     def _made(self, function: Any, arguments: dict[str, Any], key: str = "report") -> Any:
         """What a function makes of the results; its warnings are kept, and a refusal names the
@@ -532,7 +532,7 @@ def _output(result: Any, name: str, place: str, there: Any, shape: tuple[int, ..
             (place, f"{rendered(name)} is no number of the answer; {suggestion(name, names)}")
         )
     if value is None:
-        why = owner._missing(last) if hasattr(owner, "_missing") else "this case has none"
+        why = missing_error(owner, last) or "this case has none"
         raise CaseError((place, f"{rendered(name)} is not known: {why}"))
     return to_quantity(np.broadcast_to(np.where(there, value, np.nan), shape), unit)
 

@@ -5,7 +5,7 @@ paper.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from operator import attrgetter
 from typing import Any, Literal, TypeAlias, get_args
 
@@ -18,6 +18,7 @@ from ..quantities.document import Document
 from ..quantities.formatting import SI_UNITS, UnitSystem, check_system
 from ..quantities.reading import ArgumentReader, at_least_zero, need_one_case, single_number
 from ..quantities.settings import callers_options, computing
+from ..quantities.tables import given_texts
 from ..quantities.units import kinds_in_degrees, shown, system_given
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..scene.one_run import need_one_run
@@ -214,7 +215,7 @@ def explain(
         raise no_uncertainty()
     with callers_options():
         deviations, ranges = ({}, {}) if uncertainty is None else _spread(uncertainty, impact)
-    page = Page(_system(units, impact._texts()), form == "markdown", deviations, ranges)
+    page = Page(_system(units, given_texts(impact)), form == "markdown", deviations, ranges)
     if isinstance(impact, Fit):
         page.title("Fit to evidence, step by step")
         fit(page, impact)
@@ -231,7 +232,7 @@ def explain(
 
 
 def _run(run: Run, units: UnitSystem | None, form: Form) -> Document:
-    page = Page(_system(units, run._texts()), form == "markdown", {}, {})
+    page = Page(_system(units, given_texts(run)), form == "markdown", {}, {})
     page.title("The scene, step by step")
     scene_steps(page, run, _with_gain)
     _notes(page, None, of_impact=True)
@@ -243,12 +244,11 @@ def _with_gain(page: Page, impact: Impact) -> None:
     _impact(page, impact)
 
 
-def _system(units: UnitSystem | None, texts: Iterable[Any]) -> System:
+def _system(units: UnitSystem | None, texts: Sequence[str]) -> System:
     """How numbers are written: in the system named or, for None, as the inputs were given."""
     if units is not None:
         return System(units)
-    given = [text for text in texts if isinstance(text, str)]
-    return System(system_given(given), kinds_in_degrees(given))
+    return System(system_given(texts), kinds_in_degrees(texts))
 
 
 def no_uncertainty(kind: str = "Fit") -> InputError:

@@ -17,7 +17,7 @@ from ..messages.marked import type_of
 from ..quantities.formatting import UnitSystem, check_system
 from ..quantities.reading import ArgumentReader, amount, need_one_case, single_number
 from ..quantities.settings import callers_options, computing, units_required
-from ..quantities.tables import spoken_system
+from ..quantities.tables import given_texts, spoken_system
 from ..quantities.units import Input, Pair, rendered, shown
 from ..reconstruct import MomentumSolution
 from ..scene.run import Run
@@ -165,7 +165,9 @@ def diagnose(
     implausible = "limits['suspect_yaw_rate']", "limits['suspect_angle']"
     if isinstance(impact, Run):
         with callers_options():
-            spoken = cast(UnitSystem, spoken_system(impact._texts())) if units is None else units
+            spoken = (
+                cast(UnitSystem, spoken_system(given_texts(impact))) if units is None else units
+            )
             return diagnose_run(impact, given, spoken, diagnose)
     need_one_case(impact, (Impact, MomentumSolution), "diagnose")
     with callers_options():
@@ -176,7 +178,7 @@ def diagnose(
             if given is not None
         }
         if units is None:
-            units = cast(UnitSystem, spoken_system(impact._texts()))
+            units = cast(UnitSystem, spoken_system(given_texts(impact)))
         try:
             check_system(units)
         except InputError as problem:

@@ -15,7 +15,7 @@ import numpy as np
 from ..kernels.contact_laws import RULES
 from ..kernels.elementwise import UNCHECKED
 from ..messages.errors import InputError, Status
-from ..quantities.attributes import attributes, equal, read_only, unit_of
+from ..quantities.attributes import attributes, equal, missing_error, read_only, unit_of
 from ..quantities.directions import direction
 from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader
@@ -402,7 +402,7 @@ def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
             owner = getattr(impact, side) if side in ("a", "b") else impact
             if inner in attributes(type(owner)):
                 text = f"columns: {name} has no value in this impact; leave it out"
-                problem = owner._missing(inner) if isinstance(owner, Side) else None
+                problem = missing_error(owner, inner) if isinstance(owner, Side) else None
                 raise problem or InputError(text, code="unknown_name", argument="columns")
         if not isinstance(name, str) or name not in found:
             near = get_close_matches(rendered(name), found, 3) or list(found)[:3]

@@ -21,7 +21,7 @@ from ..quantities.formatting import (
     with_decimals,
 )
 from ..quantities.reading import need_one_case
-from ..quantities.tables import Summarized, cells
+from ..quantities.tables import Summarized, cells, given_texts
 from ..quantities.units import shown
 from ..vehicle.vehicle import Vehicle, named
 
@@ -51,7 +51,7 @@ class Units:
     """
 
     def __init__(self, system: Any, of: Summarized | None = None) -> None:
-        self._system = cells(system, of._texts() if isinstance(of, Summarized) else ())
+        self._system = cells(system, given_texts(of) if isinstance(of, Summarized) else ())
 
     def factor(self, unit: str | None) -> float:
         """The factor from this SI unit to the unit shown."""

@@ -140,11 +140,20 @@ class NoQuantityError(MissingInputError, AttributeError):
     name: Any = None  # Otherwise Python would suggest another attribute.
 
 
+def missing_error(owner: Any, name: str) -> MissingInputError | None:
+    """The error that names the missing input for which an attribute is None, from the method
+    ``_missing`` of its object; None without such a method, or where no input is missing.
+    """
+    if not hasattr(owner, "_missing"):
+        return None
+    problem: MissingInputError | None = owner._missing(name)
+    return problem
+
+
 class Quantities:
     """The owner's attributes and the results of its methods as Quantities.
 
-    The owner's ``_missing(name)``, if it has one, gives the error that names the missing input of
-    an attribute that is None.
+    ``missing_error`` names the missing input of an attribute that is None.
     """
 
     __slots__ = ("_owner",)
@@ -170,10 +179,8 @@ class Quantities:
                     f"{name} gives no quantity; call it on the object itself, without .q"
                 )
             return lambda *args, **kwargs: self._with_unit(value(*args, **kwargs), unit)
-        if value is None and hasattr(self._owner, "_missing"):
-            problem = self._owner._missing(name)
-            if problem is not None:
-                raise NoQuantityError(problem.marked, code=problem.code, **problem.fields)
+        if value is None and (problem := missing_error(self._owner, name)) is not None:
+            raise NoQuantityError(problem.marked, code=problem.code, **problem.fields)
         if value is None or unit is None:
             return getattr(value, "q", value)
         return self._with_unit(value, unit)

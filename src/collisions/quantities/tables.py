@@ -205,7 +205,7 @@ class Summarized:
         -------
         Summary
         """
-        return self._summary(cells(units, self._texts()))
+        return self._summary(cells(units, given_texts(self)))
 
     def __repr__(self) -> str:
         return str(self.summary())
@@ -218,6 +218,11 @@ class Summarized:
 
     def _repr_html_(self) -> str:
         return self.summary()._repr_html_()
+
+
+def given_texts(result: Summarized) -> list[str]:
+    """The texts with units that the inputs of a result were given as."""
+    return [text for text in result._texts() if isinstance(text, str)]
 
 
 def as_sentence(text: str) -> str:

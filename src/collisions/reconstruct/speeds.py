@@ -34,7 +34,7 @@ from ..messages.warning import quietly, state_of_study, warn_of_cases, warn_of_s
 from ..quantities.directions import Angle, course
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import must_be
-from ..quantities.tables import Sentences, said
+from ..quantities.tables import Sentences, given_texts, said
 from ..quantities.units import Input, Pair
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle, error_of_missing, moved
@@ -823,7 +823,7 @@ def _answers(
             "from A into B"
         )
         text = (
-            f"the speed of {whose} came out as {said(backward, 'speed', impacts[0]._texts())}: "
+            f"the speed of {whose} came out as {said(backward, 'speed', given_texts(impacts[0]))}: "
             f"{cure}"
         )
         if wrong := ways.turned() if cases.shape is None else "":

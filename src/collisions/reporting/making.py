@@ -18,7 +18,7 @@ from ..plot.canvas import who
 from ..quantities.document import Document
 from ..quantities.formatting import UnitSystem
 from ..quantities.settings import callers_options, computing
-from ..quantities.tables import cells
+from ..quantities.tables import cells, given_texts
 from ..quantities.units import Input, Pair, kinds_in_degrees
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..scene.one_run import need_one_run
@@ -158,7 +158,7 @@ def report(
         changed = {name: value for name, value in held.items() if not _is_usual(name, value)}
         return report_run(impact, given, changed)
     results = results_of(impact, uncertainty)
-    texts = [text for one, _ in results for text in one._texts() if isinstance(text, str)]
+    texts = [text for one, _ in results for text in given_texts(one)]
     system: Any = cells(units, texts).name
     given["units"] = system
     options = plain_options(given)
@@ -226,7 +226,7 @@ def _part(
         with callers_options():
             findings = diagnose(result, **looked_at)
     readable = _readable(result) if isinstance(result, Impact) else result
-    own = None if cells(None, result._texts()).name == system else system
+    own = None if cells(None, given_texts(result)).name == system else system
     return _Part(result, readable, uncertainty, Spread(result, uncertainty), findings, own)
 
 

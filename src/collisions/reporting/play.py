@@ -17,7 +17,7 @@ from ..plot.run import COLOURS, tracks_of
 from ..quantities.document import Document
 from ..quantities.formatting import UnitSystem, decimals_of, typeset
 from ..quantities.printed_tables import html_row
-from ..quantities.tables import Cells, cells
+from ..quantities.tables import Cells, cells, given_texts
 from ..scene.frames import Frames, frames_of
 from ..scene.mover import Mover
 from ..scene.run import Run, Track
@@ -81,7 +81,7 @@ def play(run: Run, *, units: UnitSystem | None = None) -> Document:
     >>> page[:15], page.count('type="range"')
     ('<!DOCTYPE html>', 1)
     """
-    system = cells(units, run._texts() if isinstance(run, Run) else ())
+    system = cells(units, given_texts(run) if isinstance(run, Run) else ())
     tracks = tracks_of(run, "collisions.play")
     return Document(_written(run, tracks, frames_of(run), system), "html")
 

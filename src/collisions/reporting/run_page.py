@@ -20,7 +20,7 @@ from ..messages.errors import CollisionsError, InputError
 from ..quantities.document import Document
 from ..quantities.reading import ArgumentReader
 from ..quantities.settings import callers_options
-from ..quantities.tables import as_sentence, cells, label_of
+from ..quantities.tables import as_sentence, cells, given_texts, label_of
 from ..quantities.units import kinds_in_degrees, shown
 from ..scene.names import result_of, results_of
 from ..scene.run import Run
@@ -46,7 +46,7 @@ def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -
     from .. import __version__
 
     paragraphs, uncertainty = _checked(given), given["uncertainty"]
-    texts = [text for text in run._texts() if isinstance(text, str)]
+    texts = given_texts(run)
     system = given["units"]
     printed = Printed(system, kinds_in_degrees(texts))
     sheet: Sheet = (Html if given["form"] == "html" else Markdown)(printed, {}, {})
@@ -106,7 +106,7 @@ def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -
 
 def units_of_run(run: Run, units: Any) -> Any:
     """The units of the page: those asked for, or of the inputs."""
-    return cells(units, [text for text in run._texts() if isinstance(text, str)]).name
+    return cells(units, given_texts(run)).name
 
 
 def _checked(given: Mapping[str, Any]) -> list[str]:

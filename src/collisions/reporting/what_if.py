@@ -29,7 +29,7 @@ from ..quantities.document import Document
 from ..quantities.formatting import SI_UNITS, UnitSystem, decimals_of, in_words, typeset
 from ..quantities.printed_tables import html_row
 from ..quantities.reading import OUTSIDE_UNITS, ArgumentReader, need_one_case
-from ..quantities.tables import Cells, cells, said
+from ..quantities.tables import Cells, cells, given_texts, said
 from ..quantities.units import Input, Texts, has_unit, shown
 from ..vehicle.outlines import read_outline
 from ..vehicle.vehicle import NAMES, Vehicle, moved
@@ -186,7 +186,7 @@ def what_if(
     ('<!DOCTYPE html>', 2)
     """
     need_one_case(impact, (Impact,), "what_if")
-    system = cells(units, impact._texts())
+    system = cells(units, given_texts(impact))
     if BY_NAME.get(impact.model) not in MODELS:
         raise InputError(
             f"what_if has no page for {impact.model}; solve the case by eccentric",
@@ -345,7 +345,9 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
         if kind == "angle":
             start += 360.0 * round((middle - start) / 360.0)
         if not (low < high and low <= start <= high):
-            now = f"{start:.10g}°" if kind == "angle" else said(start, kind, impact._texts(), 10)
+            now = (
+                f"{start:.10g}°" if kind == "angle" else said(start, kind, given_texts(impact), 10)
+            )
             bare = (
                 ""
                 if kind == "number" or has_unit(ends[0])

@@ -868,7 +868,7 @@ class Followed:
         for rule, contact in enumerate(self.contacts):
             absent = np.flatnonzero(~np.any(self.rules == rule, axis=0) & (self.failed == ""))
             if len(absent) and self.single:
-                raise self._missing(rule, contact)
+                raise self._not_coming(rule, contact)
             self._fail(absent, "contact_missing")
         if self.order is not None:
             names = [(contact.a, contact.b) for contact in self.contacts]
@@ -907,7 +907,7 @@ class Followed:
             )
             self.notices.append(Notice("touch_without_contact", text, time, pair.names))
 
-    def _missing(self, rule: int, contact: Contact) -> CollisionsError:
+    def _not_coming(self, rule: int, contact: Contact) -> CollisionsError:
         pair = next(p for p in self._pairs if {contact.a, contact.b} == {*p.names})
         near, at = self._nearest(pair)
         if not math.isfinite(near):

@@ -17,7 +17,7 @@ from ..messages.errors import CollisionsError, InputError, NoSolutionError, Unit
 from ..messages.warning import quietly
 from ..quantities.reading import ArgumentReader
 from ..quantities.strict_json import strict
-from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence
+from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence, given_texts
 from ..quantities.units import shown
 from ..uncertainty.designs import latin_hypercube
 from ..uncertainty.distributions import Distribution
@@ -220,7 +220,7 @@ def required(
     asked = 0 if joint is None else count
     answered = 0 if joint is None else int(good.sum())
     return Required(
-        tuple(costs), within, units, (asked, answered), tuple(notes), tuple(scene._texts())
+        tuple(costs), within, units, (asked, answered), tuple(notes), tuple(given_texts(scene))
     )
 
 

@@ -22,7 +22,7 @@ from ..messages.errors import (
 from ..messages.warning import warn_of_cases
 from ..quantities.attributes import Frozen, Quantities, Shown, derived, format_value, read_only
 from ..quantities.reading import ArgumentReader
-from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers
+from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, given_texts
 from ..quantities.units import Input, Texts, texts_of
 from ..vehicle.drag import one_value
 from ..vehicle.vehicle import NAMES, Vehicle, vehicle_of
@@ -475,16 +475,16 @@ class Run(Frozen, Summarized):
         found = self._followed
         if found.single:
             return body_at(self.scene.movers[name], name, state, lambda v: v, single=True)
-        missing = self._missing(name)
+        unanswered = self._unanswered(name)
         body = self.scene.movers[name].vehicle
         numbers: dict[str, Any] = {one: getattr(body, one) for one in NAMES}
-        for one, row in zip(STATE, state + missing, strict=True):
+        for one, row in zip(STATE, state + unanswered, strict=True):
             if numbers[one] is not None:
                 numbers[one] = row.reshape(self._shape)
         texts = Texts(units=texts_of(body.given))
         return vehicle_of(numbers | {"name": name}, given=texts)
 
-    def _missing(self, name: str) -> Any:
+    def _unanswered(self, name: str) -> Any:
         """NaN for each case without an answer, also where only this motion has none, else 0."""
         found = self._followed
         good = (found.failed == "") & (found.courses[name].failed == "")
@@ -557,7 +557,7 @@ class Run(Frozen, Summarized):
         time, state = np.concatenate(times), np.concatenate(states, axis=1)
         shape = (len(time), *self._shape)
         if not found.single:
-            state = state + self._missing(name)
+            state = state + self._unanswered(name)
         rows = {one: read_only(row.reshape(shape)) for one, row in zip(STATE, state, strict=True)}
         tracks: dict[str, Any] = {}
         if found.single and mover.tyres is not None and marks:
@@ -659,7 +659,7 @@ class Run(Frozen, Summarized):
                 yield from ((f"impacts[{number}].{name}", text) for name, text in impact._rows())
 
     def _texts(self) -> Iterable[Any]:
-        return self.scene._texts()
+        return given_texts(self.scene)
 
 
 class Rests(Frozen):

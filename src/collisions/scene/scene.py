@@ -17,7 +17,7 @@ from ..messages.hints import hinted
 from ..quantities.attributes import Shown, equal, read_only, texts_given
 from ..quantities.reading import ArgumentReader, broadcast
 from ..quantities.settings import Default
-from ..quantities.tables import Cells, Part, Summary, all_numbers
+from ..quantities.tables import Cells, Part, Summary, all_numbers, given_texts
 from ..quantities.units import Input, Pair, Texts, Value, shown, texts_of
 from ..vehicle.drag import read_friction
 from ..vehicle.vehicle import numbers_of
@@ -408,7 +408,7 @@ class Scene(Shown):
 
     def _texts(self) -> Iterable[Any]:
         for part in (*self.movers.values(), *self.contacts):
-            yield from part._texts()
+            yield from given_texts(part)
         yield from texts_of(texts_given(self))
 
     def _summary(self, numbers: Cells) -> Summary:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..messages.errors import InputError
 from ..quantities.strict_json import strict
-from ..quantities.tables import Cells, Part, Summarized, Summary
+from ..quantities.tables import Cells, Part, Summarized, Summary, given_texts
 from ..quantities.units import shown, to_quantity
 from .distribution import Distribution, from_numbers
 from .distributions import Interval, Samples
@@ -135,7 +135,7 @@ def widths_if_halved(
         units={name: output.unit for name, output in now.outputs.items()},
         coverage=None if now.method == "interval" else 0.95,
         samples=samples,
-        given=tuple(now._texts()),
+        given=tuple(given_texts(now)),
     )
 
 

@@ -28,7 +28,15 @@ from ..quantities.formatting import KIND_OF, Numbers
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
 from ..quantities.strict_json import strict
-from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, as_sentence
+from ..quantities.tables import (
+    Cells,
+    Part,
+    Summarized,
+    Summary,
+    all_numbers,
+    as_sentence,
+    given_texts,
+)
 from ..quantities.units import rendered, shown, unit_as_written
 from . import turns as angles
 from .designs import REPLICATES
@@ -738,7 +746,7 @@ class Propagation(Summarized):
 
     def __post_init__(self) -> None:
         for output in self.outputs.values():
-            output.texts = tuple(self._texts())
+            output.texts = tuple(given_texts(self))
 
     def __getstate__(self) -> dict[str, Any]:
         # Without what would run the user's model again, which a pickle cannot hold.
