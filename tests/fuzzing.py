@@ -42,9 +42,9 @@ from collisions.estimate.fit_result import Direction, Estimate, Residual, Values
 from collisions.estimate.posterior_result import PosteriorOutput
 from collisions.impact.choice import ByModel
 from collisions.impact.inputs import Inputs
-from collisions.impact.left_out import LeftOut, LeftOutSide
+from collisions.impact.left_out import LeftOut, LeftOutVehicle
 from collisions.impact.pulse import Pulse
-from collisions.impact.side import Side
+from collisions.impact.vehicle_result import VehicleResult
 from collisions.messages.warning import Note
 from collisions.quantities.attributes import Quantities
 from collisions.quantities.units import Texts
@@ -96,7 +96,8 @@ def seeds() -> range:
 MODULES = ("reporting", "diagnostics", "derivation")  # public beside those of collisions.__all__
 # What is given back without being in any __all__.
 GIVEN_BACK = (
-    Side, Pulse, LeftOut, LeftOutSide, Findings, Moves, Estimate, Residual, Direction, Values,
+    VehicleResult, Pulse, LeftOut, LeftOutVehicle, Findings, Moves, Estimate, Residual, Direction,
+    Values,
     Sensitivity, ByModel, Inputs, PosteriorOutput,
     Note, Moved, Notice, Rests, Track, Cost, Level, Required,
 )  # fmt: skip
@@ -538,7 +539,7 @@ class Case(random.Random):
             and value.pulse is not None
             and without_energy(value)
         ):
-            documented |= {"Side.kinetic_energy_change"}
+            documented |= {"VehicleResult.kinetic_energy_change"}
         assert names, f"{kind} is given back, and fuzzing.GIVEN_BACK does not have it"
         name = names[0]
         start = time.process_time()

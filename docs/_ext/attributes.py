@@ -36,7 +36,7 @@ def attribute_table(kind, prefix=""):
     """Every worked-out attribute of a class: name, unit, meaning."""
     path = (
         f"{kind.__module__}.{kind.__name__}"
-        if kind.__name__ == "Side"
+        if kind.__name__ == "VehicleResult"
         else f"collisions.{kind.__name__}"
     )
     return rows(

@@ -15,11 +15,11 @@ import pytest
 import collisions as col
 from collisions import Impact, Vehicle
 from collisions.impact.pulse import Pulse
-from collisions.impact.side import Side
+from collisions.impact.vehicle_result import VehicleResult
 from collisions.quantities.attributes import unit_of
 
 DOCS = Path(__file__).resolve().parent.parent.parent / "docs"
-KINDS = {"Impact": Impact, "Side": Side, "Vehicle": Vehicle, "Pulse": Pulse}
+KINDS = {"Impact": Impact, "VehicleResult": VehicleResult, "Vehicle": Vehicle, "Pulse": Pulse}
 
 pytestmark = [
     pytest.mark.slow,

@@ -17,7 +17,7 @@ import pytest
 import collisions as col
 from collisions import reconstruct
 from collisions.impact.impact import solved
-from collisions.impact.side import Side
+from collisions.impact.vehicle_result import VehicleResult
 from collisions.quantities.attributes import attributes
 from collisions.reporting import replay
 
@@ -90,7 +90,7 @@ def test_every_attribute_has_the_shape_of_the_batch(impact):
     shape or is an input.
     """
     shape = np.shape(impact.status)
-    for owner, kind in ((impact, col.Impact), (impact.a, Side), (impact.b, Side)):
+    for owner, kind in ((impact, col.Impact), (impact.a, VehicleResult), (impact.b, VehicleResult)):
         for name in attributes(kind):
             value = getattr(owner, name)
             unit = vars(kind)[name].unit

@@ -17,7 +17,7 @@ import pint
 import pytest
 
 import collisions as col
-from collisions.impact.left_out import LeftOut, LeftOutSide
+from collisions.impact.left_out import LeftOut, LeftOutVehicle
 from collisions.travel import GRAVITY
 from scripts import benchmarks
 from strategies import other_registry
@@ -25,7 +25,7 @@ from strategies import other_registry
 ROOT = Path(__file__).resolve().parent.parent.parent
 MOST = 0.7 * GRAVITY * 0.1
 TOGETHER = ("duration", "drag", "mutual_crush", "residual_crush", "contact_slide")
-SIDES = tuple(LeftOutSide.__dataclass_fields__)
+SIDES = tuple(LeftOutVehicle.__dataclass_fields__)
 
 
 def rear_end(speed, restitution=0.4, **changes):
@@ -279,7 +279,7 @@ def test_wheels_at_the_radius_of_gyration_turn_a_pinned_vehicle_no_more_than_is_
         one = by_wheels(gyration * math.cos(angle), gyration * math.sin(angle))
         assert least * found.tyre_delta_v_bound < one <= found.tyre_delta_v_bound
     assert by_wheels(1.35, 0.75) > found.tyre_delta_v_bound
-    assert "no bound but an estimate" in " ".join(LeftOutSide.__doc__.split())
+    assert "no bound but an estimate" in " ".join(LeftOutVehicle.__doc__.split())
 
 
 TOUCHES = pytest.mark.parametrize("geometry", ["maximum_engagement", "first_contact"])
@@ -491,7 +491,7 @@ def test_quantities_and_tables():
     assert found.q.a.tyre_share.dimensionless
     assert repr(found).startswith("LeftOut(duration=0.1 s, drag=0.7, mutual_crush=")
     assert "b.tyre_delta_v_bound=0.686465 m/s" in repr(found)
-    assert repr(found.b).startswith("LeftOutSide(tyre_impulse_bound=823.759 N*s")
+    assert repr(found.b).startswith("LeftOutVehicle(tyre_impulse_bound=823.759 N*s")
     page = found._repr_html_()
     for name in numbers(found):
         assert f">{name}</th>" in page

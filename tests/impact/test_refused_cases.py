@@ -26,7 +26,7 @@ from hypothesis import strategies as st
 import collisions as col
 from collisions import reconstruct, reference, travel
 from collisions.engine.blocks import BLOCK
-from collisions.impact.side import Side
+from collisions.impact.vehicle_result import VehicleResult
 from collisions.quantities.attributes import attributes
 
 INF, NAN = math.inf, math.nan
@@ -750,7 +750,7 @@ def outputs(found: Any, name: str = "") -> Iterator[tuple[str, Any]]:
     elif isinstance(found, tuple):
         for i, part in enumerate(found):
             yield from outputs(part, f"{name}[{i}]")
-    elif isinstance(found, (col.Impact, Side)) or is_dataclass(found):
+    elif isinstance(found, (col.Impact, VehicleResult)) or is_dataclass(found):
         kind = type(found)
         given = (
             [f.name for f in fields(found) if not f.name.startswith("_") and f.name != "given"]

@@ -506,7 +506,8 @@ def test_what_holds_the_value_that_is_meant_says_so():
         **CONTACT,
     )
     with pytest.raises(
-        col.InputError, match=r"b_after must be a Vehicle, got Side; write its .before or .after"
+        col.InputError,
+        match=r"b_after must be a Vehicle, got VehicleResult; write its .before or .after",
     ):
         reconstruct.restitution(A, B, A, impact.b, **CONTACT)
     with pytest.raises(

@@ -79,7 +79,7 @@ OPEN = frozenset(
     {
         "Vehicle.mass", "Vehicle.yaw_inertia", "Vehicle.course", "Vehicle.momentum",
         "Vehicle.kinetic_energy",
-        "Side.impulse_direction", "Side.pdof", "Side.pdof_clock",
+        "VehicleResult.impulse_direction", "VehicleResult.pdof", "VehicleResult.pdof_clock",
         "Impact.impulse_ratio", "Impact.critical_impulse_ratio", "Impact.friction",
         "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers",
         "reconstruct.Reconstruction.given", "ByModel",
@@ -330,9 +330,10 @@ def test_vehicles(case: Case) -> None:
 
 
 @fuzzes(
-    *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Pulse", "Inputs", "Side",
+    *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Pulse", "Inputs",
+    "VehicleResult",
     "Impact.again", "Impact.case", "Impact.ees", "Impact.max_crush_speeds", "Impact.to_dict",
-    "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at", "Side.recorded",
+    "Impact.from_dict", "Impact.to_columns", "VehicleResult.delta_v_at", "VehicleResult.recorded",
 )  # fmt: skip
 def test_impacts(case: Case) -> None:
     """Any two bodies, any contact; of what is answered everything is read, written down and read
@@ -346,11 +347,13 @@ def test_impacts(case: Case) -> None:
         check_balances(impact)
     case.call("Impact.ees", impact.ees, case.value("share_a"))
     case.call("Impact.max_crush_speeds", impact.max_crush_speeds, case.value("share_a"))
-    case.call("Side.delta_v_at", case.choice((impact.a, impact.b)).delta_v_at, case.pair("point"))
+    case.call(
+        "VehicleResult.delta_v_at", case.choice((impact.a, impact.b)).delta_v_at, case.pair("point")
+    )
     followed = impact if impact.pulse is not None or case.maybe(0.1) else known_impact(6)
     place = {name: case.option(0.5, case.value("x")) for name in ("forward", "left")}
     shown = case.call(
-        "Side.recorded",
+        "VehicleResult.recorded",
         case.choice((followed.a, followed.b)).recorded,
         case.option(0.05, [0.0, 0.03, 1.0], np.array([0.02, 0.2]), case.value("duration")),
         **case.spoil(place | {"axes": case.option("turning", "fixed")}),
@@ -478,7 +481,7 @@ UNIT_SYSTEMS = ("si", "metric", "us")
 # Shares of a delta-V that is 0, and what is beyond the model, are no numbers; each says so of
 # itself.
 LEFT_OPEN = frozenset(
-    f"LeftOutSide.{name}"
+    f"LeftOutVehicle.{name}"
     for name in (
         "tyre_share_bound",
         "tyre_share",
@@ -542,7 +545,7 @@ def answer_of(case: Case) -> Any:
 
 
 @fuzzes(
-    "left_out", "LeftOut", "LeftOutSide", "diagnose", "Findings", "Findings.to_dict", "Moves",
+    "left_out", "LeftOut", "LeftOutVehicle", "diagnose", "Findings", "Findings.to_dict", "Moves",
     "Moves.summary", "diagnostics.Finding", "diagnostics.Move",
     "diagnostics.Move.to_dict",
     "diagnostics.Limit", "explain", "report",
@@ -2212,8 +2215,9 @@ def test_options(case: Case) -> None:
 
 
 @fuzzes(
-    "Vehicle.summary", "Impact.summary", "Side.summary", "ModelChoice.summary", "LeftOut.summary",
-    "LeftOutSide.summary", "Pulse.summary",
+    "Vehicle.summary", "Impact.summary", "VehicleResult.summary", "ModelChoice.summary",
+    "LeftOut.summary",
+    "LeftOutVehicle.summary", "Pulse.summary",
     "Findings.summary", "Estimate.summary", "Residual.summary", "reconstruct.Fit.summary",
     "reconstruct.MomentumSolution.summary",
     "travel.RunOut.summary", "uncertainty.Propagation.summary", "uncertainty.Output.to",
@@ -2240,9 +2244,9 @@ def test_summaries(case: Case) -> None:
         findings = case.call("diagnose", col.diagnose, impact)
         results |= {
             "Impact": impact,
-            "Side": impact.b,
+            "VehicleResult": impact.b,
             "LeftOut": left,
-            "LeftOutSide": getattr(left, "a", None),
+            "LeftOutVehicle": getattr(left, "a", None),
         }
         results |= {"Findings": findings}
     courses = {

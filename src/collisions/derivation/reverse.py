@@ -11,7 +11,7 @@ from operator import attrgetter
 from typing import Any, NamedTuple
 
 from ..impact.impact import Impact
-from ..impact.provenance import KNOWN, bounds_of, how_many, known_in_words
+from ..impact.reconstruction import KNOWN, bounds_of, how_many, known_in_words
 from ..kernels.central import shares
 from ..quantities.directions import course
 from ..quantities.formatting import SI_UNITS

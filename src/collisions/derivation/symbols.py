@@ -9,7 +9,7 @@ from typing import Any
 
 from ..impact.impact import Impact
 from ..impact.inputs import PLACED
-from ..impact.side import Side
+from ..impact.vehicle_result import VehicleResult
 from ..kernels.contact_laws import BRACH, LAWS
 from ..vehicle.vehicle import Vehicle
 from .expressions import ATOM, SUM, ZERO, Expression, Pen, Written, signed_total
@@ -81,7 +81,7 @@ class Body:
 
     def __init__(self, impact: Impact, label: str) -> None:
         self.impact, self.label = impact, label
-        self.side: Side = impact.a if label == "A" else impact.b
+        self.side: VehicleResult = impact.a if label == "A" else impact.b
         self.start: Vehicle = self.side.before
         # The impulse on A is the opposite of that on B.
         self.sign = -1.0 if label == "A" else 1.0

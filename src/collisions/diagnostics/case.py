@@ -16,8 +16,8 @@ from ..impact.choice import ModelChoice
 from ..impact.impact import Impact, solve_changed
 from ..impact.inputs import OUTSIDE
 from ..impact.left_out import LeftOut
-from ..impact.side import Side
 from ..impact.solvers import required_model
+from ..impact.vehicle_result import VehicleResult
 from ..kernels.contact_laws import BRACH, FRICTION, LAWS
 from ..kernels.status import EPS
 from ..quantities.directions import from_degrees
@@ -45,7 +45,7 @@ class Damage(NamedTuple):
     direction: float | None
 
 
-class VehicleResult(NamedTuple):
+class VehicleFigures(NamedTuple):
     """The quantities that every result has for a vehicle, and its name in a sentence; mass and
     speed are those before.
     """
@@ -106,11 +106,11 @@ class MomentumCase(_Case):
     answer: MomentumSolution
 
     @cached_property
-    def vehicles(self) -> dict[str, VehicleResult]:
+    def vehicles(self) -> dict[str, VehicleFigures]:
         """Both vehicles by label."""
         names = ("mass", "speed", "delta_v", "pdof", "heading")
         return {
-            label: VehicleResult(
+            label: VehicleFigures(
                 f"vehicle {label.upper()}",
                 *(getattr(self.answer, f"{name}_{label}") for name in names),
             )
@@ -146,10 +146,10 @@ class ImpactCase(_Case):
     left_out: LeftOut | None
 
     @cached_property
-    def vehicles(self) -> dict[str, VehicleResult]:
+    def vehicles(self) -> dict[str, VehicleFigures]:
         """Both vehicles by label."""
         return {
-            label: VehicleResult(
+            label: VehicleFigures(
                 who,
                 side.before.mass,
                 side.before.speed,
@@ -172,7 +172,7 @@ class ImpactCase(_Case):
         )
 
     @cached_property
-    def sides(self) -> list[tuple[str, str, Side]]:
+    def sides(self) -> list[tuple[str, str, VehicleResult]]:
         """Label, name in a sentence, and side of both vehicles."""
         sides = (("a", "vehicle A", self.answer.a), ("b", "vehicle B", self.answer.b))
         return [(label, with_name(who, side.before), side) for label, who, side in sides]

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..impact.side import Side
+from ..impact.vehicle_result import VehicleResult
 from ..quantities.directions import from_radians
 from ..reference import RECORDER_ACCURACY, restitution_range
 from ..vehicle.outlines import distance_outside, in_scene
@@ -92,7 +92,7 @@ def rounding(case: ImpactCase) -> Iterator[Measured]:
     yield Measured(off, f"{what}: rounding of speeds that are large against the closing speed")
 
 
-def _has_infinite_energy(side: Side) -> bool:
+def _has_infinite_energy(side: VehicleResult) -> bool:
     before = side.before
     turning = (
         before.yaw_inertia is not None and math.isinf(before.yaw_inertia) and before.yaw_rate != 0.0
@@ -100,7 +100,7 @@ def _has_infinite_energy(side: Side) -> bool:
     return turning or (math.isinf(before.mass) and before.speed > 0.0)
 
 
-def _energy(side: Side, after: bool) -> float:
+def _energy(side: VehicleResult, after: bool) -> float:
     """Kinetic energy before or after, without that of a yaw rate that does not change."""
     vehicle = side.after if after else side.before
     energy = (

@@ -11,8 +11,8 @@ from typing import Any
 from ..impact.impact import Impact
 from ..impact.inputs import PLACED
 from ..impact.instant import neglected, tyres_acted
-from ..impact.provenance import bounds_of, how_many, known_in_words
-from ..impact.side import Side
+from ..impact.reconstruction import bounds_of, how_many, known_in_words
+from ..impact.vehicle_result import VehicleResult
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..reconstruct.speeds import if_it_slid, taken_to_stick
 from ..reference import INTER_VEHICLE_FRICTION
@@ -191,7 +191,9 @@ def model(case: ImpactCase) -> Iterator[Measured]:
 
 
 def _worst(
-    case: ImpactCase, answers: list[tuple[str, Impact]], size: Callable[[Side, Side], float]
+    case: ImpactCase,
+    answers: list[tuple[str, Impact]],
+    size: Callable[[VehicleResult, VehicleResult], float],
 ) -> Any:
     """The description of another result, label and name of the vehicle for which it differs most,
     and both its sides.
@@ -205,7 +207,7 @@ def _worst(
     return max(changes, key=lambda change: size(*change[3:]), default=None)
 
 
-def _delta_v_change(old: Side, new: Side) -> float:
+def _delta_v_change(old: VehicleResult, new: VehicleResult) -> float:
     """Length of the change of the delta-V vector, as a share of delta-V; 0 for a body that nothing
     moves.
     """
@@ -213,7 +215,7 @@ def _delta_v_change(old: Side, new: Side) -> float:
     return share(length, old.delta_v) if old.delta_v > 0.0 else 0.0
 
 
-def _yaw_change(old: Side, new: Side) -> float:
+def _yaw_change(old: VehicleResult, new: VehicleResult) -> float:
     """Difference of both changes of yaw rate, as a share of the larger; above 1 with the other
     sign.
     """

@@ -49,8 +49,8 @@ from .inputs import (
 )
 from .models import model_of, read_again
 from .run import solve_inputs
-from .side import SIGNS, Side, beside, title_of
 from .time_resolved_inputs import residual_crushes
+from .vehicle_result import SIGNS, VehicleResult, beside, title_of
 
 # Labels as type checkers see them, so that they refuse a comparison with one that is misspelt; a
 # refused case has none.
@@ -59,8 +59,8 @@ Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "reversing", 
 
 if TYPE_CHECKING:  # loaded by those who make them: a tenth of the import
     from .choice import ModelChoice
-    from .provenance import Reconstruction
     from .pulse import Parted, Pulse
+    from .reconstruction import Reconstruction
 
 _new = object.__new__
 
@@ -122,7 +122,7 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
     _answer: Any
     _elsewhere = MappingProxyType(
         {
-            Side: "impact.a.{0} or impact.b.{0}",
+            VehicleResult: "impact.a.{0} or impact.b.{0}",
             Vehicle: "impact.a.after.{0} (or .before, or impact.b)",
         }
     )
@@ -138,14 +138,14 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
         return cast(ImpactQuantities, Quantities(self))
 
     @derived()
-    def a(self) -> Side:
+    def a(self) -> VehicleResult:
         """Vehicle A and what changed for it."""
-        return Side(self.inputs, self._answer, 0, vars(self).get("choice"))
+        return VehicleResult(self.inputs, self._answer, 0, vars(self).get("choice"))
 
     @derived()
-    def b(self) -> Side:
+    def b(self) -> VehicleResult:
         """Vehicle B and what changed for it."""
-        return Side(self.inputs, self._answer, 1, vars(self).get("choice"))
+        return VehicleResult(self.inputs, self._answer, 1, vars(self).get("choice"))
 
     @derived()
     def model(self) -> ModelName:
@@ -851,7 +851,7 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
                 "Speeds before are known from one side only, as the contact slid, or may have: see "
                 "reconstruction.one_sided.",
             )
-        from .provenance import bounds_of
+        from .reconstruction import bounds_of
 
         speeds = {
             f"speed_{label}": numbers.answer(side.before.speed, "speed")
@@ -958,7 +958,7 @@ def part_of_impact(
 
 def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> Impact:
     """An Impact that a reverse solver found; where that gave no answer, its status says why."""
-    from .provenance import origin_where_answered
+    from .reconstruction import origin_where_answered
 
     code = raw.status
     if isinstance(code, np.ndarray):

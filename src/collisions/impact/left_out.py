@@ -30,8 +30,8 @@ from . import pulse
 from .impact import Impact, answer_of, part_of_impact, solve_changed
 from .inputs import part_of
 from .models import ECCENTRIC, LINEAR
-from .side import Side
 from .time_resolved_inputs import held_impulse, read_tyres
+from .vehicle_result import VehicleResult
 
 # Midpoints of equal time intervals, as shares of the duration.
 _MOMENTS = (0.125, 0.375, 0.625, 0.875)
@@ -53,7 +53,7 @@ class Pull(NamedTuple):
     yaw: Any = 0.0
 
     @classmethod
-    def of(cls, side: Side, restitution: Any, most: Any) -> Pull:
+    def of(cls, side: VehicleResult, restitution: Any, most: Any) -> Pull:
         """``most`` is the change of velocity of a free body by tyres that pull one way
         throughout.
         """
@@ -286,7 +286,7 @@ _GEOMETRIES = ("maximum_engagement", "first_contact")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
-class LeftOutSide(Shown):
+class LeftOutVehicle(Shown):
     """The effects neglected for one vehicle. Shares are of the vehicle's own delta-V in the impact.
 
     Attributes
@@ -354,7 +354,7 @@ class LeftOut(Shown):
         The same at separation.
     contact_slide : float or array [m]
         How far B's contact point moves along the tangent, relative to A's.
-    a, b : LeftOutSide
+    a, b : LeftOutVehicle
         What was left out for each vehicle.
     """
 
@@ -365,8 +365,8 @@ class LeftOut(Shown):
     mutual_crush: Value = field(metadata={"unit": "m"})
     residual_crush: Value = field(metadata={"unit": "m"})
     contact_slide: Value = field(metadata={"unit": "m"})
-    a: LeftOutSide = field()
-    b: LeftOutSide = field()
+    a: LeftOutVehicle = field()
+    b: LeftOutVehicle = field()
 
     @property
     def outside_a(self) -> tuple[Value, Value]:
@@ -668,7 +668,7 @@ def _assembled(found: dict[str, Any], texts: tuple[str, ...]) -> LeftOut:
     read_only(found)
     a, b = (
         in_units_of(
-            LeftOutSide(
+            LeftOutVehicle(
                 **{name[2:]: value for name, value in found.items() if name.startswith(f"{label}.")}
             ),
             texts,

@@ -30,9 +30,9 @@ from .choice import ModelChoice
 from .inputs import ARGUMENTS, OUTSIDE, UNITS, Inputs
 from .inputs import TYRES as TYRES_OF
 from .models import read_again
-from .provenance import KNOWN, Reconstruction, found_from
 from .pulse import CURVES, Pulse
-from .side import Side
+from .reconstruction import KNOWN, Reconstruction, found_from
+from .vehicle_result import VehicleResult
 
 FORMAT = "collisions impact 2"
 _LABELS = ("model", "rule", "law")
@@ -382,7 +382,7 @@ def to_columns(impact: Any, units: Any = None, wanted: Any = None) -> dict[str, 
                     unit_of(Vehicle, name),
                 )
         for name, value in _results(side):
-            _add(found, f"{label}.{name}", value, unit_of(Side, name))
+            _add(found, f"{label}.{name}", value, unit_of(VehicleResult, name))
     return dict(
         _column(name, *found[name], system, np.shape(impact.status))
         for name in _chosen(impact, found, wanted)
@@ -402,7 +402,7 @@ def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
             owner = getattr(impact, side) if side in ("a", "b") else impact
             if inner in attributes(type(owner)):
                 text = f"columns: {name} has no value in this impact; leave it out"
-                problem = missing_error(owner, inner) if isinstance(owner, Side) else None
+                problem = missing_error(owner, inner) if isinstance(owner, VehicleResult) else None
                 raise problem or InputError(text, code="unknown_name", argument="columns")
         if not isinstance(name, str) or name not in found:
             near = get_close_matches(rendered(name), found, 3) or list(found)[:3]
@@ -462,10 +462,12 @@ def _add(found: dict[str, tuple[Any, str | None]], name: str, value: Any, unit: 
 
 def _results(owner: Any) -> list[tuple[str, Any]]:
     found = [(name, getattr(owner, name)) for name in attributes(type(owner))]
-    return [(name, value) for name, value in found if not isinstance(value, (Vehicle, Side))]
+    return [
+        (name, value) for name, value in found if not isinstance(value, (Vehicle, VehicleResult))
+    ]
 
 
-def _side(side: Side) -> dict[str, Any]:
+def _side(side: VehicleResult) -> dict[str, Any]:
     moments = {moment: getattr(side, moment) for moment in _MOMENTS}
     states = {
         moment: {name: strict(getattr(vehicle, name)) for name in NAMES}

@@ -26,11 +26,11 @@ from ..vehicle.vehicle import Vehicle
 from .impact import Impact
 from .inputs import ARGUMENTS, PLACED, TYRES, UNITS, Inputs
 from .models import BY_NAME
-from .provenance import Reconstruction
 from .pulse import Pulse
+from .reconstruction import Reconstruction
 from .records import FORMAT, OF_SOME
-from .side import Side
 from .time_resolved_inputs import Geometry
+from .vehicle_result import VehicleResult
 
 __all__ = ["impact_schema"]
 
@@ -58,8 +58,14 @@ _RESULTS: dict[str, dict[str, Any]] = {
     "str": TEXT,
     "Law": TEXT,
     **{
-        name: {"$ref": f"#/$defs/{name.lower().removeprefix('model')}"}
-        for name in ("ModelChoice", "Reconstruction", "Pulse", "Vehicle", "Side")
+        name: {"$ref": f"#/$defs/{key}"}
+        for name, key in (
+            ("ModelChoice", "choice"),
+            ("Reconstruction", "reconstruction"),
+            ("Pulse", "pulse"),
+            ("Vehicle", "vehicle"),
+            ("VehicleResult", "side"),
+        )
     },
 }
 _GIVEN_AS: dict[str, dict[str, Any]] = {
@@ -122,7 +128,7 @@ def impact_schema() -> dict[str, Any]:
             "pair": _pair(_VALUE),
             "vehicle": _fields(Vehicle, _RESULTS),
             "vehicle_inputs": _vehicle_inputs(),
-            "side": _attributes(Side),
+            "side": _attributes(VehicleResult),
             "choice": closed(
                 {
                     "model": _each({"enum": _MODELS}),

@@ -19,8 +19,8 @@ class VehicleQuantities:
     velocity_at = vx = vy = x = y = yaw_inertia = yaw_rate = _QUANTITY
 
 
-class SideQuantities:
-    """Those of ``Side``."""
+class VehicleResultQuantities:
+    """Those of ``VehicleResult``."""
 
     before: VehicleQuantities
     after: VehicleQuantities
@@ -40,8 +40,8 @@ class SideQuantities:
 class ImpactQuantities:
     """Those of ``Impact``."""
 
-    a: SideQuantities
-    b: SideQuantities
+    a: VehicleResultQuantities
+    b: VehicleResultQuantities
     choice = closing_speed = common_velocity = complete = compression_impulse = (
         critical_impulse_ratio
     ) = ees = _QUANTITY

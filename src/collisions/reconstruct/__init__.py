@@ -10,7 +10,7 @@ from ..estimate.fit import fit
 from ..estimate.fit_result import Fit
 from ..estimate.posterior import posterior
 from ..estimate.posterior_result import Posterior
-from ..impact.provenance import Reconstruction
+from ..impact.reconstruction import Reconstruction
 from ..quantities.attributes import in_quantities
 from .answer import ReverseAnswer
 from .central import central

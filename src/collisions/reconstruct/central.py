@@ -13,7 +13,7 @@ import numpy as np
 
 from ..impact.impact import Impact
 from ..impact.inputs import Inputs, OnFailure, check_flag
-from ..impact.provenance import Reconstruction
+from ..impact.reconstruction import Reconstruction
 from ..impact.run import error_of
 from ..kernels.central import shares
 from ..kernels.contact_laws import BRACH, FRICTION
@@ -249,7 +249,7 @@ def _answer(
         given = {name: numbers[name] for name in known}
         velocity = () if held else (found.closing, 0.0 * found.closing)
         names = (*known, "contact_duration", "drag_a", "drag_b") if held else known
-        origin = cases.provenance("central", names, condition, count, velocity, where, given)
+        origin = cases.reconstruction("central", names, condition, count, velocity, where, given)
         drags = {name: cases.values(arrays[name]) for name in _DRAGS if held}
         return replace(origin, **drags)
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..impact.impact import Impact, answer_of, found_by, solved
 from ..impact.inputs import Inputs, body_numbers, first_case
-from ..impact.provenance import Reconstruction, found_from, origin_where_answered
+from ..impact.reconstruction import Reconstruction, found_from, origin_where_answered
 from ..impact.run import check_options, error_of, warn_of_refusals
 from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
@@ -258,7 +258,7 @@ class Cases(NamedTuple):
             else int(np.count_nonzero(np.broadcast_to(where, self.shape)))
         )
 
-    def provenance(
+    def reconstruction(
         self,
         method: str,
         known: Sequence[str],

@@ -18,7 +18,7 @@ import numpy as np
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES, Inputs, Law, OnFailure, part_of, read_inputs
 from ..impact.models import ECCENTRIC
-from ..impact.provenance import Reconstruction
+from ..impact.reconstruction import Reconstruction
 from ..impact.run import error_of, solve_inputs
 from ..impact.time_resolved_inputs import read_lasting
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR
@@ -299,7 +299,7 @@ def _answer(
     def origin_of(origin: Origin, condition: Any, count: Any, where: Any = True) -> Reconstruction:
         velocity = () if inputs.tyres else origin.contact_velocity
         names = end.kind, end.rule
-        return cases.provenance("planar", names, condition, count, velocity, where, known)
+        return cases.reconstruction("planar", names, condition, count, velocity, where, known)
 
     def inputs_of(origin: Origin, keep: Any) -> Inputs:
         bodies = []

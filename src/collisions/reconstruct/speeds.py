@@ -15,7 +15,7 @@ import numpy as np
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES, Inputs, Law, check_flag, read_inputs
 from ..impact.instant import LOOKED_FOR
-from ..impact.provenance import KNOWN, Reconstruction, bounds_of
+from ..impact.reconstruction import KNOWN, Reconstruction, bounds_of
 from ..impact.recorded import Axes
 from ..impact.run import error_of, warn_of_refusals
 from ..impact.time_resolved_inputs import read_lasting
@@ -438,9 +438,9 @@ def speeds(
         if not times:
             state_instant("speeds")
         ways = Ways(again, turned)
-        provenance = partial(cases.provenance, "speeds", given=told, also=also)
+        reconstruction = partial(cases.reconstruction, "speeds", given=told, also=also)
         return _answers(
-            cases, scene, found, inputs, known, function, forward_only, ways, provenance
+            cases, scene, found, inputs, known, function, forward_only, ways, reconstruction
         )
 
 
@@ -737,10 +737,10 @@ def _answers(
     function: RestitutionOf | None,
     forward_only: bool,
     ways: Ways,
-    provenance: Callable[..., Reconstruction],
+    reconstruction: Callable[..., Reconstruction],
 ) -> tuple[Impact, ...]:
-    """The impact of each root; raises for a single case without one. ``provenance`` says how it was
-    found.
+    """The impact of each root; raises for a single case without one. ``reconstruction`` makes what
+    says how it was found.
     """
     faults = input_faults(scene.numbers, inputs.incomplete)
     of_walls = [
@@ -793,7 +793,7 @@ def _answers(
                 )
             raise _refusal(scene, status, known, function, forward_only, say, ways.turned)
         names = (*scene.names, *getattr(scene, "recorders", ()))
-        origin = provenance(names, root.condition, count)
+        origin = reconstruction(names, root.condition, count)
         if isinstance(scene, ComponentScene):
             origin = replace(origin, regime=scene.stated, one_sided=_sides(scene, cases, there))
         impact = run_forward(

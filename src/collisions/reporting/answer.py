@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from ..derivation.explain import kinds_of_answers, names_of_answers, words_of_answers
 from ..diagnostics.finding import Finding, is_note
 from ..impact.impact import Impact
-from ..impact.provenance import how_many, known_in_words
+from ..impact.reconstruction import how_many, known_in_words
 from ..quantities.formatting import KIND_OF, Numbers
 from ..quantities.tables import as_sentence, label_of
 from ..reconstruct import Fit, MomentumSolution, Posterior

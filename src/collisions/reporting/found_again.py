@@ -12,7 +12,7 @@ from typing import Any, get_args
 
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES
-from ..impact.provenance import KNOWN, Reconstruction
+from ..impact.reconstruction import KNOWN, Reconstruction
 from ..kernels.contact_laws import BRACH, FRICTION, RULES
 from ..messages.errors import AmbiguousSolutionError, CollisionsError
 from ..reconstruct import central, planar, speeds

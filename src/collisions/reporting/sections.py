@@ -18,7 +18,7 @@ from ..diagnostics.finding import Findings, is_note, letter_of
 from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
 from ..impact.instant import looked_for, neglected
-from ..impact.left_out import LeftOutSide, left_out
+from ..impact.left_out import LeftOutVehicle, left_out
 from ..impact.models import BY_NAME
 from ..kernels.contact_laws import FRICTION, LAWS
 from ..messages.errors import Status
@@ -630,7 +630,7 @@ def _pulse(sheet: Sheet, impact: Impact) -> None:
 
 
 def _left_out(
-    sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle
+    sheet: Sheet, side: LeftOutVehicle, model: str, vehicle: Vehicle
 ) -> Iterator[tuple[str, str]]:
     # Tyres of a body that turns about a pivot act on it by their levers, which are not known.
     own = "upper bound" if vehicle.pivot is None else "about"

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 from ..engine.javascript import javascript
 from ..impact.impact import Impact, build
 from ..impact.models import BY_NAME, CANDIDATES, MODELS
-from ..impact.provenance import KNOWN
+from ..impact.reconstruction import KNOWN
 from ..kernels.contact_laws import RULES
 from ..kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, restitution_domain
 from ..messages.errors import InputError, Status
@@ -54,8 +54,8 @@ _DOMAINS = {
     **{name: rule.domain for name, rule in RULES.items()},
 }  # fmt: skip
 _WORDS = {"vx": "velocity along x", "vy": "velocity along y"}
-# What the page shows and draws, by its path in an Impact and in a Side; the kinds of what it shows
-# stand in the page.
+# What the page shows and draws, by its path in an Impact and in a VehicleResult; the kinds of what
+# it shows stand in the page.
 _OF_EACH = (
     "before.speed", "after.speed", "delta_v", "pdof", "delta_yaw_rate", "before.x", "before.y",
     "before.heading", "before.vx",

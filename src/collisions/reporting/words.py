@@ -12,7 +12,7 @@ from typing import Any
 from ..derivation.evidence import momentum_inputs
 from ..derivation.explain import impact_inputs
 from ..impact.impact import Impact
-from ..impact.provenance import KNOWN
+from ..impact.reconstruction import KNOWN
 from ..quantities.formatting import KIND_OF
 from ..reconstruct import MomentumSolution
 from ..scene.run import Run

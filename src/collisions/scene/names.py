@@ -15,7 +15,7 @@ import numpy as np
 
 from ..impact.impact import Impact, part_of_impact
 from ..impact.inputs import index_of, part_of
-from ..impact.side import Side
+from ..impact.vehicle_result import VehicleResult
 from ..messages.errors import CollisionsError, InputError, MissingInputError, placed
 from ..quantities.attributes import attributes, unit_of
 from ..quantities.directions import direction
@@ -334,8 +334,8 @@ def _of_impact() -> dict[str, str]:
         if unit is not None and name not in ("point", "normal"):
             found[name] = unit
     for label in "ab":
-        for name in attributes(Side):
-            unit = unit_of(Side, name)
+        for name in attributes(VehicleResult):
+            unit = unit_of(VehicleResult, name)
             if unit is not None:
                 found[f"{label}.{name}"] = unit
         for moment in _MOMENTS:

@@ -1,5 +1,5 @@
-"""Side: one vehicle's share of an impact: states before and after, delta-V, PDOF, impulses and
-work.
+"""``VehicleResult``: what an impact was for one vehicle: states before and after, delta-V, PDOF,
+impulses and work.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from ..kernels.elementwise import select
 from ..kernels.status import Passed
 from ..messages.errors import InputError, MissingInputError, Status
-from ..quantities.attribute_stubs import SideQuantities
+from ..quantities.attribute_stubs import VehicleResultQuantities
 from ..quantities.attributes import (
     Frozen,
     Quantities,
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from .choice import ModelChoice
 
 
-class Side(Frozen, Summarized):
+class VehicleResult(Frozen, Summarized):
     """One vehicle's part in an impact: its states before, during and after, and what changed.
 
     ``delta_v`` is the change of velocity of the centre of mass. Directions are in scene axes, with
@@ -83,11 +83,11 @@ class Side(Frozen, Summarized):
         return dvx, dvy, dw
 
     @property
-    def q(self) -> SideQuantities:
+    def q(self) -> VehicleResultQuantities:
         """The same attributes as pint Quantities; one that needs a heading not given raises a
         MissingInputError.
         """
-        return cast(SideQuantities, Quantities(self))
+        return cast(VehicleResultQuantities, Quantities(self))
 
     @derived()
     def before(self) -> Vehicle:
@@ -436,7 +436,7 @@ class Side(Frozen, Summarized):
         """
         own, other = (
             self._gain(),
-            Side(self._inputs, self._answer, 1 - self._index, self._choice)._gain(),
+            VehicleResult(self._inputs, self._answer, 1 - self._index, self._choice)._gain(),
         )
         work: Value = select(own == own, own, -self._answer.energy_loss - other)
         return work
@@ -556,19 +556,21 @@ _STATE = {"speed": "speed", "course": "course", "yaw_rate": "yaw rate"}
 _CHANGE = {"delta_v": "total", "delta_v_forward": "forward", "delta_v_left": "left", "pdof": "PDOF"}
 
 
-def title_of(side: Side) -> str:
+def title_of(side: VehicleResult) -> str:
     """The letter of a vehicle, and its name if that says more."""
     return with_name("AB"[side._index], side.before)
 
 
-def beside(sides: Sequence[Side], numbers: Cells) -> list[Part]:
+def beside(sides: Sequence[VehicleResult], numbers: Cells) -> list[Part]:
     """The rows of a summary on one or both vehicles, each in a column of its own."""
     turning = any(
         not without_turning(state.yaw_rate) for side in sides for state in (side.before, side.after)
     )
     state = {name: label for name, label in _STATE.items() if turning or name != "yaw_rate"}
 
-    def rows(text: Callable[[Side, str], str], labels: dict[str, str]) -> list[tuple[str, ...]]:
+    def rows(
+        text: Callable[[VehicleResult, str], str], labels: dict[str, str]
+    ) -> list[tuple[str, ...]]:
         return [(label, *(text(side, name) for side in sides)) for name, label in labels.items()]
 
     columns = tuple(map(title_of, sides))
@@ -607,6 +609,8 @@ def _changed(value: Value, change: Value) -> Value:
     return value + change
 
 
-def _of_change(side: Side, name: str, numbers: Cells) -> str:
+def _of_change(side: VehicleResult, name: str, numbers: Cells) -> str:
     value = getattr(side, name)
-    return "no heading" if value is None else numbers.text(value, unit_of(Side, name), name)
+    return (
+        "no heading" if value is None else numbers.text(value, unit_of(VehicleResult, name), name)
+    )
