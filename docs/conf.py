@@ -138,6 +138,7 @@ GALLERY = {
         "intersection_reconstruction",
         "in_line_by_momentum_and_ees",
         "pole_from_crush",
+        "chain_of_three",
         "rear_end_from_recorder",
         "two_accounts",
         "rest_positions",

@@ -150,6 +150,21 @@ def _(axes: Any, names: Names) -> None:
     struck(axes, impact, (names["OUTLINE"], None), "a corner against a slanted wall")
 
 
+@card("chain_of_three")
+def _(axes: Any, names: Names) -> None:
+    run, found, size = names["run"], names["found"], (4.4, 1.8)
+    moments = ((0.0, "hit"), (run.times[1], "second hit"), (run.end, "at rest"))
+    for row, (time, what) in enumerate(moments):
+        states = run.at(time)
+        for index, name in enumerate(names["cars"]):
+            car(axes, states[name].replace(y=-3.4 * row), size, index, 0.12 + 0.08 * row)
+        axes.text(-7.5, -3.4 * row, what, ha="right", va="center", fontsize=12)
+    axes.plot([-14], [0], alpha=0)
+    plan(axes)
+    low, high = (end * KMH for end in found["speed of the van"].interval())
+    said(axes, f"the van, left: {low:.0f} to {high:.0f} km/h")
+
+
 @card("crossroads")
 def _(axes: Any, names: Names) -> None:
     outline = names["OUTLINE"]
