@@ -12,8 +12,8 @@ from collisions.reconstruct import crush_energy, posterior
 from collisions.scene import Contact, Mover, Scene
 from collisions.uncertainty import Normal, Uniform
 
-# The Golf was struck at the origin, where the glass lies. The taxi stood at the stop line, with
-# 11 m between the two. The places are those of the middle of each vehicle.
+# The Golf was struck at the origin, where the glass lies. The taxi stood at the stop
+# line, with 11 m between the two. The places are those of the middle of each vehicle.
 cars = {
     "Van": col.Vehicle(mass="1650 kg", x="-4.4 m", y=0, heading=0),
     "Golf": col.Vehicle(mass="1250 kg", x=0, y=0, heading=0),
@@ -70,7 +70,8 @@ plot.timeline(run, units="metric")
 # %% [markdown]
 # The dents tell how fast the van closed in on the Golf, the places of rest and the recorder how
 # fast both were after it, and momentum does the rest. The van stopped short of the Golf; had it run
-# into it again, the scene would need that contact too.
+# into it again, the scene would need that contact too. The model has no answer where the van is
+# the slower of the two, or the Golf stops short of the taxi.
 
 # %%
 print(*found.statements, sep="\n")

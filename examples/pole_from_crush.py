@@ -13,8 +13,8 @@ from collisions.scene import Contact, Mover, Scene
 from collisions.travel import Tyres
 from collisions.uncertainty import Normal, Uniform
 
-# The pole is the origin; the car came along x, pointing along y. The push from it into the pole
-# is along x too, so that the normal is 0.
+# The pole is the origin; the car came along x, pointing along y. It pushed the pole
+# along x too, so that the normal is 0.
 car = col.Vehicle(
     mass="1400 kg", yaw_inertia=2300, x="-0.6 m", y="-0.7 m", heading="90 deg"
 )
