@@ -251,6 +251,20 @@ def _(axes: Any, names: Names) -> None:
     chart(axes, "height of the blow [m]", "kN·s")
 
 
+@card("pole_from_crush")
+def _(axes: Any, names: Names) -> None:
+    run, found = names["run"], names["found"]
+    for time, filled in ((0.0, 0.0), (run.end, 0.25)):
+        car(axes, run.at(time)["Car"], (4.4, 1.8), 0, filled)
+    axes.plot([0], [0], "o", ms=15, color=INK, zorder=7)
+    axes.text(0.35, 0.1, "pole", fontsize=12)
+    start = run.at(0.0)["Car"]
+    arrow(axes, (start.x - 3.2, start.y + 1.2), (2.0, 0.0), COLOURS[0], dashed=True)
+    plan(axes)
+    low, high = (end * KMH for end in found["speed of the car"].interval())
+    said(axes, f"from its dent and where it stands:\n{low:.0f} to {high:.0f} km/h")
+
+
 @card("pole_impact")
 def _(axes: Any, names: Names) -> None:
     impact = names["impact"]
