@@ -85,8 +85,8 @@ def render_examples(source: Path, target: Path) -> None:
         notebook = jupytext.read(script, fmt="py:percent")
         for index, cell in enumerate(notebook.cells):
             cell["id"] = f"cell-{index}"  # the same at every build
-            if re.match(r"(axes\[.*\]|right|plot)\.", cell.source.rpartition("\n")[2]):
-                cell.source += ";"  # a picture is shown, and not the name of its axes
+            if re.match(r"(axes\[.*\]|right|plot|page)\.", cell.source.rpartition("\n")[2]):
+                cell.source += ";"  # a picture is shown, and not the name of its axes or file
         fold_checks(notebook)
         notebook.metadata = NotebookNode(
             kernelspec={"name": "python3", "display_name": "Python 3", "language": "python"},
@@ -138,6 +138,7 @@ GALLERY = {
         "intersection_reconstruction",
         "in_line_by_momentum_and_ees",
         "pole_from_crush",
+        "chain_of_three",
         "rear_end_from_recorder",
         "two_accounts",
         "rest_positions",

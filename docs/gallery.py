@@ -150,6 +150,21 @@ def _(axes: Any, names: Names) -> None:
     struck(axes, impact, (names["OUTLINE"], None), "a corner against a slanted wall")
 
 
+@card("chain_of_three")
+def _(axes: Any, names: Names) -> None:
+    run, found, size = names["run"], names["found"], (4.4, 1.8)
+    moments = ((0.0, "hit"), (run.times[1], "second hit"), (run.end, "at rest"))
+    for row, (time, what) in enumerate(moments):
+        states = run.at(time)
+        for index, name in enumerate(names["cars"]):
+            car(axes, states[name].replace(y=-3.4 * row), size, index, 0.12 + 0.08 * row)
+        axes.text(-7.5, -3.4 * row, what, ha="right", va="center", fontsize=12)
+    axes.plot([-14], [0], alpha=0)
+    plan(axes)
+    low, high = (end * KMH for end in found["speed of the van"].interval())
+    said(axes, f"the van, left: {low:.0f} to {high:.0f} km/h")
+
+
 @card("crossroads")
 def _(axes: Any, names: Names) -> None:
     outline = names["OUTLINE"]
@@ -234,6 +249,20 @@ def _(axes: Any, names: Names) -> None:
         textcoords="offset points", fontsize=12,
     )  # fmt: skip
     chart(axes, "height of the blow [m]", "kN·s")
+
+
+@card("pole_from_crush")
+def _(axes: Any, names: Names) -> None:
+    run, found = names["run"], names["found"]
+    for time, filled in ((0.0, 0.0), (run.end, 0.25)):
+        car(axes, run.at(time)["Car"], (4.4, 1.8), 0, filled)
+    axes.plot([0], [0], "o", ms=15, color=INK, zorder=7)
+    axes.text(0.35, 0.1, "pole", fontsize=12)
+    start = run.at(0.0)["Car"]
+    arrow(axes, (start.x - 3.2, start.y + 1.2), (2.0, 0.0), COLOURS[0], dashed=True)
+    plan(axes)
+    low, high = (end * KMH for end in found["speed of the car"].interval())
+    said(axes, f"from its dent and where it stands:\n{low:.0f} to {high:.0f} km/h")
 
 
 @card("pole_impact")

@@ -36,5 +36,5 @@ def draw() -> Image:
     figure.set_size_inches(10.0, 6.4)
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=150, bbox_inches="tight")
-    plt.close(figure)
+    plt.close("all")  # also what else the page draws, which would follow the picture here
     return Image(drawn.getvalue())

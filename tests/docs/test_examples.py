@@ -35,6 +35,7 @@ def test_there_are_examples():
     """The folder is not empty, so the tests below mean something."""
     expected = {
         "barrier",
+        "chain_of_three",
         "three_cars",
         "crossroads",
         "eccentric_types",

@@ -1013,3 +1013,102 @@ def test_a_bare_observation_is_written_in_the_unit_of_what_the_model_predicts():
     number = float(stated["energy"].split(" ± ")[0])
     assert number == pytest.approx(93112.0 / 1.3558179483314004, rel=1e-4)
     assert stated["share"] == "0.5 ± 0.2"
+
+
+def braking(**more):
+    """A speed at the end of a skid, read to 0.1 m/s, and the speed at its start."""
+    found = posterior(
+        lambda speed: {"video": speed},
+        {"speed": Uniform("0 m/s", "40 m/s")},
+        {"video": ("10 m/s", "0.1 m/s")},
+        samples=4096,
+        seed=1,
+    )
+    given = {"distance": "12 m", "drag": Normal(0.7, 0.05), "end_speed": found["speed"]} | more
+    return found, found.with_result("before", col.travel.speed, "m/s", **given)
+
+
+def test_what_follows_has_the_range_of_all_that_it_follows_from():
+    """v0^2 = v1^2 + 2 g drag d: with small errors its deviation is that of the slopes."""
+    found, more = braking()
+    start = math.sqrt(10.0**2 + 2.0 * 0.7 * 9.80665 * 12.0)
+    spread = math.hypot(10.0 * 0.1, 9.80665 * 12.0 * 0.05) / start
+    result = more["before"]
+    close(result.mean, result.mean_standard_error, start, 0.01)
+    close(result.std, result.std / math.sqrt(2.0 * 4096.0), spread, 0.002)
+    assert result.unit == "m/s"
+    assert "before" not in found.draws
+    assert found.results == {}
+    # Without the draws of the drag it is the function of the samples and nothing else.
+    _, plain = braking(drag=0.7)
+    exact = np.sqrt(found.draws["speed"] ** 2 + 2.0 * 0.7 * 9.80665 * 12.0)
+    assert np.allclose(plain.draws["before"], exact, rtol=1e-12)
+    over, _ = plain.probability(lambda at: at["before"] > start)
+    assert over == pytest.approx(0.5, abs=0.03)
+
+
+def test_what_follows_is_said_and_recorded():
+    _, more = braking()
+    record = json.loads(json.dumps(more.to_dict(), allow_nan=False))
+    assert record["results"]["before"]["mean"] == more["before"].mean
+    assert record["results_from"]["before"] == {
+        "by": "travel.speed",
+        "distance": "12 m",
+        "drag": "0.7 ± 0.05",
+        "end_speed": "speed",
+    }
+    said = "by travel.speed: distance = 12 m, drag = 0.7 ± 0.05, end speed = speed"
+    assert said in " ".join(repr(more).split())
+    again = pickle.loads(pickle.dumps(more))
+    assert again.to_dict() == more.to_dict()
+    assert np.array_equal(braking()[1].draws["before"], more.draws["before"])
+
+
+def test_results_follow_from_results_and_share_no_draws():
+    _, more = braking()
+    drag = Normal(0.7, 0.05)
+    more = more.with_result(
+        "again", col.travel.speed, "m/s", distance="12 m", drag=drag, end_speed=more["speed"]
+    )
+    twice = more.with_result("twice", lambda x: 2.0 * x, x=more["before"])
+    assert np.array_equal(twice.draws["twice"], 2.0 * more.draws["before"])
+    assert twice["twice"].unit is None
+    assert "by" not in twice.results_from["twice"]
+    assert list(twice.results) == ["before", "again", "twice"]
+    assert not np.array_equal(more.draws["before"], more.draws["again"])
+    with pytest.raises(col.InputError, match="worked out were before, again, twice"):
+        twice["thrice"]
+    carried = more.with_result("a", lambda v: v * pint.UnitRegistry()("1 m/s"), v=more["before"])
+    assert carried["a"].unit == "m/s"
+
+
+@pytest.mark.parametrize(
+    ("change", "kind", "code"),
+    [
+        ({"name": "speed"}, col.InputError, "bad_name"),
+        ({"name": " "}, col.InputError, "bad_name"),
+        ({"name": 3}, col.InputError, "bad_name"),
+        ({"unit": "mph"}, col.UnitsError, "bad_units"),
+        ({"drag": Interval(0.6, 0.8)}, col.InputError, "bad_argument"),
+        ({"end_speed": "10 m/s"}, col.InputError, "bad_argument"),
+        ({"end_speed": "other"}, col.InputError, "bad_argument"),
+        ({"function": lambda **given: 1.0}, col.ShapeError, None),
+        ({"function": lambda **given: math.sqrt(given["end_speed"])}, col.InputError, "bad_model"),
+    ],
+)
+def test_results_that_do_not_follow(change, kind, code):
+    found, more = braking()
+    given = {
+        "name": "before",
+        "function": col.travel.speed,
+        "unit": "m/s",
+        "distance": "12 m",
+        "drag": 0.7,
+        "end_speed": found["speed"],
+    } | change
+    if given["end_speed"] == "other":
+        given["end_speed"] = more["before"]
+    name, function, unit = (given.pop(one) for one in ("name", "function", "unit"))
+    with pytest.raises(kind) as caught:
+        found.with_result(name, function, unit, **given)
+    assert code is None or caught.value.code == code

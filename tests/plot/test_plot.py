@@ -27,7 +27,7 @@ from matplotlib.text import Text
 import collisions as col
 from collisions import plot, reconstruct, travel, uncertainty
 from collisions.plot import drawing
-from collisions.plot.canvas import Units, number
+from collisions.plot.canvas import Units, in_lines, number
 from scenes import cases, solved
 from strategies import Nasty, other_registry
 
@@ -2149,3 +2149,11 @@ def test_a_label_is_placed_as_if_the_whole_picture_were_searched():
             + np.min(away, axis=0)[row, column]
         )
         assert found == pytest.approx(least, rel=1e-9)
+
+
+def test_a_long_path_breaks_between_its_parts():
+    """And not within a word; a text whose words are short breaks between them as ever."""
+    assert in_lines("impacts[0].a.delta_v_forward") == "impacts[0].a.\ndelta_v_forward"
+    assert in_lines("impacts[0].energy_absorbed") == "impacts[0].energy_absorbed"
+    assert in_lines("of the car that was struck first") == "of the car that was struck\nfirst"
+    assert in_lines("x" * 30) == "x" * 26 + "\n" + "x" * 4

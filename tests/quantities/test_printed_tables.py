@@ -93,3 +93,18 @@ def test_plain_tables_have_columns_below_each_other():
     assert ruled(Part([("A", "mass", "1500 kg")], columns=("of", "quantity", "value"))) == (
         "of  quantity  value\n--  --------  -------\nA   mass      1500 kg"
     )
+
+
+@pytest.mark.parametrize(
+    ("name", "broken"),
+    [
+        ("impacts[0].a.delta_v_forward", "impacts[0].<wbr>a.<wbr>delta_v_forward"),
+        ("a_very_long_name_without_dots", "a_<wbr>very_<wbr>long_<wbr>name_<wbr>without_<wbr>dots"),
+        ("Civic.rest.x", "Civic.rest.x"),
+        ("mean ± standard deviation", "mean ± standard deviation"),
+    ],
+)
+def test_a_long_path_over_a_column_breaks_between_its_parts(name, broken):
+    """A name that is short, or has spaces to break at, stays as it is."""
+    page = "".join(in_html(Part([("mass", "1")], "", (name,))))
+    assert f'<th scope="col">{broken}</th>' in page

@@ -358,6 +358,30 @@ def test_a_fit_and_a_posterior_answer_with_their_intervals():
     assert high == pytest.approx(10.98, abs=0.1)
 
 
+def test_what_follows_from_a_posterior_stands_first_in_the_answer():
+    """v0^2 = v1^2 + 2 g drag d, in the units of the page, and below it from what."""
+    likely = reconstruct.posterior(
+        lambda x: {"y": x}, {"x": uncertainty.Uniform("0 mph", "50 mph")},
+        {"y": ("20 mph", "0.1 mph")}, samples=512, seed=1,
+    )  # fmt: skip
+    braked = likely.with_result(
+        "speed before the skid", col.travel.speed, "m/s",
+        distance="30 ft", drag=0.7, end_speed=likely["x"],
+    )  # fmt: skip
+    page = report(braked, form="markdown", figures=False)
+    text = box(page)
+    low, high = map(
+        float, re.search(r"\*\*speed before the skid:\*\* ([\d.]+) to ([\d.]+) mph", text).groups()
+    )
+    assert text.index("speed before the skid") < text.index("**x:**")
+    exact = math.sqrt(20.0**2 + 2.0 * 0.7 * 9.80665 * 30.0 * 0.3048 / 0.44704**2)
+    assert low < exact < high
+    assert "Speed before the skid was worked out from that." in text
+    assert "by travel.speed: distance = 30 ft, drag = 0.7, end speed = x" in page
+    figures = report(braked)
+    assert "speed before the skid, in the cases drawn" in figures
+
+
 @pytest.mark.parametrize(
     ("latex", "written"),
     [

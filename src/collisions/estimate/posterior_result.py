@@ -6,13 +6,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from ..messages.errors import CollisionsWarning, IllConditionedWarning, InputError
-from ..messages.warning import Note
+from ..messages.warning import Note, warn_of
+from ..quantities.attributes import read_only
 from ..quantities.formatting import KIND_OF
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence
@@ -23,6 +24,7 @@ from ..uncertainty.normal import power_of_two
 from ..uncertainty.probability import holds
 from ..uncertainty.result import Sampled, Shares, correlations, outputs_part, units_of
 from .fit_result import CONTRADICTION, Residual, SpeedsFound, agreement, with_unit
+from .worked_out import in_words, stated, worked_out
 
 _NO_NARROWER, _NOT_MOVED = 0.1, 0.25  # of the variance of a prior, and of its deviation
 _ROUGH = 0.1  # of a standard deviation: the error of a mean
@@ -127,6 +129,10 @@ class Posterior(SpeedsFound, Summarized):
     model_notes : tuple
         The warnings of the model at the samples, each with the number and share of those it is of;
         ``statements`` has them.
+    results : dict of PosteriorOutput
+        What ``with_result`` worked out from the samples.
+    results_from : dict of dict
+        By result, what it was worked out by and from, as texts.
     """
 
     priors: dict[str, Distribution]
@@ -146,13 +152,20 @@ class Posterior(SpeedsFound, Summarized):
     calls: dict[str, int] = field(default_factory=dict)
     beyond: float = 0.0
     model_notes: tuple[Note, ...] = ()
+    results: dict[str, PosteriorOutput] = field(default_factory=dict)
+    results_from: dict[str, dict[str, str]] = field(default_factory=dict)
+
+    @property
+    def _outputs(self) -> dict[str, PosteriorOutput]:
+        return self.predicted | self.results | self.unknowns
 
     def __getitem__(self, name: str) -> PosteriorOutput:
-        outputs = self.predicted | self.unknowns
+        outputs = self._outputs
         if not isinstance(name, str) or name not in outputs:
+            worked = f"; worked out were {', '.join(self.results)}" if self.results else ""
             raise InputError(
                 f"{shown(name)} is none of the unknowns, which are {', '.join(self.unknowns)}, "
-                f"nor of the outputs of the model, which are {', '.join(self.predicted)}",
+                f"nor of the outputs of the model, which are {', '.join(self.predicted)}{worked}",
                 code="unknown_name",
                 argument="name",
             )
@@ -192,6 +205,81 @@ class Posterior(SpeedsFound, Summarized):
         held = holds(condition, self.draws)
         return next(iter(self.unknowns.values()))._share(held)
 
+    def with_result(
+        self, name: str, function: Callable[..., Any], unit: str | None = None, /, **arguments: Any
+    ) -> Posterior:
+        """The same posterior with one more result: what follows from the unknowns, and from what
+        the evidence does not tell.
+
+        The result has a range as the unknowns have, ``found[name]`` gives it, and ``report`` says
+        it in the answer, with what it was worked out from.
+
+        Parameters
+        ----------
+        name : str
+            What the result is called.
+        function : function
+            Called with the arguments, as arrays of one number per sample [SI] where they vary;
+            returns one number per sample [SI], such as ``travel.speed``.
+        unit : str, optional
+            SI unit of what the function returns, such as "m/s"; without it, of a function that
+            returns plain numbers, the result has none.
+        **arguments
+            By argument of the function: an unknown, an output or a result of this posterior, as
+            ``found["speed_a"]``; a distribution of ``uncertainty``, which is drawn for each sample
+            apart from all else; or a value, passed on as it is. Two results share no draws.
+
+        Returns
+        -------
+        Posterior
+            With ``results[name]``; this one stays as it is.
+
+        Raises
+        ------
+        InputError
+            A name that is taken, an argument that is an ``Interval`` or of another posterior, or a
+            function that does not answer case by case.
+        UnitsError
+            A unit that is not SI, or another one than that of what the function returns.
+
+        Examples
+        --------
+        A car left 12 m of skid marks before an impact at which it was still going some 10 m/s. With
+        a drag of 0.7 the skid took 2 * 0.7 * 9.80665 * 12 from the square of its speed.
+
+        >>> from collisions import travel
+        >>> from collisions.reconstruct import posterior
+        >>> from collisions.uncertainty import Normal, Uniform
+        >>> found = posterior(
+        ...     lambda speed: {"video": speed},
+        ...     {"speed": Uniform("0 m/s", "40 m/s")},
+        ...     {"video": ("10 m/s", "0.1 m/s")},
+        ...     seed=1,
+        ... )
+        >>> found = found.with_result(
+        ...     "speed before the skid",
+        ...     travel.speed,
+        ...     "m/s",
+        ...     distance="12 m",
+        ...     drag=Normal(0.7, 0.01),
+        ...     end_speed=found["speed"],
+        ... )
+        >>> exact = (10**2 + 2 * 0.7 * 9.80665 * 12) ** 0.5
+        >>> abs(found["speed before the skid"].mean - exact) < 0.01
+        True
+        """
+        source = np.random.SeedSequence(self.seed, spawn_key=(5, len(self.results)))
+        values, own, notes = worked_out(name, function, unit, arguments, self._outputs, source)
+        islands = next(iter(self.unknowns.values()))._islands
+        warn_of(notes)
+        return replace(
+            self,
+            draws=read_only(self.draws | {name: values}),
+            results=self.results | {name: PosteriorOutput(name, own, values, islands)},
+            results_from=self.results_from | {name: stated(function, arguments)},
+            model_notes=self.model_notes + notes,
+        )
+
     def inputs(self) -> dict[str, Samples]:
         """The joint samples of the unknowns, as ``uncertainty.propagate`` takes them, or
         ``posterior`` as new priors.
@@ -211,7 +299,7 @@ class Posterior(SpeedsFound, Summarized):
         return tuple(self.unknowns)
 
     def _speed(self, name: str) -> float | None:
-        output = (self.predicted | self.unknowns).get(name)
+        output = self._outputs.get(name)
         known = output is not None and output.unit in (None, "", "m/s")
         return float(output.mean) if output is not None and known else None
 
@@ -268,6 +356,8 @@ class Posterior(SpeedsFound, Summarized):
             "observed": {name: rendered(one, 1000) for name, one in self.observed.items()},
             "unknowns": {name: one.record() for name, one in self.unknowns.items()},
             "predicted": {name: one.record() for name, one in self.predicted.items()},
+            "results": {name: one.record() for name, one in self.results.items()},
+            "results_from": self.results_from,
             "residuals": {name: asdict(one) for name, one in self.residuals.items()},
             "correlation": [[*pair, value] for pair, value in self.correlation.items()],
             "statements": list(self.statements),
@@ -296,8 +386,18 @@ class Posterior(SpeedsFound, Summarized):
             )
             for name, one in self.observed.items()
         ]
+        worked = []
+        if self.results:
+            worked = [
+                outputs_part(self.results, numbers, "Worked out from them"),
+                Part(
+                    [(name, in_words(texts)) for name, texts in self.results_from.items()],
+                    "How it was worked out",
+                ),
+            ]
         parts = [
             outputs_part(self.unknowns, numbers, "Unknown"),
+            *worked,
             outputs_part(self.predicted, numbers, "Predicted"),
             Part(observed, "Observed", ("as stated", "residual over sigma")),
             Part([(name, str(one)) for name, one in self.priors.items()], "Priors"),

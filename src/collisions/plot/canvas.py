@@ -5,6 +5,7 @@ impact is solved.
 from __future__ import annotations
 
 import math
+import re
 import textwrap
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -20,6 +21,7 @@ from ..quantities.formatting import (
     typeset,
     with_decimals,
 )
+from ..quantities.printed_tables import path_parted
 from ..quantities.reading import need_one_case
 from ..quantities.tables import Summarized, cells, given_texts
 from ..quantities.units import shown
@@ -40,6 +42,7 @@ FORCE = "#a01040"
 BARS, GRID = "#c9d6e6", "#e2e2e2"
 THIN, MINUS = "\u2009", "\u2212"  # between thousands, and before a number
 _WIDTH = 26  # characters of a name on one line
+_PART = "\x1f "  # where a path may break
 _MOST_DECIMALS = 6
 SMALLEST, LARGEST = 1e-100, 1e100
 _RESOLVED = 1e-12  # of the coordinates: a picture smaller than this is made of their rounding
@@ -169,7 +172,10 @@ def in_lines(text: str, width: int = _WIDTH, most: int = 3) -> str:
     text = drawable(text)
     if len(text) <= width:
         return text
-    return "\n".join(textwrap.wrap(text, width, max_lines=most, placeholder="\u2026"))
+    # A path too long for a line breaks between its parts rather than within a word.
+    parted = re.sub(rf"\S{{{width + 1},}}", lambda path: path_parted(path[0], _PART), text)
+    lines = textwrap.wrap(parted, width, max_lines=most, placeholder="\u2026")
+    return "\n".join(line.replace(_PART, "").replace(_PART[0], "") for line in lines)
 
 
 def begin(axes: Any, size: tuple[float, float] = (7.0, 5.0)) -> Axes:

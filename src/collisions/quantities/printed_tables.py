@@ -4,6 +4,7 @@ text, in Markdown and in HTML.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Sequence
 from itertools import repeat, zip_longest
 from typing import NamedTuple
@@ -79,6 +80,20 @@ def in_markdown(part: Part, written: Callable[[str], str] = str, sides: Sequence
     return "\n".join([head, f"| {' | '.join(rules)} |", *lines])
 
 
+_LONG_PATH = re.compile(r"[\w.\[\]]{20,}")
+
+
+def _between_parts(path: re.Match[str]) -> str:
+    return path_parted(path[0], "<wbr>")
+
+
+def path_parted(path: str, mark: str) -> str:
+    """A path such as impacts[0].energy_loss with a mark where it may break: at dots, if it has
+    any, and else at underscores.
+    """
+    return re.sub(r"(?<=\.)(?=\w)" if "." in path else r"(?<=_)(?=\w)", mark, path)
+
+
 def in_html(part: Part, of_table: str = "") -> list[str]:
     """The lines of a table in HTML that a style sheet lays out: the heading as its caption, the
     first cell of each row as its head.
@@ -86,7 +101,11 @@ def in_html(part: Part, of_table: str = "") -> list[str]:
     from html import escape
 
     caption = [f"<caption>{escape(part.heading)}</caption>"] if part.heading else []
-    heads = "".join(f'<th scope="col">{escape(name)}</th>' for name in part.columns)
+    # A path too long for its column breaks between its parts rather than within a word.
+    heads = "".join(
+        f'<th scope="col">{_LONG_PATH.sub(_between_parts, escape(name))}</th>'
+        for name in part.columns
+    )
     names = [f"<thead><tr><td></td>{heads}</tr></thead>"] if part.columns else []
     rows = [html_row(*row) for row in part.rows]
     return [f"<table{of_table}>", *caption, *names, "<tbody>", *rows, "</tbody>", "</table>"]

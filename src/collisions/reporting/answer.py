@@ -80,7 +80,8 @@ def _figures(
         return
     outputs: dict[str, Output] = {}
     if isinstance(result, Posterior):
-        outputs = dict(result.unknowns)
+        # What was asked for by name stands before all that was not known.
+        outputs = {**result.results, **result.unknowns}
     elif uncertainty is not None:
         outputs = dict(uncertainty.outputs)
     for output in outputs.values():
@@ -164,9 +165,14 @@ def _rests_on(result: Any, names: Names) -> str:
             "stated error."
         )
     if isinstance(result, Posterior):
+        worked = ""
+        if result.results:
+            verb = "was" if len(result.results) == 1 else "were"
+            named = _begun(listed(map(plain, result.results)))
+            worked = f" {named} {verb} worked out from that."
         return (
             f"What {len(result.observed)} observations leave of the ranges that were stated "
-            "before them."
+            f"before them.{worked}"
         )
     if isinstance(result, MomentumSolution):
         outside = "" if result.outside_impulse_x is None else " and the stated impulse from outside"

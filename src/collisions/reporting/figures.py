@@ -128,8 +128,10 @@ def _of_outputs(
 ) -> None:
     """What was drawn of each output, and the share of its variance that each input brings."""
     of_posterior = isinstance(impact, Posterior)
-    outputs = {} if uncertainty is None else uncertainty.outputs
-    for number, output in enumerate((impact.unknowns if of_posterior else outputs).values(), 1):
+    outputs: dict[str, Any] = {} if uncertainty is None else dict(uncertainty.outputs)
+    if of_posterior:
+        outputs = {**impact.results, **impact.unknowns}
+    for number, output in enumerate(outputs.values(), 1):
         name = spread.heading(output)
         if not varies(output):
             sheet.say(f"{name} has no figures, because it is the same in every case.")

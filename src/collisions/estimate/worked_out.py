@@ -1,0 +1,107 @@
+"""What follows from the samples of a posterior and was none of its unknowns, such as the speed at
+the start of a skid from that at its end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ..messages.errors import InputError, UnitsError
+from ..messages.marked import as_code
+from ..messages.warning import Note, notes_of_samples
+from ..quantities.formatting import KIND_OF
+from ..quantities.units import rendered, shown
+from ..uncertainty.distributions import Distribution, Interval
+from ..uncertainty.model import Model
+from ..uncertainty.result import Sampled
+from ..uncertainty.sampling import Joint
+
+
+def worked_out(
+    name: str,
+    function: Callable[..., Any],
+    unit: str | None,
+    arguments: Mapping[str, Any],
+    known: Mapping[str, Sampled],
+    seed: np.random.SeedSequence,
+) -> tuple[Any, str | None, tuple[Note, ...]]:
+    """The function at the samples of what is known, its unit, and what it warned of.
+
+    A distribution among the arguments is drawn for each sample, apart from everything else.
+    """
+    if not isinstance(name, str) or not name.strip() or name in known:
+        taken = "taken already" if isinstance(name, str) and name in known else "no name"
+        raise InputError(
+            f"name {shown(name)} is {taken}; give the result a name of its own, such as "
+            "'speed before the skid'",
+            code="bad_name",
+            argument="name",
+        )
+    if unit is not None and unit not in KIND_OF:
+        raise UnitsError(
+            f"unit is {shown(unit)}; the function works in SI: write its SI unit, such as 'm/s', "
+            "and the report has it in the units of the page",
+            code="bad_units",
+            argument="unit",
+        )
+    drawn = {key: one for key, one in arguments.items() if isinstance(one, Distribution)}
+    sampled = {key: one for key, one in arguments.items() if isinstance(one, Sampled)}
+    for key, one in arguments.items():
+        if isinstance(one, Interval) or (key in sampled and known.get(one.name) is not one):
+            raise InputError(
+                f"{as_code(key)} is {shown(one) if isinstance(one, Interval) else 'of another'}"
+                f"{'' if isinstance(one, Interval) else ' result'}; give what this posterior has, "
+                "as `found['speed_a']`, a distribution such as Normal or Uniform, or a value",
+                code="bad_argument",
+                argument=key,
+            )
+    if not sampled:
+        raise InputError(
+            "none of the arguments is of this posterior, so nothing in it changes the result; "
+            "give one of its unknowns or outputs, as `found['speed_a']`",
+            code="bad_argument",
+            argument="arguments",
+        )
+    count = len(next(iter(known.values())).values)
+    values = {key: one.values for key, one in sampled.items()}
+    if drawn:
+        joint = Joint(drawn, None)
+        random = np.random.Generator(np.random.PCG64DXSM(seed))
+        values |= joint.scored(random.standard_normal((joint.dimensions, count)))
+    fixed = {key: one for key, one in arguments.items() if key not in values}
+    model = Model(lambda **given: {name: function(**given)}, fixed)
+    found = model(values, count)[name]
+    own = model.units[name]
+    if own and unit and own != unit:
+        raise UnitsError(
+            f"unit is {unit}, and the function returns {own}; leave `unit` out",
+            code="bad_units",
+            argument="unit",
+        )
+    return found, own or unit, notes_of_samples(model.noted, count)
+
+
+def stated(function: Callable[..., Any], arguments: Mapping[str, Any]) -> dict[str, str]:
+    """By what a result was worked out, and from what, in words."""
+    own = getattr(function, "__name__", "<lambda>")
+    package, *inside = str(getattr(function, "__module__", "")).split(".")
+    texts = {} if own == "<lambda>" else {"by": own}
+    if texts and package == __name__.partition(".")[0] and inside:
+        texts["by"] = f"{inside[0]}.{own}"
+    for key, one in arguments.items():
+        if isinstance(one, Sampled):
+            texts[key] = one.name
+        else:
+            plain = isinstance(one, (str, Distribution))
+            texts[key] = str(one) if plain else rendered(one)
+    return texts
+
+
+def in_words(texts: Mapping[str, str]) -> str:
+    """What ``stated`` gave, as one text."""
+    parts = [f"{name.replace('_', ' ')} = {text}" for name, text in texts.items() if name != "by"]
+    lead = f"by {texts['by']}: " if "by" in texts else ""
+    return lead + ", ".join(parts)
