@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import ctypes
 import gc
+import io
 import json
 import math
 import multiprocessing
@@ -29,6 +30,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib import pyplot
 
 ROOT = Path(__file__).resolve().parent.parent
 if str(ROOT / "src") not in sys.path:
@@ -38,9 +40,9 @@ import batch_speed
 import speed_rivals
 
 import collisions as col
-from collisions import reconstruct, travel
+from collisions import plot, reconstruct, travel
 from collisions.scene import Contact, Mover, Scene
-from collisions.uncertainty import Normal, Uniform, propagate
+from collisions.uncertainty import Interval, Normal, Uniform, propagate
 
 RUNS = 5
 CLOCKS = {False: time.perf_counter, True: time.process_time}
@@ -146,6 +148,16 @@ BUDGETS = (
         "one `required_model` with duration and drag against that formula",
         900.0,
     ),
+    Budget("report", "`report` of an impact, with its picture, against that formula", 500_000.0),
+    Budget(
+        "report_uncertain",
+        "the same with the ranges of a propagation of 4096 samples",
+        800_000.0,
+    ),
+    Budget("picture", "`plot.scene` of an impact to a PNG against that formula", 200_000.0),
+    Budget("intervals", "`propagate` by intervals of one input against that formula", 20_000.0),
+    Budget("new", "`python -m collisions new` against `import numpy`, best of 15", 1.4),
+    Budget("texts", "the first impact from texts against `import numpy`, best of 15", 2.2),
 )
 CASE: dict[str, Any] = {"normal": 0.1, "point": (0.0, 0.0), "friction": 0.5}
 
@@ -311,6 +323,40 @@ def engaging(
         call = partial(col.time_resolved, body.replace(heading=0.0), facing, 0.1, **contact, **more)
         calls |= {own: call, own + _FIXED: partial(call, geometry="fixed")}
     return calls
+
+
+def pages(wanted: set[str]) -> dict[str, float]:
+    """Reports, pictures, and a study by intervals, in calls of the formula."""
+    numbers, (a, b) = speed_rivals.numbers(batch_speed.scenes(1)), cars()
+    one = [float(number[0]) for number in numbers]
+    a, b = a.replace(heading=0.0), b.replace(heading=math.pi / 2)
+    impact = col.eccentric(a, b, 0.1, **CASE)
+
+    def model(speed: Any) -> dict[str, Any]:
+        found = col.eccentric(a.replace(vx=speed), b, 0.1, **CASE, on_failure="nan")
+        return {"a.delta_v": found.a.delta_v}
+
+    def by_intervals() -> Any:
+        return propagate(model, {"speed": Interval(13.0, 15.0)})
+
+    stated = {"speed": Normal(13.9, 0.5)}
+    spread = propagate(model, stated, samples=4096, seed=1)
+    outlines = {"outline_a": (4.5, 1.8), "outline_b": (4.2, 1.7)}
+
+    def picture() -> None:
+        figure = plot.scene(impact, **outlines).figure
+        figure.savefig(io.BytesIO(), format="png")
+        pyplot.close(figure)
+
+    calls: Calls = {
+        "report": lambda: str(col.report(impact, **outlines)),
+        "report_uncertain": lambda: str(col.report(impact, **outlines, uncertainty=spread)),
+        "picture": picture,
+        "intervals": by_intervals,
+    }
+    calls = {key: call for key, call in calls.items() if key in wanted}
+    best = fastest({"formula": lambda: speed_rivals.formula(*one), **calls}, 9, 0.004)
+    return {key: best[key] / best["formula"] for key in calls}
 
 
 def quantities(six: dict[str, float]) -> Calls:
@@ -511,6 +557,7 @@ def once(wanted: set[str], cases: int = 1_000_000) -> dict[str, float]:
         warnings.simplefilter("ignore", col.CollisionsWarning)
         found |= singles(wanted)
         found |= followed(wanted)
+        found |= pages(wanted)
         found |= batches(wanted, cases)
         for key, row in (
             ("memory", lambda: kept(cases)),
@@ -519,12 +566,13 @@ def once(wanted: set[str], cases: int = 1_000_000) -> dict[str, float]:
         ):
             if key in wanted:
                 found[key] = row()
-    if "import" in wanted:
+    of_imports = {"import": "collisions", "new": "new", "texts": "texts"}
+    if wanted & of_imports.keys():
         import import_times
 
-        found["import"] = import_times.imports(max(2, round(effort * 15)), ("numpy", "collisions"))[
-            "rows"
-        ]["collisions"]["best"]
+        names = ("numpy", *of_imports.values())
+        rows = import_times.imports(max(2, round(effort * 15)), names)["rows"]
+        found |= {key: rows[name]["best"] for key, name in of_imports.items()}
     return {key: value for key, value in found.items() if key in wanted}
 
 

@@ -268,6 +268,12 @@ def test_every_budget_is_that_of_the_design(committed, yardsticks):
         "engaged_bare": 2.0,
         "engaged_bare_batch": 2.0,
         "required_in_time": 900.0,
+        "report": 500_000.0,
+        "report_uncertain": 800_000.0,
+        "picture": 200_000.0,
+        "intervals": 20_000.0,
+        "new": 1.4,
+        "texts": 2.2,
     }
     for row in committed[0]["budgets"]:
         assert row["held"] == (row["median"] <= row["budget"]), row
