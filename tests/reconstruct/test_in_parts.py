@@ -10,7 +10,7 @@ import pytest
 
 import collisions as col
 from collisions.kernels.status import Answer
-from collisions.reconstruct import planar
+from collisions.reconstruct import planar, speeds
 
 PARTS = "collisions.engine.blocks.OF_ARRAYS"
 RULES = ("friction", "impulse_ratio", "critical_fraction")
@@ -162,3 +162,109 @@ def test_planar_takes_the_memory_of_its_answers():
     most, (start, _) = peak(lambda: told(planar, *after, on_failure="nan", **given), size)
     assert np.count_nonzero(start.ok) > size // 4
     assert most < 450
+
+
+PAIRS = (
+    ("speed_b", "energy_loss"),
+    ("delta_v_a", "energy_loss"),
+    ("delta_v_b", "max_crush_speed_a", "max_crush_speed_b"),
+)
+# Components of delta-V, with what else is known and how the contact ended.
+COMPONENTS = (
+    (("delta_v_forward_a", "delta_v_left_a"), {}),
+    (("delta_v_forward_a", "delta_v_left_a"), {"slid": "bound"}),
+    (("delta_v_forward_a", "delta_v_left_a", "speed_b"), {}),
+    (("delta_v_left_a", "delta_v_forward_b", "speed_a"), {"regime": "sliding"}),
+    (("delta_v_forward_b", "delta_v_left_b", "energy_loss"), {}),
+)
+
+
+def seen(hit, names, rng):
+    """What is known of an impact by these names; in a fifth of the cases something else, which may
+    have no answer, and in some what cannot be used.
+    """
+    shared = dict(zip(("ees_a", "ees_b"), hit.ees(0.4), strict=True))
+    shared |= zip(
+        ("max_crush_speed_a", "max_crush_speed_b"), hit.max_crush_speeds(0.4), strict=True
+    )
+    known = {}
+    for name in names:
+        side = getattr(hit, name[-1], hit)
+        if name in shared:
+            value = shared[name]
+        elif name.startswith("speed"):
+            value = side.before.speed
+        else:
+            value = getattr(side, name.removesuffix("_a").removesuffix("_b"))
+        value = np.array(value)
+        other = rng.uniform(size=value.shape)
+        value[other < 0.2] *= 1.4 * other[other < 0.2] + 0.8
+        value[other > 0.99] = np.nan
+        value[(other > 0.98) & (other < 0.985)] = 0.0
+        known[name] = value
+    return known
+
+
+def assert_speeds_alike(monkeypatch, law, rule, names, **given):
+    """The same answers, as many of them, with the same warnings, by parts and as a whole."""
+    rng = np.random.default_rng(len(str(names)) + len(rule))
+    shape = (20, 40)
+    a, b, contact, drawn = scene(rng, shape, some=0.005)
+    value = {
+        "friction": lambda: drawn(0.05, 0.9, 0.0),
+        "inf": lambda: np.inf,
+        # Of the last part no case has a share.
+        "critical_fraction": lambda: np.where(np.arange(20)[:, None] < 18, drawn(0.0, 1.0, 1.0), 1),
+    }[rule]()
+    contact |= {"law": law, "friction" if rule == "inf" else rule: value}
+    e = drawn(0.0, 0.9, 0.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        hit = col.eccentric(a, b, e, **contact)
+        known = seen(hit, names, rng)
+    given |= {"course_a": a.course, "course_b": b.course, "restitution": e, **contact, **known}
+    whole, said = told(speeds, a, b, **given)
+    with monkeypatch.context() as patched:
+        patched.setattr(PARTS, 64)
+        parts, said_of_parts = told(speeds, a, b, **given)
+    assert len(parts) == len(whole)
+    for one, other in zip(parts, whole, strict=True):
+        assert_same_bits(one, other)
+        assert one.reconstruction.found == other.reconstruction.found
+        assert one.reconstruction.known == other.reconstruction.known
+    assert said_of_parts == said
+    return whole
+
+
+@pytest.mark.parametrize("law", ["brach", "kudlich-slibar"])
+@pytest.mark.parametrize("rule", ["friction", "critical_fraction"])
+@pytest.mark.parametrize("names", PAIRS, ids="-".join)
+def test_speeds_in_parts_have_the_bits_of_the_whole(monkeypatch, law, rule, names):
+    """Refused cases, second answers and warnings included."""
+    first, *_ = assert_speeds_alike(monkeypatch, law, rule, names)
+    assert 200 < np.count_nonzero(first.ok) < first.status.size
+
+
+@pytest.mark.parametrize("rule", ["friction", "inf"])
+@pytest.mark.parametrize(("names", "branch"), COMPONENTS)
+def test_speeds_from_components_in_parts_have_the_bits_of_the_whole(
+    monkeypatch, rule, names, branch
+):
+    """With the friction that was found in place of an infinite one, and the sides of a bound."""
+    (found,) = assert_speeds_alike(monkeypatch, "brach", rule, names, **branch)
+    assert np.count_nonzero(found.ok) > 30
+
+
+@pytest.mark.slow
+def test_speeds_take_the_memory_of_their_answers():
+    """About 350 B a case are two answers; as whole arrays the way there would take 2,000."""
+    size = 100_000
+    rng = np.random.default_rng(0)
+    a, b, contact, drawn = scene(rng, (size,), some=0.0)
+    given = {"restitution": drawn(0.05, 0.6), "friction": drawn(0.1, 0.8), **contact}
+    hit = col.eccentric(a, b, on_failure="nan", **given)
+    given |= {"delta_v_a": hit.a.delta_v, "energy_loss": hit.energy_loss}
+    given |= {"course_a": a.course, "course_b": b.course}
+    most, (found, _) = peak(lambda: told(speeds, a, b, **given), size)
+    assert np.count_nonzero(found[0].ok) > size // 4
+    assert most < 850

@@ -94,7 +94,8 @@ def in_parts(
     work: Callable[[Part], Mapping[str, Any]], shape: tuple[int, ...], dtype: Any = None
 ) -> dict[str, Any]:
     """What ``work`` finds for every case, by name: numbers, arrays or None of each block in arrays
-    of the whole batch, of this type or else their own.
+    of the whole batch, of this type or else their own. Where a block has not a name that another
+    has, its cases are NaN, or 0 where these are no floats.
     """
     size = math.prod(shape)
     whole: dict[str, Any] = {}
@@ -103,8 +104,9 @@ def in_parts(
         part = Part(shape, slice(start, min(start + OF_ARRAYS, size)))
         for name, value in work(part).items():
             if name not in whole:
-                kind = dtype or np.asarray(value).dtype
-                whole[name] = None if value is None else np.empty(shape, kind)
+                kind = np.dtype(dtype or np.asarray(value).dtype)
+                nothing = np.nan if kind.kind == "f" else 0
+                whole[name] = None if value is None else np.full(shape, nothing, kind)
             if value is not None:
                 whole[name].reshape(-1)[part.block] = value
         return part.shape[0]
