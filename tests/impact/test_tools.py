@@ -331,6 +331,26 @@ def test_labels_are_those_that_type_checkers_know():
     assert set(get_args(inputs.ModelName)) == set(BY_NAME) - {"solve"}
 
 
+@pytest.mark.parametrize("name", FORWARD)
+def test_a_column_asked_for_is_that_of_the_whole_table(name):
+    """Each by itself, whatever else of the impact was worked out."""
+    for column, values in FORWARD[name]().to_columns().items():
+        alone = FORWARD[name]().to_columns(columns=column)
+        assert repr(alone) == repr({column: values})
+
+
+def test_columns_take_no_answer_that_was_not_asked_for():
+    """Each answer that is worked out stays with the impact: 8 bytes a case."""
+    impact = pickle.loads(pickle.dumps(FORWARD["eccentric, many"]()))
+    kept, of_side = {*vars(impact)}, {*vars(impact.a)}
+    impact.to_columns(columns=["a.delta_v", "a.before.mass", "normal.x", "energy_loss"])
+    assert vars(impact).keys() - kept - {"a", "b", "status"} == {"normal", "energy_loss"}
+    of_side |= {"before", "delta_vx", "delta_vy", "delta_v"}
+    assert vars(impact.a).keys() <= of_side
+    impact.to_columns()
+    assert "pdof" in vars(impact.a)
+
+
 def test_columns_asked_for_by_what_cannot_be_gone_through_are_refused():
     """Found by the fuzz: an object whose iterator raises was let through to its own error."""
     with pytest.raises(col.InputError, match="columns: there is no column"):

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from typing import Any, TypeAlias, TypeVar
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
 BLOCK = 8192
+# Of formulas that are worked out as arrays: from two blocks on a solver within runs a recorded
+# kernel, which halves the cost, and Python's calls weigh little.
+OF_ARRAYS = 2 * BLOCK
 # Of all threads together, in bytes; a longer block gains nothing.
 _SCRATCH, _LONGEST = 6 * 2**20, 32768
 # Of one thread alone: a short formula gains by longer blocks, as each has its own calls of Python.
@@ -63,6 +66,53 @@ def in_order(work: Callable[[T], R], items: Sequence[T], threads: int) -> Iterat
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
+
+
+class Part(NamedTuple):
+    """A block of a batch of this shape."""
+
+    whole: tuple[int, ...]
+    block: slice
+
+    @property
+    def shape(self) -> tuple[int]:
+        """That of its cases."""
+        return (self.block.stop - self.block.start,)
+
+    def of(self, value: Any) -> Any:
+        """Its cases of an array; one number for all cases stays."""
+        cut = isinstance(value, np.ndarray) and value.ndim
+        return flat(value, self.whole)[self.block] if cut else value
+
+
+def is_one_part(shape: tuple[int, ...]) -> bool:
+    """Whether so many cases are worked out together."""
+    return math.prod(shape) <= OF_ARRAYS
+
+
+def in_parts(
+    work: Callable[[Part], Mapping[str, Any]], shape: tuple[int, ...], dtype: Any = None
+) -> dict[str, Any]:
+    """What ``work`` finds for every case, by name: numbers, arrays or None of each block in arrays
+    of the whole batch, of this type or else their own. Where a block has not a name that another
+    has, its cases are NaN, or 0 where these are no floats.
+    """
+    size = math.prod(shape)
+    whole: dict[str, Any] = {}
+
+    def solve(start: int) -> int:
+        part = Part(shape, slice(start, min(start + OF_ARRAYS, size)))
+        for name, value in work(part).items():
+            if name not in whole:
+                kind = np.dtype(dtype or np.asarray(value).dtype)
+                nothing = np.nan if kind.kind == "f" else 0
+                whole[name] = None if value is None else np.full(shape, nothing, kind)
+            if value is not None:
+                whole[name].reshape(-1)[part.block] = value
+        return part.shape[0]
+
+    each_block(solve, range(0, size, OF_ARRAYS), size, 1, None)
+    return whole
 
 
 def flat(value: Any, shape: tuple[int, ...]) -> Any:

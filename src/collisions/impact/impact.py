@@ -745,7 +745,8 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
             Units of the numbers, which then appear in the names: "a.delta_v [mph]". By default SI,
             with plain names.
         columns : list of str, optional
-            Only these columns, in this order, named without a unit, such as "a.delta_v".
+            Only these columns, in this order, named without a unit, such as "a.delta_v"; nothing
+            else is worked out.
 
         Returns
         -------

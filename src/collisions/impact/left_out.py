@@ -11,7 +11,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from ..engine.blocks import flat
+from ..engine.blocks import Part, in_parts, is_one_part
 from ..kernels.contact_laws import BRACH
 from ..kernels.elementwise import select, turning_velocity
 from ..messages.errors import InputError
@@ -280,8 +280,6 @@ def _turned(x: Any, y: Any, angle: Any) -> tuple[Any, Any]:
     return c * x - s * y, s * x + c * y
 
 
-# Cases at a time: from two blocks on the solver runs a traced kernel, which halves the cost.
-_BLOCK = 16384
 _GEOMETRIES = ("maximum_engagement", "first_contact")
 
 
@@ -555,27 +553,21 @@ def left_out(
         if beyond:
             raise out_of_range()
         return _assembled(_estimated(impact, time, pull, own, geometry), texts)
-    size = math.prod(shape)
-    whole: dict[str, Any] = {}
-    if size <= _BLOCK:
-        for name, value in _estimated(impact, time, pull, own, geometry).items():
-            whole[name] = value if value is None else np.broadcast_to(value, shape).astype(dtype)
-    for start in range(0, size if size > _BLOCK else 0, _BLOCK):
-        block = slice(start, min(start + _BLOCK, size))
+    if is_one_part(shape):
+        whole = {
+            name: value if value is None else np.broadcast_to(value, shape).astype(dtype)
+            for name, value in _estimated(impact, time, pull, own, geometry).items()
+        }
+    else:
 
-        def cut(value: Any, block: slice = block) -> Any:
-            return flat(value, shape)[block] if isinstance(value, np.ndarray) else value
+        def work(part: Part) -> dict[str, Any]:
+            # The impact itself gave the warnings about its cases.
+            with quietly():
+                some = part_of_impact(impact, part.of, on_failure="nan")
+            there = part_of(own, part.of)
+            return _estimated(some, part.of(time), part.of(pull), there, geometry)
 
-        # The impact itself gave the warnings about its cases.
-        with quietly():
-            some = part_of_impact(impact, cut, on_failure="nan")
-        for name, value in _estimated(
-            some, cut(time), cut(pull), part_of(own, cut), geometry
-        ).items():
-            if name not in whole:
-                whole[name] = None if value is None else np.empty(shape, dtype=dtype)
-            if value is not None:
-                whole[name].reshape(-1)[block] = value
+        whole = in_parts(work, shape, dtype)
     there = {name: value for name, value in whole.items() if value is not None}
     return _assembled(
         whole | settle(there, {"duration": time, "drag": pull}, shape, [("out_of_range", beyond)]),

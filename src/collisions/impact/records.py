@@ -5,7 +5,7 @@ as flat columns.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Container, Iterator, Mapping, Sequence
 from dataclasses import fields
 from difflib import get_close_matches
 from typing import Any
@@ -366,13 +366,33 @@ def vehicle_of_record(found: Mapping[str, Any], lost: bool = False) -> Vehicle:
 def to_columns(impact: Any, units: Any = None, wanted: Any = None) -> dict[str, list[Any]]:
     """One list per number, named by its path in the record; every list has one value per case."""
     system = None if units is None else cells(units)
+    names = None if wanted is None else _listed(wanted)
+    found = _numbers(impact, names)
+    if names is None:
+        names = list(found)
+    elif any(not isinstance(name, str) or name not in found for name in names):
+        raise _no_column(impact, names)
+    return dict(_column(name, *found[name], system, np.shape(impact.status)) for name in names)
+
+
+def _numbers(impact: Any, names: Collection[Any] | None) -> dict[str, tuple[Any, str | None]]:
+    """Every number of an impact by the name of its column, with its unit; or those of these names,
+    as an answer that is not asked for takes time, and stays with the impact.
+    """
+    needed: Container[str] | None = None
+    if names is not None:
+        paths = [name.split(".") for name in names if isinstance(name, str)]
+        needed = {".".join(path[:end]) for path in paths for end in range(1, len(path) + 1)}
     found: dict[str, tuple[Any, str | None]] = {}
-    for name, value in _results(impact):
+    for name, value in _results(impact, needed):
         _add(found, name, value, unit_of(type(impact), name))
-    found["status"] = np.array([status.label for status in Status])[impact.status], None
+    if needed is None or "status" in needed:
+        found["status"] = np.array([status.label for status in Status])[impact.status], None
     found[impact.inputs.rule] = impact.inputs.rule_value, ""
     for label, side in (("a", impact.a), ("b", impact.b)):
         for moment in _MOMENTS:
+            if needed is not None and f"{label}.{moment}" not in needed:
+                continue
             vehicle = getattr(side, moment)
             for name in NAMES:
                 _add(
@@ -381,38 +401,36 @@ def to_columns(impact: Any, units: Any = None, wanted: Any = None) -> dict[str, 
                     getattr(vehicle, name),
                     unit_of(Vehicle, name),
                 )
-        for name, value in _results(side):
+        for name, value in _results(side, needed, f"{label}."):
             _add(found, f"{label}.{name}", value, unit_of(VehicleResult, name))
-    return dict(
-        _column(name, *found[name], system, np.shape(impact.status))
-        for name in _chosen(impact, found, wanted)
-    )
+    return found
 
 
-def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
-    """The names of the columns that were asked for, by default all."""
-    if wanted is None:
-        return list(found)
+def _listed(wanted: Any) -> list[Any]:
+    """The names that were asked for, of one column or of several."""
     # An array of no dimensions is one thing, though it has the methods of a collection.
     several = isinstance(wanted, Collection | Iterator) and getattr(wanted, "ndim", 1) != 0
-    names = list(wanted) if several and not isinstance(wanted, str) else [wanted]
-    for name in names:
-        if isinstance(name, str) and name not in found:
-            side, _, inner = name.rpartition(".")
-            owner = getattr(impact, side) if side in ("a", "b") else impact
-            if inner in attributes(type(owner)):
-                text = f"columns: {name} has no value in this impact; leave it out"
-                problem = missing_error(owner, inner) if isinstance(owner, VehicleResult) else None
-                raise problem or InputError(text, code="unknown_name", argument="columns")
-        if not isinstance(name, str) or name not in found:
-            near = get_close_matches(rendered(name), found, 3) or list(found)[:3]
-            raise InputError(
-                f"columns: there is no column {shown(name)}; write for example "
-                f"{', '.join(near)}, without a unit",
-                code="unknown_name",
-                argument="columns",
-            )
-    return names
+    return list(wanted) if several and not isinstance(wanted, str) else [wanted]
+
+
+def _no_column(impact: Any, names: Sequence[Any]) -> InputError:
+    """The error for the first of these names that no column has."""
+    found = _numbers(impact, None)
+    name = next(one for one in names if not isinstance(one, str) or one not in found)
+    if isinstance(name, str):
+        side, _, inner = name.rpartition(".")
+        owner = getattr(impact, side) if side in ("a", "b") else impact
+        if inner in attributes(type(owner)):
+            text = f"columns: {name} has no value in this impact; leave it out"
+            problem = missing_error(owner, inner) if isinstance(owner, VehicleResult) else None
+            return problem or InputError(text, code="unknown_name", argument="columns")
+    near = get_close_matches(rendered(name), found, 3) or list(found)[:3]
+    return InputError(
+        f"columns: there is no column {shown(name)}; write for example "
+        f"{', '.join(near)}, without a unit",
+        code="unknown_name",
+        argument="columns",
+    )
 
 
 def _column(
@@ -460,8 +478,15 @@ def _add(found: dict[str, tuple[Any, str | None]], name: str, value: Any, unit: 
         found[name] = value, unit
 
 
-def _results(owner: Any) -> list[tuple[str, Any]]:
-    found = [(name, getattr(owner, name)) for name in attributes(type(owner))]
+def _results(
+    owner: Any, needed: Container[str] | None = None, of: str = ""
+) -> list[tuple[str, Any]]:
+    """What was answered, by name; of that only what is needed, by its path."""
+    found = [
+        (name, getattr(owner, name))
+        for name in attributes(type(owner))
+        if needed is None or f"{of}{name}" in needed
+    ]
     return [
         (name, value) for name, value in found if not isinstance(value, (Vehicle, VehicleResult))
     ]

@@ -52,29 +52,28 @@ class Origin(NamedTuple):
     fits: Any
 
 
+class Given(NamedTuple):
+    """The state after and the contact in numbers by name; what else is known, of which kind, and by
+    which rule and law; the rounding, and how messages write numbers.
+    """
+
+    numbers: dict[str, Any]
+    kind: str
+    rule: str
+    law: str
+    pinned: tuple[bool, bool]
+    eps: float
+    incomplete: bool
+    say: Sentences
+
+
 class End:
     """The state after, and what the kernel says of the contact there."""
 
-    def __init__(
-        self,
-        numbers: dict[str, Any],
-        kind: str,
-        rule: str,
-        law: str,
-        pinned: tuple[bool, bool],
-        eps: float,
-        incomplete: bool,
-    ) -> None:
-        self.numbers = numbers
-        # How messages write numbers.
-        self.say = Sentences()
-        self.kind, self.rule, self.law, self.pinned, self.incomplete = (
-            kind,
-            rule,
-            law,
-            pinned,
-            incomplete,
-        )
+    def __init__(self, given: Given) -> None:
+        numbers, kind, rule, law, pinned, eps, incomplete, say = given
+        self.numbers, self.kind, self.rule, self.law = numbers, kind, rule, law
+        self.pinned, self.incomplete, self.say = pinned, incomplete, say
         self.known, self.bound = numbers[kind], numbers[rule]
         # Whether all that the rule allows is sticking, and whether it allows it at all.
         self.only_sticks = (
@@ -107,7 +106,12 @@ class End:
             # The nearest end that is plastic: a small push along the normal takes off what still
             # approaches.
             push = np.where(self.pressed, self.approach / self.k_nn, 0.0)
-            self.bodies = self._moving(self._struck(push, 0.0 * push))
+            moved = self._moving(self._struck(push, 0.0 * push))
+            # Others stay as they were, to the sign of a zero.
+            self.bodies = [
+                [np.where(self.pressed, new, was) for new, was in zip(*pair, strict=True)]
+                for pair in zip(moved, self.bodies, strict=True)
+            ]
             here = self._contact()
             self.separation = np.where(self.pressed, 0.0, 0.0 - here.closing_speed)
         self.slip = here.slip_before

@@ -11,10 +11,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any, Literal, TypeAlias, get_args
+from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 
+from ..engine.blocks import Part, in_parts, is_one_part
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES, Inputs, Law, OnFailure, part_of, read_inputs
 from ..impact.models import ECCENTRIC
@@ -51,7 +52,7 @@ from .common import (
     state_instant,
 )
 from .lasting import numbers_of_times, settle, tyre_faults
-from .origins import End, Origin
+from .origins import End, Given, Origin
 from .speeds_algebra import shares_critical
 
 Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "given"]
@@ -230,22 +231,54 @@ def planar(
     arrays = {name: np.asarray(number, dtype=np.float64) for name, number in numbers.items()}
     pinned = a_after.pivot is not None, b_after.pivot is not None
     with np.errstate(all="ignore"):
-        end = End(arrays, kind, inputs.rule, inputs.law or BRACH, pinned, cases.eps, incomplete)
-        end.say = Sentences((*inputs.texts, *reader.texts.values()))
+        used, say = inputs.law or BRACH, Sentences((*inputs.texts, *reader.texts.values()))
+        after = Given(arrays, kind, inputs.rule, used, pinned, cases.eps, incomplete, say)
         return _answer(
             cases,
-            end,
+            after,
             replace(inputs, given={**reader.texts, **(inputs.given or {})}),
             regime,
             on_failure,
         )
 
 
+class _Looked(NamedTuple):
+    """An end state, its origins as those of an instant, and those that count."""
+
+    end: End
+    instants: list[Origin]
+    origins: list[Origin]
+
+
+class _Found(NamedTuple):
+    """Of each case its status, how many origins fit, the first of them, and how sure it is: where
+    and by how much the motions after were changed, and where the slip after may be none.
+    """
+
+    status: Any
+    count: Any
+    vx_a: Any
+    vy_a: Any
+    yaw_rate_a: Any
+    vx_b: Any
+    vy_b: Any
+    yaw_rate_b: Any
+    restitution: Any
+    closing_speed: Any
+    slip_before: Any
+    condition: Any
+    pressed: Any
+    approach: Any
+    nearly: Any
+    slip_after: Any
+
+
 def _answer(
-    cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_failure: Any
+    cases: Cases, after: Given, inputs: Inputs, regime: Regime | None, on_failure: Any
 ) -> Impact:
     texts = dict(inputs.given or {})
-    known: dict[str, Any] = {name: end.numbers[name] for name in (end.kind, end.rule)}
+    numbers, kind, rule = after.numbers, after.kind, after.rule
+    known: dict[str, Any] = {name: numbers[name] for name in (kind, rule)}
     staying: list[Any] = []
     for label, body in (("a", inputs.a), ("b", inputs.b)):
         # The motion after differs from that of the vehicles before.
@@ -256,9 +289,93 @@ def _answer(
         names = ("speed", "course", "yaw_rate") if by_speed else ("vx", "vy", "yaw_rate")
         known |= {f"{label}_after.{name}": getattr(body, name) for name in names}
     inputs = replace(inputs, given=texts or None)
+    # Newton's method for tyres runs over all cases together.
+    together = is_one_part(cases.shape or ()) or inputs.tyres
+    whole = _looked(after, inputs, regime, cases.shape or ()) if together else None
+
+    def work(part: Part) -> dict[str, Any]:
+        there = after._replace(numbers={name: part.of(one) for name, one in numbers.items()})
+        looked = _looked(there, inputs, regime, part.shape)
+        return _backwards(Cases(part.shape, cases.dtype), looked, inputs, regime)._asdict()
+
+    found = (
+        _Found(**in_parts(work, cases.shape or ()))
+        if whole is None
+        else _backwards(cases, whole, inputs, regime)
+    )
+    sure = np.equal(found.status, Status.OK)
+
+    def origin_of(
+        velocity: Sequence[Any], condition: Any, count: Any, where: Any
+    ) -> Reconstruction:
+        velocity = () if inputs.tyres else velocity
+        return cases.reconstruction(
+            "planar", (kind, rule), condition, count, velocity, where, known
+        )
+
+    def inputs_of(motions: Sequence[Any], restitution: Any, keep: Any) -> Inputs:
+        bodies = []
+        for body, motion, given in zip((inputs.a, inputs.b), motions, staying, strict=True):
+            vx, vy, yaw_rate = (cases.where(keep, part) for part in motion)
+            bodies.append(moved(body, vx, vy, yaw_rate, given))
+        e = inputs.restitution if kind == "restitution" else cases.where(keep, restitution)
+        return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
+
+    def refusal() -> CollisionsError:
+        assert whole is not None  # of a single case
+        end, instants, origins = whole
+        stuck = found.status == Status.STICK_INVERSE
+        # The solutions of a range are its ends, whichever regime was given. With tyres they are
+        # none, as it is the range of the instant.
+        fitting = [one for one in (end.origins(None) if stuck else origins) if one.fits]
+        count = math.inf if stuck else len(fitting)
+        if inputs.tyres and stuck:
+            fitting = []
+        elif found.status == Status.CONTRADICTORY and any(one.fits for one in instants):
+            return _unsettled()
+        solutions = tuple(
+            run_forward(
+                partial(inputs_of, one.motions, one.restitution),
+                Status.OK,
+                origin_of(one.contact_velocity, one.condition, count, True),
+            )
+            for one in fitting
+            if count > 1
+        )
+        return _refusal(found.status, end, regime, [one.regime for one in fitting], solutions)
+
+    def solve_case(index: tuple[int, ...]) -> Impact:
+        take = partial(cases.one, index=index)
+        contact: dict[str, Any] = {name: take(numbers[name]) for name in (kind, rule)}
+        contact |= {
+            "law": after.law,
+            "normal": tuple(take(numbers[f"normal[{i}]"]) for i in range(2)),
+            "point": tuple(take(numbers[f"point[{i}]"]) for i in range(2)),
+        }
+        contact |= {"regime": regime, "incomplete": after.incomplete}
+        contact |= {name: part_of(getattr(inputs, name), take) for name in ("duration", *TYRES)}
+        return planar(part_of(inputs.a, take), part_of(inputs.b, take), **contact)
+
+    _warn(cases, found, after.say, whole)
+    if not inputs.tyres:
+        state_instant("planar")
+    velocity = found.closing_speed, found.slip_before
+    origin = origin_of(velocity, found.condition, found.count, sure)
+    motions = found[2:5], found[5:8]
+    before = partial(inputs_of, motions, found.restitution)
+    return finish(before, found.status, origin, on_failure, refusal, solve_case)
+
+
+def _looked(after: Given, inputs: Inputs, regime: Regime | None, shape: tuple[int, ...]) -> _Looked:
+    end = End(after)
     origins = instants = end.origins(regime)
     if inputs.tyres:
-        origins = _while_tyres_act(end, inputs, regime, cases.shape or ())
+        origins = _while_tyres_act(end, inputs, regime, shape)
+    return _Looked(end, instants, origins)
+
+
+def _backwards(cases: Cases, looked: _Looked, inputs: Inputs, regime: Regime | None) -> _Found:
+    end, _, origins = looked
     count = sum((one.fits.astype(int) for one in origins), np.zeros((), dtype=int))
     no_trace = end.forgets_slip() & ((regime != "sliding") | end.always_sticks())
     plastic = np.equal(end.known, 0.0) & (end.kind == "restitution")
@@ -286,7 +403,7 @@ def _answer(
         )
     )
     sure = np.equal(status, Status.OK)
-    found = _first_that_fits(origins)
+    first = _first_that_fits(origins)
     low, high = end.slip_range()
     jump = high - low
     # For a half-open range, the distance to its one end counts as half its length.
@@ -294,59 +411,20 @@ def _answer(
         np.isinf(jump), 2.0 * np.minimum(abs(low - end.slip), abs(high - end.slip)), jump
     )
     nearly = sure & (abs(end.slip) < _NEARLY_STICKING * reach)
-    condition = np.where(nearly, np.maximum(found.condition, jump / abs(end.slip)), found.condition)
-
-    def origin_of(origin: Origin, condition: Any, count: Any, where: Any = True) -> Reconstruction:
-        velocity = () if inputs.tyres else origin.contact_velocity
-        names = end.kind, end.rule
-        return cases.reconstruction("planar", names, condition, count, velocity, where, known)
-
-    def inputs_of(origin: Origin, keep: Any) -> Inputs:
-        bodies = []
-        for body, motion, given in zip((inputs.a, inputs.b), origin.motions, staying, strict=True):
-            vx, vy, yaw_rate = (cases.where(keep, part) for part in motion)
-            bodies.append(moved(body, vx, vy, yaw_rate, given))
-        e = (
-            inputs.restitution
-            if end.kind == "restitution"
-            else cases.where(keep, origin.restitution)
-        )
-        return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
-
-    def refusal() -> CollisionsError:
-        stuck = status == Status.STICK_INVERSE
-        # The solutions of a range are its ends, whichever regime was given. With tyres they are
-        # none, as it is the range of the instant.
-        fitting = [one for one in (end.origins(None) if stuck else origins) if one.fits]
-        count = math.inf if stuck else len(fitting)
-        if inputs.tyres and stuck:
-            fitting = []
-        elif status == Status.CONTRADICTORY and any(one.fits for one in instants):
-            return _unsettled()
-        solutions = tuple(
-            run_forward(partial(inputs_of, one), Status.OK, origin_of(one, one.condition, count))
-            for one in fitting
-            if count > 1
-        )
-        return _refusal(status, end, regime, [one.regime for one in fitting], solutions)
-
-    def solve_case(index: tuple[int, ...]) -> Impact:
-        take = partial(cases.one, index=index)
-        contact: dict[str, Any] = {name: take(end.numbers[name]) for name in (end.kind, end.rule)}
-        contact |= {
-            "law": end.law,
-            "normal": tuple(map(take, end.n)),
-            "point": tuple(map(take, end.p)),
-        }
-        contact |= {"regime": regime, "incomplete": end.incomplete}
-        contact |= {name: part_of(getattr(inputs, name), take) for name in ("duration", *TYRES)}
-        return planar(part_of(inputs.a, take), part_of(inputs.b, take), **contact)
-
-    _warn(cases, end, sure & end.pressed, nearly)
-    if not inputs.tyres:
-        state_instant("planar")
-    origin = origin_of(found, condition, count, sure)
-    return finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
+    condition = np.where(nearly, np.maximum(first.condition, jump / abs(end.slip)), first.condition)
+    return _Found(
+        status,
+        count,
+        *first.motions[0],
+        *first.motions[1],
+        first.restitution,
+        *first.contact_velocity,
+        condition,
+        sure & end.pressed,
+        end.approach,
+        nearly,
+        end.slip,
+    )
 
 
 def _while_tyres_act(
@@ -467,30 +545,28 @@ def _first_that_fits(origins: Sequence[Origin]) -> Origin:
     return Origin("", *map(choose, parts))
 
 
-def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
+def _warn(cases: Cases, found: _Found, say: Sentences, whole: _Looked | None) -> None:
     """Warn where the result depends on the last digits of the measured motion."""
+    pressed, nearly = found.pressed, found.nearly
     if np.any(pressed):
-        most = float(np.max(np.where(pressed, end.approach, 0.0)))
+        most = float(np.max(np.where(pressed, found.approach, 0.0)))
         what = "the contact points still approach after the impact"
         taken = "taken as 0, a plastic impact, and the motions after changed by as much"
-        text = f"{cases.how_many(pressed)}{what}, by up to {end.say(most, 'speed', 3)}: {taken}"
+        text = f"{cases.how_many(pressed)}{what}, by up to {say(most, 'speed', 3)}: {taken}"
         warning: CollisionsWarning = OutOfRangeWarning(text, code="nearly_plastic", approach=most)
         warn_of_cases(
             warning, {f"{what}, by no more than rounding: {taken}": cases.number(pressed)}
         )
     if np.any(nearly):
-        low, high = end.slip_range()
-        single = cases.shape is None
-        where = _interval(float(low), float(high), end.say) if single else "in a wide range"
-        which = (
-            "is that end of the range"
-            if single and np.isinf(high - low)
-            else "follows the sign of that slip"
-        )
-        least = float(np.min(np.where(nearly, abs(end.slip), np.inf)))
+        where, which = "in a wide range", "follows the sign of that slip"
+        if cases.shape is None and whole is not None:
+            low, high = whole.end.slip_range()
+            where = _interval(float(low), float(high), say)
+            which = "is that end of the range" if np.isinf(high - low) else which
+        least = float(np.min(np.where(nearly, abs(found.slip_after), np.inf)))
         text = (
             f"{cases.how_many(nearly)}the slip after the impact, "
-            f"{end.say(least, 'speed', 3)}, is so small that it may be none: then the "
+            f"{say(least, 'speed', 3)}, is so small that it may be none: then the "
             f"contact stuck, and the slip before was anything {where}. The answer {which}; "
             "carry all digits, or decide with `impulse_ratio=` of either sign"
         )

@@ -12,6 +12,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from ..engine.blocks import Part, in_parts, is_one_part
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES, Inputs, Law, check_flag, read_inputs
 from ..impact.instant import LOOKED_FOR
@@ -350,40 +351,62 @@ def speeds(
             if callable(restitution)
             else None
         )
-        names, used_law, shape = counted(known), inputs.law or BRACH, cases.shape or ()
+        names, used_law = counted(known), inputs.law or BRACH
         also = ("restitution",) if function else ()
         of_components = ComponentScene if recorders is None else partial(RecorderScene, recorders)
+        # A function is called with all cases; the turn of cars is looked for until all have it.
+        together = is_one_part(cases.shape or ()) or function is not None or recorders is not None
 
-        def attempt(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
-            """The scene and its roots where these impulses of tyres act, and where known values may
-            differ by so much.
+        def looked(
+            own: dict[str, Any], some: Cases, most: float, plain: bool = False, shares: bool = False
+        ) -> _Looked:
+            """The scene of these numbers and its roots, with the friction that the components show
+            in place of an infinite one. ``shares`` says that another case has a share of the
+            critical ratio.
             """
-            own, fits_both, of_inputs = {**numbers, **held}, False, inputs
+            shape, friction, fits_both = some.shape or (), None, False
             if components and inputs.rule == FRICTION and np.any(np.isinf(inputs.rule_value)):
                 ratio, fits_both = friction_shown(
                     partial(of_components, most=most), own, used_law, names, shape, regime
                 )
                 if ratio is not None:
-                    own[FRICTION] = cases.values(ratio)
-                    of_inputs = _with_friction(inputs, own[FRICTION])
-            kind: Callable[..., Scene] = partial(Scene, shape=shape)
+                    friction = some.values(ratio)
+                    own = {**own, FRICTION: friction}
+            scene = scene_of(own, shape, most, plain)
+            scene.shares = scene.shares or shares
+            if isinstance(scene, ComponentScene):
+                scene.leaves_slip = scene.leaves_slip | fits_both
+            roots = scene.roots() if function is None else _with_function(scene, function)
+            if most == math.inf:
+                # Whether it stuck or slid is asked when the tyres are known.
+                scene.ambiguous = np.zeros((), dtype=bool)
+            return _Looked(scene, _in_order(scene, roots, forward_only), friction)
+
+        def scene_of(
+            own: dict[str, Any], shape: tuple[int, ...], most: float, plain: bool = False
+        ) -> Scene:
+            kind: Callable[..., Scene] = Scene
             if components:
-                kind = partial(of_components, shape=shape, regime=regime, slid=slid, most=most)
+                kind = partial(of_components, regime=regime, slid=slid, most=most)
+            return kind(own, inputs.rule, used_law, names, shape=shape, plain=plain)
 
-            def roots_of(plain: bool) -> tuple[Scene, list[tuple[Root, Any]]]:
-                scene = kind(own, inputs.rule, used_law, names, plain=plain)
-                if isinstance(scene, ComponentScene):
-                    scene.leaves_slip = scene.leaves_slip | fits_both
-                roots = scene.roots() if function is None else _with_function(scene, function)
-                if most == math.inf:
-                    # Whether it stuck or slid is asked when the tyres are known.
-                    scene.ambiguous = np.zeros((), dtype=bool)
-                return scene, _in_order(scene, roots, forward_only)
-
-            try:
-                return Attempt(*roots_of(cases.shape is None and function is None), of_inputs)
-            except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
-                return Attempt(*roots_of(False), of_inputs)
+        def attempt(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
+            """The scene and its roots where these impulses of tyres act, and where known values may
+            differ by so much.
+            """
+            own = {**numbers, **held}
+            if not together:
+                scene, found, friction = _in_parts(
+                    own, cases, partial(looked, most=most), partial(scene_of, most=most)
+                )
+            else:
+                try:
+                    single = cases.shape is None and function is None
+                    scene, found, friction = looked(own, cases, most, single)
+                except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
+                    scene, found, friction = looked(own, cases, most)
+            of_inputs = inputs if friction is None else _with_friction(inputs, friction)
+            return Attempt(scene, found, of_inputs)
 
         balanced = bool(times and components) and not {"energy_loss", "ees_a"} & known.keys()
 
@@ -653,6 +676,47 @@ def _refuse_combinations(
             code="bad_combination",
             argument="critical_fraction",
         )
+
+
+class _Looked(NamedTuple):
+    """A scene, its roots and where each is, and the friction that it showed, if any."""
+
+    scene: Scene
+    found: list[tuple[Root, Any]]
+    friction: Any
+
+
+def _in_parts(
+    own: dict[str, Any],
+    cases: Cases,
+    looked: Callable[..., _Looked],
+    scene_of: Callable[..., Scene],
+) -> _Looked:
+    """The same as ``looked`` of all cases, block by block."""
+    shape = cases.shape or ()
+    whole = scene_of(own, shape)
+
+    def work(part: Part) -> dict[str, Any]:
+        there = {name: part.of(value) for name, value in own.items()}
+        scene, found, friction = looked(there, Cases(part.shape, cases.dtype), shares=whole.shares)
+        parts = scene.findings()
+        for i, (root, where) in enumerate(found):
+            parts |= {f"{i}.{name}": value for name, value in root._asdict().items()}
+            parts[f"{i}.there"] = where
+        return parts if friction is None else {**parts, FRICTION: friction}
+
+    merged = in_parts(work, shape)
+    friction = merged.get(FRICTION)
+    if friction is not None:
+        # A part that shows none has what was given.
+        friction = cases.values(np.where(np.isnan(friction), own[FRICTION], friction))
+        whole = scene_of({**own, FRICTION: friction}, shape)
+    whole.take(merged)
+    found: list[tuple[Root, Any]] = []
+    while f"{len(found)}.there" in merged:
+        root = Root(*(merged[f"{len(found)}.{name}"] for name in Root._fields))
+        found.append((root, merged[f"{len(found)}.there"]))
+    return _Looked(whole, found, friction)
 
 
 def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:

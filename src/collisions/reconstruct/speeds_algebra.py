@@ -12,7 +12,7 @@ off at five places.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, lru_cache, partial
 from operator import attrgetter
 from typing import Any, NamedTuple
@@ -201,6 +201,8 @@ class Scene:
         self.held = HELD[0] in v
         self.fixed = [spinning, *(v[name] for name in (*_FIXED, *(HELD if self.held else ())))]
         self.e, self.bound = v["restitution"], v[rule]
+        # Whether any case has a share of the critical ratio.
+        self.shares = shares_critical(rule, self.bound)
         # Both observations of what is seen.
         self.both: Callable[[Observed], Any] = attrgetter(*self.kinds)
         self.targets = {
@@ -218,6 +220,14 @@ class Scene:
         if e is not None:
             given["restitution"] = e
         return Scene(given, self.rule, self.law, self.names, np.shape(cases))
+
+    def findings(self) -> dict[str, Any]:
+        """What ``roots`` found of every case besides them, by name."""
+        return {"undetermined": self.undetermined, "ambiguous": self.ambiguous}
+
+    def take(self, found: Mapping[str, Any]) -> None:
+        """Take over the ``findings`` of all parts of these cases."""
+        self.undetermined, self.ambiguous = found["undetermined"], found["ambiguous"]
 
     def flat(self, value: Any) -> Any:
         """A value of every case, one after another."""
@@ -253,7 +263,7 @@ class Scene:
         if self.rule == IMPULSE_RATIO:
             return [self.bound]
         if self.rule == CRITICAL_FRACTION:
-            shares = [_SHARE] if shares_critical(self.rule, self.bound) else []
+            shares = [_SHARE] if self.shares else []
             return [np.where(self.bound == 0.0, 0.0, np.nan), STICK, *shares]
         finite = select(abs(self.bound) == np.inf, np.nan, self.bound)
         return [finite, select(self.bound > 0.0, -finite, np.nan), STICK]
@@ -354,8 +364,9 @@ class Scene:
             abs(getattr(part, kind) - target) <= _observation_rounding(kind, part)
             for part in (rest, one)
         ]
-        if np.any(flat[0] & flat[1]):
-            self.undetermined = self.undetermined | self._any_speed_fits(regime)
+        open_ = flat[0] & flat[1]
+        if np.any(open_):
+            self.undetermined = self.undetermined | (open_ & self._any_speed_fits(regime))
         return [self._with_known_speed(x) for x in xs]
 
     def _crossing(self, regime: Any) -> list[tuple[Any, Any]]:

@@ -15,7 +15,7 @@ family that begins there (``_end``), in which each speed rises, falls or stays (
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -46,6 +46,8 @@ _STAYS = 1e-9
 # Of the closing speed and the slip.
 _INSIDE = 1e-12
 _REFINEMENTS = 3
+# What ``roots`` finds of every case.
+_FOUND = ("misfit", "ended", "ratio", "may_slide", "leaves_slip")
 
 
 class ComponentScene(Scene):
@@ -104,6 +106,20 @@ class ComponentScene(Scene):
             return 0.0, 0.0, 0.0
         x, y, moment = (self.numbers[name] for name in HELD if name[5] == label)
         return x, y, moment
+
+    def findings(self) -> dict[str, Any]:
+        """As in any scene, and what the components tell of how the contact ended."""
+        return {
+            **super().findings(),
+            **{name: getattr(self, name) for name in _FOUND},
+            **{f"sides[{i}]": side for i, side in enumerate(self.sides or ())},
+        }
+
+    def take(self, found: Mapping[str, Any]) -> None:
+        super().take(found)
+        for name in _FOUND:
+            setattr(self, name, found[name])
+        self.sides = (found["sides[0]"], found["sides[1]"]) if "sides[0]" in found else None
 
     def roots(self, function: RestitutionOf | None = None) -> list[Root]:
         """The answer with the least misfit that the law leads to, or all that fit exactly; no
