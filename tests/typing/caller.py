@@ -286,6 +286,10 @@ def backwards() -> float:
     calls |= sampled.calls
     assert_type(sampled, reconstruct.Posterior)
     chance, _ = sampled.probability(lambda at: at["speed"] > 13.9)
+    braking = sampled.with_result(
+        "speed before", travel.speed, "m/s", distance="30 ft", drag=0.7, end_speed=sampled["speed"]
+    )
+    assert_type(braking, reconstruct.Posterior)
     compared: reconstruct.Comparison = reconstruct.compare(
         {"one": sampled, "other": sampled}, prior={"one": 0.5, "other": 0.5}
     )
