@@ -60,7 +60,7 @@ def told(solver, *args, **given):
 
 def numbers(impact):
     """Every number behind an impact by name: what was found, with what was answered forwards."""
-    found = dict(zip(Answer._fields, impact._answer, strict=True)) | {
+    found = {name: getattr(impact._answer, name) for name in Answer._fields} | {
         f"{label}.{moment}.{name}": getattr(getattr(getattr(impact, label), moment), name)
         for label in "ab"
         for moment in ("before", "after")
@@ -148,6 +148,28 @@ def test_planar_refuses_the_first_case_wherever_it_is(monkeypatch):
     after = end.a.after, end.b.after
     with pytest.raises(col.InputError, match="case 150"):
         planar(*after, restitution=0.2, impulse_ratio=ratio, on_failure="raise", **contact)
+
+
+@pytest.mark.parametrize("kind", ["restitution", "energy_loss"])
+def test_planar_with_tyres_in_parts_has_the_bits_of_the_whole(monkeypatch, kind):
+    """Also beside a friction of 0 or without end, of which some origins leave a singular matrix."""
+    rng = np.random.default_rng(7)
+    shape = (8, 25)
+    a, b, contact, drawn = scene(rng, shape, some=0.02)
+    wheels = col.travel.Tyres(
+        friction=drawn(0.4, 0.9), lock=drawn(0.0, 1.0), wheelbase=2.6, track=1.5
+    )
+    lasting = {"tyres_a": wheels, "duration": drawn(0.06, 0.15)}
+    given = {"friction": drawn(0.1, 0.8, 0.0, np.inf), **contact, **lasting}
+    end = col.eccentric(a, b, drawn(0.05, 0.6), on_failure="nan", **given)
+    known = {kind: getattr(end, kind)}
+    whole, said = told(planar, end.a.after, end.b.after, **known, **given)
+    with monkeypatch.context() as patched:
+        patched.setattr(PARTS, 20)
+        parts, said_of_parts = told(planar, end.a.after, end.b.after, **known, **given)
+    assert_same_bits(parts, whole)
+    assert said_of_parts == said
+    assert np.count_nonzero(whole.ok) > 10
 
 
 @pytest.mark.slow

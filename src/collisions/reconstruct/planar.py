@@ -17,7 +17,7 @@ import numpy as np
 
 from ..engine.blocks import Part, in_parts, is_one_part
 from ..impact.impact import Impact
-from ..impact.inputs import TYRES, Inputs, Law, OnFailure, part_of, read_inputs
+from ..impact.inputs import TYRES, Inputs, Law, OnFailure, part_of, part_of_inputs, read_inputs
 from ..impact.instant import LOOKED_AROUND
 from ..impact.models import ECCENTRIC
 from ..impact.reconstruction import Reconstruction
@@ -297,14 +297,14 @@ def _answer(
         names = ("speed", "course", "yaw_rate") if by_speed else ("vx", "vy", "yaw_rate")
         known |= {f"{label}_after.{name}": getattr(body, name) for name in names}
     inputs = replace(inputs, given=texts or None)
-    # Newton's method for tyres runs over all cases together.
-    together = is_one_part(cases.shape or ()) or inputs.tyres
+    together = is_one_part(cases.shape or ())
     whole = _looked(after, inputs, regime, cases.shape or ()) if together else None
 
     def work(part: Part) -> dict[str, Any]:
         there = after._replace(numbers={name: part.of(one) for name, one in numbers.items()})
-        looked = _looked(there, inputs, regime, part.shape)
-        return _backwards(Cases(part.shape, cases.dtype), looked, inputs, regime)._asdict()
+        own = part_of_inputs(inputs, part.of) if inputs.tyres else inputs
+        looked = _looked(there, own, regime, part.shape)
+        return _backwards(Cases(part.shape, cases.dtype), looked, own, regime)._asdict()
 
     found = (
         _Found(**in_parts(work, cases.shape or ()))
