@@ -65,10 +65,10 @@ _NO_RESTITUTION = 1e-9
 # Of the speeds: motions that differ by no more are one.
 _ONE_ORIGIN = 1e-6
 # From so many motions before, spread over what the tyres can change, other origins are looked for:
-# a tyre pulls to one side or to the other with the sign of a slip that may be small. Of 1,500
-# random crashes two kept an origin to themselves, and none with twice as many.
+# a tyre pulls to one side or to the other with the sign of a slip that may be small. Half as many
+# miss an origin in one of a hundred random crashes, these in one of a thousand.
 _STARTS = 16
-# Powers of the number by whose multiples, modulo 1, four dimensions are filled evenly.
+# Multiples of these powers, modulo 1, fill four dimensions evenly.
 _EVENLY = 1.0 / 1.1673039782614187 ** np.arange(1, 5)
 _NEARLY_STICKING = (
     0.05  # of the difference between both directions of sliding: a smaller slip may be 0
@@ -108,8 +108,10 @@ def planar(
 
     With ``duration`` and ``tyres_a``, ``tyres_b`` the answer is the one for which ``eccentric``
     with the same arguments ends in these motions and has what else is known: the answer of the
-    instant, which decides between origins, is refined to it. What point and normal do while the
-    contact lasts is left out, as it is there.
+    instant, which decides between origins, is refined to it. Since a tyre pulls to one side or the
+    other with the sign of a slip that may be small, several motions before may end so: they are
+    looked for from motions around that answer, as far as the tyres reach. What point and normal do
+    while the contact lasts is left out, as it is there.
 
     Parameters
     ----------
@@ -466,20 +468,24 @@ def _while_tyres_act(
 
 def _around(inputs: Inputs, motion: Sequence[Any], label: str, shifts: Any) -> list[Any]:
     """A motion before and others around it, along an axis in front: to the side and in yaw rate by
-    shares, (starts, 2), of what the tyres of this vehicle can change.
+    shares, (starts, 2), of what the tyres of this vehicle can change; at last straight ahead, as
+    most vehicles come.
     """
     tyres, body = inputs.tyres.get(label), getattr(inputs, label)
     vx, vy, spin = (np.asarray(part, dtype=np.float64) for part in motion)
     aside, turn = (share.reshape(-1, *[1] * vx.ndim) for share in shifts.T)
     if tyres is None:
-        return [part + 0.0 * turn for part in (vx, vy, spin)]
+        return [np.broadcast_to(part, (len(shifts) + 1, *part.shape)) for part in (vx, vy, spin)]
+    cos, sin = np.cos(body.heading), np.sin(body.heading)
+    ahead = vx * cos + vy * sin
     most = GRAVITY * tyres.friction * inputs.duration
     turning = most * 0.5 * tyres.wheelbase * (body.mass / body.yaw_inertia)
     side = aside * most
+    around = vx - side * sin, vy + side * cos, spin + turn * turning
+    straight = ahead * cos, ahead * sin, 0.0 * spin
     return [
-        vx - side * np.sin(body.heading),
-        vy + side * np.cos(body.heading),
-        spin + turn * turning,
+        np.concatenate((part, last[np.newaxis]))
+        for part, last in zip(around, straight, strict=True)
     ]
 
 
@@ -506,7 +512,7 @@ def _refined(origin: Origin, end: End, inputs: Inputs, shape: tuple[int, ...]) -
     free = end.kind != "restitution"
     if free:
         start, sizes = [*start, origin.restitution], [*sizes, 1.0]
-    start = [np.broadcast_to(part, (_STARTS, *shape)) for part in start]
+    start = [np.broadcast_to(part, (_STARTS + 1, *shape)) for part in start]
 
     def inputs_at(values: Sequence[Any]) -> Inputs:
         parts = iter(values)
@@ -561,7 +567,7 @@ def _refined(origin: Origin, end: End, inputs: Inputs, shape: tuple[int, ...]) -
             restitution=e[at],
             fits=fits[at],
         )
-        for at in range(_STARTS)
+        for at in range(_STARTS + 1)
     ]
 
 
@@ -642,21 +648,7 @@ def _refusal(
     separation, slip = float(end.separation), float(end.slip)
     match status:
         case Status.AMBIGUOUS_INVERSE:
-            each = " or ".join(
-                f"{how} with impulse ratio {impact.impulse_ratio:.4g} from a closing speed of "
-                f"{end.say(impact.closing_speed, 'speed')}"
-                for how, impact in zip(regimes, solutions, strict=True)
-            )
-            deciding = " or ".join(
-                f"`regime={how!r}`" for how in regimes if regimes.count(how) == 1
-            )
-            return AmbiguousSolutionError(
-                f"{len(solutions)} states before end so: {each}`|; all are in "
-                ".solutions|`; what decides is "
-                f"{deciding}{', or ' if deciding else ''}`impulse_ratio=` of one of them",
-                code="ambiguous_inverse",
-                solutions=solutions,
-            )
+            return _several(end, regimes, solutions)
         case Status.STICK_INVERSE:
             text = _stuck(end, slip, len(solutions))
         case Status.NOT_SEPARATING:
@@ -671,6 +663,38 @@ def _refusal(
         case _:
             text = Status(status).message
     return error_of(status, text, separation_speed=separation, slip_after=slip, solutions=solutions)
+
+
+def _several(end: End, regimes: list[str], solutions: tuple[Impact, ...]) -> CollisionsError:
+    """The error for a single case with several origins, which says what tells them apart."""
+    ratios = [float(impact.impulse_ratio) for impact in solutions]
+    apart = len({f"{ratio:.4g}" for ratio in ratios}) == len(ratios)
+    deciding = [f"`regime={how!r}`" for how in regimes if regimes.count(how) == 1]
+    if apart:
+        each = " or ".join(
+            f"{how} with impulse ratio {ratio:.4g} from a closing speed of "
+            f"{end.say(impact.closing_speed, 'speed')}"
+            for how, ratio, impact in zip(regimes, ratios, solutions, strict=True)
+        )
+        deciding.append("`impulse_ratio=` of one of them")
+    else:
+        # Origins of one regime with tyres: they differ in what the tyres did.
+        def turning(state: Vehicle) -> str:
+            # To a microradian a second, far below what anybody can know.
+            return end.say(round(float(state.yaw_rate), 6) + 0.0, "yaw rate", 3)
+
+        each = " or ".join(
+            f"{how}, with yaw rates before of {turning(impact.a.before)} (A) and "
+            f"{turning(impact.b.before)} (B)"
+            for how, impact in zip(regimes, solutions, strict=True)
+        )
+        deciding.append("what is known of the yaw rates before: take the one that it fits")
+    return AmbiguousSolutionError(
+        f"{len(solutions)} states before end so: {each}`|; all are in .solutions|`; what decides "
+        f"is {', or '.join(deciding)}",
+        code="ambiguous_inverse",
+        solutions=solutions,
+    )
 
 
 def _instead(end: End) -> str:
