@@ -88,7 +88,8 @@ class Output(Summarized):
     model returned. With an ``Interval`` among the inputs, every figure is a pair: the least and the
     greatest value it may have, wherever in the interval the truth lies.
 
-    Directions, that is angles returned with a unit that all lie in [-pi, pi], are counted round the
+    Directions, that is angles returned with a unit that all lie in [-pi, pi] (-180 to 180 degrees,
+    not 0 to 360, whose jump at a full turn draws a warning only), are counted round the
     circle from the point opposite their mean, and so may lie beyond pi or -pi. The mean, in (-pi,
     pi], is the direction for which the mean square of the angular distances is least; the standard
     deviation is the root of this mean square; quantiles and intervals are those of the directions
@@ -515,18 +516,23 @@ class Sampled(Output):
         return Sampled(self.name, self.unit, values, self._all_shares, turns) if turns else self
 
     def may_wrap(self) -> bool:
-        """Whether it looks like an angle that jumps between pi and -pi, if without a unit, or has
-        directions to all sides.
+        """Whether it looks like an angle that jumps between pi and -pi, if without a unit, or
+        between 0 and a full turn; or has directions to all sides.
 
         Returns
         -------
         bool
             Whether it looks like one.
         """
+        return self._wraps() is not None
+
+    def _wraps(self) -> str | None:
+        """Where it looks like an angle that jumps, or that it has directions to all sides."""
         found = self._answered
-        if self._directions is not None:
-            return angles.point_everywhere(found) or angles.point_to_opposite_sides(found)
-        return self.unit is None and angles.jump(found)
+        if self._directions is None:
+            return angles.jump_of(found, self.unit)
+        all_round = angles.point_everywhere(found) or angles.point_to_opposite_sides(found)
+        return angles.ALL_ROUND if all_round else None
 
     @derived(OWN_UNIT)
     def mean_standard_error(self) -> Any:
