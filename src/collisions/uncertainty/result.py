@@ -43,7 +43,7 @@ from .designs import REPLICATES
 from .distribution import probability
 from .halved import Halved
 from .normal import power_of_two
-from .probability import Condition, holds, holds_of_one
+from .probability import Again, Condition, holds, holds_of_one
 
 COVERAGE = 0.95
 _MOST_BINS = 10000
@@ -635,10 +635,13 @@ class Sampled(Output):
             A condition that does not return a boolean for every sample, or that samples known from
             one side only leave open.
         """
-        return self._share(holds_of_one(condition, self.name, self.values, self._sides))
+        held = holds_of_one(condition, self.name, self.values, self._sides)
+        return self._share(held, lambda values: holds_of_one(condition, self.name, values(self)))
 
-    def _share(self, held: Any) -> tuple[float, float]:
-        """The share of the samples in which a condition was found to hold, and its error."""
+    def _share(self, held: Any, again: Again | None = None) -> tuple[float, float]:
+        """The share of the samples in which a condition was found to hold, and its error; ``again``
+        asks the condition of other values of the outputs that it is on.
+        """
         found = self._like("condition", held)
         return float(found.mean), float(found.mean_standard_error)
 
@@ -829,7 +832,11 @@ class Propagation(Summarized):
                 return output.probability(condition)
         sides = {name: one._sides for name, one in samples.items() if one._sides is not None}
         held = holds(condition, {name: one.values for name, one in samples.items()}, sides)
-        return next(iter(samples.values()))._share(held)
+
+        def again(values: Callable[[Any], Any]) -> Any:
+            return holds(condition, {name: values(one) for name, one in samples.items()})
+
+        return next(iter(samples.values()))._share(held, again)
 
     def if_halved(self) -> Halved:
         """What to measure next: how wide the range of every output would be if the error of one
