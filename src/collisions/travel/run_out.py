@@ -56,19 +56,19 @@ class RunOut(Shown):
     Attributes
     ----------
     speed : float or array [m/s]
-        Speed at separation, along the slope.
+        Speed at separation, along the ground.
     course : float or array [rad]
         Direction of motion at separation, the tangent of the path, in (-pi, pi].
     yaw_rate : float or array [rad/s]
         Yaw rate at separation, positive counter-clockwise.
     time : float or array [s]
-        From the first point to the last, along the slope of every segment.
+        From the first point to the last.
     distance : float or array [m]
-        Along the path, in plan.
+        Along the path, on the ground.
     straight_course : float or array [rad]
         Direction from the first point to the last, in (-pi, pi]; NaN where they coincide.
     speeds : tuple of float or array [m/s]
-        Speed at every point, along the slope.
+        Speed at every point, along the ground.
     crab_angles : tuple of float or array [rad]
         For every segment, heading minus course, in (-pi, pi]: positive where the vehicle points to
         the left of its path.
@@ -144,8 +144,9 @@ def path(
     Parameters
     ----------
     points : sequence of pairs, array or Quantity of shape (n, 2) [m]
-        Positions of the centre of mass in plan, at least two, in order of travel: from separation
-        to where the speed is ``end_speed``. They are joined by straight lines.
+        Positions of the centre of mass, at least two, in order of travel: from separation to where
+        the speed is ``end_speed``. They are joined by straight lines, whose lengths are those of a
+        tape on the ground, as in ``speed``.
     headings : sequence, array or Quantity, one for each point [rad]
         Where the vehicle points, counted on through full turns and never reduced: 0, 100, 200, 290
         deg for one that turned 290 deg to the left, 0, -70 deg for one that turned 70 deg to the
@@ -373,11 +374,9 @@ def _run_out(
     drags = _drags(ground, crabs, turns, lengths)
     heavier = _heavier(ground, crabs)
     after = heavier[-1] * end
-    speeds = speeds_along(
-        lengths, [drag + rise for drag, rise in zip(drags, ground.grades, strict=True)], after, _leg
-    )
+    speeds = speeds_along(lengths, drags, ground.grades, after, _leg)
     speeds = [speed / more for speed, more in zip(speeds, heavier, strict=True)]
-    durations = durations_along(lengths, ground.grades, speeds)
+    durations = durations_along(lengths, speeds)
     times = list(accumulate(durations, initial=0.0))
     # Beside a way or a time that is so much longer a segment is lost, and with it the tangent.
     adds = [

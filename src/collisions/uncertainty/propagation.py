@@ -21,6 +21,7 @@ from ..messages.warning import Note, notes_of_samples, warn_of
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
 from ..quantities.units import rendered, shown
+from . import turns
 from .correction import Corrected, CorrectedOutput, corrected
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
@@ -66,7 +67,7 @@ class Run:
     failed: int
     interrupted: bool = False
     unreached: bool = False
-    wrapped: tuple[str, ...] = ()
+    wrapped: Mapping[str, str] = field(default_factory=dict)
     differing: Mapping[str, float] = field(default_factory=dict)
     corrected: Corrected | None = None
 
@@ -107,8 +108,9 @@ def propagate(
         and a model that then answers differently is refused. A case without an answer is NaN;
         solvers return it with ``on_failure="nan"``. An output of which some cases say "at least" or
         "at most" is a ``OneSided``. Booleans count as 0 and 1, so their mean is a probability.
-        Angles returned with a unit that all lie in [-pi, pi] are directions, counted round the
-        circle about their mean (see ``Output``); return a rotation as a plain number.
+        Angles returned with a unit that all lie in [-pi, pi] (-180 to 180 degrees, not 0 to 360)
+        are directions, counted round the circle about their mean (see ``Output``); return a
+        rotation as a plain number.
         A ``scene.Scene`` is a model too: its inputs and ``outputs`` are named by their paths.
     inputs : dict
         For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``,
@@ -117,8 +119,10 @@ def propagate(
         A model that takes the same inputs and returns the same outputs, and costs more. It is asked
         about a few hundred of the samples; all samples are corrected by how the difference follows
         from the inputs and the outputs of ``model`` there (a regression), and what it leaves is
-        added as scatter. The statements say how much that is, in cross-validation. Only for methods
-        that draw, without ``tolerance``.
+        added as scatter. The statements say how much that is, in cross-validation. Where it depends
+        on the inputs, as beside a bend of the finer model, ends of ranges are off; their standard
+        errors, and those of probabilities, are then what the cases asked tell of the difference.
+        Only for methods that draw, without ``tolerance``.
     finer_samples : int, optional
         How many samples the finer model is asked about, at least 64; 512 if not given, or all if
         there are fewer.
@@ -586,10 +590,13 @@ def _sampled(
         if name in sides
         else Sampled(name, model.units[name], values, shares)
         if better is None
-        else CorrectedOutput(name, model.units[name], values, shares, better.changes[name])
+        else CorrectedOutput(
+            name, model.units[name], values, shares, better.changes[name], better.asked[name]
+        )
         for name, values in sample.outputs.items()
     }
-    wrapped = tuple(name for name, output in outputs.items() if output.may_wrap())
+    wraps = {name: output._wraps() for name, output in outputs.items()}
+    wrapped = {name: where for name, where in wraps.items() if where is not None}
     return Run(
         outputs,
         sample.done,
@@ -711,17 +718,26 @@ def _notes(
         )
         sentence = f"interrupted after {count} cases; the figures are theirs{rest}"
         notes.append(Note(CollisionsWarning, sentence, code="interrupted", fields={"done": count}))
-    wrapped = dict.fromkeys(name for run in runs for name in run.wrapped)
-    bare = tuple(name for name in wrapped if not runs[0].outputs[name].unit)
-    directions = tuple(name for name in wrapped if name not in bare)
-    for names, text, cure in (
+    wrapped = {name: where for run in reversed(runs) for name, where in run.wrapped.items()}
+    for kind, text, cure in (
         (
-            bare,
+            turns.AT_HALF_TURN,
             "has values near pi and near -pi: if it is an angle, its mean means nothing",
             ". Return it with its unit (impact.a.q.pdof), so that it is known to be one",
         ),
         (
-            directions,
+            turns.AT_FULL_TURN,
+            (
+                "has values near 0 and near a full turn, 2 pi, and few somewhere between: if it is "
+                "a direction, its mean means nothing"
+            ),
+            (
+                ". Return it with its unit and between -180 and 180 deg, as by `(angle + 180) % "
+                "360 - 180`, so that it is counted round the circle"
+            ),
+        ),
+        (
+            turns.ALL_ROUND,
             (
                 "has directions so far round the circle from one another that its mean tells "
                 "little: the mean errs by more than their spread shows, or another one far from "
@@ -730,6 +746,7 @@ def _notes(
             "",
         ),
     ):
+        names = tuple(name for name, where in wrapped.items() if where == kind)
         if names:
             notes.append(
                 Note(
