@@ -21,6 +21,7 @@ from ..quantities.settings import callers_options, computing
 from ..quantities.tables import given_texts
 from ..quantities.units import kinds_in_degrees, shown, system_given
 from ..reconstruct import Fit, MomentumSolution, Posterior
+from ..reconstruct.found_again import need_found_again
 from ..scene.one_run import need_one_run
 from ..scene.run import Run
 from ..uncertainty.distributions import Interval
@@ -211,6 +212,7 @@ def explain(
     need_one_case(
         impact, (Impact, MomentumSolution, Fit), "explain", instead=NOT_EXPLAINED, refused=error_of
     )
+    need_found_again(impact)
     if isinstance(impact, Fit) and uncertainty is not None:
         raise no_uncertainty()
     with callers_options():

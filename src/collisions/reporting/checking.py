@@ -14,6 +14,7 @@ from ..messages.marked import type_of
 from ..quantities.reading import ArgumentReader, need_one_case, single_number
 from ..quantities.units import shown
 from ..reconstruct import Fit, MomentumSolution, Posterior
+from ..reconstruct.found_again import need_found_again
 from ..scene.run import Run
 from ..uncertainty import Propagation
 from ..vehicle.outlines import read_outline
@@ -47,6 +48,7 @@ def results_of(impact: Any, uncertainty: Any) -> list[tuple[Any, Any]]:
     """Each result of a report with its propagation, if any."""
     if not isinstance(impact, list):
         need_one_case(impact, _RESULTS, "report", instead=NOT_EXPLAINED)
+        need_found_again(impact)
         return [(impact, uncertainty)]
     if not impact:
         raise InputError(
@@ -63,6 +65,7 @@ def results_of(impact: Any, uncertainty: Any) -> list[tuple[Any, Any]]:
                 argument="impact",
             )
         need_one_case(one, _RESULTS, "report", instead=NOT_EXPLAINED)
+        need_found_again(one)
     if uncertainty is None:
         return [(one, None) for one in impact]
     if not isinstance(uncertainty, list) or len(uncertainty) != len(impact):

@@ -475,7 +475,7 @@ def as_function(
     Quantities; ``at_level`` makes the scene that is run of the one with these numbers.
     """
     from ..quantities.units import shown, to_quantity
-    from .run import Run
+    from .run import Run, warn_of_findings
 
     for argument, listed in (("names", names), ("outputs", outputs)):
         if isinstance(listed, str) or not _can_be_listed(listed):
@@ -493,6 +493,7 @@ def as_function(
     def model(**values: Any) -> dict[str, Any]:
         made = replaced(scene, values)
         run = Run(made if at_level is None else at_level(made), tolerance)
+        warn_of_findings(run)
         return {path: to_quantity(result_of(run, path), unit) for path, unit in units.items()}
 
     vars(model)["answers_by_case"] = True

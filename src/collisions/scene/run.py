@@ -717,25 +717,57 @@ def _warn_of(found: Followed, wrong: Any) -> None:
     )
 
 
+# What a finding of one run is without its names and times.
+_DRIVEN = (
+    "two vehicles do not part after their contact and are followed through or into each other: "
+    "what pushes them without a blow is not followed"
+)
+_DRAGLESS = "a drag does not act during a contact that is followed in time; tyres in its place do"
+_UNDESCRIBED = (
+    "two vehicles touch, and no contact says what happens; they are followed as if they passed "
+    "through each other"
+)
+
+
+def _of_driven(said: str) -> OutOfRangeWarning:
+    return OutOfRangeWarning(said, code="driven_through")
+
+
+def _of_dragless(said: str) -> OutOfRangeWarning:
+    return OutOfRangeWarning(said, code="drag_during_contact")
+
+
+def _of_undescribed(said: str) -> OutOfRangeWarning:
+    return OutOfRangeWarning(said, code="touch_without_contact")
+
+
+_OF_FINDING = {
+    "driven_through": (_of_driven, _DRIVEN),
+    "driven_together": (_of_driven, _DRIVEN),
+    "drag_during_contact": (_of_dragless, _DRAGLESS),
+    "touch_without_contact": (_of_undescribed, _UNDESCRIBED),
+}
+
+
 def _warn_of_notices(found: Followed) -> None:
     """Say of how many cases of a batch that holds of which a single case has a finding."""
+    if found.single:
+        return
+    for cases, made, text in (
+        (found.driven, _of_driven, _DRIVEN),
+        (found.dragless, _of_dragless, _DRAGLESS),
+    ):
+        if count := int(np.count_nonzero(cases & (found.failed == ""))):
+            said = f"in {count} of {found.count} cases of the scene {text}"
+            warn_of_cases(made(said), {text: count})
 
-    def counted(cases: Any) -> int:
-        return 0 if found.single else int(np.count_nonzero(cases & (found.failed == "")))
 
-    if count := counted(found.driven):
-        text = (
-            "two vehicles do not part after their contact and are followed through or into each "
-            "other: what pushes them without a blow is not followed"
-        )
-        said = f"in {count} of {found.count} cases of the scene {text}"
-        warn_of_cases(OutOfRangeWarning(said, code="driven_through"), {text: count})
-    if count := counted(found.dragless):
-        text = (
-            "a drag does not act during a contact that is followed in time; tyres in its place do"
-        )
-        said = f"in {count} of {found.count} cases of the scene {text}"
-        warn_of_cases(OutOfRangeWarning(said, code="drag_during_contact"), {text: count})
+def warn_of_findings(run: Run) -> None:
+    """Say of a single run what limits its answer, where the run itself is not seen."""
+    for notice in run.findings if run._followed.single else ():
+        if notice.code in _OF_FINDING:
+            made, text = _OF_FINDING[notice.code]
+            warn_of_cases(made(notice.sentence), {text: 1})
 
 
 def _tyre_loss(side: Any) -> float:

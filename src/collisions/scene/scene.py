@@ -259,7 +259,7 @@ class Scene(Shown):
         -------
         function
             Called with numbers or arrays, as in ``model(**{"Camry.vx": 20.0})``, it returns a dict
-            of Quantities.
+            of Quantities. It warns of findings of the run that limit its results.
 
         Raises
         ------
@@ -311,6 +311,12 @@ class Scene(Shown):
             A result or an input that is none, or tolerances that are no numbers.
         NoSolutionError
             No draw has an answer.
+
+        Warns
+        -----
+        OutOfRangeWarning
+            The finest level is of a crash that it does not describe, such as vehicles that are
+            driven through each other; ``notes`` have that of every level.
 
         Examples
         --------
