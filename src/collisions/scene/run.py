@@ -176,8 +176,8 @@ class Run(Frozen, Summarized):
                 contact = self.scene.contacts[hit.rule]
                 time = float(hit.time[0])
                 text = (
-                    f"{contact.a} and {contact.b} part before the depth or delay of contacts"
-                    f"[{hit.rule}] is reached; the impulse acts at their deepest, at {time:.3g} s"
+                    f"{contact.a} and {contact.b} part before the depth or delay of their contact "
+                    f"is reached; the impulse acts at their deepest, at {time:.3g} s"
                 )
                 notices.append(Notice("at_deepest", text, time, (contact.a, contact.b)))
         return tuple(sorted(notices, key=lambda one: one.time))
