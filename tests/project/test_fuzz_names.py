@@ -1686,8 +1686,8 @@ def known_scene() -> scene.Scene:
     "scene.Run", "scene.Run.at", "scene.Run.case", "scene.Run.from_dict", "scene.Run.summary",
     "scene.Run.to_columns", "scene.Run.to_dict",
     "scene.Scene", "scene.Scene.as_model", "scene.Scene.case", "scene.Scene.from_dict",
-    "scene.Scene.inputs", "scene.Scene.replace", "scene.Scene.required", "scene.Scene.results",
-    "scene.Scene.run",
+    "scene.Scene.inputs", "scene.Scene.mark_points", "scene.Scene.replace", "scene.Scene.required",
+    "scene.Scene.results", "scene.Scene.run",
     "scene.Scene.summary", "scene.Scene.to_dict", share=0.3,
 )  # fmt: skip
 def test_scenes(case: Case) -> None:
@@ -1728,6 +1728,22 @@ def test_scenes(case: Case) -> None:
     if made.shape is not None:
         case.call("scene.Scene.case", made.case, case.option(0, 1, (0,)))
     wanted = case.sample(list(results), 2)
+    seen = case.call(
+        "scene.Scene.mark_points",
+        made.mark_points,
+        **case.spoil(
+            {
+                "name": case.option(*made.movers),
+                "wheel": case.option("front_left", "rear_right"),
+                "points": case.option([case.pair("x"), case.pair("x")]),
+                "error": case.value("width"),
+                "begins": case.option(True, False),
+                "ends": case.option(True, False),
+            }
+        ),
+    )
+    if isinstance(seen, dict):
+        wanted += seen
     with mock.patch.object(motion_of_wheels, "_MOST_STEPS", 1_500):
         found = case.call(
             "scene.Scene.run", made.run, **case.spoil({"tolerance": case.option(1e-4, 1e-3)})

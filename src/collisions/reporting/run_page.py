@@ -11,7 +11,7 @@ from typing import Any, get_args
 import numpy as np
 
 from .. import plot
-from ..derivation.explain import explain
+from ..derivation.explain import OF_VEHICLE, explain
 from ..derivation.scene import ledger, rests
 from ..derivation.wheels import wheel_rows
 from ..diagnostics import diagnose
@@ -36,6 +36,16 @@ from .uncertainty import Spread
 
 # What is said of one impact, and not of a scene.
 _OF_ONE = ("outline_a", "outline_b", "share_a", *EVIDENCE)
+# The state of a vehicle, with the kind of each part, and what no table of inputs has of it.
+_STATE = {
+    "x": "length",
+    "y": "length",
+    "heading": "angle",
+    "speed": "speed",
+    "course": "angle",
+    "yaw_rate": "yaw rate",
+}
+_AT_THE_START = {"speed": "speed", "course": "course"}
 _LOOKED_AT = ("duration", "drag", "limits", "units")
 
 
@@ -60,6 +70,7 @@ def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -
         sheet.file([(name.capitalize(), text) for name, text in filed])
     spread = Spread(run, uncertainty)
     _answer(sheet, run, found, draws, spread, uncertainty)
+    _start(sheet, run)
     _vehicles(sheet, run)
     for number, (time, pair, impact) in enumerate(
         zip(run.times, run.pairs, run.impacts, strict=True)
@@ -167,12 +178,13 @@ def _answer(
     for name, output in outputs.items():
         kind = spread.kind_of(output)
         text, has_range = ranged_text(sheet.system, output, kind)
-        ranged[name] = (plain(name), text) if has_range else None
+        words = spread.heading(output)
+        ranged[name] = (words, text) if has_range else None
         low, high = output.interval()
         value = result_of(run, name) if known.get(name, "rad") != "rad" else math.nan
         if value < low or value > high:
             sheet.stress(
-                f"{plain(name)} of this run lies outside the 95 percent interval of the "
+                f"{words} of this run lies outside the 95 percent interval of the "
                 "propagation: are both of the same scene?"
             )
     rows = [row for row in ranged.values() if row is not None]
@@ -225,6 +237,25 @@ def _rest(sheet: Sheet, run: Run, name: str) -> str:
     if rest.x is None or rest.y is None:
         return "not known"
     return ", ".join(sheet.system.answer(float(part), "length") for part in (rest.x, rest.y))
+
+
+def _start(sheet: Sheet, run: Run) -> None:
+    """The state of each vehicle at the start, in full."""
+    rows = []
+    for name, mover in run.scene.movers.items():
+        body, of = mover.vehicle, plain(name)
+        texts: Mapping[str, Any] = body.given or {}
+        for part, kind in _STATE.items():
+            value = getattr(body, part)
+            if value is None:
+                text = "not given"
+            elif math.isnan(value):
+                text = "none: it stands"
+            else:
+                text = sheet.as_given(float(value), kind, texts.get(part))
+            rows.append((of, _AT_THE_START.get(part) or OF_VEHICLE[part][0], text))
+    sheet.heading("At the start")
+    sheet.table(rows)
 
 
 def _vehicles(sheet: Sheet, run: Run) -> None:

@@ -1,7 +1,7 @@
 """The numbers of a scene by their paths: inputs that can be replaced, and results of a run.
 
 A path is written as in Python: "Camry.vx", "Camry.tyres.lock[0]", "contacts[0].point[1]",
-"Camry.rest.x", "impacts[0].a.delta_v".
+"Camry.rest.x", "impacts[0].a.delta_v", "Camry.marks.front_left.distance(12.3 m, 4.5 m)".
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from ..vehicle.tyres import LOCKS, as_given
 from ..vehicle.vehicle import UNITS as OF_VEHICLE
 from ..vehicle.vehicle import Vehicle
 from .contact import UNITS as OF_CONTACT
+from .marks import answers, of_mark
 from .scene import Scene, arguments_of
 
 if TYPE_CHECKING:
@@ -361,6 +362,8 @@ def unit_of_result(scene: Scene, path: str, argument: str = "outputs") -> str:
         found = _OF_IMPACT.fullmatch(path)
         if found and found[2] in (known := _of_impact()):
             return known[found[2]]
+        if of_mark(scene, path, argument):
+            return "m"
     raise no_path(path, results_of(scene), argument)
 
 
@@ -379,6 +382,8 @@ def result_of(run: Run, path: str) -> Any:
         if value is None:
             raise _without(path)
         return value
+    if asked := of_mark(run.scene, path, "outputs"):
+        return answers(run, [asked])[0]
     found = _OF_IMPACT.fullmatch(path)
     assert found is not None
     number, inner = int(found[1]), found[2].split(".")
@@ -489,12 +494,16 @@ def as_function(
         if name not in known:
             _owner(scene, name)
     units = {path: unit_of_result(scene, path) for path in wanted}
+    marks = {path: asked for path in wanted if (asked := of_mark(scene, path, "outputs"))}
 
     def model(**values: Any) -> dict[str, Any]:
         made = replaced(scene, values)
         run = Run(made if at_level is None else at_level(made), tolerance)
         warn_of_findings(run)
-        return {path: to_quantity(result_of(run, path), unit) for path, unit in units.items()}
+        # All points of a mark at once: the mark is worked out for them, and not kept.
+        found = dict(zip(marks, answers(run, list(marks.values())), strict=True))
+        found |= {path: result_of(run, path) for path in wanted if path not in marks}
+        return {path: to_quantity(found[path], unit) for path, unit in units.items()}
 
     vars(model)["answers_by_case"] = True
     return model

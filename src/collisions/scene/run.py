@@ -28,6 +28,7 @@ from ..vehicle.drag import one_value
 from ..vehicle.vehicle import NAMES, Vehicle, vehicle_of
 from .follow import Followed, Hit, Notice
 from .ledger import on_drag, on_slope, on_tyres
+from .marks import WHEELS
 from .motion import STATE, Ground, body_at, no_rest
 from .scene import Scene
 
@@ -35,7 +36,6 @@ from .scene import Scene
 _MOMENTS = 101
 # And for the work of the ground, whose power jumps where wheels come to edges.
 _FOR_WORK = 2001
-_WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -176,8 +176,8 @@ class Run(Frozen, Summarized):
                 contact = self.scene.contacts[hit.rule]
                 time = float(hit.time[0])
                 text = (
-                    f"{contact.a} and {contact.b} part before the depth or delay of contacts"
-                    f"[{hit.rule}] is reached; the impulse acts at their deepest, at {time:.3g} s"
+                    f"{contact.a} and {contact.b} part before the depth or delay of their contact "
+                    f"is reached; the impulse acts at their deepest, at {time:.3g} s"
                 )
                 notices.append(Notice("at_deepest", text, time, (contact.a, contact.b)))
         return tuple(sorted(notices, key=lambda one: one.time))
@@ -564,7 +564,7 @@ class Run(Frozen, Summarized):
             whole = np.concatenate(marks, axis=2)
             tracks = {
                 wheel: (read_only(x.copy()), read_only(y.copy()))
-                for wheel, (x, y) in zip(_WHEELS, whole, strict=True)
+                for wheel, (x, y) in zip(WHEELS, whole, strict=True)
             }
         return Track(time=read_only(time.reshape(shape)), **rows, marks=tracks)
 
@@ -583,7 +583,8 @@ class Run(Frozen, Summarized):
         held = clock[:, 0] < leg.start[0] + leg.hold[0]
         power, marks = none
         if leg.tyres is not None:
-            power, marks = on_tyres(leg.tyres, mover, found.ground, state)
+            on_wheels = on_tyres(leg.tyres, mover, found.ground, state)
+            power, marks = on_wheels.power, on_wheels.marks
         elif mover.drag is not None:
             stops = float(leg.stops[0])
             speed = math.hypot(leg.state[3, 0], leg.state[4, 0])

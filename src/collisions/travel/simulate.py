@@ -34,7 +34,7 @@ _BLOCK = 2048
 _MOST_MOMENTS = 100_000
 _MOTION = ("vx", "vy", "yaw_rate", "x", "y", "heading")
 # A tyre that uses this share of the friction leaves a mark.
-_MARKS = 0.9
+MARKS = 0.9
 _TOLERANCE = Default(5e-7)
 _FINEST, _COARSEST = 1e-10, 1e-2
 
@@ -616,7 +616,7 @@ def _way(motion: Motion, units: Any, moments: int, until: Any) -> tuple[Any, Any
     x, y = origin_x + length * x, origin_y + length * y
     tracks = []
     for (along, across), (ahead, aside) in zip(used, _corners(motion.ground, reach), strict=True):
-        slides = np.hypot(along, across) >= _MARKS
+        slides = np.hypot(along, across) >= MARKS
         tracks += [
             np.where(slides, x + c * ahead - s * aside, np.nan),
             np.where(slides, y + s * ahead + c * aside, np.nan),
