@@ -1064,6 +1064,29 @@ def test_what_follows_is_said_and_recorded():
     assert np.array_equal(braking()[1].draws["before"], more.draws["before"])
 
 
+def test_what_a_reading_was_worked_out_from_is_said_and_recorded():
+    one = reconstruct.crush_energy("1.5 m", ["20 cm", "30 cm"], "40 kN/m", "600 kN/m**2")
+    other = reconstruct.crush_energy(
+        "5 ft", ["11 in", "9 in"], "300 lbf/in", "60 lbf/in**2", name="side of B"
+    )
+    damage = one + other
+    for reading in ((damage, 0.2 * damage), Normal(damage, 0.2 * damage)):
+        found, _ = sampled(
+            lambda energy: {"energy": energy, "video": energy},
+            {"energy": Uniform(0.0, 4.0 * damage)},
+            {"energy": reading, "video": (float(damage), 0.2 * damage)},
+            samples=512,
+        )
+        assert found.observed["energy"].source == f"{one.source}; {other.source}"
+        assert found.to_dict()["observed_from"] == {"energy": damage.source}
+        assert pickle.loads(pickle.dumps(found)).observed["energy"].source == damage.source
+        page = col.report(found, form="markdown", units="us")
+        assert "A 40 kN/m, B 600 kN/m²; side of B, by crush" in page
+        assert "width 5 ft, depths 11 in, 9 in, A 300 lbf/in, B 60 lbf/in²" in page
+    # Statements of the same numbers are equal, whatever these were worked out from.
+    assert Normal(damage, 1e4) == Normal(float(damage), 1e4)
+
+
 def test_results_follow_from_results_and_share_no_draws():
     _, more = braking()
     drag = Normal(0.7, 0.05)

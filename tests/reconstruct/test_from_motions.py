@@ -865,7 +865,7 @@ def test_any_number_of_depths(count):
         uneven = [rng.uniform(0.0, 0.5) for _ in range(count - 1)]
         for widths, gaps in ((width, even), (uneven, uneven)):
             found = reconstruct.crush_energy(widths, depths, a, b)
-            assert type(found) is float
+            assert isinstance(found, float)
             assert found == pytest.approx(
                 float(crush_exactly(gaps, depths, a, b)), rel=(6 + count) * EPS
             )
@@ -1026,6 +1026,47 @@ def test_crush_refusals(code, arguments, rest, said):
         assert f"- {name}" in str(every)
 
 
+def test_a_crush_energy_says_what_it_was_worked_out_from():
+    given = ("5 ft", ["11 in", "13 in", "9 in"], "300 lbf/in", "60 lbf/in**2")
+    as_given = (
+        "by crush_energy: width 5 ft, depths 11 in, 13 in, 9 in, A 300 lbf/in, B 60 lbf/in**2"
+    )
+    front = reconstruct.crush_energy(*given, name="front of the Accord")
+    side = reconstruct.crush_energy(
+        [0.5, 0.4], np.array([0.1, 0.3, 0.2]), 4e4, "600 kN/m**2", force_angle="20 deg"
+    )
+    said = (
+        "by crush_energy: widths 0.5 m, 0.4 m, depths 0.1 m, 0.3 m, 0.2 m, A 40000 N/m, "
+        "B 600 kN/m**2, force at 20 deg"
+    )
+    assert front.source == f"front of the Accord, {as_given}"
+    assert side.source == said
+    assert (front + side).source == sum([front, side]).source == f"{front.source}; {said}"
+    assert reconstruct.q.crush_energy(*given).magnitude.source == as_given
+    metres = pint.UnitRegistry().Quantity([10.0, 20.0], "cm")
+    assert "depths 10 cm, 20 cm," in reconstruct.crush_energy(1, metres, 1e4, 1e5).source
+    # A number without a source leaves a sum without one: it would say less than the number is.
+    for plain in (0.5 * front, front + 1.0, 1.0 + front, np.float64(1.0) + front):
+        assert not hasattr(plain, "source")
+
+
+def test_a_crush_energy_is_a_float_in_everything():
+    energy = reconstruct.crush_energy(1.5, [0.3, 0.1], 4e4, 6e5)
+    plain = float(energy)
+    assert type(plain) is float
+    assert isinstance(energy, float)
+    assert energy == plain
+    assert hash(energy) == hash(plain)
+    assert repr(energy) == repr(plain)
+    assert json.dumps([energy]) == json.dumps([plain])
+    again = pickle.loads(pickle.dumps(energy))
+    assert (again, again.source) == (energy, energy.source)
+    assert np.array([energy, energy]).dtype == np.float64
+    assert np.array_equal(energy + np.array([1.0, 2.0]), plain + np.array([1.0, 2.0]))
+    assert col.Vehicle(mass=energy).mass == plain
+    assert type(col.Vehicle(mass=energy).mass) is float
+
+
 def test_crush_in_units_and_batches():
     """US units as in the CRASH sheets; arrays among the arguments, refused cases NaN, single
     precision stays.
@@ -1076,7 +1117,7 @@ def test_an_array_is_a_profile_like_a_list():
             (solve(kind(widths), depths, 4e4, 6e5), uneven),
             (solve(kind(widths), kind(depths), 4e4, 6e5), uneven),
         ):
-            assert type(found) is float
+            assert isinstance(found, float)
             assert found == expected
     # 100 is exact, and a centimetre is a rounding of a hundredth.
     assert solve(1.1, pint.Quantity([12.0, 25.0, 38.0], "cm"), 4e4, 6e5) == pytest.approx(

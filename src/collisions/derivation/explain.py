@@ -43,8 +43,8 @@ _Ranges: TypeAlias = dict[str, tuple[float, float]]
 _OFF_CENTRE = 0.1
 # The hint for a result that is a bare number.
 NOT_EXPLAINED = (
-    ". A number of crush_energy or travel, or a RunOut, does not hold what it was worked out "
-    "from: its formula is in help(collisions.reconstruct.crush_energy), "
+    ". The work behind a number of crush_energy or travel, or a RunOut, is not written out: its "
+    "formula is in help(collisions.reconstruct.crush_energy), "
     "help(collisions.travel.speed), help(collisions.travel.path)"
 )
 _MODELS = {
@@ -148,8 +148,8 @@ def explain(
         order, the places of rest, and where the kinetic energy went; the motion in between, which
         is integrated step by step, is not written out. For a ``Fit`` it has the misfit of every
         observation, the estimates and the sources of their errors, but not the model, which is
-        code. The numbers that ``crush_energy`` and ``travel`` return do not hold what they were
-        worked out from; for their formulas see ``help(collisions.travel.speed)`` and so on.
+        code. The work behind a number that ``crush_energy`` or ``travel`` returned is not written
+        out; for their formulas see ``help(collisions.travel.speed)`` and so on.
     units : {"si", "metric", "us"}, optional
         By default those that the inputs were given in, as for ``summary``; otherwise SI, with the
         angles in degrees that were given so. "si": m/s, rad, rad/s, J. "metric": km/h, deg, deg/s,

@@ -14,7 +14,7 @@ import numpy as np
 from ..messages.errors import CollisionsWarning, IllConditionedWarning, InputError
 from ..messages.warning import Note, warn_of
 from ..quantities.attributes import read_only
-from ..quantities.formatting import KIND_OF
+from ..quantities.formatting import KIND_OF, typeset
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence
 from ..quantities.units import rendered, shown
@@ -92,7 +92,9 @@ class Posterior(SpeedsFound, Summarized):
     priors : dict
         The prior stated for each unknown.
     observed : dict
-        What was observed, as read: ``Normal`` or ``Censored``.
+        What was observed, as read: ``Normal`` or ``Censored``. ``source`` of each is what its value
+        was worked out from, such as the dents measured by ``crush_energy``; "" where that is not
+        known.
     draws : dict
         Joint samples, equally likely [SI]: of each unknown, and of each output of the model whose
         name is not that of an unknown.
@@ -354,6 +356,7 @@ class Posterior(SpeedsFound, Summarized):
         record = {
             "priors": {name: rendered(one, 1000) for name, one in self.priors.items()},
             "observed": {name: rendered(one, 1000) for name, one in self.observed.items()},
+            "observed_from": self._sources(),
             "unknowns": {name: one.record() for name, one in self.unknowns.items()},
             "predicted": {name: one.record() for name, one in self.predicted.items()},
             "results": {name: one.record() for name, one in self.results.items()},
@@ -386,7 +389,11 @@ class Posterior(SpeedsFound, Summarized):
             )
             for name, one in self.observed.items()
         ]
-        worked = []
+        worked: list[Part] = []
+        readings: list[Part] = []
+        if sources := self._sources():
+            rows = [(name, typeset(text)) for name, text in sources.items()]
+            readings = [Part(rows, "What readings were worked out from")]
         if self.results:
             worked = [
                 outputs_part(self.results, numbers, "Worked out from them"),
@@ -400,11 +407,16 @@ class Posterior(SpeedsFound, Summarized):
             *worked,
             outputs_part(self.predicted, numbers, "Predicted"),
             Part(observed, "Observed", ("as stated", "residual over sigma")),
+            *readings,
             Part([(name, str(one)) for name, one in self.priors.items()], "Priors"),
             Part([("log evidence", f"{self.log_evidence:.4g} ± {self.log_evidence_error:.2g}")]),
         ]
         notes = map(as_sentence, self.statements)
         return Summary(f"Given the evidence and the priors ({self.samples} samples)", parts, notes)
+
+    def _sources(self) -> dict[str, str]:
+        """What each reading was worked out from, where it says so."""
+        return {name: one.source for name, one in self.observed.items() if one.source}
 
     def _texts(self) -> Iterator[str]:
         return units_of(self.observed | self.priors)

@@ -5,8 +5,8 @@ it, and delta-V from it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, cast
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from ..quantities.directions import Angle
 from ..quantities.reading import ArgumentReader, amount, largest, warn_if_large
 from ..quantities.refusals import must_be
 from ..quantities.units import Input, Value, has_unit, is_quantity, shown
+from ..quantities.worked_out import WorkedOut, as_given
 from .common import ASK_ALONE, Cases, input_faults, read_masses
 
 _RIGHT_ANGLE = 2.0**-52  # the cosine of 90 degrees in radians is not exactly 0
@@ -38,6 +39,7 @@ def crush_energy(
     stiffness_b: Input,
     *,
     force_angle: Input = 0.0,
+    name: str = "",
 ) -> Value:
     """Energy absorbed by the crush of one vehicle.
 
@@ -66,6 +68,8 @@ def crush_energy(
         here.
     force_angle : angle [rad], optional
         Angle between the direction of force and the perpendicular to the damaged side.
+    name : str, optional
+        What was damaged, such as "front of the Accord", for the page of a report.
 
     Returns
     -------
@@ -73,7 +77,9 @@ def crush_energy(
         Energy that the coefficients stand for. If they were fitted to the impact speeds of barrier
         tests, as is usual, it is the energy absorbed at maximum crush: that of
         ``max_crush_speed_a``. If rebound was deducted in the fit, it is the energy dissipated: that
-        of ``ees_a`` by ISO 12353 and of ``energy_loss``. NaN for a refused case of a batch.
+        of ``ees_a`` by ISO 12353 and of ``energy_loss``. NaN for a refused case of a batch. A
+        single number also has in ``source`` what it was worked out from, and so has the sum of two.
+        Given to ``posterior`` as what was observed, its report says so.
 
     Raises
     ------
@@ -92,10 +98,16 @@ def crush_energy(
     Even crush of 0.3 m over 1.5 m: 1.5 (A 0.3 + B 0.3^2 / 2 + A^2 / (2 B)).
 
     >>> from collisions import reconstruct
-    >>> round(reconstruct.crush_energy("1.5 m", [0.3, 0.3, 0.3], "40 kN/m", "600 kN/m**2"))
+    >>> energy = reconstruct.crush_energy("1.5 m", [0.3, 0.3, 0.3], "40 kN/m", "600 kN/m**2")
+    >>> round(energy)
     60500
+    >>> energy.source
+    'by crush_energy: width 1.5 m, depths 0.3 m, 0.3 m, 0.3 m, A 40 kN/m, B 600 kN/m**2'
     """
     reader = ArgumentReader()
+    if not isinstance(name, str):
+        text = "a text, such as `'front of the Accord'`"
+        reader.refuse(must_be("name", text, name, code="bad_type"))
     crush, whole, gaps = _profiles(reader, depths, widths)
     a = amount(reader, stiffness_a, "N/m", "stiffness_a")
     b = reader.number(stiffness_b, "N/m**2", "stiffness_b")
@@ -113,6 +125,13 @@ def crush_energy(
             )
         )
     reader.close()
+    stated = {
+        "widths": (widths, whole),
+        "depths": (depths, crush),
+        "stiffness_a": (stiffness_a, a),
+        "stiffness_b": (stiffness_b, b),
+        "force_angle": (force_angle, angle.value),
+    }
     _warn_if_large(depths, crush, _DEEPEST, "depths", max)
     _warn_if_large(widths, whole if isinstance(whole, list) else [whole], _WIDEST, "widths", sum)
     amounts = {f"depths[{i}]": depth for i, depth in enumerate(crush)} | {
@@ -148,7 +167,10 @@ def crush_energy(
             (np.less_equal(b, 0.0), Status.NOT_POSITIVE),
             (np.less_equal(cosine, _RIGHT_ANGLE), Status.CONTRADICTORY),
         ]
-    return _answers(cases, faults, energy)[0]
+    found = _answers(cases, faults, energy)[0]
+    if isinstance(found, float):
+        found = cast("Value", WorkedOut(found, _source(name, stated)))
+    return found
 
 
 @hinted
@@ -288,6 +310,28 @@ def crush_delta_v(
         ]
     of_a, of_b = _answers(cases, faults, *found)
     return of_a, of_b
+
+
+def _source(name: str, pairs: Mapping[str, tuple[Any, Any]]) -> str:
+    """What an energy was worked out from: each argument as it was given, beside its number."""
+
+    def listed(argument: str) -> str:
+        given, numbers = pairs[argument]
+        if not isinstance(numbers, list):
+            return as_given(given, numbers, "m")
+        return ", ".join(as_given(*pair, "m") for pair in zip(given, numbers, strict=True))
+
+    several = isinstance(pairs["widths"][1], list)
+    parts = [
+        f"width{'s' if several else ''} {listed('widths')}",
+        f"depths {listed('depths')}",
+        f"A {as_given(*pairs['stiffness_a'], 'N/m')}",
+        f"B {as_given(*pairs['stiffness_b'], 'N/m**2')}",
+    ]
+    if pairs["force_angle"][1] != 0.0:
+        parts.append(f"force at {as_given(*pairs['force_angle'], 'rad')}")
+    of = f"{name.strip()}, " if name.strip() else ""
+    return f"{of}by crush_energy: {', '.join(parts)}"
 
 
 def _answers(cases: Cases, faults: list[tuple[Any, int]], *found: Any) -> list[Value]:

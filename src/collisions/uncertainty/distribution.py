@@ -45,12 +45,14 @@ class Statement:
 
     ``_parts`` are what it was made of, by the names of the arguments; ``_derive`` takes them and
     sets all else. ``_range`` is the low, high and share that ``between`` was given; people read
-    these in place of the parts that follow from them.
+    these in place of the parts that follow from them. ``source`` is what its number was worked out
+    from, "" where that does not say; two statements of the same numbers are equal whatever it is.
     """
 
-    __slots__ = ("_parts", "_range", "unit")
+    __slots__ = ("_parts", "_range", "source", "unit")
 
     unit: str
+    source: str
     _words: ClassVar[str]
     # Parts that are not in the unit of the quantity, and their own: of degrees of freedom, "".
     _part_units: ClassVar[Mapping[str, str]] = {}
@@ -61,7 +63,7 @@ class Statement:
     def _make(
         self, unit: str, given_range: tuple[float, float, float] | None = None, **parts: Any
     ) -> None:
-        self._set(unit=unit, _parts=parts, _range=given_range)
+        self._set(unit=unit, source="", _parts=parts, _range=given_range)
         self._derive(**parts)
 
     def _set(self, **values: Any) -> None:
@@ -87,7 +89,7 @@ class Statement:
         return hash((type(self), self.unit, *self._parts.values()))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return from_numbers, (type(self), self.unit, self._parts, self._range)
+        return from_numbers, (type(self), self.unit, self._parts, self._range, self.source)
 
     def __repr__(self) -> str:
         shown = (
@@ -238,10 +240,12 @@ def from_numbers(
     unit: str,
     parts: Mapping[str, Any],
     given_range: tuple[float, float, float] | None = None,
+    source: str = "",
 ) -> T:
     """An instance from SI numbers, which are not read again."""
     made = object.__new__(kind)
     made._make(unit, given_range, **parts)
+    made._set(source=source)
     return made
 
 

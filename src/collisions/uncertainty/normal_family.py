@@ -21,6 +21,7 @@ from ..quantities.formatting import typeset
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import must_be
 from ..quantities.units import Input
+from ..quantities.worked_out import source_of
 from .distribution import Distribution, check_order, from_numbers, read_alike, show
 from .normal import cdf, density, power_of_two, quantile, score_of_coverage, survival
 
@@ -77,6 +78,7 @@ class NormalFamily(Distribution):
     def __init__(self, mean: Input, sd: Input, *, truncate: Truncation | None = None) -> None:
         given_mean, given_sd, bounds, unit = _read({"mean": mean, "sd": sd}, truncate)
         self._make(unit, mean=given_mean, sd=given_sd, truncate=bounds)
+        self._set(source=source_of(mean))
 
     def __str__(self) -> str:
         if self._range is not None:
