@@ -29,6 +29,7 @@ from . import figures as drawing
 from . import sections
 from .answer import answer
 from .checking import FILED, Checked, Form, checked, results_of
+from .posterior_part import posterior
 from .record import plain_options, record_of_all
 from .render import Html, Markdown, Printed, Sheet, plain
 from .run_page import report_run, units_of_run
@@ -59,6 +60,7 @@ def report(
     damage_delta_v_b: Input | Pair | None = None,
     share_a: Input | None = None,
     notes: str | Mapping[str, str] | Sequence[str | Mapping[str, str]] | None = None,
+    answers: Sequence[str] | None = None,
     figures: bool = True,
     derivation: bool = False,
     author: str | None = None,
@@ -110,7 +112,14 @@ def report(
         Your own words, each note in a paragraph of its own; or notes by input, printed beside it,
         such as where its value is from: ``{"restitution": "Low-speed tests of the same model",
         "a.mass": "Weighed"}``. "duration", "drag", "law" and the outlines that are given,
-        "outline_a" and "outline_b", may have notes too.
+        "outline_a" and "outline_b", may have notes too; of a fit and of a posterior each reading
+        and each prior, by its name, also on a page of several results.
+    answers : list of str, optional
+        What stands in the answer, by name and in this order: unknowns, results and outputs of a
+        posterior, unknowns of a fit, outputs of ``uncertainty``, or results such as "a.delta_v". By
+        default what the solver found with the delta-V, all outputs of ``uncertainty``, or of a
+        posterior what ``with_result`` worked out and the speeds among its unknowns; all else that
+        was found stands further down.
     figures : bool
         Whether to draw figures. They need matplotlib; without it the report says so and goes on.
     derivation : bool
@@ -243,7 +252,8 @@ def _answers(sheet: Sheet, parts: Sequence[_Part], options: Mapping[str, Any], d
     for number, part in enumerate(parts, 1):
         if len(parts) > 1:
             sheet.subheading(_heading(number, part))
-        answer(sheet, part.result, part.spread, part.uncertainty, part.findings, len(parts) == 1)
+        alone, asked = len(parts) == 1, options["answers"]
+        answer(sheet, part.result, part.spread, part.uncertainty, part.findings, alone, asked)
     picture = None
     if draws and len(parts) == 1 and isinstance(sheet, Html):
         picture = drawing.beside_answer(sheet, parts[0].readable, options)
@@ -267,9 +277,9 @@ def _body(
     elif isinstance(result, MomentumSolution):
         sections.momentum_inputs_and_results(sheet, result, options, found.by_input)
     elif isinstance(result, Fit):
-        fit(sheet, result)
+        fit(sheet, result, found.by_input)
     else:
-        sections.posterior(sheet, result)
+        posterior(sheet, result, options["answers"], found.by_input)
     if uncertainty is not None:
         spread.write(sheet, uncertainty)
         if spread.ranges:

@@ -34,7 +34,7 @@ from ..quantities.formatting import (
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import as_sentence, label_of
 from ..quantities.units import Input
-from ..reconstruct import MomentumSolution, Posterior
+from ..reconstruct import MomentumSolution
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..vehicle.drag import read_drag, read_duration
 from ..vehicle.tyres import Tyres
@@ -713,27 +713,6 @@ def _origin(impact: Impact, found: set[str], of: str, what: str) -> str:
     if name is None or (name == "vy" and impact.reconstruction.method == "central"):
         return ""
     return ", found" if f"{of.lower()}.{name}" in found else ", given"
-
-
-def posterior(sheet: Sheet, found: Posterior) -> None:
-    """What the evidence says about each unknown, and all that this rests on."""
-    summary = found.summary(sheet.system.name)
-    sheet.listed([plain(note) for note in summary.notes])
-    for part in summary.parts:
-        if not part.folded:
-            # The evidence has no heading of its own in the summary.
-            sheet.heading(part.heading or "How well model and priors predict the observations")
-            heads = part.columns or (
-                "stated" if part.heading else "natural logarithm ± error of sampling",
-            )
-            sheet.table(
-                [
-                    (plain(name), *row)
-                    for name, *texts in part.rows
-                    for row in zip(heads, texts, strict=True)
-                ]
-            )
-    sheet.say(f"{summary.title}, seed {found.seed}.")
 
 
 def findings(sheet: Sheet, found: Findings) -> None:
