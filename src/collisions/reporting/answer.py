@@ -51,9 +51,9 @@ def answer(
     findings, into the box that is open.
     """
     names = spread.names
-    shown = list(_figures(sheet, result, spread, uncertainty, asked))
+    shown = figures_of(sheet, result, spread, uncertainty, asked)
     sheet.figures_of_answer([(figure.what, figure.text) for figure in shown])
-    sheet.say(_rests_on(result, names))
+    sheet.say(rests_on(result, names))
     bare = [figure for figure in shown if not figure.ranged]
     if bare and len(bare) == len(shown):
         sheet.say(f"No range is stated for these figures{f': {_NO_RANGE}' if alone else '.'}")
@@ -72,6 +72,17 @@ def answer(
         )
     if lines:
         sheet.items(lines)
+
+
+def figures_of(
+    sheet: Sheet,
+    result: Any,
+    spread: Spread,
+    uncertainty: Propagation | None,
+    asked: Sequence[str] | None,
+) -> list[Figure]:
+    """The figures of an answer: those asked for by name, or those that a reader looks for."""
+    return list(_figures(sheet, result, spread, uncertainty, asked))
 
 
 def _figures(
@@ -173,7 +184,7 @@ def _estimate(system: Numbers, one: Any) -> str:
     return f"{system.span(low, high, kind, 0.5 * (high - low))}{unit} (95 %)"
 
 
-def _rests_on(result: Any, names: Names) -> str:
+def rests_on(result: Any, names: Names) -> str:
     """What an answer rests on, in one sentence."""
     if isinstance(result, Fit):
         count = len(result.residuals)

@@ -28,6 +28,7 @@ from . import sections
 from .posterior_part import names_of_notes
 from .render import plain
 from .sections import EVIDENCE
+from .together import Together, together_of
 
 Form: TypeAlias = Literal["html", "markdown"]
 # What a page is filed under.
@@ -52,28 +53,25 @@ class Checked(NamedTuple):
     outlines: dict[str, Any]
 
 
-def results_of(impact: Any, uncertainty: Any) -> list[tuple[Any, Any]]:
-    """Each result of a report with its propagation, if any."""
+def results_of(impact: Any, uncertainty: Any) -> tuple[list[tuple[Any, Any]], Together | None]:
+    """Each result of a report with its propagation, if any; and what was found of a scene with its
+    run, if the list has one.
+    """
     if not isinstance(impact, list):
         need_one_case(impact, _RESULTS, "report", instead=NOT_EXPLAINED)
-        return [(impact, uncertainty)]
+        return [(impact, uncertainty)], None
     if not impact:
         raise InputError(
             "impact is an empty list; give the results that the page is about",
             code="not_an_impact",
             argument="impact",
         )
+    together = together_of(impact)
     for one in impact:
-        if isinstance(one, Run):
-            raise InputError(
-                "impact has a run of a scene in its list, which has a page of its own with a part "
-                "for each impact: write `report(run)`, and `uncertainty=` for what was propagated",
-                code="not_an_impact",
-                argument="impact",
-            )
-        need_one_case(one, _RESULTS, "report", instead=NOT_EXPLAINED)
+        if not isinstance(one, Run):
+            need_one_case(one, _RESULTS, "report", instead=NOT_EXPLAINED)
     if uncertainty is None:
-        return [(one, None) for one in impact]
+        return [(one, None) for one in impact], together
     if not isinstance(uncertainty, list) or len(uncertainty) != len(impact):
         raise InputError(
             f"uncertainty must be a list of {len(impact)} for as many results, each what "
@@ -86,11 +84,22 @@ def results_of(impact: Any, uncertainty: Any) -> list[tuple[Any, Any]]:
             code="bad_option",
             argument="uncertainty",
         )
-    return list(zip(impact, uncertainty, strict=True))
+    pairs = list(zip(impact, uncertainty, strict=True))
+    if any(isinstance(one, Run) and its is not None for one, its in pairs):
+        raise InputError(
+            "uncertainty has a propagation for a run that stands beside what was found of its "
+            "scene, from which its ranges come; write None in its place",
+            code="bad_option",
+            argument="uncertainty",
+        )
+    return pairs, together
 
 
 def checked(
-    results: Sequence[tuple[Any, Any]], options: Mapping[str, Any], unusual: Sequence[str]
+    results: Sequence[tuple[Any, Any]],
+    options: Mapping[str, Any],
+    unusual: Sequence[str],
+    run: Run | None = None,
 ) -> Checked:
     """What the options say; one error names every one that cannot be used."""
     reader = ArgumentReader()
@@ -116,6 +125,8 @@ def checked(
     }
     several = len(results) > 1
     known = _can_have_notes(results, options)
+    if run is not None:
+        known += [name for name in run.scene.inputs() if name not in known]
     for name in [name for name in beside if name not in known]:
         instead = (
             f"they are {', '.join(known)}"

@@ -159,8 +159,8 @@ def _of_outputs(
             _draw(sheet, f"distribution-{number}", caption, plot.distribution, drawn_of, **options)
         if not of_posterior and len(shares_of(output)) != 1:
             caption = (
-                f"{_begun(name)}, and the share of its variance that each input brings, by itself and in "
-                "all."
+                f"{_begun(name)}, and the share of its variance that each input brings, by itself "
+                "and in all."
             )
             options["inputs"] = spread.words_of(uncertainty)
             _draw(
