@@ -53,6 +53,7 @@ _UNITS: dict[str, str | None] = {
             "outline_b",
             "limits",
             "notes",
+            "answers",
             "figures",
             "derivation",
             "author",

@@ -71,7 +71,7 @@ def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -
     spread = Spread(run, uncertainty)
     _answer(sheet, run, found, draws, spread, uncertainty)
     _start(sheet, run)
-    _vehicles(sheet, run)
+    vehicles(sheet, run)
     for number, (time, pair, impact) in enumerate(
         zip(run.times, run.pairs, run.impacts, strict=True)
     ):
@@ -258,9 +258,12 @@ def _start(sheet: Sheet, run: Run) -> None:
     sheet.table(rows)
 
 
-def _vehicles(sheet: Sheet, run: Run) -> None:
-    """What each vehicle moves on, and the surfaces."""
+def vehicles(sheet: Sheet, run: Run, marks: Mapping[str, str] | None = None) -> None:
+    """What each vehicle moves on, and the surfaces; ``marks`` are words behind numbers that were
+    not given, by their paths.
+    """
     rows = []
+    marked = {path: f", {word}" for path, word in (marks or {}).items()}
     for name, mover in run.scene.movers.items():
         of = plain(name)
         if mover.outline is not None:
@@ -269,10 +272,13 @@ def _vehicles(sheet: Sheet, run: Run) -> None:
             )
             rows.append((of, "outline", f"{length} by {width}"))
         if mover.drag is not None:
-            rows.append((of, "drag factor", sheet.number(float(mover.drag), "number")))
+            drag, word = float(mover.drag), marked.get(f"{name}.drag", "")
+            text = sheet.system.answer(drag, "number") if word else sheet.number(drag, "number")
+            rows.append((of, "drag factor", text + word))
         if mover.tyres is not None:
-            for _, what, value, kind in wheel_rows(mover.tyres):
-                rows.append((of, what, sheet.number(float(value), kind)))
+            for part, what, value, kind in wheel_rows(mover.tyres):
+                word = marked.get(f"{name}.tyres.{part}", "")
+                rows.append((of, what, sheet.number(float(value), kind) + word))
         if mover.drag is None and mover.tyres is None:
             rows.append((of, "slowed by", "nothing"))
     for number, (corners, friction) in enumerate(run.scene.surfaces):

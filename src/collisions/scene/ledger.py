@@ -70,7 +70,7 @@ def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any, cases: Any 
         transfers=tyres.transfers,
     )
     power, use = np.zeros(count), np.empty((4, count))
-    weight = 0.25 * take(mover.vehicle.mass) * gravity_on(*ground.slope)
+    weight = 0.25 * take(mover.vehicle.mass) * gravity_on(*map(take, ground.slope))
     for at, (along, across, load) in enumerate(wheels):
         pull = load * here[at] * weight
         power -= pull * (along * (forward - turn * aside[at]) + across * (left + turn * ahead[at]))
