@@ -22,7 +22,15 @@ from ..uncertainty.distribution import stated_in
 from ..uncertainty.distributions import Censored, Distribution, Normal, Samples, Uniform
 from ..uncertainty.normal import power_of_two
 from ..uncertainty.probability import holds
-from ..uncertainty.result import Sampled, Shares, correlations, outputs_part, units_of
+from ..uncertainty.result import (
+    Sampled,
+    Shares,
+    correlations,
+    outputs_part,
+    units_of,
+    wrap_notes,
+    wraps_of,
+)
 from .fit_result import CONTRADICTION, Residual, SpeedsFound, agreement, with_unit
 from .worked_out import in_words, stated, worked_out
 
@@ -271,11 +279,12 @@ class Posterior(SpeedsFound, Summarized):
         source = np.random.SeedSequence(self.seed, spawn_key=(5, len(self.results)))
         values, own, notes = worked_out(name, function, unit, arguments, self._outputs, source)
         islands = next(iter(self.unknowns.values()))._islands
-        warn_of(notes)
+        output = PosteriorOutput(name, own, values, islands)
+        warn_of((*notes, *wrap_notes(wraps_of({name: output}))))
         return replace(
             self,
             draws=read_only(self.draws | {name: values}),
-            results=self.results | {name: PosteriorOutput(name, own, values, islands)},
+            results=self.results | {name: output},
             results_from=self.results_from | {name: stated(function, arguments)},
             model_notes=self.model_notes + notes,
         )
@@ -475,6 +484,7 @@ def notes_of(found: Posterior) -> Iterator[Note]:
             "; run the finer model alone: posterior(finer, unknowns, observed)",
             "beyond_model",
         )
+    yield from wrap_notes(wraps_of(found._outputs))
     if found.interrupted:
         sentence = f"interrupted; the figures are those of {found.samples} samples"
         yield Note(CollisionsWarning, sentence, code="interrupted")
