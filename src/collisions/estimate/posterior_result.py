@@ -280,7 +280,8 @@ class Posterior(SpeedsFound, Summarized):
         values, own, notes = worked_out(name, function, unit, arguments, self._outputs, source)
         islands = next(iter(self.unknowns.values()))._islands
         output = PosteriorOutput(name, own, values, islands)
-        warn_of((*notes, *wrap_notes(wraps_of({name: output}))))
+        notes += tuple(wrap_notes(wraps_of({name: output})))
+        warn_of(notes)
         return replace(
             self,
             draws=read_only(self.draws | {name: values}),
@@ -484,7 +485,6 @@ def notes_of(found: Posterior) -> Iterator[Note]:
             "; run the finer model alone: posterior(finer, unknowns, observed)",
             "beyond_model",
         )
-    yield from wrap_notes(wraps_of(found._outputs))
     if found.interrupted:
         sentence = f"interrupted; the figures are those of {found.samples} samples"
         yield Note(CollisionsWarning, sentence, code="interrupted")

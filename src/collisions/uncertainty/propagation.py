@@ -171,7 +171,8 @@ def propagate(
     Warns
     -----
     OutOfRangeWarning
-        Cases had no answer, or a local method differs from the model.
+        Cases had no answer, or a local method differs from the model; or an output looks like an
+        angle that jumps, or has directions to all sides, so that its mean means nothing, or little.
 
     Examples
     --------
