@@ -1135,3 +1135,32 @@ def test_results_that_do_not_follow(change, kind, code):
     with pytest.raises(kind) as caught:
         found.with_result(name, function, unit, **given)
     assert code is None or caught.value.code == code
+
+
+@pytest.mark.parametrize("returned", ["to a full turn", "to half a turn"])
+def test_a_predicted_direction_that_jumps_is_told(returned):
+    """A heading about 0 that is returned in 0 to 360 degrees has a mean between both ends, and is
+    told; what the warning says to return has the prior's mean and deviation.
+    """
+
+    def model(heading, speed):
+        angle = np.degrees(heading) % 360.0
+        if returned == "to half a turn":
+            angle = (angle + 180.0) % 360.0 - 180.0
+        return {"heading after": pint.Quantity(angle, "deg"), "video": speed}
+
+    unknowns = {"heading": Normal("0 deg", "5 deg"), "speed": Uniform(5.0, 15.0)}
+    observed = {"video": (10.0, 0.5)}
+
+    def asked():
+        return posterior(model, unknowns, observed, seed=1, samples=2048)
+
+    if returned == "to a full turn":
+        with pytest.warns(col.OutOfRangeWarning, match="near a full turn") as caught:
+            found = asked()
+        assert [one.message.code for one in caught] == ["may_wrap"]
+        assert any("near a full turn" in said for said in found.statements)
+        return
+    found = asked()["heading after"]
+    assert math.degrees(found.mean) == pytest.approx(0.0, abs=0.8)
+    assert math.degrees(found.std) == pytest.approx(5.0, rel=0.1)

@@ -21,7 +21,6 @@ from ..messages.warning import Note, notes_of_samples, warn_of
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
 from ..quantities.units import rendered, shown
-from . import turns
 from .correction import Corrected, CorrectedOutput, corrected
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
@@ -41,7 +40,7 @@ from .model import (
 )
 from .one_sided import Answers
 from .one_sided_output import OneSidedOutput, one_sided_notes
-from .result import Output, Propagation, Sampled, Shares
+from .result import Output, Propagation, Sampled, Shares, wrap_notes, wraps_of
 from .sampling import Correlation, Joint, Sample, sampled_shares
 
 Method: TypeAlias = Literal[
@@ -172,7 +171,8 @@ def propagate(
     Warns
     -----
     OutOfRangeWarning
-        Cases had no answer, or a local method differs from the model.
+        Cases had no answer, or a local method differs from the model; or an output looks like an
+        angle that jumps, or has directions to all sides, so that its mean means nothing, or little.
 
     Examples
     --------
@@ -595,15 +595,13 @@ def _sampled(
         )
         for name, values in sample.outputs.items()
     }
-    wraps = {name: output._wraps() for name, output in outputs.items()}
-    wrapped = {name: where for name, where in wraps.items() if where is not None}
     return Run(
         outputs,
         sample.done,
         count_failed(sample.outputs),
         sample.interrupted,
         unreached,
-        wrapped,
+        wraps_of(outputs),
         corrected=better,
     )
 
@@ -719,44 +717,7 @@ def _notes(
         sentence = f"interrupted after {count} cases; the figures are theirs{rest}"
         notes.append(Note(CollisionsWarning, sentence, code="interrupted", fields={"done": count}))
     wrapped = {name: where for run in reversed(runs) for name, where in run.wrapped.items()}
-    for kind, text, cure in (
-        (
-            turns.AT_HALF_TURN,
-            "has values near pi and near -pi: if it is an angle, its mean means nothing",
-            ". Return it with its unit (impact.a.q.pdof), so that it is known to be one",
-        ),
-        (
-            turns.AT_FULL_TURN,
-            (
-                "has values near 0 and near a full turn, 2 pi, and few somewhere between: if it is "
-                "a direction, its mean means nothing"
-            ),
-            (
-                ". Return it with its unit and between -180 and 180 deg, as by `(angle + 180) % "
-                "360 - 180`, so that it is counted round the circle"
-            ),
-        ),
-        (
-            turns.ALL_ROUND,
-            (
-                "has directions so far round the circle from one another that its mean tells "
-                "little: the mean errs by more than their spread shows, or another one far from "
-                "it is about as good"
-            ),
-            "",
-        ),
-    ):
-        names = tuple(name for name, where in wrapped.items() if where == kind)
-        if names:
-            notes.append(
-                Note(
-                    OutOfRangeWarning,
-                    f"{', '.join(names)} {text}",
-                    cure,
-                    "may_wrap",
-                    {"outputs": names},
-                )
-            )
+    notes += wrap_notes(wrapped)
     return tuple(notes)
 
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..messages.errors import InputError
+from ..messages.errors import InputError, OutOfRangeWarning
 from ..messages.warning import Note
 from ..quantities.attributes import (
     OWN_UNIT,
@@ -709,6 +709,52 @@ class Sampled(Output):
         ]
         middle, turn = average(self._answered), 2.0 * math.pi
         return [one + turn * np.rint((middle - np.nanmean(one)) / turn) for one in counted]
+
+
+def wraps_of(outputs: Mapping[str, Sampled]) -> dict[str, str]:
+    """By name of the outputs that look like an angle that jumps, or point to all sides, which."""
+    wraps = {name: output._wraps() for name, output in outputs.items()}
+    return {name: where for name, where in wraps.items() if where is not None}
+
+
+def wrap_notes(wrapped: Mapping[str, str]) -> Iterator[Note]:
+    """That means of these outputs mean nothing, or little."""
+    for kind, text, cure in (
+        (
+            angles.AT_HALF_TURN,
+            "has values near pi and near -pi: if it is an angle, its mean means nothing",
+            ". Return it with its unit (impact.a.q.pdof), so that it is known to be one",
+        ),
+        (
+            angles.AT_FULL_TURN,
+            (
+                "has values near 0 and near a full turn, 2 pi, and few somewhere between: if it is "
+                "a direction, its mean means nothing"
+            ),
+            (
+                ". Return it with its unit and between -180 and 180 deg, as by `(angle + 180) % "
+                "360 - 180`, so that it is counted round the circle"
+            ),
+        ),
+        (
+            angles.ALL_ROUND,
+            (
+                "has directions so far round the circle from one another that its mean tells "
+                "little: the mean errs by more than their spread shows, or another one far from "
+                "it is about as good"
+            ),
+            "",
+        ),
+    ):
+        names = tuple(name for name, where in wrapped.items() if where == kind)
+        if names:
+            yield Note(
+                OutOfRangeWarning,
+                f"{', '.join(names)} {text}",
+                cure,
+                "may_wrap",
+                {"outputs": names},
+            )
 
 
 @dataclass(eq=False, repr=False)
