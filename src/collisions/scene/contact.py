@@ -14,7 +14,7 @@ from ..messages.hints import hinted
 from ..quantities.attributes import Shown, read_only, texts_given
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader, at_least_zero
-from ..quantities.refusals import must_be, yes_or_no
+from ..quantities.refusals import must_be, one_of, yes_or_no
 from ..quantities.settings import Default
 from ..quantities.units import Input, Pair, Texts, Value, shown, texts_of
 from ..vehicle.drag import one_value, read_duration
@@ -224,7 +224,14 @@ class Contact(Shown):
         -------
         object
             Of a pair a tuple of both.
+
+        Raises
+        ------
+        InputError
+            A name that is none of these.
         """
+        if not isinstance(name, str) or name not in NAMES:
+            raise one_of("name", NAMES, name, code="unknown_name")
         value, texts = getattr(self, name), self.given
         if isinstance(value, tuple) and name not in texts:
             return tuple(texts.get(f"{name}[{i}]", part) for i, part in enumerate(value))
