@@ -76,8 +76,9 @@ class Contact(Shown):
         about the maximum engagement at which the states are; the vehicles go on from where it
         leaves them, and one that touches another meanwhile strikes it when the contact has ended.
         With the model "eccentric" it is for the impulse of the tyres; the vehicles then move on by
-        the velocities after it until it has passed, and from there on their tyres. For "solve",
-        both.
+        the velocities after it until it has passed, and from there on their tyres: that is the
+        duration, and at time 0 half of it, as the states there are those of maximum engagement,
+        with half of the contact before them. For "solve", both.
     tolerance : float, str, Quantity or array [m/s], optional
         With the model "solve", the largest error that is accepted.
     friction, impulse_ratio, critical_fraction : float, str, Quantity or array [-], optional
