@@ -675,6 +675,8 @@ def test_quantities(chained):
     ) as caught:
         _ = chained["ratio"].q
     assert caught.value.code == "no_unit"
+    # A number of a function has a Quantity of its own.
+    assert "travel.q.speed(...) in place of travel.speed(...)" in str(caught.value)
 
 
 def test_other_units_are_turned_into_si():

@@ -482,15 +482,20 @@ def as_function(
     from ..quantities.units import shown, to_quantity
     from .run import Run, warn_of_findings
 
-    for argument, listed in (("names", names), ("outputs", outputs)):
-        if isinstance(listed, str) or not _can_be_listed(listed):
+    listed = {}
+    for argument, given in (("names", names), ("outputs", outputs)):
+        read = _paths_in(given)
+        if read is None:
             raise InputError(
-                f"{argument} must be a list of paths, such as ['Camry.vx'], got {shown(listed)}",
+                f"{argument} must be a list of paths, such as ['Camry.vx'], got {shown(given)}",
                 code="bad_shape",
                 argument=argument,
             )
-    known, wanted = {*inputs_of(scene)}, tuple(outputs)
-    for name in names:
+        listed[argument] = read
+    known, wanted = {*inputs_of(scene)}, listed["outputs"]
+    for name in listed["names"]:
+        if not isinstance(name, str):
+            raise no_path(name, inputs_of(scene), "names")
         if name not in known:
             _owner(scene, name)
     units = {path: unit_of_result(scene, path) for path in wanted}
@@ -509,10 +514,14 @@ def as_function(
     return model
 
 
-def _can_be_listed(value: Any) -> bool:
-    """Whether something is a collection; a Quantity of one number has the method, and is none."""
+def _paths_in(given: Any) -> tuple[Any, ...] | None:
+    """What a collection holds; None of one text and of what is none.
+
+    A Quantity of one number has the method of a collection.
+    """
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        return None
     try:
-        iter(value)
+        return tuple(given)
     except TypeError:
-        return False
-    return True
+        return None

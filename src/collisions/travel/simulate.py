@@ -128,15 +128,23 @@ class SimulatedPath(Shown):
         read = one_value(reader, time, "s", "time")
         reader.close()
         cases = self.time.shape[1:]
-        wanted = np.broadcast_to(
-            np.asarray(read, float), np.broadcast_shapes(np.shape(read), cases)
-        )
-        if self.time.ndim > 1 and wanted.shape != cases:
-            text = (
-                f"time has the shape {np.shape(read)}, and takes one value, or one for each "
-                f"case: {cases}"
+        if not cases and np.ndim(read):
+            raise ShapeError(
+                f"time is an array of shape {np.shape(read)}, and this motion is one case, at one "
+                "time; its time, x, y and the like have all moments, or write "
+                "`|[path.at(one) for one in times]|time as one number`",
+                code="bad_shape",
+                argument="time",
             )
-            raise ShapeError(text, code="bad_shape", argument="time")
+        try:
+            wanted = np.broadcast_to(np.asarray(read, float), cases)
+        except ValueError:
+            raise ShapeError(
+                f"time has the shape {np.shape(read)}, and takes one value, or one for each "
+                f"case: {cases}",
+                code="bad_shape",
+                argument="time",
+            ) from None
         last, end = self.time[-1], self.end
         moves = _moves(end)
         lost = moves & (wanted > last)

@@ -151,7 +151,8 @@ class Output(Summarized):
         if self.unit is None:
             raise InputError(
                 f"{self.name!r} has no unit, because the model returned plain numbers; return a "
-                "Quantity such as impact.a.q.delta_v",
+                "Quantity: impact.a.q.delta_v in place of impact.a.delta_v, and of what a function "
+                "gives as a number, travel.q.speed(...) in place of travel.speed(...)",
                 code="no_unit",
                 argument=self.name,
             )
