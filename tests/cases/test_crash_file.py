@@ -143,8 +143,8 @@ def test_uncertain_numbers_have_the_paths_of_the_scene() -> None:
     page = found.report("markdown")
     assert replay(page) == run_at(found.case, {})
     assert "road | 0.6 to 0.8" in page
-    assert "A.speed: Stated as 50 ± 3 km/h." in page
-    assert re.search(r"B.rest.x:\*\* [\d.]+ to [\d.]+ m \(95 %\)", page)
+    assert "speed of A at the start: Stated as 50 ± 3 km/h." in page
+    assert re.search(r"position x of B at rest:\*\* [\d.]+ to [\d.]+ m \(95 %\)", page)
 
 
 def test_an_area_and_a_slope_that_are_not_known_exactly() -> None:
@@ -153,6 +153,10 @@ def test_an_area_and_a_slope_that_are_not_known_exactly() -> None:
         '[scene]\nslope = ["1 % .. 2 %", 0]\n'
     )
     assert list(read_text(text.encode()).uncertain) == ["surfaces[0]", "slope[0]"]
+    page = answers(read_text((text + "[propagate]\nsamples = 64\n").encode())).report("markdown")
+    notes = page[page.index("## Notes") : page.index("## Figures")]
+    assert "\nfriction of surface 1: Stated as 0.2 to 0.4" in notes
+    assert "\nslope of the ground along x, y: Stated as 1 to 2 %" in notes
 
 
 def test_without_outputs_delta_v_and_places_of_rest_are_asked_for() -> None:

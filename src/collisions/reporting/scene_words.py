@@ -15,11 +15,13 @@ _MOTION = {
     "course": "course",
     **{name: what for name, (what, _) in OF_VEHICLE.items() if name not in ("mass", "yaw_inertia")},
 }
+_SLOPES = {"slope": "x, y", "slope[0]": "x", "slope[1]": "y"}
 _AT_REST = {"x": "position x", "y": "position y", "heading": "heading"}
 _OF_CONTACT = {
     "restitution": "restitution",
     "friction": "friction",
     "normal": "normal",
+    "point": "point",
     "point[0]": "x of the point",
     "point[1]": "y of the point",
     "at": "time",
@@ -43,11 +45,13 @@ _MARK = re.compile(r"(.+)\.marks\.(\w+)\.(begin|end|distance)\.?(.+)")
 
 
 def input_in_words(scene: Scene, path: str) -> str:
-    """An input of a scene; a name that several share as it was given."""
+    """An input of a scene, or the pair that two are of; a name that several share as it was
+    given.
+    """
     if path in scene.shared:
         return path
-    if path.startswith("slope["):
-        return f"slope of the ground along {'xy'[int(path[6])]}"
+    if path in _SLOPES:
+        return f"slope of the ground along {_SLOPES[path]}"
     if found := _AREA.fullmatch(path):
         return f"friction of surface {int(found[1]) + 1}"
     if found := _CONTACT.fullmatch(path):
