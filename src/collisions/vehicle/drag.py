@@ -28,10 +28,10 @@ def gravity_on(*rises: Any) -> Any:
 
     Times this, friction, drag and the rise over the run itself are decelerations along the ground.
     """
-    length: Any = 1.0
-    for rise in rises:
-        length = hypot(length, rise)
-    return GRAVITY / length
+    steep = rises[0]
+    for rise in rises[1:]:
+        steep = hypot(steep, rise)
+    return GRAVITY / hypot(1.0, steep)
 
 
 # No road tyre holds more than this on any road: beyond, a bare number is in another unit.
