@@ -7,7 +7,6 @@ from __future__ import annotations
 import itertools
 import math
 
-import numpy as np
 import pytest
 
 import collisions as col
@@ -356,38 +355,6 @@ def test_energy_closes_on_any_ground(slope: tuple[object, object], slowed: objec
         energy = scene.run(tolerance=tolerance).energy
         closes = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
         assert abs(closes) < share * energy["before"]
-
-
-@pytest.mark.parametrize("slowed", [{"drag": 0.7}, {"tyres": Tyres(0.7, 1.0, 2.7, 1.5)}])
-@pytest.mark.parametrize(("rise", "course"), [(0.15, 0.0), (-0.2, 2.0)])
-def test_a_slide_on_a_slope_is_that_of_a_block_on_an_inclined_plane(
-    slowed: dict[str, object], rise: float, course: float
-) -> None:
-    """Way, time and energy, of one case and of a batch with the level beside it: the load is that
-    across the plane, and the weight pulls down it; with tyres to the promised 1e-3 and nearer.
-    """
-    c, s = math.cos(course), math.sin(course)
-    body = col.Vehicle(
-        mass=1500.0, yaw_inertia=2400.0, x=0.0, y=0.0, heading=course, vx=20.0 * c, vy=20.0 * s
-    )
-    ground = {"contacts": [], "movers": {"A": Mover(body, **slowed)}}
-    angle = math.atan(rise)
-    slowing = col.travel.GRAVITY * (0.7 * math.cos(angle) + math.sin(angle))
-    way, time = 20.0**2 / (2.0 * slowing), 20.0 / slowing
-    run = Scene(slope=(rise * c, rise * s), **ground).run()
-    assert (run.rest["A"].x, run.rest["A"].y) == pytest.approx((way * c, way * s), rel=1e-6)
-    assert run.end == pytest.approx(time, rel=1e-6)
-    assert run.energy["ground"] == pytest.approx(0.5 * 1500.0 * 20.0**2, rel=1e-6)
-    path = run["A"].path
-    # A place moves as fast as the speed says.
-    rates = np.gradient(path.x, path.time, edge_order=2)[1:-1]
-    assert rates == pytest.approx(path.vx[1:-1], abs=2e-2)
-    both = np.array([rise, 0.0])
-    many = Scene(slope=(both * c, both * s), **ground).run()
-    assert np.hypot(many.rest["A"].x, many.rest["A"].y) == pytest.approx(
-        [way, 20.0**2 / (2.0 * 0.7 * col.travel.GRAVITY)], rel=1e-6
-    )
-    assert many.end == pytest.approx([time, 20.0 / (0.7 * col.travel.GRAVITY)], rel=1e-6)
 
 
 def test_cars_that_touch_as_the_scene_begins_collide_at_once() -> None:

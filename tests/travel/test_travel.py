@@ -129,14 +129,13 @@ def exact(segments, end):
         square = mpmath.mpf(end) ** 2
         found = [mpmath.sqrt(square)]
         for d, f, g in reversed(segments):
-            root = mpmath.sqrt(1 + mpmath.mpf(g) ** 2)
-            work = 2 * mpmath.mpf(travel.GRAVITY) * (mpmath.mpf(f) + mpmath.mpf(g)) / root
-            square += work * mpmath.mpf(d)
+            square += (
+                2 * mpmath.mpf(travel.GRAVITY) * (mpmath.mpf(f) + mpmath.mpf(g)) * mpmath.mpf(d)
+            )
             found.append(mpmath.sqrt(square) if square >= 0 else mpmath.nan)
         found.reverse()
-        times = [
-            2 * d / (a + b) for (d, _, _), a, b in zip(segments, found, found[1:], strict=False)
-        ]
+        slopes = [d * mpmath.sqrt(1 + mpmath.mpf(g) ** 2) for d, _, g in segments]
+        times = [2 * s / (a + b) for s, a, b in zip(slopes, found, found[1:], strict=False)]
         return found, times
 
 
@@ -144,8 +143,8 @@ def exact(segments, end):
 @run_often
 @given(st.lists(st.tuples(lengths, st.floats(0.31, 1.4), grades), min_size=1, max_size=6), speeds)
 def test_speed_and_time_keep_their_digits(segments, end):
-    """2 eps for the speed gained over a segment, which with the root of the grade and the quotient
-    by it is all that is lost there, and one more for each sum of squares; the times add three."""
+    """2 eps for the speed gained over a segment, one more for each sum of squares; the times add
+    three: one and a half each for the length of the slope and for the quotient."""
     given_ = {
         "drag": [f for _, f, _ in segments],
         "grade": [g for _, _, g in segments],
@@ -163,9 +162,8 @@ def test_speed_and_time_keep_their_digits(segments, end):
 @run_often
 @given(lengths, st.floats(0.0, 0.1), st.floats(-0.4, -0.11), speeds)
 def test_downhill_beyond_the_drag_the_condition_is_all_that_is_lost(d, f, g, end):
-    """2 eps in each of two squares that are subtracted, and 1 more in that of the way for the root
-    of the grade and the quotient by it: 5 eps times their sum over their difference, and 1 for the
-    product.
+    """2 eps in each of two squares that are subtracted: 4 eps times their sum over their
+    difference, and 1 for the product.
     """
     (start, _), _ = exact([(d, f, g)], end)
     if mpmath.isnan(start) or start < 1e-3:
@@ -177,25 +175,24 @@ def test_downhill_beyond_the_drag_the_condition_is_all_that_is_lost(d, f, g, end
         return
     condition = (2 * end**2 - float(start) ** 2) / float(start) ** 2
     assert travel.speed(d, drag=f, grade=g, end_speed=end) == pytest.approx(
-        float(start), rel=(1 + 5 * condition) * EPS
+        float(start), rel=(1 + 4 * condition) * EPS
     )
 
 
 @run_often
 @given(speeds, speeds, drags, grades)
 def test_distance_keeps_its_digits(one, other, f, g):
-    """Eight roundings of half an eps."""
+    """Six roundings of half an eps."""
     if f + g == 0.0:
         return
     start, end = (
         (max(one, other), min(one, other)) if f + g > 0 else (min(one, other), max(one, other))
     )
     with mpmath.workdps(50):
-        root = mpmath.sqrt(1 + mpmath.mpf(g) ** 2)
-        work = 2 * mpmath.mpf(travel.GRAVITY) * (mpmath.mpf(f) + mpmath.mpf(g)) / root
+        work = 2 * mpmath.mpf(travel.GRAVITY) * (mpmath.mpf(f) + mpmath.mpf(g))
         wanted = float((mpmath.mpf(start) ** 2 - mpmath.mpf(end) ** 2) / work)
     assert travel.distance(start, drag=f, grade=g, end_speed=end) == pytest.approx(
-        wanted, rel=4 * EPS, abs=5e-324
+        wanted, rel=3 * EPS, abs=5e-324
     )
 
 
@@ -219,12 +216,8 @@ def test_products_do_not_overflow_where_the_answer_does_not(d, f):
     with mpmath.workdps(50):
         wanted = float(mpmath.sqrt(2 * mpmath.mpf(travel.GRAVITY) * mpmath.mpf(d) * mpmath.mpf(f)))
     assert travel.speed(d, drag=f) == pytest.approx(wanted, rel=3 * EPS)
-    with mpmath.workdps(50):
-        root = mpmath.sqrt(1 + mpmath.mpf(f) ** 2)
-        work = 2 * mpmath.mpf(travel.GRAVITY) * mpmath.mpf(d) * (mpmath.mpf(f) / root)
-        gained = float(mpmath.sqrt(work))
-    assert travel.speed(d, drag=0, grade=-f, end_speed=2 * gained) == pytest.approx(
-        math.sqrt(3) * gained, rel=6 * EPS
+    assert travel.speed(d, drag=0, grade=-f, end_speed=2 * wanted) == pytest.approx(
+        math.sqrt(3) * wanted, rel=6 * EPS
     )
 
 
@@ -266,10 +259,10 @@ def slid_down(slopes, end, steps=200):
     """A point mass followed back in time over inclined planes, by the forces on it: weight, load
     across the plane, and drag.
 
-    Of each slope drag, grade and duration, the last one first. Distances along the slopes, speed,
-    and how long it took; Runge-Kutta, which is exact where a force is constant.
+    Of each slope drag, grade and duration, the last one first. Plan distances, speed, and how long
+    it took; Runge-Kutta, which is exact where a force is constant.
     """
-    speed, ways = end, []
+    speed, plans = end, []
     for drag, grade, duration in slopes:
         angle = math.atan(grade)
         along, across = (
@@ -291,9 +284,9 @@ def slid_down(slopes, end, steps=200):
             k4 = rate(velocity + step * k3)
             place = place + step * velocity + step**2 / 6 * (k1 + k2 + k3)
             velocity = velocity + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-        ways.append(-float(place @ along))
+        plans.append(-float(place[0]))
         speed = float(np.hypot(*velocity))
-    return ways, speed, sum(duration for _, _, duration in slopes)
+    return plans, speed, sum(duration for _, _, duration in slopes)
 
 
 @pytest.mark.parametrize(
@@ -306,23 +299,23 @@ def slid_down(slopes, end, steps=200):
     ],
 )
 def test_speed_time_and_distance_are_those_of_a_body_on_inclined_planes(slopes):
-    """Lengths, speeds and times, all along the slope; 200 steps of some roundings each are below
-    1e-12.
+    """Lengths of the plan, speeds along the slope, times over it; 200 steps of some roundings each
+    are below 1e-12.
     """
     end = 12.0 if slopes[0][0] else 30.0
-    ways, start, duration = slid_down(slopes, end)
+    plans, start, duration = slid_down(slopes, end)
     ground = {
         "drag": [drag for drag, _, _ in slopes][::-1],
         "grade": [grade for _, grade, _ in slopes][::-1],
     }
-    assert travel.speed(ways[::-1], **ground, end_speed=end) == pytest.approx(start, rel=1e-12)
-    assert travel.time(ways[::-1], **ground, end_speed=end) == pytest.approx(duration, rel=1e-12)
+    assert travel.speed(plans[::-1], **ground, end_speed=end) == pytest.approx(start, rel=1e-12)
+    assert travel.time(plans[::-1], **ground, end_speed=end) == pytest.approx(duration, rel=1e-12)
     if len(slopes) == 1:
         drag, grade, _ = slopes[0]
         found = travel.distance(start, drag=drag, grade=grade, end_speed=end)
         # From a difference of speeds: of two squares, each of a speed that is off by 1e-12.
         assert found == pytest.approx(
-            ways[0], rel=4e-12 * (start**2 + end**2) / abs(start**2 - end**2)
+            plans[0], rel=4e-12 * (start**2 + end**2) / abs(start**2 - end**2)
         )
 
 
@@ -416,8 +409,8 @@ def test_units_of_every_kind():
 
 
 def test_a_deceleration_is_taken_on_the_level():
-    """6.5 m/s**2 up a grade of 10 % slows by 6.5 + 0.98 m/s**2 times the cosine of its angle."""
-    rate = (6.5 + 0.1 * travel.GRAVITY) * math.cos(math.atan(0.1))
+    """6.5 m/s**2 up a grade of 10 % slows by 6.5 + 0.98 m/s**2."""
+    rate = 6.5 + 0.1 * travel.GRAVITY
     assert travel.distance(20.0, drag="6.5 m/s**2", grade=0.1) == pytest.approx(
         200.0 / rate, rel=4 * EPS
     )
@@ -529,13 +522,19 @@ def refusal(call):
             10,
             {"drag": 0.02, "grade": -0.05},
             "contradictory",
-            "square of its speed before would be -5.87665 m2/s2",
+            "square of its speed before would be -5.88399 m2/s2",
         ),
         (
             [5, 10],
             {"drag": 0.1, "grade": [0, -0.2], "end_speed": 1},
             "contradictory",
             "distance[1]: drag + grade is -0.1",
+        ),
+        (
+            1e308,
+            {"drag": 1.0, "end_speed": 1.7e308, "grade": 1e308},
+            "out_of_range",
+            "too large or too small",
         ),
         (1e308, {"drag": 9e306, "end_speed": 1.7e308}, "out_of_range", "too large or too small"),
     ],
@@ -551,14 +550,14 @@ def test_refused_run_outs(distance, rest, code, said):
 
 
 def test_the_refusal_says_by_how_much():
-    """A vehicle that ends at 1 m/s after 10 m down a grade of 5 % against a drag of 0.02:
-    1 - 2 g 0.03 10 cos(atan(0.05)) = -4.87665.
+    """A vehicle that ends at 1 m/s after 10 m down a net grade of 3 %: 1 - 2 g 0.03 10
+    = -4.88399.
     """
     error = refusal(lambda: travel.speed(10, drag=0.02, grade=-0.05, end_speed=1.0))
     assert isinstance(error, col.NoSolutionError)
     # -0.03 is the rounded sum of two decimals, 1 eps of 0.05 beside it.
     assert error.fields["missing"] == pytest.approx(
-        1.0 - 2 * travel.GRAVITY * 0.03 * 10 * math.cos(math.atan(0.05)), rel=16 * EPS
+        1.0 - 2 * travel.GRAVITY * 0.03 * 10, rel=16 * EPS
     )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..kernels.contact_laws import BRACH, FRICTION
 from ..quantities.attributes import same_fields
-from ..vehicle.drag import USUAL_DURATION, gravity_on
+from ..vehicle.drag import GRAVITY, USUAL_DURATION
 from .contact import IN_TIME, Contact
 from .mover import Mover
 from .names import as_function
@@ -194,7 +194,7 @@ def _shares(run: Run, names: Sequence[str]) -> Iterator[tuple[str, float]]:
         tyres = mover.tyres
         assert tyres is not None
         way = float(np.hypot(np.diff(track.x), np.diff(track.y)).sum())
-        weight = mover.vehicle.mass * gravity_on(*run.scene.slope)
+        weight = mover.vehicle.mass * GRAVITY
         if way < _SHORT or not math.isfinite(weight):
             yield name, float(np.mean(tyres.locks))
             continue

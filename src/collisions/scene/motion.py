@@ -19,7 +19,7 @@ from ..quantities.units import Texts, texts_of
 from ..travel.following import ROLLS_ON, Following
 from ..travel.motion import GOES_ON, RESTS
 from ..travel.simulate import prepared, refuse_one
-from ..vehicle.drag import GRAVITY, gravity_on
+from ..vehicle.drag import GRAVITY
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import NAMES, Vehicle, needed, vehicle_of
 from .mover import Mover
@@ -337,7 +337,6 @@ class Course:
                 reach = np.hypot(
                     *(0.5 * take(size) for size in (leg.tyres.wheelbase, leg.tyres.track))
                 )
-                # Gravity on the level, which is a bound on every slope.
                 push[here] = GRAVITY * (most + ground.steepest)
                 spin[here] = GRAVITY * most * reach * take(body.mass) / take(body.yaw_inertia)
             elif self.mover.drag is not None:
@@ -406,8 +405,7 @@ class Course:
             )
         self._fail(which[spins | steep], "never_stops")
         usable = slowing > _LEAST_DRAG
-        pressing = gravity_on(*map(take, self.ground.slope))
-        stops = np.where(usable, speed / (pressing * np.where(usable, slowing, 1.0)), np.inf)
+        stops = np.where(usable, speed / (GRAVITY * np.where(usable, slowing, 1.0)), np.inf)
         return np.where(still, 0.0, stops)
 
     def _followed(self, which: Any, state: Any, tyres: Tyres) -> Following:

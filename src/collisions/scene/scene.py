@@ -57,9 +57,9 @@ class Scene(Shown):
         Areas with a different friction, each with three or more corners [m] in order, for movers
         with tyres. The first that a wheel is in counts.
     slope : pair of float, str, Quantity or array [-]
-        Rise over run of the ground along x and along y, for movers with tyres or a drag. All places
-        and speeds are along the ground, as in ``travel.simulate``. It does not act while a contact
-        lasts: of 0.1 s on a slope of 10 %, that leaves out 0.1 m/s.
+        Rise over run of the ground along x and along y, for movers with tyres or a drag. Places and
+        times are as in ``travel.simulate``. It does not act while a contact lasts: of 0.1 s on a
+        slope of 10 %, that leaves out 0.1 m/s.
     order : list of pairs of names, optional
         The order of the contacts that an account claims, such as ``[("A", "B"), ("B", "C")]``. A
         case that goes otherwise is refused, with the order that it takes.

@@ -2,9 +2,9 @@
 over known ground; and how fast somebody was thrown.
 
 ``drag`` is the deceleration on the level as a fraction of gravity, ``grade`` the rise over the run,
-positive uphill in the direction of travel. Distances, places and speeds are along the ground, as a
-tape laid on it reads, here and in a scene. Distances from a plan are shorter by a factor of
-``sqrt(1 + grade**2)``: 0.5 % at a grade of 10 %.
+positive uphill in the direction of travel. Distances are measured in plan, as on a scene diagram;
+speeds are along the slope, and times are for the length of the slope. A tape laid on the slope
+reads longer by a factor of ``sqrt(1 + grade**2)``: 0.5 % at a grade of 10 %.
 
 Worksheets in US units give the speed in mph as sqrt(30 f d), with d in feet. The constant for
 standard gravity is 29.914, so their speeds are 0.14 % higher than these; those of worksheets that

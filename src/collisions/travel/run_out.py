@@ -59,19 +59,19 @@ class RunOut(Shown):
     Attributes
     ----------
     speed : float or array [m/s]
-        Speed at separation, along the ground.
+        Speed at separation, along the slope.
     course : float or array [rad]
         Direction of motion at separation, the tangent of the path, in (-pi, pi].
     yaw_rate : float or array [rad/s]
         Yaw rate at separation, positive counter-clockwise.
     time : float or array [s]
-        From the first point to the last.
+        From the first point to the last, along the slope of every segment.
     distance : float or array [m]
-        Along the path, on the ground.
+        Along the path, in plan.
     straight_course : float or array [rad]
         Direction from the first point to the last, in (-pi, pi]; NaN where they coincide.
     speeds : tuple of float or array [m/s]
-        Speed at every point, along the ground.
+        Speed at every point, along the slope.
     crab_angles : tuple of float or array [rad]
         For every segment, heading minus course, in (-pi, pi]: positive where the vehicle points to
         the left of its path.
@@ -147,9 +147,8 @@ def path(
     Parameters
     ----------
     points : sequence of pairs, array or Quantity of shape (n, 2) [m]
-        Positions of the centre of mass, at least two, in order of travel: from separation to where
-        the speed is ``end_speed``. They are joined by straight lines, whose lengths are those of a
-        tape on the ground, as in ``speed``.
+        Positions of the centre of mass in plan, at least two, in order of travel: from separation
+        to where the speed is ``end_speed``. They are joined by straight lines.
     headings : sequence, array or Quantity, one for each point [rad]
         Where the vehicle points, counted on through full turns and never reduced: 0, 100, 200, 290
         deg for one that turned 290 deg to the left, 0, -70 deg for one that turned 70 deg to the
@@ -381,9 +380,11 @@ def _run_out(
     drags = _drags(ground, crabs, turns, lengths)
     heavier = _heavier(ground, crabs)
     after = heavier[-1] * end
-    speeds = speeds_along(lengths, drags, ground.grades, after, _leg)
+    speeds = speeds_along(
+        lengths, [drag + rise for drag, rise in zip(drags, ground.grades, strict=True)], after, _leg
+    )
     speeds = [speed / more for speed, more in zip(speeds, heavier, strict=True)]
-    durations = durations_along(lengths, speeds)
+    durations = durations_along(lengths, ground.grades, speeds)
     times = list(accumulate(durations, initial=0.0))
     # Beside a way or a time that is so much longer a segment is lost, and with it the tangent.
     adds = [

@@ -22,7 +22,7 @@ from ..quantities.reading import ArgumentReader, broadcast, is_whole
 from ..quantities.settings import Default
 from ..quantities.tables import Cells, Summary
 from ..quantities.units import Input, Pair, Texts, shown, texts_of
-from ..vehicle.drag import GRAVITY, gravity_on, one_value, read_friction
+from ..vehicle.drag import GRAVITY, one_value, read_friction
 from ..vehicle.tyres import LOCKS, Tyres, kernel_numbers, lifts, not_tyres, refuse_lifting
 from ..vehicle.vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehicle_of
 from .areas import Areas
@@ -242,8 +242,7 @@ def simulate(
         that a wheel is in counts.
     slope : pair of float, str, Quantity or array [-]
         Rise over run of the ground along x and along y of the scene: (0.05, 0) if it rises by 5 %
-        in the direction of x. All places and speeds are along the ground, as a tape laid on it
-        reads and as in ``distance``.
+        in the direction of x.
     rotating_mass : float, str, Quantity or array [-]
         What the rotation of the wheels adds to the mass that has to be slowed, as a fraction of it:
         four times the moment of inertia of a wheel, over the square of its radius and the mass.
@@ -295,8 +294,8 @@ def simulate(
     resistance are left out, and ``friction`` is the same at every speed. Load transfer is left out
     unless ``Tyres`` has a height; then it is that of a vehicle without suspension: with 0.55 m it
     moved the places of rest of 400 spun cars by 5 % of the way in the median, and by 14 % or more
-    in one of ten. Near rest, a rolling tyre is stiffer sideways than in reality. On a slope, the
-    ground is one plane, on which the weight presses with the cosine of its angle.
+    in one of ten. Near rest, a rolling tyre is stiffer sideways than in reality. On a slope,
+    positions are in plan, as in ``distance``.
 
     The integration is of orders 5 and 4 with its own step for each case, in a time that slows down
     with the vehicle, in which the end of the motion is regular. Where the motion is straight, it
@@ -539,9 +538,7 @@ def _prepared(
     size = np.sqrt(rates[0] ** 2 + rates[1] ** 2 + rates[2] ** 2)
     size = np.where(size > 0.0, size, 1.0)
     speed = scale * size
-    pressing = gravity_on(flat["slope[0]"], flat["slope[1]"])
-    pressing = np.where(pressing > 0.0, pressing, GRAVITY)
-    time, length = speed / pressing, speed * (speed / pressing)
+    time, length = speed / GRAVITY, speed * (speed / GRAVITY)
     here = [flat["friction"]] * 4
     lengths = [own.ahead / reach, own.left / reach, own.cos, own.sin, own.over_ahead, own.over_left]
     rest = [

@@ -13,7 +13,7 @@ from ..messages.errors import NoSolutionError, ShapeError
 from ..messages.hints import hinted
 from ..quantities.reading import ArgumentReader
 from ..quantities.units import Input, Value
-from ..vehicle.drag import gravity_on, read_drag
+from ..vehicle.drag import GRAVITY, read_drag
 from .surfaces import (
     Segments,
     durations_along,
@@ -37,7 +37,7 @@ def speed(
     The drag takes a known amount of energy over each surface, so the speeds are chained backward
     from the end::
 
-        v_start**2 = v_end**2 + 2 * GRAVITY * (drag + grade) / sqrt(1 + grade**2) * distance
+        v_start**2 = v_end**2 + 2 * GRAVITY * (drag + grade) * distance
 
     A list or tuple for ``distance`` is for several surfaces in order of travel; drag and grade are
     then one value for all, or a list of the same length. An array is for many cases; arrays
@@ -46,8 +46,7 @@ def speed(
     Parameters
     ----------
     distance : float, str, Quantity, array or list of these [m]
-        Distance along the ground, as a tape laid on it reads, >= 0. One from a plan is shorter, by
-        the factor ``1 / sqrt(1 + grade**2)``.
+        Horizontal distance, >= 0.
     drag : float, str, Quantity, array or list of these [-]
         Drag factor, >= 0: a plain number such as 0.7, or a deceleration on the level such as ``"6.9
         m/s**2"``.
@@ -59,8 +58,7 @@ def speed(
     Returns
     -------
     float or array [m/s]
-        Speed at the start along the ground, >= 0; NaN for a case of a batch that cannot be
-        answered.
+        Speed at the start along the slope, >= 0; NaN for a case of a batch that cannot be answered.
 
     Raises
     ------
@@ -81,11 +79,10 @@ def speed(
     -----
     The vehicle is a point mass on a straight line or a gentle bend, and each surface has the same
     drag at every speed: load transfer, air resistance and the build-up time of the brakes are left
-    out. A vehicle that spins has a different drag at every crab angle: see ``path``.
-
-    Distances, speeds and times are all along the ground. On a slope at the angle a = atan(grade),
-    the load and with it the drag are reduced by cos(a), and the weight takes sin(a), so the
-    deceleration is ``GRAVITY * (drag * cos(a) + sin(a))``, which is that of the formula.
+    out. A vehicle that spins has a different drag at every crab angle: see ``path``. On a slope at
+    the angle atan(grade), the load and with it the drag are reduced by the factor cos(atan(grade)),
+    and the distance in plan is shorter than that along the slope by the same factor, so the balance
+    is exact. Speeds in plan are lower by that factor.
 
     Examples
     --------
@@ -102,7 +99,9 @@ def speed(
     ... )
     60.4
     """
-    return _over_surfaces(distance, drag, grade, end_speed, lambda lengths, speeds: speeds[0])
+    return _over_surfaces(
+        distance, drag, grade, end_speed, lambda lengths, grades, speeds: speeds[0]
+    )
 
 
 @hinted
@@ -112,7 +111,7 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
 
     The energy balance is that of ``speed``, with the same limits::
 
-        distance = (speed**2 - end_speed**2) * sqrt(1 + grade**2) / (2 * GRAVITY * (drag + grade))
+        distance = (speed**2 - end_speed**2) / (2 * GRAVITY * (drag + grade))
 
     Parameters
     ----------
@@ -128,7 +127,7 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
     Returns
     -------
     float or array [m]
-        Distance along the ground, >= 0; NaN for a case of a batch that cannot be answered.
+        Distance in plan, >= 0; NaN for a case of a batch that cannot be answered.
 
     Raises
     ------
@@ -171,7 +170,7 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
             | ((change < 0.0) & (drop < 0.0))
             | ((change == 0.0) & (drop != 0.0))
         )
-        rate = select(drop == 0.0, math.nan, 2.0 * gravity_on(slope) * drop)
+        rate = select(drop == 0.0, math.nan, 2.0 * GRAVITY * drop)
         # A rate that overflows would give a distance of 0.
         found = select(abs(rate) < math.inf, change / rate * (start + end) + 0.0, math.inf)
         answer: Value = _answer(select(fits, found, math.nan), named, shape)
@@ -185,9 +184,10 @@ def time(
     """Time [s] that a vehicle takes to cover a distance.
 
     The speeds at both ends of each surface are those of ``speed``, with the same limits; in
-    between, the deceleration is constant, so the mean speed is half their sum::
+    between, the deceleration is constant, so the mean speed is half their sum, over the length of
+    the slope::
 
-        time = sum(2 * distance / (v_start + v_end))
+        time = sum(2 * distance * sqrt(1 + grade**2) / (v_start + v_end))
 
     Parameters
     ----------
@@ -224,7 +224,9 @@ def time(
 def _over_surfaces(
     length: Any, drag: Any, grade: Any, end_speed: Any, figure: Callable[..., Any]
 ) -> Value:
-    """What ``figure`` makes of the lengths of all surfaces, and of the speeds at their ends."""
+    """What ``figure`` makes of the lengths and grades of all surfaces, and of the speeds at their
+    ends.
+    """
     reader = ArgumentReader()
     listed = isinstance(length, (list, tuple))
     if listed and not length:
@@ -245,8 +247,10 @@ def _over_surfaces(
     ((end,), lengths, drags, grades), named, shape = in_one_precision(arguments)
     segment = "distance[{}]" if listed else "distance"
     with np.errstate(all="ignore"):
-        speeds = speeds_along(lengths, drags, grades, end, segment.format)
-        found: Value = _answer(figure(lengths, speeds), named, shape)
+        drops = [slowing + slope for slowing, slope in zip(drags, grades, strict=True)]
+        found: Value = _answer(
+            figure(lengths, grades, speeds_along(lengths, drops, end, segment.format)), named, shape
+        )
     return found
 
 

@@ -19,10 +19,10 @@ from ..messages.errors import (
     ShapeError,
 )
 from ..messages.warning import warn_of_cases
-from ..quantities.attributes import hypot, read_only
+from ..quantities.attributes import hypot, math_or_numpy, read_only
 from ..quantities.reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
 from ..quantities.units import Input
-from ..vehicle.drag import gravity_on, one_value
+from ..vehicle.drag import GRAVITY, one_value
 
 Segments: TypeAlias = Input | Sequence[Input]
 _Reader: TypeAlias = Callable[[ArgumentReader, Any, str], Any]
@@ -116,20 +116,15 @@ def in_one_precision(
 
 
 def speeds_along(
-    lengths: Sequence[Any],
-    drags: Sequence[Any],
-    grades: Sequence[Any],
-    end: Any,
-    name: Callable[[int], str],
+    lengths: Sequence[Any], drops: Sequence[Any], end: Any, name: Callable[[int], str]
 ) -> list[Any]:
     """Speed at every point, start to end, chained backward; NaN in the cases of a batch that
     contradict themselves.
     """
-    drops = [drag + grade for drag, grade in zip(drags, grades, strict=True)]
     speeds = [end]
     for i in range(len(lengths) - 1, -1, -1):
         after = speeds[-1]
-        gained = _root(2.0 * gravity_on(grades[i]) * abs(drops[i])) * _root(lengths[i])
+        gained = _root(2.0 * GRAVITY * abs(drops[i])) * _root(lengths[i])
         # Downhill beyond the drag: the root of the difference of squares, without the squares that
         # overflow.
         falling = _root(after - gained) * _root(after + gained)
@@ -170,10 +165,15 @@ def _contradiction(where: str, drop: float, after: float, gained: float) -> Coll
     )
 
 
-def durations_along(lengths: Sequence[Any], speeds: Sequence[Any]) -> list[Any]:
-    """Time over each segment: at a constant deceleration the mean speed is half the sum."""
+def durations_along(
+    lengths: Sequence[Any], grades: Sequence[Any], speeds: Sequence[Any]
+) -> list[Any]:
+    """Time over each segment, along its slope: at a constant deceleration the mean speed is half
+    the sum.
+    """
     found = []
-    for length, before, after in zip(lengths, speeds, speeds[1:], strict=False):
+    for plan, grade, before, after in zip(lengths, grades, speeds, speeds[1:], strict=False):
+        length = plan * math_or_numpy(grade).hypot(1.0, grade)
         double = before + after
         duration = 2.0 * length / select(double == 0.0, math.nan, double)
         # A speed that overflowed would make the duration 0, which looks like a result.

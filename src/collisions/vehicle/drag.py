@@ -10,7 +10,6 @@ from typing import Any
 from ..kernels.elementwise import FINITE, UNCHECKED, Domain
 from ..messages.errors import ShapeError, UnitsError
 from ..messages.marked import a_type_of
-from ..quantities.attributes import hypot
 from ..quantities.reading import ArgumentReader, at_least_zero, warn_if_large
 from ..quantities.refusals import must_be
 from ..quantities.settings import Default
@@ -20,19 +19,6 @@ GRAVITY = 9.80665
 """Standard gravity [m/s**2]. It varies by 0.5 % between the equator and the poles, speeds by half
 of that.
 """
-
-
-def gravity_on(*rises: Any) -> Any:
-    """What presses on ground that rises so over the run [m/s**2]: gravity times the cosine of its
-    angle.
-
-    Times this, friction, drag and the rise over the run itself are decelerations along the ground.
-    """
-    steep = rises[0]
-    for rise in rises[1:]:
-        steep = hypot(steep, rise)
-    return GRAVITY / hypot(1.0, steep)
-
 
 # No road tyre holds more than this on any road: beyond, a bare number is in another unit.
 HIGHEST_DRAG = 1.5
