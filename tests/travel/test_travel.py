@@ -1459,6 +1459,7 @@ def test_all_wrong_arguments_of_a_path_are_named_at_once():
         assert f"\n- {name}" in text
 
 
+@pytest.mark.filterwarnings("ignore:the yaw alone:collisions.OutOfRangeWarning")
 def test_a_wide_segment_is_warned_of_where_it_matters():
     """One crab angle for more than a quarter turn is crude, unless locked wheels drag alike at
     every angle.
