@@ -799,10 +799,17 @@ def is_nothing(value: Any) -> bool:
 
 
 def check_case(
-    label: str, found: Any, shape: tuple[int, ...], case: int, echoes: tuple[str, ...]
+    label: str,
+    found: Any,
+    shape: tuple[int, ...],
+    case: int,
+    echoes: tuple[str, ...],
+    whole: list[tuple[str, Any]] | None = None,
 ) -> None:
-    """No output of a refused case says anything but how it was refused."""
-    for name, value in outputs(found):
+    """No output of a refused case says anything but how it was refused; ``whole`` are the outputs
+    of all cases, where they are at hand.
+    """
+    for name, value in whole or outputs(found):
         value, last = at(value, shape, case), name.rpartition(".")[2].partition("[")[0]
         what = f"{label}: {name} is {value!r} in a refused case"
         if last == "status":
@@ -893,6 +900,8 @@ def check(name: str, chosen: Sequence[int], found: Any, shape: tuple[int, ...]) 
     """
     call, columns = CALLS[name], columns_of(name)
     answered = refused = 0
+    # Of all cases at once, and once for all: some follow every case again.
+    wholes = [list(outputs(part)) for part in parts(found)]
     for number, case in enumerate(chosen):
         one = alone(name, case)
         is_refused = isinstance(one, col.CollisionsError)
@@ -901,7 +910,7 @@ def check(name: str, chosen: Sequence[int], found: Any, shape: tuple[int, ...]) 
             f"{name}, "
             f"{ ({key: value for key, value in columns[case].items() if value != call.base[key]}) }"
         )
-        for place, part in enumerate(parts(found)):
+        for place, (part, whole) in enumerate(zip(parts(found), wholes, strict=True)):
             status = at(
                 np.asarray(getattr(part, "status", GAIN if not is_refused else GAIN + 1)),
                 shape,
@@ -912,10 +921,10 @@ def check(name: str, chosen: Sequence[int], found: Any, shape: tuple[int, ...]) 
                     f"{here}: {col.Status(status).label}, and alone {one!r}"
                 )
             if status > GAIN:
-                check_case(here, part, shape, number, call.echoes)
+                check_case(here, part, shape, number, call.echoes, whole)
             elif place == 0:
                 for (output, value), (same, value_alone) in zip(
-                    outputs(part), outputs(parts(one)[0]), strict=True
+                    whole, outputs(parts(one)[0]), strict=True
                 ):
                     assert output == same
                     if isinstance(value_alone, np.ndarray) or at_rest(parts(one)[0], output):
