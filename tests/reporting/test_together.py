@@ -131,3 +131,13 @@ def test_a_run_of_another_scene_and_two_runs_are_refused(found, run):
         col.report([found, run, run])
     with pytest.raises(col.InputError, match="uncertainty must be a list"):
         col.report([found, run], uncertainty=[None])
+
+
+def test_a_heading_of_rest_has_no_whole_turns(found):
+    """It turns by more than a turn on its way, and rests between -180 and 180 degrees."""
+    spun = scene().replace({"Rover.yaw_rate": 15.0, "the speed": found["the speed"].mean}).run()
+    turned = np.degrees(spun.rest["Rover"].heading)
+    assert turned > 360.0
+    page = col.report([found, spun], form="markdown", units="us")
+    (shown,) = re.findall(r"\| Rover \| heading at rest \| (-?[\d.]+)°", page)
+    assert float(shown) == pytest.approx((turned + 180.0) % 360.0 - 180.0, abs=0.06)
