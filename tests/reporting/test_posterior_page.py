@@ -132,3 +132,19 @@ def test_a_gain_of_next_to_nothing_is_not_told_as_one():
     texts = [text.get_text() for text in plot.energy(impact).texts]
     assert "less than 0.1 %" in texts
     assert not [text for text in texts if "gained" in text]
+
+
+def test_a_reading_has_the_unit_that_it_was_given_in_and_figures_the_digits_of_the_table(found):
+    turned = reconstruct.posterior(
+        lambda angle: {"angle": angle},
+        {"angle": Uniform("150 deg", "190 deg")},
+        {"angle": ("175 deg", "5 deg")},
+        samples=512,
+        seed=1,
+    )
+    page = col.report(turned, form="markdown", figures=False)
+    assert re.search(r"^\| angle \| 175 ?° \| 5 ?° \| ", page, re.MULTILINE), page
+    drag = found["drag"]
+    (row,) = re.findall(r"^\| drag \| ([\d.]+) ± ", col.report(found, form="markdown"), re.M)
+    (legend,) = plot.distribution(drag).figure.legends or [plot.distribution(drag).get_legend()]
+    assert f"mean {row}" in [text.get_text() for text in legend.get_texts()]

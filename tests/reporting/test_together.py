@@ -7,7 +7,7 @@ import pytest
 
 import collisions as col
 from collisions import reconstruct
-from collisions.reporting import options
+from collisions.reporting import options, replay
 from collisions.scene import Contact, Mover, Scene
 from collisions.uncertainty import Interval, Uniform
 
@@ -141,3 +141,28 @@ def test_a_heading_of_rest_has_no_whole_turns(found):
     page = col.report([found, spun], form="markdown", units="us")
     (shown,) = re.findall(r"\| Rover \| heading at rest \| (-?[\d.]+)°", page)
     assert float(shown) == pytest.approx((turned + 180.0) % 360.0 - 180.0, abs=0.06)
+
+
+def test_a_report_with_what_was_found_cannot_be_made_again_from_it(found, run):
+    """Its model is code."""
+    with pytest.raises(col.InputError, match="the report of a Posterior, which cannot be made"):
+        replay(col.report([found, run], figures=False))
+
+
+def test_impacts_of_a_run_are_counted_and_what_does_not_vary_is_left_out(found):
+    """In line the PDOF is the same at every sample; a second impact follows when they touch."""
+    one = scene(outline=(4.0, 1.7))
+    wall = Mover(col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=7.0, y=0.0, heading=0.0),
+                 drag=0.6, outline=(4.0, 1.7))  # fmt: skip
+    again = Contact("Seat", "Third", at="touch", model="linear_central", normal=0.0,
+                    restitution=0.1)  # fmt: skip
+    hit = one.contacts[0].replace(at=0)
+    whole = Scene(
+        movers={**one.movers, "Third": wall}, contacts=[hit, again], shared=one.shared
+    ).replace({name: found[name].mean for name in UNKNOWN})
+    page = col.report([found, whole.run()], form="markdown", figures=False)
+    assert "delta-V of the Seat, impact 2" in box(page)
+    assert "\n## 2. Impact 1 of A (Rover) and B (Seat), at 0.00 s\n" in page
+    assert "\n## 3. Impact 2 of A (Seat) and B (Third), at " in page
+    assert re.search(r"\| A \(Seat\) \| velocity along x \| [\d.]+ mph, from the run \|", page)
+    assert "the same in every case" not in page

@@ -29,7 +29,7 @@ from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..scene.one_run import need_one_run
 from ..scene.run import Run
 from ..uncertainty import Propagation
-from ..uncertainty.result import outputs_part
+from ..uncertainty.result import outputs_part, varies
 from ..vehicle.drag import USUAL_DURATION
 from . import figures as drawing
 from . import sections
@@ -387,7 +387,7 @@ def _delta_v(sheet: Sheet, own: _Own) -> Iterator[tuple[str, str, bool]]:
     """The delta-V of both vehicles of an impact, with its range where there are samples."""
     run, number = own.together.run, own.number
     impact = run.impacts[number]
-    of = f", impact {number + 1} ({run.times[number]:.2f} s)" if len(run.impacts) > 1 else ""
+    of = f", impact {number + 1}" if len(run.impacts) > 1 else ""
     for name, side in (("a.delta_v", impact.a), ("b.delta_v", impact.b)):
         if not math.isfinite(side.before.mass):
             continue
@@ -465,10 +465,14 @@ def _at_the_samples(sheet: Sheet, own: _Own) -> None:
         f"“{together.middle.capitalize()}” is what was found there, and not given; “from the run” "
         "is the state with which the run of these numbers comes to this impact."
     )
-    if own.ranges:
+    if any(map(varies, own.ranges.values())):
         pair = together.run.pairs[own.number]
         sheet.heading("What the evidence leaves of it")
-        named = {plain(words_of(name, pair)): output for name, output in own.ranges.items()}
+        named = {
+            plain(words_of(name, pair)): output
+            for name, output in own.ranges.items()
+            if varies(output)
+        }
         sheet.columns(outputs_part(named, cells(sheet.system.name)))
         sheet.say(
             f"From the {together.samples} samples of part {together.part}, each run through "
@@ -486,7 +490,9 @@ def _notes(sheet: Sheet, found: Checked) -> None:
 def _heading(number: int, part: _Part) -> str:
     title = _title(part.result)
     if part.own is not None and len(part.own.together.run.impacts) > 1:
-        title += f" at {part.own.together.run.times[part.own.number]:.2f} s"
+        at = part.own.number
+        lead, _, of = title.partition(" ")
+        title = f"{lead} {at + 1} {of}, at {part.own.together.run.times[at]:.2f} s"
     return f"{number}. {plain(title)}"
 
 
