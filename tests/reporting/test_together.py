@@ -1,6 +1,7 @@
 """A report of what was found of a scene together with a run of that scene."""
 
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -166,3 +167,31 @@ def test_impacts_of_a_run_are_counted_and_what_does_not_vary_is_left_out(found):
     assert "\n## 3. Impact 2 of A (Seat) and B (Third), at " in page
     assert re.search(r"\| A \(Seat\) \| velocity along x \| [\d.]+ mph, from the run \|", page)
     assert "the same in every case" not in page
+
+
+def test_the_run_may_stand_first_and_other_results_beside_both(found, run):
+    """The marks name the part that the posterior is, and every result has its part."""
+    page = col.report([run, found], form="markdown", figures=False, derivation=True)
+    assert "mph, mean of part 2 |" in page
+    assert "\n## 2. What the evidence says\n" in page
+    other = col.linear_central(col.Vehicle(mass=1500.0, vx=9.0), col.Vehicle(mass=1500.0), 0.2)
+    page = col.report([found, run, other], form="markdown", figures=False)
+    assert "\n## 3. Impact of A and B\n" in page
+    assert "- **A: delta-V:** " in box(page)
+
+
+def test_a_speed_with_its_course_marks_both_parts_of_the_velocity():
+    """Of a vehicle whose speed was found, along 10 degrees, and the normal of its contact."""
+    start = scene().replace({"Rover.course": "10 deg"})
+    unknown = {"Rover.speed": Uniform("20 mph", "40 mph"),
+               "contacts[0].normal": Uniform("-5 deg", "5 deg")}  # fmt: skip
+    seen = {"Seat.rest.x": ("15 ft", "1 ft"), "Seat.rest.y": ("0 ft", "0.3 ft")}
+    with warnings.catch_warnings():
+        # The readings say little of the normal.
+        warnings.simplefilter("ignore", col.IllConditionedWarning)
+        some = reconstruct.posterior(start, unknown, seen, samples=512, seed=1)
+    middle = start.replace({name: some[name].mean for name in unknown}).run()
+    page = col.report([some, middle], form="markdown", units="us", figures=False)
+    for along in "xy":
+        assert re.search(rf"\| velocity along {along} \| [\d.]+ mph, mean of part 1 \|", page)
+    assert re.search(r"normal, direction from A into B \| -?[\d.]+°, mean of part 1 \|", page)
