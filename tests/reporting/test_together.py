@@ -130,6 +130,8 @@ def test_a_run_of_another_scene_and_two_runs_are_refused(found, run):
         col.report([found, other])
     with pytest.raises(col.InputError, match="goes with one posterior or fit of the same scene"):
         col.report([found, run, run])
+    with pytest.raises(col.InputError, match=r"answers is .* and the page of a run alone"):
+        col.report(run, answers=["the speed"])
     with pytest.raises(col.InputError, match="uncertainty must be a list"):
         col.report([found, run], uncertainty=[None])
 

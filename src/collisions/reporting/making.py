@@ -19,12 +19,13 @@ from ..diagnostics import diagnose
 from ..diagnostics.finding import Findings, is_note
 from ..estimate.posterior_result import PosteriorOutput
 from ..impact.impact import Impact, with_vehicles
+from ..messages.errors import InputError
 from ..plot.canvas import who
 from ..quantities.document import Document
 from ..quantities.formatting import UnitSystem
 from ..quantities.settings import callers_options, computing
 from ..quantities.tables import as_sentence, cells, given_texts, label_of
-from ..quantities.units import Input, Pair, kinds_in_degrees
+from ..quantities.units import Input, Pair, kinds_in_degrees, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..scene.one_run import need_one_run
 from ..scene.run import Run
@@ -172,6 +173,14 @@ def report(
 
     if isinstance(impact, Run):
         need_one_run(impact, "report", "impact")
+        if answers is not None:
+            raise InputError(
+                f"answers is {shown(answers)}, and the page of a run alone has always the same "
+                "answer; leave it out, or write report([found, run], `answers=...`) with what was "
+                "found of its scene",
+                code="bad_option",
+                argument="answers",
+            )
         given["units"] = units_of_run(impact, units)
         held = plain_options(given)
         changed = {name: value for name, value in held.items() if not _is_usual(name, value)}
