@@ -409,9 +409,9 @@ def _delta_v(sheet: Sheet, own: _Own) -> Iterator[tuple[str, str, bool]]:
 def _ground(sheet: Sheet, together: Together) -> None:
     """What the vehicles move on, where they come to rest, and where the energy went."""
     run = together.run
-    sheet.say(f"What follows is of the run at the {together.middle}.")
     vehicles(sheet, run, together.marks())
     sheet.heading("Places of rest")
+    sheet.say(f"These, and the energy below, are of the run at the {together.middle}.")
     sheet.table(rests(sheet, run))
     sheet.heading("Where the kinetic energy went")
     sheet.table(ledger(sheet, run))
@@ -470,10 +470,15 @@ def _body(
 def _at_the_samples(sheet: Sheet, own: _Own) -> None:
     """What the marks say, and the ranges of an impact that the samples leave."""
     together = own.together
-    sheet.say(
-        f"“{together.middle.capitalize()}” is what was found there, and not given; “from the run” "
-        "is the state with which the run of these numbers comes to this impact."
-    )
+    words = {*together.marks_of(own.number).values()}
+    told = {
+        together.middle: "is what was found there, and not given",
+        "from the run": "is the state with which the run of these numbers comes to this impact",
+    }
+    says = [f"“{word}” {what}" for word, what in told.items() if word in words]
+    if says:
+        text = "; ".join(says)
+        sheet.say(f"{text[0]}{text[1].upper()}{text[2:]}.")
     if any(map(varies, own.ranges.values())):
         pair = together.run.pairs[own.number]
         sheet.heading("What the evidence leaves of it")
