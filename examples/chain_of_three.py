@@ -48,14 +48,14 @@ evidence = {
 }
 found = posterior(crash, unknown, evidence, samples=1024, seed=1)
 run = crash.replace({name: found[name].mean for name in unknown}).run()
-page = col.report([found, *run.impacts], title="A chain of three")
+page = col.report([found, run], title="A chain of three")
 page.save("report.html")
 
 # %% [markdown]
 # ## What it says
 #
-# The report has what the evidence says, and then each of both impacts in the middle of the range.
-# What it says of the speeds, and how they went in the middle of their ranges:
+# The report has what the evidence says, and then each of both impacts, with the range of its
+# delta-V. What it says of the speeds, and how they went in the middle of their ranges:
 
 # %%
 from collisions import plot

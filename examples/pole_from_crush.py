@@ -47,15 +47,14 @@ evidence = {
 }
 found = posterior(crash, unknown, evidence, samples=1024, seed=1)
 run = crash.replace({name: found[name].mean for name in unknown}).run()
-page = col.report([found, run.impacts[0]], title="Speed of the car at the pole")
+page = col.report([found, run], title="Speed of the car at the pole")
 page.save("report.html")
 
 # %% [markdown]
 # ## What it says
 #
-# The report has what the evidence says, and as its second part the impact in the middle of the
-# range. It finds that the car goes sideways, and so it did. What it says of the speed, and the
-# crash at that speed:
+# The report has what the evidence says, and as its second part the impact at the means. It finds
+# that the car goes sideways, and so it did. What it says of the speed, and the crash at that speed:
 
 # %%
 from collisions import plot

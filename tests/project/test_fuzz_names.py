@@ -606,6 +606,7 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
         ("case", lambda: case.option("2026-11", case.text())),
         ("date", lambda: case.option("25 November 2026", case.text())),
         ("exhibit", lambda: case.option("12", case.text())),
+        ("answers", lambda: case.option(["a.delta_v"], [case.text()], case.text())),
     ):
         if case.maybe(0.1):
             options[name] = draw()

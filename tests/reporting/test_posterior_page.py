@@ -4,10 +4,11 @@ computed for it, and the rest folded.
 
 import re
 
+import numpy as np
 import pytest
 
 import collisions as col
-from collisions import reconstruct
+from collisions import plot, reconstruct
 from collisions.reporting import options
 from collisions.uncertainty import Interval, Normal, Uniform
 
@@ -107,3 +108,43 @@ def test_a_note_beside_nothing_is_refused_with_what_it_can_stand_beside(found):
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1500.0), 0.2)
     with pytest.raises(col.InputError, match="texts alone, but for those of the readings"):
         col.report([impact, impact], notes={"a.mass": "Weighed"})
+
+
+def test_a_pole_has_no_delta_v_and_what_does_not_turn_no_change_of_yaw_rate():
+    car = col.Vehicle(
+        mass=1500.0, yaw_inertia=2500.0, vx=13.0, x=-2.2, y=0.3, heading=0.0, name="Seat"
+    )
+    pole = col.Vehicle(mass=np.inf, yaw_inertia=np.inf, x=0.0, y=0.0, heading=0.0, name="pole")
+    impact = col.eccentric(car, pole, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5)
+    page = col.report(impact, form="markdown")
+    rows = [line for line in page.splitlines() if line.startswith("| B (pole) | ")]
+    assert rows
+    assert not [row for row in rows if "delta-V" in row or "PDOF" in row or "change of" in row]
+    assert "| A (Seat) | change of yaw rate | " in page
+
+
+def test_a_gain_of_next_to_nothing_is_not_told_as_one():
+    """Past the middle of a pole by 15 cm: what slips is turned round, by a thousandth of all."""
+    car = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, vx=13.0, vy=0.2, x=-2.2, y=0.15, heading=0.0)
+    pole = col.Vehicle(mass=np.inf, yaw_inertia=np.inf, x=0.0, y=0.0)
+    impact = col.eccentric(car, pole, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5)
+    assert -1e-3 < impact.energy_loss_tangential / car.kinetic_energy < 0.0
+    texts = [text.get_text() for text in plot.energy(impact).texts]
+    assert "less than 0.1 %" in texts
+    assert not [text for text in texts if "gained" in text]
+
+
+def test_a_reading_has_the_unit_that_it_was_given_in_and_figures_the_digits_of_the_table(found):
+    turned = reconstruct.posterior(
+        lambda angle: {"angle": angle},
+        {"angle": Uniform("150 deg", "190 deg")},
+        {"angle": ("175 deg", "5 deg")},
+        samples=512,
+        seed=1,
+    )
+    page = col.report(turned, form="markdown", figures=False)
+    assert re.search(r"^\| angle \| 175 ?° \| 5 ?° \| ", page, re.MULTILINE), page
+    drag = found["drag"]
+    (row,) = re.findall(r"^\| drag \| ([\d.]+) ± ", col.report(found, form="markdown"), re.M)
+    (legend,) = plot.distribution(drag).figure.legends or [plot.distribution(drag).get_legend()]
+    assert f"mean {row}" in [text.get_text() for text in legend.get_texts()]

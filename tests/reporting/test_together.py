@@ -1,13 +1,14 @@
 """A report of what was found of a scene together with a run of that scene."""
 
 import re
+import warnings
 
 import numpy as np
 import pytest
 
 import collisions as col
 from collisions import reconstruct
-from collisions.reporting import options
+from collisions.reporting import options, replay
 from collisions.scene import Contact, Mover, Scene
 from collisions.uncertainty import Interval, Uniform
 
@@ -129,5 +130,70 @@ def test_a_run_of_another_scene_and_two_runs_are_refused(found, run):
         col.report([found, other])
     with pytest.raises(col.InputError, match="goes with one posterior or fit of the same scene"):
         col.report([found, run, run])
+    with pytest.raises(col.InputError, match=r"answers is .* and the page of a run alone"):
+        col.report(run, answers=["the speed"])
     with pytest.raises(col.InputError, match="uncertainty must be a list"):
         col.report([found, run], uncertainty=[None])
+
+
+def test_a_heading_of_rest_has_no_whole_turns(found):
+    """It turns by more than a turn on its way, and rests between -180 and 180 degrees."""
+    spun = scene().replace({"Rover.yaw_rate": 15.0, "the speed": found["the speed"].mean}).run()
+    turned = np.degrees(spun.rest["Rover"].heading)
+    assert turned > 360.0
+    page = col.report([found, spun], form="markdown", units="us")
+    (shown,) = re.findall(r"\| Rover \| heading at rest \| (-?[\d.]+)°", page)
+    assert float(shown) == pytest.approx((turned + 180.0) % 360.0 - 180.0, abs=0.06)
+
+
+def test_a_report_with_what_was_found_cannot_be_made_again_from_it(found, run):
+    """Its model is code."""
+    with pytest.raises(col.InputError, match="the report of a Posterior, which cannot be made"):
+        replay(col.report([found, run], figures=False))
+
+
+def test_impacts_of_a_run_are_counted_and_what_does_not_vary_is_left_out(found):
+    """In line the PDOF is the same at every sample; a second impact follows when they touch."""
+    one = scene(outline=(4.0, 1.7))
+    wall = Mover(col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=7.0, y=0.0, heading=0.0),
+                 drag=0.6, outline=(4.0, 1.7))  # fmt: skip
+    again = Contact("Seat", "Third", at="touch", model="linear_central", normal=0.0,
+                    restitution=0.1)  # fmt: skip
+    hit = one.contacts[0].replace(at=0)
+    whole = Scene(
+        movers={**one.movers, "Third": wall}, contacts=[hit, again], shared=one.shared
+    ).replace({name: found[name].mean for name in UNKNOWN})
+    page = col.report([found, whole.run()], form="markdown", figures=False)
+    assert "delta-V of the Seat, impact 2" in box(page)
+    assert "\n## 2. Impact 1 of A (Rover) and B (Seat), at 0.00 s\n" in page
+    assert "\n## 3. Impact 2 of A (Seat) and B (Third), at " in page
+    assert re.search(r"\| A \(Seat\) \| velocity along x \| [\d.]+ mph, from the run \|", page)
+    assert "the same in every case" not in page
+
+
+def test_the_run_may_stand_first_and_other_results_beside_both(found, run):
+    """The marks name the part that the posterior is, and every result has its part."""
+    page = col.report([run, found], form="markdown", figures=False, derivation=True)
+    assert "mph, mean of part 2 |" in page
+    assert "\n## 2. What the evidence says\n" in page
+    other = col.linear_central(col.Vehicle(mass=1500.0, vx=9.0), col.Vehicle(mass=1500.0), 0.2)
+    page = col.report([found, run, other], form="markdown", figures=False)
+    assert "\n## 3. Impact of A and B\n" in page
+    assert "- **A: delta-V:** " in box(page)
+
+
+def test_a_speed_with_its_course_marks_both_parts_of_the_velocity():
+    """Of a vehicle whose speed was found, along 10 degrees, and the normal of its contact."""
+    start = scene().replace({"Rover.course": "10 deg"})
+    unknown = {"Rover.speed": Uniform("20 mph", "40 mph"),
+               "contacts[0].normal": Uniform("-5 deg", "5 deg")}  # fmt: skip
+    seen = {"Seat.rest.x": ("15 ft", "1 ft"), "Seat.rest.y": ("0 ft", "0.3 ft")}
+    with warnings.catch_warnings():
+        # The readings say little of the normal.
+        warnings.simplefilter("ignore", col.IllConditionedWarning)
+        some = reconstruct.posterior(start, unknown, seen, samples=512, seed=1)
+    middle = start.replace({name: some[name].mean for name in unknown}).run()
+    page = col.report([some, middle], form="markdown", units="us", figures=False)
+    for along in "xy":
+        assert re.search(rf"\| velocity along {along} \| [\d.]+ mph, mean of part 1 \|", page)
+    assert re.search(r"normal, direction from A into B \| -?[\d.]+°, mean of part 1 \|", page)

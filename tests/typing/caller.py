@@ -175,7 +175,7 @@ def around(impact: col.Impact) -> str:
             date="25 November 2026",
         )
     )
-    page += str(col.report([impact, impact], figures=False))
+    page += str(col.report([impact, impact], figures=False, answers=["a.delta_v"]))
     derivation: str = page + str(col.explain(impact, units="us", form="text"))
     return derivation + str(share) + str(schema) + "".join(sentences)
 

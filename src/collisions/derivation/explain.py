@@ -26,7 +26,7 @@ from ..scene.one_run import need_one_run
 from ..scene.run import Run
 from ..uncertainty.distributions import Interval
 from ..uncertainty.result import Output, Propagation, ends_of, varies
-from ..vehicle.vehicle import named
+from ..vehicle.vehicle import Vehicle, named
 from .contact import motions, normal
 from .evidence import MOMENTUM_ANSWERS, fit, momentum
 from .expressions import System
@@ -408,11 +408,22 @@ def impact_answers(page: Page, impact: Impact) -> Iterator[tuple[str, str, str]]
             impact.model == "linear_central" and name in _OF_FRICTION,
             impact.inputs.outside_a is None and ".outside" in name,
             side.before.pivot is None and ".pivot" in name,
+            _says_nothing(side.before, name),
             name.endswith("after.course") and page.system.working(side.after.speed, "speed") == "0",
         )
         value = None if any(left_out) else attrgetter(name)(impact)
         if value is not None and (of == "contact" or not math.isnan(value)):
             yield of, what, page.answer(name, value, kind)
+
+
+def _says_nothing(body: Vehicle, name: str) -> bool:
+    """Whether a result is that of a body that nothing moves, or turns, and says nothing therefore:
+    the delta-V of a wall has no size and no direction.
+    """
+    part = name.partition(".")[2]
+    if part == "delta_yaw_rate":
+        return body.yaw_inertia is None or math.isinf(body.yaw_inertia)
+    return part.startswith(("delta_v", "pdof")) and math.isinf(body.mass)
 
 
 def _energy_gain(page: Page, status: Any, loss: float) -> None:

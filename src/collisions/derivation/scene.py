@@ -55,7 +55,9 @@ def rests(page: Page, run: Run) -> list[tuple[str, str, str]]:
             ("heading", rest.heading, "angle"),
         ):
             if value is not None and math.isfinite(value):
-                rows.append((of, f"{words} at rest", page.number(float(value), kind)))
+                # A heading goes on over whole turns on the way, of which a place of rest has none.
+                one = math.remainder(value, math.tau) if kind == "angle" else float(value)
+                rows.append((of, f"{words} at rest", page.number(one, kind)))
     return rows
 
 

@@ -77,6 +77,13 @@ class Units:
         text = number(value * self.factor(unit), _MOST_DECIMALS if decimals is None else decimals)
         return number_with_unit(text, self.name(unit)) if math.isfinite(value) else text
 
+    def to_deviation(self, value: float, unit: str | None, deviation: float) -> str:
+        """A number in this SI unit, rounded to its standard deviation as tables have it."""
+        kind = _kind(unit) if unit else "number"
+        if kind is None or not math.isfinite(value):
+            return self.text(value, unit)
+        return self._system.span(value, value, kind, deviation).replace("-", MINUS)
+
 
 def _kind(unit: str | None) -> str | None:
     if not unit:

@@ -13,8 +13,9 @@ from .canvas import INK, Axes
 Place = tuple[float, float]
 
 _FONT = 9.5
-# As shares of the larger extent: the margin left free all round, and the least of the other extent.
-_MARGIN, _STRIP = 0.14, 0.42
+# As shares of the larger extent: the margin left free all round, and the least width and height.
+# Labels are wide, so a narrow picture has less room for them than a flat one.
+_MARGIN, _LEAST = 0.14, (0.7, 0.42)
 # Points: a cell of the map of what is drawn, what stays free around a label, and what is mapped
 # beyond the Axes.
 _CELL, _CLEAR, _BEYOND = 2.0, 3.0, 120.0
@@ -35,6 +36,10 @@ _NEARBY = 80.0  # points around its places in which a label is looked for first
 # Arrows within this sine of one line hide each other.
 ALONG_ONE_LINE = 0.03
 APART = 0.045  # of the size of the scene: between arrows that would hide each other
+_TICKS, _FEWEST_TICKS = 6, 2  # along x
+# Of arrow heads: the scale, the length at a scale of 1, the smallest scale, and the share of a
+# short arrow, which shows its shaft too.
+_HEAD, _HEAD_LENGTH, _SMALLEST_HEAD, _OF_SHORT = 13.0, 0.55, 4.0, 0.5
 _WIDE = 0.04  # of the size of the scene: anything nearer to an arrow is beneath it
 
 
@@ -57,6 +62,7 @@ class Drawing:
         self.moved = False
         self._labels: list[_Label] = []
         self.arrows: list[tuple[Place, Place, float]] = []
+        self._made: list[tuple[Any, float]] = []
         self._seen: list[Place] = []
         self._areas: dict[int, list[Place]] = {}
         self._found: tuple[Any, list[Place]] = (None, [])
@@ -73,8 +79,8 @@ class Drawing:
             xy=tip,
             xytext=tail,
             arrowprops={
-                "arrowstyle": "-|>,head_length=0.55,head_width=0.22",
-                "mutation_scale": 13,
+                "arrowstyle": f"-|>,head_length={_HEAD_LENGTH},head_width=0.22",
+                "mutation_scale": _HEAD,
                 "linewidth": width,
                 "linestyle": style,
                 "color": colour,
@@ -85,6 +91,7 @@ class Drawing:
             zorder=4,
         )
         made.set_gid(gid)
+        self._made.append((made, math.dist(tail, tip)))
         self.arrows.append((tail, tip, width))
 
     def covers(self, start: Place, vector: Place) -> bool:
@@ -174,13 +181,21 @@ class Drawing:
         middle = 0.5 * (low + high)
         half = 0.5 * (high - low) + _MARGIN * max(high - low)
         # Widened where one direction would be a thin strip.
-        half = np.maximum(half, _STRIP * max(half))
+        half = np.maximum(half, np.array(_LEAST) * max(half))
         self.axes.set(
             xlim=(middle[0] - half[0], middle[0] + half[0]),
             ylim=(middle[1] - half[1], middle[1] + half[1]),
         )
         self.axes.set_aspect("equal", adjustable="box")
         self.axes.apply_aspect()
+        # As many numbers as stand beside each other, of a narrow picture fewer.
+        most = round(_TICKS * half[0] / max(half))
+        self.axes.locator_params(axis="x", nbins=max(most, _FEWEST_TICKS))
+        extent = max(self.axes.bbox.size) * 72.0 / self.axes.figure.dpi
+        for made, length in self._made:
+            points = extent * length / (2.0 * max(half))
+            scale = _OF_SHORT * points / _HEAD_LENGTH
+            made.arrowprops["mutation_scale"] = min(max(scale, _SMALLEST_HEAD), _HEAD)
 
     def _where(self, index: int, renderer: Any) -> Any:
         """Where a label is rendered; all of them are placed anew when the size of the picture or
@@ -203,7 +218,10 @@ class Drawing:
         def to_points(places: Any) -> Any:
             return self.axes.transData.transform(places) / pixels
 
-        room = _Room(np.array(self.axes.bbox.extents) / pixels)
+        extent: Any = np.array(self.axes.bbox.extents) / pixels
+        room = _Room(extent)
+        # The axes themselves, on which no label shall stand.
+        room.draw(extent[[[0, 3], [0, 1], [2, 1]]], _LINE)
         for tail, tip, width in self.arrows:
             room.draw(to_points([tail, tip]), _LINE * width)
         for artist in (*self.axes.lines, *self.axes.patches):

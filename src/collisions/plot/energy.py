@@ -11,6 +11,9 @@ from ..quantities.formatting import UnitSystem
 from ..vehicle.vehicle import Vehicle
 from .canvas import COLOURS, FORCE, GREY, INK, Axes, Units, begin, check_impact, number, tidy, who
 
+# Of the energy before: what is less is not told as a gain, which a reader would look into.
+_NEXT_TO_NOTHING = 1e-3
+
 
 @hinted
 def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
@@ -60,9 +63,10 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
     a, b = impact.a, impact.b
     names = who(0, a.before), who(1, b.before)
     tyres = a.tyre_loss + b.tyre_loss
+    before = _kinetic(a.before, "a"), _kinetic(b.before, "b")
     rows = [
-        ("a.before", f"{names[0]} before", _kinetic(a.before, "a"), COLOURS[0], ""),
-        ("b.before", f"{names[1]} before", _kinetic(b.before, "b"), COLOURS[1], ""),
+        ("a.before", f"{names[0]} before", before[0], COLOURS[0], ""),
+        ("b.before", f"{names[1]} before", before[1], COLOURS[1], ""),
         ("lost.normal", "lost along\nthe normal", -impact.energy_loss_normal, FORCE, "xxx"),
         (
             "lost.tangential",
@@ -98,6 +102,8 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
             axes.plot([end, end], [row - 0.31, row + 1.31], color=GREY, lw=0.9, ls=":", zorder=2)
         gains = gid.startswith("lost") and value > 0.0
         text = labels.text(abs(value), "J") + (" gained" if gains else "")
+        if gid.startswith("lost") and 0.0 < abs(step) < _NEXT_TO_NOTHING * total:
+            text = "less than 0.1 %"
         axes.annotate(
             text, (max(reached, end), row), (6, 0), textcoords="offset points", va="center",
             fontsize=9.5, color=INK,

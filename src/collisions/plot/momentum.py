@@ -233,7 +233,6 @@ def momentum(
     axes.grid(color=GRID, lw=0.6)
     axes.set_axisbelow(True)
     tidy(axes)
-    axes.locator_params(axis="x", nbins=6)
     legend_below(axes, 1 if open_ended else 2)
     drawing.finish()
     return axes

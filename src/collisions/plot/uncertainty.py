@@ -4,6 +4,7 @@ their standard errors.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -122,13 +123,15 @@ def distribution(
         gid="histogram",
     )
     median = output.quantile(0.5)
-    start, end = (labels.text(value, unit) for value in (low, high))
+    # As the tables have them.
+    told = partial(labels.to_deviation, unit=unit, deviation=output.std)
+    start, end = map(told, (low, high))
     span = (
         f"{100.0 * coverage:.4g} % interval, {start.removesuffix(f' {labels.name(unit)}')} to {end}"
     )
     for gid, value, style, colour, text in (
-        ("mean", output.mean, "-", FORCE, f"mean {labels.text(output.mean, unit)}"),
-        ("median", median, (0, (1, 1.2)), INK, f"median {labels.text(median, unit)}"),
+        ("mean", output.mean, "-", FORCE, f"mean {told(output.mean)}"),
+        ("median", median, (0, (1, 1.2)), INK, f"median {told(median)}"),
         ("low", low, (0, (6, 3)), INK, span),
         ("high", high, (0, (6, 3)), INK, None),
     ):

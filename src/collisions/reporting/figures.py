@@ -23,15 +23,16 @@ from .posterior_part import answers_of
 from .render import Html, Markdown, visible
 from .uncertainty import Spread, shares_of
 
-# All of one width, so that their letters are of one size.
+# All of one width, so that their letters are of one size: of which two stand beside each other on a
+# printed page, with letters that can be read there.
 _SIZES = {
-    "scene": (6.5, 5.6),
-    "momentum": (6.5, 6.2),
-    "impulse-plane": (6.5, 5.6),
-    "energy": (6.5, 4.2),
-    "pulse": (6.5, 6.5),
+    "scene": (5.2, 4.6),
+    "momentum": (5.2, 5.0),
+    "impulse-plane": (5.2, 5.0),
+    "energy": (5.2, 3.7),
+    "pulse": (5.2, 5.4),
 }
-_SIZE = (6.5, 4.6)
+_SIZE = (5.2, 3.8)
 _HEAD_TO_TAIL = "Momentum before and after, head to tail."
 # Nothing in a file may depend on chance or on whoever runs it; its letters stay letters, and names
 # are no formulas.

@@ -19,17 +19,18 @@ from ..diagnostics import diagnose
 from ..diagnostics.finding import Findings, is_note
 from ..estimate.posterior_result import PosteriorOutput
 from ..impact.impact import Impact, with_vehicles
+from ..messages.errors import InputError
 from ..plot.canvas import who
 from ..quantities.document import Document
 from ..quantities.formatting import UnitSystem
 from ..quantities.settings import callers_options, computing
 from ..quantities.tables import as_sentence, cells, given_texts, label_of
-from ..quantities.units import Input, Pair, kinds_in_degrees
+from ..quantities.units import Input, Pair, kinds_in_degrees, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..scene.one_run import need_one_run
 from ..scene.run import Run
 from ..uncertainty import Propagation
-from ..uncertainty.result import outputs_part
+from ..uncertainty.result import outputs_part, varies
 from ..vehicle.drag import USUAL_DURATION
 from . import figures as drawing
 from . import sections
@@ -172,6 +173,14 @@ def report(
 
     if isinstance(impact, Run):
         need_one_run(impact, "report", "impact")
+        if answers is not None:
+            raise InputError(
+                f"answers is {shown(answers)}, and the page of a run alone has always the same "
+                "answer; leave it out, or write report([found, run], `answers=...`) with what was "
+                "found of its scene",
+                code="bad_option",
+                argument="answers",
+            )
         given["units"] = units_of_run(impact, units)
         held = plain_options(given)
         changed = {name: value for name, value in held.items() if not _is_usual(name, value)}
@@ -387,7 +396,7 @@ def _delta_v(sheet: Sheet, own: _Own) -> Iterator[tuple[str, str, bool]]:
     """The delta-V of both vehicles of an impact, with its range where there are samples."""
     run, number = own.together.run, own.number
     impact = run.impacts[number]
-    of = f", impact {number + 1} ({run.times[number]:.2f} s)" if len(run.impacts) > 1 else ""
+    of = f", impact {number + 1}" if len(run.impacts) > 1 else ""
     for name, side in (("a.delta_v", impact.a), ("b.delta_v", impact.b)):
         if not math.isfinite(side.before.mass):
             continue
@@ -400,9 +409,9 @@ def _delta_v(sheet: Sheet, own: _Own) -> Iterator[tuple[str, str, bool]]:
 def _ground(sheet: Sheet, together: Together) -> None:
     """What the vehicles move on, where they come to rest, and where the energy went."""
     run = together.run
-    sheet.say(f"What follows is of the run at the {together.middle}.")
     vehicles(sheet, run, together.marks())
     sheet.heading("Places of rest")
+    sheet.say(f"These, and the energy below, are of the run at the {together.middle}.")
     sheet.table(rests(sheet, run))
     sheet.heading("Where the kinetic energy went")
     sheet.table(ledger(sheet, run))
@@ -461,14 +470,23 @@ def _body(
 def _at_the_samples(sheet: Sheet, own: _Own) -> None:
     """What the marks say, and the ranges of an impact that the samples leave."""
     together = own.together
-    sheet.say(
-        f"“{together.middle.capitalize()}” is what was found there, and not given; “from the run” "
-        "is the state with which the run of these numbers comes to this impact."
-    )
-    if own.ranges:
+    words = {*together.marks_of(own.number).values()}
+    told = {
+        together.middle: "is what was found there, and not given",
+        "from the run": "is the state with which the run of these numbers comes to this impact",
+    }
+    says = [f"“{word}” {what}" for word, what in told.items() if word in words]
+    if says:
+        text = "; ".join(says)
+        sheet.say(f"{text[0]}{text[1].upper()}{text[2:]}.")
+    if any(map(varies, own.ranges.values())):
         pair = together.run.pairs[own.number]
         sheet.heading("What the evidence leaves of it")
-        named = {plain(words_of(name, pair)): output for name, output in own.ranges.items()}
+        named = {
+            plain(words_of(name, pair)): output
+            for name, output in own.ranges.items()
+            if varies(output)
+        }
         sheet.columns(outputs_part(named, cells(sheet.system.name)))
         sheet.say(
             f"From the {together.samples} samples of part {together.part}, each run through "
@@ -486,7 +504,9 @@ def _notes(sheet: Sheet, found: Checked) -> None:
 def _heading(number: int, part: _Part) -> str:
     title = _title(part.result)
     if part.own is not None and len(part.own.together.run.impacts) > 1:
-        title += f" at {part.own.together.run.times[part.own.number]:.2f} s"
+        at = part.own.number
+        lead, _, of = title.partition(" ")
+        title = f"{lead} {at + 1} {of}, at {part.own.together.run.times[at]:.2f} s"
     return f"{number}. {plain(title)}"
 
 

@@ -16,6 +16,8 @@ from ..uncertainty.distributions import Normal
 from ..uncertainty.result import outputs_part
 from .render import Sheet, plain
 
+_OF_NUMBER = "0123456789.e+-"
+
 
 def answers_of(found: Posterior, answers: Sequence[str] | None) -> list[str]:
     """The names that the answer is about: those asked for; else what was worked out and the speeds
@@ -84,10 +86,11 @@ def _readings(sheet: Sheet, found: Posterior, notes: Mapping[str, str]) -> Part:
     for name, one in found.observed.items():
         residual = found.residuals[name]
         reading, error = _reading(sheet, one, residual.unit)
-        off = _number(sheet, residual.residual, residual.unit)
+        spread = float(found.predicted[name].std)
+        off = _number(sheet, residual.residual, residual.unit, spread, bare=True)
         off = f"+{off}" if residual.residual > 0.0 else off
         off += f" ({rounded(residual.over_sigma, 2)})" if residual.sigma else ""
-        computed = _number(sheet, residual.computed, residual.unit, found.predicted[name].std)
+        computed = _number(sheet, residual.computed, residual.unit, spread)
         rows.append((plain(name), reading, error, computed, off, plain(notes.get(name, ""))))
     heads = ("reading", "stated error", "computed", "off by", "where it is from")
     if any(row[-1] for row in rows):
@@ -95,11 +98,15 @@ def _readings(sheet: Sheet, found: Posterior, notes: Mapping[str, str]) -> Part:
     return Part([row[:-1] for row in rows], columns=heads[:-1])
 
 
-def _number(sheet: Sheet, value: float, unit: str, deviation: float | None = None) -> str:
-    """A number of a reading, rounded as a result; one of a unit of its own to four figures."""
+def _number(sheet: Sheet, value: float, unit: str, deviation: float, bare: bool = False) -> str:
+    """A number of a reading, rounded to its deviation, which stands behind it unless it is
+    ``bare``; one of a unit of its own to four figures.
+    """
     kind = KIND_OF.get(unit, sheet.system.unlisted)
     if kind is None:
         return number_with_unit(f"{value:.4g}", unit)
+    if bare:
+        return sheet.system.span(value, value, kind, deviation)
     return sheet.system.answer(value, kind, deviation)
 
 
@@ -109,8 +116,7 @@ def _reading(sheet: Sheet, one: Statement, unit: str) -> tuple[str, str]:
     if not isinstance(one, Normal):
         return text, ""
     value, _, error = text.partition(" ± ")
-    number, space, own = error.partition(" ")
-    return f"{value}{space}{own}", f"{number}{space}{own}"
+    return value + error.lstrip(_OF_NUMBER), error
 
 
 def _stated(sheet: Sheet, one: Statement, unit: str = "") -> str:

@@ -46,6 +46,8 @@ li { break-inside: avoid; }
 table { border-collapse: collapse; width: 100%; font-size: .92em; margin-bottom: .6em; }
 caption { text-align: left; font-weight: bold; padding-bottom: .1em; overflow-wrap: anywhere; }
 tr { break-inside: avoid; }
+tr:nth-child(-n+2) { break-after: avoid; }
+tr:nth-last-child(-n+2) { break-before: avoid; }
 th, td { text-align: left; vertical-align: top; padding: .1em .5em .1em 0; border-bottom: 1px \
 solid #d0d0d0; overflow-wrap: anywhere; }
 th { font-weight: normal; width: 40%; }
@@ -58,6 +60,7 @@ td { font-variant-numeric: tabular-nums; }
 2em; }
 figure { margin: .6em 0; max-width: 38em; break-inside: avoid; }
 figcaption { font-size: .92em; }
+.figures > figure { max-width: 32em; }
 svg { display: block; max-width: 100%; height: auto; }
 svg * { stroke-linejoin: round; stroke-linecap: butt; }
 .line { margin: .2em 0 .6em 1.5em; break-inside: avoid; overflow: auto hidden; }
@@ -71,7 +74,7 @@ summary { cursor: pointer; margin: .4em 0; }
   body { font-size: 9pt; max-width: none; margin: 0; padding: 0; }
   .answer { flex-wrap: nowrap; }
   .figures { grid-template-columns: 1fr 1fr; gap: .6em 2em; }
-  .figures svg { max-height: 58mm; width: auto; }
+  .figures svg { max-height: 84mm; width: auto; }
   summary { list-style: none; }
   details::details-content { content-visibility: visible; block-size: auto; }
   details.record pre, details.screen > :not(summary) { display: none; }

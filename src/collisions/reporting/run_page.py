@@ -278,7 +278,9 @@ def vehicles(sheet: Sheet, run: Run, marks: Mapping[str, str] | None = None) -> 
         if mover.tyres is not None:
             for part, what, value, kind in wheel_rows(mover.tyres):
                 word = marked.get(f"{name}.tyres.{part}", "")
-                rows.append((of, what, sheet.number(float(value), kind) + word))
+                size = float(value)
+                text = sheet.system.answer(size, kind) if word else sheet.number(size, kind)
+                rows.append((of, what, text + word))
         if mover.drag is None and mover.tyres is None:
             rows.append((of, "slowed by", "nothing"))
     for number, (corners, friction) in enumerate(run.scene.surfaces):

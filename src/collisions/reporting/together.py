@@ -4,6 +4,7 @@ which inputs of an impact are found, what the samples leave of it, and the measu
 
 from __future__ import annotations
 
+import itertools
 import math
 import warnings
 from collections.abc import Mapping, Sequence
@@ -230,7 +231,10 @@ def together_of(impact: Sequence[Any]) -> Together | None:
         )
     need_one_run(runs[0], "report", "impact")
     _check_same_scene(found[0], runs[0])
-    return Together(found[0], runs[0], impact.index(found[0]) + 1)
+    before = itertools.takewhile(lambda one: one is not found[0], impact)
+    # Each impact of the run is a part.
+    parts = sum(len(one.impacts) if isinstance(one, Run) else 1 for one in before)
+    return Together(found[0], runs[0], parts + 1)
 
 
 def _check_same_scene(found: Posterior | Fit, run: Run) -> None:
