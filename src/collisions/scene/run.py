@@ -726,7 +726,9 @@ def _warn_of_notices(found: Followed) -> None:
     if count := counted(found.driven):
         text = (
             "two vehicles do not part after their contact and are followed through or into each "
-            "other: what pushes them without a blow is not followed"
+            "other: what pushes them without a blow is not followed, and their places of rest may "
+            "be wrong. Where that is so in a few percent of the cases, no more of the probability "
+            "is in doubt; where in many, leave the places of rest out of the evidence"
         )
         said = f"in {count} of {found.count} cases of the scene {text}"
         warn_of_cases(OutOfRangeWarning(said, code="driven_through"), {text: count})
