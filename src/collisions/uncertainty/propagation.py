@@ -38,6 +38,7 @@ from .model import (
     function_of,
     pair_hints,
     read_input,
+    units_taken,
 )
 from .one_sided import Answers
 from .one_sided_output import OneSidedOutput, one_sided_notes
@@ -204,7 +205,8 @@ def propagate(
     stated = _read_inputs(inputs)
     wanted = _read_finer(finer, finer_samples, stated, method, tolerance)
     model = function_of(model, stated, outputs, "outputs")
-    check_units(model, _units_stated(inputs, stated), "inputs")
+    if units_taken(model):
+        check_units(model, _units_stated(inputs, stated), "inputs")
     finer = None if finer is None else function_of(finer, stated, outputs, "finer")
     if method is None:
         kinds = {type(value) for value in stated.values() if isinstance(value, Statement)}
