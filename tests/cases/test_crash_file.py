@@ -143,8 +143,8 @@ def test_uncertain_numbers_have_the_paths_of_the_scene() -> None:
     page = found.report("markdown")
     assert replay(page) == run_at(found.case, {})
     assert "road | 0.6 to 0.8" in page
-    assert "A.speed: Stated as 50 ± 3 km/h." in page
-    assert re.search(r"B.rest.x:\*\* [\d.]+ to [\d.]+ m \(95 %\)", page)
+    assert "speed of A at the start: Stated as 50 ± 3 km/h." in page
+    assert re.search(r"position x of B at rest:\*\* [\d.]+ to [\d.]+ m \(95 %\)", page)
 
 
 def test_an_area_and_a_slope_that_are_not_known_exactly() -> None:
@@ -153,6 +153,10 @@ def test_an_area_and_a_slope_that_are_not_known_exactly() -> None:
         '[scene]\nslope = ["1 % .. 2 %", 0]\n'
     )
     assert list(read_text(text.encode()).uncertain) == ["surfaces[0]", "slope[0]"]
+    page = answers(read_text((text + "[propagate]\nsamples = 64\n").encode())).report("markdown")
+    notes = page[page.index("## Notes") : page.index("## Figures")]
+    assert "\nfriction of surface 1: Stated as 0.2 to 0.4" in notes
+    assert "\nslope of the ground along x, y: Stated as 1 to 2 %" in notes
 
 
 def test_without_outputs_delta_v_and_places_of_rest_are_asked_for() -> None:
@@ -170,6 +174,24 @@ def test_without_outputs_delta_v_and_places_of_rest_are_asked_for() -> None:
 
 OBSERVED = '[observed]\n"A.rest.x" = "-0.11 m +/- 0.3 m"\n"B.rest.x" = "8.15 m +/- 0.3 m"\n'
 SOUGHT = ROW.replace('"50 km/h"', '"10 mph .. 90 mph"').replace("= 0.1", '= "0.05 .. 0.3"')
+
+
+def test_points_of_a_mark_are_observed_by_their_paths() -> None:
+    """A car that skids straight on, whose front left wheel is 0.75 m from its middle."""
+    tyres = "[mover.tyres]\nfriction = 0.7\nlock = 1\nwheelbase = 2.6\ntrack = 1.5\n"
+    skid = ROW[: ROW.index("[[mover]]", 1)].replace("drag = 0.7\n", tyres)
+    skid = skid.replace("heading = 0\n", "heading = 0\nyaw_inertia = 2000\n")
+    text = skid.replace('"50 km/h"', '"40 km/h +/- 10 km/h"') + (
+        '[fit]\n[observed]\n"A.marks.front_left.distance(3 m, 0.8 m)" = "0 m +/- 0.1 m"\n'
+        '"A.marks.front_left.end.x" = "9.35 m +/- 0.1 m"\n'
+    )
+    found = solved(text)
+    way = 9.35 + 6.0 - 1.3
+    assert found["A.speed"].value == pytest.approx(
+        (2.0 * 0.7 * col.travel.GRAVITY * way) ** 0.5, rel=1e-3
+    )
+    wrong = text.replace("front_left.end", "left.end")
+    assert "no wheel 'left'; write one of front_left" in problems(wrong)[0]
 
 
 def test_what_was_observed_leads_back_by_fit_or_posterior() -> None:

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+import pint
 import pytest
 
 import collisions as col
@@ -948,6 +949,13 @@ WARNINGS = [
     Warned("ratio of a contact stated to stick", 0.3, CONDITION, "may_slide", stated_to_stick),
     Warned("friction beside the ratio", 0.1, CONDITION, "friction_differs", less_than_its_ratio),
     Warned("two recorders", 0.1, CONDITION, "recorders_differ", two_recorders),
+    Warned("bare delta-V of a recorder", 100.0 / 3.6, UNITS, "suspect_units",
+        lambda x: reconstruct.recorded_pulse(
+        [0.0, 0.1, 0.2], [0.0, -x, -x], polarity="ISO 8855")),
+    Warned("delta-V of a recorder to the left", 100.0, RANGE, "beyond_recorder",
+        lambda x: reconstruct.recorded_pulse(
+        [0.0, 0.1, 0.2], [0.0, -9.0, -9.0], pint.Quantity([0.0, x, x], "km/h"),
+        polarity="ISO 8855")),
     Warned("change at the end of a record", 0.8 / 3.6, RANGE, "pulse_cut", a_record_that_stops),
     Warned("fit that bends", 0.2, CONDITION, "not_linear", a_bent_reading),
     Warned("fit within its bounds", 1.0, CONDITION, "told_by_bounds", one_reading, below=True),
@@ -997,6 +1005,7 @@ def test_every_warning_has_its_rows():
                 found |= set([word for word in words if re.fullmatch("[a-z_]+", word)][:1])
     elsewhere = {"nearly_plastic", "undetermined", "fold", "islands_disagree", "collapsed"}
     elsewhere |= {"stuck_or_slid", "beyond_model", "driven_through", "drag_during_contact"}
+    elsewhere |= {"touch_without_contact"}
     assert found == {row.code for row in WARNINGS if row.code != "contradictory"} | elsewhere
 
 

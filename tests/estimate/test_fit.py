@@ -529,6 +529,56 @@ def test_a_prior_settles_what_the_evidence_does_not():
     np.testing.assert_allclose(found.covariance, [[closing + 0.25, 0.25], [0.25, 0.25]], rtol=1e-7)
 
 
+def bent(v, spare=0.0):
+    """A way whose middle is far from both ends, of which ``path`` warns, and an unknown that it
+    does not depend on.
+    """
+    way = [(0, 0), (6, -1.6), (12, -2.3)]
+    return {"y": travel.path(way, [0.0, 2.0, 3.5], friction=0.7, lock=v).q.speed + 0.0 * spare}
+
+
+def test_an_unknown_that_nothing_determines_does_not_silence_the_model():
+    """The model gives the same warning whatever the spare unknown is."""
+    with pytest.warns(col.OutOfRangeWarning):
+        at = float(bent(0.3)["y"].magnitude)
+    alone, codes = fitted(bent, {"v": Interval(0.1, 0.9)}, {"y": (at, 0.1)})
+    assert codes == ["wide_segment"]
+    unknowns = {"v": Interval(0.1, 0.9), "spare": Uniform(0.0, 1.0)}
+    found, codes = fitted(bent, unknowns, {"y": (at, 0.1)})
+    assert math.isnan(found.values["spare"])
+    assert sorted(codes) == ["undetermined", "wide_segment"]
+    (note,) = found.model_notes
+    assert note.fields["share"] == 1.0
+    assert note.sentence.endswith(alone.model_notes[0].sentence)
+    assert note.statement in found.statements
+
+
+def test_a_warning_of_some_values_that_nothing_determines_is_kept():
+    """Half of the values of the spare unknown are warned of, and the search starts at either."""
+
+    def model(v, spare):
+        way = [(0, 0), (6, -1.6), (12, -2.3)]
+        some = np.asarray(spare) > 0.5
+        if np.any(some):
+            travel.path(way, [0.0, 2.0, 3.5], friction=0.7, lock=np.asarray(v)[some])
+        return {"y": 2.0 * v}
+
+    found, _ = fitted(model, {"v": Interval(0.1, 0.9), "spare": Uniform(0, 1)}, {"y": (0.8, 0.1)})
+    assert [note.code for note in found.model_notes] == ["wide_segment"]
+
+
+def test_the_answers_of_an_ambiguous_fit_have_the_warnings_of_the_model():
+    def model(v):
+        bent(np.clip(np.abs(v), 0.1, 0.9))
+        return {"square": v * v}
+
+    with pytest.raises(col.AmbiguousSolutionError) as refused:
+        fit(model, {"v": Interval(-0.9, 0.9)}, {"square": (0.25, 0.01)})
+    assert len(refused.value.solutions) == 2
+    for one in refused.value.solutions:
+        assert [note.code for note in one.model_notes] == ["wide_segment"]
+
+
 def test_friction_that_does_not_act_is_named():
     """Head-on through both centres of mass nothing slips: friction is not determined, the speeds
     are.

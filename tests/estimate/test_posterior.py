@@ -1081,7 +1081,8 @@ def test_what_a_reading_was_worked_out_from_is_said_and_recorded():
         assert found.to_dict()["observed_from"] == {"energy": damage.source}
         assert pickle.loads(pickle.dumps(found)).observed["energy"].source == damage.source
         page = col.report(found, form="markdown", units="us")
-        assert "A 40 kN/m, B 600 kN/m²; side of B, by crush" in page
+        assert "A 40 kN/m, B 600 kN/m²" in page
+        assert "side of B, by crush" in page
         assert "width 5 ft, depths 11 in, 9 in, A 300 lbf/in, B 60 lbf/in²" in page
     # Statements of the same numbers are equal, whatever these were worked out from.
     assert Normal(damage, 1e4) == Normal(float(damage), 1e4)
@@ -1201,3 +1202,32 @@ def test_a_reading_with_the_sign_of_another_convention_is_named(estimate):
     # So far off that the other sign is no better.
     assert "contradicts itself" in said("-25 m/s")
     assert "opposite sign" not in said("-25 m/s")
+
+
+@pytest.mark.parametrize("returned", ["to a full turn", "to half a turn"])
+def test_a_predicted_direction_that_jumps_is_told(returned):
+    """A heading about 0 that is returned in 0 to 360 degrees has a mean between both ends, and is
+    told; what the warning says to return has the prior's mean and deviation.
+    """
+
+    def model(heading, speed):
+        angle = np.degrees(heading) % 360.0
+        if returned == "to half a turn":
+            angle = (angle + 180.0) % 360.0 - 180.0
+        return {"heading after": pint.Quantity(angle, "deg"), "video": speed}
+
+    unknowns = {"heading": Normal("0 deg", "5 deg"), "speed": Uniform(5.0, 15.0)}
+    observed = {"video": (10.0, 0.5)}
+
+    def asked():
+        return posterior(model, unknowns, observed, seed=1, samples=2048)
+
+    if returned == "to a full turn":
+        with pytest.warns(col.OutOfRangeWarning, match="near a full turn") as caught:
+            found = asked()
+        assert [one.message.code for one in caught] == ["may_wrap"]
+        assert any("near a full turn" in said for said in found.statements)
+        return
+    found = asked()["heading after"]
+    assert math.degrees(found.mean) == pytest.approx(0.0, abs=0.8)
+    assert math.degrees(found.std) == pytest.approx(5.0, rel=0.1)

@@ -159,6 +159,32 @@ def test_none_and_zero_are_the_same(law):
         assert zero.a.outside_work == without.b.outside_work == 0.0
 
 
+@pytest.mark.parametrize("law", LAWS)
+def test_an_elastic_contact_without_friction_gains_nothing(law):
+    """By the balance of energy, what the contact takes at the mean of the speeds before and after
+    is then 0; what rounding leaves of it is no gain, in a batch or alone.
+    """
+    generator, count = np.random.default_rng(7), 2000
+    speed, normal = generator.uniform(5.0, 30.0, count), generator.uniform(-0.4, 0.4, count)
+    push = [generator.uniform(-size, size, count) for size in (600.0, 900.0, 200.0)]
+
+    def solve(take):
+        outside = tuple(take(part) for part in push)
+        return col.eccentric(
+            A.replace(vx=take(speed)), B, 1.0, friction=0.0, law=law, normal=take(normal),
+            point=(0.1, 0.2), outside_b=outside,
+        )  # fmt: skip
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", col.EnergyGainWarning)
+        many = solve(lambda part: part)
+        ones = [solve(lambda part, at=at: float(part[at])) for at in range(0, count, 20)]
+    assert np.all(many.ok)
+    assert all(one.ok for one in ones)
+    size = many.closing_speed * many.normal_impulse
+    assert np.all(np.abs(many.energy_loss) <= 16.0 * 2.0**-52 * size)
+
+
 def test_an_infinite_mass_takes_none():
     wall = col.Vehicle.barrier()
     plain, pushed = (

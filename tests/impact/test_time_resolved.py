@@ -117,6 +117,31 @@ def test_a_linear_spring_against_a_barrier(restitution, geometry):
     assert impact.common_velocity == pytest.approx(0.0, abs=1e-9 * speed)
 
 
+def test_a_duration_is_that_of_the_two_bodies_with_their_levers():
+    """Without friction and motion a spring swings with the effective mass along the normal: the
+    contact takes as long as was given, and the largest force is that of its sine.
+    """
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, x=-2.0, y=0.3, heading=0.0, vx=15.0)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=1800.0, x=1.8, y=-1.2, heading=0.5, vx=-3.0)
+    e, duration, normal = 0.3, 0.1, 0.2
+    contact = {"normal": normal, "point": (0.0, 0.0), "friction": 0.0, "geometry": "fixed"}
+    found = col.time_resolved(a, b, e, **contact, duration=duration)
+    levers = [(0.0 - one.x) * math.sin(normal) - (0.0 - one.y) * math.cos(normal) for one in (a, b)]
+    yields = sum(
+        1.0 / one.mass + lever**2 / one.yaw_inertia
+        for one, lever in zip((a, b), levers, strict=True)
+    )
+    # The same bounds as for a car against a barrier.
+    assert found.pulse.duration == pytest.approx(duration, rel=6e-5)
+    frequency = (1.0 + e) * math.pi / 2.0 / duration
+    most = 18.0 * math.cos(normal) * frequency / yields
+    assert found.pulse.peak_force == pytest.approx(most, rel=6e-5)
+    points = 1.0 / (1.0 / a.mass + 1.0 / b.mass)
+    # With the spring of point masses it would not.
+    stiff = col.time_resolved(a, b, e, **contact, stiffness=points * frequency**2).pulse
+    assert stiff.duration == pytest.approx(duration / math.sqrt(points * yields), rel=6e-5)
+
+
 def test_crash_stiffness_against_a_barrier():
     """The worked case: 1500 kg at 15.6 m/s, A 60 kN/m, B 700 kN/m2, 1.5 m wide: 0.590 m, 42.1 g,
     65.3 ms; and closed forms.

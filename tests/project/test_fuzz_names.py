@@ -953,10 +953,13 @@ def lasting(case: Case) -> dict[str, Any]:
     found: dict[str, Any] = {"duration": case.value("duration")} if case.maybe(0.95) else {}
     for name in ("tyres_a", "tyres_b"):
         locks = [case.uniform(0.0, 1.0) for _ in range(4)]
-        if case.maybe(0.8):
-            found[name] = travel.Tyres(case.uniform(0.0, 1.2), locks, 2.7, 1.5)
-        elif case.mood == "odd" and case.maybe(0.2):
+        if case.mood == "odd" and case.maybe(0.4):
             found[name] = case.garbage()
+        elif case.maybe(0.8):
+            found[name] = travel.Tyres(case.uniform(0.0, 1.2), locks, 2.7, 1.5)
+    # Wheels without a duration are refused, whatever they are.
+    if case.mood == "odd" and case.maybe(0.4):
+        found.pop("duration", None)
     return found
 
 
@@ -1561,9 +1564,13 @@ def test_simulated_travel(case: Case) -> None:
             case.must("travel.SimulatedPath.summary", found.summary, case.choice(UNIT_SYSTEMS))
         )
         case.must("travel.SimulatedPath.at", found.at, 0.3)
+        several = case.array("duration", case.choice(((2,), (3,), (2, 1))))
+        moment = several if case.maybe(0.3) else case.value("duration")
+        case.call("travel.SimulatedPath.at", found.at, moment)
         case.look(
             found,
-            frozenset({"travel.SimulatedPath.marks", "Vehicle.course", "Vehicle.yaw_inertia"}),
+            frozenset({"travel.SimulatedPath.marks"})
+            | {f"Vehicle.{name}" for name in ("course", "kinetic_energy", "yaw_inertia")},
         )
         if case.maybe(0.2):
             outlines = {f"outline_{v}": outline(case) if case.maybe(0.3) else None for v in "ab"}
@@ -1615,6 +1622,7 @@ def scene_movers(case: Case) -> dict[str, Any]:
         mover = case.call("scene.Mover", scene.Mover, **case.spoil(given))
         if isinstance(mover, scene.Mover):
             case.must("scene.Mover.as_given", mover.as_given, name="vehicle")
+            case.call("scene.Mover.as_given", mover.as_given, case.option("drag", "mass"))
             case.must("scene.Mover.replace", mover.replace, drag=None)
             assert str(case.must("scene.Mover.summary", mover.summary, case.choice(UNIT_SYSTEMS)))
         found["ABC"[k]] = mover
@@ -1656,6 +1664,7 @@ def scene_contact(case: Case, a: Any, b: Any) -> Any:
     contact = case.call("scene.Contact", scene.Contact, **case.spoil(given))
     if isinstance(contact, scene.Contact):
         case.must("scene.Contact.as_given", contact.as_given, name="restitution")
+        case.call("scene.Contact.as_given", contact.as_given, case.option("point", "given"))
         case.must("scene.Contact.replace", contact.replace, restitution=0.1)
         assert str(case.must("scene.Contact.summary", contact.summary, case.choice(UNIT_SYSTEMS)))
     return contact
@@ -1686,8 +1695,8 @@ def known_scene() -> scene.Scene:
     "scene.Run", "scene.Run.at", "scene.Run.case", "scene.Run.from_dict", "scene.Run.summary",
     "scene.Run.to_columns", "scene.Run.to_dict",
     "scene.Scene", "scene.Scene.as_model", "scene.Scene.case", "scene.Scene.from_dict",
-    "scene.Scene.inputs", "scene.Scene.replace", "scene.Scene.required", "scene.Scene.results",
-    "scene.Scene.run",
+    "scene.Scene.inputs", "scene.Scene.mark_points", "scene.Scene.replace", "scene.Scene.required",
+    "scene.Scene.results", "scene.Scene.run",
     "scene.Scene.summary", "scene.Scene.to_dict", share=0.3,
 )  # fmt: skip
 def test_scenes(case: Case) -> None:
@@ -1728,11 +1737,29 @@ def test_scenes(case: Case) -> None:
     if made.shape is not None:
         case.call("scene.Scene.case", made.case, case.option(0, 1, (0,)))
     wanted = case.sample(list(results), 2)
+    seen = case.call(
+        "scene.Scene.mark_points",
+        made.mark_points,
+        **case.spoil(
+            {
+                "name": case.option(*made.movers),
+                "wheel": case.option("front_left", "rear_right"),
+                "points": case.option([case.pair("x"), case.pair("x")]),
+                "error": case.value("width"),
+                "begins": case.option(True, False),
+                "ends": case.option(True, False),
+            }
+        ),
+    )
+    if isinstance(seen, dict):
+        wanted += seen
     with mock.patch.object(motion_of_wheels, "_MOST_STEPS", 1_500):
         found = case.call(
             "scene.Scene.run", made.run, **case.spoil({"tolerance": case.option(1e-4, 1e-3)})
         )
-        model = case.call("scene.Scene.as_model", made.as_model, [path], wanted, tolerance=1e-3)
+        names = case.option([path], [path], [case.garbage()])
+        outputs = wanted if case.maybe(0.8) else case.option(wanted, [case.garbage()])
+        model = case.call("scene.Scene.as_model", made.as_model, names, outputs, tolerance=1e-3)
         if callable(model):
             case.call("model of a scene", model, **{path: case.number(name)})
         if not isinstance(found, scene.Run):

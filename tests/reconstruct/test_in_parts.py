@@ -60,7 +60,7 @@ def told(solver, *args, **given):
 
 def numbers(impact):
     """Every number behind an impact by name: what was found, with what was answered forwards."""
-    found = dict(zip(Answer._fields, impact._answer, strict=True)) | {
+    found = {name: getattr(impact._answer, name) for name in Answer._fields} | {
         f"{label}.{moment}.{name}": getattr(getattr(getattr(impact, label), moment), name)
         for label in "ab"
         for moment in ("before", "after")
@@ -148,6 +148,28 @@ def test_planar_refuses_the_first_case_wherever_it_is(monkeypatch):
     after = end.a.after, end.b.after
     with pytest.raises(col.InputError, match="case 150"):
         planar(*after, restitution=0.2, impulse_ratio=ratio, on_failure="raise", **contact)
+
+
+@pytest.mark.parametrize("kind", ["restitution", "energy_loss"])
+def test_planar_with_tyres_in_parts_has_the_bits_of_the_whole(monkeypatch, kind):
+    """Also beside a friction of 0 or without end, of which some origins leave a singular matrix."""
+    rng = np.random.default_rng(7)
+    shape = (8, 25)
+    a, b, contact, drawn = scene(rng, shape, some=0.02)
+    wheels = col.travel.Tyres(
+        friction=drawn(0.4, 0.9), lock=drawn(0.0, 1.0), wheelbase=2.6, track=1.5
+    )
+    lasting = {"tyres_a": wheels, "duration": drawn(0.06, 0.15)}
+    given = {"friction": drawn(0.1, 0.8, 0.0, np.inf), **contact, **lasting}
+    end = col.eccentric(a, b, drawn(0.05, 0.6), on_failure="nan", **given)
+    known = {kind: getattr(end, kind)}
+    whole, said = told(planar, end.a.after, end.b.after, **known, **given)
+    with monkeypatch.context() as patched:
+        patched.setattr(PARTS, 20)
+        parts, said_of_parts = told(planar, end.a.after, end.b.after, **known, **given)
+    assert_same_bits(parts, whole)
+    assert said_of_parts == said
+    assert np.count_nonzero(whole.ok) > 10
 
 
 @pytest.mark.slow
@@ -268,3 +290,48 @@ def test_speeds_take_the_memory_of_their_answers():
     most, (found, _) = peak(lambda: told(speeds, a, b, **given), size)
     assert np.count_nonzero(found[0].ok) > size // 4
     assert most < 850
+
+
+def test_a_share_of_the_critical_ratio_leaves_its_neighbours_bits():
+    """A case with the whole critical ratio has the same speeds, to the bit, among cases with a
+    share of it and among its like.
+    """
+    rng = np.random.default_rng(2)
+    count = 300
+    courses = rng.uniform(-3.0, 3.0, count)
+    speed = rng.uniform(1.0, 20.0, count)
+    a = col.Vehicle(
+        mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=rng.normal(0.0, 0.4, count), vx=15.0, vy=0.0
+    )
+    b = col.Vehicle(
+        mass=rng.uniform(900.0, 3000.0, count),
+        yaw_inertia=2000.0,
+        x=1.0,
+        y=rng.normal(0.0, 0.5, count),
+        vx=speed * np.cos(courses),
+        vy=speed * np.sin(courses),
+    )
+
+    def found(fraction):
+        contact = {"normal": 0.0, "point": (0.0, 0.0), "critical_fraction": fraction}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.CollisionsWarning)
+            impact = col.eccentric(a, b, 0.1, **contact, on_failure="nan")
+            return speeds(
+                a,
+                b,
+                restitution=0.1,
+                course_a=0.0,
+                course_b=courses,
+                delta_v_a=impact.a.delta_v,
+                energy_loss=impact.energy_loss,
+                **contact,
+            )
+
+    whole = np.ones(count)
+    mixed = np.where(np.arange(count) % 7, 1.0, 0.5)
+    for alone, among in zip(found(whole), found(mixed), strict=False):
+        for one, other in ((alone.a, among.a), (alone.b, among.b)):
+            np.testing.assert_array_equal(
+                one.before.speed[mixed == 1.0], other.before.speed[mixed == 1.0]
+            )

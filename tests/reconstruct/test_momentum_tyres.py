@@ -289,3 +289,12 @@ def test_tyres_that_are_in_the_answer_are_no_finding():
         for answer in (found(), found(duration=0.1, tyres_a=ROLLING))
     ]
     assert checks == [{"tyre_impulse", "instant"}, set()]
+
+
+@pytest.mark.parametrize("wheels", [np.array([1.0, 2.0]), np.zeros(0), "x", 0])
+def test_tyres_that_are_none_are_refused_without_a_duration_too(wheels):
+    known = {"course_a": 0, "course_b": 1, "course_a_after": 0.3, "course_b_after": 0.5}
+    known |= {"speed_a_after": 5, "speed_b_after": 6, "heading_a": 0}
+    with pytest.raises(col.InputError, match="tyres_a must be Tyres") as refused:
+        reconstruct.momentum(1500, 1500, **known, tyres_a=wheels)
+    assert "tyres need a duration" in str(refused.value)

@@ -248,6 +248,8 @@ MPH = 1609.344 / 3600  # exact by definition
     ],
 )
 @pytest.mark.parametrize("comma", [False, True])
+# 40 m/s are more than recorders have to be exact for.
+@pytest.mark.filterwarnings("ignore:delta_v_forward goes to:collisions.OutOfRangeWarning")
 def test_columns_are_those_of_their_heads(heads, order, separator, unit, comma, tmp_path):
     """The same numbers under heads in any order, as reports write them; a place in the file says
     nothing.
@@ -336,6 +338,14 @@ TABLES = [
         "0,1,2\n10,2,3",
         "says 'negative'",
     ),
+    ("time [ms],adjusted longitudinal delta-V [km/h]", "0,1\n10,2", "says 'adjusted'"),
+    ("time [ms],longitudinal delta-V (corrected) [km/h]", "0,1\n10,2", "says 'corrected'"),
+    ("time [ms],pre-crash longitudinal delta-V [km/h]", "0,1\n10,2", "pre-crash.*says 'pre'"),
+    ("pre-crash time [s],longitudinal [km/h]", "0,1\n10,2", "pre-crash time.*says 'pre'"),
+    ("time [ms],longitudinal [km/h]", "0,0\n10,-950\n20,-1.024", "'-1.024' in row 4 of longit"),
+    ("time [ms];longitudinal [km/h]", "0;0\n10;-9\n20;-24,000", "'-24,000' in row 4 of longit"),
+    ("time [ms];longitudinal [km/h]", "0;0,0\n10;-9,5\n20;-24.000", "'-24.000' a point"),
+    ("time [ms];longitudinal [km/h]", "0;0,0\n10;-9,5\n20;-24.000,5", "'-24.000,5' a point"),
     ("time [ms],longitudinal (MPH [km/h])", "0,1\n10,2", "has two units"),
     ("time [ms],longitudinal (MPH) [km/h]", "0,1\n10,2", "has two units"),
     ("time [ms],longitudinal", "0,1\n10,2", "has no unit"),
@@ -447,6 +457,17 @@ REFUSALS = [
     ("bad_pulse", (1000 * TIME, SHAPE), {}, "were milliseconds meant"),
     ("bad_pulse", (TIME, SHAPE * math.nan), {}, "finite number"),
     ("bad_units", (TIME, "3 kg"), {}, "delta_v_forward"),
+    # A recorder's step is 1 km/h.
+    (
+        "bad_pulse",
+        (TIME, SHAPE + 5 * KMH),
+        {},
+        r"delta_v_forward begins with 5 km/h at time 0, .* take its first value off",
+    ),
+    ("bad_pulse", (TIME, SHAPE, SHAPE - 1.01 * KMH), {}, "delta_v_left begins with"),
+    ("bad_pulse", (TIME - 0.05, SHAPE + 5 * KMH), {}, "at -0.05 s, before time 0"),
+    # An acceleration, which is greatest early.
+    ("bad_pulse", (TIME, -95.0 * np.exp(-TIME / 0.05)), {}, "not a speed or an acceleration"),
 ]
 
 
@@ -531,3 +552,37 @@ def test_the_evidence_of_a_reading_has_the_deviation_of_its_range():
     given, aside = pulse.evidence
     assert aside is None
     assert (given.mean, given.sd) == pytest.approx((-10.0, 1.0 / math.sqrt(3.0)), rel=1e-12)
+
+
+def test_a_first_sample_may_be_off_by_the_step_of_a_recorder():
+    """By 1 km/h, and by more where the record begins after the event has."""
+    shape = -10.0 * haversine(TIME)
+    assert recorded_pulse(TIME, shape + KMH, polarity="ISO 8855").ended
+    assert recorded_pulse(TIME + 0.01, shape - 3 * KMH, polarity="ISO 8855").ended
+
+
+def test_a_delta_v_beyond_what_recorders_are_exact_for(tmp_path):
+    """49 CFR 563.8, Table III: -100 to 100 km/h. Numbers without a unit may be of another one."""
+    with pytest.warns(col.SuspectUnitsWarning, match=r"-864 km/h.*pint.Quantity\(values") as bare:
+        recorded_pulse(TIME, -240.0 * haversine(TIME), polarity="49 CFR 563")
+    assert (bare[0].message.code, bare[0].message.fields["argument"]) == (
+        "suspect_units",
+        "delta_v_forward",
+    )
+    registry = pint.get_application_registry()
+    fast = registry.Quantity(-864.0 * haversine(TIME), "km/h")
+    with pytest.warns(col.OutOfRangeWarning, match="delta_v_left goes to 864 km/h") as given:
+        recorded_pulse(TIME, SHAPE, fast, polarity="49 CFR 563")
+    assert given[0].message.code == "beyond_recorder"
+    cells = [str(round(-240.0 * share, 2)) for share in haversine(TIME)]
+    path = written(tmp_path / "p.csv", "time [ms],longitudinal [m/s]", [TIMES, cells])
+    with pytest.warns(col.OutOfRangeWarning, match="goes to -864 km/h"):
+        recorded_pulse(path, polarity="49 CFR 563")
+
+
+def test_three_decimals_are_decimals_where_the_column_shows_it(tmp_path):
+    path = tmp_path / "p.csv"
+    for rows in ("0;0\n10;-5,123\n20;-24,124\n60;-24,124", "0;0\n10;-5\n20;-24,124\n60;-24,12"):
+        path.write_text(f"time [ms];longitudinal [km/h]\n{rows}", encoding="utf-8")
+        pulse = recorded_pulse(path, polarity="49 CFR 563")
+        assert pulse.delta_v_forward == pytest.approx(-24.124 * KMH, rel=1e-12)

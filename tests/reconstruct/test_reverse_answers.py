@@ -305,3 +305,39 @@ def test_a_text_that_is_not_its_number_is_refused():
 
     with pytest.raises(col.InputError, match="which is not its number"):
         replay(tampered(page, change))
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize(
+    "changed", [{"condition": 1.0}, {"answers": 7}, {"known": ["restitution"]}, {"method": "guess"}]
+)
+@pytest.mark.parametrize("show", [col.diagnose, col.explain, col.report], ids=lambda f: f.__name__)
+def test_a_reconstruction_that_a_record_alone_says_is_refused_where_it_is_shown(changed, show):
+    """As `replay` refuses it; of an untouched record each shows what it shows of the original."""
+    nearly = reconstruct.central(1500.0, 1200.0, va_after=12.0, vb_after=12.01, restitution=0.001)
+    record = json.loads(json.dumps(nearly.to_dict()))
+    read = col.Impact.from_dict(record)
+    assert read.reconstruction == nearly.reconstruction
+    assert "ill_conditioned" in [one.code for one in col.diagnose(read)]
+    assert str(show(read)) == str(show(nearly))
+    assert str(show(pickle.loads(pickle.dumps(read)))) == str(show(nearly))
+    with col.options(require_units=True):
+        show(read)
+    record["results"]["reconstruction"].update(changed)
+    spoilt = col.Impact.from_dict(record)
+    with pytest.raises(col.InputError, match="a record that contradicts itself") as refused:
+        show(spoilt)
+    assert (refused.value.code, refused.value.argument) == ("bad_record", "impact")
+    with pytest.raises(col.InputError, match="a record that contradicts itself"):
+        show(pickle.loads(pickle.dumps(spoilt)))
+
+
+def test_a_case_of_a_batch_that_was_read_from_a_record_is_worked_out_again():
+    batch = reconstruct.central(
+        1500.0, 1200.0, va=np.array([20.0, 22.0]), vb=0.0, restitution=0.1, on_failure="nan"
+    )
+    record = json.loads(json.dumps(batch.to_dict()))
+    col.diagnose(col.Impact.from_dict(record).case(1))
+    record["results"]["reconstruction"]["condition"]["values"] = [1.0, 77.0]
+    with pytest.raises(col.InputError, match="a record that contradicts itself"):
+        col.diagnose(col.Impact.from_dict(record).case(1))

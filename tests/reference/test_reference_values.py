@@ -287,6 +287,7 @@ def test_values_read_at_second_hand():
             "Second hand" in row.quality
         ), name
     assert reference.RECORDER_ERROR.typical == 0.06
+    assert reference.RECORDER_RANGE.q.high.m_as("km/h") == pytest.approx(100.0, rel=1e-15)
     assert reference.RECORDER_RESOLUTION.q.low.m_as("km/h") == pytest.approx(1.0, rel=1e-15)
 
 

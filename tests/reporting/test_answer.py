@@ -379,7 +379,7 @@ def test_what_follows_from_a_posterior_stands_first_in_the_answer():
     assert "Speed before the skid was worked out from that." in text
     assert "by travel.speed: distance = 30 ft, drag = 0.7, end speed = x" in page
     figures = report(braked)
-    assert "speed before the skid, in the cases drawn" in figures
+    assert "Speed before the skid, in the cases drawn" in figures
 
 
 @pytest.mark.parametrize(

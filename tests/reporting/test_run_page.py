@@ -5,6 +5,7 @@ record.
 from __future__ import annotations
 
 import json
+import math
 import re
 from html import unescape
 from typing import Any
@@ -13,6 +14,7 @@ import pytest
 
 import collisions as col
 from collisions.reporting import options, replay
+from collisions.reporting.scene_words import input_in_words, result_in_words
 from collisions.scene import Contact, Mover, Run, Scene
 from collisions.travel import Tyres
 from collisions.uncertainty import Normal, Uniform, propagate
@@ -62,6 +64,78 @@ def test_each_impact_the_ledger_and_the_findings_have_their_parts() -> None:
         assert finding.sentence.split(": ", 1)[1][:30] in page
     for area in ("| surface 1 | friction | 0.3 |", "| Camry | outline | 15.75 ft by 5.906 ft |"):
         assert area in page
+
+
+def test_every_vehicle_has_its_state_at_the_start() -> None:
+    """In the units of the page, and as it was given where that is another."""
+    run = three_cars()
+    page = col.report(run, form="markdown", units="us")
+    start = page[page.index("## At the start") : page.index("## Vehicles and ground")]
+    for name, mover in run.scene.movers.items():
+        body = mover.vehicle
+        for what, value, unit in (
+            ("position x of the centre of mass", body.x / FOOT, " ft"),
+            ("position y of the centre of mass", body.y / FOOT, " ft"),
+            ("heading", math.degrees(body.heading), "°"),
+            ("speed", body.speed / MPH, " mph"),
+            ("yaw rate", math.degrees(body.yaw_rate), "°/s"),
+        ):
+            found = re.search(rf"\| {name} \| {what} \| (-?[\d.]+){unit}", start)
+            assert float(found[1]) == pytest.approx(value, rel=1e-3, abs=1e-3), (name, what)
+    assert "| Truck | course | none: it stands |" in start
+    assert "| Camry | course | 0° |" in start
+    bare = col.report(coasting(), form="markdown", figures=False)
+    assert "| B | course | none: it stands |" in bare
+
+
+def test_ranges_stand_under_words_and_not_under_paths() -> None:
+    run = three_cars()
+    inputs = {
+        "Camry.vx": Normal("40 mph", "1 mph"),
+        "contacts[0].friction": Uniform(0.45, 0.55),
+        "Civic.tyres.friction": Normal(0.7, 0.02),
+    }
+    outputs = ["impacts[0].a.delta_v", "times[0]", "Camry.marks.front_left.end.x"]
+    spread = propagate(run.scene, inputs, outputs=outputs, samples=256, seed=1)
+    page = col.report(run, uncertainty=spread, form="markdown", figures=False)
+    said = page[: page.index("## Record")]
+    assert not re.search(r"contacts\\?\[|impacts\\?\[|times\\?\[|\.vx|tyres\.|marks\.", said)
+    assert "**delta-V of Camry, impact 1 (0.00 s):**" in said
+    assert said.count("**delta-V of Camry, impact 1") == 1
+    assert "| Inputs as stated | velocity along x of Camry at the start | 40 ± 1 mph |" in said
+    assert "variance from friction of the contact of Camry and Civic at 0.00 s |" in said
+    assert "x of the end of the mark of the front left wheel of Camry" in said
+    assert "named after the vehicles that they have in the run of this report" in said
+
+
+def test_every_path_of_a_scene_has_words() -> None:
+    """That no part of the path is left in; those of one scene are all different."""
+    scene = three_cars().scene
+    after = {"Civic": Tyres(0.7, [1, 1, 0, 0], 2.6, 1.5, height=0.5)}
+    hit = Contact(
+        "Camry", "Truck", restitution=0.1, impulse_ratio=0.2, depth=0.1, at="touch", duration=0.1,
+        model="eccentric",
+    )  # fmt: skip
+    scene = Scene(
+        movers={
+            **scene.movers,
+            "Van": Mover(col.Vehicle(mass=1.0, x=90, y=0, heading=0, vx=1), drag=0.5),
+        },
+        contacts=[*scene.contacts, hit, scene.contacts[0].replace(at=9.0, tyres_after=after)],
+        surfaces=list(scene.surfaces),
+        slope=(0.0, 0.01),
+    )
+    run = three_cars()
+    inputs = {path: input_in_words(scene, path) for path in scene.inputs()}
+    results = {path: result_in_words(run, path) for path in run.scene.results()}
+    for found in (inputs, results):
+        assert len(set(found.values())) == len(found)
+        for path, words in found.items():
+            assert not re.search(r"[\[\]_]|\w\.[a-z]", words), path
+    assert inputs["contacts[0].restitution"].startswith("restitution of the contact of Camry and")
+    assert results["impacts[1].b.after.speed"] == "speed of Truck after, impact 2 (0.70 s)"
+    assert result_in_words(run, "impacts[7].a.delta_v") == "delta-V of A, impact 8"
+    assert result_in_words(run, "anything") == "anything"
 
 
 @pytest.mark.slow
@@ -122,7 +196,11 @@ def test_a_propagation_of_the_scene_has_its_ranges_in_the_answer() -> None:
     """What was asked for comes first, with its range; the inputs are printed as stated."""
     run = slid()
     inputs = {"A.vx": Normal("12 m/s", "0.5 m/s"), "contacts[0].restitution": Uniform(0.05, 0.2)}
-    names = ["B.rest.x", "impacts[0].b.delta_v"]
+    words = {
+        "B.rest.x": "position x of B at rest",
+        "impacts[0].b.delta_v": f"delta-V of B, impact 1 ({run.times[0]:.2f} s)",
+    }
+    names = list(words)
     # B brakes harder than A behind it, which runs into it again where they part slowly.
     with pytest.warns(col.OutOfRangeWarning, match="do not part after their contact"):
         spread = propagate(run.scene, inputs, outputs=names, samples=64, seed=0)
@@ -130,15 +208,15 @@ def test_a_propagation_of_the_scene_has_its_ranges_in_the_answer() -> None:
     answer = page[: page.index("## Vehicles")]
     for name in names:
         low, high = spread[name].interval()
-        found = re.search(rf"{re.escape(name)}:\*\* ([\d.]+) to ([\d.]+)", answer.replace("\\", ""))
+        found = re.search(rf"{re.escape(words[name])}:\*\* ([\d.]+) to ([\d.]+)", answer)
         assert found is not None
         assert float(found[1]) == pytest.approx(low, abs=0.06)
         assert float(found[2]) == pytest.approx(high, abs=0.06)
-    assert "delta-V of B, impact 1" not in answer
+    assert answer.count("delta-V of B, impact 1") == 1
     assert "delta-V of A, impact 1" in answer
     assert "No range is stated for the figures above that have only one number." in answer
     part = page[page.index("## Uncertainty") : page.index("## Findings")]
-    assert "| Inputs as stated | A.vx | 12 ± 0.5 m/s |" in part
+    assert "| Inputs as stated | velocity along x of A at the start | 12 ± 0.5 m/s |" in part
     assert "0.05 to 0.2, all values equally likely |" in part
     assert "64 cases, all with an answer, seed 0" in part
     assert "do not part after their contact" in part

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import math
 import os
 import random
@@ -180,6 +181,152 @@ def test_overlaps_are_those_of_polygons_cut_edge_by_edge() -> None:
             assert size[0] == pytest.approx(area, rel=1e-9)
             assert found[:, 0] == pytest.approx(centre, abs=1e-9)
     assert compared > 50
+
+
+def test_overlaps_are_those_of_shapely() -> None:
+    """Of outlines that are no rectangles too: area, centre and how far apart they are."""
+    shapely = pytest.importorskip("shapely", reason="shapely is not installed (extra: test)")
+    compared = 0
+    for seed in range(300):
+        rng = np.random.default_rng(seed)
+        shapes = []
+        for _ in range(2):
+            turn = np.sort(rng.uniform(0.0, math.tau, rng.integers(3, 9)))
+            # Corners on an ellipse, in order, are those of a convex outline.
+            corners = np.array([2.4 * np.cos(turn), 0.9 * np.sin(turn)]).T
+            hull = shapely.MultiPoint(corners).convex_hull
+            if np.diff(turn, append=turn[0] + math.tau).max() > 3.0 or hull.area < 0.5:
+                corners = np.array([(2.0, 0.8), (-2.0, 0.8), (-2.0, -0.8), (2.0, -0.8)])
+            outline = tuple(map(tuple, corners.tolist()))
+            shapes.append(Shape.of(Mover(col.Vehicle(mass=1.0), outline=outline).outline))
+        state = np.zeros((2, 6, 1))
+        state[:, :3, 0] = rng.uniform(-1.6, 1.6, (2, 3)) * (1.0, 1.0, 2.0)
+        met = meeting(shapes[0], shapes[1], state[0], state[1])
+        one, other = (shapely.Polygon(part) for part in polygons(met))
+        common = one.intersection(other)
+        assert (common.area > 0.0) == (met.gap[0] < 0.0)
+        if common.area > 1e-6:
+            compared += 1
+            found, size, _ = overlap_of(met.one, met.other)
+            assert size[0] == pytest.approx(common.area, rel=1e-9)
+            assert found[:, 0] == pytest.approx((common.centroid.x, common.centroid.y), abs=1e-8)
+        elif met.gap[0] > 0.0:
+            # The gap along the axes of the faces is no more than the distance.
+            assert met.gap[0] <= one.distance(other) + 1e-9
+    assert compared > 100
+
+
+CORNERS = 120
+
+
+def disc(mass: float, radius: float, x: float, y: float, vx: float) -> Mover:
+    """A disc as a polygon of as many corners as make it nearly one."""
+    angles = math.tau * (np.arange(CORNERS) + 0.5) / CORNERS
+    outline = [(radius * math.cos(angle), radius * math.sin(angle)) for angle in angles]
+    inertia = 0.5 * mass * radius**2
+    body = col.Vehicle(mass=mass, yaw_inertia=inertia, x=x, y=y, vx=vx, vy=0.0, heading=0.0)
+    return Mover(body, outline=outline)
+
+
+@pytest.mark.parametrize("aside", [0.0, 0.3, 0.8, 1.3])
+@pytest.mark.parametrize(("mass", "restitution"), [(1000.0, 1.0), (2500.0, 0.4)])
+def test_frictionless_discs_part_as_in_closed_form(
+    aside: float, mass: float, restitution: float
+) -> None:
+    """Along the line of centres as two points, across it as before; to the angle between two faces
+    of the polygons.
+    """
+    radius, other, speed, start = 0.9, 0.7, 10.0, -6.0
+    hit = Contact(
+        "A", "B", at="touch", restitution=restitution, friction=0.0, depth=1e-4, model="eccentric"
+    )
+    movers = {
+        "A": disc(1000.0, radius, start, aside, speed),
+        "B": disc(mass, other, 0.0, 0.0, 0.0),
+    }
+    run = Scene(movers=movers, contacts=[hit]).run()
+    centres = radius + other
+    along = math.sqrt(centres**2 - aside**2)
+    near = 2.0 * math.pi / CORNERS
+    assert run.times[0] == pytest.approx((-start - along) / speed, abs=near**2 * centres / speed)
+    # From A to B.
+    normal = np.array([along, -aside]) / centres
+    closing = speed * normal[0]
+    impulse = (1.0 + restitution) * closing / (1.0 / 1000.0 + 1.0 / mass)
+    (impact,) = run.impacts
+    for side, size, way in ((impact.a, 1000.0, -1.0), (impact.b, mass, 1.0)):
+        wanted = np.array([side.before.vx, side.before.vy]) + way * impulse / size * normal
+        found = np.array([side.after.vx, side.after.vy])
+        assert found == pytest.approx(wanted, abs=2.0 * near * impulse / size + 1e-9)
+        # A face is off the line of centres by its own half at most, which turns the disc.
+        lever = near * max(radius, other)
+        spin = lever * impulse / side.before.yaw_inertia
+        assert abs(side.after.yaw_rate) <= 2.0 * spin
+    lost = 0.5 * (1.0 - restitution**2) * closing**2 / (1.0 / 1000.0 + 1.0 / mass)
+    before = 0.5 * 1000.0 * speed**2
+    assert impact.energy_loss == pytest.approx(lost, abs=4.0 * near * before)
+
+
+def test_a_head_on_pair_of_discs_is_as_in_closed_form_to_the_digit() -> None:
+    """Face to face, where the polygon has the normal of the discs: equal masses trade speeds."""
+    hit = Contact("A", "B", at="touch", restitution=1.0, friction=0.0, depth=1e-4)
+    movers = {"A": disc(1000.0, 0.9, -6.0, 0.0, 10.0), "B": disc(1000.0, 0.7, 0.0, 0.0, 0.0)}
+    run = Scene(movers=movers, contacts=[hit]).run()
+    (impact,) = run.impacts
+    assert (impact.a.after.vx, impact.b.after.vx) == pytest.approx((0.0, 10.0), abs=1e-9)
+    assert (impact.a.after.yaw_rate, impact.b.after.yaw_rate) == pytest.approx((0, 0), abs=1e-9)
+
+
+def cradle(masses: list[float], speed: float, gaps: list[float], e: float) -> list[float]:
+    """Last speeds of a row of bodies of which the first moves, by events one after another."""
+    places = np.concatenate([[0.0], np.cumsum(gaps)])
+    speeds = np.array([speed, *np.zeros(len(gaps))])
+    while True:
+        closing = speeds[:-1] - speeds[1:]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            waits = np.where(closing > 1e-12, np.diff(places) / closing, np.inf)
+        if not np.isfinite(waits).any():
+            return speeds.tolist()
+        i = int(waits.argmin())
+        places = places + waits[i] * speeds
+        impulse = (1.0 + e) * closing[i] / (1.0 / masses[i] + 1.0 / masses[i + 1])
+        speeds[i] -= impulse / masses[i]
+        speeds[i + 1] += impulse / masses[i + 1]
+        places[i + 1] = places[i] + 1e-13
+
+
+@pytest.mark.parametrize(
+    ("masses", "e"),
+    [
+        ([1000.0] * 5, 1.0),
+        ([1600.0, 800.0, 400.0, 200.0], 1.0),
+        ([1600.0, 800.0, 400.0, 200.0], 0.7),
+        ([1000.0, 500.0, 4000.0], 1.0),
+        ([500.0, 1000.0, 2000.0], 0.9),
+    ],
+)
+def test_newtons_cradle_is_as_in_closed_form(masses: list[float], e: float) -> None:
+    """Equal masses hand the speed on; falling ones raise it, by 2 m / (m + n) (1 + e) / 2 each."""
+    gaps = [0.4 + 0.3 * i for i in range(len(masses) - 1)]
+    names = "ABCDE"[: len(masses)]
+    places = [0.0, *np.cumsum([4.0 + gap for gap in gaps]).tolist()]
+    movers = {
+        name: Mover(
+            col.Vehicle(mass=mass, vx=9.0 if name == "A" else 0.0, x=x, y=0.0, heading=0.0),
+            outline=(4.0, 1.8),
+        )
+        for name, mass, x in zip(names, masses, places, strict=True)
+    }
+    rule = {"normal": 0.0, "model": "linear_central", "at": "touch", "restitution": e}
+    contacts = [Contact(a, b, **rule) for a, b in itertools.pairwise(names)]
+    run = Scene(movers=movers, contacts=contacts).run()
+    found = [body.vx for body in run.at(1e4).values()]
+    assert found == pytest.approx(cradle(masses, 9.0, gaps, e), abs=1e-6)
+    if masses == sorted(masses, reverse=True):
+        handed = 9.0
+        for one, two in itertools.pairwise(masses):
+            handed *= (1.0 + e) * one / (one + two)
+        assert max(found) == pytest.approx(handed, rel=1e-9)
 
 
 def balance(run: Any) -> float:

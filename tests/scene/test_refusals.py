@@ -557,3 +557,35 @@ def test_the_inputs_of_a_scene_are_listed_with_their_units() -> None:
     assert listed["A.tyres.friction"] == listed["B.drag"] == listed["surfaces[0]"] == ""
     assert listed["contacts[1].at"] == "s"
     assert "C.drag" not in listed
+
+
+@pytest.mark.parametrize("listed", [[1], [None], [b"A.vx"], [["A.vx"]], np.array([1, 2])])
+@pytest.mark.parametrize("argument", ["names", "outputs"])
+def test_paths_that_are_no_texts_are_refused(listed: Any, argument: str) -> None:
+    given: dict[str, Any] = {"names": ["A.vx"], "outputs": ["end"], argument: listed}
+    with pytest.raises(InputError, match=f"{argument} has no .*; near it are") as refused:
+        scene().as_model(**given)
+    assert (refused.value.code, refused.value.argument) == ("unknown_name", argument)
+
+
+def test_a_run_is_no_list_of_paths() -> None:
+    run = Scene(movers={"A": Mover(CAR, drag=0.7)}, contacts=[]).run()
+    for given in ((run, ["end"]), (["A.vx"], run)):
+        with pytest.raises(InputError, match="must be a list of paths"):
+            scene().as_model(*given)  # type: ignore[arg-type]
+
+
+def test_paths_may_come_one_by_one() -> None:
+    """Both are asked for again later."""
+    moving = Scene(movers={"A": Mover(CAR, drag=0.7)}, contacts=[])
+    model = moving.as_model((one for one in ["A.vx"]), (one for one in ["end"]))  # type: ignore[arg-type]
+    assert model(**{"A.vx": 7.0})["end"].magnitude > 0.0
+
+
+@pytest.mark.parametrize("name", [{}, None, 5, "mass", "given", "replace"])
+def test_what_is_no_argument_was_not_given(name: Any) -> None:
+    for part, known in ((MOVERS["A"], "'outline'"), (contact(), "'restitution'")):
+        with pytest.raises(InputError, match="name must be one of") as refused:
+            part.as_given(name)
+        check(refused.value, InputError, "unknown_name", known)
+        assert refused.value.argument == "name"

@@ -94,7 +94,9 @@ def test_a_drag_is_that_of_locked_wheels_on_a_straight_way() -> None:
 
 
 def test_without_tyres_the_motion_is_as_given() -> None:
-    found = crash(None).required({"B.rest.x": "0.5 m"})
+    # Nothing slows the vehicles while the finest level follows their contact.
+    with pytest.warns(col.OutOfRangeWarning, match="a drag does not act"):
+        found = crash(None).required({"B.rest.x": "0.5 m"})
     assert [one.level.contacts for one in found.costs] == ["instant", "in time"]
     assert {one.level.motion for one in found.costs} == {"as given"}
     assert found.finest.scene.movers["A"].drag == 0.6
@@ -141,7 +143,9 @@ def test_draws_without_an_answer_count_against_a_level() -> None:
         ],
     )
     speeds = {"A.vx": Uniform("4 m/s", "12 m/s")}
-    found = scene.required({"C.rest.x": "0.2 m"}, speeds)
+    # A rolls on into B where B is stopped by the truck.
+    with pytest.warns(col.OutOfRangeWarning, match="do not part"):
+        found = scene.required({"C.rest.x": "0.2 m"}, speeds)
     assert found.answered < found.draws
     assert f"{found.draws - found.answered} of 32 draws have no answer" in " ".join(
         found.statements
@@ -195,3 +199,51 @@ def test_numbers_of_draws_and_batches_are_refused() -> None:
     batch = crash().replace({"A.vx": np.array([14.0, 15.0])})
     with pytest.raises(col.InputError, match=r"write scene.case\(0\).required"):
         batch.required({"A.rest.x": 1})
+
+
+def driven_through() -> Scene:
+    """A striker that rolls on through the car it struck, which turns."""
+    fast = col.Vehicle(mass=2000, yaw_inertia=3500, x=-8, y=0, heading=0, vx=15)
+    slow = col.Vehicle(mass=1000, yaw_inertia=1500, x=0, y=0.3, heading=1.5)
+    return Scene(
+        movers={
+            "A": Mover(fast, outline=(4.5, 1.8), tyres=Tyres(0.7, 0.2, 2.7, 1.5)),
+            "B": Mover(slow, outline=(4.2, 1.7), tyres=Tyres(0.7, 1.0, 2.6, 1.5)),
+        },
+        contacts=[Contact("A", "B", restitution=0.0, friction=0.3, at="touch")],
+    )
+
+
+@pytest.mark.parametrize("unknowns", [None, {"A.speed": Normal(15.0, 1.0)}])
+def test_the_levels_say_that_vehicles_are_driven_through_each_other(unknowns: Any) -> None:
+    """As `propagate` says it of the same draws; what one level has by its drag is stated alone."""
+    scene = driven_through()
+    assert "driven_through" in [one.code for one in scene.run().findings]
+    with pytest.warns(col.OutOfRangeWarning) as warned:
+        found = scene.required({"B.rest.x": "0.3 m"}, unknowns, tolerance=1e-3)
+    assert [one.message.code for one in warned] == ["driven_through"]
+    (note,) = [one for one in found.notes if "do not part" in one]
+    assert note.startswith("at every level" if unknowns is None else "in 32 of 32 draws at every")
+    assert "do not part after their" in str(found)
+    assert note in found.to_dict()["statements"]
+    (drag,) = [one for one in found.notes if "a drag does not act" in one]
+    assert "'contacts in time, motion by drag'" in drag
+
+
+def test_a_scene_as_a_model_warns_of_one_case_as_of_many() -> None:
+    model = driven_through().as_model(["A.speed"], ["B.rest.x"])
+    with pytest.warns(col.OutOfRangeWarning) as many:
+        model(**{"A.speed": np.array([15.0, 15.5])})
+    with pytest.warns(col.OutOfRangeWarning) as one:
+        model(**{"A.speed": 15.0})
+    assert [warning.message.code for warning in one] == ["driven_through"]
+    assert [warning.message.code for warning in many] == ["driven_through"]
+
+
+def test_a_scene_as_a_model_warns_of_a_touch_that_no_contact_describes() -> None:
+    a = col.Vehicle(mass=1500, yaw_inertia=2600, vx=15, x=-10, y=0, heading=0)
+    b = col.Vehicle(mass=1200, yaw_inertia=2000, x=0, y=0, heading=0)
+    movers = {name: Mover(one, outline=(4.5, 1.8), drag=0.7) for name, one in (("A", a), ("B", b))}
+    with pytest.warns(col.OutOfRangeWarning) as warned:
+        Scene(movers=movers, contacts=[]).as_model([], ["A.rest.x"])()
+    assert [warning.message.code for warning in warned] == ["touch_without_contact"]

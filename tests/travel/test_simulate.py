@@ -1007,3 +1007,20 @@ def test_at_follows_a_car_that_recovers_and_then_rolls_for_minutes(lock):
         one, other = few.at(time), many.at(time)
         for name in ("x", "y", "heading", "vx", "vy", "yaw_rate"):
             assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-3, abs=2e-3)
+
+
+@pytest.mark.parametrize("times", [np.array([1.0, 2.0]), np.array([[1.0], [2.0]]), np.zeros(0)])
+def test_a_motion_of_one_case_is_asked_at_one_time(times):
+    path = travel.simulate(CAR, travel.Tyres(0.7, 1.0, 2.7, 1.5))
+    with pytest.raises(col.ShapeError, match=r"one case, at one time; .*have all moments") as found:
+        path.at(times)
+    assert (found.value.code, found.value.argument) == ("bad_shape", "time")
+    assert path.at(np.array(1.0)).x == path.at(1.0).x
+
+
+@pytest.mark.parametrize("times", [np.array([1.0, 2.0, 3.0]), np.ones((2, 1)), np.ones((3, 2))])
+def test_a_motion_of_a_batch_is_asked_at_one_time_for_each_case(times):
+    path = travel.simulate(CAR.replace(vx=np.array([14.0, 9.0])), travel.Tyres(0.7, 1.0, 2.7, 1.5))
+    with pytest.raises(col.ShapeError, match="takes one value, or one for each case") as found:
+        path.at(times)
+    assert (found.value.code, found.value.argument) == ("bad_shape", "time")

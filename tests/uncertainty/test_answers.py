@@ -22,6 +22,7 @@ from collisions.uncertainty import (
     Interval,
     Normal,
     Samples,
+    Triangular,
     Uniform,
     propagate,
     propagation,
@@ -375,6 +376,66 @@ def test_directions_on_both_sides_of_pi(method):
     assert caught[0].message.fields["outputs"] == ("pdof",)
 
 
+FULL_TURN = "has values near 0 and near a full turn, 2 pi, and few somewhere between"
+
+
+@pytest.mark.parametrize("method", ["quasi_random", "monte_carlo", "latin_hypercube"])
+@pytest.mark.parametrize(("middle", "spread"), [(0.0, 5.0), (350.0, 20.0), (20.0, 10.0)])
+@pytest.mark.parametrize("unit", [True, False])
+def test_a_direction_that_jumps_at_a_full_turn_is_told(method, middle, spread, unit):
+    """A normal direction in 0 to 360 degrees, whose plain mean is between its two ends; what the
+    warning says to return has the mean and the deviation that were put in.
+    """
+    inputs = {"x": Normal(f"{middle} deg", f"{spread} deg")}
+    radian = ureg.radian if unit else 1.0
+    with pytest.warns(col.OutOfRangeWarning, match=f"h {FULL_TURN}") as caught:
+        found = propagate(
+            lambda x: {"h": np.remainder(x, math.tau) * radian}, inputs, method=method, seed=1
+        )["h"]
+    assert [record.message.code for record in caught] == ["may_wrap"]
+    assert found.may_wrap()
+
+    def returned(x):
+        angle = np.degrees(x) % 360.0
+        return {"h": ((angle + 180.0) % 360.0 - 180.0) * ureg.degree}
+
+    found = propagate(returned, inputs, method=method, seed=1)["h"]
+    away = (math.degrees(found.mean) - middle + 180.0) % 360.0 - 180.0
+    assert abs(away) < math.degrees(6.5 * found.mean_standard_error)
+    assert math.degrees(found.std) == pytest.approx(spread, rel=0.05)
+
+
+def test_an_interval_across_a_full_turn_is_told():
+    """Its least and greatest values are the ends of the turn, whatever the bounds."""
+    with pytest.warns(col.OutOfRangeWarning, match=FULL_TURN):
+        propagate(
+            lambda x: {"h": np.remainder(x, math.tau) * ureg.radian},
+            {"x": Interval(-0.1, 0.2)},
+            method="interval",
+        )
+
+
+@pytest.mark.parametrize("unit", [True, False])
+@pytest.mark.parametrize(
+    "given",
+    [
+        Uniform(0.0, math.tau),
+        Normal(3.5, 0.5, truncate=(0.0, math.tau)),
+        Normal(1.0, 1.2, truncate=(0.0, math.tau)),
+        Triangular(0.0, 0.1, math.tau),
+        Normal(5.5, 0.4, truncate=(0.0, math.tau)),
+    ],
+)
+@pytest.mark.parametrize("method", ["quasi_random", "monte_carlo"])
+def test_a_rotation_within_a_turn_is_not_told(given, unit, method):
+    """A rotation to any side, one about half a turn, and densities that only fall or only rise."""
+    for seed in range(3):
+        propagate(
+            lambda x: {"h": x * (ureg.radian if unit else 1.0)}, {"x": given}, method=method,
+            seed=seed,
+        )  # fmt: skip
+
+
 @pytest.mark.parametrize("middle", [-3.1, -2.0, 0.0, 1.0, 3.0, math.pi])
 def test_directions_are_counted_about_their_middle(middle):
     """Values that lie within the turn stay as they are to the bit; those beyond pi are
@@ -614,6 +675,8 @@ def test_quantities(chained):
     ) as caught:
         _ = chained["ratio"].q
     assert caught.value.code == "no_unit"
+    # A number of a function has a Quantity of its own.
+    assert "travel.q.speed(...) in place of travel.speed(...)" in str(caught.value)
 
 
 def test_other_units_are_turned_into_si():

@@ -29,8 +29,10 @@ from ..reporting import report
 from ..reporting.checking import inputs_of
 from ..reporting.play import play
 from ..reporting.record import record
+from ..reporting.scene_words import input_in_words
 from ..reporting.what_if import starts, what_if
 from ..scene.run import Run
+from ..scene.scene import Scene
 from ..uncertainty import Interval
 from .crash import SCENE
 from .crash_answers import crash_model, found_run, usual_outputs
@@ -74,7 +76,7 @@ class Answers:
             if isinstance(one, (Impact, MomentumSolution)):
                 options["notes"] = (*own, *_stated(self.case.call, inputs_of(one), own))
             elif isinstance(one, Run):
-                options["notes"] = (*own, *_stated_in_scene(self.case.call))
+                options["notes"] = (*own, *_stated_in_scene(self.case.call, one.scene))
             else:
                 # The result of a study holds neither the solver nor what is known exactly.
                 case = "a scene" if self.case.solver == SCENE else self.case.solver
@@ -247,11 +249,15 @@ def _numbers_of_scene(node: Any) -> Iterator[tuple[str, Call | None, Any]]:
             yield f"surfaces[{at}]", None, friction
 
 
-def _stated_in_scene(call: Call) -> Iterator[str]:
+def _stated_in_scene(call: Call, scene: Scene) -> Iterator[str]:
     """What a file states of the inputs of a scene other than a number, in a paragraph each."""
+    known = scene.inputs()
     for key, _, value in _numbers_of_scene(call):
         if text := _in_words(value):
-            yield f"{key}: {text}."
+            path = key.removeprefix(f"{SCENE}.")
+            # Both parts of a point and of a slope are inputs, and what was given is the pair.
+            named = path in known or f"{path}[0]" in known
+            yield f"{input_in_words(scene, path) if named else key}: {text}."
 
 
 def _in_words(value: Any, given: bool = False) -> str:

@@ -5,7 +5,7 @@ need no impact model.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from ..quantities.formatting import KIND_OF, in_words, percent
 from ..quantities.tables import as_sentence
@@ -350,10 +350,12 @@ def momentum_answers(page: Page, solution: MomentumSolution) -> Iterator[tuple[s
             yield label.upper(), f"impulse of the tyres, along {axis}", page.number(push, "impulse")
 
 
-def fit(page: Page, found: Fit) -> None:
-    """Residual of each observation, and what the observations determine of the unknowns."""
+def fit(page: Page, found: Fit, notes: Mapping[str, str] | None = None) -> None:
+    """Residual of each observation, and what the observations determine of the unknowns; ``notes``
+    stand beside the observations of their names.
+    """
     page.heading("Given")
-    page.table(_given(page, found))
+    page.table(_given(page, found, notes or {}))
     page.say(
         "Each ± is one standard error, as it was stated. The model, a function of whoever asked, "
         "is not on this page; its computed values are those at the answer."
@@ -378,9 +380,10 @@ def fit(page: Page, found: Fit) -> None:
     )
 
 
-def _given(page: Page, found: Fit) -> Iterator[tuple[str, str, str]]:
+def _given(page: Page, found: Fit, notes: Mapping[str, str]) -> Iterator[tuple[str, str, str]]:
     for one in found.residuals.values():
         value = f"{_number(page, one.observed, one.unit)} ± {_number(page, one.sigma, one.unit)}"
+        value += f". {notes[one.name]}" if one.name in notes else ""
         yield page.name(one.name), "known before" if one.is_prior else "observed", value
     for name, ends in found.bounds.items():
         if any(map(math.isfinite, ends)):

@@ -21,6 +21,7 @@ from ..quantities.settings import callers_options, computing
 from ..quantities.tables import given_texts
 from ..quantities.units import kinds_in_degrees, shown, system_given
 from ..reconstruct import Fit, MomentumSolution, Posterior
+from ..reconstruct.found_again import need_found_again
 from ..scene.one_run import need_one_run
 from ..scene.run import Run
 from ..uncertainty.distributions import Interval
@@ -63,7 +64,7 @@ _IN_TIME = {
     "wheelbase": ("wheelbase of both vehicles", ("length",)),
     "track": ("track of both vehicles", ("length",)),
 }
-_VEHICLE = {
+OF_VEHICLE = {
     "mass": ("mass", "mass"),
     "vx": ("velocity along x", "speed"),
     "vy": ("velocity along y", "speed"),
@@ -108,10 +109,10 @@ _CONTACT = {
 }
 _OF_FRICTION = ("slip_before", "slip_after", "tangential_impulse", "impulse_ratio")
 # The results of an impact: vehicle or contact, description and kind.
-_IMPACT_ANSWERS = {
+IMPACT_ANSWERS = {
     f"{label}.{name}": (label.upper(), *row) for label in "ab" for name, row in _SIDE.items()
 }
-_IMPACT_ANSWERS |= {name: ("contact", *row) for name, row in _CONTACT.items()}
+IMPACT_ANSWERS |= {name: ("contact", *row) for name, row in _CONTACT.items()}
 
 
 @computing
@@ -211,6 +212,7 @@ def explain(
     need_one_case(
         impact, (Impact, MomentumSolution, Fit), "explain", instead=NOT_EXPLAINED, refused=error_of
     )
+    need_found_again(impact)
     if isinstance(impact, Fit) and uncertainty is not None:
         raise no_uncertainty()
     with callers_options():
@@ -285,7 +287,7 @@ def words_of_answers(result: Impact | MomentumSolution | Fit | Posterior) -> Map
 
 
 def _answers(result: Any) -> Mapping[str, tuple[str, str, str]]:
-    return MOMENTUM_ANSWERS if isinstance(result, MomentumSolution) else _IMPACT_ANSWERS
+    return MOMENTUM_ANSWERS if isinstance(result, MomentumSolution) else IMPACT_ANSWERS
 
 
 def _impact(page: Page, impact: Impact) -> None:
@@ -306,7 +308,7 @@ def impact_inputs(
 ) -> Iterator[tuple[str, str, tuple[str, ...], tuple[float, ...], str]]:
     """The rows of given inputs: A, B or the contact, description, argument, number and kind."""
     for label, vehicle in (("A", impact.a.before), ("B", impact.b.before)):
-        for name, (what, kind) in _VEHICLE.items():
+        for name, (what, kind) in OF_VEHICLE.items():
             value = getattr(vehicle, name)
             if value is not None and not (name == "yaw_rate" and value == 0.0):
                 yield label, what, (name,), (value,), kind
@@ -398,7 +400,7 @@ def _inputs(page: Page, impact: Impact) -> None:
 
 def impact_answers(page: Page, impact: Impact) -> Iterator[tuple[str, str, str]]:
     """The rows of results, rounded."""
-    for name, (of, what, kind) in _IMPACT_ANSWERS.items():
+    for name, (of, what, kind) in IMPACT_ANSWERS.items():
         side = impact.a if of == "A" else impact.b
         left_out = (
             impact.reconstruction is None and (".before." in name or name == "restitution"),

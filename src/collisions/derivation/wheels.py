@@ -5,7 +5,7 @@ from typing import Any
 
 from ..vehicle.tyres import Tyres
 
-_NUMBERS = {
+OF_WHEELS = {
     "friction": ("friction on the ground", "number"),
     "lock": ("braking (lock), as a share of what locks them", "number"),
     "lock[0]": ("braking of the front left wheel (lock)", "number"),
@@ -30,5 +30,5 @@ def tyre_inputs(tyres_of: Mapping[str, Tyres]) -> Iterator[tuple[str, str, Any, 
 def wheel_rows(tyres: Tyres) -> Iterator[tuple[str, str, Any, str]]:
     """Argument, description, number and kind of everything given of some tyres."""
     for name, value in tyres.named.items():
-        what, kind = _NUMBERS[name]
+        what, kind = OF_WHEELS[name]
         yield name, what, value, kind

@@ -20,6 +20,7 @@ from ..quantities.settings import callers_options, computing, units_required
 from ..quantities.tables import given_texts, spoken_system
 from ..quantities.units import Input, Pair, rendered, shown
 from ..reconstruct import MomentumSolution
+from ..reconstruct.found_again import need_found_again
 from ..scene.run import Run
 from ..vehicle.drag import USUAL_DURATION, read_drag, read_duration
 from ..vehicle.outlines import read_outline
@@ -170,6 +171,7 @@ def diagnose(
             )
             return diagnose_run(impact, given, spoken, diagnose)
     need_one_case(impact, (Impact, MomentumSolution), "diagnose")
+    need_found_again(impact)
     with callers_options():
         reader = ArgumentReader(trusted=() if units_required.get() else implausible)
         outlines = {

@@ -213,19 +213,20 @@ def fit(
             int(np.argmin(ends.chi_squared + _SAME_CHI_SQUARED * ~ends.converged)),
         )
         _check_minimum(best, ends, few=dearer is None)
-        fits = [_answer(one) for one in _rivals(best, ends)]
+        fits = []
+        for one in _rivals(best, ends):
+            where = _left_open(one, ends)
+            notes = _said_at(inputs, where, inputs.model)
+            if dearer is not None:
+                # No figure rests on what the first model says at the answer of the finer one.
+                notes += tuple(
+                    note._replace(warning=None, sentence=f"model, not finer: {note.sentence}")
+                    for note in _said_at(inputs, where, searched)
+                )
+            fits.append(replace(_answer(one), model_notes=notes))
         if len(fits) > 1:
             raise _ambiguous(fits)
         found = fits[0]
-        if not any(map(math.isnan, found.values.values())):
-            # For the warnings that the model itself gives there.
-            inputs.model.noted.clear()
-            inputs.model(
-                {name: np.array([value]) for name, value in found.values.items()}, 1, check=False
-            )
-            found = replace(found, model_notes=notes_of_samples(inputs.model.noted, 1))
-            if dearer is not None:
-                found = replace(found, model_notes=found.model_notes + _notes_of(searched, found))
         calls = {"model": searched.cases}
         if dearer is not None:
             calls["finer"] = inputs.model.cases
@@ -264,14 +265,24 @@ def _ends_to_refine(inputs: _Inputs, problem: Problem, ends: Ends) -> Any:
     return ends.points[chosen]
 
 
-def _notes_of(model: Model, found: Fit) -> tuple[Note, ...]:
-    """What the first model warns of at the answer of the finer one; no figure rests on it."""
+def _left_open(found: _Candidate, ends: Ends) -> Any:
+    """The points at which the model is asked for its warnings: the answer, and with it, for what
+    nothing determines, each value at which a search ended as well.
+    """
+    points = found.point[np.newaxis]
+    known = np.isfinite(found.errors)
+    if np.all(known):
+        return points
+    here = ends.points[_ended_at(ends, found.chi_squared)]
+    return np.unique(np.concatenate([points, np.where(known, found.point, here)]), axis=0)
+
+
+def _said_at(inputs: _Inputs, points: Any, model: Model) -> tuple[Note, ...]:
+    """The warnings that a model gives at these points."""
     model.noted.clear()
-    model({name: np.array([value]) for name, value in found.values.items()}, 1, check=False)
-    return tuple(
-        note._replace(warning=None, sentence=f"model, not finer: {note.sentence}")
-        for note in notes_of_samples(model.noted, 1)
-    )
+    values = {name: np.array(points[:, j]) for j, name in enumerate(inputs.units)}
+    model(values, len(points), check=False)
+    return notes_of_samples(model.noted, len(points))
 
 
 class _Inputs(NamedTuple):

@@ -247,7 +247,8 @@ class Fit(SpeedsFound, Shown):
     amount by which a 95 percent interval is too narrow or too wide, judged by the rise of
     chi-squared when an unknown is moved by two standard errors (or to its bound) and the others
     follow the slopes; NaN if the model refuses there. ``model_notes`` are the warnings of the model
-    at the answer, which ``statements`` have too. ``calls`` says how many cases were asked of each
+    at the answer, which ``statements`` have too; with an unknown that nothing determines, at each
+    of its values with which a search ended there. ``calls`` says how many cases were asked of each
     model: "model", and "finer" if one was given, whose fit this then is.
     """
 

@@ -22,6 +22,7 @@ from ..uncertainty.distributions import Distribution
 from ..uncertainty.finer import FinerModel
 from ..uncertainty.model import AnyModel, Model, function_of, range_hint, units_taken
 from ..uncertainty.propagation import check_options
+from ..uncertainty.result import wrap_notes, wraps_of
 from ..uncertainty.sampling import Correlation, Joint
 from ..uncertainty.turns import folded
 from .evidence import Observation, observed_columns, read_evidence, read_reading, refused_everywhere
@@ -121,6 +122,9 @@ def posterior(
     CollisionsWarning
         The evidence contradicts itself or the priors: a misfit this large has a probability below
         0.01.
+    OutOfRangeWarning
+        An unknown or an output looks like an angle that jumps, or has directions to all sides, so
+        that its mean means nothing, or little.
     IllConditionedWarning
         The evidence says nothing about an unknown with a uniform prior; or the islands disagree, or
         the sample collapsed; or more than 1 % of the samples lie where only the finer model has an
@@ -390,18 +394,21 @@ class _Problem:
             apart = float(np.mean(row.reading.residual(column, angle)))
             middle = row.reading.middle(column, apart)
             residuals[row.name] = residual_of(row, self.model.units[row.name], middle, apart)
+        unknowns = {
+            name: PosteriorOutput(name, self.units[name] or None, column, labels)
+            for name, column in values.items()
+        }
+        predicted = {
+            name: PosteriorOutput(name, self.model.units[name], column, labels)
+            for name, column in answers.items()
+        }
+        notes += tuple(wrap_notes(wraps_of(predicted | unknowns)))
         return Posterior(
             priors=dict(self.joint.inputs),
             observed={row.name: row.reading.value for row in self.rows},
             draws=read_only(answers | values),
-            unknowns={
-                name: PosteriorOutput(name, self.units[name] or None, column, labels)
-                for name, column in values.items()
-            },
-            predicted={
-                name: PosteriorOutput(name, self.model.units[name], column, labels)
-                for name, column in answers.items()
-            },
+            unknowns=unknowns,
+            predicted=predicted,
             residuals=residuals,
             log_evidence=_log_mean(logs),
             log_evidence_error=math.sqrt(float(np.var(left_out)) * (len(logs) - 1)),

@@ -22,7 +22,15 @@ from ..uncertainty.distribution import stated_in
 from ..uncertainty.distributions import Censored, Distribution, Normal, Samples, Uniform
 from ..uncertainty.normal import power_of_two
 from ..uncertainty.probability import holds
-from ..uncertainty.result import Sampled, Shares, correlations, outputs_part, units_of
+from ..uncertainty.result import (
+    Sampled,
+    Shares,
+    correlations,
+    outputs_part,
+    units_of,
+    wrap_notes,
+    wraps_of,
+)
 from .fit_result import CONTRADICTION, Residual, SpeedsFound, agreement, with_unit
 from .worked_out import in_words, stated, worked_out
 
@@ -275,11 +283,13 @@ class Posterior(SpeedsFound, Summarized):
         source = np.random.SeedSequence(self.seed, spawn_key=(5, len(self.results)))
         values, own, notes = worked_out(name, function, unit, arguments, self._outputs, source)
         islands = next(iter(self.unknowns.values()))._islands
+        output = PosteriorOutput(name, own, values, islands)
+        notes += tuple(wrap_notes(wraps_of({name: output})))
         warn_of(notes)
         return replace(
             self,
             draws=read_only(self.draws | {name: values}),
-            results=self.results | {name: PosteriorOutput(name, own, values, islands)},
+            results=self.results | {name: output},
             results_from=self.results_from | {name: stated(function, arguments)},
             model_notes=self.model_notes + notes,
         )

@@ -716,6 +716,11 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
     def from_dict(cls, record: Mapping[str, Any]) -> Impact:
         """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original.
 
+        Of a reverse answer, ``reconstruction`` is taken from the record as it stands, such as how
+        well-posed it was and how many impacts fit; and so is the status of a case without an
+        answer. ``diagnose``, ``explain``, ``report`` and ``reporting.replay`` work the
+        reconstruction out again, of single cases, and refuse a record that says otherwise.
+
         Parameters
         ----------
         record : dict

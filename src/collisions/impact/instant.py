@@ -19,6 +19,11 @@ LOOKED_FOR = (
     "answers are looked for from those of an instant without tyres and from a grid of other "
     "speeds, and one that none of these leads to is missed"
 )
+# Of motions before that ``planar`` finds with tyres.
+LOOKED_AROUND = (
+    "origins are looked for from those of an instant without tyres and from motions around them, "
+    "as far as the tyres reach, and one that none of these leads to is missed"
+)
 # The reverse solvers that take a duration and tyres.
 TAKE_TYRES = ("planar", "speeds")
 
@@ -93,10 +98,14 @@ def tyres_acted(impact: Impact) -> bool:
 
 
 def looked_for(impact: Impact) -> tuple[str, ...]:
-    """How the speeds of an impact with tyres were looked for, where others may have been missed."""
+    """How the speeds or motions before of an impact with tyres were looked for, where others may
+    have been missed.
+    """
     origin = impact.reconstruction
-    if origin is None or origin.method != "speeds" or not impact.inputs.tyres:
+    if origin is None or origin.method not in TAKE_TYRES or not impact.inputs.tyres:
         return ()
+    if origin.method == "planar":
+        return (f"found with tyres: {LOOKED_AROUND}",)
     components = any("forward" in name or "left" in name for name in origin.known)
     energy = any(name.startswith(("energy", "ees")) for name in origin.known)
     return () if components and not energy else (f"found with tyres: {LOOKED_FOR}",)

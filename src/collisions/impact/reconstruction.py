@@ -6,20 +6,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..kernels.elementwise import select
 from ..kernels.status import Status
-from ..quantities.attributes import read_only, same_fields
+from ..quantities.attributes import equal, read_only
 from ..quantities.units import Value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Reconstruction:
     """How a reverse solver found an impact.
+
+    Of an impact that ``Impact.from_dict`` read it is an ``AsRecorded``: what its record says, as it
+    stands there. ``diagnose``, ``explain``, ``report`` and ``reporting.replay`` work it out again,
+    and refuse a record that says otherwise.
 
     Parameters
     ----------
@@ -72,7 +76,18 @@ class Reconstruction:
     drag_b: Value | None = None
 
     def __eq__(self, other: object) -> bool:
-        return same_fields(self, other) if isinstance(other, Reconstruction) else NotImplemented
+        if not isinstance(other, Reconstruction):
+            return NotImplemented
+        return all(equal(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
+
+
+class AsRecorded(Reconstruction):
+    """What a record says of how its impact was found, as it stands there.
+
+    An impact cannot work it out again, as reverse solvers end in the forward one.
+    """
+
+    __slots__ = ()
 
 
 # What each reverse solver finds, unless it was given.

@@ -31,7 +31,7 @@ from .inputs import ARGUMENTS, OUTSIDE, UNITS, Inputs
 from .inputs import TYRES as TYRES_OF
 from .models import read_again
 from .pulse import CURVES, Pulse
-from .reconstruction import KNOWN, Reconstruction, found_from
+from .reconstruction import KNOWN, AsRecorded, Reconstruction, found_from
 from .vehicle_result import VehicleResult
 
 FORMAT = "collisions impact 2"
@@ -263,7 +263,7 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
     method = str(found["method"])
     # A record of an earlier version has neither what was found nor the numbers that were given.
     names = found.get("found", found_from(method, known))
-    return Reconstruction(
+    return AsRecorded(
         method=method,
         known=known,
         condition=condition,

@@ -430,9 +430,10 @@ def time_resolved(
         Coefficient of Coulomb friction of the contact, >= 0; 0 is frictionless, ``inf`` never
         slips.
     duration : float, str, Quantity or array [s]
-        Nominal duration: the stiffness is the one with which the contact of two point masses of the
-        same closing speed would take that long. The actual duration, in the answer's ``pulse``,
-        differs because of lever arms, friction and tyres.
+        Nominal duration: the stiffness is the one with which a frictionless contact of the same two
+        vehicles would take that long if they did not move or turn meanwhile, so that it depends on
+        their effective mass at the contact, lever arms included. The actual duration, in the
+        answer's ``pulse``, differs because of friction, tyres and motion.
     stiffness : float, str, Quantity or array [N/m]
         Stiffness of both vehicles together, force over penetration.
     crush_a, crush_b : tuple (A [N/m], B [N/m**2], width [m])

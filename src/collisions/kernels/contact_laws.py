@@ -323,6 +323,7 @@ def energy_losses(
     tangential: Any,
     impulse_work: Any,
     eps: float,
+    separation: Any = None,
 ) -> tuple[Any, Any, Any, Any]:
     """Loss along the normal (eq 8), loss along the tangent, their sum, and whether the sum is a
     gain beyond its own rounding.
@@ -332,7 +333,8 @@ def energy_losses(
     forms use only what happens at the contact, hold for barriers and pivots and do not depend on
     the frame. ``impulse_work`` is P.K P, twice an energy, where the law ``dissipates`` and nothing
     else acts, else None; ``slip_change`` the difference of the slip after from that of a sticking
-    contact.
+    contact. ``separation`` is the speed after from which the restitution was found, where it was
+    not given.
     """
     slip_sum = slip_before + slip_after
     if LAWS[law].compression_limit:
@@ -350,8 +352,12 @@ def energy_losses(
         )
         return loss_n, loss_t, loss, False
     loss = loss_n + loss_t
-    rounding = -16.0 * eps * (loss_n + abs(tangential) * (abs(slip_before) + abs(slip_after)))
-    return loss_n, loss_t, loss, loss < rounding
+    scale = loss_n + abs(tangential) * (abs(slip_before) + abs(slip_after))
+    if separation is not None:
+        # A restitution that was found is rounded itself, so that the difference of it from 1 is
+        # known to some eps of what was given back.
+        scale = scale + abs(separation * normal)
+    return loss_n, loss_t, loss, loss < -16.0 * eps * scale
 
 
 def dissipates(rule: str, law: str) -> bool:

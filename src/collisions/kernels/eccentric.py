@@ -295,7 +295,7 @@ def slip_and_losses(
         # with those shifted.
         mean = passage.separation / safe_divisor(closing != 0.0, closing)
         of_mean = mean, closing, slip, passage.slip_after, struck.sticks, 0.0, normal, tangential
-        _, _, loss, gains = energy_losses(law, *of_mean, None, eps)
+        _, _, loss, gains = energy_losses(law, *of_mean, None, eps, passage.separation)
         loss_t = passage.loss_t
         return passage.separation, passage.slip_after, loss - loss_t, loss_t, loss, gains
     beyond_sticking = select(

@@ -128,5 +128,10 @@ def _newton(slopes: Any, found: Any) -> Any:
     try:
         move = np.linalg.solve(matrices, right)
     except np.linalg.LinAlgError:
-        move = np.linalg.pinv(matrices) @ np.where(known, right, 0.0)
+        # One singular case stops all; the others are to come out as without it.
+        sign, _ = np.linalg.slogdet(matrices)
+        singular, unit = (sign == 0.0)[..., None, None], np.eye(len(found))
+        move = np.linalg.solve(np.where(singular, unit, matrices), right)
+        least = np.linalg.pinv(np.where(singular, matrices, unit))
+        move = np.where(singular, least @ np.where(known, right, 0.0), move)
     return np.moveaxis(move[..., 0], -1, 0)

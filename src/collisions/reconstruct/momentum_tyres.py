@@ -119,7 +119,7 @@ def read_tyres(
     """Duration, tyres and yaw rates after, or None where the contact is taken as an instant."""
     given = {label: rate for label, rate in zip("ab", yaw_rates, strict=True) if rate is not None}
     found: dict[str, Any] = {"tyres_a": None, "tyres_b": None}
-    if duration is not None or tyres != (None, None):
+    if duration is not None or any(one is not None for one in tyres):
         found = read_lasting(reader, "momentum", None, None, duration, tyres, ", or leave it out")
     own = {label: found[f"tyres_{label}"] for label in "ab" if found[f"tyres_{label}"] is not None}
     for label, heading in zip("ab", headings, strict=True):

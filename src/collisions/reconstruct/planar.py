@@ -17,7 +17,8 @@ import numpy as np
 
 from ..engine.blocks import Part, in_parts, is_one_part
 from ..impact.impact import Impact
-from ..impact.inputs import TYRES, Inputs, Law, OnFailure, part_of, read_inputs
+from ..impact.inputs import TYRES, Inputs, Law, OnFailure, part_of, part_of_inputs, read_inputs
+from ..impact.instant import LOOKED_AROUND
 from ..impact.models import ECCENTRIC
 from ..impact.reconstruction import Reconstruction
 from ..impact.run import error_of, solve_inputs
@@ -33,11 +34,12 @@ from ..messages.errors import (
     OutOfRangeWarning,
 )
 from ..messages.hints import hinted
-from ..messages.warning import quietly, warn_of_cases
+from ..messages.warning import quietly, state_of_study, warn_of_cases
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import one_of
 from ..quantities.tables import Sentences
 from ..quantities.units import Input, Pair
+from ..vehicle.drag import GRAVITY
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle, moved
 from .common import (
@@ -62,6 +64,12 @@ _MOTION = ("vx", "vy", "speed", "course", "yaw_rate")
 _NO_RESTITUTION = 1e-9
 # Of the speeds: motions that differ by no more are one.
 _ONE_ORIGIN = 1e-6
+# From so many motions before, spread over what the tyres can change, other origins are looked for:
+# a tyre pulls to one side or to the other with the sign of a slip that may be small. Half as many
+# miss an origin in one of a hundred random crashes, these in one of a thousand.
+_STARTS = 16
+# Multiples of these powers, modulo 1, fill four dimensions evenly.
+_EVENLY = 1.0 / 1.1673039782614187 ** np.arange(1, 5)
 _NEARLY_STICKING = (
     0.05  # of the difference between both directions of sliding: a smaller slip may be 0
 )
@@ -100,8 +108,10 @@ def planar(
 
     With ``duration`` and ``tyres_a``, ``tyres_b`` the answer is the one for which ``eccentric``
     with the same arguments ends in these motions and has what else is known: the answer of the
-    instant, which decides between origins, is refined to it. What point and normal do while the
-    contact lasts is left out, as it is there.
+    instant, which decides between origins, is refined to it. Since a tyre pulls to one side or the
+    other with the sign of a slip that may be small, several motions before may end so: they are
+    looked for from motions around that answer, as far as the tyres reach. What point and normal do
+    while the contact lasts is left out, as it is there.
 
     Parameters
     ----------
@@ -289,14 +299,14 @@ def _answer(
         names = ("speed", "course", "yaw_rate") if by_speed else ("vx", "vy", "yaw_rate")
         known |= {f"{label}_after.{name}": getattr(body, name) for name in names}
     inputs = replace(inputs, given=texts or None)
-    # Newton's method for tyres runs over all cases together.
-    together = is_one_part(cases.shape or ()) or inputs.tyres
+    together = is_one_part(cases.shape or ())
     whole = _looked(after, inputs, regime, cases.shape or ()) if together else None
 
     def work(part: Part) -> dict[str, Any]:
         there = after._replace(numbers={name: part.of(one) for name, one in numbers.items()})
-        looked = _looked(there, inputs, regime, part.shape)
-        return _backwards(Cases(part.shape, cases.dtype), looked, inputs, regime)._asdict()
+        own = part_of_inputs(inputs, part.of) if inputs.tyres else inputs
+        looked = _looked(there, own, regime, part.shape)
+        return _backwards(Cases(part.shape, cases.dtype), looked, own, regime)._asdict()
 
     found = (
         _Found(**in_parts(work, cases.shape or ()))
@@ -357,7 +367,9 @@ def _answer(
         return planar(part_of(inputs.a, take), part_of(inputs.b, take), **contact)
 
     _warn(cases, found, after.say, whole)
-    if not inputs.tyres:
+    if inputs.tyres:
+        state_of_study(f"planar with tyres: {LOOKED_AROUND}", "looked_for")
+    else:
         state_instant("planar")
     velocity = found.closing_speed, found.slip_before
     origin = origin_of(velocity, found.condition, found.count, sure)
@@ -433,43 +445,74 @@ def _while_tyres_act(
     """The origins of the same end for a contact in which the tyres act, each once.
 
     Every origin of the instant is refined, also those that do not quite lead to this end, as one
-    that slides may stick while the tyres act.
+    that slides may stick while the tyres act; and from other motions before, since several may end
+    in these motions while the tyres act.
     """
     found: list[Origin] = []
     for origin in end.candidates():
-        refined = _refined(origin, end, inputs, shape)
-        new = np.asarray(refined.fits)
-        if regime is not None:
-            new = new & np.equal(regime, refined.regime)
-        for earlier in found:
-            apart = sum(
-                abs(part - other)
-                for motion, another in zip(refined.motions, earlier.motions, strict=True)
-                for part, other in zip(motion, another, strict=True)
-            )
-            new = new & ~(earlier.fits & (apart <= _ONE_ORIGIN * end.size))
-        found.append(refined._replace(fits=new))
+        for refined in _refined(origin, end, inputs, shape):
+            new = np.asarray(refined.fits)
+            if regime is not None:
+                new = new & np.equal(regime, refined.regime)
+            for earlier in found:
+                apart = sum(
+                    abs(part - other)
+                    for motion, another in zip(refined.motions, earlier.motions, strict=True)
+                    for part, other in zip(motion, another, strict=True)
+                )
+                new = new & ~(earlier.fits & (apart <= _ONE_ORIGIN * end.size))
+            if np.any(new) or not found:
+                found.append(refined._replace(fits=new))
     return found
 
 
-def _refined(origin: Origin, end: End, inputs: Inputs, shape: tuple[int, ...]) -> Origin:
-    """The origin next to this one for a contact in which the tyres act.
+def _around(inputs: Inputs, motion: Sequence[Any], label: str, shifts: Any) -> list[Any]:
+    """A motion before and others around it, along an axis in front: to the side and in yaw rate by
+    shares, (starts, 2), of what the tyres of this vehicle can change; at last straight ahead, as
+    most vehicles come.
+    """
+    tyres, body = inputs.tyres.get(label), getattr(inputs, label)
+    vx, vy, spin = (np.asarray(part, dtype=np.float64) for part in motion)
+    aside, turn = (share.reshape(-1, *[1] * vx.ndim) for share in shifts.T)
+    if tyres is None:
+        return [np.broadcast_to(part, (len(shifts) + 1, *part.shape)) for part in (vx, vy, spin)]
+    cos, sin = np.cos(body.heading), np.sin(body.heading)
+    ahead = vx * cos + vy * sin
+    most = GRAVITY * tyres.friction * inputs.duration
+    turning = most * 0.5 * tyres.wheelbase * (body.mass / body.yaw_inertia)
+    side = aside * most
+    around = vx - side * sin, vy + side * cos, spin + turn * turning
+    straight = ahead * cos, ahead * sin, 0.0 * spin
+    return [
+        np.concatenate((part, last[np.newaxis]))
+        for part, last in zip(around, straight, strict=True)
+    ]
+
+
+def _refined(origin: Origin, end: End, inputs: Inputs, shape: tuple[int, ...]) -> list[Origin]:
+    """Origins near this one for a contact in which the tyres act, from it and from motions around
+    it; some may be one and the same.
 
     Unknown are the motions before and, where it was not given, the restitution; known the motions
     after and what was given in place of the restitution.
     """
+    # The first start is the origin itself.
+    shifts = 2.0 * ((0.5 + np.outer(np.arange(_STARTS), _EVENLY)) % 1.0) - 1.0
     speed = end.size + np.where(end.closing > 0.0, end.closing, 0.0)
     start: list[Any] = []
     sizes: list[Any] = []
-    for body, motion, pinned in zip(end.bodies, origin.motions, end.pinned, strict=True):
+    for at, label in enumerate("ab"):
+        body, pinned = end.bodies[at], end.pinned[at]
+        motion = [np.broadcast_to(part, shape) for part in origin.motions[at]]
+        around = _around(inputs, motion, label, shifts[:, 2 * at : 2 * at + 2])
         lever = np.hypot(end.p[0] - body[5], end.p[1] - body[6])
         turning = speed / np.where(lever > 0.0, lever, 1.0)
-        start += motion[2:] if pinned else motion
+        start += around[2:] if pinned else around
         sizes += [turning] if pinned else [speed, speed, turning]
     free = end.kind != "restitution"
     if free:
         start, sizes = [*start, origin.restitution], [*sizes, 1.0]
-    start = [np.broadcast_to(part, shape) for part in start]
+    start = [np.broadcast_to(part, (_STARTS + 1, *shape)) for part in start]
 
     def inputs_at(values: Sequence[Any]) -> Inputs:
         parts = iter(values)
@@ -502,7 +545,7 @@ def _refined(origin: Origin, end: End, inputs: Inputs, shape: tuple[int, ...]) -
     values, fits = settle(inputs_at, start, sizes, misses, highest)
     with quietly():
         answer = solve_inputs(ECCENTRIC, inputs_at(values), "nan")
-    e = values[-1] if free else origin.restitution
+    e = values[-1] if free else np.broadcast_to(origin.restitution, fits.shape)
     if free and not end.incomplete:
         fits = fits & (e >= -_NO_RESTITUTION)
         e = np.where((e < 0.0) & (e >= -_NO_RESTITUTION), 0.0, e)
@@ -510,14 +553,22 @@ def _refined(origin: Origin, end: End, inputs: Inputs, shape: tuple[int, ...]) -
     if end.rule == FRICTION:
         how = np.where(answer.sticks, "sticking", "sliding")
         regime = np.where(end.bound == 0.0, "frictionless", how)
-        regime = regime if regime.ndim else str(regime)
     parts = iter(values)
-    still = 0.0 * speed
+    still = np.broadcast_to(0.0 * speed, fits.shape)
     one, other = (
         (still, still, next(parts)) if pinned else (next(parts), next(parts), next(parts))
         for pinned in end.pinned
     )
-    return origin._replace(regime=regime, motions=(one, other), restitution=e, fits=fits)
+    regimes = np.broadcast_to(regime, fits.shape)
+    return [
+        origin._replace(
+            regime=regimes[at] if shape else str(regimes[at]),
+            motions=(tuple(part[at] for part in one), tuple(part[at] for part in other)),
+            restitution=e[at],
+            fits=fits[at],
+        )
+        for at in range(_STARTS + 1)
+    ]
 
 
 def _unsettled() -> CollisionsError:
@@ -538,7 +589,9 @@ def _first_that_fits(origins: Sequence[Origin]) -> Origin:
         return (
             tuple(map(choose, zip(*values, strict=True)))
             if isinstance(values[0], tuple)
-            else np.choose(which, values)
+            else np.take_along_axis(
+                np.stack(np.broadcast_arrays(*values, which)[:-1]), which[np.newaxis], axis=0
+            )[0]
         )
 
     _, *parts = zip(*origins, strict=True)
@@ -595,21 +648,7 @@ def _refusal(
     separation, slip = float(end.separation), float(end.slip)
     match status:
         case Status.AMBIGUOUS_INVERSE:
-            each = " or ".join(
-                f"{how} with impulse ratio {impact.impulse_ratio:.4g} from a closing speed of "
-                f"{end.say(impact.closing_speed, 'speed')}"
-                for how, impact in zip(regimes, solutions, strict=True)
-            )
-            deciding = " or ".join(
-                f"`regime={how!r}`" for how in regimes if regimes.count(how) == 1
-            )
-            return AmbiguousSolutionError(
-                f"{len(solutions)} states before end so: {each}`|; all are in "
-                ".solutions|`; what decides is "
-                f"{deciding}{', or ' if deciding else ''}`impulse_ratio=` of one of them",
-                code="ambiguous_inverse",
-                solutions=solutions,
-            )
+            return _several(end, regimes, solutions)
         case Status.STICK_INVERSE:
             text = _stuck(end, slip, len(solutions))
         case Status.NOT_SEPARATING:
@@ -624,6 +663,38 @@ def _refusal(
         case _:
             text = Status(status).message
     return error_of(status, text, separation_speed=separation, slip_after=slip, solutions=solutions)
+
+
+def _several(end: End, regimes: list[str], solutions: tuple[Impact, ...]) -> CollisionsError:
+    """The error for a single case with several origins, which says what tells them apart."""
+    ratios = [float(impact.impulse_ratio) for impact in solutions]
+    apart = len({f"{ratio:.4g}" for ratio in ratios}) == len(ratios)
+    deciding = [f"`regime={how!r}`" for how in regimes if regimes.count(how) == 1]
+    if apart:
+        each = " or ".join(
+            f"{how} with impulse ratio {ratio:.4g} from a closing speed of "
+            f"{end.say(impact.closing_speed, 'speed')}"
+            for how, ratio, impact in zip(regimes, ratios, solutions, strict=True)
+        )
+        deciding.append("`impulse_ratio=` of one of them")
+    else:
+        # Origins of one regime with tyres: they differ in what the tyres did.
+        def turning(state: Vehicle) -> str:
+            # To a microradian a second, far below what anybody can know.
+            return end.say(round(float(state.yaw_rate), 6) + 0.0, "yaw rate", 3)
+
+        each = " or ".join(
+            f"{how}, with yaw rates before of {turning(impact.a.before)} (A) and "
+            f"{turning(impact.b.before)} (B)"
+            for how, impact in zip(regimes, solutions, strict=True)
+        )
+        deciding.append("what is known of the yaw rates before: take the one that it fits")
+    return AmbiguousSolutionError(
+        f"{len(solutions)} states before end so: {each}`|; all are in .solutions|`; what decides "
+        f"is {', or '.join(deciding)}",
+        code="ambiguous_inverse",
+        solutions=solutions,
+    )
 
 
 def _instead(end: End) -> str:

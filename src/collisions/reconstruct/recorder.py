@@ -12,15 +12,21 @@ from typing import Any, Literal
 import numpy as np
 
 from ..impact.recorded import read_place
-from ..messages.errors import InputError, MissingInputError, OutOfRangeWarning, ShapeError
+from ..messages.errors import (
+    InputError,
+    MissingInputError,
+    OutOfRangeWarning,
+    ShapeError,
+    SuspectUnitsWarning,
+)
 from ..messages.hints import hinted
 from ..messages.warning import warn
 from ..quantities.attributes import Shown, derived, in_units_of, read_only
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import must_be
 from ..quantities.tables import Cells, Part, Summary, all_numbers
-from ..quantities.units import Input, shown, texts_of
-from ..reference import RECORDER_ACCURACY, RECORDER_RESOLUTION
+from ..quantities.units import Input, has_unit, shown, texts_of
+from ..reference import RECORDER_ACCURACY, RECORDER_RANGE, RECORDER_RESOLUTION
 from ..uncertainty import Censored, Normal, Uniform
 from .recorder_table import read_table
 
@@ -193,8 +199,10 @@ def recorded_pulse(
         each with its unit in round or square brackets: ``time [ms],longitudinal [km/h],lateral
         [km/h]``, or as reports write them, ``Time (msec)``, ``"Delta-V, lateral (MPH)"``. The
         columns are found by their heads, in any order; a head that may be two of them, or none,
-        is refused. Commas, semicolons or tabs separate the columns; with the last two, numbers
-        may have decimal commas. A cell of ``SNA`` is not available: in all of the lateral column,
+        is refused, as is one of a speed, of data from before the crash or of values that were
+        adjusted. Commas, semicolons or tabs separate the columns; with the last two, numbers
+        may have decimal commas, and a mark before three digits that may be one of thousands is
+        refused. A cell of ``SNA`` is not available: in all of the lateral column,
         or in the last rows, which are left out.
     delta_v_forward, delta_v_left : array [m/s], optional
         Cumulative delta-V at these times; left out with a file. The lateral one may be missing.
@@ -214,12 +222,16 @@ def recorded_pulse(
     Raises
     ------
     InputError
-        An argument or a file that cannot be used.
+        An argument or a file that cannot be used, or delta-V that is not 0 when the event begins:
+        a first sample at time 0 or before it may be off by the step of a recorder, 1 km/h.
 
     Warns
     -----
     OutOfRangeWarning
-        The record stops early (code ``pulse_cut``).
+        The record stops early (code ``pulse_cut``); or a component exceeds the 100 km/h over which
+        49 CFR 563 demands accuracy (``reference.RECORDER_RANGE``; code ``beyond_recorder``).
+    SuspectUnitsWarning
+        Such a component without a unit: perhaps km/h or an acceleration.
 
     Examples
     --------
@@ -237,6 +249,7 @@ def recorded_pulse(
     (-8.0, -1.5, True, 0.11, 0.8)
     """
     reader = ArgumentReader()
+    given: dict[str, Any] = {}
     if not isinstance(polarity, str) or polarity not in _LEFTWARD:
         text = (
             "polarity must be '49 CFR 563' (lateral positive to the right) or 'ISO 8855' (to "
@@ -292,6 +305,12 @@ def recorded_pulse(
             code="bad_pulse",
             argument="time",
         )
+    parts = {"delta_v_forward": ahead} | ({} if aside is None else {"delta_v_left": aside})
+    if times[0] <= 0.0:
+        for name, part in parts.items():
+            _need_start_at_zero(name, part, times[0])
+    for name, part in parts.items():
+        _warn_if_beyond(name, part, name in given and not has_unit(given[name]))
     at = int(np.argmax(size))
     ended = _ended(times, size, at)
     if not ended:
@@ -329,6 +348,38 @@ def _read_place(reader: ArgumentReader, forward: Any, left: Any) -> tuple[float,
             text = f"{name} is that of one recorder, so one number, got {shown(given[name])}"
             reader.refuse(ShapeError(text, code="bad_shape", argument=name))
     return place
+
+
+def _need_start_at_zero(name: str, part: Any, time: float) -> None:
+    """Refuse cumulative delta-V that is not 0 when the event begins, to a step of a recorder."""
+    if abs(part[0]) <= RECORDER_RESOLUTION.high * (1.0 + 1e-9):
+        return
+    at = "time 0" if time == 0.0 else f"{time:.3g} s, before time 0"
+    raise InputError(
+        f"{name} begins with {3.6 * part[0]:.3g} km/h at {at}, and delta-V counts from 0 when the "
+        "event begins; give delta-V and not a speed or an acceleration, and where the recorder has "
+        "an offset, take its first value off every sample",
+        code="bad_pulse",
+        argument=name,
+    )
+
+
+def _warn_if_beyond(name: str, part: Any, bare: bool) -> None:
+    """Warn of a component beyond what recorders are asked to be exact for."""
+    worst = float(part[np.argmax(abs(part))])
+    if abs(worst) <= RECORDER_RANGE.high * (1.0 + 1e-9):
+        return
+    text = (
+        f"{name} goes to {3.6 * worst:.4g} km/h, and 49 CFR 563 asks recorders to be exact to "
+        f"{3.6 * RECORDER_RANGE.high:.0f} km/h"
+    )
+    if bare:
+        meant = f'{name}=pint.Quantity(values, "km/h")'
+        text = f"{text}: its numbers are read as m/s; if another unit was meant, write `{meant}`"
+        warn(SuspectUnitsWarning(text, code="suspect_units", argument=name, value=worst))
+    else:
+        text = f"{text}: check its unit, and whether it is delta-V; its error may be larger"
+        warn(OutOfRangeWarning(text, code="beyond_recorder", argument=name, value=worst))
 
 
 def _error(value: float) -> float:

@@ -28,10 +28,10 @@ _CALLED = {"time": "time", "delta_v_forward": "longitudinal", "delta_v_left": "l
 # Words of heads whose numbers are not delta-V as it grows forward, though their unit may be the
 # same.
 _OTHERS = {
-    "acceleration", "accel", "angle", "backward", "backwards", "driver", "end", "indicated", "max",
-    "maximum", "maximal", "minus", "neg", "negative", "peak", "rate", "rear", "rearward",
-    "rearwards",
-    "resultant", "total", "vertical", "wheel",
+    "acceleration", "accel", "adjusted", "algorithm", "angle", "backward", "backwards", "before",
+    "calculated", "corrected", "driver", "end", "estimated", "filtered", "gps", "indicated", "max",
+    "maximum", "maximal", "minus", "neg", "negative", "peak", "pre", "precrash", "preimpact",
+    "rate", "rear", "rearward", "rearwards", "resultant", "total", "vertical", "wheel",
 }  # fmt: skip
 _SPEEDS, _CHANGES = {"speed", "v", "velocity"}, {"change", "delta", "dv", "deltav", "δv", "δ"}
 _SIDES = {"49 CFR 563": "right", "ISO 8855": "left"}
@@ -48,6 +48,8 @@ _UNITS = {
 _NOT_AVAILABLE = {"sna", "n/a", "na", "not available", "data not available", "signal not available"}
 # float() would read more: "1_0" as 10, digits of other scripts, "infinity".
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+# Of a number whose mark, a point or a comma, may be one of thousands.
+_MAYBE_THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:[.,][0-9]{3})+")
 _WITH_COMMA = re.compile(r"[+-]?[0-9]*,[0-9]+(?:[eE][+-]?[0-9]+)?")
 
 
@@ -240,10 +242,26 @@ def _numbers(rows: list[list[str]], places: dict[str, int], comma: bool) -> dict
             f"{commas[0]!r} has a decimal comma, for which semicolons or tabs have to separate "
             "the columns"
         )
+    for name, column in cells.items():
+        _need_one_reading(name, column)
     return {
         name: np.array([_float(cell, at) for at, cell in enumerate(column, 2)])
         for name, column in cells.items()
     }
+
+
+def _need_one_reading(name: str, column: list[str]) -> None:
+    """Refuse a mark before three digits in a column whose other numbers do not show that it is a
+    decimal one: that of thousands looks the same.
+    """
+    marked = {at: cell for at, cell in enumerate(column, 2) if set(cell) & {".", ","}}
+    whole = [cell for cell in column if cell.strip("+-").isdecimal() and cell.strip("+-0")]
+    if marked and whole and all(map(_MAYBE_THOUSANDS.fullmatch, marked.values())):
+        at, cell = next(iter(marked.items()))
+        raise ValueError(
+            f"{cell!r} in row {at} of {_CALLED[name]} may have a mark of thousands, as "
+            f"{whole[0]!r} has no decimals; write all numbers of a column with as many decimals"
+        )
 
 
 def _float(cell: str, row: int) -> float:

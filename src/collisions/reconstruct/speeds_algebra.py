@@ -275,7 +275,9 @@ class Scene:
         e = self.e + e_step if e_step else self.e
         if regime is _SHARE:
             stuck = self.observe(STICK, speed_a, speed_b)
-            shared = self.bound * stuck.tangential
+            # A case without a share has none of these roots, whatever its neighbours have.
+            share = select((self.bound > 0.0) & (self.bound < 1.0), self.bound, np.nan)
+            shared = share * stuck.tangential
             weight = (stuck.normal + shared * (stuck.coupling * stuck.effective_mass)) ** 2
             return self.observe(shared / stuck.normal, speed_a, speed_b)._replace(weight=weight)
         rule, bound = IMPULSE_RATIO, regime

@@ -272,6 +272,16 @@ RECORDER_RESOLUTION = Published(
     domain="as for the accuracy",
     quality="What the regulation demands; some recorders report finer steps.",
 )
+RECORDER_RANGE = Published(
+    name="delta-V over which a recorder's accuracy is demanded",
+    low=-100.0 / 3.6,
+    high=100.0 / 3.6,
+    unit="m/s",
+    source=_RECORDER,
+    domain="as for the accuracy",
+    quality="The least range that the regulation demands, each component by itself; a recorder may "
+    "go beyond it.",
+)
 RECORDER_ERROR = Published(
     name="error of a recorder's delta-V in tests, relative",
     low=0.0,

@@ -19,6 +19,7 @@ from ..quantities.tables import as_sentence, label_of
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Output, Propagation
 from ..uncertainty.result import figures
+from .posterior_part import answers_of
 from .render import Sheet, plain
 from .uncertainty import Spread
 from .words import Names, listed
@@ -44,12 +45,15 @@ def answer(
     uncertainty: Propagation | None,
     found: Sequence[Finding] | None,
     alone: bool,
+    asked: Sequence[str] | None = None,
 ) -> None:
-    """Write the figures, what they rest on and the findings, into the box that is open."""
+    """Write the figures, of those asked for by name if any were, what they rest on and the
+    findings, into the box that is open.
+    """
     names = spread.names
-    shown = list(_figures(sheet, result, spread, uncertainty))
+    shown = figures_of(sheet, result, spread, uncertainty, asked)
     sheet.figures_of_answer([(figure.what, figure.text) for figure in shown])
-    sheet.say(_rests_on(result, names))
+    sheet.say(rests_on(result, names))
     bare = [figure for figure in shown if not figure.ranged]
     if bare and len(bare) == len(shown):
         sheet.say(f"No range is stated for these figures{f': {_NO_RANGE}' if alone else '.'}")
@@ -70,20 +74,38 @@ def answer(
         sheet.items(lines)
 
 
+def figures_of(
+    sheet: Sheet,
+    result: Any,
+    spread: Spread,
+    uncertainty: Propagation | None,
+    asked: Sequence[str] | None,
+) -> list[Figure]:
+    """The figures of an answer: those asked for by name, or those that a reader looks for."""
+    return list(_figures(sheet, result, spread, uncertainty, asked))
+
+
 def _figures(
-    sheet: Sheet, result: Any, spread: Spread, uncertainty: Propagation | None
+    sheet: Sheet,
+    result: Any,
+    spread: Spread,
+    uncertainty: Propagation | None,
+    asked: Sequence[str] | None,
 ) -> Iterator[Figure]:
     system = sheet.system
     if isinstance(result, Fit):
-        for name in result.names:
+        for name in (
+            result.names if asked is None else [one for one in asked if one in result.names]
+        ):
             yield Figure(plain(name), _estimate(system, result[name]), True)
         return
     outputs: dict[str, Output] = {}
     if isinstance(result, Posterior):
-        # What was asked for by name stands before all that was not known.
-        outputs = {**result.results, **result.unknowns}
+        outputs = {name: result[name] for name in answers_of(result, asked)}
     elif uncertainty is not None:
         outputs = dict(uncertainty.outputs)
+        if asked is not None:
+            outputs = {name: outputs[name] for name in asked if name in outputs}
     for output in outputs.values():
         text, ranged = ranged_text(system, output, spread.kind_of(output))
         own = spread.kind_of(output) is not None
@@ -92,7 +114,13 @@ def _figures(
     if isinstance(result, Posterior):
         return
     words, kinds = words_of_answers(result), kinds_of_answers(result)
-    for name in _asked(result):
+    spelled = names_of_answers(result)
+    wanted = (
+        _asked(result)
+        if asked is None
+        else (spelled[name] for name in asked if name in spelled and name not in outputs)
+    )
+    for name in wanted:
         value = attrgetter(name)(result)
         if name not in spread.outputs and value is not None and math.isfinite(value):
             text = system.answer(float(value), kinds[name])
@@ -156,7 +184,7 @@ def _estimate(system: Numbers, one: Any) -> str:
     return f"{system.span(low, high, kind, 0.5 * (high - low))}{unit} (95 %)"
 
 
-def _rests_on(result: Any, names: Names) -> str:
+def rests_on(result: Any, names: Names) -> str:
     """What an answer rests on, in one sentence."""
     if isinstance(result, Fit):
         count = len(result.residuals)

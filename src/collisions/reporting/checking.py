@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from difflib import get_close_matches
 from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
 from ..derivation.evidence import momentum_inputs
-from ..derivation.explain import NOT_EXPLAINED, impact_inputs, key_of, no_uncertainty
+from ..derivation.explain import (
+    NOT_EXPLAINED,
+    impact_inputs,
+    key_of,
+    names_of_answers,
+    no_uncertainty,
+)
 from ..impact.impact import Impact
 from ..kernels.elementwise import UNIT_INTERVAL
 from ..messages.errors import InputError
@@ -14,16 +21,20 @@ from ..messages.marked import type_of
 from ..quantities.reading import ArgumentReader, need_one_case, single_number
 from ..quantities.units import shown
 from ..reconstruct import Fit, MomentumSolution, Posterior
+from ..reconstruct.found_again import need_found_again
 from ..scene.run import Run
 from ..uncertainty import Propagation
 from ..vehicle.outlines import read_outline
 from . import sections
+from .posterior_part import names_of_notes
 from .render import plain
 from .sections import EVIDENCE
+from .together import Together, together_of
 
 Form: TypeAlias = Literal["html", "markdown"]
 # What a page is filed under.
 FILED = ("exhibit", "case", "author", "date")
+_MOST_NEAR = 3
 _RESULTS = (Impact, MomentumSolution, Fit, Posterior)
 # Options of one impact.
 _OF_ONE = ("outline_a", "outline_b", "share_a", *EVIDENCE)
@@ -43,28 +54,27 @@ class Checked(NamedTuple):
     outlines: dict[str, Any]
 
 
-def results_of(impact: Any, uncertainty: Any) -> list[tuple[Any, Any]]:
-    """Each result of a report with its propagation, if any."""
+def results_of(impact: Any, uncertainty: Any) -> tuple[list[tuple[Any, Any]], Together | None]:
+    """Each result of a report with its propagation, if any; and what was found of a scene with its
+    run, if the list has one.
+    """
     if not isinstance(impact, list):
         need_one_case(impact, _RESULTS, "report", instead=NOT_EXPLAINED)
-        return [(impact, uncertainty)]
+        need_found_again(impact)
+        return [(impact, uncertainty)], None
     if not impact:
         raise InputError(
             "impact is an empty list; give the results that the page is about",
             code="not_an_impact",
             argument="impact",
         )
+    together = together_of(impact)
     for one in impact:
-        if isinstance(one, Run):
-            raise InputError(
-                "impact has a run of a scene in its list, which has a page of its own with a part "
-                "for each impact: write `report(run)`, and `uncertainty=` for what was propagated",
-                code="not_an_impact",
-                argument="impact",
-            )
-        need_one_case(one, _RESULTS, "report", instead=NOT_EXPLAINED)
+        if not isinstance(one, Run):
+            need_one_case(one, _RESULTS, "report", instead=NOT_EXPLAINED)
+            need_found_again(one)
     if uncertainty is None:
-        return [(one, None) for one in impact]
+        return [(one, None) for one in impact], together
     if not isinstance(uncertainty, list) or len(uncertainty) != len(impact):
         raise InputError(
             f"uncertainty must be a list of {len(impact)} for as many results, each what "
@@ -77,11 +87,22 @@ def results_of(impact: Any, uncertainty: Any) -> list[tuple[Any, Any]]:
             code="bad_option",
             argument="uncertainty",
         )
-    return list(zip(impact, uncertainty, strict=True))
+    pairs = list(zip(impact, uncertainty, strict=True))
+    if any(isinstance(one, Run) and its is not None for one, its in pairs):
+        raise InputError(
+            "uncertainty has a propagation for a run that stands beside what was found of its "
+            "scene, from which its ranges come; write None in its place",
+            code="bad_option",
+            argument="uncertainty",
+        )
+    return pairs, together
 
 
 def checked(
-    results: Sequence[tuple[Any, Any]], options: Mapping[str, Any], unusual: Sequence[str]
+    results: Sequence[tuple[Any, Any]],
+    options: Mapping[str, Any],
+    unusual: Sequence[str],
+    run: Run | None = None,
 ) -> Checked:
     """What the options say; one error names every one that cannot be used."""
     reader = ArgumentReader()
@@ -106,18 +127,18 @@ def checked(
         name: text for part in parts if isinstance(part, Mapping) for name, text in part.items()
     }
     several = len(results) > 1
-    impact = results[0][0]
-    # For an impulse, duration and drag are not inputs but options of the page, as the outlines are.
-    own = ["duration", "drag"] if isinstance(impact, Impact) and impact.pulse is None else []
-    own += (name for name in ("outline_a", "outline_b") if options[name] is not None)
-    known = list(dict.fromkeys([*inputs_of(impact), *own]))
-    for name in [name for name in beside if name not in known or several]:
+    known = _can_have_notes(results, options)
+    if run is not None:
+        known += [name for name in run.scene.inputs() if name not in known]
+    for name in [name for name in beside if name not in known]:
         instead = (
-            "a page of several results has notes that are texts alone"
-            if several
-            else f"they are {', '.join(known)}"
+            f"they are {', '.join(known)}"
+            if known
+            else "a page of several results has notes that are texts alone, but for those of the "
+            "readings and priors of a fit or posterior; write `notes=['Weighed']`"
         )
         refuse("notes", f"notes has {shown(name)}, which is no input of this page; {instead}")
+    _check_answers(refuse, options["answers"], results)
     texts = [(name, options[name]) for name in ("title", *FILED) if options[name] is not None]
     for name, text in [*texts, *(("notes", text) for text in (*paragraphs, *beside.values()))]:
         if not isinstance(text, str) or not plain(text):
@@ -174,8 +195,60 @@ def checked(
     )
 
 
+def _can_have_notes(results: Sequence[tuple[Any, Any]], options: Mapping[str, Any]) -> list[str]:
+    """What a note can stand beside, by name: the inputs of a result that stands alone, and the
+    readings and priors of each.
+    """
+    impact = results[0][0]
+    if len(results) > 1:
+        evidence = [one for one, _ in results if isinstance(one, (Fit, Posterior))]
+        return list(dict.fromkeys(name for one in evidence for name in inputs_of(one)))
+    # For an impulse, duration and drag are not inputs but options of the page, as the outlines are.
+    own = ["duration", "drag"] if isinstance(impact, Impact) and impact.pulse is None else []
+    own += (name for name in ("outline_a", "outline_b") if options[name] is not None)
+    return list(dict.fromkeys([*inputs_of(impact), *own]))
+
+
+def _check_answers(
+    refuse: Callable[[str, str], None], answers: Any, results: Sequence[tuple[Any, Any]]
+) -> None:
+    """Refuse names of answers that none of the results has."""
+    if answers is None:
+        return
+    named = isinstance(answers, (list, tuple)) and answers
+    if not named or not all(isinstance(name, str) for name in answers):
+        refuse(
+            "answers",
+            "answers must be a list of names of what was found, such as `['speed of the Golf']`, "
+            f"got {shown(answers)}",
+        )
+        return
+    known: dict[str, None] = {}
+    for one, uncertainty in results:
+        if isinstance(one, Posterior):
+            known |= dict.fromkeys(one._outputs)
+        elif isinstance(one, Fit):
+            known |= dict.fromkeys(one.names)
+        else:
+            if isinstance(uncertainty, Propagation):
+                known |= dict.fromkeys(uncertainty.outputs)
+            known |= dict.fromkeys(names_of_answers(one))
+    for name in answers:
+        if name not in known:
+            near = get_close_matches(name, known, _MOST_NEAR, 0.5) or list(known)[:_MOST_NEAR]
+            refuse(
+                "answers",
+                f"answers has {shown(name)}, which nothing on this page is called; near it are "
+                f"{', '.join(near)}",
+            )
+
+
 def inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
     """The inputs that a note can stand beside, by name."""
+    if isinstance(impact, Posterior):
+        return list(dict.fromkeys(names_of_notes(impact)))
+    if isinstance(impact, Fit):
+        return list(impact.residuals)
     if isinstance(impact, Impact):
         found = [key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
         for label, vehicle in (("a", impact.a.before), ("b", impact.b.before)):

@@ -19,6 +19,7 @@ from ..quantities.formatting import SI_UNITS
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled, varies
+from .posterior_part import answers_of
 from .render import Html, Markdown, visible
 from .uncertainty import Spread, shares_of
 
@@ -36,6 +37,7 @@ _HEAD_TO_TAIL = "Momentum before and after, head to tail."
 # are no formulas.
 _SETTINGS: Any = {"svg.hashsalt": "collisions", "svg.fonttype": "none", "text.parse_math": False}
 _UNDATED = dict.fromkeys(("Creator", "Date", "Format", "Type"))
+_WORDS = re.compile(r"[a-z]{2,}(?= )")
 _TAG = re.compile(r"<[^<>]*>")
 _ID = re.compile(r'(\bid="|url\(#|href="#)([^")]*)')
 
@@ -85,10 +87,18 @@ def figures(
         caption = "Each observation less its computed value, in stated errors."
         _draw(sheet, "residuals", caption, plot.residuals, impact)
     _in_rows(sheet, before)
-    # Apart, so that the figures of one output stand beside each other.
-    after = len(sheet.blocks)
-    _of_outputs(sheet, impact, spread, uncertainty, options["units"])
-    _in_rows(sheet, after)
+    units = options["units"]
+    if isinstance(impact, Posterior):
+        asked = answers_of(impact, options["answers"])
+        rest = [name for name in (*impact.results, *impact.unknowns) if name not in asked]
+        _of_outputs(sheet, impact, spread, None, {name: impact[name] for name in asked}, units)
+        if rest:
+            sheet.fold("How the rest of what was found is distributed:")
+            others = {name: impact[name] for name in rest}
+            _of_outputs(sheet, impact, spread, None, others, units, len(asked))
+            sheet.unfold()
+    elif uncertainty is not None:
+        _of_outputs(sheet, impact, spread, uncertainty, uncertainty.outputs, units)
     if len(sheet.blocks) == before:
         sheet.say("None: the variance is all of one input, and no cases were drawn.")
 
@@ -124,14 +134,20 @@ def _of_impact(sheet: Html, impact: Impact, units: Any) -> None:
 
 
 def _of_outputs(
-    sheet: Html, impact: Any, spread: Spread, uncertainty: Propagation | None, units: Any
+    sheet: Html,
+    impact: Any,
+    spread: Spread,
+    uncertainty: Propagation | None,
+    outputs: Mapping[str, Any],
+    units: Any,
+    before: int = 0,
 ) -> None:
-    """What was drawn of each output, and the share of its variance that each input brings."""
+    """What was drawn of each output, and the share of its variance that each input brings, side by
+    side and apart from other figures; ``before`` is how many outputs had theirs.
+    """
     of_posterior = isinstance(impact, Posterior)
-    outputs: dict[str, Any] = {} if uncertainty is None else dict(uncertainty.outputs)
-    if of_posterior:
-        outputs = {**impact.results, **impact.unknowns}
-    for number, output in enumerate(outputs.values(), 1):
+    start = len(sheet.blocks)
+    for number, output in enumerate(outputs.values(), before + 1):
         name = spread.heading(output)
         if not varies(output):
             sheet.say(f"{name} has no figures, because it is the same in every case.")
@@ -139,17 +155,23 @@ def _of_outputs(
         options: dict[str, Any] = {"units": units, "words": {output.name: name}}
         drawn_of = _with_unit(output, spread.kind_of(output))
         if isinstance(output, Sampled):
-            caption = f"{name}, in the cases drawn, given {output.given}."
+            caption = f"{_begun(name)}, in the cases drawn, given {output.given}."
             _draw(sheet, f"distribution-{number}", caption, plot.distribution, drawn_of, **options)
         if not of_posterior and len(shares_of(output)) != 1:
             caption = (
-                f"{name}, and the share of its variance that each input brings, by itself and in "
-                "all."
+                f"{_begun(name)}, and the share of its variance that each input brings, by itself "
+                "and in all."
             )
             options["inputs"] = spread.words_of(uncertainty)
             _draw(
                 sheet, f"contributions-{number}", caption, plot.contributions, drawn_of, **options
             )
+    _in_rows(sheet, start)
+
+
+def _begun(name: str) -> str:
+    """A name as it begins a sentence: with a capital if it is words, and not a symbol or a path."""
+    return name[:1].upper() + name[1:] if _WORDS.match(name) else name
 
 
 def _with_unit(output: Any, kind: str | None) -> Any:

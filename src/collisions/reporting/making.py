@@ -4,36 +4,45 @@ to the record.
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from inspect import signature
 from typing import Any, NamedTuple, TypeAlias
 
+import numpy as np
+
 from ..derivation.evidence import fit
 from ..derivation.explain import about_ranges, explain
+from ..derivation.scene import ledger, rests
 from ..diagnostics import diagnose
-from ..diagnostics.finding import Findings
+from ..diagnostics.finding import Findings, is_note
+from ..estimate.posterior_result import PosteriorOutput
 from ..impact.impact import Impact, with_vehicles
 from ..plot.canvas import who
 from ..quantities.document import Document
 from ..quantities.formatting import UnitSystem
 from ..quantities.settings import callers_options, computing
-from ..quantities.tables import cells, given_texts
+from ..quantities.tables import as_sentence, cells, given_texts, label_of
 from ..quantities.units import Input, Pair, kinds_in_degrees
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..scene.one_run import need_one_run
 from ..scene.run import Run
 from ..uncertainty import Propagation
+from ..uncertainty.result import outputs_part
 from ..vehicle.drag import USUAL_DURATION
 from . import figures as drawing
 from . import sections
-from .answer import answer
+from .answer import Figure, answer, figures_of, ranged_text, rests_on
 from .checking import FILED, Checked, Form, checked, results_of
+from .posterior_part import posterior
 from .record import plain_options, record_of_all
 from .render import Html, Markdown, Printed, Sheet, plain
-from .run_page import report_run, units_of_run
+from .run_page import report_run, units_of_run, vehicles
 from .sections import EVIDENCE
+from .together import Together, words_of
 from .uncertainty import Spread
+from .words import Names, listed
 
 Result: TypeAlias = Impact | MomentumSolution | Fit | Posterior
 _SURROGATE = re.compile("[\ud800-\udfff]")
@@ -41,7 +50,7 @@ _SURROGATE = re.compile("[\ud800-\udfff]")
 
 @computing
 def report(
-    impact: Result | Run | list[Result],
+    impact: Result | Run | list[Any],
     *,
     title: str | None = None,
     form: Form = "html",
@@ -59,6 +68,7 @@ def report(
     damage_delta_v_b: Input | Pair | None = None,
     share_a: Input | None = None,
     notes: str | Mapping[str, str] | Sequence[str | Mapping[str, str]] | None = None,
+    answers: Sequence[str] | None = None,
     figures: bool = True,
     derivation: bool = False,
     author: str | None = None,
@@ -83,11 +93,13 @@ def report(
 
     Parameters
     ----------
-    impact : Impact, MomentumSolution, Fit, Posterior or scene.Run, or list of all but the last
+    impact : Impact, MomentumSolution, Fit, Posterior or scene.Run, or list of these
         One case that was answered, of any forward or reverse solver; a scene as it went, with a
         part for each impact and where its kinetic energy went; or a list of several results,
         such as the momentum and each impact of one case: a page with one answer of all, and a part
-        for each.
+        for each. A run stands in a list beside the posterior or fit of its scene,
+        ``report([found, run])``: with a picture of the whole way and the measured places, and with
+        the ranges that the samples leave of each impact.
     title : str, optional
         By default the names of the vehicles.
     form : {"html", "markdown"}
@@ -110,7 +122,14 @@ def report(
         Your own words, each note in a paragraph of its own; or notes by input, printed beside it,
         such as where its value is from: ``{"restitution": "Low-speed tests of the same model",
         "a.mass": "Weighed"}``. "duration", "drag", "law" and the outlines that are given,
-        "outline_a" and "outline_b", may have notes too.
+        "outline_a" and "outline_b", may have notes too; of a fit and of a posterior each reading
+        and each prior, by its name, also on a page of several results.
+    answers : list of str, optional
+        What stands in the answer, by name and in this order: unknowns, results and outputs of a
+        posterior, unknowns of a fit, outputs of ``uncertainty``, or results such as "a.delta_v". By
+        default what the solver found with the delta-V, all outputs of ``uncertainty``, or of a
+        posterior what ``with_result`` worked out and the speeds among its unknowns; all else that
+        was found stands further down.
     figures : bool
         Whether to draw figures. They need matplotlib; without it the report says so and goes on.
     derivation : bool
@@ -157,37 +176,55 @@ def report(
         held = plain_options(given)
         changed = {name: value for name, value in held.items() if not _is_usual(name, value)}
         return report_run(impact, given, changed)
-    results = results_of(impact, uncertainty)
-    texts = [text for one, _ in results for text in given_texts(one)]
+    given_results, together = results_of(impact, uncertainty)
+    texts = [text for one, _ in given_results for text in given_texts(one)]
     system: Any = cells(units, texts).name
     given["units"] = system
     options = plain_options(given)
     unusual = {name: value for name, value in options.items() if not _is_usual(name, value)}
-    found = checked(results, options, list(unusual))
+    results = given_results
+    owns: list[_Own | None] = [None] * len(results)
+    if together is not None:
+        together = together.with_outputs(options["answers"])
+        results, owns = _with_impacts(given_results, together)
+    found = checked(results, options, list(unusual), together and together.run)
     printed = Printed(system, kinds_in_degrees(texts))
     sheet: Sheet = Html(printed, {}, {}) if form == "html" else Markdown(printed, {}, {})
     looked_at = {
         name: given[name]
         for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units", *EVIDENCE)
     }
-    parts = [_part(one, its, looked_at, system) for one, its in results]
-    sheet.title(plain(title or (_title(results[0][0]) if len(results) == 1 else _SEVERAL)))
+    parts = [
+        _part(one, its, looked_at, system, own)
+        for (one, its), own in zip(results, owns, strict=True)
+    ]
+    sheet.title(plain(title or _title_of_page(results, together)))
     filed = [(name, plain(options[name])) for name in FILED if options[name] is not None]
     if filed:
         sheet.file([(name.capitalize(), text) for name, text in filed])
     draws = figures and isinstance(sheet, Html) and drawing.can_draw()
-    _answers(sheet, parts, options, draws)
+    if together is None:
+        _answers(sheet, parts, options, draws)
+    else:
+        with callers_options():
+            whole = diagnose(
+                together.run,
+                **{name: given[name] for name in ("duration", "drag", "limits", "units")},
+            )
+        _answer_together(sheet, parts, together, whole, options, draws)
     for number, part in enumerate(parts, 1):
         if len(parts) > 1:
             sheet.begin_part(_heading(number, part), f"{number}.")
         _body(sheet, part, options, found, draws, alone=len(parts) == 1)
     if len(parts) > 1:
         sheet.end_parts()
+        if together is not None:
+            _ground(sheet, together)
         _notes(sheet, found)
     sections.sources(sheet, [(part.result, part.findings) for part in parts])
     sheet.say(f"Calculated with collisions {__version__}.")
     sheet.heading("Record")
-    sheet.record(record_of_all(results, unusual))
+    sheet.record(record_of_all(given_results, unusual))
     return Document(sheet.whole(__version__), form)
 
 
@@ -204,6 +241,14 @@ def _is_usual(name: str, value: Any) -> bool:
     return type(value) is type(_USUAL[name]) and bool(value == _USUAL[name])
 
 
+class _Own(NamedTuple):
+    """What is known of an impact of a run beside what was found of its scene."""
+
+    together: Together
+    number: int
+    ranges: Mapping[str, PosteriorOutput]
+
+
 class _Part(NamedTuple):
     """A result with what the page says of it."""
 
@@ -215,19 +260,50 @@ class _Part(NamedTuple):
     findings: Findings | None
     # None where the units of the page are those of its inputs.
     units: UnitSystem | None
+    own: _Own | None
+
+
+def _with_impacts(
+    results: list[tuple[Any, Any]], together: Together
+) -> tuple[list[tuple[Any, Any]], list[_Own | None]]:
+    """The results with the impacts of a run in its place."""
+    parts: list[tuple[Any, Any]] = []
+    owns: list[_Own | None] = []
+    for one, its in results:
+        if not isinstance(one, Run):
+            parts.append((together.found if isinstance(one, (Posterior, Fit)) else one, its))
+            owns.append(None)
+            continue
+        for number, ranges in enumerate(together.ranges()):
+            parts.append((one.impacts[number], None))
+            owns.append(_Own(together, number, ranges))
+    return parts, owns
+
+
+def _title_of_page(results: Sequence[tuple[Any, Any]], together: Together | None) -> str:
+    if together is not None:
+        return f"The crash of {listed(together.run.scene.movers)}"
+    return _title(results[0][0]) if len(results) == 1 else _SEVERAL
 
 
 def _part(
-    result: Any, uncertainty: Propagation | None, looked_at: Mapping[str, Any], system: UnitSystem
+    result: Any,
+    uncertainty: Propagation | None,
+    looked_at: Mapping[str, Any],
+    system: UnitSystem,
+    own: _Own | None,
 ) -> _Part:
     findings = None
+    if own is not None:
+        outlines = own.together.outlines_of(own.number)
+        looked_at = dict(looked_at) | {f"outline_{one}": its for one, its in outlines.items()}
     if isinstance(result, (Impact, MomentumSolution)):
         # As they were given, so that it sees which have a unit.
         with callers_options():
             findings = diagnose(result, **looked_at)
     readable = _readable(result) if isinstance(result, Impact) else result
-    own = None if cells(None, given_texts(result)).name == system else system
-    return _Part(result, readable, uncertainty, Spread(result, uncertainty), findings, own)
+    units = None if cells(None, given_texts(result)).name == system else system
+    return _Part(result, readable, uncertainty, Spread(result, uncertainty), findings, units, own)
 
 
 def _answers(sheet: Sheet, parts: Sequence[_Part], options: Mapping[str, Any], draws: bool) -> None:
@@ -243,11 +319,93 @@ def _answers(sheet: Sheet, parts: Sequence[_Part], options: Mapping[str, Any], d
     for number, part in enumerate(parts, 1):
         if len(parts) > 1:
             sheet.subheading(_heading(number, part))
-        answer(sheet, part.result, part.spread, part.uncertainty, part.findings, len(parts) == 1)
+        alone, asked = len(parts) == 1, options["answers"]
+        answer(sheet, part.result, part.spread, part.uncertainty, part.findings, alone, asked)
     picture = None
     if draws and len(parts) == 1 and isinstance(sheet, Html):
         picture = drawing.beside_answer(sheet, parts[0].readable, options)
     sheet.close_answer(picture)
+
+
+def _answer_together(
+    sheet: Sheet,
+    parts: Sequence[_Part],
+    together: Together,
+    whole: Findings,
+    options: Mapping[str, Any],
+    draws: bool,
+) -> None:
+    """An energy gain, and the box that has what was found with the delta-V of each impact, with the
+    way of the vehicles and the places that were measured beside it.
+    """
+    found, run, asked = together.found, together.run, options["answers"]
+    hits = [(part, part.own) for part in parts if part.own is not None]
+    for part, _ in hits:
+        sections.gain(sheet, part.result, part.result.energy_loss)
+    sheet.open_answer()
+    rows = figures_of(sheet, found, parts[together.part - 1].spread, None, asked)
+    if asked is None:
+        rows += [
+            Figure(name, text, ranged)
+            for _, own in hits
+            for name, text, ranged in _delta_v(sheet, own)
+        ]
+    others = [part for part in parts if part.own is None and part.result is not found]
+    for part in others:
+        rows += figures_of(sheet, part.result, part.spread, part.uncertainty, asked)
+    sheet.figures_of_answer([(row.what, row.text) for row in rows])
+    sheet.say(rests_on(found, Names(found)))
+    if asked is None and any(own.ranges for _, own in hits):
+        sheet.say(
+            f"The delta-V is that of the scene at each of the {together.samples} samples of what "
+            "was found."
+        )
+    if any(not row.ranged for row in rows):
+        sheet.say("No range is stated for the figures above that have only one number.")
+    judged = [one for part in parts for one in part.findings or ()]
+    judged += [one for one in whole if one.impact is None]
+    lines = [
+        (f"{label_of(one.code)}:", as_sentence(plain(one.sentence)))
+        for one in judged
+        if not is_note(one)
+    ]
+    if lines:
+        sheet.items(list(dict.fromkeys(lines)))
+    picture = None
+    if draws and isinstance(sheet, Html):
+        caption = (
+            f"From the start to rest, to scale, at the {together.middle}."
+            + " Crosses: where the vehicles were measured at rest." * bool(together.measured())
+        )
+        picture = drawing.drawn(
+            sheet, "scene", caption, together.draw, run, units=sheet.system.name
+        )
+    sheet.close_answer(picture)
+
+
+def _delta_v(sheet: Sheet, own: _Own) -> Iterator[tuple[str, str, bool]]:
+    """The delta-V of both vehicles of an impact, with its range where there are samples."""
+    run, number = own.together.run, own.number
+    impact = run.impacts[number]
+    of = f", impact {number + 1} ({run.times[number]:.2f} s)" if len(run.impacts) > 1 else ""
+    for name, side in (("a.delta_v", impact.a), ("b.delta_v", impact.b)):
+        if not math.isfinite(side.before.mass):
+            continue
+        text, ranged = sheet.system.answer(side.delta_v, "speed"), False
+        if name in own.ranges:
+            text, ranged = ranged_text(sheet.system, own.ranges[name], "speed")
+        yield plain(words_of(name, run.pairs[number]) + of), text, ranged
+
+
+def _ground(sheet: Sheet, together: Together) -> None:
+    """What the vehicles move on, where they come to rest, and where the energy went."""
+    run = together.run
+    sheet.say(f"What follows is of the run at the {together.middle}.")
+    vehicles(sheet, run, together.marks())
+    sheet.heading("Places of rest")
+    sheet.table(rests(sheet, run))
+    sheet.heading("Where the kinetic energy went")
+    sheet.table(ledger(sheet, run))
 
 
 def _body(
@@ -261,15 +419,24 @@ def _body(
     """Inputs, results, uncertainty, findings and the work of one result."""
     result, uncertainty, spread = part.result, part.uncertainty, part.spread
     sheet.deviations, sheet.ranges = spread.deviations, spread.ranges
+    own, outlines, by_input = part.own, found.outlines, found.by_input
+    if own is not None:
+        its = own.together.outlines_of(own.number)
+        outlines = {label: np.array(corners) for label, corners in its.items()}
+        options = dict(options) | {f"outline_{label}": one for label, one in its.items()}
+        by_input = own.together.notes_of(own.number, by_input)
     if isinstance(result, Impact):
-        sections.inputs(sheet, result, options, found.by_input, spread)
+        marks = None if own is None else own.together.marks_of(own.number)
+        sections.inputs(sheet, result, options, by_input, spread, marks)
+        if own is not None:
+            _at_the_samples(sheet, own)
         sections.results(sheet, result, options["share_a"])
     elif isinstance(result, MomentumSolution):
         sections.momentum_inputs_and_results(sheet, result, options, found.by_input)
     elif isinstance(result, Fit):
-        fit(sheet, result)
+        fit(sheet, result, found.by_input)
     else:
-        sections.posterior(sheet, result)
+        posterior(sheet, result, options["answers"], found.by_input)
     if uncertainty is not None:
         spread.write(sheet, uncertainty)
         if spread.ranges:
@@ -282,13 +449,31 @@ def _body(
     if options["figures"]:
         drawing.figures(sheet, part.readable, spread, uncertainty, options, draws, alone)
     if isinstance(result, Impact):
-        sections.assumptions(sheet, result, options, found.outlines, found.by_input)
+        sections.assumptions(sheet, result, options, outlines, by_input)
     elif isinstance(result, MomentumSolution):
         sections.momentum_assumptions(sheet, result, options)
     if options["derivation"] and not isinstance(result, Posterior):
         sheet.heading("Derivation")
         known = uncertainty if spread.outputs else None
         sheet.working(explain(part.readable, units=part.units, uncertainty=known))
+
+
+def _at_the_samples(sheet: Sheet, own: _Own) -> None:
+    """What the marks say, and the ranges of an impact that the samples leave."""
+    together = own.together
+    sheet.say(
+        f"“{together.middle.capitalize()}” is what was found there, and not given; “from the run” "
+        "is the state with which the run of these numbers comes to this impact."
+    )
+    if own.ranges:
+        pair = together.run.pairs[own.number]
+        sheet.heading("What the evidence leaves of it")
+        named = {plain(words_of(name, pair)): output for name, output in own.ranges.items()}
+        sheet.columns(outputs_part(named, cells(sheet.system.name)))
+        sheet.say(
+            f"From the {together.samples} samples of part {together.part}, each run through "
+            f"the scene. The results below are those at the {together.middle}."
+        )
 
 
 def _notes(sheet: Sheet, found: Checked) -> None:
@@ -299,7 +484,10 @@ def _notes(sheet: Sheet, found: Checked) -> None:
 
 
 def _heading(number: int, part: _Part) -> str:
-    return f"{number}. {plain(_title(part.result))}"
+    title = _title(part.result)
+    if part.own is not None and len(part.own.together.run.impacts) > 1:
+        title += f" at {part.own.together.run.times[part.own.number]:.2f} s"
+    return f"{number}. {plain(title)}"
 
 
 def _title(impact: Result) -> str:

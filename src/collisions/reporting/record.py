@@ -30,12 +30,12 @@ from ..quantities.settings import computing, units_required
 from ..quantities.strict_json import strict
 from ..quantities.units import Texts, rendered, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior, momentum
+from ..reconstruct.found_again import contradicted_origin
 from ..scene.run import Run
 from ..uncertainty import Propagation
 from ..vehicle.outlines import read_outline
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import DOMAINS, Vehicle, with_given
-from .found_again import contradicted_origin
 from .render import FENCE, RECORD
 from .sections import EVIDENCE, contradicted
 
@@ -53,6 +53,7 @@ _UNITS: dict[str, str | None] = {
             "outline_b",
             "limits",
             "notes",
+            "answers",
             "figures",
             "derivation",
             "author",

@@ -52,6 +52,7 @@ th { font-weight: normal; width: 40%; }
 .both table { table-layout: fixed; }
 .both thead td { width: 40%; }
 thead th { font-weight: bold; width: auto; }
+.columns thead td { width: 30%; }
 td { font-variant-numeric: tabular-nums; }
 .figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(22em, 1fr)); gap: 1em \
 2em; }
@@ -164,6 +165,10 @@ class _Sheet(Page):
             return number
         return f"{number}, exactly {number_with_unit(f'{value:.{_DIGITS}g}', SI_UNITS[kind])}"
 
+    def columns(self, part: Part) -> None:
+        """A table with a column for each thing that is said of its rows."""
+        raise NotImplementedError
+
     def listed(self, lines: Sequence[str]) -> None:
         self.items([("", line) for line in lines])
 
@@ -258,6 +263,9 @@ class Html(_Sheet):
             lines += _within("wide", Part(subjects[of], of))
         self.blocks += [*lines, "</div>"]
 
+    def columns(self, part: Part) -> None:
+        self.blocks += ['<div class="tables">', *_within("columns", _plainly(part)), "</div>"]
+
     def open_answer(self) -> None:
         self.blocks += ['<section class="answer">', "<div>"]
         self.heading("Answer")
@@ -349,6 +357,10 @@ class Markdown(_Sheet):
     def table(self, rows: Iterable[tuple[str, str, str]]) -> None:
         self.blocks.append(in_markdown(Part(list(rows), columns=HEAD), _escaped))
 
+    def columns(self, part: Part) -> None:
+        heads = part.columns or ("value",)
+        self.blocks.append(in_markdown(_plainly(part)._replace(columns=("of", *heads)), _escaped))
+
     def items(self, lines: Sequence[tuple[str, str]]) -> None:
         texts = (
             f"**{_escaped(start)}** {_escaped(text)}" if start else _line(text)
@@ -415,6 +427,11 @@ def _alike(subjects: Mapping[str, Sequence[tuple[str, str]]]) -> list[list[str]]
         else:
             groups.append([of])
     return [sorted(group) if _VEHICLE.match(group[0]) else group for group in groups]
+
+
+def _plainly(part: Part) -> Part:
+    """A table of texts in one line each."""
+    return part._replace(rows=[tuple(map(plain, row)) for row in part.rows])
 
 
 def _within(kind: str, part: Part) -> list[str]:

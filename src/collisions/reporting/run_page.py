@@ -11,7 +11,7 @@ from typing import Any, get_args
 import numpy as np
 
 from .. import plot
-from ..derivation.explain import explain
+from ..derivation.explain import OF_VEHICLE, explain
 from ..derivation.scene import ledger, rests
 from ..derivation.wheels import wheel_rows
 from ..diagnostics import diagnose
@@ -36,6 +36,16 @@ from .uncertainty import Spread
 
 # What is said of one impact, and not of a scene.
 _OF_ONE = ("outline_a", "outline_b", "share_a", *EVIDENCE)
+# The state of a vehicle, with the kind of each part, and what no table of inputs has of it.
+_STATE = {
+    "x": "length",
+    "y": "length",
+    "heading": "angle",
+    "speed": "speed",
+    "course": "angle",
+    "yaw_rate": "yaw rate",
+}
+_AT_THE_START = {"speed": "speed", "course": "course"}
 _LOOKED_AT = ("duration", "drag", "limits", "units")
 
 
@@ -60,7 +70,8 @@ def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -
         sheet.file([(name.capitalize(), text) for name, text in filed])
     spread = Spread(run, uncertainty)
     _answer(sheet, run, found, draws, spread, uncertainty)
-    _vehicles(sheet, run)
+    _start(sheet, run)
+    vehicles(sheet, run)
     for number, (time, pair, impact) in enumerate(
         zip(run.times, run.pairs, run.impacts, strict=True)
     ):
@@ -167,12 +178,13 @@ def _answer(
     for name, output in outputs.items():
         kind = spread.kind_of(output)
         text, has_range = ranged_text(sheet.system, output, kind)
-        ranged[name] = (plain(name), text) if has_range else None
+        words = spread.heading(output)
+        ranged[name] = (words, text) if has_range else None
         low, high = output.interval()
         value = result_of(run, name) if known.get(name, "rad") != "rad" else math.nan
         if value < low or value > high:
             sheet.stress(
-                f"{plain(name)} of this run lies outside the 95 percent interval of the "
+                f"{words} of this run lies outside the 95 percent interval of the "
                 "propagation: are both of the same scene?"
             )
     rows = [row for row in ranged.values() if row is not None]
@@ -227,9 +239,31 @@ def _rest(sheet: Sheet, run: Run, name: str) -> str:
     return ", ".join(sheet.system.answer(float(part), "length") for part in (rest.x, rest.y))
 
 
-def _vehicles(sheet: Sheet, run: Run) -> None:
-    """What each vehicle moves on, and the surfaces."""
+def _start(sheet: Sheet, run: Run) -> None:
+    """The state of each vehicle at the start, in full."""
     rows = []
+    for name, mover in run.scene.movers.items():
+        body, of = mover.vehicle, plain(name)
+        texts: Mapping[str, Any] = body.given or {}
+        for part, kind in _STATE.items():
+            value = getattr(body, part)
+            if value is None:
+                text = "not given"
+            elif math.isnan(value):
+                text = "none: it stands"
+            else:
+                text = sheet.as_given(float(value), kind, texts.get(part))
+            rows.append((of, _AT_THE_START.get(part) or OF_VEHICLE[part][0], text))
+    sheet.heading("At the start")
+    sheet.table(rows)
+
+
+def vehicles(sheet: Sheet, run: Run, marks: Mapping[str, str] | None = None) -> None:
+    """What each vehicle moves on, and the surfaces; ``marks`` are words behind numbers that were
+    not given, by their paths.
+    """
+    rows = []
+    marked = {path: f", {word}" for path, word in (marks or {}).items()}
     for name, mover in run.scene.movers.items():
         of = plain(name)
         if mover.outline is not None:
@@ -238,10 +272,13 @@ def _vehicles(sheet: Sheet, run: Run) -> None:
             )
             rows.append((of, "outline", f"{length} by {width}"))
         if mover.drag is not None:
-            rows.append((of, "drag factor", sheet.number(float(mover.drag), "number")))
+            drag, word = float(mover.drag), marked.get(f"{name}.drag", "")
+            text = sheet.system.answer(drag, "number") if word else sheet.number(drag, "number")
+            rows.append((of, "drag factor", text + word))
         if mover.tyres is not None:
-            for _, what, value, kind in wheel_rows(mover.tyres):
-                rows.append((of, what, sheet.number(float(value), kind)))
+            for part, what, value, kind in wheel_rows(mover.tyres):
+                word = marked.get(f"{name}.tyres.{part}", "")
+                rows.append((of, what, sheet.number(float(value), kind) + word))
         if mover.drag is None and mover.tyres is None:
             rows.append((of, "slowed by", "nothing"))
     for number, (corners, friction) in enumerate(run.scene.surfaces):

@@ -34,7 +34,7 @@ from ..quantities.formatting import (
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import as_sentence, label_of
 from ..quantities.units import Input
-from ..reconstruct import MomentumSolution, Posterior
+from ..reconstruct import MomentumSolution
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..vehicle.drag import read_drag, read_duration
 from ..vehicle.tyres import Tyres
@@ -126,10 +126,12 @@ def inputs(
     options: Mapping[str, Any],
     notes: Mapping[str, str],
     spread: Spread | None = None,
+    marks: Mapping[str, str] | None = None,
 ) -> None:
     """Write the inputs with the texts they were given as, and the choice of the model or how the
-    state was found.
+    state was found; ``marks`` are words behind those that were not given, by their names.
     """
+    marked = marks or {}
     found_names = found_inputs(impact)
     sheet.heading("Inputs")
     vehicles = {"A": impact.a.before, "B": impact.b.before}
@@ -153,6 +155,10 @@ def inputs(
         )
         note = notes.get(key_of(of, names))
         value = _input(sheet, impact, vehicle, dict(zip(names, numbers, strict=True)), kind, texts)
+        own = "" if vehicle is None else f"{of.lower()}."
+        words = [marked.get(own + one, "") for one in names]
+        if any(words):
+            value = _found(sheet, numbers, words, kind)
         # Found of a contact that slid: the impulse ratio, which the results have too.
         value += ", found" if key_of(of, names) in found_names else ""
         rows.append((name, quantity, _with(value, note)))
@@ -190,6 +196,19 @@ def inputs(
 def _with(value: str, note: str | None) -> str:
     """What is printed of an input, and the note beside it."""
     return f"{value}. {note}" if note else value
+
+
+def _found(sheet: Sheet, numbers: Sequence[float], words: Sequence[str], kind: str) -> str:
+    """One number or both of a place of which some were found, rounded as results are."""
+    texts = [
+        f"{sheet.system.answer(float(number), kind)}, {word}"
+        if word
+        else sheet.number(number, kind)
+        for number, word in zip(numbers, words, strict=True)
+    ]
+    if len(texts) == 1:
+        return texts[0]
+    return "; ".join(f"{axis}: {text}" for axis, text in zip("xy", texts, strict=True))
 
 
 def _published(impact: Impact, name: str) -> Iterator[tuple[str, str]]:
@@ -713,27 +732,6 @@ def _origin(impact: Impact, found: set[str], of: str, what: str) -> str:
     if name is None or (name == "vy" and impact.reconstruction.method == "central"):
         return ""
     return ", found" if f"{of.lower()}.{name}" in found else ", given"
-
-
-def posterior(sheet: Sheet, found: Posterior) -> None:
-    """What the evidence says about each unknown, and all that this rests on."""
-    summary = found.summary(sheet.system.name)
-    sheet.listed([plain(note) for note in summary.notes])
-    for part in summary.parts:
-        if not part.folded:
-            # The evidence has no heading of its own in the summary.
-            sheet.heading(part.heading or "How well model and priors predict the observations")
-            heads = part.columns or (
-                "stated" if part.heading else "natural logarithm ± error of sampling",
-            )
-            sheet.table(
-                [
-                    (plain(name), *row)
-                    for name, *texts in part.rows
-                    for row in zip(heads, texts, strict=True)
-                ]
-            )
-    sheet.say(f"{summary.title}, seed {found.seed}.")
 
 
 def findings(sheet: Sheet, found: Findings) -> None:

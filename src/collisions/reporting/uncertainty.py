@@ -21,6 +21,7 @@ from ..uncertainty import Interval, Output, Propagation
 from ..uncertainty.distribution import stated_in
 from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies
 from .render import Sheet, plain
+from .scene_words import result_in_words
 from .words import Names
 
 # Inputs of the library that have no unit; their number in this result is not known.
@@ -49,7 +50,9 @@ class Spread:
 
     def heading(self, output: Output) -> str:
         """The result in words, such as "Golf: delta-V"; of any other output its name."""
-        words = {} if isinstance(self.impact, Run) else words_of_answers(self.impact)
+        if isinstance(self.impact, Run):
+            return plain(result_in_words(self.impact, output.name))
+        words = words_of_answers(self.impact)
         return next(
             (self.names(words[name]) for name, answer in self.outputs.items() if answer is output),
             plain(output.name),
@@ -79,6 +82,11 @@ class Spread:
                 for what, text in self._figures(sheet, output, uncertainty)
             ]
         sheet.table(rows)
+        if any(name.startswith(("impacts[", "times[")) for name in uncertainty.outputs):
+            sheet.say(
+                "Impacts are counted in order of time in every case, and named after the "
+                "vehicles that they have in the run of this report."
+            )
         if any(what.startswith("variance from") for _, what, _ in rows):
             sheet.say(
                 "Variance from an input: its share by itself, and in all, with its interactions "

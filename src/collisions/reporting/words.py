@@ -17,6 +17,7 @@ from ..quantities.formatting import KIND_OF
 from ..reconstruct import MomentumSolution
 from ..scene.run import Run
 from .render import plain
+from .scene_words import about, input_in_words
 
 # Longer names would break tables and figures; the letter stands for them there.
 _SHORT = 24
@@ -42,14 +43,15 @@ class Names:
             self._inputs = dict(_of_impact(result))
         elif isinstance(result, MomentumSolution):
             for of, what, name, number, kind in momentum_inputs(result):
-                words = what if of not in "AB" else _about(what, of)
+                words = what if of not in "AB" else about(what, of)
                 self._inputs[name] = words, kind, number
         elif isinstance(result, Run):
             numbers = dict(result.scene._numbers())
             for path, unit in result.scene.inputs().items():
                 first = result.scene.shared.get(path, (path,))[0]
                 number = float(numbers.get(first, math.nan))
-                self._inputs[path] = plain(path), KIND_OF.get(unit, "number"), number
+                words = plain(input_in_words(result.scene, path))
+                self._inputs[path] = words, KIND_OF.get(unit, "number"), number
 
     def of(self, letter: str) -> str:
         """The name of a vehicle, or its letter."""
@@ -88,16 +90,6 @@ class Names:
         return f"the {name}" if len(name) > 1 and name.isalpha() else name
 
 
-def _about(what: str, letter: str) -> str:
-    """Something of a vehicle: "course before" is "course of A before"."""
-    lead, space, when = what.rpartition(" ")
-    return (
-        f"{lead} of {letter} {when}"
-        if space and when in ("before", "after")
-        else (f"{what} of {letter}")
-    )
-
-
 def _of_impact(impact: Impact) -> Iterable[tuple[str, tuple[str, str, float]]]:
     for of, what, names, numbers, kind in impact_inputs(impact):
         for name, number in zip(names, numbers, strict=True):
@@ -105,7 +97,7 @@ def _of_impact(impact: Impact) -> Iterable[tuple[str, tuple[str, str, float]]]:
                 words = "restitution" if name == "restitution" else what.partition(" (")[0]
                 yield name, (words, kind, number)
             else:
-                yield f"{name}_{of.lower()}", (_about(what, of), kind, number)
+                yield f"{name}_{of.lower()}", (about(what, of), kind, number)
     for label, vehicle in (("a", impact.a.before), ("b", impact.b.before)):
         before = f"of {label.upper()} before"
         yield f"speed_{label}", (f"speed {before}", "speed", float(vehicle.speed))

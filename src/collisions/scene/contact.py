@@ -14,7 +14,7 @@ from ..messages.hints import hinted
 from ..quantities.attributes import Shown, read_only, texts_given
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader, at_least_zero
-from ..quantities.refusals import must_be, yes_or_no
+from ..quantities.refusals import must_be, one_of, yes_or_no
 from ..quantities.settings import Default
 from ..quantities.units import Input, Pair, Texts, Value, shown, texts_of
 from ..vehicle.drag import one_value, read_duration
@@ -76,8 +76,9 @@ class Contact(Shown):
         about the maximum engagement at which the states are; the vehicles go on from where it
         leaves them, and one that touches another meanwhile strikes it when the contact has ended.
         With the model "eccentric" it is for the impulse of the tyres; the vehicles then move on by
-        the velocities after it until it has passed, and from there on their tyres. For "solve",
-        both.
+        the velocities after it until it has passed, and from there on their tyres: that is the
+        duration, and at time 0 half of it, as the states there are those of maximum engagement,
+        with half of the contact before them. For "solve", both.
     tolerance : float, str, Quantity or array [m/s], optional
         With the model "solve", the largest error that is accepted.
     friction, impulse_ratio, critical_fraction : float, str, Quantity or array [-], optional
@@ -224,7 +225,14 @@ class Contact(Shown):
         -------
         object
             Of a pair a tuple of both.
+
+        Raises
+        ------
+        InputError
+            A name that is none of these.
         """
+        if not isinstance(name, str) or name not in NAMES:
+            raise one_of("name", NAMES, name, code="unknown_name")
         value, texts = getattr(self, name), self.given
         if isinstance(value, tuple) and name not in texts:
             return tuple(texts.get(f"{name}[{i}]", part) for i, part in enumerate(value))

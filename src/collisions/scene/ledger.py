@@ -4,26 +4,41 @@ of a track, and where tyres leave marks.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..kernels.tyre import wheel_forces
 from ..travel.areas import Areas
+from ..travel.simulate import MARKS
 from ..vehicle.drag import GRAVITY
 from ..vehicle.tyres import Tyres, kernel_numbers
 from .motion import Ground
 from .mover import Mover
 
-# A tyre that uses this share of the friction leaves a mark.
-_MARKS = 0.9
 _WHEELS = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
 
 
-def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any) -> tuple[Any, Any]:
-    """The power that tyres take [W] and the marks, (4, 2, moments), at the states of one case."""
-    numbers = {name: np.full(state.shape[1], value) for name, value in tyres.named.items()}
-    own = kernel_numbers(numbers, np)
+class OnTyres(NamedTuple):
+    """What tyres do at some states: the power that they take [W], where the wheels are [m], (4, 2,
+    ...), and the share of the friction that each uses, (4, ...), 0 of a vehicle at rest.
+    """
+
+    power: Any
+    places: Any
+    use: Any
+
+    @property
+    def marks(self) -> Any:
+        """Where the wheels are while they leave marks; NaN elsewhere."""
+        return np.where(self.use[:, None] >= MARKS, self.places, np.nan)
+
+
+def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any, cases: Any = None) -> OnTyres:
+    """What tyres do at the states of one case, (6, moments), or of those of a batch."""
+    count = state.shape[1]
+    take = ground.taker(np.zeros(count, dtype=int) if cases is None else cases)
+    own = kernel_numbers({name: take(value) for name, value in tyres.named.items()}, np)
     x, y, heading, vx, vy, turn = state
     c, s = np.cos(heading), np.sin(heading)
     forward, left = c * vx + s * vy, c * vy - s * vx
@@ -32,10 +47,9 @@ def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any) -> tuple[An
     px, py = x + c * ahead - s * aside, y + s * ahead + c * aside
     here: Any = [own.friction] * 4
     if ground.surfaces:
-        count = state.shape[1]
         areas = Areas(
             [np.array(corners) for corners, _ in ground.surfaces],
-            np.array([np.full(count, friction) for _, friction in ground.surfaces]),
+            np.array([take(friction) for _, friction in ground.surfaces]),
             own.friction,
             np.zeros((2, count)),
             np.ones(count),
@@ -55,15 +69,13 @@ def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any) -> tuple[An
         steered=tyres.steered,
         transfers=tyres.transfers,
     )
-    power = np.zeros(state.shape[1])
-    marks = np.full((4, 2, state.shape[1]), np.nan)
-    weight = 0.25 * mover.vehicle.mass * GRAVITY
+    power, use = np.zeros(count), np.empty((4, count))
+    weight = 0.25 * take(mover.vehicle.mass) * GRAVITY
     for at, (along, across, load) in enumerate(wheels):
         pull = load * here[at] * weight
         power -= pull * (along * (forward - turn * aside[at]) + across * (left + turn * ahead[at]))
-        slides = (np.hypot(along, across) >= _MARKS) & (speed > 0.0)
-        marks[at] = np.where(slides, np.array([px[at], py[at]]), np.nan)
-    return power, marks
+        use[at] = np.where(speed > 0.0, np.hypot(along, across), 0.0)
+    return OnTyres(power, np.array([px, py]).swapaxes(0, 1), use)
 
 
 def on_drag(mover: Mover, ground: Ground, state: Any, slowing: float) -> Any:

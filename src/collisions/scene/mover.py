@@ -13,6 +13,7 @@ from ..messages.errors import InputError
 from ..messages.hints import hinted
 from ..quantities.attributes import Shown, read_only, texts_given
 from ..quantities.reading import ArgumentReader
+from ..quantities.refusals import one_of
 from ..quantities.tables import Cells, Part, Summary, all_numbers
 from ..quantities.units import Input, Texts, Value, texts_of
 from ..vehicle.drag import read_drag
@@ -22,6 +23,8 @@ from ..vehicle.vehicle import Vehicle, not_a_vehicle
 
 # Of an outline [m]: what is smaller is no vehicle, and what is larger no place.
 _LEAST, _MOST = 1e-2, 1e4
+# The arguments of a mover.
+NAMES = ("vehicle", "outline", "tyres", "drag")
 
 
 @dataclass(frozen=True, slots=True, init=False, eq=False, repr=False)
@@ -123,7 +126,7 @@ class Mover(Shown):
         -------
         Mover
         """
-        kept = {name: self.as_given(name) for name in ("vehicle", "outline", "tyres", "drag")}
+        kept = {name: self.as_given(name) for name in NAMES}
         return Mover(**{**kept, **changes})
 
     def as_given(self, name: str) -> Any:
@@ -137,7 +140,14 @@ class Mover(Shown):
         Returns
         -------
         object
+
+        Raises
+        ------
+        InputError
+            A name that is none of these.
         """
+        if not isinstance(name, str) or name not in NAMES:
+            raise one_of("name", NAMES, name, code="unknown_name")
         value = getattr(self, name)
         return texts_given(self).get(name, value)
 
@@ -194,7 +204,7 @@ class Mover(Shown):
         yield from Shown._rows(self, prefix)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        given = {name: self.as_given(name) for name in ("vehicle", "outline", "tyres", "drag")}
+        given = {name: self.as_given(name) for name in NAMES}
         return _restored, (given,)
 
 

@@ -1,7 +1,7 @@
 """The numbers of a scene by their paths: inputs that can be replaced, and results of a run.
 
 A path is written as in Python: "Camry.vx", "Camry.tyres.lock[0]", "contacts[0].point[1]",
-"Camry.rest.x", "impacts[0].a.delta_v".
+"Camry.rest.x", "impacts[0].a.delta_v", "Camry.marks.front_left.distance(12.3 m, 4.5 m)".
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ from ..vehicle.tyres import LOCKS, as_given
 from ..vehicle.vehicle import UNITS as OF_VEHICLE
 from ..vehicle.vehicle import Vehicle
 from .contact import UNITS as OF_CONTACT
+from .marks import answers, of_mark
 from .scene import Scene, arguments_of
 
 if TYPE_CHECKING:
@@ -400,6 +401,8 @@ def unit_of_result(scene: Scene, path: str, argument: str = "outputs") -> str:
         found = _OF_IMPACT.fullmatch(path)
         if found and found[2] in (known := _of_impact()):
             return known[found[2]]
+        if of_mark(scene, path, argument):
+            return "m"
     raise no_path(path, results_of(scene), argument, _meant_result(scene, path))
 
 
@@ -418,6 +421,8 @@ def result_of(run: Run, path: str) -> Any:
         if value is None:
             raise _without(path)
         return value
+    if asked := of_mark(run.scene, path, "outputs"):
+        return answers(run, [asked])[0]
     found = _OF_IMPACT.fullmatch(path)
     assert found is not None
     number, inner = int(found[1]), found[2].split(".")
@@ -514,21 +519,27 @@ def as_function(
     Quantities; ``at_level`` makes the scene that is run of the one with these numbers.
     """
     from ..quantities.units import shown, to_quantity
-    from .run import Run
+    from .run import Run, warn_of_findings
 
-    for argument, listed in (("names", names), ("outputs", outputs)):
-        if isinstance(listed, str) or not _can_be_listed(listed):
+    listed = {}
+    for argument, given in (("names", names), ("outputs", outputs)):
+        read = _paths_in(given)
+        if read is None:
             raise InputError(
-                f"{argument} must be a list of paths, such as ['Camry.vx'], got {shown(listed)}",
+                f"{argument} must be a list of paths, such as ['Camry.vx'], got {shown(given)}",
                 code="bad_shape",
                 argument=argument,
             )
-    names, known, wanted = tuple(names), inputs_of(scene), tuple(outputs)
-    for name in names:
+        listed[argument] = read
+    known, wanted = inputs_of(scene), listed["outputs"]
+    for name in listed["names"]:
+        if not isinstance(name, str):
+            raise no_path(name, inputs_of(scene), "names")
         if name not in known:
             _owner(scene, name)
     units = {path: unit_of_result(scene, path) for path in wanted}
-    standing = _standing(scene, names)
+    marks = {path: asked for path in wanted if (asked := of_mark(scene, path, "outputs"))}
+    standing = _standing(scene, listed["names"])
 
     def model(**values: Any) -> dict[str, Any]:
         for name in standing:
@@ -539,10 +550,14 @@ def as_function(
             )
         made = replaced(scene, values)
         run = Run(made if at_level is None else at_level(made), tolerance)
-        return {path: to_quantity(result_of(run, path), unit) for path, unit in units.items()}
+        warn_of_findings(run)
+        # All points of a mark at once: the mark is worked out for them, and not kept.
+        found = dict(zip(marks, answers(run, list(marks.values())), strict=True))
+        found |= {path: result_of(run, path) for path in wanted if path not in marks}
+        return {path: to_quantity(found[path], unit) for path, unit in units.items()}
 
     vars(model)["answers_by_case"] = True
-    vars(model)["units_of_inputs"] = {path: known.get(path, "") for path in names}
+    vars(model)["units_of_inputs"] = {path: known.get(path, "") for path in listed["names"]}
     return model
 
 
@@ -561,10 +576,14 @@ def _standing(scene: Scene, changed: Iterable[str]) -> list[str]:
     ]
 
 
-def _can_be_listed(value: Any) -> bool:
-    """Whether something is a collection; a Quantity of one number has the method, and is none."""
+def _paths_in(given: Any) -> tuple[Any, ...] | None:
+    """What a collection holds; None of one text and of what is none.
+
+    A Quantity of one number has the method of a collection.
+    """
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        return None
     try:
-        iter(value)
+        return tuple(given)
     except TypeError:
-        return False
-    return True
+        return None

@@ -5,7 +5,7 @@ costs.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from time import process_time
 from typing import Any
@@ -14,7 +14,7 @@ import numpy as np
 
 from ..kernels.elementwise import POSITIVE_FINITE
 from ..messages.errors import CollisionsError, InputError, NoSolutionError, UnitsError
-from ..messages.warning import quietly
+from ..messages.warning import Note, Noted, notes_of_samples, quietly, warn_of
 from ..quantities.reading import ArgumentReader
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence, given_texts
@@ -187,11 +187,13 @@ def required(
         points = latin_hypercube(joint.dimensions, 0, draws)(0, draws)[:, :, 0]
         values = joint.values(points)
     answers, seconds, in_batch = [], [], []
+    said: list[list[Noted]] = []
     for level in levels:
         one = level.as_model([], list(units), tolerance=tolerance)
-        seconds.append(min(_time(one)[1] for _ in range(_TIMED)))
+        seconds.append(min(_time(one, [])[1] for _ in range(_TIMED)))
+        said.append([])
         model = level.as_model(list(values), list(units), tolerance=tolerance)
-        found, spent = _time(model, **values)
+        found, spent = _time(model, said[-1], **values)
         in_batch.append(spent / count if joint is not None else math.nan)
         answers.append(
             {
@@ -219,16 +221,42 @@ def required(
         costs.append(Cost(level, spent, case, differences, holds))
     asked = 0 if joint is None else count
     answered = 0 if joint is None else int(good.sum())
+    limits = list(_limits(levels, said, count))
+    warn_of(limits)
+    notes = [*(note.statement for note in limits), *notes]
     return Required(
         tuple(costs), within, units, (asked, answered), tuple(notes), tuple(given_texts(scene))
     )
 
 
-def _time(model: Any, **values: Any) -> tuple[Any, float]:
+def _limits(levels: Sequence[Level], said: Sequence[Sequence[Noted]], count: int) -> Iterator[Note]:
+    """What the models of the levels warned of, each sentence once with the levels it is of."""
+    found: dict[tuple[str, str], list[tuple[Level, Note]]] = {}
+    for level, noted in zip(levels, said, strict=True):
+        # Draws without an answer are counted beside, and tell in the differences.
+        for one in {(one.sentence, one.code): one for one in noted}.values():
+            if one.code != "refused_cases":
+                alike = [other for other in noted if other[:3] == one[:3]]
+                (note,) = notes_of_samples(alike, count)
+                found.setdefault((one.sentence, one.code), []).append((level, note))
+    for (sentence, code), places in found.items():
+        many = [int(note.fields["cases"]) for _, note in places]
+        least, most = min(many), max(many)
+        of = f"in {least}{f' to {most}' if most > least else ''} of {count} draws "
+        where = " and ".join(f"'{level.name}'" for level, _ in places)
+        where = "every level" if len(places) == len(levels) else where
+        # What a coarser level leaves out is in its difference, and is stated alone.
+        last, note = places[-1]
+        raised = note.warning if last is levels[-1] else None
+        said_of = f"{of if count > 1 else ''}at {where}: {sentence}"
+        yield Note(raised, said_of, code=code, fields={"cases": most, "share": most / count})
+
+
+def _time(model: Any, noted: list[Noted], **values: Any) -> tuple[Any, float]:
     """What a model answers, None where it is refused, and the processor time it took [s]."""
     begun = process_time()
     try:
-        with quietly([]):
+        with quietly(noted):
             found = model(**values)
     except CollisionsError:
         found = None

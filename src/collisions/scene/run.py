@@ -28,6 +28,7 @@ from ..vehicle.drag import one_value
 from ..vehicle.vehicle import NAMES, Vehicle, vehicle_of
 from .follow import Followed, Hit, Notice
 from .ledger import on_drag, on_slope, on_tyres
+from .marks import WHEELS
 from .motion import STATE, Ground, body_at, no_rest
 from .scene import Scene
 
@@ -35,7 +36,6 @@ from .scene import Scene
 _MOMENTS = 101
 # And for the work of the ground, whose power jumps where wheels come to edges.
 _FOR_WORK = 2001
-_WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -176,8 +176,8 @@ class Run(Frozen, Summarized):
                 contact = self.scene.contacts[hit.rule]
                 time = float(hit.time[0])
                 text = (
-                    f"{contact.a} and {contact.b} part before the depth or delay of contacts"
-                    f"[{hit.rule}] is reached; the impulse acts at their deepest, at {time:.3g} s"
+                    f"{contact.a} and {contact.b} part before the depth or delay of their contact "
+                    f"is reached; the impulse acts at their deepest, at {time:.3g} s"
                 )
                 notices.append(Notice("at_deepest", text, time, (contact.a, contact.b)))
         return tuple(sorted(notices, key=lambda one: one.time))
@@ -564,7 +564,7 @@ class Run(Frozen, Summarized):
             whole = np.concatenate(marks, axis=2)
             tracks = {
                 wheel: (read_only(x.copy()), read_only(y.copy()))
-                for wheel, (x, y) in zip(_WHEELS, whole, strict=True)
+                for wheel, (x, y) in zip(WHEELS, whole, strict=True)
             }
         return Track(time=read_only(time.reshape(shape)), **rows, marks=tracks)
 
@@ -583,7 +583,8 @@ class Run(Frozen, Summarized):
         held = clock[:, 0] < leg.start[0] + leg.hold[0]
         power, marks = none
         if leg.tyres is not None:
-            power, marks = on_tyres(leg.tyres, mover, found.ground, state)
+            on_wheels = on_tyres(leg.tyres, mover, found.ground, state)
+            power, marks = on_wheels.power, on_wheels.marks
         elif mover.drag is not None:
             stops = float(leg.stops[0])
             speed = math.hypot(leg.state[3, 0], leg.state[4, 0])
@@ -717,27 +718,59 @@ def _warn_of(found: Followed, wrong: Any) -> None:
     )
 
 
+# What a finding of one run is without its names and times.
+_DRIVEN = (
+    "two vehicles do not part after their contact and are followed through or into each other: "
+    "what pushes them without a blow is not followed, and their places of rest may be wrong. Where "
+    "that is so in a few percent of the cases, no more of the probability is in doubt; where in "
+    "many, leave the places of rest out of the evidence"
+)
+_DRAGLESS = "a drag does not act during a contact that is followed in time; tyres in its place do"
+_UNDESCRIBED = (
+    "two vehicles touch, and no contact says what happens; they are followed as if they passed "
+    "through each other"
+)
+
+
+def _of_driven(said: str) -> OutOfRangeWarning:
+    return OutOfRangeWarning(said, code="driven_through")
+
+
+def _of_dragless(said: str) -> OutOfRangeWarning:
+    return OutOfRangeWarning(said, code="drag_during_contact")
+
+
+def _of_undescribed(said: str) -> OutOfRangeWarning:
+    return OutOfRangeWarning(said, code="touch_without_contact")
+
+
+_OF_FINDING = {
+    "driven_through": (_of_driven, _DRIVEN),
+    "driven_together": (_of_driven, _DRIVEN),
+    "drag_during_contact": (_of_dragless, _DRAGLESS),
+    "touch_without_contact": (_of_undescribed, _UNDESCRIBED),
+}
+
+
 def _warn_of_notices(found: Followed) -> None:
     """Say of how many cases of a batch that holds of which a single case has a finding."""
+    if found.single:
+        return
+    for cases, made, text in (
+        (found.driven, _of_driven, _DRIVEN),
+        (found.dragless, _of_dragless, _DRAGLESS),
+    ):
+        if count := int(np.count_nonzero(cases & (found.failed == ""))):
+            said = f"in {count} of {found.count} cases of the scene {text}"
+            warn_of_cases(made(said), {text: count})
 
-    def counted(cases: Any) -> int:
-        return 0 if found.single else int(np.count_nonzero(cases & (found.failed == "")))
 
-    if count := counted(found.driven):
-        text = (
-            "two vehicles do not part after their contact and are followed through or into each "
-            "other: what pushes them without a blow is not followed, and their places of rest may "
-            "be wrong. Where that is so in a few percent of the cases, no more of the probability "
-            "is in doubt; where in many, leave the places of rest out of the evidence"
-        )
-        said = f"in {count} of {found.count} cases of the scene {text}"
-        warn_of_cases(OutOfRangeWarning(said, code="driven_through"), {text: count})
-    if count := counted(found.dragless):
-        text = (
-            "a drag does not act during a contact that is followed in time; tyres in its place do"
-        )
-        said = f"in {count} of {found.count} cases of the scene {text}"
-        warn_of_cases(OutOfRangeWarning(said, code="drag_during_contact"), {text: count})
+def warn_of_findings(run: Run) -> None:
+    """Say of a single run what limits its answer, where the run itself is not seen."""
+    for notice in run.findings if run._followed.single else ():
+        if notice.code in _OF_FINDING:
+            made, text = _OF_FINDING[notice.code]
+            warn_of_cases(made(notice.sentence), {text: 1})
 
 
 def _tyre_loss(side: Any) -> float:

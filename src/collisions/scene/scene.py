@@ -57,7 +57,9 @@ class Scene(Shown):
         Areas with a different friction, each with three or more corners [m] in order, for movers
         with tyres. The first that a wheel is in counts.
     slope : pair of float, str, Quantity or array [-]
-        Rise over run of the ground along x and along y, for movers with tyres or a drag.
+        Rise over run of the ground along x and along y, for movers with tyres or a drag. Places and
+        times are as in ``travel.simulate``. It does not act while a contact lasts: of 0.1 s on a
+        slope of 10 %, that leaves out 0.1 m/s.
     order : list of pairs of names, optional
         The order of the contacts that an account claims, such as ``[("A", "B"), ("B", "C")]``. A
         case that goes otherwise is refused, with the order that it takes.
@@ -230,11 +232,82 @@ class Scene(Shown):
         -------
         dict of str
             By path, such as "Camry.rest.x" or "impacts[0].a.delta_v", the SI unit. Impacts are
-            counted in order of time; there are at least as many as contacts.
+            counted in order of time; there are at least as many as contacts. What there is of tyre
+            marks is in ``mark_points``.
         """
         from .names import results_of
 
         return results_of(self)
+
+    def mark_points(
+        self,
+        name: str,
+        wheel: str,
+        points: Any,
+        error: Input,
+        *,
+        begins: bool = False,
+        ends: bool = False,
+    ) -> dict[str, Distribution]:
+        """Surveyed points of a tyre mark as evidence, for ``observed=`` of ``posterior`` and
+        ``fit``.
+
+        What is compared is the distance of each point from the mark that the wheel leaves, the
+        whole of it: wherever it uses 90 % of the friction or more, from the start to rest. Beyond
+        an end of the mark it is the distance from that end. Distances are positive to the left of
+        the mark, in the direction in which the wheel left it. A longer mark passes the same
+        points, so these tell how fast the vehicle was at least; that the mark begins or ends at
+        one is said by ``begins`` and ``ends``. A case in which the wheel leaves no mark has no
+        answer, so that a posterior counts it as impossible.
+
+        Parameters
+        ----------
+        name : str
+            The vehicle.
+        wheel : {"front_left", "front_right", "rear_left", "rear_right"}
+            The wheel that left the mark.
+        points : list of pairs (x, y) of float, str or Quantity, or array of (points, 2) [m]
+            Where the mark was surveyed, in scene axes, in the order in which the wheel left it.
+        error : float, str or Quantity [m]
+            Standard deviation of the distance of each point: that of the survey and of what the
+            model leaves out. Errors count as independent: give points well apart, as a dense row
+            of them counts one error many times.
+        begins, ends : bool
+            Whether the mark begins at the first point, and ends at the last; both coordinates of
+            that point are then compared.
+
+        Returns
+        -------
+        dict of Normal
+            By path: "Camry.marks.front_left.distance(12.3 m, 4.5 m)" is 0 with that error, and
+            "Camry.marks.front_left.end.x" the coordinate. These paths, "begin" among them, are
+            results of the scene wherever one is asked for.
+
+        Raises
+        ------
+        InputError
+            No such vehicle or wheel, a vehicle without tyres, points of another shape, or an
+            error that is not above 0.
+
+        Examples
+        --------
+        A car that skids straight on, whose front left wheel marks a line at y = 0.75 m:
+
+        >>> import collisions as col
+        >>> from collisions.scene import Mover, Scene
+        >>> from collisions.travel import Tyres
+        >>> car = col.Vehicle(mass=1500, yaw_inertia=2500, vx=15, x=0, y=0, heading=0)
+        >>> crash = Scene(movers={"A": Mover(car, tyres=Tyres(0.7, 1, 2.7, 1.5))}, contacts=[])
+        >>> seen = crash.mark_points("A", "front_left", [(5, 0.85), ("10 m", "0.7 m")], "0.1 m")
+        >>> list(seen)
+        ['A.marks.front_left.distance(5.0 m, 0.85 m)', 'A.marks.front_left.distance(10 m, 0.7 m)']
+        >>> found = crash.as_model([], list(seen))()
+        >>> [round(distance.m_as("m"), 3) for distance in found.values()]
+        [0.1, -0.05]
+        """
+        from .marks import evidence_of
+
+        return dict(evidence_of(self, name, wheel, points, error, begins, ends))
 
     def as_model(
         self, names: Sequence[str], outputs: Sequence[str], *, tolerance: float = TOLERANCE
@@ -257,7 +330,7 @@ class Scene(Shown):
         -------
         function
             Called with numbers or arrays, as in ``model(**{"Camry.vx": 20.0})``, it returns a dict
-            of Quantities.
+            of Quantities. It warns of findings of the run that limit its results.
 
         Raises
         ------
@@ -309,6 +382,12 @@ class Scene(Shown):
             A result or an input that is none, or tolerances that are no numbers.
         NoSolutionError
             No draw has an answer.
+
+        Warns
+        -----
+        OutOfRangeWarning
+            The finest level is of a crash that it does not describe, such as vehicles that are
+            driven through each other; ``notes`` have that of every level.
 
         Examples
         --------

@@ -115,6 +115,11 @@ class Following:
         rests = self._reached[cases] * self._second[cases]
         return np.where(self._ended[cases] == RESTS, rests, np.inf)
 
+    def ends(self, cases: Any) -> Any:
+        """When some cases rest or roll straight on [s], which are followed to that."""
+        self._reach(np.full(len(cases), np.inf), cases)
+        return self._reached[cases] * self._second[cases]
+
     def known(self, cases: Any) -> Any:
         """Whether some cases have been followed to their end."""
         return self._ended[cases] != IN_TIME

@@ -41,8 +41,11 @@ from .survey import HALF_TURN, in_radians, read_errors, read_headings, read_poin
 
 _QUARTER_TURN = 0.5 * math.pi * (1.0 + 1e-9)
 # Distance of a wheel from the centre of mass [m]; its speed from the yaw, over that of the vehicle,
-# above which it matters.
+# above which it matters: of wheels that nearly roll, by how much it rises with the lock, and at
+# most. Yawing takes more from the drag of wheels that are braked less.
 _WHEEL_ARM, _MOST_YAW = 1.5, 0.5
+_YAW_OF_ROLLING, _YAW_BY_LOCK = 0.3, 0.5
+_FULL_LOCK = (_MOST_YAW - _YAW_OF_ROLLING) / _YAW_BY_LOCK
 # Numbers that the errors are worked out from together: few calls of numpy, and memory that is kept
 # small.
 _AT_ONCE = 200_000
@@ -200,8 +203,9 @@ def path(
         How many cases of a batch cannot be answered, and why.
     OutOfRangeWarning
         More than a quarter turn between two points, where one crab angle stands for all of it.
-        Without ``tyres``, a yaw rate at separation above 0.5 times the speed over 1.5 m: there the
-        speed comes out 4 to 9 % too high, mostly 5 %, and beyond it soon more.
+        Without ``tyres``, a yaw rate at separation above 0.5 times the speed over 1.5 m, or, with a
+        ``lock`` below 0.4, above 0.3 + lock/2 times it: the speed comes out up to 8 % too high
+        there, and beyond it soon more.
     SuspectUnitsWarning
         A bare friction above 1.5, grade beyond 0.5 or heading beyond a turn, which is probably in
         another unit.
@@ -216,8 +220,11 @@ def path(
     read with errors of some degrees, comes out too fast. All wheels are taken to slip as the centre
     of mass does, which leaves out what yawing adds to the slip of each wheel; steering and load
     transfer are left out too. ``tyres`` have all of these, of the turn per way from point to point.
-    In ``simulate``, which includes the yawing, the drag along the path is lower by a fraction of
-    about 0.4 (yaw rate * 1.5 m / speed)**2, both taken at separation.
+    In ``simulate``, which includes the yawing, the drag along the path is lower, by a fraction that
+    grows as r**2, with r the yaw rate times 1.5 m over the speed, both at separation: 0.35 r**2
+    with locked wheels, and with wheels that are braked 0.3 to 0.9 r**2, mostly 0.4 to 0.5. The
+    speed is too high by half of that: at r = 0.45 by 3.6 % with locked wheels, by 3 to 7 % with a
+    lock of 0.4, and at the limit of the warning by up to 8 % with any lock.
 
     Positions and headings are smoothed first, each by a weighted least-squares parabola about its
     point (local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829, here of degree 2): chords
@@ -333,7 +340,7 @@ def path(
             raise out_of_range()
         _warn_of_wide_segments(turned, locks if tyres is None else [0.0] * len(frictions))
         if tyres is None:
-            _warn_of_fast_yaw(found["yaw_rate"], found["speed"])
+            _warn_of_fast_yaw(found["yaw_rate"], found["speed"], locks[0])
     return in_units_of(RunOut(**found), texts_of(surveyed))
 
 
@@ -566,14 +573,16 @@ def _warn_of_wide_segments(turned: Sequence[Any], locks: Sequence[Any]) -> None:
         )
 
 
-def _warn_of_fast_yaw(yaw_rate: Any, speed: Any) -> None:
-    fast = np.greater(abs(yaw_rate) * _WHEEL_ARM, _MOST_YAW * speed)
+def _warn_of_fast_yaw(yaw_rate: Any, speed: Any, lock: Any) -> None:
+    most = np.minimum(_YAW_OF_ROLLING + _YAW_BY_LOCK * lock, _MOST_YAW)
+    fast = np.greater(abs(yaw_rate) * _WHEEL_ARM, most * speed)
     if np.any(fast):
         warn(
             OutOfRangeWarning(
                 f"the yaw alone makes the wheels slip at more than {_MOST_YAW:g} of the speed at "
-                "separation, which the drag here leaves out: the speed is 4 to 9 % too high "
-                "there, more beyond; travel.simulate has the slip of each wheel",
+                f"separation (with a lock below {_FULL_LOCK:g}, {_YAW_OF_ROLLING:g} + lock/2), "
+                "which the drag here leaves out: the speed may be 8 % too high there, more beyond; "
+                "travel.simulate has the slip of each wheel",
                 code="fast_yaw",
                 cases=int(np.count_nonzero(fast)),
             ),

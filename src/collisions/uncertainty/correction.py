@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,16 +12,19 @@ import numpy as np
 from ..messages.errors import NoSolutionError, OutOfRangeWarning
 from ..messages.warning import Note, notes_of_samples
 from . import turns
+from .designs import REPLICATES
 from .distribution import show
 from .finer import FinerModel
 from .model import Model
 from .one_sided import Answers
-from .result import NO_SPREAD, Sampled, Shares, deviation
+from .probability import Again
+from .result import NO_SPREAD, Sampled, Shares, average, deviation
 
 _FOLDS = 8
 _PER_TERM = 4  # cases for each term of a regression
 _FLAT = 1e-9  # directions of the terms that the cases do not determine
 _MOST_SCATTER = 1.0 / 3.0  # of the spread of an output
+_STAND_INS = 32  # drawings of what is left, of the cases that the finer model was asked
 _MOST_UNLIKE = 0.01  # of the cases: one model answers them, the other does not
 
 
@@ -28,7 +32,8 @@ class Correction(NamedTuple):
     """How the difference of two models follows from the inputs and the outputs of the first.
 
     ``by`` are the coefficients by output of all cases and then of all but each fold; ``scatter``
-    the standard deviation of what is left in cross-validation, and ``left`` that by case.
+    the standard deviation of what is left in cross-validation, and ``left`` that by case: first
+    those at ``places``, which both models answer.
     """
 
     powers: int
@@ -37,6 +42,7 @@ class Correction(NamedTuple):
     by: dict[str, Any]
     scatter: dict[str, float]
     left: dict[str, Any]
+    places: Any
 
     def changes(self, columns: Any) -> dict[str, Any]:
         """What is to be added to each output (1 + folds, cases) at these inputs and outputs."""
@@ -64,9 +70,27 @@ class CorrectedModel(Model):
         )
 
 
+class Asked(NamedTuple):
+    """The places of the samples of which the finer model's answer was learnt from; of one output
+    what the correction leaves of each; and the orders in which that is drawn again.
+    """
+
+    places: Any
+    left: Any
+    orders: Any
+
+
 class CorrectedOutput(Sampled):
     """A sampled output corrected towards a finer model; its standard errors also count how well the
-    correction is known, by leaving out one eighth of the finer model's cases after another.
+    correction is known, and what its scatter misses.
+
+    The former by leaving out one eighth of the finer model's cases after another. The latter by
+    those cases themselves: what is drawn as scatter does not depend on the inputs, and where that
+    which it stands for does, a figure of the cases as corrected differs from that of the finer
+    model's own answers. This difference, and how it scatters without one sequence of samples after
+    another, are an error. Both are of the same few cases, so the larger counts. What is left and
+    does not depend on the inputs cannot be told from this, and makes the errors larger than they
+    need be.
     """
 
     def __init__(
@@ -76,26 +100,83 @@ class CorrectedOutput(Sampled):
         values: Any,
         shares: Callable[[], Mapping[str, Shares]],
         changes: Any,
+        asked: Asked,
     ) -> None:
         super().__init__(name, unit, values, shares)
-        self._changes = changes
+        self._changes, self._asked = changes, asked
 
     def _error(self, figure: Callable[[Any], Any]) -> Any:
         drawn = super()._error(figure)
         known = ~np.isnan(self.values)
         found = np.array([figure(self.values[known] + change[known]) for change in self._changes])
         learnt = np.sqrt(np.var(found, axis=0) * (len(found) - 1))
-        error = np.hypot(drawn, learnt)
+        # What is left has no mean, so that of the output misses none of it.
+        missed = 0.0 if figure is average else self._missed(figure)
+        error = np.hypot(drawn, np.maximum(learnt, missed))
         return error if np.ndim(error) else float(error)
+
+    def _missed(self, figure: Callable[[Any], Any]) -> Any:
+        """By how much a figure of the cases asked may err where they are corrected as all others
+        are.
+        """
+        if not np.any(self._asked.left):
+            return 0.0
+        exact, corrected = self.values[self._asked.places], self._as_corrected()
+
+        def missed(cases: Any) -> Any:
+            stands = np.mean([figure(row[cases]) for row in corrected], axis=0)
+            return figure(exact[cases]) - stands
+
+        # Without one independent sequence of samples after another.
+        fold = self._asked.places % REPLICATES
+        without = np.array([missed(fold != k) for k in range(REPLICATES)])
+        scatter = np.sqrt(np.var(without, axis=0) * (REPLICATES - 1))
+        return np.hypot(missed(fold >= 0), scatter)
+
+    def _as_corrected(self) -> Any:
+        """The cases asked as they are corrected where they are not asked, once in each order."""
+        places, left, orders = self._asked
+        found = self.values[places] - left + left[orders]
+        if self._directions is None:
+            return found
+        turn = 2.0 * math.pi
+        return found - turn * np.rint((found - self._mean()) / turn)
+
+    def _share(self, held: Any, again: Again | None = None) -> tuple[float, float]:
+        share, drawn = super()._share(held, again)
+        places = self._asked.places
+        if again is None or not len(places):
+            return share, drawn
+
+        def without(one: Any, k: int) -> Any:
+            """All samples as corrected without a fold of the cases asked."""
+            return one.values + one._changes[k]
+
+        folds = [np.nanmean(again(partial(without, k=k))) for k in range(_FOLDS)]
+        learnt = math.sqrt(float(np.var(folds)) * (_FOLDS - 1))
+
+        def in_order(one: Any, k: int) -> Any:
+            """All samples, those asked as they are corrected elsewhere."""
+            values = one.values.copy()
+            values[places] = one._as_corrected()[k]
+            return values
+
+        # The outputs of one case are drawn together, in the same orders.
+        stands = [again(partial(in_order, k=k))[places] for k in range(_STAND_INS)]
+        apart = held[places] - np.mean(stands, axis=0)
+        apart = apart[~np.isnan(apart)]
+        missed = math.hypot(float(np.mean(apart)), float(np.std(apart)) / math.sqrt(apart.size))
+        return share, math.hypot(drawn, max(learnt, missed))
 
 
 class Corrected(NamedTuple):
-    """Corrected outputs, the notes on them, the scatter by output, and the cases that the finer
-    model was asked.
+    """Corrected outputs with what their errors are told by, the notes on them, the scatter by
+    output, and how many cases the finer model was asked.
     """
 
     values: dict[str, Any]
     changes: dict[str, Any]
+    asked: dict[str, Asked]
     model: Model
     scatter: dict[str, float]
     calls: int
@@ -140,6 +221,8 @@ def corrected(
         )
     values = {name: np.array(column) for name, column in answers.items()}
     changes = {name: np.zeros((_FOLDS, total)) for name in answers}
+    none: Any = np.zeros(0, dtype=int)
+    asked_of = dict.fromkeys(answers, Asked(none, np.zeros(0), none))
     scatter = dict.fromkeys(answers, 0.0)
     # Where all samples were asked of the finer model, its shares of variance are its own too.
     surrogate: Model = finer
@@ -154,15 +237,18 @@ def corrected(
             np.random.PCG64DXSM(np.random.SeedSequence(seed, spawn_key=(5,)))
         )
         drawn = random.integers(count, size=total)
+        places = correction.places
+        orders = np.array([random.permutation(len(places)) for _ in range(_STAND_INS)])
         for name, by in correction.changes(columns).items():
             unit, left = model.units[name], correction.left[name]
             values[name] = _moved(answers[name], by[0] + left[drawn], unit)
             changes[name] = by[1:] - by[0]
+            asked_of[name] = Asked(places, left[: len(places)], orders)
     for name in answers:
         values[name][:count] = exact[name]
         changes[name][:, :count] = 0.0
     notes = tuple(_notes(model, finer, scatter, values, count, total, int(np.sum(unlike))))
-    return Corrected(values, changes, surrogate, scatter, count, notes)
+    return Corrected(values, changes, asked_of, surrogate, scatter, count, notes)
 
 
 _ALONE = "run the finer model alone: propagate(finer, inputs)"
@@ -218,8 +304,7 @@ def _regressed(
     left = left - np.mean(left, axis=0)
     sizes_left = unit * np.sqrt(np.mean((left / unit) ** 2, axis=0))
     # As many as the cases, so that each can be drawn.
-    places = np.flatnonzero(answered)[np.arange(len(columns)) % len(known)]
-    rows = np.searchsorted(np.flatnonzero(answered), places)
+    rows = np.arange(len(columns)) % len(known)
     return Correction(
         powers,
         middles,
@@ -227,6 +312,7 @@ def _regressed(
         {name: by_all[:, :, k].T for k, name in enumerate(apart)},
         dict(zip(apart, sizes_left.tolist(), strict=True)),
         {name: left[rows, k] for k, name in enumerate(apart)},
+        np.flatnonzero(answered),
     )
 
 

@@ -71,7 +71,7 @@ class Extremes(NamedTuple):
     places: list[dict[str, float]]
     samples: int
     failed: int
-    wrapped: tuple[str, ...]
+    wrapped: Mapping[str, str]
     cuts: dict[str, float | None]
 
 
@@ -119,11 +119,11 @@ def extremes(
     spots = [place for place, _ in ends]
     unique = np.unique(np.round(spots, 12), axis=0)
     listed = [dict(zip(bounds, map(float, places.at(spot)), strict=True)) for spot in unique]
-    wrapped = tuple(
-        name
+    jumps = {
+        name: turns.jump_of(values.ravel(), model.units[name], drawn=bool(common))
         for name, values in first.items()
-        if model.units[name] is None and turns.jump(values.ravel())
-    )
+    }
+    wrapped = {name: where for name, where in jumps.items() if where is not None}
     return Extremes(found, listed, places.samples, places.failed, wrapped, places.cuts)
 
 

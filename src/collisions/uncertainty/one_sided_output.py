@@ -56,6 +56,9 @@ class OneSidedOutput(Sampled):
         """
         return False
 
+    def _wraps(self) -> str | None:
+        return None
+
     def shares_of_sides(self) -> tuple[float, float]:
         """Shares of the cases with an answer that say "at least", and "at most".
 

@@ -14,6 +14,9 @@ import numpy as np
 from ..messages.errors import InputError, NoSolutionError
 
 Condition: TypeAlias = Callable[[Any], Any]
+# Asks a condition again of other values of the outputs that it is on, as many as before, which a
+# function gives for each output.
+Again: TypeAlias = Callable[[Callable[[Any], Any]], Any]
 
 # How far beyond its bound a sample is looked at, by the spread of all values: from a thousandth to
 # a thousand times that, four places in each doubling, and infinity.

@@ -42,7 +42,7 @@ from .model import (
 )
 from .one_sided import Answers
 from .one_sided_output import OneSidedOutput, one_sided_notes
-from .result import Output, Propagation, Sampled, Shares
+from .result import Output, Propagation, Sampled, Shares, wrap_notes, wraps_of
 from .sampling import Correlation, Joint, Sample, sampled_shares
 
 Method: TypeAlias = Literal[
@@ -68,7 +68,7 @@ class Run:
     failed: int
     interrupted: bool = False
     unreached: bool = False
-    wrapped: tuple[str, ...] = ()
+    wrapped: Mapping[str, str] = field(default_factory=dict)
     differing: Mapping[str, float] = field(default_factory=dict)
     corrected: Corrected | None = None
 
@@ -109,8 +109,9 @@ def propagate(
         and a model that then answers differently is refused. A case without an answer is NaN;
         solvers return it with ``on_failure="nan"``. An output of which some cases say "at least" or
         "at most" is a ``OneSided``. Booleans count as 0 and 1, so their mean is a probability.
-        Angles returned with a unit that all lie in [-pi, pi] are directions, counted round the
-        circle about their mean (see ``Output``); return a rotation as a plain number.
+        Angles returned with a unit that all lie in [-pi, pi] (-180 to 180 degrees, not 0 to 360)
+        are directions, counted round the circle about their mean (see ``Output``); return a
+        rotation as a plain number.
         A ``scene.Scene`` is a model too: its inputs and ``outputs`` are named by their paths.
     inputs : dict
         For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``,
@@ -119,8 +120,10 @@ def propagate(
         A model that takes the same inputs and returns the same outputs, and costs more. It is asked
         about a few hundred of the samples; all samples are corrected by how the difference follows
         from the inputs and the outputs of ``model`` there (a regression), and what it leaves is
-        added as scatter. The statements say how much that is, in cross-validation. Only for methods
-        that draw, without ``tolerance``.
+        added as scatter. The statements say how much that is, in cross-validation. Where it depends
+        on the inputs, as beside a bend of the finer model, ends of ranges are off; their standard
+        errors, and those of probabilities, are then what the cases asked tell of the difference.
+        Only for methods that draw, without ``tolerance``.
     finer_samples : int, optional
         How many samples the finer model is asked about, at least 64; 512 if not given, or all if
         there are fewer.
@@ -170,7 +173,8 @@ def propagate(
     Warns
     -----
     OutOfRangeWarning
-        Cases had no answer, or a local method differs from the model.
+        Cases had no answer, or a local method differs from the model; or an output looks like an
+        angle that jumps, or has directions to all sides, so that its mean means nothing, or little.
 
     Examples
     --------
@@ -604,17 +608,18 @@ def _sampled(
         if name in sides
         else Sampled(name, model.units[name], values, shares)
         if better is None
-        else CorrectedOutput(name, model.units[name], values, shares, better.changes[name])
+        else CorrectedOutput(
+            name, model.units[name], values, shares, better.changes[name], better.asked[name]
+        )
         for name, values in sample.outputs.items()
     }
-    wrapped = tuple(name for name, output in outputs.items() if output.may_wrap())
     return Run(
         outputs,
         sample.done,
         count_failed(sample.outputs),
         sample.interrupted,
         unreached,
-        wrapped,
+        wraps_of(outputs),
         corrected=better,
     )
 
@@ -729,35 +734,8 @@ def _notes(
         )
         sentence = f"interrupted after {count} cases; the figures are theirs{rest}"
         notes.append(Note(CollisionsWarning, sentence, code="interrupted", fields={"done": count}))
-    wrapped = dict.fromkeys(name for run in runs for name in run.wrapped)
-    bare = tuple(name for name in wrapped if not runs[0].outputs[name].unit)
-    directions = tuple(name for name in wrapped if name not in bare)
-    for names, text, cure in (
-        (
-            bare,
-            "has values near pi and near -pi: if it is an angle, its mean means nothing",
-            ". Return it with its unit (impact.a.q.pdof), so that it is known to be one",
-        ),
-        (
-            directions,
-            (
-                "has directions so far round the circle from one another that its mean tells "
-                "little: the mean errs by more than their spread shows, or another one far from "
-                "it is about as good"
-            ),
-            "",
-        ),
-    ):
-        if names:
-            notes.append(
-                Note(
-                    OutOfRangeWarning,
-                    f"{', '.join(names)} {text}",
-                    cure,
-                    "may_wrap",
-                    {"outputs": names},
-                )
-            )
+    wrapped = {name: where for run in reversed(runs) for name, where in run.wrapped.items()}
+    notes += wrap_notes(wrapped)
     return tuple(notes)
 
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..messages.errors import InputError
+from ..messages.errors import InputError, OutOfRangeWarning
 from ..messages.warning import Note
 from ..quantities.attributes import (
     OWN_UNIT,
@@ -43,7 +43,7 @@ from .designs import REPLICATES
 from .distribution import probability
 from .halved import Halved
 from .normal import power_of_two
-from .probability import Condition, holds, holds_of_one
+from .probability import Again, Condition, holds, holds_of_one
 
 COVERAGE = 0.95
 _MOST_BINS = 10000
@@ -88,7 +88,8 @@ class Output(Summarized):
     model returned. With an ``Interval`` among the inputs, every figure is a pair: the least and the
     greatest value it may have, wherever in the interval the truth lies.
 
-    Directions, that is angles returned with a unit that all lie in [-pi, pi], are counted round the
+    Directions, that is angles returned with a unit that all lie in [-pi, pi] (-180 to 180 degrees,
+    not 0 to 360, whose jump at a full turn draws a warning only), are counted round the
     circle from the point opposite their mean, and so may lie beyond pi or -pi. The mean, in (-pi,
     pi], is the direction for which the mean square of the angular distances is least; the standard
     deviation is the root of this mean square; quantiles and intervals are those of the directions
@@ -150,7 +151,8 @@ class Output(Summarized):
         if self.unit is None:
             raise InputError(
                 f"{self.name!r} has no unit, because the model returned plain numbers; return a "
-                "Quantity such as impact.a.q.delta_v",
+                "Quantity: impact.a.q.delta_v in place of impact.a.delta_v, and of what a function "
+                "gives as a number, travel.q.speed(...) in place of travel.speed(...)",
                 code="no_unit",
                 argument=self.name,
             )
@@ -515,18 +517,23 @@ class Sampled(Output):
         return Sampled(self.name, self.unit, values, self._all_shares, turns) if turns else self
 
     def may_wrap(self) -> bool:
-        """Whether it looks like an angle that jumps between pi and -pi, if without a unit, or has
-        directions to all sides.
+        """Whether it looks like an angle that jumps between pi and -pi, if without a unit, or
+        between 0 and a full turn; or has directions to all sides.
 
         Returns
         -------
         bool
             Whether it looks like one.
         """
+        return self._wraps() is not None
+
+    def _wraps(self) -> str | None:
+        """Where it looks like an angle that jumps, or that it has directions to all sides."""
         found = self._answered
-        if self._directions is not None:
-            return angles.point_everywhere(found) or angles.point_to_opposite_sides(found)
-        return self.unit is None and angles.jump(found)
+        if self._directions is None:
+            return angles.jump_of(found, self.unit)
+        all_round = angles.point_everywhere(found) or angles.point_to_opposite_sides(found)
+        return angles.ALL_ROUND if all_round else None
 
     @derived(OWN_UNIT)
     def mean_standard_error(self) -> Any:
@@ -629,10 +636,13 @@ class Sampled(Output):
             A condition that does not return a boolean for every sample, or that samples known from
             one side only leave open.
         """
-        return self._share(holds_of_one(condition, self.name, self.values, self._sides))
+        held = holds_of_one(condition, self.name, self.values, self._sides)
+        return self._share(held, lambda values: holds_of_one(condition, self.name, values(self)))
 
-    def _share(self, held: Any) -> tuple[float, float]:
-        """The share of the samples in which a condition was found to hold, and its error."""
+    def _share(self, held: Any, again: Again | None = None) -> tuple[float, float]:
+        """The share of the samples in which a condition was found to hold, and its error; ``again``
+        asks the condition of other values of the outputs that it is on.
+        """
         found = self._like("condition", held)
         return float(found.mean), float(found.mean_standard_error)
 
@@ -700,6 +710,52 @@ class Sampled(Output):
         ]
         middle, turn = average(self._answered), 2.0 * math.pi
         return [one + turn * np.rint((middle - np.nanmean(one)) / turn) for one in counted]
+
+
+def wraps_of(outputs: Mapping[str, Sampled]) -> dict[str, str]:
+    """By name of the outputs that look like an angle that jumps, or point to all sides, which."""
+    wraps = {name: output._wraps() for name, output in outputs.items()}
+    return {name: where for name, where in wraps.items() if where is not None}
+
+
+def wrap_notes(wrapped: Mapping[str, str]) -> Iterator[Note]:
+    """That means of these outputs mean nothing, or little."""
+    for kind, text, cure in (
+        (
+            angles.AT_HALF_TURN,
+            "has values near pi and near -pi: if it is an angle, its mean means nothing",
+            ". Return it with its unit (impact.a.q.pdof), so that it is known to be one",
+        ),
+        (
+            angles.AT_FULL_TURN,
+            (
+                "has values near 0 and near a full turn, 2 pi, and few somewhere between: if it is "
+                "a direction, its mean means nothing"
+            ),
+            (
+                ". Return it with its unit and between -180 and 180 deg, as by `(angle + 180) % "
+                "360 - 180`, so that it is counted round the circle"
+            ),
+        ),
+        (
+            angles.ALL_ROUND,
+            (
+                "has directions so far round the circle from one another that its mean tells "
+                "little: the mean errs by more than their spread shows, or another one far from "
+                "it is about as good"
+            ),
+            "",
+        ),
+    ):
+        names = tuple(name for name, where in wrapped.items() if where == kind)
+        if names:
+            yield Note(
+                OutOfRangeWarning,
+                f"{', '.join(names)} {text}",
+                cure,
+                "may_wrap",
+                {"outputs": names},
+            )
 
 
 @dataclass(eq=False, repr=False)
@@ -823,7 +879,11 @@ class Propagation(Summarized):
                 return output.probability(condition)
         sides = {name: one._sides for name, one in samples.items() if one._sides is not None}
         held = holds(condition, {name: one.values for name, one in samples.items()}, sides)
-        return next(iter(samples.values()))._share(held)
+
+        def again(values: Callable[[Any], Any]) -> Any:
+            return holds(condition, {name: values(one) for name, one in samples.items()})
+
+        return next(iter(samples.values()))._share(held, again)
 
     def if_halved(self) -> Halved:
         """What to measure next: how wide the range of every output would be if the error of one

@@ -14,6 +14,11 @@ _EMPTY = 0.25 * _TURN  # narrower gaps are not cut in, as only some of many poin
 _OPPOSITE = _TURN / 16.0  # on either side of the point opposite the mean
 _ANGLE_TOL = 1e-9  # rounding of an angle
 _NEAR_PI = 2.0
+_SECTORS = 12  # of a turn, whose shares of the values are compared
+_CHANCE = 4.0  # standard deviations of a difference of two counts, beyond which it is none
+_ALONE = 4.0  # times the next widest: a gap in the values of a grid that is a jump
+# Where numbers jump, or that directions point to all sides or to opposite ones.
+AT_HALF_TURN, AT_FULL_TURN, ALL_ROUND = "half turn", "full turn", "all round"
 
 
 def are_directions(angles: Any) -> bool:
@@ -104,6 +109,42 @@ def jump(values: Any) -> bool:
         return False
     # A third of directions to all sides lies within 1 of 0; more of a quantity spread about 0.
     return bool(np.mean(np.abs(found) < 1.0) < 0.16)
+
+
+def jump_at_full_turn(values: Any, *, drawn: bool) -> bool:
+    """Whether numbers look like directions around 0 that jump to a full turn: within 0 to a turn,
+    some beyond half of it, and more at either end than somewhere between.
+
+    A quantity above 0 whose density only falls, and a rotation that takes any value, are not.
+    Values on a grid, which are not ``drawn``, have no density: there one gap between both ends
+    tells.
+    """
+    found = values[~np.isnan(values)]
+    rounding = _TURN * _ANGLE_TOL
+    if not found.size or are_directions(found):
+        return False
+    if not (found.min() >= -rounding and found.max() <= _TURN + rounding):
+        return False
+    if not drawn:
+        found = np.sort(found)
+        gaps = np.sort(np.diff(found, prepend=found[0]))[-2:]
+        near = math.pi - _NEAR_PI
+        at_ends = found[0] <= near and found[-1] >= _TURN - near
+        return bool(at_ends and gaps[1] >= _EMPTY and gaps[1] > _ALONE * gaps[0])
+    counts, _ = np.histogram(np.clip(found, 0.0, _TURN), _SECTORS, (0.0, _TURN))
+    least = int(counts.min())
+    ends = int(counts[0]), int(counts[-1])
+    return all(end - least > _CHANCE * math.sqrt(end + least) for end in ends)
+
+
+def jump_of(values: Any, unit: str | None, *, drawn: bool = True) -> str | None:
+    """Where an output that is not counted round the circle looks like an angle that jumps: at half
+    a turn, if without a unit, or at a full turn.
+    """
+    if unit is None and jump(values):
+        return AT_HALF_TURN
+    angle = unit in (None, "rad")
+    return AT_FULL_TURN if angle and jump_at_full_turn(values, drawn=drawn) else None
 
 
 def point_everywhere(values: Any) -> bool:

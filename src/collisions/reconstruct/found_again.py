@@ -12,11 +12,13 @@ from typing import Any, get_args
 
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES
-from ..impact.reconstruction import KNOWN, Reconstruction
+from ..impact.reconstruction import KNOWN, AsRecorded, Reconstruction
 from ..kernels.contact_laws import BRACH, FRICTION, RULES
-from ..messages.errors import AmbiguousSolutionError, CollisionsError
-from ..reconstruct import central, planar, speeds
-from ..reconstruct.planar import Regime
+from ..messages.errors import AmbiguousSolutionError, CollisionsError, InputError
+from ..quantities.settings import in_si
+from .central import central
+from .planar import Regime, planar
+from .speeds import speeds
 
 # What is worked out from an answer that was rounded differs in its later digits; a changed record
 # differs in its first ones.
@@ -25,6 +27,20 @@ _METHODS = ("central", "planar", "speeds")
 _MOTION = ("vx", "vy", "yaw_rate")
 _AS_ARGUMENTS = {"contact_duration": "duration"}
 _AS_RESULTS = {"restitution": "restitution"} | dict.fromkeys(RULES, "inputs.rule_value")
+
+
+def need_found_again(impact: Any) -> None:
+    """Refuse an impact from a record whose reverse solution is not the one that the record says."""
+    origin = impact.reconstruction if isinstance(impact, Impact) else None
+    if isinstance(origin, AsRecorded):
+        for contradiction in contradicted_origin(impact):
+            raise InputError(
+                f"impact was read from a record that contradicts itself: {contradiction}; the "
+                f"record was changed, or is of another version. Write `reconstruct.{origin.method}"
+                "(...)` again with what is known",
+                code="bad_record",
+                argument="impact",
+            )
 
 
 def contradicted_origin(impact: Impact) -> Iterator[str]:
@@ -104,7 +120,7 @@ def _again(impact: Impact, origin: Reconstruction) -> Reconstruction | None:
     asked = (None, *get_args(Regime)) if origin.method == "planar" else (None,)
     for regime in asked:
         try:
-            with warnings.catch_warnings():
+            with warnings.catch_warnings(), in_si():
                 warnings.simplefilter("ignore")
                 found = _solved_again(impact, origin, regime)
         except AmbiguousSolutionError as error:

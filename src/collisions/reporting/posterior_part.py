@@ -1,0 +1,137 @@
+"""``posterior``: what the evidence says, as a part of a report: what was found, each reading beside
+its computed value, and, folded, all that this rests on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from ..estimate.worked_out import in_words
+from ..quantities.formatting import KIND_OF, number_with_unit, rounded, typeset
+from ..quantities.printed_tables import Part
+from ..quantities.tables import as_sentence, cells
+from ..reconstruct import Posterior
+from ..uncertainty.distribution import Statement, stated_in
+from ..uncertainty.distributions import Normal
+from ..uncertainty.result import outputs_part
+from .render import Sheet, plain
+
+
+def answers_of(found: Posterior, answers: Sequence[str] | None) -> list[str]:
+    """The names that the answer is about: those asked for; else what was worked out and the speeds
+    among the unknowns; else all unknowns.
+    """
+    if answers is not None:
+        return [name for name in answers if name in found._outputs]
+    speeds = [name for name, one in found.unknowns.items() if one.unit == "m/s"]
+    return [*found.results, *speeds] or list(found.unknowns)
+
+
+def posterior(
+    sheet: Sheet,
+    found: Posterior,
+    answers: Sequence[str] | None = None,
+    notes: Mapping[str, str] | None = None,
+) -> None:
+    """Write what was found, the evidence, and what both rest on."""
+    said = notes or {}
+    sheet.listed([plain(as_sentence(sentence)) for sentence in found.statements])
+    asked = answers_of(found, answers)
+    sheet.heading("Found")
+    numbers = cells(sheet.system.name)
+    sheet.columns(outputs_part({name: found[name] for name in asked}, numbers))
+    if found.results_from:
+        sheet.heading("How it was worked out")
+        sheet.columns(
+            Part(
+                [(plain(name), plain(in_words(text))) for name, text in found.results_from.items()],
+                columns=("how",),
+            )
+        )
+    sheet.heading("Evidence")
+    sheet.columns(_readings(sheet, found, said))
+    sheet.say(
+        "Computed is the mean over all that the evidence leaves; off by is the reading less that, "
+        "and in brackets that in stated errors."
+    )
+    sources = [
+        (plain(name), plain(typeset(source)))
+        for name, one in found.observed.items()
+        for source in filter(None, one.source.split("; "))
+    ]
+    if sources:
+        sheet.columns(Part(sources, columns=("what the reading was worked out from",)))
+    rest = [name for name in found._outputs if name not in asked and name not in found.observed]
+    if rest:
+        sheet.fold("Also found:")
+        sheet.columns(outputs_part({name: found[name] for name in rest}, numbers))
+        sheet.unfold()
+    sheet.fold("What was stated before the evidence, and how well that predicts it:")
+    sheet.columns(
+        Part(
+            [
+                (plain(name), _with(plain(_stated(sheet, one, unit)), said.get(name)))
+                for name, one in found.priors.items()
+                for unit in [found.unknowns[name].unit or ""]
+            ],
+            columns=("as it was stated",),
+        )
+    )
+    sheet.say(
+        "Natural logarithm of the probability of all readings together (the log evidence), and "
+        f"the error of sampling: {found.log_evidence:.4g} ± {found.log_evidence_error:.2g}. It "
+        "means something only beside that of another account of the same readings."
+    )
+    sheet.unfold()
+    sheet.say(f"Given the evidence and the priors ({found.samples} samples), seed {found.seed}.")
+
+
+def _readings(sheet: Sheet, found: Posterior, notes: Mapping[str, str]) -> Part:
+    """Each reading beside what is computed for it."""
+    rows: list[tuple[str, ...]] = []
+    for name, one in found.observed.items():
+        residual = found.residuals[name]
+        reading, error = _reading(sheet, one, residual.unit)
+        off = _number(sheet, residual.residual, residual.unit)
+        off = f"+{off}" if residual.residual > 0.0 else off
+        off += f" ({rounded(residual.over_sigma, 2)})" if residual.sigma else ""
+        computed = _number(sheet, residual.computed, residual.unit, found.predicted[name].std)
+        rows.append((plain(name), reading, error, computed, off, plain(notes.get(name, ""))))
+    heads = ("reading", "stated error", "computed", "off by", "where it is from")
+    if any(row[-1] for row in rows):
+        return Part(rows, columns=heads)
+    return Part([row[:-1] for row in rows], columns=heads[:-1])
+
+
+def _number(sheet: Sheet, value: float, unit: str, deviation: float | None = None) -> str:
+    """A number of a reading, rounded as a result; one of a unit of its own to four figures."""
+    kind = KIND_OF.get(unit, sheet.system.unlisted)
+    if kind is None:
+        return number_with_unit(f"{value:.4g}", unit)
+    return sheet.system.answer(value, kind, deviation)
+
+
+def _reading(sheet: Sheet, one: Statement, unit: str) -> tuple[str, str]:
+    """What was read, and its error, as they were stated; of bounds their text."""
+    text = plain(_stated(sheet, one, unit))
+    if not isinstance(one, Normal):
+        return text, ""
+    value, _, error = text.partition(" ± ")
+    number, space, own = error.partition(" ")
+    return f"{value}{space}{own}", f"{number}{space}{own}"
+
+
+def _stated(sheet: Sheet, one: Statement, unit: str = "") -> str:
+    """A statement in the unit in which it was made, or of bare numbers in that of the page."""
+    kind = KIND_OF.get(unit, "")
+    return stated_in(one, sheet.system, kind) if kind else str(one)
+
+
+def _with(text: str, note: str | None) -> str:
+    return f"{text}. {note}" if note else text
+
+
+def names_of_notes(found: Posterior) -> Iterator[str]:
+    """What a note can stand beside: each reading, and what was stated of each unknown."""
+    yield from found.observed
+    yield from found.priors
