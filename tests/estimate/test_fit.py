@@ -542,15 +542,15 @@ def test_an_unknown_that_nothing_determines_does_not_silence_the_model():
     with pytest.warns(col.OutOfRangeWarning):
         at = float(bent(0.3)["y"].magnitude)
     alone, codes = fitted(bent, {"v": Interval(0.1, 0.9)}, {"y": (at, 0.1)})
-    assert codes == ["wide_segment"]
+    assert codes == ["wide_segment", "fast_yaw"]
     unknowns = {"v": Interval(0.1, 0.9), "spare": Uniform(0.0, 1.0)}
     found, codes = fitted(bent, unknowns, {"y": (at, 0.1)})
     assert math.isnan(found.values["spare"])
-    assert sorted(codes) == ["undetermined", "wide_segment"]
-    (note,) = found.model_notes
-    assert note.fields["share"] == 1.0
-    assert note.sentence.endswith(alone.model_notes[0].sentence)
-    assert note.statement in found.statements
+    assert sorted(codes) == ["fast_yaw", "undetermined", "wide_segment"]
+    for note, other in zip(found.model_notes, alone.model_notes, strict=True):
+        assert note.fields["share"] == 1.0
+        assert note.sentence.endswith(other.sentence)
+        assert note.statement in found.statements
 
 
 def test_a_warning_of_some_values_that_nothing_determines_is_kept():
@@ -564,7 +564,7 @@ def test_a_warning_of_some_values_that_nothing_determines_is_kept():
         return {"y": 2.0 * v}
 
     found, _ = fitted(model, {"v": Interval(0.1, 0.9), "spare": Uniform(0, 1)}, {"y": (0.8, 0.1)})
-    assert [note.code for note in found.model_notes] == ["wide_segment"]
+    assert "wide_segment" in [note.code for note in found.model_notes]
 
 
 def test_the_answers_of_an_ambiguous_fit_have_the_warnings_of_the_model():
@@ -576,7 +576,7 @@ def test_the_answers_of_an_ambiguous_fit_have_the_warnings_of_the_model():
         fit(model, {"v": Interval(-0.9, 0.9)}, {"square": (0.25, 0.01)})
     assert len(refused.value.solutions) == 2
     for one in refused.value.solutions:
-        assert [note.code for note in one.model_notes] == ["wide_segment"]
+        assert "wide_segment" in [note.code for note in one.model_notes]
 
 
 def test_friction_that_does_not_act_is_named():

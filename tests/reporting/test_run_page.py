@@ -96,7 +96,7 @@ def test_ranges_stand_under_words_and_not_under_paths() -> None:
         "Civic.tyres.friction": Normal(0.7, 0.02),
     }
     outputs = ["impacts[0].a.delta_v", "times[0]", "Camry.marks.front_left.end.x"]
-    spread = propagate(run.scene, inputs, outputs=outputs, samples=256, seed=1)
+    spread = propagate(run.scene, inputs, outputs=outputs, samples=64, seed=1)
     page = col.report(run, uncertainty=spread, form="markdown", figures=False)
     said = page[: page.index("## Record")]
     assert not re.search(r"contacts\\?\[|impacts\\?\[|times\\?\[|\.vx|tyres\.|marks\.", said)

@@ -390,6 +390,8 @@ def whole_crash() -> float:
     found = uncertainty.propagate(
         crash, {"A.vx": Normal("50 km/h", 1)}, outputs=["B.rest.x"], samples=256
     )
+    survey = crash.mark_points("A", "front_left", [("3 m", 0.5), (5.0, 0.7)], "0.2 m", ends=True)
+    print({**survey, "A.rest.x": Normal("9 m", "1 m")})
     model = crash.as_model(["A.vx"], list(crash.results())[:1])
     print(crash.inputs(), contact.as_given("delay"), run.summary(), run.to_columns(), model)
     print(scene.Scene.from_dict(crash.to_dict()).case(0).run().case(0), crash.movers["A"].reach)

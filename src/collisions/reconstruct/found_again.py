@@ -14,7 +14,7 @@ from ..impact.impact import Impact
 from ..impact.inputs import TYRES
 from ..impact.reconstruction import KNOWN, AsRecorded, Reconstruction
 from ..kernels.contact_laws import BRACH, FRICTION, RULES
-from ..messages.errors import AmbiguousSolutionError, CollisionsError, InputError
+from ..messages.errors import CollisionsError, InputError
 from ..quantities.settings import in_si
 from .central import central
 from .planar import Regime, planar
@@ -123,9 +123,10 @@ def _again(impact: Impact, origin: Reconstruction) -> Reconstruction | None:
             with warnings.catch_warnings(), in_si():
                 warnings.simplefilter("ignore")
                 found = _solved_again(impact, origin, regime)
-        except AmbiguousSolutionError as error:
-            found = error.solutions
-        except (CollisionsError, TypeError):
+        except CollisionsError as error:
+            # Several answers, or the ends of a range of them.
+            found = getattr(error, "solutions", ())
+        except TypeError:
             # A known value that the method does not take; such a record was refused above, or is of
             # an older version.
             continue
