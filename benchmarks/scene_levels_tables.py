@@ -81,6 +81,22 @@ def costs(found: dict[str, Any]) -> str:
     )
 
 
+def wheels_against_drag(found: dict[str, Any]) -> str:
+    """How much longer a case takes on wheels than with a drag, in one sentence."""
+    ratios = []
+    for record in found["scenes"].values():
+        seconds = {
+            row["motion"]: row["seconds_in_batch"]
+            for row in record["levels"]
+            if row["contacts"] == "instant"
+        }
+        ratios.append(seconds["wheels"] / seconds["drag"])
+    return (
+        f"In four scenes that were measured, a case on wheels takes {min(ratios):.0f} to "
+        f"{max(ratios):.0f} times as long as one with a drag."
+    )
+
+
 def _cell(difference: Any, asked: float, path: str) -> str:
     off = math.inf if isinstance(difference, str) else float(difference)
     if math.isinf(off):

@@ -30,17 +30,18 @@ crash = Scene(
     shared={"speed of the van": ("Van.vx",), "speed of the Golf": ("Golf.vx",)},
 )
 unknown = {
-    "speed of the van": Uniform("0 km/h", "150 km/h"),
-    "speed of the Golf": Uniform("0 km/h", "150 km/h"),
+    **{f"speed of the {car}": Uniform("0 km/h", "150 km/h") for car in ("van", "Golf")},
     **{f"{name}.drag": Normal(0.6, 0.08) for name in cars},
-    "contacts[0].restitution": Normal(0.2, 0.1, truncate=(0, 1)),
-    "contacts[1].restitution": Normal(0.2, 0.1, truncate=(0, 1)),
+    **{f"contacts[{i}].restitution": Normal(0.2, 0.1, truncate=(0, 1)) for i in (0, 1)},
 }
 # Across 1.5 m of the front of the van, and of the back of the Golf, three depths.
-nose = crush_energy("1.5 m", ["17 cm", "23 cm", "17 cm"], "40 kN/m", "450 kN/m**2")
-tail = crush_energy("1.5 m", ["19 cm", "25 cm", "19 cm"], "30 kN/m", "350 kN/m**2")
+dents = {
+    "front of the van": (["17 cm", "23 cm", "17 cm"], "40 kN/m", "450 kN/m**2"),
+    "back of the Golf": (["19 cm", "25 cm", "19 cm"], "30 kN/m", "350 kN/m**2"),
+}
+damage = sum(crush_energy("1.5 m", *dents[name], name=name) for name in dents)
 evidence = {
-    "impacts[0].energy_absorbed": (nose + tail, 0.2 * (nose + tail)),
+    "impacts[0].energy_absorbed": (damage, 0.2 * damage),
     "impacts[1].b.delta_v_forward": ("14 km/h", "1 km/h"),
     "Van.rest.x": ("5.7 m", "0.3 m"),
     "Golf.rest.x": ("11.6 m", "0.3 m"),
@@ -107,7 +108,7 @@ for name in cars:
     (reading, error) = (float(text[:-2]) for text in evidence[f"{name}.rest.x"])
     assert abs(made.rest[name].x - reading) < error
 first, second = made.impacts
-assert abs(first.energy_absorbed - (nose + tail)) < 0.2 * (nose + tail)
+assert abs(first.energy_absorbed - damage) < 0.2 * damage
 assert abs(3.6 * second.b.delta_v_forward - 14) < 1
 for name, truth in speeds.items():
     low, high = (3.6 * speed for speed in found[name].interval())

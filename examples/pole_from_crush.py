@@ -38,7 +38,7 @@ unknown = {
 }
 # Across 0.9 m of the side, six depths; a reading of the energy is good to a fifth.
 depths = ["10 cm", "38 cm", "56 cm", "60 cm", "36 cm", "10 cm"]
-dent = crush_energy("0.9 m", depths, "25 kN/m", "900 kN/m**2")
+dent = crush_energy("0.9 m", depths, "25 kN/m", "900 kN/m**2", name="right side")
 evidence = {
     "impacts[0].energy_absorbed": (dent, 0.2 * dent),
     "Car.rest.x": ("0.3 m", "0.3 m"),

@@ -1081,10 +1081,49 @@ def test_what_a_reading_was_worked_out_from_is_said_and_recorded():
         assert found.to_dict()["observed_from"] == {"energy": damage.source}
         assert pickle.loads(pickle.dumps(found)).observed["energy"].source == damage.source
         page = col.report(found, form="markdown", units="us")
-        assert "A 40 kN/m, B 600 kN/m²; side of B, by crush" in page
+        assert "A 40 kN/m, B 600 kN/m²" in page
+        assert "side of B, by crush" in page
         assert "width 5 ft, depths 11 in, 9 in, A 300 lbf/in, B 60 lbf/in²" in page
     # Statements of the same numbers are equal, whatever these were worked out from.
     assert Normal(damage, 1e4) == Normal(float(damage), 1e4)
+
+
+def test_a_result_that_no_sample_has_is_refused_with_what_to_write():
+    """A car that goes against the x axis has a vx below 0, which is no speed."""
+    found, _ = sampled(
+        lambda **at: {"video": at["Corolla.vx"]},
+        {"Corolla.vx": Uniform("-30 m/s", "-5 m/s")},
+        {"video": ("-10 m/s", "1 m/s")},
+        samples=512,
+    )
+    given = {"distance": "12 m", "drag": 0.7, "end_speed": found["Corolla.vx"]}
+    for function in (col.travel.speed, col.travel.q.speed):
+        with pytest.raises(col.NoSolutionError, match="at any of the 512 samples") as caught:
+            found.with_result("before", function, **given)
+        assert caught.value.code == "refused"
+        said = str(caught.value)
+        assert "end_speed must be >= 0" in said
+        assert "end_speed is 'Corolla.vx', which is below 0 in every sample" in said
+        assert "Vehicle.from_speed(speed=..., course=...)" in said
+        assert "'Corolla.speed'" in said
+    with pytest.raises(col.NoSolutionError, match="look at what each argument is"):
+        found.with_result("before", lambda v: v * math.nan, v=found["Corolla.vx"])
+    turned = found.with_result("before", lambda v: -v, "m/s", v=found["Corolla.vx"])
+    assert turned["before"].mean == pytest.approx(-found["Corolla.vx"].mean, rel=1e-12)
+
+
+def test_the_unit_of_a_result_is_that_of_what_the_function_returns():
+    found, _ = braking()
+    given = {"distance": "12 m", "drag": 0.7, "end_speed": found["speed"]}
+    quantities = found.with_result("before", col.travel.q.speed, **given)["before"]
+    plain = found.with_result("before", col.travel.speed, "m/s", **given)["before"]
+    assert quantities.unit == plain.unit == "m/s"
+    assert np.array_equal(quantities.values, plain.values)
+    with pytest.raises(col.UnitsError, match=r"unit is 'mph', .*write 'm/s', .*leave unit out"):
+        found.with_result("before", col.travel.speed, "mph", **given)
+    for unit in ("glorp", 3, "kg*m"):
+        with pytest.raises(col.UnitsError, match=r"write (its SI unit, such as )?'"):
+            found.with_result("before", col.travel.speed, unit, **given)
 
 
 def test_results_follow_from_results_and_share_no_draws():
@@ -1135,6 +1174,34 @@ def test_results_that_do_not_follow(change, kind, code):
     with pytest.raises(kind) as caught:
         found.with_result(name, function, unit, **given)
     assert code is None or caught.value.code == code
+
+
+@pytest.mark.parametrize("estimate", [posterior, reconstruct.fit])
+def test_a_reading_with_the_sign_of_another_convention_is_named(estimate):
+    """Recorders count a lateral delta-V positive to the right."""
+    name = "impacts[0].b.delta_v_left"
+    options = {"samples": 512, "seed": 1} if estimate is posterior else {}
+
+    def said(reading):
+        with warnings.catch_warnings(record=True) as given:
+            warnings.simplefilter("always")
+            estimate(
+                lambda speed: {name: -speed, "video": speed, "marks": speed},
+                {"speed": Uniform("0 m/s", "30 m/s")},
+                {
+                    name: (reading, "0.5 m/s"),
+                    "video": ("10 m/s", "0.3 m/s"),
+                    "marks": ("10 m/s", "0.3 m/s"),
+                },
+                **options,
+            )
+        return " ".join(str(one.message) for one in given)
+
+    assert f"{name} fits better with the opposite sign: recorders count" in said("10 m/s")
+    assert "opposite sign" not in said("-10 m/s")
+    # So far off that the other sign is no better.
+    assert "contradicts itself" in said("-25 m/s")
+    assert "opposite sign" not in said("-25 m/s")
 
 
 @pytest.mark.parametrize("returned", ["to a full turn", "to half a turn"])

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 import collisions as col
+from collisions.reconstruct import fit, posterior
 from collisions.scene import Contact, Mover, Scene
 from collisions.travel import GRAVITY, Tyres
+from collisions.uncertainty import Normal, Uniform, propagate
 
 DAMAGED = Tyres(0.7, [1, 0, 0, 0], 2.78, 1.55)
 
@@ -233,3 +235,106 @@ def test_a_batch_has_nan_for_an_impact_that_a_case_does_not_have() -> None:
     assert np.isnan(columns["impacts[0].b.delta_v"][1])
     assert run.status.tolist()[0] == "ok"
     assert np.isnan(run.impacts[0].b.delta_v).tolist() == [False, True]
+
+
+def crossing(**options: Any) -> Scene:
+    """Two cars, of which the second was given no speed."""
+    one = col.Vehicle(mass=1500, yaw_inertia=2500, vx="50 km/h", x=0, y=0, heading=0)
+    other = col.Vehicle(mass=1500, yaw_inertia=2500, x="4 m", y=0, heading=0)
+    return Scene(
+        movers={"Explorer": Mover(one, drag=0.6), "Jetta": Mover(other, drag=0.6)},
+        contacts=[
+            Contact("Explorer", "Jetta", restitution=0.1, friction=0.5, normal=0, point=(2, 0))
+        ],
+        **options,
+    )
+
+
+def test_the_speed_of_what_stands_says_how_to_build_it() -> None:
+    said = r"has no 'Jetta.speed'; Jetta stands.*Vehicle.from_speed\(speed=\.\.\., course=\.\.\.\)"
+    with pytest.raises(col.InputError, match=rf"shared\['speed'\] {said}"):
+        crossing(shared={"speed": ("Jetta.speed",)})
+    with pytest.raises(col.InputError, match=r"Vehicle.from_speed\(speed=\.\.\., course=\.\.\.\)"):
+        crossing().replace({"Jetta.speed": 5.0})
+
+
+@pytest.mark.parametrize(
+    ("path", "instead"),
+    [
+        ("Explorer.delta_v", "write 'impacts[0].a.delta_v'"),
+        ("Jetta.after.speed", "write 'impacts[0].b.after.speed'"),
+        ("Jetta.delta_v_right", "write 'impacts[0].b.delta_v_left' with the opposite sign"),
+        ("impacts[0].a.delta_v_right", "write 'impacts[0].a.delta_v_left' with the opposite sign"),
+    ],
+)
+def test_a_result_by_another_name_is_pointed_to(path: str, instead: str) -> None:
+    unknowns = {"Explorer.speed": Uniform("20 km/h", "90 km/h")}
+    with pytest.raises(col.InputError) as caught:
+        posterior(crossing(), unknowns, {path: ("3 m/s", "1 m/s")})
+    assert str(caught.value).startswith(f"observed has no {path!r}; {instead}")
+    assert caught.value.argument == "observed"
+    with pytest.raises(col.InputError) as caught:
+        propagate(crossing(), unknowns, outputs=[path])
+    assert str(caught.value).startswith(f"outputs has no {path!r}; {instead}")
+    assert caught.value.argument == "outputs"
+
+
+def test_what_is_stated_of_an_input_has_its_kind() -> None:
+    crash, seen = crossing(), {"Jetta.rest.x": ("9 m", "1 m")}
+    wrong = Uniform("5 ft", "50 ft")
+    for call in (
+        lambda: posterior(crash, {"Explorer.vx": wrong}, seen),
+        lambda: fit(crash, {"Explorer.vx": wrong}, seen),
+        lambda: fit(crash, {"Explorer.vx": "20 ft"}, seen),
+        lambda: propagate(crash, {"Explorer.vx": wrong}, outputs=["Jetta.rest.x"]),
+        lambda: propagate(crash, {"Explorer.vx": "20 ft"}, outputs=["Jetta.rest.x"]),
+    ):
+        with pytest.raises(col.UnitsError, match=r"\['Explorer.vx'\] is stated in ft.*'80 km/h'"):
+            call()
+    slowed = {"Jetta.drag": Uniform("5 m/s**2", "7 m/s**2")}
+    with pytest.raises(col.UnitsError, match=r"Jetta\.drag is a plain number"):
+        propagate(crash, slowed, outputs=["Jetta.rest.x"])
+    with col.options(require_units=True):
+        for bare in (Uniform(5, 30), Normal(20, 2)):
+            with pytest.raises(col.UnitsError, match="require_units=True"):
+                posterior(crash, {"Explorer.vx": bare}, seen)
+
+
+def test_a_bare_prior_has_the_unit_of_its_input() -> None:
+    found = posterior(
+        crossing(),
+        {"Explorer.vx": Uniform(5, 30), "Jetta.drag": Normal(0.6, 0.05)},
+        {"Jetta.rest.x": ("9 m", "1 m")},
+        samples=512,
+        seed=1,
+    )
+    assert (found["Explorer.vx"].unit, found["Jetta.drag"].unit) == ("m/s", None)
+    assert "67.11 mph, all values equally likely" in str(found.summary("us"))
+    assert found["Explorer.vx"].mean == pytest.approx(found.inputs()["Explorer.vx"].mean)
+
+
+def test_what_stands_without_a_speed_is_said() -> None:
+    seen = {"Jetta.rest.x": ("9 m", "1 m")}
+    said = "Jetta stands at the start: no speed above 0 was given for it"
+
+    def statements(crash: Scene, *names: str) -> str:
+        unknowns = {name: Uniform("5 m/s", "30 m/s") for name in names}
+        return " ".join(posterior(crash, unknowns, seen, samples=512, seed=1).statements)
+
+    assert said in statements(crossing(), "Explorer.vx")
+    assert "stands" not in statements(crossing().replace({"Jetta.vy": 1.0}), "Explorer.vx")
+    assert "stands" not in statements(crossing(), "Explorer.vx", "Jetta.vy")
+    both = crossing(shared={"speed": ("Jetta.vy",)})
+    assert "stands" not in statements(both, "Explorer.vx", "speed")
+    study = propagate(
+        crossing(), {"Explorer.vx": Normal("20 m/s", "1 m/s")}, outputs=["Jetta.rest.x"], seed=1
+    )
+    assert said in " ".join(study.statements)
+
+
+def test_a_refusal_has_numbers_in_the_units_of_the_priors() -> None:
+    crash = crossing().replace({"contacts[0].normal": "180 deg"})
+    with pytest.raises(col.NoSolutionError, match=r"among them Explorer.vx = 42\.5 mph"):
+        posterior(
+            crash, {"Explorer.vx": Uniform("5 mph", "80 mph")}, {"Jetta.rest.x": ("9 m", "1 m")}
+        )

@@ -13,7 +13,7 @@ from ..messages.marked import as_code, type_of
 from ..quantities.reading import ArgumentReader
 from ..uncertainty.distribution import Statement, from_numbers, read_alike, show
 from ..uncertainty.distributions import Censored, Interval, Normal
-from ..uncertainty.model import Model, check_names, function_of
+from ..uncertainty.model import Model, check_names, check_units, function_of
 from .readings import KINDS, Reading
 
 T = TypeVar("T")
@@ -77,9 +77,18 @@ def read_evidence(
     )
     reader.close()
     model = function_of(model, known, readings, "observed")
+    check_units(model, {name: unit_stated(one) for name, one in known.items()}, "unknowns")
     called = Model(model, {})
     check_names(model, known, "unknowns", "bad_model")
     return called, known, [Observation.of(name, value) for name, value in readings.items()]
+
+
+def unit_stated(unknown: Any) -> str:
+    """The unit in which an unknown was stated: that of a prior, or the first of what ``fit`` reads
+    of one.
+    """
+    unit: str = unknown[0] if isinstance(unknown, tuple) else unknown.unit
+    return unit
 
 
 def _read_each(
@@ -157,7 +166,7 @@ def read_value(label: str, given: Any) -> Normal:
 
 
 def refused_everywhere(
-    model: Model, points: int, at: Mapping[str, float], advice: str
+    model: Model, points: int, at: Mapping[str, float], units: Mapping[str, str], advice: str
 ) -> NoSolutionError:
     """The error if the model has no answer anywhere, with its own reason if a single case gives
     one.
@@ -172,16 +181,21 @@ def refused_everywhere(
         pass
     return NoSolutionError(
         f"the model refuses all {points} points tried for the unknowns, among them "
-        f"{listed(at)}{reason}. Give {advice}",
+        f"{listed(at, units)}{reason}. Give {advice}",
         code="refused",
         points=points,
         at=dict(at),
     )
 
 
-def listed(values: Mapping[str, float]) -> str:
-    """Values by name, for a sentence."""
+def listed(values: Mapping[str, float], units: Mapping[str, str]) -> str:
+    """Values by name, for a sentence, each in the unit that it was given in."""
+
+    def text(name: str, value: float) -> str:
+        unit = units.get(name)
+        return f"= {show(value, unit) if unit else f'{value:.6g}'}"
+
     return ", ".join(
-        f"{name} {'undetermined' if math.isnan(value) else f'= {value:.6g}'}"
+        f"{name} {'undetermined' if math.isnan(value) else text(name, value)}"
         for name, value in values.items()
     )

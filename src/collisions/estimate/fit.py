@@ -190,7 +190,8 @@ def fit(
                 "bounds or starts within which the impact happens; `reconstruct.posterior` "
                 "finds rare ones too"
             )
-            raise refused_everywhere(inputs.model, _STARTS, inputs.named(inputs.start), advice)
+            start = inputs.named(inputs.start)
+            raise refused_everywhere(inputs.model, _STARTS, start, inputs.units, advice)
         searched = inputs.model
         if dearer is not None:
             starts = _ends_to_refine(inputs, problem, ends)
@@ -200,7 +201,7 @@ def fit(
             if np.all(np.isinf(ends.chi_squared)):
                 raise NoSolutionError(
                     "the finer model has no answer where the searches of model ended, among them "
-                    f"{listed(inputs.named(starts[0]))}; fit the finer model alone: "
+                    f"{listed(inputs.named(starts[0]), inputs.units)}; fit the finer model alone: "
                     "fit(finer, unknowns, observed)",
                     code="refused",
                 )
@@ -572,9 +573,9 @@ def _check_minimum(best: _Candidate, ends: Ends, few: bool = True) -> None:
         return
     at = best.inputs.named(best.point)
     raise NoSolutionError(
-        f"the least misfit found is chi-squared {best.chi_squared:.6g} at {listed(at)}, "
-        f"{why}. `reconstruct.posterior` answers there too, with a range: write "
-        f"{_POSTERIOR}; or narrow the bounds to one side of it, or give a prior (a "
+        f"the least misfit found is chi-squared {best.chi_squared:.6g} at "
+        f"{listed(at, best.inputs.units)}, {why}. `reconstruct.posterior` answers there too, with "
+        f"a range: write {_POSTERIOR}; or narrow the bounds to one side of it, or give a prior (a "
         "Normal)",
         code="no_convergence",
         chi_squared=float(best.chi_squared),
@@ -597,7 +598,7 @@ def _rivals(best: _Candidate, ends: Ends) -> list[_Candidate]:
 
 def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
     answers = "; ".join(
-        f"chi-squared {one.chi_squared:.4g} at {listed(one.values)}" for one in fits
+        f"chi-squared {one.chi_squared:.4g} at {listed(one.values, one.units)}" for one in fits
     )
     return AmbiguousSolutionError(
         f"{len(fits)} answers fit the evidence about as well: {answers}. "

@@ -21,7 +21,7 @@ from ..messages.errors import (
 )
 from ..messages.warning import Note
 from ..quantities.attributes import OWN_UNIT, Shown, derived
-from ..quantities.refusals import must_be
+from ..quantities.refusals import LATERAL, must_be
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summary, as_sentence
 from ..quantities.units import shown, to_quantity
@@ -39,6 +39,9 @@ _LARGE_NONLINEARITY = 0.2  # of the half-width of a 95 percent interval
 # Probabilities of the misfit below which the evidence is said to agree weakly, and to contradict
 # itself.
 _WEAK, CONTRADICTION = 0.05, 0.01
+# A reading this many sigma off may have the wrong sign, if the other one takes this share of the
+# misfit. What is computed is a compromise, in which it cannot take all of it.
+_FAR_OFF, _NEARER = 3.0, 0.5
 
 
 def with_unit(value: Any, unit: str | None) -> Any:
@@ -540,6 +543,15 @@ def agreement(p_value: float, residuals: Mapping[str, Residual], by: str = "") -
         CollisionsWarning,
         f"the evidence contradicts itself, the model or the stated errors: {chance}",
         f", and {CONTRADICTION} would pass{by}; the furthest off is {name}, by "
-        f"{abs(worst.over_sigma):.3g} sigma",
+        f"{abs(worst.over_sigma):.3g} sigma{''.join(map(_turned, residuals.values()))}",
         "contradictory",
     )
+
+
+def _turned(one: Residual) -> str:
+    """The hint at a reading whose sign may be that of another convention; "" for others."""
+    with_other = abs(one.observed + one.computed)
+    if one.is_prior or abs(one.over_sigma) < _FAR_OFF or with_other > _NEARER * abs(one.residual):
+        return ""
+    why = f": {LATERAL}" if "delta_v_left" in one.name else "; look at which way it is counted"
+    return f". {one.name} fits better with the opposite sign{why}"

@@ -20,7 +20,7 @@ from ..messages.warning import notes_of_samples, warn_of
 from ..quantities.attributes import read_only
 from ..uncertainty.distributions import Distribution
 from ..uncertainty.finer import FinerModel
-from ..uncertainty.model import AnyModel, Model, function_of, range_hint
+from ..uncertainty.model import AnyModel, Model, function_of, range_hint, units_taken
 from ..uncertainty.propagation import check_options
 from ..uncertainty.result import wrap_notes, wraps_of
 from ..uncertainty.sampling import Correlation, Joint
@@ -69,8 +69,9 @@ def posterior(
     model : function
         ``model(**unknowns)`` returns a dict of named outputs, as for ``fit`` and
         ``uncertainty.propagate``; or a ``scene.Scene``, with paths for names. It is called with
-        arrays of cases [SI] and answers case by case, NaN where it refuses (``on_failure="nan"``);
-        the evidence counts as impossible there. What is known exactly is written into the model.
+        arrays of cases [SI] and answers case by case, NaN where it refuses (``on_failure="nan"``),
+        which rules these values of the unknowns out. What is known exactly is written into the
+        model.
     unknowns : dict
         By name, the prior (what was known before): any distribution of ``uncertainty``, truncated
         or not. An ``Interval`` says nothing about likelihood and is refused: give ``Uniform``.
@@ -202,6 +203,10 @@ class _Problem:
     def __init__(self, model: Model, joint: Joint, rows: list[Observation]) -> None:
         self.model, self.joint, self.rows = model, joint, rows
         self.finer: FinerModel | None = None
+        taken = units_taken(model)
+        self.units = {
+            name: prior.unit or taken.get(name, "") for name, prior in joint.inputs.items()
+        }
         # The width by which observations with sharp bounds are softened on the way, by name.
         self.softened: dict[str, float] = {}
         self.answered = self.possible = False
@@ -323,7 +328,11 @@ class _Problem:
             )
         if not self.answered:
             return refused_everywhere(
-                self.model, problem.draws, at, "priors within which the impact happens"
+                self.model,
+                problem.draws,
+                at,
+                self.units,
+                "priors within which the impact happens",
             )
         sharp = (
             [row.name for row in self.rows if not row.reading.sigma]
@@ -385,9 +394,8 @@ class _Problem:
             apart = float(np.mean(row.reading.residual(column, angle)))
             middle = row.reading.middle(column, apart)
             residuals[row.name] = residual_of(row, self.model.units[row.name], middle, apart)
-        units = {name: prior.unit for name, prior in self.joint.inputs.items()}
         unknowns = {
-            name: PosteriorOutput(name, units[name] or None, column, labels)
+            name: PosteriorOutput(name, self.units[name] or None, column, labels)
             for name, column in values.items()
         }
         predicted = {

@@ -120,8 +120,8 @@ class Posterior(SpeedsFound, Summarized):
         Chance of a misfit as large as that of the best sample or larger, counting also how far each
         unknown is from the middle of its prior; NaN if every observation has sharp bounds.
     refused : float
-        Share of the prior for which the model has no answer; the evidence counts as impossible
-        there. With a finer model it is that of the other one, and points there were tried too.
+        Share of the prior for which the model has no answer, which rules it out. With a finer model
+        it is that of the other one, and points there were tried too.
     moved : float
         Share of the samples that the last steps of the sampling moved, in the island where it is
         smallest.
@@ -230,10 +230,11 @@ class Posterior(SpeedsFound, Summarized):
             What the result is called.
         function : function
             Called with the arguments, as arrays of one number per sample [SI] where they vary;
-            returns one number per sample [SI], such as ``travel.speed``.
+            returns one number per sample, such as ``travel.q.speed``.
         unit : str, optional
-            SI unit of what the function returns, such as "m/s"; without it, of a function that
-            returns plain numbers, the result has none.
+            SI unit of the plain numbers that the function returns, such as "m/s", whatever units
+            the report is in; without it such a result has none. A function that returns Quantities,
+            as ``travel.q.speed`` does, needs none.
         **arguments
             By argument of the function: an unknown, an output or a result of this posterior, as
             ``found["speed_a"]``; a distribution of ``uncertainty``, which is drawn for each sample
@@ -251,6 +252,8 @@ class Posterior(SpeedsFound, Summarized):
             function that does not answer case by case.
         UnitsError
             A unit that is not SI, or another one than that of what the function returns.
+        NoSolutionError
+            The function has an answer at none of the samples (code "refused").
 
         Examples
         --------
@@ -268,8 +271,7 @@ class Posterior(SpeedsFound, Summarized):
         ... )
         >>> found = found.with_result(
         ...     "speed before the skid",
-        ...     travel.speed,
-        ...     "m/s",
+        ...     travel.q.speed,
         ...     distance="12 m",
         ...     drag=Normal(0.7, 0.01),
         ...     end_speed=found["speed"],
@@ -399,6 +401,11 @@ class Posterior(SpeedsFound, Summarized):
             )
             for name, one in self.observed.items()
         ]
+        known = {name: KIND_OF.get(one.unit or "", "") for name, one in self.unknowns.items()}
+        priors = [
+            (name, stated_in(one, numbers, known[name]) if known[name] else str(one))
+            for name, one in self.priors.items()
+        ]
         worked: list[Part] = []
         readings: list[Part] = []
         if sources := self._sources():
@@ -418,7 +425,7 @@ class Posterior(SpeedsFound, Summarized):
             outputs_part(self.predicted, numbers, "Predicted"),
             Part(observed, "Observed", ("as stated", "residual over sigma")),
             *readings,
-            Part([(name, str(one)) for name, one in self.priors.items()], "Priors"),
+            Part(priors, "Priors"),
             Part([("log evidence", f"{self.log_evidence:.4g} ± {self.log_evidence_error:.2g}")]),
         ]
         notes = map(as_sentence, self.statements)
@@ -474,7 +481,10 @@ def notes_of(found: Posterior) -> Iterator[Note]:
             "collapsed",
         )
     if found.refused > _MOSTLY_REFUSED:
-        there = "where the evidence is impossible"
+        there = (
+            "such as where no impact happens: those values are ruled out, and the answer is of "
+            "the others"
+        )
         if "finer" in found.calls:
             there = "where a few points were tried with the finer model"
         yield Note(

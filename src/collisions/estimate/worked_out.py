@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from ..messages.errors import InputError, UnitsError
+from ..messages.errors import CollisionsError, InputError, NoSolutionError, UnitsError
 from ..messages.marked import as_code
 from ..messages.warning import Note, notes_of_samples
 from ..quantities.formatting import KIND_OF
-from ..quantities.units import rendered, shown
+from ..quantities.settings import in_si
+from ..quantities.units import rendered, shown, si_unit
 from ..uncertainty.distributions import Distribution, Interval
 from ..uncertainty.model import Model
 from ..uncertainty.result import Sampled
@@ -41,12 +42,7 @@ def worked_out(
             argument="name",
         )
     if unit is not None and unit not in KIND_OF:
-        raise UnitsError(
-            f"unit is {shown(unit)}; the function works in SI: write its SI unit, such as 'm/s', "
-            "and the report has it in the units of the page",
-            code="bad_units",
-            argument="unit",
-        )
+        raise _bad_unit(unit)
     drawn = {key: one for key, one in arguments.items() if isinstance(one, Distribution)}
     sampled = {key: one for key, one in arguments.items() if isinstance(one, Sampled)}
     for key, one in arguments.items():
@@ -81,7 +77,62 @@ def worked_out(
             code="bad_units",
             argument="unit",
         )
+    if np.all(np.isnan(found)):
+        raise _no_answer(name, function, arguments, {key: values[key] for key in sampled}, values)
     return found, own or unit, notes_of_samples(model.noted, count)
+
+
+def _bad_unit(unit: Any) -> UnitsError:
+    """The error for a unit in which no function of the package answers."""
+    try:
+        inside = si_unit(f"1 {unit}") if isinstance(unit, str) else ""
+    except UnitsError:
+        inside = ""
+    instead = f"'{inside}'" if inside in KIND_OF and inside else "its SI unit, such as 'm/s'"
+    return UnitsError(
+        f"unit is {shown(unit)}, and a function that returns plain numbers returns them in SI: "
+        f"write {instead}, whatever the report is to print, which has it in the units of the page; "
+        "of a function that returns Quantities, as those of `travel.q` do, leave `unit` out",
+        code="bad_units",
+        argument="unit",
+    )
+
+
+def _no_answer(
+    name: str,
+    function: Callable[..., Any],
+    arguments: Mapping[str, Any],
+    sampled: Mapping[str, Any],
+    values: Mapping[str, Any],
+) -> NoSolutionError:
+    """The error where the function has an answer at none of the samples, with its own reason for
+    the first of them.
+    """
+    reason, blamed = "", ""
+    try:
+        with in_si():
+            # Four digits are enough for a message.
+            case = {key: float(f"{column[0]:.4g}") for key, column in values.items()}
+            function(**{**arguments, **case})
+    except CollisionsError as error:
+        reason, blamed = f": {error}", getattr(error, "argument", None) or ""
+    except Exception:
+        # A function of arrays need not take floats; an error about that says nothing of the case.
+        pass
+    cure = "; look at what each argument is"
+    if blamed in sampled and np.all(sampled[blamed] < 0.0):
+        of = str(arguments[blamed].name)
+        cure = (
+            f". {as_code(blamed)} is {shown(of)}, which is below 0 in every sample, as the "
+            "velocity along an axis is where a vehicle goes against it. Build the vehicle with "
+            "`Vehicle.from_speed(speed=..., course=...)`, and take its speed, such as "
+            f"'{of.rpartition('.')[0] or 'Camry'}.speed', which is never below 0"
+        )
+    return NoSolutionError(
+        f"{shown(name)} has no answer at any of the {len(next(iter(values.values())))} samples"
+        f"{reason}{cure}",
+        code="refused",
+    )
 
 
 def stated(function: Callable[..., Any], arguments: Mapping[str, Any]) -> dict[str, str]:

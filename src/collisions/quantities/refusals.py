@@ -10,6 +10,11 @@ from typing import Any
 from ..messages.errors import InputError
 from .units import shown
 
+# Of a lateral component whose sign is that of another convention.
+LATERAL = (
+    "recorders count lateral delta-V as positive to the right, delta_v_left is positive to the left"
+)
+
 
 def must_be(
     argument: str,

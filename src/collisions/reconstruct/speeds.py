@@ -34,7 +34,7 @@ from ..messages.hints import hinted
 from ..messages.warning import quietly, state_of_study, warn_of_cases, warn_of_samples
 from ..quantities.directions import Angle, course
 from ..quantities.reading import ArgumentReader
-from ..quantities.refusals import must_be
+from ..quantities.refusals import LATERAL, must_be
 from ..quantities.tables import Sentences, given_texts, said
 from ..quantities.units import Input, Pair
 from ..vehicle.tyres import Tyres
@@ -69,9 +69,6 @@ _TWO_OF = (
     *chain.from_iterable(PAIRS.items()),
 )
 _COMPONENTS = tuple(f"delta_v_{part}_{label}" for label in "ab" for part in ("forward", "left"))
-_LATERAL = (
-    "recorders count lateral delta-V as positive to the right, delta_v_left is positive to the left"
-)
 # Above this restitution hardly any energy is lost along the normal.
 _ELASTIC = 1.0 - 1e-6
 # Distances of two answers whose ratio is less: the fold, quadratic, is as near as the samples are
@@ -891,7 +888,7 @@ def _answers(
             f"{cure}"
         )
         if wrong := ways.turned() if cases.shape is None else "":
-            text += f". With {wrong} of the other sign both go forwards: {_LATERAL}"
+            text += f". With {wrong} of the other sign both go forwards: {LATERAL}"
         warning = OutOfRangeWarning(
             cases.how_many(turned) + text, code="negative_speed", value=backward
         )
@@ -1142,5 +1139,5 @@ def _refusal(
             "which must point from A into B, or give another known in place of one of these"
         )
     if status == Status.CONTRADICTORY and (wrong := turned()):
-        text += f". With {wrong} of the other sign there is an answer: {_LATERAL}"
+        text += f". With {wrong} of the other sign there is an answer: {LATERAL}"
     return error_of(status, text)

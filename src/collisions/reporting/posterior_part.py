@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from ..estimate.worked_out import in_words
-from ..quantities.formatting import KIND_OF, number_with_unit, rounded
+from ..quantities.formatting import KIND_OF, number_with_unit, rounded, typeset
 from ..quantities.printed_tables import Part
 from ..quantities.tables import as_sentence, cells
 from ..reconstruct import Posterior
@@ -56,6 +56,13 @@ def posterior(
         "Computed is the mean over all that the evidence leaves; off by is the reading less that, "
         "and in brackets that in stated errors."
     )
+    sources = [
+        (plain(name), plain(typeset(source)))
+        for name, one in found.observed.items()
+        for source in filter(None, one.source.split("; "))
+    ]
+    if sources:
+        sheet.columns(Part(sources, columns=("what the reading was worked out from",)))
     rest = [name for name in found._outputs if name not in asked and name not in found.observed]
     if rest:
         sheet.fold("Also found:")
@@ -65,8 +72,9 @@ def posterior(
     sheet.columns(
         Part(
             [
-                (plain(name), _with(plain(_stated(sheet, one)), said.get(name)))
+                (plain(name), _with(plain(_stated(sheet, one, unit)), said.get(name)))
                 for name, one in found.priors.items()
+                for unit in [found.unknowns[name].unit or ""]
             ],
             columns=("as it was stated",),
         )

@@ -17,6 +17,7 @@ from ..impact.impact import Impact, part_of_impact
 from ..impact.inputs import index_of, part_of
 from ..impact.vehicle_result import VehicleResult
 from ..messages.errors import CollisionsError, InputError, MissingInputError, placed
+from ..messages.warning import state_of_study
 from ..quantities.attributes import attributes, unit_of
 from ..quantities.directions import direction
 from ..quantities.formatting import KIND_OF
@@ -91,7 +92,7 @@ def check_shared(scene: Scene) -> None:
     for name, paths in scene.shared.items():
         for path in paths:
             if path not in known:
-                reader.refuse(no_path(path, known, f"shared[{name!r}]"))
+                reader.refuse(no_path(path, known, f"shared[{name!r}]", _meant(scene, path)))
         if len({known[path] for path in paths if path in known}) > 1:
             listed = ", ".join(f"{path} [{known[path]}]" for path in paths if path in known)
             text = f"shared[{name!r}] names inputs of several kinds: {listed}"
@@ -99,15 +100,52 @@ def check_shared(scene: Scene) -> None:
     reader.close()
 
 
-def no_path(path: Any, known: Iterable[str], argument: str) -> InputError:
-    """The error for a path that is none, with the nearest ones."""
-    listed = list(known)
-    near = get_close_matches(str(path), listed, _MOST_NEAR, 0.5) or listed[:_MOST_NEAR]
+def no_path(path: Any, known: Iterable[str], argument: str, instead: str = "") -> InputError:
+    """The error for a path that is none, with what is meant, or else the nearest ones."""
+    if not instead:
+        listed = list(known)
+        near = get_close_matches(str(path), listed, _MOST_NEAR, 0.5) or listed[:_MOST_NEAR]
+        instead = f"near it are {', '.join(near)}"
     return InputError(
-        f"{argument} has no {path!r}; near it are {', '.join(near)}",
-        code="unknown_name",
-        argument=argument,
+        f"{argument} has no {path!r}; {instead}", code="unknown_name", argument=argument
     )
+
+
+def _meant(scene: Scene, path: Any) -> str:
+    """What to write in place of an input that the scene would have, were it built otherwise."""
+    found = _OF_MOVER.fullmatch(path) if isinstance(path, str) else None
+    if not found or found[1] not in scene.movers or found[2] not in _POLAR:
+        return ""
+    return (
+        f"{found[1]} stands, and what stands has no {found[2]}. Build it with "
+        "`Vehicle.from_speed(speed=..., course=...)`, with any speed above 0, or take "
+        f"'{found[1]}.vx' and '{found[1]}.vy'"
+    )
+
+
+def _meant_result(scene: Scene, path: Any) -> str:
+    """What to write in place of a result that goes by another name."""
+    text = path if isinstance(path, str) else ""
+    mover, _, rest = text.partition(".")
+    sides = [
+        (k, side)
+        for k, contact in enumerate(scene.contacts)
+        for side in "ab"
+        if getattr(contact, side) == mover
+    ]
+    if sides and rest:
+        (k, side), *_ = sides
+        text = f"impacts[{k}].{side}.{rest}"
+    left = text.replace("delta_v_right", "delta_v_left")
+    inner = _OF_IMPACT.fullmatch(left)
+    if left == path or not inner or inner[2] not in _of_impact():
+        return ""
+    which = ""
+    if left != text:
+        which = " with the opposite sign, as it is positive to the left"
+    elif len(sides) > 1:
+        which = ", or of another of its impacts, counted from 0 in order of time"
+    return f"write '{left}'{which}"
 
 
 def replaced(scene: Scene, changes: Any) -> Scene:
@@ -254,7 +292,8 @@ def _moving(name: str, body: Vehicle, parts: dict[str, Any]) -> Vehicle:
         missing = "course" if "speed" in polar else "speed"
         raise InputError(
             f"{name} stands, so its {missing} is not known; write '{name}.vx' and '{name}.vy' in "
-            f"place of '{name}.{next(iter(polar))}'",
+            f"place of '{name}.{next(iter(polar))}', or build it with "
+            "`Vehicle.from_speed(speed=..., course=...)`, with any speed above 0",
             code="missing_course",
             argument="speed",
         )
@@ -364,7 +403,7 @@ def unit_of_result(scene: Scene, path: str, argument: str = "outputs") -> str:
             return known[found[2]]
         if of_mark(scene, path, argument):
             return "m"
-    raise no_path(path, results_of(scene), argument)
+    raise no_path(path, results_of(scene), argument, _meant_result(scene, path))
 
 
 def result_of(run: Run, path: str) -> Any:
@@ -492,7 +531,7 @@ def as_function(
                 argument=argument,
             )
         listed[argument] = read
-    known, wanted = {*inputs_of(scene)}, listed["outputs"]
+    known, wanted = inputs_of(scene), listed["outputs"]
     for name in listed["names"]:
         if not isinstance(name, str):
             raise no_path(name, inputs_of(scene), "names")
@@ -500,8 +539,15 @@ def as_function(
             _owner(scene, name)
     units = {path: unit_of_result(scene, path) for path in wanted}
     marks = {path: asked for path in wanted if (asked := of_mark(scene, path, "outputs"))}
+    standing = _standing(scene, listed["names"])
 
     def model(**values: Any) -> dict[str, Any]:
+        for name in standing:
+            state_of_study(
+                f"{name} stands at the start: no speed above 0 was given for it, and its speed is "
+                "not among the unknowns",
+                "stands",
+            )
         made = replaced(scene, values)
         run = Run(made if at_level is None else at_level(made), tolerance)
         warn_of_findings(run)
@@ -511,7 +557,23 @@ def as_function(
         return {path: to_quantity(found[path], unit) for path, unit in units.items()}
 
     vars(model)["answers_by_case"] = True
+    vars(model)["units_of_inputs"] = {path: known.get(path, "") for path in listed["names"]}
     return model
+
+
+def _standing(scene: Scene, changed: Iterable[str]) -> list[str]:
+    """The vehicles that stand at the start in every case, though they could move."""
+    paths = {one for path in changed for one in scene.shared.get(path, (path,))}
+    return [
+        name
+        for name, mover in scene.movers.items()
+        if not mover.fixed
+        and all(
+            np.all(np.equal(getattr(mover.vehicle, part), 0.0)) and f"{name}.{part}" not in paths
+            for part in ("vx", "vy", "yaw_rate")
+        )
+        and f"{name}.speed" not in paths
+    ]
 
 
 def _paths_in(given: Any) -> tuple[Any, ...] | None:

@@ -721,7 +721,9 @@ def _warn_of(found: Followed, wrong: Any) -> None:
 # What a finding of one run is without its names and times.
 _DRIVEN = (
     "two vehicles do not part after their contact and are followed through or into each other: "
-    "what pushes them without a blow is not followed"
+    "what pushes them without a blow is not followed, and their places of rest may be wrong. Where "
+    "that is so in a few percent of the cases, no more of the probability is in doubt; where in "
+    "many, leave the places of rest out of the evidence"
 )
 _DRAGLESS = "a drag does not act during a contact that is followed in time; tyres in its place do"
 _UNDESCRIBED = (

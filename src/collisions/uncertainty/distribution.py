@@ -130,6 +130,9 @@ class Distribution(Statement):
         Lowest and highest value.
     unit : str
         SI unit of these numbers, such as "m/s"; "" when none was given.
+    source : str
+        What the mean of a ``Normal`` was worked out from, such as the dents measured by
+        ``reconstruct.crush_energy``; "" where that is not known.
     """
 
     __slots__ = ("kurtosis", "mean", "sd", "skewness", "support")

@@ -14,12 +14,14 @@ from typing import Any, Protocol, TypeAlias
 import numpy as np
 
 from ..kernels.elementwise import UNCHECKED
-from ..messages.errors import CollisionsError, InputError, ShapeError, UnitsError, reworded
+from ..messages.errors import CollisionsError, InputError, ShapeError, UnitsError, placed, reworded
+from ..messages.marked import as_code
 from ..messages.warning import Noted, quietly
 from ..quantities.reading import ArgumentReader
-from ..quantities.settings import in_si
-from ..quantities.units import is_quantity, shown, si_unit
+from ..quantities.settings import in_si, units_required
+from ..quantities.units import example, is_quantity, shown, si_unit
 from . import turns
+from .distribution import GivenUnit
 from .distributions import Distribution, Interval
 from .one_sided import Answers, OneSided
 
@@ -206,7 +208,48 @@ def function_of(model: Any, names: Iterable[str], outputs: Any, argument: str) -
             code="bad_outputs",
             argument="outputs",
         )
-    return model.as_model(list(names), list(outputs))
+    try:
+        return model.as_model(list(names), list(outputs))
+    except InputError as error:
+        # What is an output to the model is something else to its caller.
+        if error.argument != "outputs":
+            raise
+        text = error.marked.replace("outputs", argument, 1)
+        raise placed(reworded(error, text), "", argument=argument) from None
+
+
+def units_taken(model: Any) -> Mapping[str, str]:
+    """The SI units of the inputs of a model that says them, as that of a ``Scene`` does."""
+    found: Mapping[str, str] = getattr(getattr(model, "function", model), "units_of_inputs", {})
+    return found
+
+
+def check_units(function: Any, units: Mapping[str, str | None], argument: str) -> None:
+    """Refuse inputs stated in a unit of another kind than the model takes, where it says what it
+    takes; it is called with plain numbers, which would hide that.
+    """
+    taken = units_taken(function)
+    reader = ArgumentReader()
+    for name, unit in units.items():
+        wanted = taken.get(name)
+        label = f"{argument}[{name!r}]"
+        if wanted is None or unit is None or unit == wanted:
+            continue
+        if unit:
+            written = unit.written if isinstance(unit, GivenUnit) else unit
+            what = "is of another kind" if wanted else "is a plain number"
+            text = (
+                f"{as_code(label)} is stated in {written}, and {name} {what}; write numbers such "
+                f"as {example(wanted)}"
+            )
+            reader.refuse(UnitsError(text, code="bad_units", argument=label))
+        elif units_required.get():
+            text = (
+                f"{as_code(label)} has no unit, and options(require_units=True) asks for one; "
+                f"write numbers such as {example(wanted)}"
+            )
+            reader.refuse(UnitsError(text, code="bad_units", argument=label))
+    reader.close()
 
 
 def count_failed(answers: Mapping[str, Any]) -> int:

@@ -20,11 +20,11 @@ from ..messages.progress import reporter
 from ..messages.warning import Note, notes_of_samples, warn_of
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
-from ..quantities.units import rendered, shown
+from ..quantities.units import has_unit, rendered, shown
 from .correction import Corrected, CorrectedOutput, corrected
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
-from .distribution import Statement
+from .distribution import GivenUnit, Statement
 from .distributions import Distribution, Interval
 from .finer import FinerModel
 from .halved import Halved, widths_if_halved
@@ -33,10 +33,12 @@ from .model import (
     AnyModel,
     Model,
     check_names,
+    check_units,
     count_failed,
     function_of,
     pair_hints,
     read_input,
+    units_taken,
 )
 from .one_sided import Answers
 from .one_sided_output import OneSidedOutput, one_sided_notes
@@ -207,6 +209,8 @@ def propagate(
     stated = _read_inputs(inputs)
     wanted = _read_finer(finer, finer_samples, stated, method, tolerance)
     model = function_of(model, stated, outputs, "outputs")
+    if units_taken(model):
+        check_units(model, _units_stated(inputs, stated), "inputs")
     finer = None if finer is None else function_of(finer, stated, outputs, "finer")
     if method is None:
         kinds = {type(value) for value in stated.values() if isinstance(value, Statement)}
@@ -472,6 +476,20 @@ def _read_inputs(inputs: Any) -> dict[str, Any]:
             got=type_of(inputs),
         )
     return {name: read_input(name, value) for name, value in inputs.items()}
+
+
+def _units_stated(inputs: Mapping[str, Any], stated: Mapping[str, Any]) -> dict[str, str | None]:
+    """The unit that each input was stated in; None of what is no quantity."""
+    units: dict[str, str | None] = {}
+    for name, value in stated.items():
+        given = inputs[name]
+        if isinstance(value, Statement):
+            units[name] = value.unit
+        elif has_unit(given):
+            units[name] = GivenUnit.of(given, name)
+        else:
+            units[name] = "" if isinstance(value, float) else None
+    return units
 
 
 def _read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[str, float]:
