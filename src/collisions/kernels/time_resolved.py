@@ -35,7 +35,8 @@ from .tyre import Tyres
 _CORRECTIONS, _NEAR, _NEAREST = 20, 3e-3, 1e-2
 # Before that it is corrected with these parts of the steps; with fewer a contact is not followed.
 _PARTS, _FEWEST = (0.05, 0.1, 0.2), 5
-# How near it has to come with each of these parts, and how often it is corrected until then.
+# How near it has to come with each of these parts of 100 steps or more, and how often it is
+# corrected until then. Of fewer steps a part is a larger one, and so is what is near enough.
 _ROUGHLY, _ROUGH_CORRECTIONS = 0.3, 12
 # With this part of the steps it is found how the end changes with the start, where that has to move
 # by no more than so many times what is near enough: the change is found to a few hundredths.
@@ -468,7 +469,7 @@ class _Search:
                 _, _, _, reached = self.follow(part, self.guess, far)
                 off = _minus(reached, self.guess)
                 self.guess = _chosen(far, self.next_guess(far, reached, off), self.guess)
-                far = far & ((_size(off) <= _ROUGHLY) ^ True)
+                far = far & ((_size(off) <= _ROUGHLY * self.fewest**2) ^ True)
                 if not np.any(far):
                     break
             near = near & (far ^ True)
