@@ -541,7 +541,8 @@ def _size(parts: list[Any]) -> Any:
 
 def _chosen(some: Any, new: list[Any], old: list[Any]) -> list[Any]:
     """The new values of some cases, and the old ones of the others."""
-    return [select(some, *pair) for pair in zip(new, old, strict=True)]
+    # A single case has no others.
+    return new if some is True else [select(some, *pair) for pair in zip(new, old, strict=True)]
 
 
 def settled(contact: Contact, moving: Moving, settings: Settings) -> Moving:
@@ -593,6 +594,8 @@ def _energy(bodies: tuple[Body, ...], motions: tuple[Motion, ...]) -> Any:
 
 def _where(some: Any, new: Any, old: Any) -> Any:
     """The new parts of some cases, and the old ones of the others."""
+    if some is True:
+        return new
     if isinstance(new, tuple):
         parts = (_where(some, *pair) for pair in zip(new, old, strict=True))
         return type(new)(*parts) if hasattr(new, "_fields") else tuple(parts)
