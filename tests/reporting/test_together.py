@@ -104,7 +104,7 @@ def test_notes_can_be_by_paths_of_the_scene(found, run):
     notes = {"Rover.mass": "Weighed", "Seat.rest.x": "Police", "the speed": "As the road allows"}
     page = col.report([found, run], form="markdown", notes=notes)
     assert re.search(r"\| A \(Rover\) \| mass \| .*\. Weighed \|", page)
-    assert re.search(r"\| Seat.rest.x \| .* \| Police \|", page)
+    assert re.search(r"\| position x of Seat at rest \| .* \| Police \|", page)
     with pytest.raises(col.InputError, match=r"notes has 'Rover\.mas', which is no input"):
         col.report([found, run], notes={"Rover.mas": "Weighed"})
 
@@ -197,3 +197,16 @@ def test_a_speed_with_its_course_marks_both_parts_of_the_velocity():
     for along in "xy":
         assert re.search(rf"\| velocity along {along} \| [\d.]+ mph, mean of part 1 \|", page)
     assert re.search(r"normal, direction from A into B \| -?[\d.]+°, mean of part 1 \|", page)
+
+
+def test_unknowns_and_readings_of_the_scene_stand_in_words(found, run):
+    """No path of the scene is left above the record; a name of the reader's own stays."""
+    page = col.report([found, run], form="markdown", title="Seat belt")
+    said = page[: page.index("## Record")]
+    assert not re.search(r"contacts|impacts|\.rest|\.vx", said)
+    assert "| restitution of the contact of Rover and Seat | 0 to 0.3, all values" in said
+    assert "| position x of Seat at rest | 15.3 ft | 1 ft |" in said
+    assert "| the speed | 10 to 60 mph, all values" in said
+    # Without the run nobody can say what a path is of.
+    alone = col.report(found, form="markdown")
+    assert "Seat.rest.x" in alone

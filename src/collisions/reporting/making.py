@@ -204,7 +204,7 @@ def report(
         for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units", *EVIDENCE)
     }
     parts = [
-        _part(one, its, looked_at, system, own)
+        _part(one, its, looked_at, system, own, together)
         for (one, its), own in zip(results, owns, strict=True)
     ]
     sheet.title(plain(title or _title_of_page(results, together)))
@@ -301,8 +301,10 @@ def _part(
     looked_at: Mapping[str, Any],
     system: UnitSystem,
     own: _Own | None,
+    together: Together | None,
 ) -> _Part:
     findings = None
+    words = together.words() if together is not None and result is together.found else None
     if own is not None:
         outlines = own.together.outlines_of(own.number)
         looked_at = dict(looked_at) | {f"outline_{one}": its for one, its in outlines.items()}
@@ -312,7 +314,8 @@ def _part(
             findings = diagnose(result, **looked_at)
     readable = _readable(result) if isinstance(result, Impact) else result
     units = None if cells(None, given_texts(result)).name == system else system
-    return _Part(result, readable, uncertainty, Spread(result, uncertainty), findings, units, own)
+    spread = Spread(result, uncertainty, words)
+    return _Part(result, readable, uncertainty, spread, findings, units, own)
 
 
 def _answers(sheet: Sheet, parts: Sequence[_Part], options: Mapping[str, Any], draws: bool) -> None:
@@ -445,7 +448,7 @@ def _body(
     elif isinstance(result, Fit):
         fit(sheet, result, found.by_input)
     else:
-        posterior(sheet, result, options["answers"], found.by_input)
+        posterior(sheet, result, options["answers"], found.by_input, spread.named)
     if uncertainty is not None:
         spread.write(sheet, uncertainty)
         if spread.ranges:

@@ -4,7 +4,7 @@ its computed value, and, folded, all that this rests on.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from ..estimate.worked_out import in_words
 from ..quantities.formatting import KIND_OF, number_with_unit, rounded, typeset
@@ -34,30 +34,33 @@ def posterior(
     found: Posterior,
     answers: Sequence[str] | None = None,
     notes: Mapping[str, str] | None = None,
+    named: Callable[[str], str] = plain,
 ) -> None:
-    """Write what was found, the evidence, and what both rest on."""
+    """Write what was found, the evidence, and what both rest on; ``named`` gives the words for a
+    name.
+    """
     said = notes or {}
-    sheet.listed([plain(as_sentence(sentence)) for sentence in found.statements])
+    sheet.listed([plain(as_sentence(_said(one, found, named))) for one in found.statements])
     asked = answers_of(found, answers)
     sheet.heading("Found")
     numbers = cells(sheet.system.name)
-    sheet.columns(outputs_part({name: found[name] for name in asked}, numbers))
+    sheet.columns(outputs_part({named(name): found[name] for name in asked}, numbers))
     if found.results_from:
         sheet.heading("How it was worked out")
         sheet.columns(
             Part(
-                [(plain(name), plain(in_words(text))) for name, text in found.results_from.items()],
+                [(named(name), plain(in_words(text))) for name, text in found.results_from.items()],
                 columns=("how",),
             )
         )
     sheet.heading("Evidence")
-    sheet.columns(_readings(sheet, found, said))
+    sheet.columns(_readings(sheet, found, said, named))
     sheet.say(
         "Computed is the mean over all that the evidence leaves; off by is the reading less that, "
         "and in brackets that in stated errors."
     )
     sources = [
-        (plain(name), plain(typeset(source)))
+        (named(name), plain(typeset(source)))
         for name, one in found.observed.items()
         for source in filter(None, one.source.split("; "))
     ]
@@ -66,13 +69,13 @@ def posterior(
     rest = [name for name in found._outputs if name not in asked and name not in found.observed]
     if rest:
         sheet.fold("Also found:")
-        sheet.columns(outputs_part({name: found[name] for name in rest}, numbers))
+        sheet.columns(outputs_part({named(name): found[name] for name in rest}, numbers))
         sheet.unfold()
     sheet.fold("What was stated before the evidence, and how well that predicts it:")
     sheet.columns(
         Part(
             [
-                (plain(name), _with(plain(_stated(sheet, one, unit)), said.get(name)))
+                (named(name), _with(plain(_stated(sheet, one, unit)), said.get(name)))
                 for name, one in found.priors.items()
                 for unit in [found.unknowns[name].unit or ""]
             ],
@@ -88,7 +91,19 @@ def posterior(
     sheet.say(f"Given the evidence and the priors ({found.samples} samples), seed {found.seed}.")
 
 
-def _readings(sheet: Sheet, found: Posterior, notes: Mapping[str, str]) -> Part:
+def _said(sentence: str, found: Posterior, named: Callable[[str], str]) -> str:
+    """A sentence with words in place of names; the longest names first, as one may begin
+    another.
+    """
+    for name in sorted((*found.unknowns, *found.observed), key=len, reverse=True):
+        if named(name) != plain(name):
+            sentence = sentence.replace(name, named(name))
+    return sentence
+
+
+def _readings(
+    sheet: Sheet, found: Posterior, notes: Mapping[str, str], named: Callable[[str], str]
+) -> Part:
     """Each reading beside what is computed for it."""
     rows: list[tuple[str, ...]] = []
     for name, one in found.observed.items():
@@ -99,7 +114,7 @@ def _readings(sheet: Sheet, found: Posterior, notes: Mapping[str, str]) -> Part:
         off = f"+{off}" if residual.residual > 0.0 else off
         off += f" ({rounded(residual.over_sigma, 2)})" if residual.sigma else ""
         computed = _number(sheet, residual.computed, residual.unit, spread)
-        rows.append((plain(name), reading, error, computed, off, plain(notes.get(name, ""))))
+        rows.append((named(name), reading, error, computed, off, plain(notes.get(name, ""))))
     heads = ("reading", "stated error", "computed", "off by", "where it is from")
     if any(row[-1] for row in rows):
         return Part(rows, columns=heads)

@@ -24,6 +24,7 @@ from ..scene.names import results_of, unit_of_result
 from ..scene.one_run import need_one_run
 from ..scene.run import Run
 from ..uncertainty.distributions import Normal
+from .scene_words import input_in_words, result_in_words
 
 # What the samples are asked of each impact: the result, and whose it is.
 _RANGED = {
@@ -57,6 +58,22 @@ class Together(NamedTuple):
     def samples(self) -> int:
         """How many samples there are; none of a fit."""
         return self.found.samples if isinstance(self.found, Posterior) else 0
+
+    def words(self) -> dict[str, str]:
+        """The unknowns and the readings in words, by the paths of the scene that they have."""
+        found, scene = self.found, self.run.scene
+        read = found.observed if isinstance(found, Posterior) else {}
+        inputs, results = scene.inputs(), results_of(scene, len(self.run.impacts))
+        words = {
+            name: input_in_words(scene, name)
+            for name in found.found
+            if name in inputs and name not in scene.shared
+        }
+        return words | {
+            name: result_in_words(self.run, name)
+            for name in read
+            if name not in inputs and (name in results or ".marks." in name)
+        }
 
     def marks(self) -> dict[str, str]:
         """By path, which numbers of the scene were found."""

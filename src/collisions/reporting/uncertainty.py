@@ -33,13 +33,18 @@ _UNITLESS = {
 
 
 class Spread:
-    """The outputs of a propagation that are results of the report, by the name of the result."""
+    """The outputs of a propagation that are results of the report, by the name of the result.
+
+    ``words`` are those for the names of a posterior or fit whose scene is known.
+    """
 
     def __init__(
         self,
         impact: Impact | MomentumSolution | Fit | Posterior | Run,
         uncertainty: Propagation | None,
+        words: Mapping[str, str] | None = None,
     ) -> None:
+        self.words = words or {}
         self.impact, self.names, self.propagation = impact, Names(impact), uncertainty
         self.kinds = {} if isinstance(impact, Run) else kinds_of_answers(impact)
         self.outputs, self.deviations, self.ranges = (
@@ -48,6 +53,10 @@ class Spread:
             else spread_of(impact, uncertainty)
         )
 
+    def named(self, name: str) -> str:
+        """An unknown, an output or a reading in words, or by its name where there are none."""
+        return plain(self.words.get(name, name))
+
     def heading(self, output: Output) -> str:
         """The result in words, such as "Golf: delta-V"; of any other output its name."""
         if isinstance(self.impact, Run):
@@ -55,7 +64,7 @@ class Spread:
         words = words_of_answers(self.impact)
         return next(
             (self.names(words[name]) for name, answer in self.outputs.items() if answer is output),
-            plain(output.name),
+            self.named(output.name),
         )
 
     def kind_of(self, output: Output) -> str | None:
