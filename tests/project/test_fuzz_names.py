@@ -735,7 +735,7 @@ def read_back(case: Case, impact: Any, page: Any) -> None:
 MASSES = ("mass_a", "mass_b")
 
 
-def solved(case: Case, name: str, *args: Any, **keywords: Any) -> Any:
+def solved(case: Case, name: str, /, *args: Any, **keywords: Any) -> Any:
     """The answer of a reverse solver, or its refusal, with the answers it has all the same."""
     found = case.call(
         f"reconstruct.{name}", getattr(reconstruct, name), *args, **case.spoil(keywords)
@@ -892,6 +892,7 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         case.value("stiffness_a"),
         case.value("stiffness_b"),
         force_angle=case.option(0.0, case.value("angle")),
+        name=case.option("", "front", case.text()),
     )
     assert not isinstance(found, float) or found >= 0.0
     share = solved(case, "crush_share", case.value("stiffness_a"), case.value("stiffness_b"))
@@ -1295,7 +1296,8 @@ def known_posterior(mean: float = 4.0) -> reconstruct.Posterior:
 @fuzzes(
     "reconstruct.posterior", "reconstruct.Posterior", "reconstruct.compare",
     "reconstruct.Comparison", "uncertainty.Censored",
-    *(f"reconstruct.Posterior.{name}" for name in ("inputs", "probability", "to_dict")),
+    *(f"reconstruct.Posterior.{name}" for name in (
+        "inputs", "probability", "to_dict", "with_result")),
     "reconstruct.Comparison.to_dict", "reconstruct.Posterior.summary",
     "reconstruct.Comparison.summary", "PosteriorOutput.summary",
     *(f"PosteriorOutput{name}" for name in ("", ".record", ".histogram", ".probability",
@@ -1331,6 +1333,16 @@ def test_posterior(case: Case) -> None:
         assert len(case.must("PosteriorOutput.turned", output.turned, 1.0).values) == found.samples
     if not isinstance(inputs := case.call("reconstruct.Posterior.inputs", found.inputs), Exception):
         assert list(inputs) == list(found)
+    more = case.call(
+        "reconstruct.Posterior.with_result",
+        found.with_result,
+        case.option("worked out", "x", case.garbage()),
+        case.option(lambda value: 2.0 * value, np.sum, case.garbage()),
+        case.option("m/s", None, case.text()),
+        value=case.option(found["x"], 3.0, uncertainty.Normal(1.0, 0.1), case.garbage()),
+    )
+    if isinstance(more, reconstruct.Posterior):
+        assert json.dumps(more.to_dict(), allow_nan=False)
     condition = case.option(
         lambda at: at["x"] > case.uniform(0.0, 10.0), lambda at: at["x"], case.garbage()
     )

@@ -41,7 +41,7 @@ def worked_out(
             code="bad_name",
             argument="name",
         )
-    if unit is not None and unit not in KIND_OF:
+    if unit is not None and not (isinstance(unit, str) and unit in KIND_OF):
         raise _bad_unit(unit)
     drawn = {key: one for key, one in arguments.items() if isinstance(one, Distribution)}
     sampled = {key: one for key, one in arguments.items() if isinstance(one, Sampled)}

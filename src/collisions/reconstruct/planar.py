@@ -474,12 +474,15 @@ def _around(inputs: Inputs, motion: Sequence[Any], label: str, shifts: Any) -> l
     tyres, body = inputs.tyres.get(label), getattr(inputs, label)
     vx, vy, spin = (np.asarray(part, dtype=np.float64) for part in motion)
     aside, turn = (share.reshape(-1, *[1] * vx.ndim) for share in shifts.T)
-    if tyres is None:
+    if tyres is None or body.heading is None:
         return [np.broadcast_to(part, (len(shifts) + 1, *part.shape)) for part in (vx, vy, spin)]
     cos, sin = np.cos(body.heading), np.sin(body.heading)
     ahead = vx * cos + vy * sin
     most = GRAVITY * tyres.friction * inputs.duration
-    turning = most * 0.5 * tyres.wheelbase * (body.mass / body.yaw_inertia)
+    with np.errstate(all="ignore"):
+        turning = most * 0.5 * tyres.wheelbase * np.divide(body.mass, body.yaw_inertia)
+    # Tyres do not turn what has no yaw inertia to speak of, or no end of it.
+    turning = np.where(np.isfinite(turning), turning, 0.0)
     side = aside * most
     around = vx - side * sin, vy + side * cos, spin + turn * turning
     straight = ahead * cos, ahead * sin, 0.0 * spin

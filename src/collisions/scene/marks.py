@@ -340,12 +340,15 @@ def _to_line(line: _Line, x: float, y: float) -> tuple[Any, Any]:
     and the distance, positive to the left.
     """
     px, py = x - line.x, y - line.y
-    length = line.along * line.along + line.across * line.across
-    share = (px * line.along + py * line.across) / np.where(length > 0.0, length, 1.0)
-    share = np.clip(share, 0.0, 1.0)
-    square = (px - share * line.along) ** 2 + (py - share * line.across) ** 2
+    # Places so far away that a square leaves the range of floats are at no distance.
+    with np.errstate(over="ignore", invalid="ignore"):
+        length = line.along * line.along + line.across * line.across
+        share = (px * line.along + py * line.across) / np.where(length > 0.0, length, 1.0)
+        share = np.clip(share, 0.0, 1.0)
+        square = (px - share * line.along) ** 2 + (py - share * line.across) ** 2
     square = np.where(np.isnan(square), np.inf, square)
     nearest = square.argmin(axis=0)[None]
     least = np.take_along_axis(square, nearest, axis=0)[0]
-    left = np.take_along_axis(line.along * py - line.across * px, nearest, axis=0)[0]
+    with np.errstate(over="ignore", invalid="ignore"):
+        left = np.take_along_axis(line.along * py - line.across * px, nearest, axis=0)[0]
     return least, np.where(left < 0.0, -1.0, 1.0) * np.sqrt(least)

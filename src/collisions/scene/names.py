@@ -125,7 +125,9 @@ def _meant(scene: Scene, path: Any) -> str:
 
 def _meant_result(scene: Scene, path: Any) -> str:
     """What to write in place of a result that goes by another name."""
-    text = path if isinstance(path, str) else ""
+    if not isinstance(path, str):
+        return ""
+    text = path
     mover, _, rest = text.partition(".")
     sides = [
         (k, side)
