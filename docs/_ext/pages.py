@@ -15,6 +15,6 @@ def names_of(page: str, *, until: str) -> dict[str, Any]:
     text = text[: text.index(f"\n## {until}\n")]
     names: dict[str, Any] = {}
     for code in re.findall(r"^```\{code-cell\}[^\n]*\n(.*?)^```", text, re.DOTALL | re.MULTILINE):
-        if not code.startswith(":tags: [remove-cell]"):
+        if not code.startswith(":tags: [remove-"):
             exec(compile(code, f"{page}.md", "exec"), names)
     return names
