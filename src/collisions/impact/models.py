@@ -98,24 +98,26 @@ class Model:
         """What was given that the model does not take, so that it cannot stand for the impact; a
         pivot is named "pivot".
         """
-        pivots = (inputs.a.pivot, inputs.b.pivot)
-        pinned = self.name not in PINNED and pivots != (None, None)
-        return ["pivot"] * pinned + [
+        names, pinned = _not_taken(self.name, self.without), self.name in PINNED
+        if pinned and not names:
+            # The model that takes everything, which every single case asks.
+            return []
+        rule = inputs.rule
+        found = [
             name
-            for name in _not_taken(self)
-            if name == inputs.rule or _is_given(getattr(inputs, name, None))
+            for name in names
+            if name == rule
+            or ((value := getattr(inputs, name, None)) is not None and value is not False)
         ]
+        turns = inputs.a.pivot is not None or inputs.b.pivot is not None
+        return found if pinned or not turns else ["pivot", *found]
 
 
 @cache
-def _not_taken(model: Model) -> tuple[str, ...]:
-    """The arguments of ``solve`` that the model neither takes nor may be left without."""
-    allowed = {*ARGUMENTS[model.name], *model.without}
+def _not_taken(name: str, without: frozenset[str]) -> tuple[str, ...]:
+    """The arguments of ``solve`` that a model neither takes nor may be left without."""
+    allowed = {*ARGUMENTS[name], *without}
     return tuple(name for name in ARGUMENTS["solve"] if name not in allowed)
-
-
-def _is_given(value: Any) -> bool:
-    return value is not None and value is not False
 
 
 def _taken(takes: Any, parts: Any) -> Any:
