@@ -19,8 +19,8 @@ from ..messages.warning import warn
 from ..quantities.directions import Angle
 from ..quantities.reading import ArgumentReader, amount, largest, warn_if_large
 from ..quantities.refusals import must_be
+from ..quantities.sourced import Sourced, as_given
 from ..quantities.units import Input, Value, has_unit, is_quantity, shown
-from ..quantities.worked_out import WorkedOut, as_given
 from .common import ASK_ALONE, Cases, input_faults, read_masses
 
 _RIGHT_ANGLE = 2.0**-52  # the cosine of 90 degrees in radians is not exactly 0
@@ -169,7 +169,7 @@ def crush_energy(
         ]
     found = _answers(cases, faults, energy)[0]
     if isinstance(found, float):
-        found = cast("Value", WorkedOut(found, _source(name, stated)))
+        found = cast("Value", Sourced(found, _source(name, stated)))
     return found
 
 

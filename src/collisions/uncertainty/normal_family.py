@@ -20,8 +20,8 @@ from ..messages.hints import hinted
 from ..quantities.formatting import typeset
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import must_be
+from ..quantities.sourced import source_of
 from ..quantities.units import Input
-from ..quantities.worked_out import source_of
 from .distribution import Distribution, check_order, from_numbers, read_alike, show
 from .normal import cdf, density, power_of_two, quantile, score_of_coverage, survival
 

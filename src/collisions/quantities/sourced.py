@@ -1,4 +1,4 @@
-"""``WorkedOut``: a number that says what it was worked out from, so that a report can."""
+"""``Sourced``: a number that says what it was worked out from, so that a report can."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 from .units import has_unit, is_quantity, unit_as_written
 
 
-class WorkedOut(float):
+class Sourced(float):
     """A float that has with it, in ``source``, what it was worked out from.
 
     It is a float in everything, and what is worked out from it is one too; but the sum of two such
@@ -19,17 +19,17 @@ class WorkedOut(float):
 
     source: str
 
-    def __new__(cls, value: float, source: str = "") -> WorkedOut:
+    def __new__(cls, value: float, source: str = "") -> Sourced:
         made = super().__new__(cls, value)
         made.source = source
         return made
 
     def __add__(self, other: Any) -> Any:
         total = float.__add__(self, other)
-        if isinstance(other, WorkedOut):
-            return WorkedOut(total, f"{self.source}; {other.source}")
+        if isinstance(other, Sourced):
+            return Sourced(total, f"{self.source}; {other.source}")
         zero = isinstance(other, (int, float)) and other == 0
-        return WorkedOut(total, self.source) if zero else total
+        return Sourced(total, self.source) if zero else total
 
     __radd__ = __add__
 
@@ -37,7 +37,7 @@ class WorkedOut(float):
 def source_of(given: Any) -> str:
     """What a number, or that of a Quantity, was worked out from; "" where it does not say."""
     number = given.magnitude if is_quantity(given) else given
-    return number.source if isinstance(number, WorkedOut) else ""
+    return number.source if isinstance(number, Sourced) else ""
 
 
 def as_given(given: Any, number: float, unit: str) -> str:
