@@ -340,7 +340,7 @@ def _to_line(line: _Line, x: float, y: float) -> tuple[Any, Any]:
     and the distance, positive to the left.
     """
     px, py = x - line.x, y - line.y
-    # Places so far away that a square leaves the range of floats are at no distance.
+    # A place so far away that a square leaves the range of floats is nearest to nothing.
     with np.errstate(over="ignore", invalid="ignore"):
         length = line.along * line.along + line.across * line.across
         share = (px * line.along + py * line.across) / np.where(length > 0.0, length, 1.0)
