@@ -210,3 +210,13 @@ def test_unknowns_and_readings_of_the_scene_stand_in_words(found, run):
     # Without the run nobody can say what a path is of.
     alone = col.report(found, form="markdown")
     assert "Seat.rest.x" in alone
+
+
+def test_what_an_instant_leaves_out_stands_beside_the_ranges(found, run):
+    """By the figures of ``left_out``, for the vehicle that it is more for."""
+    said = box(col.report([found, run], form="markdown"))
+    estimate = col.left_out(run.impacts[0], duration="0.1 s")
+    share = max(estimate.a.tyre_share, estimate.b.tyre_share)
+    what = "Impact 1 was found as an instant: of delta-V that leaves out about"
+    assert f"{what} {100.0 * share:.0f} percent for tyres" in said
+    assert "assumed, not given" in said

@@ -38,14 +38,21 @@ class Neglect(NamedTuple):
 
 
 def neglected(
-    impact: Impact, found: LeftOut | None = None, *, wheels: bool = False
+    impact: Impact,
+    found: LeftOut | None = None,
+    *,
+    wheels: bool = False,
+    of_scene: bool = False,
 ) -> Neglect | None:
     """What a reconstruction as an instant leaves out, as ``left_out`` estimates it, of the worse of
     both vehicles and in a batch in the median; None of an impact that was not reconstructed, or
-    that has tyres or a drag. ``wheels`` says that it was estimated with tyres, and not with a drag.
+    that has tyres or a drag. ``wheels`` says that it was estimated with tyres, and not with a drag,
+    ``of_scene`` that the impact is one of a scene whose numbers were found.
     """
     origin = impact.reconstruction
-    if origin is None or tyres_acted(impact) or np.all(impact.refused):
+    if tyres_acted(impact) or impact.pulse is not None or np.all(impact.refused):
+        return None
+    if origin is None and not of_scene:
         return None
     if found is None:
         try:
@@ -74,7 +81,9 @@ def neglected(
     if not parts:
         return None
     advice = "give `duration=` and `tyres_a=`, `tyres_b=`"
-    if origin.method not in TAKE_TYRES:
+    if of_scene:
+        advice = "give the contact `duration=` and its vehicles `tyres=`"
+    elif origin is not None and origin.method not in TAKE_TYRES:
         # Drags act against a motion from A towards B alone.
         states = impact.a.before, impact.a.after, impact.b.before, impact.b.after
         follows = all(np.nanmin(state.vx) >= 0.0 for state in states)

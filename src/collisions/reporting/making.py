@@ -19,6 +19,7 @@ from ..diagnostics import diagnose
 from ..diagnostics.finding import Findings, is_note
 from ..estimate.posterior_result import PosteriorOutput
 from ..impact.impact import Impact, with_vehicles
+from ..impact.instant import neglected
 from ..messages.errors import InputError
 from ..plot.canvas import who
 from ..quantities.document import Document
@@ -374,6 +375,13 @@ def _answer_together(
         )
     if any(not row.ranged for row in rows):
         sheet.say("No range is stated for the figures above that have only one number.")
+    # What the ranges do not have in them stands beside them.
+    for part, own in hits:
+        if (left := neglected(part.result, of_scene=True)) is not None:
+            what, _, _ = left.sentence.partition(";")
+            sheet.say(
+                plain(f"Impact {own.number + 1} was {what} (drag and duration assumed, not given).")
+            )
     judged = [one for part in parts for one in part.findings or ()]
     judged += [one for one in whole if one.impact is None]
     lines = [
