@@ -199,11 +199,11 @@ def choose(inputs: Inputs, threads: int = 1, progress: Any = None) -> tuple[Mode
     )
     missing = tuple(f"{label}.{name}" for label, name in missing_inputs(a, b))
     missing += () if inputs.point is not None else ("point",)
-    if nobody := FULL.beyond(inputs):
+    # Both central models take the same forces and bodies, and the eccentric one all that they do.
+    beyond = CANDIDATES[0].beyond(inputs)
+    if beyond and (nobody := FULL.beyond(inputs)):
         text = f"no model that solve chooses from takes {' and '.join(nobody)}; leave it out"
         raise InputError(text, code="bad_combination", argument=nobody[0])
-    # Both central models take the same forces and bodies.
-    beyond = CANDIDATES[0].beyond(inputs)
     which, *predicted = _predicted(inputs, missing, not beyond, shape, threads, progress)
     lacks = which == LACKING
     choice = ModelChoice(

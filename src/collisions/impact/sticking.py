@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ..kernels.contact_laws import FRICTION
@@ -18,10 +20,12 @@ def noted(impact: Impact) -> Impact:
     Outside a study ``diagnose`` finds it: there a single impact is often tried with and without.
     """
     inputs = impact.inputs
-    if not in_study() or inputs.rule != FRICTION:
+    bound = inputs.rule_value
+    # The first question is the cheapest one that settles nearly every single case.
+    if (type(bound) is float and bound < math.inf) or inputs.rule != FRICTION or not in_study():
         return impact
     movable = np.isfinite(inputs.a.mass) & np.isfinite(inputs.b.mass)
-    endless = np.isinf(inputs.rule_value) & movable & np.logical_not(impact.refused)
+    endless = np.isinf(bound) & movable & np.logical_not(impact.refused)
     if not np.any(endless):
         return impact
     least = INTER_VEHICLE_FRICTION.low
