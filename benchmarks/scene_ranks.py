@@ -5,10 +5,12 @@ Each scene is drawn from the priors, run, and read with the errors below: the pl
 rest, and with the route "recorder" also the delta-V along the first car. A posterior that is right
 has ranks that are spread evenly, and 95 percent ranges that hold 95 percent.
 
-    python benchmarks/scene_ranks.py RESULT.json [--scenes 200] [--samples 1024]
-        [--route recorder|rests]
+    python benchmarks/scene_ranks.py RESULT.json [--scenes 0:200] [--samples 1024]
+        [--route recorder|rests] [--join OTHER.json ...]
 
-A run that was ended goes on where it was: every scene is written as it is done, with its seed.
+A run that was ended goes on where it was: every scene is written as it is done, with its seed. A
+scene takes a minute or two, so several processes may take some of the numbers each, and one more
+call joins their files.
 """
 
 from __future__ import annotations
@@ -41,7 +43,6 @@ PRIORS: dict[str, Any] = {
     "contacts[0].restitution": Uniform(0.0, 0.3),
     "ground": Normal(0.7, 0.05, truncate=(0.4, 1.0)),
 }
-SPEEDS = ("A.speed", "B.speed")
 PLACES = {"x": PLACE_ERROR, "y": PLACE_ERROR, "heading": HEADING_ERROR}
 RESTS = {f"{name}.rest.{part}": PLACES[part] for name in "AB" for part in PLACES}
 RECORDED = {"impacts[0].a.delta_v_forward": DELTA_V_ERROR}
@@ -65,9 +66,7 @@ def crash() -> Scene:
 
 
 def one(number: int, samples: int, route: str) -> dict[str, Any]:
-    """One scene from the priors, read and reconstructed: ranks of the truth, from 0 to 1, and which
-    ranges hold.
-    """
+    """One scene from the priors, read and reconstructed: ranks of the truth, from 0 to 1."""
     rng = np.random.default_rng([SEED, number])
     errors = RESTS | (RECORDED if route == "recorder" else {})
     model, start = crash().as_model(list(PRIORS), list(errors)), time.process_time()
@@ -81,6 +80,7 @@ def one(number: int, samples: int, route: str) -> dict[str, Any]:
             read = model(**truth)
             break
         except col.CollisionsError:
+            # No scene: the cars miss each other, or roll on.
             continue
     observed = {
         name: Normal(float(read[name].magnitude) + error * rng.normal(), error)
@@ -92,42 +92,58 @@ def one(number: int, samples: int, route: str) -> dict[str, Any]:
         "scene": number,
         "truth": truth,
         "ranks": ranks,
-        "held": {name: 0.025 <= ranks[name] <= 0.975 for name in SPEEDS},
         "seconds": round(time.process_time() - start, 1),
     }
 
 
 def summed(rows: list[dict[str, Any]]) -> dict[str, Any]:
-    """By unknown, how many ranks are in each tenth; by speed, the share of ranges that hold."""
-    tenths = {
-        name: np.histogram([row["ranks"][name] for row in rows], 10, (0.0, 1.0))[0].tolist()
-        for name in PRIORS
-    }
-    held = {name: float(np.mean([row["held"][name] for row in rows])) for name in SPEEDS}
+    """By unknown, how many ranks are in each tenth, and how many 95 percent ranges hold."""
+    ranks = {name: [row["ranks"][name] for row in rows] for name in PRIORS}
+    tenths = {name: np.histogram(ranks[name], 10, (0.0, 1.0))[0].tolist() for name in PRIORS}
+    held = {name: sum(0.025 <= rank <= 0.975 for rank in ranks[name]) for name in PRIORS}
     return {"scenes": len(rows), "tenths": tenths, "held": held}
+
+
+def numbers(text: str) -> range:
+    """The numbers of scenes, as ``0:200``."""
+    first, _, last = text.rpartition(":")
+    return range(int(first or 0), int(last))
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("result", type=Path)
-    parser.add_argument("--scenes", type=int, default=200)
+    parser.add_argument("--scenes", type=numbers, default=range(200))
     parser.add_argument("--samples", type=int, default=1024)
     parser.add_argument("--route", choices=("recorder", "rests"), default="recorder")
+    parser.add_argument("--join", type=Path, nargs="*", default=[])
     given = parser.parse_args()
     settings = {"samples": given.samples, "route": given.route, "seed": SEED}
-    rows: list[dict[str, Any]] = []
-    if given.result.exists():
-        kept = json.loads(given.result.read_text())
-        if kept["settings"] != settings:
-            parser.error(f"{given.result} is of other settings: {kept['settings']}")
-        rows = kept["rows"]
+    rows: dict[int, dict[str, Any]] = {}
+
+    def write() -> None:
+        """All scenes so far, in order."""
+        whole = [rows[number] for number in sorted(rows)]
+        kept = {"settings": settings, "summary": summed(whole), "rows": whole}
+        given.result.write_text(json.dumps(kept, indent=1) + "\n")
+
+    for path in (given.result, *given.join):
+        if path.exists():
+            kept = json.loads(path.read_text())
+            if kept["settings"] != settings:
+                parser.error(f"{path} is of other settings: {kept['settings']}")
+            rows |= {row["scene"]: row for row in kept["rows"]}
+    if given.join:
+        write()
+        print(json.dumps(summed([rows[number] for number in sorted(rows)]), indent=1))
+        return
     warnings.simplefilter("ignore", col.CollisionsWarning)
-    for number in range(len(rows), given.scenes):
-        rows.append(one(number, given.samples, given.route))
-        whole = {"settings": settings, "summary": summed(rows), "rows": rows}
-        given.result.write_text(json.dumps(whole, indent=1) + "\n")
-        print(number, rows[-1]["held"], rows[-1]["seconds"], flush=True)
-    print(json.dumps(summed(rows), indent=1))
+    for number in given.scenes:
+        if number not in rows:
+            rows[number] = one(number, given.samples, given.route)
+            write()
+            print(number, rows[number]["ranks"], rows[number]["seconds"], flush=True)
+    print(json.dumps(summed([rows[number] for number in sorted(rows)]), indent=1))
 
 
 if __name__ == "__main__":

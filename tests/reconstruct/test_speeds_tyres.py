@@ -372,6 +372,68 @@ def test_no_speeds_of_a_forward_answer_are_missed(names):
         assert without  # Else nothing here needed more than the instant.
 
 
+def test_components_of_a_contact_that_stuck_may_have_several_answers_with_tyres():
+    """Three pairs of speeds have these components by ``eccentric``; the instant leads to the last
+    alone.
+    """
+    rear = (0.02, 0.88, 0.61, 0.57)
+    wheels = {
+        "tyres_a": Tyres(0.263, 1, 2.65, 1.59, steer=0.231),
+        "tyres_b": Tyres(0.866, rear, 2.45, 1.42, height=0.42),
+        "duration": 0.12,
+    }
+    a = col.Vehicle(mass=895, yaw_inertia=1236, x=-2.175, y=0.691, heading=2.556, vx=4.91, vy=5.91)
+    b = col.Vehicle(
+        mass=2143, yaw_inertia=3896, x=1.877, y=-0.893, heading=-2.985, vx=-14.61, vy=-7.75,
+        yaw_rate=-1.806,
+    )  # fmt: skip
+    contact = {"normal": 0.16, "point": (-0.013, 0.007), "friction": 0.9}
+    impact = col.eccentric(a, b, 0.373, **contact, **wheels)
+    assert impact.regime == "sticking"
+    known = {name: read(impact, name) for name in ("delta_v_forward_b", "delta_v_left_b")}
+    courses = {f"course_{v}": getattr(impact, v).before.course for v in "ab"}
+    given = {**known, **courses, **contact, **wheels, "restitution": 0.373}
+    found = reconstruct.speeds(a, b, **given, regime="sticking")
+    assert len(found) == 3
+    assert min(abs(one.a.before.speed - a.speed) for one in found) < 1e-5
+    for one in found:
+        again = col.eccentric(one.a.before, one.b.before, 0.373, **contact, **wheels)
+        assert {name: read(again, name) for name in known} == pytest.approx(known, rel=1e-8)
+    several = {name: np.array([value, value]) for name, value in known.items()}
+    batch = reconstruct.speeds(a, b, **{**given, **several}, regime="sticking")
+    for one, both in zip(found, batch, strict=True):
+        assert both.a.before.speed == pytest.approx(one.a.before.speed, rel=1e-9)
+
+
+def test_no_speeds_of_a_contact_that_stuck_are_missed():
+    """From both components of one vehicle."""
+    rng, met = random.Random(54), 0
+    while met < 25:
+        a, b, e, contact, wheels = drawn(rng, stuck=True)
+        try:
+            impact = col.eccentric(a, b, e, **contact, **wheels)
+        except (col.NoImpactError, col.NoSolutionError):
+            continue
+        if impact.normal_impulse < 3000.0 or impact.regime != "sticking":
+            continue
+        met += 1
+        label = rng.choice("ab")
+        names = (f"delta_v_forward_{label}", f"delta_v_left_{label}")
+        courses = {f"course_{v}": getattr(impact, v).before.course for v in "ab"}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.CollisionsWarning)
+            found = reconstruct.speeds(
+                a, b, restitution=e, regime="sticking", **contact, **wheels, **courses,
+                **{name: read(impact, name) for name in names},
+            )  # fmt: skip
+        off = [
+            abs(one.a.before.vx - a.vx) + abs(one.a.before.vy - a.vy)
+            + abs(one.b.before.vx - b.vx) + abs(one.b.before.vy - b.vy)
+            for one in found
+        ]  # fmt: skip
+        assert min(off) < 1e-4
+
+
 def test_speeds_that_no_instant_leads_to():
     """12 and 5 m/s have these values by ``eccentric``; an instant has none of them."""
     a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2, y=0.3, heading=0, vx=12.0)

@@ -357,6 +357,23 @@ def test_energy_closes_on_any_ground(slope: tuple[object, object], slowed: objec
         assert abs(closes) < share * energy["before"]
 
 
+@pytest.mark.parametrize("lasts", [{"model": "eccentric"}, {}], ids=["tyres", "in time"])
+def test_energy_closes_where_contacts_last(lasts: dict[str, str]) -> None:
+    """The ground takes nothing of its own while a contact lasts, and all of it from its end on."""
+    rolling = (Tyres(0.22, 0.02, 2.45, 1.42), Tyres(0.33, 0.02, 2.97, 1.33, steer=-0.2))
+    a = col.Vehicle(mass=1000, yaw_inertia=1700, x=-4.5, y=0.8, heading=0, vx=11.7)
+    b = col.Vehicle(mass=1200, yaw_inertia=2200, x=3.3, y=-0.6, heading=1.8, vx=-0.36, vy=1.6)
+    movers = {
+        "A": Mover(a, outline=(4.0, 1.7), tyres=rolling[0]),
+        "B": Mover(b, outline=(4.8, 1.8), tyres=rolling[1]),
+    }
+    contact = Contact("A", "B", restitution=0.03, friction=0.37, at="touch", duration=0.1, **lasts)
+    for tolerance, share in ((1e-5, 1e-3), (1e-6, 1e-5)):
+        energy = Scene(movers=movers, contacts=[contact]).run(tolerance=tolerance).energy
+        closes = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
+        assert abs(closes) < share * energy["before"]
+
+
 def test_cars_that_touch_as_the_scene_begins_collide_at_once() -> None:
     run = row([1000.0] * 2, [10.0, 0.0], [0.0], 0.5).run()
     assert run.times == (0.0,)

@@ -16,8 +16,8 @@ from .left_out import LeftOut, left_out
 
 # Of pairs of known values that are not the components of recorders.
 LOOKED_FOR = (
-    "answers are looked for from those of an instant without tyres and from a grid of other "
-    "speeds, and one that none of these leads to is missed"
+    "answers are looked for from those of an instant without tyres and, where two values are "
+    "known, from a grid of other speeds; one that none of these leads to is missed"
 )
 # Of motions before that ``planar`` finds with tyres.
 LOOKED_AROUND = (
@@ -115,9 +115,7 @@ def looked_for(impact: Impact) -> tuple[str, ...]:
         return ()
     if origin.method == "planar":
         return (f"found with tyres: {LOOKED_AROUND}",)
-    components = any("forward" in name or "left" in name for name in origin.known)
-    energy = any(name.startswith(("energy", "ees")) for name in origin.known)
-    return () if components and not energy else (f"found with tyres: {LOOKED_FOR}",)
+    return (f"found with tyres: {LOOKED_FOR}",)
 
 
 def _worst(one: Any, other: Any) -> float:

@@ -199,9 +199,9 @@ def speeds(
         The wheels that act on the ground meanwhile, as for ``eccentric``. A known delta-V has their
         part in it, which is taken to pass as that of the contact does where axes turn; known
         energies are those of the contact, and not taken together with a recorder, axes or
-        ``slid``. From other knowns than components, answers are looked for from those of an instant
-        without tyres and from a grid of other speeds: one that none of these leads to is missed, as
-        ``.statements`` say.
+        ``slid``. Answers are looked for from those of an instant without tyres and, where two
+        values are known that are no readings at a recorder's place, from a grid of other speeds:
+        one that none of these leads to is missed, as ``.statements`` say.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
@@ -452,9 +452,13 @@ def speeds(
             with quietly():
                 return speeds(**{**given, **changes})[0]
 
-        if inputs.tyres and not balanced:
+        if inputs.tyres:
             state_of_study(f"speeds with tyres: {LOOKED_FOR}", "looked_for")
-            found = _while_tyres_act(cases, scene, found, inputs, known, forward_only)
+            # A place of a recorder and its axes are in the balance alone.
+            if not balanced or (len(known) == 2 and recorders is None and slid is None):
+                found = _while_tyres_act(
+                    cases, scene, found, inputs, known, forward_only, regime, balanced
+                )
         if not times:
             state_instant("speeds")
         ways = Ways(again, turned)
@@ -1003,9 +1007,13 @@ def _while_tyres_act(
     inputs: Inputs,
     known: dict[str, Any],
     forward_only: bool,
+    regime: str | None,
+    balanced: bool,
 ) -> list[tuple[Root, Any]]:
     """The roots of a contact in which the tyres act, in order, and where each is: those to which
     the roots of the instant and other speeds lead.
+
+    Roots that are ``balanced`` have the impulse of the tyres already, of a contact that stuck.
     """
     directions = {
         label: (scene.numbers[f"course_{label}[0]"], scene.numbers[f"course_{label}[1]"])
@@ -1023,6 +1031,12 @@ def _while_tyres_act(
     answer = speeds_with_tyres(
         inputs, directions, (begins[0], begins[1]), known, (len(starts), *shape)
     )
+    fits = answer.settled
+    if balanced:
+        # Of the contacts that stick, where it is known that this one did.
+        fits = fits & answer.sticks
+        if regime is None:
+            fits = fits & np.any([there for _, there in found] or [False], axis=0)
     roots = []
     for i in range(len(starts)):
         instant = found[i][0] if i < len(found) else NO_ROOT
@@ -1033,7 +1047,7 @@ def _while_tyres_act(
                 answer.speed_b[i] / unit,
                 np.where(np.isfinite(answer.speed_a[i]), inputs.restitution, np.nan),
                 condition,
-                np.where(answer.settled[i], answer.closing[i] / unit, np.nan),
+                np.where(fits[i], answer.closing[i] / unit, np.nan),
             )
         )
     return _in_order(scene, roots, forward_only)

@@ -3,7 +3,7 @@
 
 From components of delta-V they are found as without tyres, with the impulse of the tyres in the
 balance. It follows from the speeds that are found, so they are found again with it until it changes
-no more. Other pairs are found by Newton's method from the instant and from other speeds.
+no more. All other pairs are found by Newton's method from those and from other speeds.
 """
 
 from __future__ import annotations
@@ -40,14 +40,15 @@ _PARTS = (0.1, 0.3, 0.6, 1.0, 1.5)
 
 
 class Found(NamedTuple):
-    """Speeds of A and B along their courses, where they have what was known, the closing speed, and
-    the condition, None where it is that of the instant.
+    """Speeds of A and B along their courses, where they have what was known, the closing speed,
+    where the contact sticks, and the condition, None where it is that of the instant.
     """
 
     speed_a: Any
     speed_b: Any
     settled: Any
     closing: Any
+    sticks: Any
     condition: Any
 
 
@@ -191,14 +192,14 @@ def speeds_with_tyres(
     if len(rows) == 2:
         values, settled = settle(inputs_at, start, sizes, off)
         slopes = slopes_at(inputs_at, values, sizes, off)
-        closing = _closing(inputs_at(values))
+        closing, sticks = _contact(inputs_at(values))
         weights = [
             _as_speed(name, value, known, inputs)
             for name, value in known.items()
             if name not in _STANDS_FOR_NONE
         ]
         condition = _condition(slopes, sizes, weights, closing)
-        return Found(values[0], values[1], settled, closing, condition)
+        return Found(values[0], values[1], settled, closing, sticks, condition)
 
     exact = [
         not name.startswith(("delta_v_forward", "delta_v_left"))
@@ -224,7 +225,7 @@ def speeds_with_tyres(
         return [*met, rest][:2]
 
     values, settled = settle(inputs_at, start, sizes, equations)
-    return Found(values[0], values[1], settled, _closing(inputs_at(values)), None)
+    return Found(values[0], values[1], settled, *_contact(inputs_at(values)), None)
 
 
 def other_starts(
@@ -235,7 +236,7 @@ def other_starts(
     The largest is one and a half times what all known values together stand for.
     """
     alone = [name for name in known if name not in _STANDS_FOR_NONE]
-    if len(alone) != 2 or any("forward" in name or "left" in name for name in alone):
+    if len(alone) != 2:
         return []
     # Of an energy its relative error counts half in the speed that it stands for.
     sizes = [
@@ -252,9 +253,11 @@ def other_starts(
     return [(one, other) for one in of_each[0] for other in of_each[1]]
 
 
-def _closing(inputs: Inputs) -> Any:
+def _contact(inputs: Inputs) -> tuple[Any, Any]:
+    """The closing speed, and whether the contact sticks."""
     with quietly(), np.errstate(all="ignore"):
-        return solve_inputs(ECCENTRIC, inputs, "nan").closing_speed
+        answer = solve_inputs(ECCENTRIC, inputs, "nan")
+    return answer.closing_speed, answer.sticks
 
 
 def _condition(

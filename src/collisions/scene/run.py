@@ -35,7 +35,7 @@ from .scene import Scene
 # Moments of a track between two contacts; odd, for Simpson's rule.
 _MOMENTS = 101
 # And for the work of the ground, whose power jumps where wheels come to edges.
-_FOR_WORK = 2001
+_FOR_WORK = 8001
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -598,15 +598,23 @@ class Run(Frozen, Summarized):
 
     def _ground_work(self, name: str) -> float:
         """What the ground takes from one vehicle on the whole way [J], by Simpson's rule."""
-        total = 0.0
-        for clock, state in self._states(name, _FOR_WORK):
-            if len(clock) < 3:
+        found, one, total = self._followed, np.zeros(1, dtype=int), 0.0
+        course = found.courses[name]
+        ends = {float(leg.start[0] + leg.hold[0]) for leg in course.settled()}
+        known = self._bounds()[:, 0].tolist()
+        # The power jumps where a contact ends that the vehicle was held in.
+        bounds = sorted({*known, *(end for end in ends if known[0] < end < known[-1])})
+        for begin, end in pairwise(bounds):
+            leg = course.leg_at(begin)
+            if begin < leg.start[0] + leg.hold[0]:
                 continue
-            power, _ = self._power(name, clock, state)
-            width = float(clock[1, 0] - clock[0, 0])
+            clock = np.linspace(begin, end, _FOR_WORK)
+            state = course.at(clock, np.broadcast_to(one, clock.shape))
+            state[:, -1:] = course.at(clock[-1:], one, before=True)
+            power, _ = self._power(name, clock[:, None], state[:, :, None])
             weights = np.ones(len(power))
             weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
-            total += width / 3.0 * float(weights @ power)
+            total += float(clock[1] - clock[0]) / 3.0 * float(weights @ power)
         return total
 
     def __repr__(self) -> str:

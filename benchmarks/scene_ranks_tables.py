@@ -1,0 +1,54 @@
+"""The table of the ranks of whole scenes on the page "Scenes", made of what ``scene_ranks.py``
+wrote.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from coverage_in_crashes import binomial
+from posterior import uniformity
+
+WRITTEN = Path(__file__).resolve().parents[1] / "docs" / "_generated" / "scene_ranks.json"
+_WORDS = {
+    "A.speed": "speed of A",
+    "B.speed": "speed of B",
+    "contacts[0].friction": "friction of the contact",
+    "contacts[0].restitution": "restitution",
+    "ground": "friction of the ground",
+}
+
+
+def load() -> dict[str, Any]:
+    """What was written."""
+    found: dict[str, Any] = json.loads(WRITTEN.read_text(encoding="utf-8"))
+    return found
+
+
+def setting(found: dict[str, Any]) -> str:
+    """How many scenes and samples."""
+    return (
+        f"So far {found['summary']['scenes']} scenes, with {found['settings']['samples']:,} "
+        "samples each."
+    )
+
+
+def table(found: dict[str, Any]) -> str:
+    """How often the ranges held, and how even the ranks are, by unknown."""
+    summary = found["summary"]
+    count = summary["scenes"]
+    lines = [
+        "| unknown | 95 % ranges that held | 99.8 % interval of that | ranks by tenths | chance |",
+        "|---|---:|---:|---|---:|",
+    ]
+    for name, words in _WORDS.items():
+        held = summary["held"][name]
+        low, high = binomial(held, count)
+        tenths = summary["tenths"][name]
+        lines.append(
+            f"| {words} | {100 * held / count:.1f} % | {100 * low:.1f} to {100 * high:.1f} % | "
+            f"{' '.join(map(str, tenths))} | {uniformity(tenths):.2f} |"
+        )
+    return "\n".join(lines)
