@@ -654,7 +654,7 @@ def _both(known: _Known, given: dict[str, Any], course: str) -> CollisionsError:
         for side in _SIDES:
             one = _solve(known._replace(side=side), given, None)
             # By itself each is the answer to the same with its own course stated.
-            stated = float(getattr(one, course))
+            stated: Any = float(getattr(one, course))
             solutions.append(
                 replace(one, given=given | {"course_near": stated}, course_near=stated)
             )
