@@ -17,7 +17,7 @@ from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note, letter_of
 from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
-from ..impact.instant import looked_for, neglected
+from ..impact.instant import found_with_tyres, neglected
 from ..impact.left_out import LeftOutVehicle, left_out
 from ..impact.models import BY_NAME
 from ..kernels.contact_laws import FRICTION, LAWS
@@ -487,7 +487,7 @@ def assumptions(
         neglect = None if found is None else neglected(impact, found)
         if neglect is not None:
             sheet.say(as_sentence(neglect.sentence))
-        for sentence in looked_for(impact):
+        for sentence in found_with_tyres(impact):
             sheet.say(as_sentence(sentence))
     sheet.heading("Assumptions")
     lines = [("Model:", BY_NAME[impact.model].assumptions)]
