@@ -943,6 +943,11 @@ WARNINGS = [
         "nearly_collinear", by_courses_apart, below=True),
     Warned("momenta that nearly cancel", 1.0 / math.tan(math.radians(5.0)), CONDITION,
         "momenta_cancel", nearly_cancelling),
+    Warned("course beside a speed, from a right angle", math.radians(10.0), CONDITION,
+        "nearly_across", lambda x: reconstruct.momentum(
+        1e3, 1e3, speed_a=10.0, course_b=0.0, course_near="135 deg", speed_a_after=0.0,
+        course_b_after="90 deg", speed_b_after=10.0 * math.cos(x)),
+        below=True),
     Warned("separation after, of rounding", 1e6, CONDITION, "ill_conditioned", separating_slowly),
     Warned("impulses of A and B", 0.1, CONDITION, "momentum_mismatch", unequal_impulses),
     Warned("slip after of a slide", 0.05, CONDITION, "nearly_sticking", nearly_stuck, below=True),

@@ -352,6 +352,7 @@ def test_what_is_answered_while_tyres_act_is_what_was(known):
     # An origin from which none of the starts comes near is missed, as the statement says.
     assert np.count_nonzero(off[answered] > 1e-6) <= 0.005 * np.count_nonzero(answered)
     assert "is missed" in found.statements[0]
+    assert "(medians)" in found.statements[1]
 
 
 def test_every_motion_that_ends_so_is_among_the_solutions():
@@ -387,3 +388,31 @@ def test_every_motion_that_ends_so_is_among_the_solutions():
     ]
     assert len(set(told)) == len(told) == len(several) - 1
     assert all(text in str(raised.value) for text in [*told, "of 0 rad/s (A) and 0 rad/s (B)"])
+
+
+def test_what_it_still_leaves_out_is_the_motion_that_the_contact_in_time_has():
+    """The share that it states, against the contact in time with moving and with fixed places."""
+    one = col.Vehicle(mass=1500, yaw_inertia=2600, vx=14.0, x=-2.0, y=0.4, heading=0.1)
+    other = col.Vehicle(mass=1200, yaw_inertia=1900, vy=6.0, x=2.0, y=0.0, heading=1.3)
+    contact = {"normal": 0.07, "point": (0.05, 0.09), "friction": 0.08}
+    rolling = col.travel.Tyres(0.7, 0.0, 2.7, 1.5)
+    times = {"duration": 0.1, "tyres_a": rolling, "tyres_b": rolling}
+    end = col.eccentric(one, other, 0.15, **contact, **times)
+    found = reconstruct.planar(end.a.after, end.b.after, restitution=0.15, **contact, **times)
+    moving, fixed = (
+        col.time_resolved(one, other, 0.15, **contact, duration=0.1, geometry=geometry)
+        for geometry in ("maximum_engagement", "fixed")
+    )
+    share = max(
+        np.hypot(
+            getattr(moving, label).delta_vx - getattr(fixed, label).delta_vx,
+            getattr(moving, label).delta_vy - getattr(fixed, label).delta_vy,
+        )
+        / getattr(end, label).delta_v
+        for label in "ab"
+    )
+    (said,) = [text for text in found.statements if "leaves out about" in text]
+    assert "0.1 s" in said
+    stated = float(said.partition("leaves out about ")[2].partition(" percent")[0])
+    assert stated == pytest.approx(100.0 * share, rel=0.5, abs=1.0)
+    assert "point and normal that move on" in str(col.report(found))

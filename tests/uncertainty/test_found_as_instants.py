@@ -91,6 +91,8 @@ def test_a_study_of_instants_says_so_once_and_warns_of_nothing(solve, mean):
         assert math.isfinite(found["speed"].mean)
         said = [one for one in found.statements if "as an instant" in one]
         assert len(said) == (0 if more else 1)
+        moving = [one for one in found.statements if "point and normal move on" in one]
+        assert len(moving) == (1 if more and solve in (by_speeds, by_planar) else 0)
         if said:
             assert said[0].startswith(f"{solve.__name__.removeprefix('by_')} found every case")
             assert "duration=" in said[0]

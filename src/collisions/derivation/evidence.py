@@ -10,9 +10,18 @@ from collections.abc import Iterator, Mapping
 from ..quantities.formatting import KIND_OF, in_words, percent
 from ..quantities.tables import as_sentence
 from ..reconstruct import Fit, MomentumSolution
-from ..reconstruct.momentum_tyres import left_as_one
+from ..reconstruct.momentum_tyres import left_as_one, what_is_sought
 from .contact import pdof
-from .expressions import ZERO, Direction, Expression, Function, magnitude, signed_total, total
+from .expressions import (
+    ZERO,
+    Direction,
+    Expression,
+    Function,
+    magnitude,
+    root,
+    signed_total,
+    total,
+)
 from .page import Page
 from .symbols import Symbol, delta_v
 from .wheels import tyre_inputs
@@ -85,12 +94,13 @@ def momentum_inputs(solution: MomentumSolution) -> Iterator[tuple[str, str, str,
     """The rows of given inputs: vehicle, description, argument, number and kind."""
     for label in "ab":
         yield label.upper(), "mass", f"mass_{label}", getattr(solution, f"mass_{label}"), "mass"
-    shared = "speed_a_after" in solution.unknowns and left_as_one(solution)
+    together = left_as_one(solution)
+    shared = "speed_a_after" in solution.unknowns and together
     for name in _SPEEDS:
         label, when = name[6].upper(), _when(name)
         course = name.replace("speed", "course")
         found = course in solution.unknowns or (
-            course == "course_b_after" and shared and "course_a_after" in solution.unknowns
+            course == "course_b_after" and together and "course_a_after" in solution.unknowns
         )
         if getattr(solution, course) is not None and not found:
             yield label, f"course {when}", course, getattr(solution, course), "angle"
@@ -100,6 +110,10 @@ def momentum_inputs(solution: MomentumSolution) -> Iterator[tuple[str, str, str,
         heading = getattr(solution, f"heading_{label}")
         if heading is not None:
             yield label.upper(), "heading", f"heading_{label}", heading, "angle"
+    if solution.course_near is not None:
+        (course,) = (name for name in solution.unknowns if name.startswith("course"))
+        what = f"course {_when(course)}, about, of two that may fit"
+        yield course[7].upper(), what, "course_near", solution.course_near, "angle"
     if solution.normal_angle is not None:
         yield "contact", "normal, direction from A into B", "normal", solution.normal_angle, "angle"
     for at, axis in enumerate("xy"):
@@ -160,16 +174,15 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
     page.heading("Given")
     page.table(rows)
     page.heading("Planar momentum")
-    whole = any(name.startswith("course") for name in solution.unknowns)
-    sought = (
-        "is one velocity, its speed and its course"
-        if whole
-        else "are the two speeds along their courses"
-    )
+    sought, solved = {
+        "speeds": ("are the two speeds along their courses", _two_speeds),
+        "velocity": ("is one velocity, its speed and its course", _whole_velocity),
+        "beside": ("are a speed along its course, and another course", _speed_and_course),
+    }[what_is_sought(solution)]
     page.say(f"{momentum_assumption(solution)} Unknown {sought}.")
     for axis, function in (("x", "cos"), ("y", "sin")):
         _balance(page, m, axis, function)
-    (_whole_velocity if whole else _two_speeds)(page, m)
+    solved(page, m)
     page.heading("Changes of velocity and energy")
     for label in "ab":
         _delta_v(page, m, label)
@@ -204,6 +217,51 @@ def _two_speeds(page: Page, m: _Momenta) -> None:
         "Condition, from the angle between both courses (1 at right angles)",
         condition,
         (1.0 + cosine) / sine,
+    )
+
+
+def _speed_and_course(page: Page, m: _Momenta) -> None:
+    """A course by the momentum across that of the unknown speed, and that speed by the momentum
+    along it; their condition.
+    """
+    name, sought = m.solution.unknowns
+    other = sought.replace("course", "speed")
+    axis, course = m.course[name], m.course[other]
+    of, when, speed = other[6].upper(), _when(other), m.speed[other]
+    page.say(
+        f"Counted across the course of {page.symbol(m.speed[name])}, the balance holds the course "
+        f"{page.symbol(course)} alone. Two fit, along with that course and against it; which of "
+        "them was taken was stated, or follows from the other being backwards along its course."
+        if m.solution.course_near is None
+        else f"Counted across the course of {page.symbol(m.speed[name])}, the balance holds the "
+        f"course {page.symbol(course)} alone. Two may fit, along with that course and against it; "
+        "the one nearer to what was stated is taken."
+    )
+    turn = course.value - axis.value
+    across = Symbol(f"v_{{{of}n}}", speed.value * math.sin(turn), "speed")
+    left, mass = _others(m, other, "sin", axis)
+    page.equation(f"Velocity of {of} {when} across {page.symbol(axis)}", across, left / mass)
+    along = Symbol(f"v_{{{of}t}}", speed.value * math.cos(turn), "speed")
+    page.equation(
+        f"Velocity of {of} {when} along {page.symbol(axis)}",
+        along,
+        signed_total([(math.cos(turn), root(speed.squared() - across.squared()))]),
+    )
+    c, s = Function("cos", axis), Function("sin", axis)
+    page.equation(
+        f"Course of {of} {when}", course, Direction(along * c - across * s, along * s + across * c)
+    )
+    left, mass = _others(m, name, "cos", axis)
+    page.equation(
+        f"Speed of {name[6].upper()} {_when(name)}, by the momentum along {page.symbol(axis)}",
+        m.speed[name],
+        left / mass,
+    )
+    cosine, sine = (Function("abs", Function(one, course - axis)) for one in ("cos", "sin"))
+    page.equation(
+        "Condition, from the angle between both courses (1 in line)",
+        Symbol(r"\kappa", m.solution.condition, "number"),
+        (1.0 + sine) / cosine,
     )
 
 
@@ -268,6 +326,22 @@ def _balance(page: Page, m: _Momenta, axis: str, function: str) -> None:
 
 def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
     """One of the two speeds, from momentum across the course of the other."""
+    when = _when(name)
+    found, mass = _others(m, name, "sin", across)
+    if found is ZERO:
+        page.fact(
+            f"Nothing else has momentum across it: {page.shown(m.speed[name])}.",
+            (m.speed[name], ZERO),
+        )
+        return
+    caption = f"Speed of {name[6].upper()} {when}, by the momentum across {page.symbol(across)}"
+    page.equation(caption, m.speed[name], found / (mass * Function("sin", m.course[name] - across)))
+
+
+def _others(m: _Momenta, name: str, function: str, axis: Symbol) -> tuple[Expression, Expression]:
+    """What all others leave of the momentum of a body across an axis ("sin") or along it ("cos"),
+    and the mass of that body.
+    """
     mass: Expression = m.mass[name[6]]
     own, when = [name], _when(name)
     if when == "after" and left_as_one(m.solution):
@@ -277,23 +351,19 @@ def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
     terms: list[tuple[float, Expression]] = [
         (
             -1.0 if _when(other) == when else 1.0,
-            m.mass[other[6]] * m.speed[other] * Function("sin", course - across),
+            m.mass[other[6]] * m.speed[other] * Function(function, course - axis),
         )
         for other, course in m.course.items()
-        if other not in own and course.value != across.value and m.speed[other].value
+        if other not in own
+        and m.speed[other].value
+        and not (function == "sin" and course.value == axis.value)
     ]
     found = signed_total(sorted(terms, key=lambda term: -term[0]))
+    c, s = Function("cos", axis), Function("sin", axis)
     for (_, x), (_, y) in zip(m.pushes["x"], m.pushes["y"], strict=True):
-        moment = y * Function("cos", across) - x * Function("sin", across)
-        found = found.plus(1.0 if when == "after" else -1.0, moment)
-    if found is ZERO:
-        page.fact(
-            f"Nothing else has momentum across it: {page.shown(m.speed[name])}.",
-            (m.speed[name], ZERO),
-        )
-        return
-    caption = f"Speed of {name[6].upper()} {when}, by the momentum across {page.symbol(across)}"
-    page.equation(caption, m.speed[name], found / (mass * Function("sin", m.course[name] - across)))
+        push = y * c - x * s if function == "sin" else x * c + y * s
+        found = found.plus(1.0 if when == "after" else -1.0, push)
+    return found, mass
 
 
 def _when(name: str) -> str:

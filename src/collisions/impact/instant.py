@@ -1,4 +1,6 @@
-"""What an impact that was found backwards as an instant leaves out, in one sentence."""
+"""What an impact that was found backwards as an instant leaves out, in one sentence, or what it
+still leaves out with tyres.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +15,7 @@ from ..quantities.formatting import percent
 from ..vehicle.drag import USUAL_DURATION
 from .impact import Impact
 from .left_out import LeftOut, left_out
+from .reconstruction import Reconstruction
 
 # Of pairs of known values that are not the components of recorders.
 LOOKED_FOR = (
@@ -106,13 +109,38 @@ def tyres_acted(impact: Impact) -> bool:
     return bool(impact.inputs.tyres) or (origin is not None and origin.duration is not None)
 
 
-def looked_for(impact: Impact) -> tuple[str, ...]:
-    """How the speeds or motions before of an impact with tyres were looked for, where others may
-    have been missed.
+def found_with_tyres(impact: Impact) -> tuple[str, ...]:
+    """What has to be said of an impact that was found backwards with tyres: how the speeds or
+    motions before were looked for, where others may have been missed, and what is left out.
     """
     origin = impact.reconstruction
     if origin is None or origin.method not in TAKE_TYRES or not impact.inputs.tyres:
         return ()
+    return *_looked_for(origin), *_motion_left_out(impact)
+
+
+def _motion_left_out(impact: Impact) -> tuple[str, ...]:
+    """What is left out of an impact that has its tyres, as ``left_out`` estimates it."""
+    if np.all(impact.refused):
+        return ()
+    try:
+        with quietly():
+            found = left_out(impact)
+    except CollisionsError:
+        # Numbers at the end of what floats hold.
+        return ()
+    motion = _worst(found.a.geometry_share, found.b.geometry_share)
+    if not math.isfinite(motion):
+        return ()
+    median = " (medians)" if np.ndim(impact.closing_speed) else ""
+    return (
+        f"found with tyres: of delta-V that leaves out about {percent(motion)} for point and "
+        f"normal that move on, during {_middle(found.duration):.3g} s{median}; `fit` or "
+        "`posterior` with `time_resolved` as the model has it",
+    )
+
+
+def _looked_for(origin: Reconstruction) -> tuple[str, ...]:
     if origin.method == "planar":
         return (f"found with tyres: {LOOKED_AROUND}",)
     return (f"found with tyres: {LOOKED_FOR}",)

@@ -65,8 +65,8 @@ class MomentumSolutionQuantities:
     """Those of ``MomentumSolution``."""
 
     closing_speed = condition = course_a = course_a_after = course_b = course_b_after = (
-        delta_v_a
-    ) = delta_v_b = duration = given = heading_a = heading_b = _QUANTITY
+        course_near
+    ) = delta_v_a = delta_v_b = duration = given = heading_a = heading_b = _QUANTITY
     found = mass_a = mass_b = normal_angle = ok = outside_impulse_x = outside_impulse_y = pdof_a = (
         pdof_b
     ) = restitution = sensitivity = speed_a = speed_a_after = _QUANTITY

@@ -384,6 +384,15 @@ def state_instant(solver: str, wheels: str = "`tyres_a=`, `tyres_b=`") -> None:
     )
 
 
+def state_motion(solver: str) -> None:
+    """State of a study with tyres that its impacts leave out the motion during the contact."""
+    state_of_study(
+        f"{solver} found every case with the tyres, which leaves out that point and normal move on "
+        "while the contact lasts. The statements of one case say how much that is",
+        "motion",
+    )
+
+
 def run_forward(
     inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconstruction, on_failure: Any = None
 ) -> Impact:

@@ -1,11 +1,12 @@
-"""``momentum``: two unknown speeds from planar momentum ("360-degree"), masses, courses and the
-other two speeds.
+"""``momentum``: two unknown speeds, or a speed and a course, from planar momentum ("360-degree"),
+masses and the other courses and speeds.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Collection
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ from ..impact.run import check_options
 from ..kernels.reverse import Term, unknown_speed
 from ..kernels.status import EPS, Status
 from ..messages.errors import (
+    AmbiguousSolutionError,
     CollisionsError,
     CollisionsWarning,
     EnergyGainWarning,
@@ -25,12 +27,12 @@ from ..messages.errors import (
     OutOfRangeWarning,
 )
 from ..messages.hints import hinted
-from ..messages.warning import warn_of_cases
+from ..messages.warning import quietly, warn_of_cases
 from ..quantities.attributes import format_value, hypot, in_units_of
 from ..quantities.directions import Angle, angle_of, course, direction
 from ..quantities.reading import ArgumentReader, amount
 from ..quantities.refusals import yes_or_no
-from ..quantities.tables import said
+from ..quantities.tables import Sentences, said
 from ..quantities.units import Input, Pair, is_quantity, magnitude, texts_of
 from ..vehicle.tyres import Tyres
 from .common import (
@@ -44,10 +46,12 @@ from .common import (
 )
 from .momentum_solution import MomentumSolution, Sensitivity
 from .momentum_tyres import MOST_CORRECTIONS, Lasting, read_tyres
-from .momentum_vector import NEARLY_CANCELLING, Whole, sought_whole
+from .momentum_vector import NEARLY_CANCELLING, Beside, Whole, sought_course, without_course
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
 _COURSES = ("course_a", "course_b", "course_a_after", "course_b_after")
+# Of a course that is sought beside the speed of another: along with its course, and against it.
+_SIDES = (1.0, -1.0)
 _NO_COSINE = (
     8.0 * EPS
 )  # of the cosine of a right angle: rounding of the courses, in radians, and of their difference
@@ -68,6 +72,7 @@ def momentum(
     speed_b_after: Input | None = None,
     heading_a: Input | None = None,
     heading_b: Input | None = None,
+    course_near: Input | None = None,
     together: bool = False,
     normal: Input | tuple[Input, Input] | None = None,
     outside_impulse: Pair | None = None,
@@ -78,8 +83,8 @@ def momentum(
     yaw_rate_b_after: Input | None = None,
     on_failure: OnFailure | None = None,
 ) -> MomentumSolution:
-    """Two unknown speeds of an impact from planar momentum, with all courses known; or one velocity
-    with its course.
+    """Two unknown speeds of an impact from planar momentum, with all courses known; or one speed
+    and one course.
 
     The linear momentum of two bodies in the road plane is conserved (eqs 1 and 2 of "Application of
     Impulse Momentum Theory to Vehicle Collisions"), apart from a stated outside impulse. Nothing is
@@ -101,10 +106,16 @@ def momentum(
     course_a, course_b, course_a_after, course_b_after : float, str, Quantity or array [rad]
         Directions of motion, counter-clockwise from +x; a vehicle at rest (speed 0) needs none.
     speed_a, speed_b, speed_a_after, speed_b_after : float, str, Quantity or array [m/s]
-        The known speeds, >= 0; leave out the two that are sought. Or leave out one speed with its
-        course: both are then what the other momenta leave.
+        The known speeds, >= 0; leave out the two that are sought. Or leave out one speed and one
+        course. If both are of one vehicle, they are what the other momenta leave. If the course is
+        that of another vehicle, or of the other end, whose speed is known, two courses may fit:
+        along with the motion whose speed is sought, and against it.
     heading_a, heading_b : float, str, Quantity or array [rad], optional
         Directions in which the vehicles pointed, for the PDOF.
+    course_near : float, str, Quantity or array [rad], optional
+        About where the course lies that is sought beside the speed of another: of two that fit, the
+        nearer is the answer. Without it, one in which no vehicle goes backwards comes before one
+        in which a vehicle does.
     together : bool, optional
         Whether the vehicles leave as one: give the common course, and the common speed if it is
         known, for either or both. With both speeds and courses before, neither: the common speed
@@ -130,26 +141,31 @@ def momentum(
     MomentumSolution
         All eight courses and speeds, delta-V, PDOF, ``condition`` = (1 + abs(cos)) / abs(sin) of
         the angle between the courses of the unknown speeds (1 at right angles), and the
-        ``sensitivity`` of each answer to each input. With an unknown course the condition is the
-        sum of the other momenta over what they leave. With tyres, delta-V and the energy lost have
-        their part in them, ``tyre_impulse_x_a`` and so on say which impulse that was, and the
-        sensitivities are those with that impulse as it is.
+        ``sensitivity`` of each answer to each input. With a speed and its course unknown the
+        condition is the sum of the other momenta over what they leave; with the course of another,
+        (1 + abs(sin)) / abs(cos) of the angle between the two. With tyres, delta-V and the energy
+        lost have their part in them, ``tyre_impulse_x_a`` and so on say which impulse that was, and
+        the sensitivities are those with that impulse as it is.
 
     Raises
     ------
     InputError
-        An argument that cannot be used, or not exactly two unknown speeds.
+        An argument that cannot be used, or not exactly two unknown speeds, or one and one course.
+    AmbiguousSolutionError
+        Two courses fit that are sought beside the speed of another; both are in ``solutions``.
     MissingInputError
         The course of a moving vehicle was not given, or what tyres need: a duration, a heading.
     NoSolutionError
         The courses of the two unknown speeds are parallel, or the momenta cancel that an unknown
-        course is to be found from; or the impulse of the tyres does not settle.
+        course is to be found from; or a known speed is too small on any course; or the impulse of
+        the tyres does not settle.
 
     Warns
     -----
     IllConditionedWarning
         The courses of the two unknown speeds are within 10 degrees of one line, or the momenta
-        nearly cancel that an unknown course is to be found from.
+        nearly cancel that an unknown course is to be found from, or a course is found within 10
+        degrees of a right angle to that of the unknown speed.
     OutOfRangeWarning
         A speed came out negative: backwards along its course. Or, along ``normal``, the restitution
         is outside 0 to 1, or the vehicles did not approach and it is NaN.
@@ -217,7 +233,7 @@ def momentum(
     check_options(on_failure)
     speeds = dict(zip(_SPEEDS, (speed_a, speed_b, speed_a_after, speed_b_after), strict=True))
     courses = dict(zip(_COURSES, (course_a, course_b, course_a_after, course_b_after), strict=True))
-    courses |= {"heading_a": heading_a, "heading_b": heading_b}
+    courses |= {"heading_a": heading_a, "heading_b": heading_b, "course_near": course_near}
     reader = ArgumentReader()
     numbers = read_masses(reader, mass_a, mass_b)
     for name, value in speeds.items():
@@ -272,13 +288,20 @@ def momentum(
             np.logical_or(_share(numbers, "speed"), _share(angles, "course")) if together else False
         )
         terms = _terms(numbers, angles, together)
-        whole = sought_whole(terms)
-        if whole is None:
+        sought = sought_course(terms)
+        if sought is None:
             if sum(term.speed is None for term in terms.values()) == 1:
-                # A course that is missing elsewhere is what is wrong, not one speed too many.
+                # Courses that are missing are what is wrong, not one speed too many.
                 _need_courses(terms)
             exactly({name: term.speed for name, term in terms.items()}, len(terms) - 2, "momentum")
-        _need_courses({name: term for name, term in terms.items() if name != whole})
+        _need_courses({name: term for name, term in terms.items() if name != sought})
+        if course_near is not None and (sought is None or terms[sought].speed is None):
+            raise InputError(
+                "course_near decides between two courses of a vehicle whose speed is known, and no "
+                "such course is sought here; leave it out",
+                code="bad_combination",
+                argument="course_near",
+            )
         impulse, normal = (
             (numbers[f"{name}[0]"], numbers[f"{name}[1]"]) if f"{name}[0]" in numbers else None
             for name in ("outside_impulse", "normal")
@@ -357,12 +380,7 @@ def _terms(numbers: dict[str, Any], angles: dict[str, Angle], together: bool) ->
 
 
 def _need_courses(terms: dict[str, Term]) -> None:
-    missing = [
-        name
-        for name, term in terms.items()
-        if term.course is None and np.any(np.not_equal(term.speed, 0.0))
-    ]
-    if missing:
+    if missing := without_course(terms):
         wanted = ", ".join(name.replace("speed", "course") for name in missing)
         raise MissingInputError(
             f"{wanted} not given, and momentum needs the course of every vehicle that moves; "
@@ -373,8 +391,8 @@ def _need_courses(terms: dict[str, Term]) -> None:
 
 
 class _Known(NamedTuple):
-    """The known numbers, courses and headings by argument, the moving bodies, and the cases in
-    which common values differ.
+    """The known numbers, courses and headings by argument, the moving bodies, the cases in which
+    common values differ, and to which side a course is taken where two fit (``Beside``).
     """
 
     cases: Cases
@@ -385,6 +403,7 @@ class _Known(NamedTuple):
     normal: tuple[Any, Any] | None
     unlike: Any
     lasting: Lasting | None
+    side: Any = None
 
     def velocities(self, speeds: dict[str, Any]) -> dict[str, tuple[Any, Any]]:
         """Velocities along x and y by the names of speeds; a vehicle at rest has no course."""
@@ -396,16 +415,15 @@ class _Known(NamedTuple):
 
     def balanced(
         self, pushes: list[tuple[Any, Any]]
-    ) -> tuple[_Known, dict[str, Any], Whole | None]:
-        """All speeds by name, those found with impulses from outside; where one is sought with its
-        course, that velocity, and what is known with its course.
+    ) -> tuple[_Known, dict[str, Any], Whole | Beside | None]:
+        """All speeds by name, those found with impulses from outside; where a course is sought
+        beside a speed, both, and what is known with that course.
         """
         found = {name: term.speed for name, term in self.terms.items()}
-        known, whole = self, None
-        if name := sought_whole(self.terms):
-            whole = Whole(self.terms, name, pushes)
-            found[name] = whole.speed
-            turned = dict.fromkeys(self.turned(whole), Angle(whole.angle, False))
+        known, turning = self, self.turning(pushes)
+        if turning is not None:
+            found[turning.speed_of] = turning.speed
+            turned = dict.fromkeys(self.turned(turning), Angle(turning.angle, False))
             known = self._replace(angles=self.angles | turned)
         else:
             x: Any = sum(push for push, _ in pushes)
@@ -415,13 +433,22 @@ class _Known(NamedTuple):
             found[first] = unknown_speed(self.terms.values(), impulse, one, other)
             found[second] = unknown_speed(self.terms.values(), impulse, other, one)
         found.setdefault("speed_b_after", found["speed_a_after"])
-        return known, found, whole
+        return known, found, turning
 
-    def turned(self, whole: Whole) -> list[str]:
+    def turning(self, pushes: list[tuple[Any, Any]]) -> Whole | Beside | None:
+        """The speed and the course that are sought, if a course is, with impulses from outside."""
+        name = sought_course(self.terms)
+        if name is None:
+            return None
+        if self.terms[name].speed is None:
+            return Whole(self.terms, name, pushes)
+        return Beside(self.terms, (self.unknown[0][0], name), pushes, self.side)
+
+    def turned(self, turning: Whole | Beside) -> list[str]:
         """The courses that are found; vehicles that leave together have one."""
-        if len(self.terms) == 3 and whole.name == "speed_a_after":
+        if len(self.terms) == 3 and turning.course_of == "speed_a_after":
             return ["course_a_after", "course_b_after"]
-        return [whole.course]
+        return [turning.course_of.replace("speed", "course")]
 
     def tyre_impulses(self, speeds: dict[str, Any]) -> dict[str, tuple[Any, Any]]:
         """What the tyres of each vehicle give while the contact lasts."""
@@ -436,8 +463,83 @@ class _Known(NamedTuple):
 
     @property
     def unknown(self) -> list[tuple[str, Term]]:
-        """The two unknown terms with the names of their speeds."""
+        """The terms of unknown speed with the names of their speeds."""
         return [(name, term) for name, term in self.terms.items() if term.speed is None]
+
+
+class _Balance(NamedTuple):
+    """What is known with a course that was found, all speeds, that course and its speed, the
+    impulses of the tyres, and where they have not settled.
+    """
+
+    known: _Known
+    speeds: dict[str, Any]
+    turning: Whole | Beside | None
+    tyres: dict[str, tuple[Any, Any]]
+    unsettled: Any
+
+    @property
+    def condition(self) -> Any:
+        """The growth of errors in the answer."""
+        if self.turning is not None:
+            return self.turning.condition
+        (_, one), (_, other) = self.known.unknown
+        cosine, sine = one.course.to(other.course)
+        return np.divide(1.0 + abs(cosine), abs(sine))
+
+    @property
+    def rounding(self) -> Any:
+        """Rounding error of the results, as a speed of the lighter vehicle."""
+        numbers = self.known.numbers
+        flow = sum(numbers[f"mass_{name[6]}"] * abs(self.speeds[name]) for name in _SPEEDS)
+        lighter = np.minimum(numbers["mass_a"], numbers["mass_b"])
+        growth = 1.0 if isinstance(self.turning, Whole) else self.condition
+        return 16.0 * self.known.cases.eps * growth * (flow / lighter)
+
+
+def _balance(known: _Known, stated: list[tuple[Any, Any]]) -> _Balance:
+    """The balance of momentum solved, with the tyres until they change no more."""
+    found, speeds, turning = known.balanced(stated)
+    if known.lasting is None:
+        return _Balance(found, speeds, turning, {}, False)
+    tyres: dict[str, tuple[Any, Any]] = dict.fromkeys(known.lasting.tyres, (0.0, 0.0))
+    moving: Any = True
+    unsettled: Any = False
+    for _ in range(MOST_CORRECTIONS):
+        tyres, moving, unsettled = known.lasting.corrected(
+            tyres, found.tyre_impulses(speeds), moving
+        )
+        found, speeds, turning = known.balanced([*tyres.values(), *stated])
+        if not np.any(moving):
+            break
+    return _Balance(found, speeds, turning, tyres, unsettled)
+
+
+def _sided(known: _Known, stated: list[tuple[Any, Any]]) -> tuple[_Known, Any]:
+    """What is known with the side of a course that is sought beside the speed of another, and where
+    both sides fit.
+    """
+    both = [_balance(known._replace(side=side), stated) for side in _SIDES]
+    found = [one.turning for one in both if isinstance(one.turning, Beside)]
+    fits = [
+        one.possible & np.logical_not(balance.unsettled)
+        for one, balance in zip(found, both, strict=True)
+    ]
+    if "course_near" in known.angles:
+        near = known.angles["course_near"]
+        # The cosine falls as the angle grows, to either side.
+        one, other = (near.to(Angle(turning.angle, False))[0] for turning in found)
+        takes = [fits[0] & (~fits[1] | (one >= other)), fits[1] & (~fits[0] | (other >= one))]
+    else:
+        ahead = [
+            fit & (turning.speed >= -balance.rounding)
+            for fit, turning, balance in zip(fits, found, both, strict=True)
+        ]
+        some = ahead[0] | ahead[1]
+        takes = [np.where(some, go, fit) for go, fit in zip(ahead, fits, strict=True)]
+    several = takes[0] & takes[1] & ~found[0].at_an_end
+    side = np.where(takes[1] & ~takes[0], _SIDES[1], _SIDES[0])
+    return known._replace(side=float(side) if known.cases.shape is None else side), several
 
 
 def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> MomentumSolution:
@@ -445,30 +547,33 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     cases, impulse, normal = known.cases, known.impulse, known.normal
     masses = known.numbers["mass_a"], known.numbers["mass_b"]
     stated = [] if impulse is None else [impulse]
-    known, speeds, whole = known.balanced(stated)
-    tyres: dict[str, tuple[Any, Any]] = {}
-    unsettled: Any = False
-    if known.lasting is not None:
-        moving: Any = True
-        tyres = dict.fromkeys(known.lasting.tyres, (0.0, 0.0))
-        for _ in range(MOST_CORRECTIONS):
-            tyres, moving, unsettled = known.lasting.corrected(
-                tyres, known.tyre_impulses(speeds), moving
-            )
-            known, speeds, whole = known.balanced([*tyres.values(), *stated])
-            if not np.any(moving):
-                break
-    if whole is not None:
-        first, second, condition = whole.name, whole.course, whole.condition
+    asked, several = known, np.False_
+    sought = sought_course(known.terms)
+    if sought is not None and known.terms[sought].speed is not None and known.side is None:
+        known, several = _sided(known, stated)
+    balance = _balance(known, stated)
+    known, speeds, turning, tyres, unsettled = balance
+    condition, rounding = balance.condition, balance.rounding
+    if turning is not None:
+        first, second = turning.speed_of, turning.course_of.replace("speed", "course")
     else:
         (first, one), (second, other) = known.unknown
-        cosine, sine = one.course.to(other.course)
-        condition = np.divide(1.0 + abs(cosine), abs(sine))
+    # What makes the balance itself unable to tell.
+    undetermined: list[tuple[Any, Status]] = []
+    if isinstance(turning, Beside):
+        undetermined = [(~turning.possible, Status.CONTRADICTORY), (several, Status.AMBIGUOUS)]
+    elif turning is not None:
+        undetermined = [(turning.speed <= rounding, Status.UNDETERMINED)]
+    else:
+        sine = one.course.to(other.course)[1]
+        undetermined = [
+            (
+                abs(sine) <= _angle_rounding(one.course, other.course, cases.eps),
+                Status.PARALLEL_HEADINGS,
+            )
+        ]
     outcome = _outcome(known, speeds)
-    # Rounding error of the results, as a speed of the lighter vehicle.
-    flow = sum(known.numbers[f"mass_{name[6]}"] * abs(speeds[name]) for name in _SPEEDS)
     lighter = np.minimum(*masses)
-    rounding = 16.0 * cases.eps * (condition if whole is None else 1.0) * (flow / lighter)
     loss = outcome["translational_energy_loss"]
     gains = -loss > 4.0 * rounding * lighter * sum(abs(speeds[name]) for name in _SPEEDS)
     status = cases.first_status(
@@ -478,27 +583,29 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
             *input_faults(known.numbers),
             *(() if known.lasting is None else known.lasting.faults()),
             (known.unlike, Status.CONTRADICTORY),
-            (whole.speed <= rounding, Status.UNDETERMINED)
-            if whole is not None
-            else (
-                abs(sine) <= _angle_rounding(one.course, other.course, cases.eps),
-                Status.PARALLEL_HEADINGS,
-            ),
+            *undetermined,
             (unsettled, Status.UNDETERMINED),
             (cases.beyond(sum(speeds[name] for name in _SPEEDS) + loss), Status.OUT_OF_RANGE),
             (gains & (impulse is None), Status.ENERGY_GAIN),
         )
     )
-    raise_or_warn(
-        status,
-        on_failure,
-        lambda index: _refusal(
-            Status(int(np.asarray(status)[index])),
-            first,
-            second,
-            bool(np.broadcast_to(unsettled, np.shape(status))[index]),
-        ),
-    )
+
+    def refusal(index: tuple[int, ...]) -> CollisionsError:
+        outcome = Status(int(np.asarray(status)[index]))
+        if isinstance(turning, Beside) and outcome in (Status.CONTRADICTORY, Status.AMBIGUOUS):
+            if outcome is Status.AMBIGUOUS and cases.shape is None:
+                return _both(asked, given or {}, second)
+            least = float(np.broadcast_to(turning.least, np.shape(status))[index])
+            if (
+                outcome is Status.AMBIGUOUS
+                or not np.broadcast_to(turning.possible | known.unlike, np.shape(status))[index]
+            ):
+                return _beside_refusal(outcome, first, second, least, (given or {}).values())
+        return _refusal(
+            outcome, first, second, bool(np.broadcast_to(unsettled, np.shape(status))[index])
+        )
+
+    raise_or_warn(status, on_failure, refusal)
     sure = np.less_equal(status, Status.ENERGY_GAIN)
     found = {"mass_a": masses[0], "mass_b": masses[1]} | {
         name: angle.radians for name, angle in known.angles.items()
@@ -508,9 +615,9 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     if impulse is not None:
         found["outside_impulse_x"], found["outside_impulse_y"] = impulse
     answers = {**speeds, **outcome, "condition": condition}
-    if whole is not None:
-        answers |= dict.fromkeys(known.turned(whole), whole.angle)
-        by_input = whole.sensitivity(outside=impulse is not None)
+    if turning is not None:
+        answers |= dict.fromkeys(known.turned(turning), turning.angle)
+        by_input = turning.sensitivity(outside=impulse is not None)
     else:
         by_input = _sensitivity(known, answers)
     if known.lasting is not None:
@@ -536,8 +643,52 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
         tyres_a=None if known.lasting is None else known.lasting.tyres.get("a"),
         tyres_b=None if known.lasting is None else known.lasting.tyres.get("b"),
     )
-    _warn(known, sure, np.equal(status, Status.ENERGY_GAIN), found, solution, rounding)
+    _warn(known, sure, np.equal(status, Status.ENERGY_GAIN), found, solution, rounding, turning)
     return solution
+
+
+def _both(known: _Known, given: dict[str, Any], course: str) -> CollisionsError:
+    """The error for a single case in which two courses fit, with both answers."""
+    solutions = []
+    with quietly():
+        for side in _SIDES:
+            one = _solve(known._replace(side=side), given, None)
+            # By itself each is the answer to the same with its own course stated.
+            stated: Any = float(getattr(one, course))
+            solutions.append(
+                replace(one, given=given | {"course_near": stated}, course_near=stated)
+            )
+    say = Sentences(given.values())
+    speed = solutions[0].unknowns[0]
+    each = " or ".join(
+        f"{course} = {say(getattr(one, course), 'angle')} with {speed} = "
+        f"{say(getattr(one, speed), 'speed')}"
+        for one in solutions
+    )
+    return AmbiguousSolutionError(
+        f"two answers fit: {each}`|; both are in .solutions|`; what decides is `course_near=`, "
+        f"about where {course} lies",
+        code=Status.AMBIGUOUS.label,
+        solutions=tuple(solutions),
+    )
+
+
+def _beside_refusal(
+    status: Status, speed: str, course: str, least: float, texts: Collection[Any]
+) -> CollisionsError:
+    """The error for a case in which no course fits beside an unknown speed, or both do."""
+    if status is Status.AMBIGUOUS:
+        return AmbiguousSolutionError(
+            f"two courses fit {course}; give `course_near=`, about where it lies",
+            code=status.label,
+        )
+    known = course.replace("course", "speed")
+    return NoSolutionError(
+        f"no {course} fits: across the course of {speed} the other momenta ask for a {known} of "
+        f"{said(least, 'speed', texts)} or more; check it and the other courses and speeds, or "
+        f"give `{course}=` and leave {known} open",
+        code=status.label,
+    )
 
 
 def _refusal(status: Status, first: str, second: str, unsettled: bool) -> CollisionsError:
@@ -651,6 +802,7 @@ def _warn(
     found: dict[str, Any],
     solution: MomentumSolution,
     rounding: Any,
+    turning: Whole | Beside | None,
 ) -> None:
     """Warn where the solution is ill-conditioned or not a possible impact."""
     texts = (solution.given or {}).values()
@@ -675,16 +827,26 @@ def _warn(
             warn_of_cases(warning, {sentence: known.cases.number(where)})
 
     near: Any = False
-    if whole := sought_whole(known.terms):
-        sentence = (
-            f"the momenta that leave {whole} and its course nearly cancel, and small errors of "
-            "them move both far"
+    if turning is not None:
+        speed, course = solution.unknowns
+        code, sentence = (
+            (
+                "momenta_cancel",
+                f"the momenta that leave {speed} and its course nearly cancel, and small errors of "
+                "them move both far",
+            )
+            if isinstance(turning, Whole)
+            else (
+                "nearly_across",
+                f"{course} is within 10 degrees of a right angle to that of {speed}, and small "
+                "errors move both far, or to the other course that fits",
+            )
         )
         say(
             IllConditionedWarning,
             sure & (found["condition"] > NEARLY_CANCELLING),
             f"{sentence} (condition {{:.3g}})",
-            "momenta_cancel",
+            code,
             "",
             sentence,
             condition=found["condition"],
@@ -716,7 +878,9 @@ def _warn(
             sentence,
             condition=found["condition"],
         )
-    for name in solution.unknowns if whole is None else ():
+    # A velocity that is sought whole is never backwards along its course.
+    speeds = [name for name in solution.unknowns if name.startswith("speed")]
+    for name in speeds if not isinstance(turning, Whole) else ():
         cure = "backwards along its course; check the courses, or turn its course by 180 deg"
         text, sentence = f"{name} = {{}}: {cure}", f"{name} is below 0, {cure}"
         # A negative speed within rounding of 0 is not a backward motion.

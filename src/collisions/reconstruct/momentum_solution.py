@@ -92,6 +92,7 @@ class MomentumSolution(Shown):
     status: Any = field()
     heading_a: Value | None = field(default=None, metadata={"unit": "rad"})
     heading_b: Value | None = field(default=None, metadata={"unit": "rad"})
+    course_near: Value | None = field(default=None, metadata={"unit": "rad"})
     normal_angle: Value | None = field(default=None, metadata={"unit": "rad"})
     outside_impulse_x: Value | None = field(default=None, metadata={"unit": "N*s"})
     outside_impulse_y: Value | None = field(default=None, metadata={"unit": "N*s"})

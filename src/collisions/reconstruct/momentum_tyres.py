@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -169,7 +169,7 @@ def neglected(
     solution: MomentumSolution, duration: float, drag: float, say: Callable[[float, str], str]
 ) -> Neglect | None:
     """What an answer without tyres leaves out if all wheels slid: the change of both speeds found,
-    or of a speed and its course, in a batch in the median; None of an answer with tyres, and where
+    or of a speed and a course, in a batch in the median; None of an answer with tyres, and where
     there is none.
 
     ``say`` writes a number of a kind, "speed" or "angle".
@@ -184,7 +184,7 @@ def neglected(
             mass = getattr(solution, f"mass_{label}")
             x, y = sliding(mass, before, after, drag, duration)
             push_x, push_y = push_x + x, push_y + y
-        moved = _whole if solution.unknowns[1].startswith("course") else _along
+        moved = {"speeds": _along, "velocity": _whole, "beside": _beside}[what_is_sought(solution)]
         found = dict(moved(solution, push_x, push_y))
         changes = {name: _middle(change) for name, (change, _) in found.items()}
         shares = [_middle(share) for _, share in found.values()]
@@ -201,6 +201,14 @@ def neglected(
         "`tyres_b=`"
     )
     return Neglect(changes, max(shares), sentence)
+
+
+def what_is_sought(solution: MomentumSolution) -> Literal["speeds", "velocity", "beside"]:
+    """Two speeds, one velocity whole, or a speed and the course of another body beside it."""
+    speed, second = solution.unknowns
+    if second.startswith("speed"):
+        return "speeds"
+    return "velocity" if second == speed.replace("speed", "course") else "beside"
 
 
 def _along(
@@ -227,6 +235,21 @@ def _whole(
     share = np.hypot(along, across) / speed
     yield name, (np.hypot(speed + along, across) - speed, share)
     yield course, (np.arctan2(across, speed + along), share)
+
+
+def _beside(
+    solution: MomentumSolution, push_x: Any, push_y: Any
+) -> Iterator[tuple[str, tuple[Any, Any]]]:
+    """The change of a speed and of the course of another, and each as a share of its velocity."""
+    name, course = solution.unknowns
+    axis, angle = getattr(solution, name.replace("speed", "course")), getattr(solution, course)
+    other = course.replace("course", "speed")
+    along = push_x * np.cos(axis) + push_y * np.sin(axis)
+    turned = (push_y * np.cos(axis) - push_x * np.sin(axis)) / np.cos(angle - axis)
+    change = -_taken(solution, name) * (along + np.sin(angle - axis) * turned)
+    turn = -_taken(solution, other) * turned / getattr(solution, other)
+    yield name, (change, abs(change / getattr(solution, name)))
+    yield course, (turn, abs(turn))
 
 
 def _taken(solution: MomentumSolution, name: str) -> Any:

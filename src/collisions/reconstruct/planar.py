@@ -52,6 +52,7 @@ from .common import (
     run_forward,
     split_texts,
     state_instant,
+    state_motion,
 )
 from .lasting import numbers_of_times, settle, tyre_faults
 from .origins import End, Given, Origin
@@ -369,6 +370,7 @@ def _answer(
     _warn(cases, found, after.say, whole)
     if inputs.tyres:
         state_of_study(f"planar with tyres: {LOOKED_AROUND}", "looked_for")
+        state_motion("planar")
     else:
         state_instant("planar")
     velocity = found.closing_speed, found.slip_before

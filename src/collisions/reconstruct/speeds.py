@@ -51,6 +51,7 @@ from .common import (
     run_forward,
     split_texts,
     state_instant,
+    state_motion,
 )
 from .lasting import numbers_of_times, tyre_faults
 from .recorder_place import RecorderScene, by_own_names, read_recorders
@@ -461,6 +462,8 @@ def speeds(
                 )
         if not times:
             state_instant("speeds")
+        if inputs.tyres:
+            state_motion("speeds")
         ways = Ways(again, turned)
         reconstruction = partial(cases.reconstruction, "speeds", given=told, also=also)
         return _answers(

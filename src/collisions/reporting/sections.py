@@ -17,7 +17,7 @@ from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note, letter_of
 from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
-from ..impact.instant import looked_for, neglected
+from ..impact.instant import found_with_tyres, neglected
 from ..impact.left_out import LeftOutVehicle, left_out
 from ..impact.models import BY_NAME
 from ..kernels.contact_laws import FRICTION, LAWS
@@ -36,6 +36,7 @@ from ..quantities.tables import as_sentence, label_of
 from ..quantities.units import Input
 from ..reconstruct import MomentumSolution
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
+from ..reconstruct.momentum_tyres import what_is_sought
 from ..vehicle.drag import read_drag, read_duration
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle, named
@@ -400,12 +401,11 @@ def momentum_inputs_and_results(
         rows.append((of, what, _with(value, note)))
     sheet.table([*rows, *_damage(sheet, options)])
     sheet.heading("Results")
-    whole = any(name.startswith("course") for name in solution.unknowns)
-    what = (
-        "the sum of the other momenta over what they leave"
-        if whole
-        else "from the angle between the courses of the unknown speeds"
-    )
+    what = {
+        "speeds": "from the angle between the courses of the unknown speeds",
+        "velocity": "the sum of the other momenta over what they leave",
+        "beside": "from the angle between the unknown course and that of the unknown speed",
+    }[what_is_sought(solution)]
     rows = [
         *momentum_answers(sheet, solution),
         ("both", f"condition, {what}", f"{solution.condition:.3g}"),
@@ -487,7 +487,7 @@ def assumptions(
         neglect = None if found is None else neglected(impact, found)
         if neglect is not None:
             sheet.say(as_sentence(neglect.sentence))
-        for sentence in looked_for(impact):
+        for sentence in found_with_tyres(impact):
             sheet.say(as_sentence(sentence))
     sheet.heading("Assumptions")
     lines = [("Model:", BY_NAME[impact.model].assumptions)]
