@@ -24,9 +24,10 @@ from ..messages.errors import (
 from ..quantities.settings import in_si
 from ..quantities.tables import Sentences
 from ..quantities.units import texts_of
+from ..vehicle.drag import in_plan
 from ..vehicle.vehicle import needed
 from .contact import IN_TIME, USUAL_DELAY, Contact
-from .motion import Course, Ground, body_at
+from .motion import Course, Ground, body_at, moved
 from .mover import Mover
 from .touching import (
     TOUCHING,
@@ -220,7 +221,16 @@ class Followed:
         assert pair.shapes is not None
 
         def states(time: Any, cases: Any) -> tuple[Any, Any]:
-            return one.at(time, cases), other.at(time, cases)
+            found = one.at(time, cases), other.at(time, cases)
+            if not self.ground.steepest:
+                return found
+            # Outlines meet in plan, in which velocities along a slope are less.
+            rises = self.ground.rises(self.ground.taker(cases))
+            plan_a, plan_b = (
+                np.array([*state[:3], *in_plan(rises, state[3], state[4]), state[5]])
+                for state in found
+            )
+            return plan_a, plan_b
 
         kept: list[Any] = []
 
@@ -254,7 +264,7 @@ class Followed:
         if not unslowed.any():
             return last
         # From then on the relative motion is even: until one has left the other behind.
-        state_a, state_b = one.at(last, cases), other.at(last, cases)
+        _, state_a, state_b = self._pair(pair).at(last, cases)
         away, going = state_b[:2] - state_a[:2], state_b[3:5] - state_a[3:5]
         reach = pair.shapes[0].reach + pair.shapes[1].reach
         square = going[0] ** 2 + going[1] ** 2
@@ -799,20 +809,21 @@ class Followed:
         """Let both vehicles go on from the motion after the contact; when they do, which is later
         only for one that was followed in time.
         """
-        hold = np.zeros(len(which))
+        hold = lasting = np.zeros(len(which))
         if contact.duration is not None:
-            whole = self.ground.taker(which)(contact.duration)
-            hold = np.where((time == 0.0) & (not contact.touches), 0.5 * whole, whole)
+            lasting = self.ground.taker(which)(contact.duration)
+            hold = np.where((time == 0.0) & (not contact.touches), 0.5 * lasting, lasting)
         way = way_to_separation(impact)
         passed = np.zeros(len(which), dtype=bool)
         if way is not None:
             # The places given are those of first touch, or of maximum engagement.
-            lasts = way.duration
+            lasts = whole = way.duration
             if impact.inputs.geometry != "first_contact":
                 lasts = lasts - way.engaged
             lasts = np.broadcast_to(lasts, len(which))
             passed = np.isfinite(lasts)
             hold = np.where(passed, lasts, hold)
+            lasting = np.where(passed, whole, lasting)
         ends = np.where(passed, time + hold, time)
         for label, name, side in (
             ("a", contact.a, impact.a),
@@ -829,9 +840,13 @@ class Followed:
                     else (side.at_compression)
                 )
                 during = _followed(states[name], begins, way.moved[label], hold, state, passed)
-                state[:3] = np.where(passed, during[1:4, 1] - hold * state[3:], state[:3])
+                rises = self.ground.rises(self.ground.taker(which))
+                back = during[1:4, 1] - during[1:4, 0] - hold * state[3:]
+                state[:3] = np.where(passed, moved(during[1:4, 0], back, rises), state[:3])
                 self.lasts[name][which] = np.where(passed, ends, self.lasts[name][which])
-            self.courses[name].turn(which, time, hold, state, contact.tyres_after.get(name), during)
+            self.courses[name].turn(
+                which, time, hold, state, contact.tyres_after.get(name), during, lasting
+            )
         return ends
 
     # What the scene contradicts

@@ -594,7 +594,10 @@ class Run(Frozen, Summarized):
         if found.ground.steepest and (leg.tyres is not None or mover.drag is not None):
             power = power + on_slope(mover, found.ground, state)
         marks = np.where(held, np.nan, marks)
-        return np.where(held, 0.0, power), marks
+        pulls = 0.0
+        if leg.pull is not None:
+            pulls = -mover.vehicle.mass * (leg.pull[0, 0] * state[3] + leg.pull[1, 0] * state[4])
+        return np.where(held, pulls, power), marks
 
     def _ground_work(self, name: str) -> float:
         """What the ground takes from one vehicle on the whole way [J], by Simpson's rule."""
