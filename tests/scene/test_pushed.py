@@ -63,8 +63,8 @@ def test_one_that_leans_on_another_on_a_slope() -> None:
 
 
 def test_a_batch_counts_those_of_single_cases() -> None:
-    """After a blow the lorry comes up again with less than 1 m/s, which is passed over, and leans on
-    the car, in two of three cases.
+    """After a blow the lorry comes up again with less than 1 m/s, which is passed over, and leans
+    on the car, in two of three cases.
     """
     drags = np.array([0.3, 0.6, 0.4])
     rule = {"restitution": 0.5, "model": "linear_central", "normal": 0.0, "at": "touch"}

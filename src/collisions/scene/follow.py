@@ -234,9 +234,11 @@ class Followed:
         one, other = (self.courses[name] for name in pair.names)
         assert pair.shapes is not None
 
+        level = not self.ground.steepest
+
         def states(time: Any, cases: Any) -> tuple[Any, Any]:
             found = one.at(time, cases), other.at(time, cases)
-            if not self.ground.steepest:
+            if level:
                 return found
             # Outlines meet in plan, in which velocities along a slope are less.
             rises = self.ground.rises(self.ground.taker(cases))
