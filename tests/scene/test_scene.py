@@ -7,6 +7,7 @@ from __future__ import annotations
 import itertools
 import math
 
+import numpy as np
 import pytest
 
 import collisions as col
@@ -372,6 +373,36 @@ def test_energy_closes_where_contacts_last(lasts: dict[str, str]) -> None:
         energy = Scene(movers=movers, contacts=[contact]).run(tolerance=tolerance).energy
         closes = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
         assert abs(closes) < share * energy["before"]
+
+
+@pytest.mark.parametrize("slowed", [{"drag": 0.7}, {"tyres": Tyres(0.7, 1.0, 2.7, 1.5)}])
+@pytest.mark.parametrize(("rise", "course"), [(0.15, 0.0), (-0.2, 2.0)])
+def test_a_slide_on_a_slope_is_that_of_a_block_on_an_inclined_plane(
+    slowed: dict[str, object], rise: float, course: float
+) -> None:
+    """Place in plan, time and energy, of one case and of a batch with the level beside it."""
+    c, s = math.cos(course), math.sin(course)
+    body = col.Vehicle(
+        mass=1500.0, yaw_inertia=2400.0, x=0.0, y=0.0, heading=course, vx=20.0 * c, vy=20.0 * s
+    )
+    given = {"contacts": [], "movers": {"A": Mover(body, **slowed)}}
+    angle = math.atan(rise)
+    slowing = col.travel.GRAVITY * (0.7 * math.cos(angle) + math.sin(angle))
+    way, time = 20.0**2 / (2.0 * slowing) * math.cos(angle), 20.0 / slowing
+    run = Scene(slope=(rise * c, rise * s), **given).run()
+    assert (run.rest["A"].x, run.rest["A"].y) == pytest.approx((way * c, way * s), rel=1e-5)
+    assert run.end == pytest.approx(time, rel=1e-4)
+    assert run.energy["ground"] == pytest.approx(0.5 * 1500.0 * 20.0**2, rel=1e-5)
+    half = run.at(0.5 * time)["A"]
+    assert math.hypot(half.vx, half.vy) == pytest.approx(10.0, rel=1e-4)
+    assert math.hypot(half.x, half.y) == pytest.approx(0.75 * way, rel=1e-4)
+    both = np.array([rise, 0.0])
+    many = Scene(slope=(both * c, both * s), **given).run()
+    flat = 20.0 / (0.7 * col.travel.GRAVITY)
+    assert np.hypot(many.rest["A"].x, many.rest["A"].y) == pytest.approx(
+        [way, 10.0 * flat], rel=1e-4
+    )
+    assert many.end == pytest.approx([time, flat], rel=1e-4)
 
 
 def test_cars_that_touch_as_the_scene_begins_collide_at_once() -> None:

@@ -73,7 +73,26 @@ def accelerations(state, tyres, ground, slope=(0.0, 0.0), mass=1500.0, inertia=2
         if np.max(np.abs(loads - before)) < 1e-9:
             break
     yaw = float((rx * py - ry * px).sum()) * mass * G / inertia
-    return (px.sum() - slope[0]) * G, (py.sum() - slope[1]) * G, yaw
+    # Across a slope presses the weight times the cosine of its angle, down it pulls that times the
+    # sine.
+    steep = math.hypot(*slope)
+    angle = math.atan(steep)
+    pull = math.sin(angle) / steep if steep else 0.0
+    ax, ay = (
+        G * (part.sum() * math.cos(angle) - pull * rise)
+        for part, rise in zip((px, py), slope, strict=True)
+    )
+    return ax, ay, yaw * math.cos(angle)
+
+
+def seen_from_above(slope, vx, vy):
+    """A velocity along a slope in plan: its part up the slope times the cosine of the angle."""
+    steep = math.hypot(*slope)
+    if not steep:
+        return vx, vy
+    ux, uy = slope[0] / steep, slope[1] / steep
+    less = (1.0 - math.cos(math.atan(steep))) * (ux * vx + uy * vy)
+    return vx - less * ux, vy - less * uy
 
 
 def with_rotation(state, tyres, ground, rotating, mass=1500.0, inertia=2400.0):
@@ -141,7 +160,8 @@ def integrated(start, tyres, surfaces=None, slope=(0.0, 0.0), rtol=1e-8, nearest
             else forced(state[:6], tyres, ground)
         )
         # Over the first speed, so that one tolerance does for all.
-        return size * np.array([*found, *state[:3], 1.0, math.hypot(state[0], state[1])]) / first
+        going = (*seen_from_above(slope, *state[:2]), state[2])
+        return size * np.array([*found, *going, 1.0, math.hypot(state[0], state[1])]) / first
 
     def slow(_, state):
         return speed_of(state) - 1e-3 * first
@@ -426,10 +446,14 @@ def test_until_a_time_in_a_batch():
 
 
 def test_what_slides_on_down_a_slope_is_followed_until_a_time():
-    """A slope of 20 % against locked wheels of friction 0.1: half g times the difference."""
+    """A slope of 20 % against locked wheels of friction 0.1: half g times the difference, and the
+    cosine of the angle for what presses, and once more for the place in plan.
+    """
     path = drive(CAR, friction=0.1, lock=1.0, slope=(-0.2, 0.0), until=2.0)
-    assert path.end.x == pytest.approx(28.0 + 0.5 * 0.1 * G * 4.0, rel=1e-6)
-    assert path.end.vx == pytest.approx(14.0 + 0.1 * G * 2.0, rel=1e-6)
+    cosine = math.cos(math.atan(0.2))
+    push = 0.1 * G * cosine
+    assert path.end.x == pytest.approx(cosine * (28.0 + 0.5 * push * 4.0), rel=1e-6)
+    assert path.end.vx == pytest.approx(14.0 + push * 2.0, rel=1e-6)
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -568,7 +592,77 @@ def test_a_skid_on_a_slope(rise, course):
     car = CAR.replace(vx=14.0 * math.cos(course), vy=14.0 * math.sin(course), heading=0.4)
     path = drive(car, slope=slope)
     found = math.hypot(path.rest.x, path.rest.y)
-    assert found == pytest.approx(travel.distance(14.0, drag=0.7, grade=rise), rel=1e-6)
+    way = travel.distance(14.0, drag=0.7, grade=rise)
+    assert found == pytest.approx(way, rel=1e-6)
+    assert path.time[-1] == pytest.approx(travel.time(way, drag=0.7, grade=rise), rel=5e-5)
+
+
+def on_inclined_plane(slope, friction, course, speed=14.0):
+    """A block on a plane in space: its velocity and gravity as vectors, friction times what presses
+    across the plane against its motion. Time to rest, and where, seen from above.
+    """
+    up = np.array([-slope[0], -slope[1], 1.0])
+    up /= np.linalg.norm(up)
+    weight = np.array([0.0, 0.0, -G])
+    # The axes of the scene, turned about the level line through the plane onto it.
+    level = np.cross([0.0, 0.0, 1.0], up)
+    sine = np.linalg.norm(level)
+    level /= sine
+    ahead = np.array([math.cos(course), math.sin(course), 0.0])
+    ahead = ahead * up[2] + np.cross(level, ahead) * sine + level * (level @ ahead) * (1.0 - up[2])
+    assert abs(ahead @ up) < 1e-12
+    press = -(weight @ up)
+    pull = weight + press * up
+
+    def rates(_, state):
+        velocity = state[3:]
+        return [
+            *velocity,
+            *(pull - friction * press * velocity / max(np.linalg.norm(velocity), 1e-12)),
+        ]
+
+    def slow(_, state):
+        return np.linalg.norm(state[3:]) - 1e-4
+
+    slow.terminal = True
+    begin = [0.0, 0.0, 0.0, *(speed * ahead)]
+    end = solve_ivp(rates, (0.0, 99.0), begin, rtol=1e-10, atol=1e-10, events=slow, method="LSODA")
+    assert end.status == 1
+    return end.t[-1], end.y[:2, -1]
+
+
+@pytest.mark.parametrize("rise", [0.05, 0.1, 0.2])
+@pytest.mark.parametrize("course", [0.0, 1.2, math.pi / 2, 2.0, math.pi])
+def test_time_and_place_of_a_skid_on_an_inclined_plane(rise, course):
+    """Up, down and across: to 1e-4, of which the promise is ten times that."""
+    slope = (0.8 * rise, 0.6 * rise)
+    time, place = on_inclined_plane(slope, 0.7, course)
+    car = CAR.replace(vx=14.0 * math.cos(course), vy=14.0 * math.sin(course), heading=0.4)
+    path, near = drive(car, slope=slope), 1e-4 * np.hypot(*place)
+    assert path.time[-1] == pytest.approx(time, rel=1e-4)
+    assert (path.rest.x, path.rest.y) == pytest.approx(tuple(place), abs=near)
+    # Of a batch, with the level beside it.
+    both = np.array([1.0, 0.0])
+    many = drive(car, slope=(slope[0] * both, slope[1] * both))
+    assert many.time[-1] == pytest.approx([time, 14.0 / (0.7 * G)], rel=1e-4)
+    assert many.rest.x[0] == pytest.approx(place[0], abs=near)
+
+
+@pytest.mark.parametrize("rise", [0.05, 0.1, 0.2])
+def test_a_turning_car_on_a_slope(rise):
+    """A spun car with a jammed wheel, over ice on the slope, against scipy's integration: the rates
+    of places are the velocities seen from above. To what the docstring promises.
+    """
+    slope = (0.6 * rise, -0.8 * rise)
+    tyres = {"friction": 0.7, "lock": [1, 0.3, 0.3, 0.3], "wheelbase": 2.7, "track": 1.5}
+    surfaces = [([(6, -9), (9, -9), (9, 9), (6, 9)], 0.2)]
+    for areas in (None, surfaces):
+        (x, y, heading), way, time, _ = integrated((13, 2, 3, 0, 0, 0.3), tyres, areas, slope)
+        car = CAR.replace(vx=13.0, vy=2.0, yaw_rate=3.0, heading=0.3)
+        path = drive(car, **tyres, surfaces=areas, slope=slope)
+        assert (path.rest.x, path.rest.y) == pytest.approx((x, y), abs=1e-3 * way)
+        assert path.rest.heading == pytest.approx(heading, abs=1e-3)
+        assert path.time[-1] == pytest.approx(time, rel=1e-3)
 
 
 def test_a_slope_that_the_brakes_do_not_hold_is_refused():

@@ -24,9 +24,10 @@ from ..messages.errors import (
 from ..quantities.settings import in_si
 from ..quantities.tables import Sentences
 from ..quantities.units import texts_of
+from ..vehicle.drag import in_plan
 from ..vehicle.vehicle import needed
 from .contact import IN_TIME, USUAL_DELAY, Contact
-from .motion import Course, Ground, body_at
+from .motion import Course, Ground, body_at, moved
 from .mover import Mover
 from .touching import (
     TOUCHING,
@@ -52,6 +53,9 @@ _OVERLAPS = 1e-6
 # Two that do not part are driven into each other where they overlap by so much more than at their
 # contact [m].
 _DEEPER = 0.3
+# Two that touch too slowly for a contact are pushed without a blow where they come to overlap by so
+# much more [m].
+_PUSHED = 0.05
 # Between their contact and the time they part, where it is looked how deep they are.
 _SHARES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 # Later than this [s] motion that nothing slows comes together by rounding alone.
@@ -111,9 +115,15 @@ class _Between:
         self.apart: Any = np.ones(count, dtype=bool)
         # From one to the other along the normal of their last contact; 0 before there was one.
         self.way: Any = np.zeros((2, count))
-        # When that was [s], and how deep their outlines overlapped [m].
+        # When that was [s].
         self.struck: Any = np.zeros(count)
+        # Of their last contact, or of a touch that was passed over, when that was [s], the way from
+        # one to the other, how deep their outlines overlapped, and how much deeper they may
+        # come [m]: infinite where there was neither.
+        self.met: Any = np.zeros(count)
+        self.side: Any = np.zeros((2, count))
         self.depth: Any = np.zeros(count)
+        self.allowed: Any = np.full(count, np.inf)
         self.least: Any = np.full(count, _LEAST_CLOSING)
         # The next touch and how fast it closes; NaN where it has to be looked for.
         self.touch: Any = np.full(count, np.nan)
@@ -127,6 +137,11 @@ class _Between:
         self.nearest: Any = np.full(count, np.inf)
         self.nearest_at: Any = np.zeros(count)
         self.touched: list[tuple[float, float]] = []
+
+    def meets(self, cases: Any, time: Any, met: Meeting, side: Any, allowed: float) -> None:
+        """Keep how some cases meet, against which it is held how deep they come to overlap."""
+        self.met[cases], self.side[:, cases] = time, side
+        self.depth[cases], self.allowed[cases] = np.maximum(-met.gap, 0.0), allowed
 
 
 class Followed:
@@ -219,8 +234,19 @@ class Followed:
         one, other = (self.courses[name] for name in pair.names)
         assert pair.shapes is not None
 
+        level = not self.ground.steepest
+
         def states(time: Any, cases: Any) -> tuple[Any, Any]:
-            return one.at(time, cases), other.at(time, cases)
+            found = one.at(time, cases), other.at(time, cases)
+            if level:
+                return found
+            # Outlines meet in plan, in which velocities along a slope are less.
+            rises = self.ground.rises(self.ground.taker(cases))
+            plan_a, plan_b = (
+                np.array([*state[:3], *in_plan(rises, state[3], state[4]), state[5]])
+                for state in found
+            )
+            return plan_a, plan_b
 
         kept: list[Any] = []
 
@@ -254,7 +280,7 @@ class Followed:
         if not unslowed.any():
             return last
         # From then on the relative motion is even: until one has left the other behind.
-        state_a, state_b = one.at(last, cases), other.at(last, cases)
+        _, state_a, state_b = self._pair(pair).at(last, cases)
         away, going = state_b[:2] - state_a[:2], state_b[3:5] - state_a[3:5]
         reach = pair.shapes[0].reach + pair.shapes[1].reach
         square = going[0] ** 2 + going[1] ** 2
@@ -337,7 +363,10 @@ class Followed:
             )
         self._fail(np.flatnonzero(wrong), "overlap_at_start")
         # Two that touch as the scene begins, and close, have their contact then.
-        closing = closing_of(met, met.axis(met.widest), state_a, state_b)
+        axis = met.axis(met.widest)
+        closing = closing_of(met, axis, state_a, state_b)
+        pair.meets(every, 0.0, met, axis, _PUSHED)
+        pair.allowed[pair.apart | begins] = np.inf
         at_once = ~pair.apart & ~wrong & ~begins & (closing >= _LEAST_CLOSING)
         pair.touch[at_once], pair.closing[at_once] = 0.0, closing[at_once]
         self._arrange(pair, np.flatnonzero(at_once))
@@ -390,51 +419,64 @@ class Followed:
                 self._arrange(pair, cases[counts])
             # A resting contact is passed over: the search goes on once they were apart.
             over = cases[passes]
+            met, *_ = moving.at(touch.time[passes], over)
+            pair.meets(over, touch.time[passes], met, met.axis(met.widest), _PUSHED)
             pair.touch[over], pair.begun[over], pair.apart[over] = np.nan, touch.time[passes], False
             if not passes.any():
                 return
 
     def _note_through(self, pair: _Between, moving: Pair, cases: Any, parts: Any) -> None:
-        """Note two that were in contact and go through each other before they part, or rest in each
-        other deeper than they were then: what pushes them without a blow is not followed.
+        """Note two that were in contact, or touched too slowly for one, and go through each other
+        before they part, or come to overlap deeper than they did then: what pushes them without a
+        blow is not followed.
 
         ``parts`` is when they are apart [s]; not finite where they never are.
         """
-        had = np.any(pair.way[:, cases] != 0.0, axis=0)
+        had = np.isfinite(pair.allowed[cases])
         cases, parts = cases[had], parts[had]
         apart = np.isfinite(parts)
         one, other = (self.courses[name] for name in pair.names)
         ends = np.where(apart, parts, np.maximum(one.rests_of(cases), other.rests_of(cases)))
-        soon = ends <= _SOON
-        cases, apart, ends = cases[soon], apart[soon], ends[soon]
+        soon, struck = ends <= _SOON, pair.allowed[cases] > _PUSHED
+        # What was passed over is looked at for so long, as it may come together ever so slowly.
+        ends, apart = np.where(soon, ends, _SOON), apart & soon
+        soon |= ~struck
+        cases, apart, ends, struck = cases[soon], apart[soon], ends[soon], struck[soon]
         if not len(cases):
             return
         met, state_a, state_b = moving.at(ends, cases)
-        way = pair.way[:, cases]
+        way = pair.side[:, cases]
         beyond = way[0] * (state_b[0] - state_a[0]) + way[1] * (state_b[1] - state_a[1]) < 0.0
-        overlap = np.where(apart, 0.0, -met.gap)
+        overlap, when = np.where(apart, 0.0, -met.gap), ends.copy()
         # One that only glances off may be beyond the other too, but not by way of its middle.
-        some = np.flatnonzero(beyond & apart)
+        some = np.flatnonzero((beyond & apart) | ~struck)
         for share in _SHARES if len(some) else ():
-            begun = pair.struck[cases[some]]
-            between, *_ = moving.at(begun + share * (ends[some] - begun), cases[some])
+            begun = pair.met[cases[some]]
+            moments = begun + share * (ends[some] - begun)
+            between, *_ = moving.at(moments, cases[some])
+            deeper = -between.gap > overlap[some]
+            when[some] = np.where(deeper, moments, when[some])
             overlap[some] = np.maximum(overlap[some], -between.gap)
-        driven = overlap > pair.depth[cases] + _DEEPER
+        driven = overlap > pair.depth[cases] + pair.allowed[cases]
         self.driven[cases[driven]] = True
         if not self.single or not driven[0]:
             return
         (first, second), at = pair.names, float(ends[0])
         deep = self._say(float(overlap[0]), "length", 2)
-        if beyond[0]:
+        how = "do not part after their contact"
+        if not struck[0]:
+            how = f"touch at {float(pair.met[cases[0]]):.3g} s, too slowly for a contact"
+        if beyond[0] and apart[0]:
             text = (
-                f"{first} and {second} do not part after their contact, and are followed through "
+                f"{first} and {second} {how}, and are followed through "
                 f"each other, to the other side at {at:.3g} s: one is slowed less and would push "
                 "the other, which is not followed; their motion from there on is not what happened"
             )
             self._notice_once("driven_through", text, at, pair.names)
         else:
+            at = float(when[0])
             text = (
-                f"{first} and {second} do not part after their contact, and overlap by {deep} at "
+                f"{first} and {second} {how}, and overlap by {deep} at "
                 f"{at:.3g} s, more than then: what pushes or turns them into each other without a "
                 "blow is not followed"
             )
@@ -564,10 +606,12 @@ class Followed:
             self._note_drags(contact, which, time)
         if pair.shapes is not None:
             met, *_ = self._pair(pair).at(time, which)
-            pair.struck[which], pair.depth[which] = time, np.maximum(-met.gap, 0.0)
+            pair.struck[which] = time
         sign = 1.0 if contact.a == pair.names[0] else -1.0
         for row, part in zip(pair.way, impact.normal, strict=True):
             row[which] = sign * part
+        if pair.shapes is not None:
+            pair.meets(which, time, met, pair.way[:, which], _DEEPER)
         for other in self._pairs:
             if other is pair or not {contact.a, contact.b} & {*other.names}:
                 continue
@@ -599,6 +643,8 @@ class Followed:
             self.notices.append(Notice("touch_passed_over", text, float(time[0]), pair.names))
         pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
         pair.begun[which] = time
+        met, *_ = self._pair(pair).at(time, which)
+        pair.meets(which, time, met, met.axis(met.widest), _PUSHED)
 
     def _closings(self, struck: _Between, which: Any, time: Any) -> dict[int, Any]:
         """How fast the pairs close that are in contact beside the one that is struck."""
@@ -799,20 +845,21 @@ class Followed:
         """Let both vehicles go on from the motion after the contact; when they do, which is later
         only for one that was followed in time.
         """
-        hold = np.zeros(len(which))
+        hold = lasting = np.zeros(len(which))
         if contact.duration is not None:
-            whole = self.ground.taker(which)(contact.duration)
-            hold = np.where((time == 0.0) & (not contact.touches), 0.5 * whole, whole)
+            lasting = self.ground.taker(which)(contact.duration)
+            hold = np.where((time == 0.0) & (not contact.touches), 0.5 * lasting, lasting)
         way = way_to_separation(impact)
         passed = np.zeros(len(which), dtype=bool)
         if way is not None:
             # The places given are those of first touch, or of maximum engagement.
-            lasts = way.duration
+            lasts = whole = way.duration
             if impact.inputs.geometry != "first_contact":
                 lasts = lasts - way.engaged
             lasts = np.broadcast_to(lasts, len(which))
             passed = np.isfinite(lasts)
             hold = np.where(passed, lasts, hold)
+            lasting = np.where(passed, whole, lasting)
         ends = np.where(passed, time + hold, time)
         for label, name, side in (
             ("a", contact.a, impact.a),
@@ -829,9 +876,13 @@ class Followed:
                     else (side.at_compression)
                 )
                 during = _followed(states[name], begins, way.moved[label], hold, state, passed)
-                state[:3] = np.where(passed, during[1:4, 1] - hold * state[3:], state[:3])
+                rises = self.ground.rises(self.ground.taker(which))
+                back = during[1:4, 1] - during[1:4, 0] - hold * state[3:]
+                state[:3] = np.where(passed, moved(during[1:4, 0], back, rises), state[:3])
                 self.lasts[name][which] = np.where(passed, ends, self.lasts[name][which])
-            self.courses[name].turn(which, time, hold, state, contact.tyres_after.get(name), during)
+            self.courses[name].turn(
+                which, time, hold, state, contact.tyres_after.get(name), during, lasting
+            )
         return ends
 
     # What the scene contradicts
@@ -910,7 +961,7 @@ class Followed:
     def _not_coming(self, rule: int, contact: Contact) -> CollisionsError:
         pair = next(p for p in self._pairs if {contact.a, contact.b} == {*p.names})
         near, at = self._nearest(pair)
-        if not math.isfinite(near):
+        if not math.isfinite(near) or not math.isfinite(at):
             reason = "do not part and meet again"
         elif near <= TOUCHING:
             reason = (

@@ -11,7 +11,7 @@ import numpy as np
 from ..kernels.tyre import wheel_forces
 from ..travel.areas import Areas
 from ..travel.simulate import MARKS
-from ..vehicle.drag import GRAVITY
+from ..vehicle.drag import gravity_on
 from ..vehicle.tyres import Tyres, kernel_numbers
 from .motion import Ground
 from .mover import Mover
@@ -70,7 +70,7 @@ def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any, cases: Any 
         transfers=tyres.transfers,
     )
     power, use = np.zeros(count), np.empty((4, count))
-    weight = 0.25 * take(mover.vehicle.mass) * GRAVITY
+    weight = 0.25 * take(mover.vehicle.mass) * gravity_on(ground.rises(take))
     for at, (along, across, load) in enumerate(wheels):
         pull = load * here[at] * weight
         power -= pull * (along * (forward - turn * aside[at]) + across * (left + turn * ahead[at]))
@@ -85,7 +85,7 @@ def on_drag(mover: Mover, ground: Ground, state: Any, slowing: float) -> Any:
     body = mover.vehicle
     _, _, _, vx, vy, turn = state
     speed = np.hypot(vx, vy)
-    power = body.mass * GRAVITY * mover.drag * speed
+    power = body.mass * gravity_on(ground.slope) * mover.drag * speed
     if np.any(turn != 0.0) and slowing > 0.0:
         rate = np.where(speed > 0.0, slowing / np.where(speed > 0.0, speed, 1.0), 0.0)
         power = power + body.yaw_inertia * turn * turn * rate
@@ -94,4 +94,5 @@ def on_drag(mover: Mover, ground: Ground, state: Any, slowing: float) -> Any:
 
 def on_slope(mover: Mover, ground: Ground, state: Any) -> Any:
     """The power that climbing takes of one case [W]."""
-    return mover.vehicle.mass * GRAVITY * (ground.slope[0] * state[3] + ground.slope[1] * state[4])
+    climbs = ground.slope[0] * state[3] + ground.slope[1] * state[4]
+    return mover.vehicle.mass * gravity_on(ground.slope) * climbs

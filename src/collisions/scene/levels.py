@@ -13,7 +13,7 @@ import numpy as np
 
 from ..kernels.contact_laws import BRACH, FRICTION
 from ..quantities.attributes import same_fields
-from ..vehicle.drag import GRAVITY, USUAL_DURATION
+from ..vehicle.drag import GRAVITY, USUAL_DURATION, gravity_on
 from .contact import IN_TIME, Contact
 from .mover import Mover
 from .names import as_function
@@ -193,14 +193,13 @@ def _shares(run: Run, names: Sequence[str]) -> Iterator[tuple[str, float]]:
         mover, track = run.scene.movers[name], run.paths[name]
         tyres = mover.tyres
         assert tyres is not None
-        way = float(np.hypot(np.diff(track.x), np.diff(track.y)).sum())
-        weight = mover.vehicle.mass * GRAVITY
+        along, across = np.diff(track.x), np.diff(track.y)
+        climbs = float(run.scene.slope[0]) * along + float(run.scene.slope[1]) * across
+        # Along the ground, of which the track is the plan.
+        way = float(np.sqrt(along * along + across * across + climbs * climbs).sum())
+        weight = mover.vehicle.mass * gravity_on(run.scene.slope)
         if way < _SHORT or not math.isfinite(weight):
             yield name, float(np.mean(tyres.locks))
             continue
-        rise = sum(
-            float(slope) * float(row[-1] - row[0])
-            for slope, row in zip(run.scene.slope, (track.x, track.y), strict=True)
-        )
-        taken = run._ground_work(name) - weight * rise
+        taken = run._ground_work(name) - mover.vehicle.mass * GRAVITY * float(climbs.sum())
         yield name, float(taken / (weight * way * tyres.friction))

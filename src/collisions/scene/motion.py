@@ -19,7 +19,7 @@ from ..quantities.units import Texts, texts_of
 from ..travel.following import ROLLS_ON, Following
 from ..travel.motion import GOES_ON, RESTS
 from ..travel.simulate import prepared, refuse_one
-from ..vehicle.drag import GRAVITY
+from ..vehicle.drag import GRAVITY, gravity_on, in_plan
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import NAMES, Vehicle, needed, vehicle_of
 from .mover import Mover
@@ -40,6 +40,9 @@ class Leg(NamedTuple):
     moments, cases)). Then it is that on tyres where ``place``, that of the case in ``followed``, is
     not -1; and else straight on, slowed evenly to rest within ``stops`` [s], which is infinite for
     a motion that nothing slows.
+
+    Where the ground slopes, by ``rises``, velocities are along it and places in plan; ``pull`` is
+    the acceleration down it until ``hold``.
     """
 
     which: Any
@@ -51,6 +54,8 @@ class Leg(NamedTuple):
     followed: Following | None
     tyres: Tyres | None
     during: Any = None
+    rises: Any = None
+    pull: Any = None
 
     def at(self, time: Any, cases: Any) -> Any:
         """The states of some of its cases, by their places in it, at a time of each."""
@@ -69,11 +74,16 @@ class Leg(NamedTuple):
         part = np.minimum(after / np.where(stops > 0.0, stops, 1.0), 1.0)
         part = np.where(stops > 0.0, part, 1.0)
         whole = np.isinf(stops)
-        passed = held + np.where(
-            whole, after, np.where(whole, 0.0, stops) * part * (1 - 0.5 * part)
-        )
-        found[_PLACES] = begin[_PLACES] + passed * begin[_RATES]
-        found[_RATES] = begin[_RATES] * np.where(after > 0.0, 1.0 - np.where(whole, 0.0, part), 1.0)
+        further = np.where(whole, after, np.where(whole, 0.0, stops) * part * (1 - 0.5 * part))
+        slows = np.where(after > 0.0, 1.0 - np.where(whole, 0.0, part), 1.0)
+        if self.rises is None:
+            found[_PLACES] = begin[_PLACES] + (held + further) * begin[_RATES]
+            found[_RATES] = begin[_RATES] * slows
+        else:
+            rises, pull = self.rises[:, cases], self.pull[:, cases]
+            reached = pulled(begin, held, pull, rises)
+            found[_PLACES] = moved(reached[_PLACES], further * reached[_RATES], rises)
+            found[_RATES] = reached[_RATES] * slows
         if some is not None and len(some):
             assert self.followed is not None
             found[:, some] = self.followed.at(after[some], self.place[cases[some]])
@@ -81,7 +91,15 @@ class Leg(NamedTuple):
             inside = (held < hold) & np.isfinite(self.during[0, 1, cases])
             some = np.flatnonzero(inside)
             if len(some):
-                found[:, some] = _between(self.during, held[some], cases[some])
+                there = _between(self.during, held[some], cases[some])
+                if self.rises is not None:
+                    begun, rises = self.during[1:4, 0, cases[some]], rises[:, some]
+                    there[_PLACES] = moved(begun, there[_PLACES] - begun, rises)
+                    still = np.zeros_like(there[_RATES])
+                    resting = np.concatenate([there[_PLACES], still])
+                    more = pulled(resting, held[some], pull[:, some], rises)
+                    there = np.concatenate([more[_PLACES], there[_RATES] + more[_RATES]])
+                found[:, some] = there
         return found
 
     def rests(self, cases: Any, *, known: bool = False) -> Any:
@@ -97,6 +115,19 @@ class Leg(NamedTuple):
             last[some] = self.followed.rests(place[some])
         still = ~np.any(self.state[:, cases][_RATES] != 0.0, axis=0)
         return self.start[cases] + np.where(still & (place < 0), 0.0, self.hold[cases] + last)
+
+
+def moved(place: Any, way: Any, rises: Any) -> Any:
+    """Places and headings after ways along ground that rises so, and turns."""
+    return place + np.array([*in_plan(rises, way[0], way[1]), way[2]])
+
+
+def pulled(state: Any, time: Any, pull: Any, rises: Any) -> Any:
+    """The states after times of free motion, in which the ground only pulls."""
+    gained = np.zeros_like(state[_RATES])
+    gained[:2] = time * pull
+    places = moved(state[_PLACES], time * (state[_RATES] + 0.5 * gained), rises)
+    return np.concatenate([places, state[_RATES] + gained])
 
 
 def _between(table: Any, time: Any, cases: Any) -> Any:
@@ -134,8 +165,8 @@ class Course:
         rows = [ground.cases(value) for value in values]
         every = np.arange(count)
         none = np.zeros(count)
-        self._waiting: list[tuple[Any, Any, Any, Any, Tyres | None, Any]] = [
-            (every, none, none, np.array(rows), mover.tyres, None)
+        self._waiting: list[tuple[Any, Any, Any, Any, Tyres | None, Any, Any]] = [
+            (every, none, none, np.array(rows), mover.tyres, None, none)
         ]
         # Of each leg, the places of the cases in it, or -1; and which leg each case is in now.
         self._places: list[Any] = []
@@ -162,9 +193,11 @@ class Course:
         state: Any,
         tyres: Tyres | None,
         during: Any = None,
+        lasts: Any = 0.0,
     ) -> None:
         """Let some cases go on from a time and a state, after a contact: on new tyres, or on those
-        that they have.
+        that they have. A contact that ``lasts`` [s], of which ``hold`` is after that time, is one
+        in which the slope pulls all the while.
 
         Of a contact followed in time, which takes ``hold`` and moves as ``during`` says, the state
         is the one from which its end is reached at the velocities after it.
@@ -188,6 +221,7 @@ class Course:
                     state[:, some],
                     self.wheels[kind],
                     None if during is None else during[:, :, some],
+                    np.broadcast_to(lasts, len(which))[some],
                 )
             )
 
@@ -201,7 +235,7 @@ class Course:
     def settled(self) -> list[Leg]:
         """All legs."""
         while self._waiting:
-            which, start, hold, state, tyres, during = self._waiting.pop(0)
+            which, start, hold, state, tyres, during, lasts = self._waiting.pop(0)
             # Nobody asks for the motion of a leg that ends as it begins.
             brief = np.zeros(len(which), dtype=bool)
             for others, begun, *_ in self._waiting:
@@ -212,7 +246,8 @@ class Course:
             places = np.full(self.count, -1)
             places[which] = np.arange(len(which))
             self._places.append(places)
-            leg = self._leg(which, start, hold, state, tyres, brief)
+            pull = self._pull(which, hold, state, tyres, lasts)
+            leg = self._leg((which, start, hold, state, tyres), brief, pull)
             self.legs.append(leg._replace(during=during))
         return self.legs
 
@@ -337,6 +372,7 @@ class Course:
                 reach = np.hypot(
                     *(0.5 * take(size) for size in (leg.tyres.wheelbase, leg.tyres.track))
                 )
+                # Gravity on the level, which is a bound of that on any slope.
                 push[here] = GRAVITY * (most + ground.steepest)
                 spin[here] = GRAVITY * most * reach * take(body.mass) / take(body.yaw_inertia)
             elif self.mover.drag is not None:
@@ -351,28 +387,44 @@ class Course:
                 spin[here] = np.where(moving, turning / np.where(moving, stops, 1.0), 0.0)
         return push, spin
 
-    def _leg(
-        self, which: Any, start: Any, hold: Any, state: Any, tyres: Tyres | None, brief: Any
-    ) -> Leg:
-        speed = np.hypot(state[3], state[4])
-        still = (speed == 0.0) & (state[5] == 0.0)
+    def _pull(self, which: Any, hold: Any, state: Any, tyres: Tyres | None, lasts: Any) -> Any:
+        """Acceleration down the slope while a contact holds: what comes to its pull over all of
+        the contact, also of the part before the time of the states.
+        """
+        if not self.ground.steepest:
+            return None
+        rises = np.array(self.ground.rises(self.ground.taker(which)))
+        # What nothing slows is not pulled either, and what stands is held.
+        holds = self.fixed or (tyres is None and self.mover.drag is None)
+        acts = (hold > 0.0) & np.any(state[_RATES] != 0.0, axis=0) & (not holds)
+        share = np.where(acts, lasts / np.where(hold > 0.0, hold, 1.0), 0.0)
+        return -gravity_on((rises[0], rises[1])) * rises * share
+
+    def _leg(self, begins: tuple[Any, ...], brief: Any, pull: Any) -> Leg:
+        which, start, hold, state, tyres = begins
+        rises = None if pull is None else np.array(self.ground.rises(self.ground.taker(which)))
+        begun = state.copy()
+        if pull is None:
+            begun[_PLACES] = state[_PLACES] + hold * state[_RATES]
+        else:
+            begun = pulled(state, hold, pull, rises)
+        speed = np.hypot(begun[3], begun[4])
+        still = (speed == 0.0) & (begun[5] == 0.0)
         count = len(which)
         stops = np.where(still, 0.0, np.inf)
         place: Any = np.full(count, -1)
         followed = None
-        begun = state.copy()
-        begun[_PLACES] = state[_PLACES] + hold * state[_RATES]
         if self.fixed or count == 0:
             pass
         elif tyres is not None:
-            rolling = self._rolls(tyres, which, state, speed)
+            rolling = self._rolls(tyres, which, begun, speed)
             moves = ~(rolling | brief | (still & (self.ground.steepest == 0.0)))
             if moves.any():
                 place[moves] = np.arange(int(moves.sum()))
                 followed = self._followed(which[moves], begun[:, moves], tyres)
         elif self.mover.drag is not None:
-            stops = self._slides(which, state, speed, still)
-        return Leg(which, start, hold, state, stops, place, followed, tyres)
+            stops = self._slides(which, begun, speed, still)
+        return Leg(which, start, hold, state, stops, place, followed, tyres, rises=rises, pull=pull)
 
     def _rolls(self, tyres: Tyres, which: Any, state: Any, speed: Any) -> Any:
         """Whether all wheels roll freely straight on, so that nothing slows the vehicle."""
@@ -405,7 +457,8 @@ class Course:
             )
         self._fail(which[spins | steep], "never_stops")
         usable = slowing > _LEAST_DRAG
-        stops = np.where(usable, speed / (GRAVITY * np.where(usable, slowing, 1.0)), np.inf)
+        pressing = gravity_on(self.ground.rises(take))
+        stops = np.where(usable, speed / (pressing * np.where(usable, slowing, 1.0)), np.inf)
         return np.where(still, 0.0, stops)
 
     def _followed(self, which: Any, state: Any, tyres: Tyres) -> Following:
@@ -486,6 +539,10 @@ class Ground(NamedTuple):
     def steepest(self) -> float:
         """The greatest rise over run in any case."""
         return float(np.max(np.hypot(*self.slope), initial=0.0))
+
+    def rises(self, take: Callable[[Any], Any]) -> tuple[Any, Any]:
+        """The slope of some cases."""
+        return take(self.slope[0]), take(self.slope[1])
 
     def cases(self, value: Any) -> Any:
         """A number of the scene in every case, as a fresh array."""

@@ -594,7 +594,10 @@ class Run(Frozen, Summarized):
         if found.ground.steepest and (leg.tyres is not None or mover.drag is not None):
             power = power + on_slope(mover, found.ground, state)
         marks = np.where(held, np.nan, marks)
-        return np.where(held, 0.0, power), marks
+        pulls = 0.0
+        if leg.pull is not None:
+            pulls = -mover.vehicle.mass * (leg.pull[0, 0] * state[3] + leg.pull[1, 0] * state[4])
+        return np.where(held, pulls, power), marks
 
     def _ground_work(self, name: str) -> float:
         """What the ground takes from one vehicle on the whole way [J], by Simpson's rule."""
@@ -605,12 +608,10 @@ class Run(Frozen, Summarized):
         # The power jumps where a contact ends that the vehicle was held in.
         bounds = sorted({*known, *(end for end in ends if known[0] < end < known[-1])})
         for begin, end in pairwise(bounds):
-            leg = course.leg_at(begin)
-            if begin < leg.start[0] + leg.hold[0]:
-                continue
             clock = np.linspace(begin, end, _FOR_WORK)
+            # What acts up to the bound, and not from it on.
+            clock[-1] = math.nextafter(end, begin)
             state = course.at(clock, np.broadcast_to(one, clock.shape))
-            state[:, -1:] = course.at(clock[-1:], one, before=True)
             power, _ = self._power(name, clock[:, None], state[:, :, None])
             weights = np.ones(len(power))
             weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
@@ -728,7 +729,8 @@ def _warn_of(found: Followed, wrong: Any) -> None:
 
 # What a finding of one run is without its names and times.
 _DRIVEN = (
-    "two vehicles do not part after their contact and are followed through or into each other: "
+    "two vehicles do not part after their contact, or touch too slowly for one, and are followed "
+    "through or into each other: "
     "what pushes them without a blow is not followed, and their places of rest may be wrong. Where "
     "that is so in a few percent of the cases, no more of the probability is in doubt; where in "
     "many, leave the places of rest out of the evidence"

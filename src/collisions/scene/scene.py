@@ -57,9 +57,11 @@ class Scene(Shown):
         Areas with a different friction, each with three or more corners [m] in order, for movers
         with tyres. The first that a wheel is in counts.
     slope : pair of float, str, Quantity or array [-]
-        Rise over run of the ground along x and along y, for movers with tyres or a drag. Places and
-        times are as in ``travel.simulate``. It does not act while a contact lasts: of 0.1 s on a
-        slope of 10 %, that leaves out 0.1 m/s.
+        Rise over run of the ground along x and along y, for movers with tyres or a drag. Places are
+        in plan, speeds and times along the ground, as in ``travel.simulate``. While a contact with
+        a duration lasts it pulls both vehicles alike, by 0.1 m/s in 0.1 s on a slope of 10 %; a
+        contact without one takes no time. A mover with a drag goes straight on also across a slope,
+        which would bend the way of a sliding one: by 1 m of 14 m at 10 %. Give it tyres there.
     order : list of pairs of names, optional
         The order of the contacts that an account claims, such as ``[("A", "B"), ("B", "C")]``. A
         case that goes otherwise is refused, with the order that it takes.

@@ -7,6 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..vehicle.drag import in_plan
+
 # Points along a step, between which the way of a wheel counts as straight.
 _CHORDS = 8
 # A wheel this near an edge, of the length that the motion has by its speed, is on the side that it
@@ -20,7 +22,8 @@ class Areas(NamedTuple):
 
     ``corners`` are polygons of (n, 2) [m]; ``frictions`` has a row for each and a column for each
     case. Places are over ``length`` and from ``origin`` [m]; ``ahead_of`` and ``left_of`` are
-    places of the four wheels [m], of (4, cases).
+    places of the four wheels [m], of (4, cases). Where ``rises`` is given, the slope of (2, cases),
+    places are along the ground, and polygons in plan.
     """
 
     corners: Sequence[Any]
@@ -30,10 +33,13 @@ class Areas(NamedTuple):
     length: Any
     ahead_of: Any
     left_of: Any
+    rises: Any = None
 
     def of(self, which: Any) -> Areas:
         """Those of some of the cases."""
-        return Areas(self.corners, *(part[..., which] for part in self[1:]))
+        return Areas(
+            self.corners, *(None if part is None else part[..., which] for part in self[1:])
+        )
 
     def friction_at(self, px: Any, py: Any) -> Any:
         """The friction at places in the scene [m], of (wheels, cases): of the first area that holds
@@ -57,9 +63,13 @@ class Areas(NamedTuple):
             part.reshape(4, *(1,) * (np.ndim(x) - 1), -1) for part in (self.ahead_of, self.left_of)
         )
         px, py = (
-            origin + self.length * part for origin, part in zip(self.origin, (x, y), strict=True)
+            origin + self.length * part
+            for origin, part in zip(self.origin, self._in_plan(x, y), strict=True)
         )
         return px + c * ahead - s * left, py + s * ahead + c * left
+
+    def _in_plan(self, x: Any, y: Any) -> tuple[Any, Any]:
+        return (x, y) if self.rises is None else in_plan(self.rises, x, y)
 
     def under(self, x: Any, y: Any, heading: Any, vx: Any, vy: Any, turning: Any) -> Any:
         """The friction under each wheel, of (4, cases); on an edge that of the side to which the
@@ -67,6 +77,7 @@ class Areas(NamedTuple):
         """
         px, py = self.wheels(x, y, heading)
         c, s = np.cos(heading), np.sin(heading)
+        vx, vy = self._in_plan(vx, vy)
         ux = self.length * vx - turning * (s * self.ahead_of + c * self.left_of)
         uy = self.length * vy + turning * (c * self.ahead_of - s * self.left_of)
         speed = np.hypot(ux, uy)
@@ -78,6 +89,7 @@ class Areas(NamedTuple):
         it rests before it.
         """
         px, py = self.wheels(x, y, heading)
+        ux, uy = self._in_plan(ux, uy)
         edges = self._edges()
         # Beyond all areas is far enough.
         reach = np.max(np.abs(edges), axis=(0, 1, 2)) + np.max(np.hypot(px, py), axis=0)

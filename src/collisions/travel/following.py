@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..vehicle.drag import in_plan
 from .motion import GOES_ON, IN_TIME, RESTS, Motion, between, follow
 from .simulate import Prepared
 
@@ -47,6 +48,8 @@ class Following:
         self.count = made.motion.start.shape[1]
         self._x, self._y, self._second, self._length, _ = made.units
         self._spin = made.motion.ground[17]
+        # Where the ground slopes, steps go along it, and places are in plan.
+        self._rises = made.motion.ground[18:20] if made.motion.settings.sloped else None
         self._ended: Any = np.full(self.count, IN_TIME)
         self._reached: Any = np.zeros(self.count)
         self._state: Any = np.zeros((13, self.count))
@@ -95,6 +98,7 @@ class Following:
             else:
                 return np.full((6, 1), np.nan)
             rate = length / second
+            px, py = self._in_plan(px, py)
             state = [x + length * px, y + length * py, heading, rate * vx, rate * vy, 0.0]
             return np.array([state]).T
         before, row = steps[max(after - 1, 0)], steps[after]
@@ -102,8 +106,16 @@ class Following:
         share = (time - before[0]) / took if took > 0.0 else 0.0
         (px, py, heading), (vx, vy, turning) = between(before, row, share, self._turns)
         rate = length / second
+        px, py = self._in_plan(px, py)
         state = [x + length * px, y + length * py, heading, rate * vx, rate * vy, turning / second]
         return np.array([state]).T
+
+    def _in_plan(self, px: float, py: float) -> tuple[float, float]:
+        """A way of the single case."""
+        if self._rises is None:
+            return px, py
+        rise_x, rise_y = self._rises[:, 0].tolist()
+        return in_plan((rise_x, rise_y), px, py)
 
     def leave(self, cases: Any) -> None:
         """Follow some cases no further than is asked for, as they go on otherwise."""
@@ -207,6 +219,8 @@ class Following:
         rates = np.where(ended, rolls + beyond, rates)
         passed = np.where(ended & (how == ROLLS_ON), time - before[0], 0.0)
         px, py = px + passed * before[4], py + passed * before[5]
+        if self._rises is not None:
+            px, py = in_plan(self._rises[:, cases], px, py)
         return np.array(
             [
                 self._x[cases] + length * px + beyond,

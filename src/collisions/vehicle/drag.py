@@ -20,6 +20,27 @@ GRAVITY = 9.80665
 of that.
 """
 
+
+def gravity_on(rises: tuple[Any, Any]) -> Any:
+    """What presses on ground that rises so over the run along x and y [m/s**2]: gravity times the
+    cosine of its angle.
+
+    Times this, friction, a drag and the rise over the run itself are decelerations along the
+    ground.
+    """
+    return GRAVITY / (1.0 + rises[0] * rises[0] + rises[1] * rises[1]) ** 0.5
+
+
+def in_plan(rises: tuple[Any, Any], x: Any, y: Any) -> tuple[Any, Any]:
+    """A way, or a velocity, along ground that rises so over the run, as it is seen in plan: shorter
+    by the cosine of the angle up and down the slope, and as it is across it.
+    """
+    root = (1.0 + rises[0] * rises[0] + rises[1] * rises[1]) ** 0.5
+    # One minus the cosine, over the square of the steepest rise.
+    less = (rises[0] * x + rises[1] * y) / (root * (1.0 + root))
+    return x - less * rises[0], y - less * rises[1]
+
+
 # No road tyre holds more than this on any road: beyond, a bare number is in another unit.
 HIGHEST_DRAG = 1.5
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.

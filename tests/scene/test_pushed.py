@@ -1,0 +1,82 @@
+"""Two that touch too slowly for a contact and come to overlap: nothing of that is silent."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions.scene import Contact, Mover, Run, Scene
+from collisions.travel import GRAVITY
+
+LORRY, CAR = (7.5, 2.4), (4.5, 1.8)
+DRIVEN = ("driven_together", "driven_through")
+
+
+def body(x: float, vx: Any, mass: float = 1200.0) -> col.Vehicle:
+    return col.Vehicle(mass=mass, yaw_inertia=1.5 * mass, x=x, y=0.0, heading=0.0, vx=vx)
+
+
+def behind(gap: float, speeds: tuple[Any, Any], drags: tuple[Any, Any], **given: Any) -> Scene:
+    """A lorry behind a car."""
+    movers = {
+        "Lorry": Mover(body(-6.0 - gap, speeds[0], 9000.0), outline=LORRY, drag=drags[0]),
+        "Car": Mover(body(0.0, speeds[1]), outline=CAR, drag=drags[1]),
+    }
+    return Scene(movers=movers, **{"contacts": [], **given})
+
+
+def driven(run: Run) -> list[str]:
+    return [notice.sentence for notice in run.findings if notice.code in DRIVEN]
+
+
+@pytest.mark.parametrize("gap", [0.0, 2e-5])
+def test_one_that_is_braked_less_and_leans_on_another(gap: float) -> None:
+    """Both at 5 m/s bumper to bumper: the ways to rest of both in closed form, whose difference is
+    how deep they overlap; the names and the time stand with it.
+    """
+    run = behind(gap, (5.0, 5.0), (0.6, 0.7)).run()
+    deep = 25.0 / (2.0 * GRAVITY) * (1.0 / 0.6 - 1.0 / 0.7) - gap
+    (said,) = driven(run)
+    assert said.startswith("Lorry and Car touch at 0")
+    assert f"overlap by {deep:.2g} m at {5.0 / (0.6 * GRAVITY):.3g} s" in said
+    # As far as they rest on each other nothing is said.
+    assert not driven(behind(gap, (1.0, 1.0), (0.68, 0.7)).run())
+
+
+def test_one_that_rolls_into_another_ever_so_slowly() -> None:
+    """Nothing slows either of them, and they close by 0.01 m/s."""
+    (said,) = driven(behind(0.005, (5.01, 5.0), (None, None)).run())
+    assert "Lorry and Car touch at 0.5 s, too slowly for a contact" in said
+    assert not driven(behind(0.005, (5.0, 5.0), (None, None)).run())
+    assert not driven(behind(0.0, (5.0, 5.01), (None, None)).run())
+
+
+def test_one_that_leans_on_another_on_a_slope() -> None:
+    """Both are braked enough to stop; the slope pulls the lorry, and the drag of the car holds."""
+    run = behind(0.0, (1.0, 1.0), (0.25, 0.9), slope=(-0.2, 0.0)).run()
+    (said,) = driven(run)
+    assert said.startswith("Lorry and Car touch at 0 s")
+    assert "overlap by" in said
+
+
+def test_a_batch_counts_those_of_single_cases() -> None:
+    """After a blow the lorry comes up again with less than 1 m/s, which is passed over, and leans
+    on the car, in two of three cases.
+    """
+    drags = np.array([0.3, 0.6, 0.4])
+    rule = {"restitution": 0.5, "model": "linear_central", "normal": 0.0, "at": "touch"}
+    given = {"contacts": [Contact("Lorry", "Car", **rule)]}
+    said = [driven(behind(0.1, (4.0, 3.0), (part, 0.7), **given).run()) for part in drags.tolist()]
+    assert [len(one) for one in said] == [1, 0, 1]
+    assert "too slowly for a contact" in said[0][0]
+    with pytest.warns(col.OutOfRangeWarning, match="in 2 of 3 cases .* too slowly for one"):
+        behind(0.1, (4.0, 3.0), (drags, 0.7), **given).run()
+
+
+def test_after_a_blow_only_what_is_deeper_than_then() -> None:
+    """Cars that strike and part have no such finding."""
+    contact = Contact("Lorry", "Car", restitution=0.3, friction=0.5, at="touch")
+    assert not driven(behind(1.0, (8.0, 5.0), (0.7, 0.7), contacts=[contact]).run())

@@ -1,0 +1,115 @@
+"""The pull of a slope while a contact with a duration lasts."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import collisions as col
+from collisions.impact.impact import way_to_separation
+from collisions.scene import Contact, Mover, Scene
+from collisions.travel import GRAVITY, Tyres
+
+OUTLINE = (4.4, 1.8)
+MASSES = (1500.0, 1100.0)
+TYRES = Tyres(0.7, 0.3, 2.6, 1.5)
+
+
+def in_line(slope: tuple[Any, Any], *, touch: bool = True, **given: Any) -> Scene:
+    """One car runs into another that goes ahead of it, without turning."""
+    slowed = given.pop("slowed", {"drag": 0.5})
+    a, b = (
+        col.Vehicle(mass=mass, yaw_inertia=2000.0, x=x, y=0.0, heading=0.0, vx=vx)
+        for mass, x, vx in zip(MASSES, (-5.0 if touch else -2.2, 2.2), (12.0, 4.0), strict=True)
+    )
+    when = {"at": "touch"} if touch else {"point": (0.0, 0.0)}
+    if not given.get("model", "").startswith("ecc"):
+        given.setdefault("friction", 0.0)
+    contact = Contact("A", "B", normal=0.0 if not touch else None, **when, **given)
+    movers = {name: Mover(body, outline=OUTLINE, **slowed) for name, body in (("A", a), ("B", b))}
+    return Scene(movers=movers, contacts=[contact], slope=slope)
+
+
+@pytest.mark.parametrize("rise", [0.1, -0.2])
+def test_a_spring_between_two_on_a_slope(rise: float) -> None:
+    """Two blocks on a line that rises, with a spring between them that gives all back, by scipy:
+    velocities along the slope at separation, and places in plan.
+    """
+    run = in_line((rise, 0.0), restitution=1.0, duration=0.12).run()
+    impact, time = run.impacts[0], run.times[0]
+    lasts = impact.pulse.duration
+    (m, n), pull = MASSES, -GRAVITY * math.sin(math.atan(rise))
+    k = (math.pi / 0.12) ** 2 * m * n / (m + n)
+
+    def rates(_: float, state: Any) -> Any:
+        x, y, u, v = state
+        force = k * max(x - y, 0.0)
+        return [u, v, pull - force / m, pull + force / n]
+
+    def parts(moment: float, state: Any) -> float:
+        return float(state[0] - state[1]) if moment > 0.01 else 1.0
+
+    parts.terminal = True  # type: ignore[attr-defined]
+    begin = [0.0, 0.0, impact.a.before.vx, impact.b.before.vx]
+    end = solve_ivp(rates, (0.0, 1.0), begin, events=parts, rtol=1e-9, atol=1e-9, max_step=1e-3)
+    assert end.status == 1
+    assert lasts == pytest.approx(end.t[-1], rel=1e-3)
+    before, after = run.at(time), run.at(time + lasts)
+    for name, at in (("A", 0), ("B", 1)):
+        assert after[name].vx == pytest.approx(end.y[2 + at, -1], abs=2e-3)
+        moved = (after[name].x - before[name].x) / math.cos(math.atan(rise))
+        assert moved == pytest.approx(end.y[at, -1], abs=2e-3)
+    # Beside the contact itself it is what the slope pulls, 0.12 m/s and more.
+    assert abs(after["A"].vx - impact.a.after.vx) == pytest.approx(abs(pull) * lasts, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"duration": 0.1, "slowed": {"tyres": TYRES}},
+        {"duration": 0.1, "slowed": {"tyres": TYRES}, "model": "eccentric", "friction": 0.5},
+    ],
+    ids=["in time", "between"],
+)
+@pytest.mark.parametrize("touch", [True, False])
+def test_the_pull_over_all_of_a_contact(given: dict[str, Any], touch: bool) -> None:
+    """At the end of the contact both have what the impact gives, and the pull over all of its
+    duration, also over the part before time 0; energy closes as on the level, and a batch agrees.
+    """
+    slope = (0.1, -0.05)
+    scene = in_line(slope, touch=touch, restitution=0.2, **given)
+    run = scene.run(tolerance=1e-6)
+    impact, time = run.impacts[0], run.times[0]
+    lasts = left = 0.1
+    if impact.pulse is not None:
+        lasts = left = impact.pulse.duration
+    if not touch:
+        way = way_to_separation(impact)
+        left = 0.5 * lasts if way is None else lasts - float(way.engaged)
+    pull = -GRAVITY / math.sqrt(1.0 + 0.1**2 + 0.05**2) * np.array(slope)
+    for name, side in (("A", impact.a), ("B", impact.b)):
+        found = run.at(time + left)[name]
+        gained = found.vx - side.after.vx, found.vy - side.after.vy
+        assert gained == pytest.approx(tuple(pull * lasts), abs=1e-9)
+    energy = run.energy
+    closes = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
+    assert abs(closes) < 1e-3 * energy["before"]
+    both = np.array([1.0, 0.0])
+    many = in_line((slope[0] * both, slope[1] * both), touch=touch, restitution=0.2, **given)
+    level = in_line((0.0, 0.0), touch=touch, restitution=0.2, **given).run(tolerance=1e-6)
+    rests = many.run(tolerance=1e-6).rest["B"]
+    assert rests.x == pytest.approx([run.rest["B"].x, level.rest["B"].x], abs=1e-3)
+    assert rests.y == pytest.approx([run.rest["B"].y, level.rest["B"].y], abs=1e-3)
+
+
+def test_what_nothing_slows_is_not_pulled() -> None:
+    """Nor is what is fixed; a contact without a duration takes no time, in which nothing pulls."""
+    level = in_line((0.0, 0.0), touch=False, restitution=0.2, duration=0.1, slowed={}).run()
+    steep = in_line((0.1, 0.0), touch=False, restitution=0.2, duration=0.1, slowed={}).run()
+    assert steep.at(0.2)["A"].vx == level.at(0.2)["A"].vx
+    bare = in_line((0.1, 0.0), touch=False, restitution=0.2).run()
+    assert bare.at(0.0)["A"].vx == bare.impacts[0].a.after.vx
