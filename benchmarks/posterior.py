@@ -28,6 +28,7 @@ from statistics import NormalDist
 from typing import Any, NamedTuple
 
 import numpy as np
+from evenness import uniformity
 
 ROOT = Path(__file__).resolve().parent.parent
 if str(ROOT / "src") not in sys.path:
@@ -444,14 +445,6 @@ def _share(held: int, tried: int) -> str:
 
 def _table(head: list[str], rows: list[list[str]]) -> str:
     return "\n".join(f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *rows))
-
-
-def uniformity(counts: list[int]) -> float:
-    """The chance of ranks that are as uneven as these or more: chi-squared over the bins."""
-    from collisions.estimate.least_squares import chi_squared_tail
-
-    each = sum(counts) / len(counts)
-    return chi_squared_tail(sum((count - each) ** 2 for count in counts) / each, len(counts) - 1)
 
 
 def coverage_table(found: Numbers) -> str:

@@ -65,11 +65,8 @@ def crash() -> Scene:
     )
 
 
-def one(number: int, samples: int, route: str) -> dict[str, Any]:
-    """One scene from the priors, read and reconstructed: ranks of the truth, from 0 to 1."""
-    rng = np.random.default_rng([SEED, number])
-    errors = RESTS | (RECORDED if route == "recorder" else {})
-    model, start = crash().as_model(list(PRIORS), list(errors)), time.process_time()
+def drawn(rng: np.random.Generator, model: Any) -> tuple[dict[str, float], dict[str, Any]]:
+    """A truth from the priors, and what a scene of it has."""
     while True:
         share = rng.uniform(size=len(PRIORS))
         truth = {
@@ -77,11 +74,18 @@ def one(number: int, samples: int, route: str) -> dict[str, Any]:
             for (name, prior), part in zip(PRIORS.items(), share, strict=True)
         }
         try:
-            read = model(**truth)
-            break
+            return truth, model(**truth)
         except col.CollisionsError:
             # No scene: the cars miss each other, or roll on.
             continue
+
+
+def one(number: int, samples: int, route: str) -> dict[str, Any]:
+    """One scene from the priors, read and reconstructed: ranks of the truth, from 0 to 1."""
+    rng = np.random.default_rng([SEED, number])
+    errors = RESTS | (RECORDED if route == "recorder" else {})
+    model, start = crash().as_model(list(PRIORS), list(errors)), time.process_time()
+    truth, read = drawn(rng, model)
     observed = {
         name: Normal(float(read[name].magnitude) + error * rng.normal(), error)
         for name, error in errors.items()

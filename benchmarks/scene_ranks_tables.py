@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from coverage_in_crashes import binomial
-from posterior import uniformity
+from evenness import uniformity
 
 WRITTEN = Path(__file__).resolve().parents[1] / "docs" / "_generated" / "scene_ranks.json"
 _WORDS = {
@@ -30,7 +30,7 @@ def load() -> dict[str, Any]:
 def setting(found: dict[str, Any]) -> str:
     """How many scenes and samples."""
     return (
-        f"So far {found['summary']['scenes']} scenes, with {found['settings']['samples']:,} "
+        f"So far {found['summary']['scenes']} of 200 scenes, with {found['settings']['samples']:,} "
         "samples each."
     )
 
