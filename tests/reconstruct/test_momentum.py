@@ -1293,3 +1293,25 @@ def test_a_report_has_sensitivities_per_degree():
     assert all(line.endswith(" m/s per ° |") for line in rows)
     assert sum(" 0 m/s per" in line for line in rows) == 2
     assert not any("e-1" in line for line in rows)
+
+
+def test_an_impulse_from_outside_excuses_no_more_energy_than_it_can_bring():
+    """Its size times the greatest speed, whatever that of its work was."""
+    courses = {"course_a": "-45 deg", "course_b": "45 deg", "course_a_after": "60 deg"}
+    known = {**courses, "course_b_after": "-60 deg", "speed_a_after": 20.0, "speed_b_after": 20.0}
+    with pytest.warns(col.EnergyGainWarning) as caught:
+        gain = -reconstruct.momentum(1000.0, 1000.0, **known).translational_energy_loss
+    assert caught[0].message.fields["gain"] == gain > 0.0
+    for size in (0.0, 1e-6, 100.0):
+        with pytest.warns(col.EnergyGainWarning):
+            reconstruct.momentum(1000.0, 1000.0, **known, outside_impulse=(0.0, size))
+    # A car that is pushed from 10 to 15 m/s while it meets another.
+    push = 1000.0 * 5.0
+    given = {"course_a": 0.0, "course_b": 1.5, "course_a_after": 0.0, "course_b_after": 1.5}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = reconstruct.momentum(
+            1000.0, 1000.0, **given, speed_a=10.0, speed_b=5.0, outside_impulse=(push, 0.0)
+        )
+    assert found.speed_a_after == pytest.approx(15.0)
+    assert found.translational_energy_loss < 0.0

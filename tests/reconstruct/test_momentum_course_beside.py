@@ -278,3 +278,23 @@ def test_pages_and_findings_have_it():
     page = str(col.report(found))
     assert "from the angle between the unknown course and that of the unknown speed" in page
     assert reporting.replay(page) == found
+
+
+def test_a_side_that_is_lost_while_the_tyres_are_worked_out_is_refused():
+    """Of a slow car the tyres decide where it came from: along the other side the balance does not
+    settle, though the truth lies there, so the one that settles is no answer.
+    """
+    spun = {"heading_b": 2.3244, "yaw_rate_b_after": 3.2542}
+    given = {
+        "duration": 0.14069,
+        "tyres_a": Tyres(0.6644, [0.18986, 0.26565, 0.94248, 0.0], 2.6, 1.5),
+        "tyres_b": Tyres(0.4949, [0.17833, 0.95912, 1.0, 1.0], 2.6, 1.5),
+        "heading_a": 2.6982, "yaw_rate_a_after": 2.9529, **spun,
+        "speed_b": 1.5451, "course_a": 2.6982, "speed_a_after": 13.4121, "course_a_after": 2.4288,
+    }  # fmt: skip
+    masses = 2924.55, 1758.07
+    truth = reconstruct.momentum(*masses, **given, speed_a=18.4432, course_b=2.3244)
+    given |= {"speed_b_after": truth.speed_b_after, "course_b_after": truth.course_b_after}
+    for near in ({}, {"course_near": 2.3244}):
+        with pytest.raises(col.NoSolutionError, match="do not settle while the tyres act"):
+            reconstruct.momentum(*masses, **given, **near)

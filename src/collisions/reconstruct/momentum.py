@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import replace
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -170,7 +171,8 @@ def momentum(
         A speed came out negative: backwards along its course. Or, along ``normal``, the restitution
         is outside 0 to 1, or the vehicles did not approach and it is NaN.
     EnergyGainWarning
-        The vehicles leave with more energy than they had before.
+        The vehicles leave with more energy than they had before, by more than an impulse from
+        outside can bring: its size times the greatest of all speeds.
 
     Examples
     --------
@@ -515,9 +517,10 @@ def _balance(known: _Known, stated: list[tuple[Any, Any]]) -> _Balance:
     return _Balance(found, speeds, turning, tyres, unsettled)
 
 
-def _sided(known: _Known, stated: list[tuple[Any, Any]]) -> tuple[_Known, Any]:
-    """What is known with the side of a course that is sought beside the speed of another, and where
-    both sides fit.
+def _sided(known: _Known, stated: list[tuple[Any, Any]]) -> tuple[_Known, Any, Any]:
+    """What is known with the side of a course that is sought beside the speed of another, where
+    both sides fit, and where one was lost as the tyres were worked out: then the other is no more
+    than one of the answers.
     """
     both = [_balance(known._replace(side=side), stated) for side in _SIDES]
     found = [one.turning for one in both if isinstance(one.turning, Beside)]
@@ -539,7 +542,8 @@ def _sided(known: _Known, stated: list[tuple[Any, Any]]) -> tuple[_Known, Any]:
         takes = [np.where(some, go, fit) for go, fit in zip(ahead, fits, strict=True)]
     several = takes[0] & takes[1] & ~found[0].at_an_end
     side = np.where(takes[1] & ~takes[0], _SIDES[1], _SIDES[0])
-    return known._replace(side=float(side) if known.cases.shape is None else side), several
+    lost = np.not_equal(*fits) if known.lasting is not None else np.False_
+    return known._replace(side=float(side) if known.cases.shape is None else side), several, lost
 
 
 def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> MomentumSolution:
@@ -547,12 +551,13 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     cases, impulse, normal = known.cases, known.impulse, known.normal
     masses = known.numbers["mass_a"], known.numbers["mass_b"]
     stated = [] if impulse is None else [impulse]
-    asked, several = known, np.False_
+    asked, several, lost = known, np.False_, np.False_
     sought = sought_course(known.terms)
     if sought is not None and known.terms[sought].speed is not None and known.side is None:
-        known, several = _sided(known, stated)
+        known, several, lost = _sided(known, stated)
     balance = _balance(known, stated)
     known, speeds, turning, tyres, unsettled = balance
+    unsettled = unsettled | lost
     condition, rounding = balance.condition, balance.rounding
     if turning is not None:
         first, second = turning.speed_of, turning.course_of.replace("speed", "course")
@@ -575,7 +580,10 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     outcome = _outcome(known, speeds)
     lighter = np.minimum(*masses)
     loss = outcome["translational_energy_loss"]
-    gains = -loss > 4.0 * rounding * lighter * sum(abs(speeds[name]) for name in _SPEEDS)
+    sizes = [abs(speeds[name]) for name in _SPEEDS]
+    # An impulse from outside does no more work than on a vehicle that moves along it all the while.
+    work = 0.0 if impulse is None else np.hypot(*impulse) * reduce(np.maximum, sizes)
+    gains = -loss > 4.0 * rounding * lighter * sum(sizes) + work
     status = cases.first_status(
         (
             *((np.isposinf(mass), Status.INFINITE_MASS) for mass in masses),
@@ -586,7 +594,7 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
             *undetermined,
             (unsettled, Status.UNDETERMINED),
             (cases.beyond(sum(speeds[name] for name in _SPEEDS) + loss), Status.OUT_OF_RANGE),
-            (gains & (impulse is None), Status.ENERGY_GAIN),
+            (gains, Status.ENERGY_GAIN),
         )
     )
 
