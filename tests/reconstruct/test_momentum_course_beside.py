@@ -298,3 +298,18 @@ def test_a_side_that_is_lost_while_the_tyres_are_worked_out_is_refused():
     for near in ({}, {"course_near": 2.3244}):
         with pytest.raises(col.NoSolutionError, match="do not settle while the tyres act"):
             reconstruct.momentum(*masses, **given, **near)
+
+
+@pytest.mark.parametrize("wheels", [{}, {"duration": 0.1, "tyres_a": Tyres(0.7, 0.5, 2.6, 1.5)}])
+def test_both_answers_have_the_record_of_the_call_that_decides(wheels):
+    """So that the page made again from the record is the same, byte for byte."""
+    aimed = {"heading_a": "-100 deg"} if wheels else {}
+    given = {"speed_a": "75 km/h", "speed_a_after": "30 km/h", "speed_b_after": "50 km/h"}
+    courses = {"course_b": "0 deg", "course_a_after": "-30 deg", "course_b_after": "-40 deg"}
+    with pytest.raises(col.AmbiguousSolutionError) as caught:
+        reconstruct.momentum(
+            1200.0, 1800.0, **given, **courses, **aimed, **wheels, outside_impulse=(1.0, 2.0)
+        )
+    for one in caught.value.solutions:
+        page = str(col.report(one, form="markdown"))
+        assert str(col.report(reporting.replay(page), form="markdown")) == page

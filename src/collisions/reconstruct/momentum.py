@@ -51,6 +51,8 @@ from .momentum_vector import NEARLY_CANCELLING, Beside, Whole, sought_course, wi
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
 _COURSES = ("course_a", "course_b", "course_a_after", "course_b_after")
+# What stands in a record after all courses.
+_AFTER_COURSES = ("together", "outside_impulse", "duration", "tyres_a", "tyres_b", "normal")
 # Of a course that is sought beside the speed of another: along with its course, and against it.
 _SIDES = (1.0, -1.0)
 _NO_COSINE = (
@@ -663,9 +665,11 @@ def _both(known: _Known, given: dict[str, Any], course: str) -> CollisionsError:
             one = _solve(known._replace(side=side), given, None)
             # By itself each is the answer to the same with its own course stated.
             stated: Any = float(getattr(one, course))
-            solutions.append(
-                replace(one, given=given | {"course_near": stated}, course_near=stated)
-            )
+            # Where the call has it, so that a record of it is the same.
+            first = {name: given[name] for name in given if name not in _AFTER_COURSES}
+            last = {name: given[name] for name in given if name in _AFTER_COURSES}
+            ordered = {**first, "course_near": stated, **last}
+            solutions.append(replace(one, given=ordered, course_near=stated))
     say = Sentences(given.values())
     speed = solutions[0].unknowns[0]
     each = " or ".join(
