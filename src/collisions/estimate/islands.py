@@ -16,9 +16,11 @@ Evaluate: TypeAlias = Callable[[Any], tuple[Any, Any]]
 
 _FEWEST = 0.25  # of a population: with fewer answers more of the prior is drawn
 _MOST_DRAWS = 64  # populations of the prior
-# Accepted moves a point after each resampling, and tries at most. In the end one for each unknown
-# at least: a walk at random in so many dimensions takes about as many to lose where it began.
-_MOVES, _MOVES_LAST, _MOST_SWEEPS = 3.0, 10.0, 80
+_MOVES, _MOVES_LAST, _MOST_SWEEPS = (
+    3.0,
+    10.0,
+    80,
+)  # accepted moves a point after each resampling, and tries at most
 _ACCEPTED = 0.25  # share of moves to aim at, which suits many dimensions
 _NOISE = 0.1  # of the spread, beside the differences of points
 _NO_NEARER, _MOST_OF_THESE = (
@@ -200,7 +202,6 @@ class Islands:
         noise in all directions.
         """
         accepted = np.zeros(self.shape[:2], dtype=np.intp)
-        wanted = _MOVES if self.power < self.end else max(_MOVES_LAST, self.shape[2])
         for _ in range(_MOST_SWEEPS):
             points, likelihood, missed = self._evaluated(self._proposed(others, noise))
             prior = 0.5 * np.sum((self.points - points) * (self.points + points), axis=2)
@@ -212,7 +213,7 @@ class Islands:
             self.missed[better] = missed[better]
             accepted += better
             self.scale *= math.exp(np.mean(better) - _ACCEPTED)
-            if np.mean(accepted) >= wanted:
+            if np.mean(accepted) >= (_MOVES if self.power < self.end else _MOVES_LAST):
                 break
         self.moved = np.mean(accepted > 0, axis=1)
 

@@ -12,11 +12,9 @@ import numpy as np
 
 from .islands import Evaluate, Islands, UnreachableError, step_of
 
-# Accepted moves a point, and tries at most: as in islands.py, but half as many in the end, as the
-# finer model costs more.
-_MOVES, _MOVES_LAST, _MOST_SWEEPS = 2.0, 5.0, 80
-# The last of them, where more than so many points lie where the first model has no answer: these
-# are reached from beside.
+_MOVES, _MOVES_LAST, _MOST_SWEEPS = 2.0, 5.0, 80  # accepted moves a point, and tries at most
+# the last of them, where more than so many points lie where the first model has no answer: these
+# are reached from beside
 _MOVES_BEYOND, _BEYOND = 10.0, 0.01
 _PASSED = 0.3  # share of the moves, judged by the first model, that the finer one is asked about
 # Points without an answer of the first model get this share of its posterior, so that none that
@@ -176,9 +174,7 @@ class FinerIslands(Islands):
             self.scale *= math.exp(np.mean(passed) - _PASSED)
             self.beyond = np.mean(self.likelihood == self.floor, axis=1)
             if last:
-                wanted = max(_MOVES_LAST, 0.5 * self.shape[2])
-                if np.max(self.beyond) > _BEYOND:
-                    wanted = max(wanted, _MOVES_BEYOND)
+                wanted = _MOVES_BEYOND if np.max(self.beyond) > _BEYOND else _MOVES_LAST
             if np.mean(accepted) >= wanted:
                 break
         self.moved = np.mean(accepted > 0, axis=1)
