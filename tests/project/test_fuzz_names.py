@@ -868,6 +868,19 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         courses = {
             name: value for name, value in courses.items() if name[len("course_") :] not in gone
         }
+    if case.maybe(0.15) and not more.get("together"):
+        # A course beside the speed of another: three speeds, and that course is not known.
+        sought, other = case.choice(
+            (("a", "b"), ("b", "a_after"), ("a_after", "b"), ("b", "b_after"))
+        )
+        speeds = {
+            name: case.value("speed")
+            for name in ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
+            if name != f"speed_{other}"
+        }
+        courses.pop(f"course_{sought}", None)
+        if case.maybe(0.7):
+            more["course_near"] = case.value("course")
     if case.maybe(0.3):
         more |= lasting(case)
         for label in "ab":

@@ -841,28 +841,27 @@ def _warn(
     near: Any = False
     if turning is not None:
         speed, course = solution.unknowns
-        code, sentence = (
-            (
-                "momenta_cancel",
+        cancel = sure & (found["condition"] > NEARLY_CANCELLING)
+        if isinstance(turning, Whole):
+            sentence = (
                 f"the momenta that leave {speed} and its course nearly cancel, and small errors of "
-                "them move both far",
+                "them move both far"
             )
-            if isinstance(turning, Whole)
-            else (
-                "nearly_across",
+            text = f"{sentence} (condition {{:.3g}})"
+            say(
+                IllConditionedWarning, cancel, text, "momenta_cancel", "", sentence,
+                condition=found["condition"],
+            )  # fmt: skip
+        else:
+            sentence = (
                 f"{course} is within 10 degrees of a right angle to that of {speed}, and small "
-                "errors move both far, or to the other course that fits",
+                "errors move both far, or to the other course that fits"
             )
-        )
-        say(
-            IllConditionedWarning,
-            sure & (found["condition"] > NEARLY_CANCELLING),
-            f"{sentence} (condition {{:.3g}})",
-            code,
-            "",
-            sentence,
-            condition=found["condition"],
-        )
+            text = f"{sentence} (condition {{:.3g}})"
+            say(
+                IllConditionedWarning, cancel, text, "nearly_across", "", sentence,
+                condition=found["condition"],
+            )  # fmt: skip
     else:
         one, other = (known.terms[name].course for name in solution.unknowns)
         sine = abs(one.to(other)[1])

@@ -139,9 +139,15 @@ class _Between:
         self.touched: list[tuple[float, float]] = []
 
     def meets(self, cases: Any, time: Any, met: Meeting, side: Any, allowed: float) -> None:
-        """Keep how some cases meet, against which it is held how deep they come to overlap."""
-        self.met[cases], self.side[:, cases] = time, side
-        self.depth[cases], self.allowed[cases] = np.maximum(-met.gap, 0.0), allowed
+        """Keep how some cases meet, against which it is held how deep they come to overlap; of
+        those that had a contact that stays what counts.
+        """
+        fresh = (self.allowed[cases] != _DEEPER) | (allowed == _DEEPER)
+        some = cases[fresh]
+        self.met[some] = np.broadcast_to(time, cases.shape)[fresh]
+        self.side[:, some] = side[:, fresh]
+        self.depth[some] = np.maximum(-met.gap, 0.0)[fresh]
+        self.allowed[some] = allowed
 
 
 class Followed:
