@@ -133,6 +133,8 @@ def momentum(
         How long the contact lasts, > 0, for the tyres: 0.05 to 0.15 s for cars.
     tyres_a, tyres_b : travel.Tyres, optional
         The wheels of each vehicle, which then needs its heading; one without has no tyre forces.
+        The answer is the one to which the balance without tyres leads: where a vehicle is slower
+        than its tyres can change in this duration, another may fit too, and is not looked for.
     yaw_rate_a_after, yaw_rate_b_after : float, str, Quantity or array [rad/s], optional
         Yaw rates just after, counter-clockwise, for the slip of the wheels; 0 if not given, which
         ``explain`` and ``report`` then say. They count for nothing but the tyres.
