@@ -214,6 +214,8 @@ class Cases(NamedTuple):
 
     def where(self, keep: Any, found: Any) -> Any:
         """The values, NaN in the cases where the condition does not hold."""
+        if self.shape is None:
+            return float(found) if keep else math.nan
         return self.values(np.where(keep, found, np.nan))
 
     def beyond(self, found: Any) -> Any:
@@ -301,7 +303,7 @@ def input_faults(numbers: Mapping[str, Any], incomplete: bool = False) -> list[t
     found: list[tuple[Any, int]] = []
     with np.errstate(invalid="ignore"):
         for name, value in numbers.items():
-            if not np.ndim(value):
+            if isinstance(value, float) or not np.ndim(value):
                 found += [(True, Status.NOT_FINITE)] if value != value else []
                 continue
             found += [
@@ -400,14 +402,17 @@ def run_forward(
     values are NaN.
     """
     found = np.equal(status, Status.OK)
-    inputs = replace(inputs_of(found), contact_velocity=origin.contact_velocity)
+    velocity = origin.contact_velocity
+    inputs = _with_velocity(inputs_of(found), velocity)
     impact = solved(inputs, on_failure=on_failure)
     if np.any(found & impact.refused):
-        velocity = origin_where_answered(origin, impact.status).contact_velocity
-        inputs = replace(
-            inputs_of(found & np.logical_not(impact.refused)), contact_velocity=velocity
-        )
+        velocity = velocity and origin_where_answered(origin, impact.status).contact_velocity
+        inputs = _with_velocity(inputs_of(found & np.logical_not(impact.refused)), velocity)
     return found_by(origin, inputs, answer_of(impact), status)
+
+
+def _with_velocity(inputs: Inputs, velocity: Any) -> Inputs:
+    return inputs if velocity is None else replace(inputs, contact_velocity=velocity)
 
 
 def raise_or_warn(

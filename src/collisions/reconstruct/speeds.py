@@ -321,7 +321,8 @@ def speeds(
     in_time = numbers_of_times(times)
     beside = (*known.values(), *(angle.value for angle in courses.values()), *in_time.values())
     inputs = read_inputs("eccentric", arguments, reader.problems, beside, incomplete)
-    inputs = replace(inputs, **times)
+    if times:
+        inputs = replace(inputs, **times)
     if times and callable(restitution):
         raise InputError(
             "a function of restitution and tyres cannot be solved together; give a number for the "
@@ -436,7 +437,8 @@ def speeds(
         if inputs is not asked:
             also = (FRICTION,)
         texts = by_own_names(reader.texts, recorders, bool(times))
-        inputs = replace(inputs, given={**texts, **(inputs.given or {})} or None)
+        if texts:
+            inputs = replace(inputs, given={**texts, **(inputs.given or {})})
         told = known | {
             f"course_{label}": angle.radians
             for label, angle in courses.items()
