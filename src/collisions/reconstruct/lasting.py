@@ -28,21 +28,35 @@ _MET, _SETTLED = 1e-12, 1e-9
 _MOST, _VAIN = 20, (2, 5)
 
 
-def settle(
+def misses_of_impacts(
     inputs_at: Callable[[Sequence[Any]], Inputs],
+    misses: Callable[[Inputs, Any], Sequence[Any]],
+) -> Callable[[Sequence[Any]], Sequence[Any]]:
+    """What ``settle`` asks, of impacts: ``inputs_at`` makes inputs with their tyres from unknowns,
+    and ``misses`` says of inputs and the answer to them by how much each known value is missed.
+    """
+
+    def missed(values: Sequence[Any]) -> Sequence[Any]:
+        inputs = inputs_at(values)
+        with quietly():
+            return misses(inputs, solve_inputs(ECCENTRIC, inputs, "nan"))
+
+    return missed
+
+
+def settle(
+    missed: Callable[[Sequence[Any]], Sequence[Any]],
     start: Sequence[Any],
     sizes: Sequence[Any],
-    misses: Callable[[Inputs, Any], Sequence[Any]],
     highest: Sequence[float] | None = None,
 ) -> tuple[list[Any], Any]:
     """The unknowns for which the lasting contact reproduces what was known, and where it does.
 
     ``start`` has the unknowns of the instant, numbers or arrays of one shape, ``sizes`` how large
-    each may be. ``inputs_at`` makes inputs with their tyres from unknowns, which may have an axis
-    more than ``start``, in front; ``misses`` says of inputs and the answer to them by how much each
-    of as many known values is missed, as a share of its size. ``highest`` are bounds that no
-    unknown passes. A case in which a step does not help takes half of it; one that has settled
-    stays, so that it comes out of a batch as alone.
+    each may be. ``missed`` says of unknowns, which may have an axis more than ``start``, in front,
+    by how much each of as many known values is missed, as a share of its size. ``highest`` are
+    bounds that no unknown passes. A case in which a step does not help takes half of it; one that
+    has settled stays, so that it comes out of a batch as alone.
     """
     values = np.stack(np.broadcast_arrays(*start)).astype(np.float64)
     count, shape = len(values), values.shape[1:]
@@ -53,7 +67,7 @@ def settle(
     best, left = values, np.full(shape, np.inf)
     move, vain = np.zeros_like(values), np.zeros(shape)
     for _ in range(_MOST):
-        found, slopes = _tried(inputs_at, misses, values, steps)
+        found, slopes = _tried(missed, values, steps)
         size = np.max(np.abs(found), axis=0)
         better = size < left
         best, left = np.where(better, values, best), np.where(better, size, left)
@@ -69,15 +83,12 @@ def settle(
 
 
 def slopes_at(
-    inputs_at: Callable[[Sequence[Any]], Inputs],
-    start: Sequence[Any],
-    sizes: Sequence[Any],
-    misses: Callable[[Inputs, Any], Sequence[Any]],
+    missed: Callable[[Sequence[Any]], Sequence[Any]], start: Sequence[Any], sizes: Sequence[Any]
 ) -> list[list[Any]]:
     """How what is missed changes with each unknown, by rows of what was known."""
     values = np.stack(np.broadcast_arrays(*start)).astype(np.float64)
     steps = np.stack([np.broadcast_to(_STEP * np.asarray(size), values[0].shape) for size in sizes])
-    _, slopes = _tried(inputs_at, misses, values, np.where(steps > 0.0, steps, _STEP))
+    _, slopes = _tried(missed, values, np.where(steps > 0.0, steps, _STEP))
     return [list(row) for row in slopes]
 
 
@@ -102,7 +113,7 @@ def tyre_faults(duration: Any, tyres: Mapping[str, Tyres]) -> Iterator[tuple[Any
         yield np.not_equal(fault, Status.OK), fault
 
 
-def _tried(inputs_at: Any, misses: Any, values: Any, steps: Any) -> tuple[Any, Any]:
+def _tried(missed: Any, values: Any, steps: Any) -> tuple[Any, Any]:
     """What is missed at these values, and how that changes with each of them: (misses, cases) and
     (misses, values, cases).
     """
@@ -110,10 +121,8 @@ def _tried(inputs_at: Any, misses: Any, values: Any, steps: Any) -> tuple[Any, A
     tried = np.repeat(values[:, None], count + 1, axis=1)
     for i in range(count):
         tried[i, i + 1] += steps[i]
-    inputs = inputs_at(list(tried))
-    with quietly(), np.errstate(all="ignore"):
-        answer = solve_inputs(ECCENTRIC, inputs, "nan")
-        found = np.stack(np.broadcast_arrays(*misses(inputs, answer)))
+    with np.errstate(all="ignore"):
+        found = np.stack(np.broadcast_arrays(*missed(list(tried))))
         # The steps as they are after rounding.
         apart = np.stack([tried[i, i + 1] - tried[i, 0] for i in range(count)])
         return found[:, 0], (found[:, 1:] - found[:, :1]) / apart

@@ -45,6 +45,7 @@ from .common import (
     read_masses,
     state_instant,
 )
+from .momentum_others import other_velocity
 from .momentum_solution import MomentumSolution, Sensitivity
 from .momentum_tyres import MOST_CORRECTIONS, Lasting, read_tyres
 from .momentum_vector import NEARLY_CANCELLING, Beside, Whole, sought_course, without_course
@@ -133,8 +134,8 @@ def momentum(
         How long the contact lasts, > 0, for the tyres: 0.05 to 0.15 s for cars.
     tyres_a, tyres_b : travel.Tyres, optional
         The wheels of each vehicle, which then needs its heading; one without has no tyre forces.
-        The answer is the one to which the balance without tyres leads: where a vehicle is slower
-        than its tyres can change in this duration, another may fit too, and is not looked for.
+        The answer is the one to which the balance without tyres leads. Of one velocity before,
+        sought whole, others are looked for where the vehicle is so slow that its tyres turn it.
     yaw_rate_a_after, yaw_rate_b_after : float, str, Quantity or array [rad/s], optional
         Yaw rates just after, counter-clockwise, for the slip of the wheels; 0 if not given, which
         ``explain`` and ``report`` then say. They count for nothing but the tyres.
@@ -906,6 +907,17 @@ def _warn(
             sentence,
             value=found[name],
         )
+    other = other_velocity(solution) if known.lasting is not None else None
+    if other is not None:
+        there = np.isfinite(other.apart)
+        name = solution.unknowns[0]
+        warning = OutOfRangeWarning(
+            known.cases.how_many(there) + other.sentence(solution, Sentences(texts)),
+            code="another_fits",
+            value=float(np.nanmax(other.apart)),
+        )
+        sentence = f"{name} is so slow that with its tyres another velocity fits too"
+        warn_of_cases(warning, {sentence: known.cases.number(there)})
     text = (
         "the vehicles leave with {} more than they came with, which no impact gives; check "
         "courses and speeds"

@@ -19,6 +19,7 @@ from ..quantities.tables import Cells, Part, Sentences, Summary, all_numbers, as
 from ..quantities.units import Value, to_quantity
 from ..vehicle.drag import USUAL_DURATION
 from ..vehicle.tyres import Tyres
+from .momentum_others import other_velocity
 from .momentum_tyres import neglected
 
 # The arguments that give attributes which may be None.
@@ -183,9 +184,13 @@ class MomentumSolution(Shown):
     @property
     def statements(self) -> tuple[str, ...]:
         """What has to be said beside the numbers: without tyres, by how much the speeds would
-        differ if all wheels slid for 0.1 s with a drag of 0.7.
+        differ if all wheels slid for 0.1 s with a drag of 0.7; with them, that another velocity
+        fits too.
         """
         say = Sentences(self._texts())
+        if self.tyres:
+            other = other_velocity(self)
+            return () if other is None else (other.sentence(self, say),)
         found = neglected(self, float(USUAL_DURATION), 0.7, lambda value, kind: say(value, kind, 2))
         return () if found is None else (found.sentence,)
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 # Of a plastic contact, the share of the impulse that has passed at half of its time: momentum
 # knows no restitution, and one of 0.2 would make it 0.34 instead of 0.29.
-_HALF = passed(0.0, 0.5)
+PASSED_AT_HALF = passed(0.0, 0.5)
 MOST_CORRECTIONS = 64
 """Each takes the force of the tyres from the motions that the one before has found; nearly all
 cases need fewer than 20.
@@ -102,7 +102,7 @@ class Lasting(NamedTuple):
                 (masses[label], math.inf, headings[label]),
                 numbers[:3],
                 numbers[3:],
-                (_HALF, self.duration),
+                (PASSED_AT_HALF, self.duration),
                 single=single,
             )
             found[label] = x, y
@@ -294,7 +294,7 @@ def sliding(
     """
     x: Any = 0.0
     y: Any = 0.0
-    for weight, share in ((1.0, 0.0), (4.0, _HALF), (1.0, 1.0)):
+    for weight, share in ((1.0, 0.0), (4.0, PASSED_AT_HALF), (1.0, 1.0)):
         vx, vy = (was + share * (now - was) for was, now in zip(before, after, strict=True))
         speed = np.hypot(vx, vy)
         speed = np.where(speed > 0.0, speed, 1.0)

@@ -54,7 +54,7 @@ from .common import (
     state_instant,
     state_motion,
 )
-from .lasting import numbers_of_times, settle, tyre_faults
+from .lasting import misses_of_impacts, numbers_of_times, settle, tyre_faults
 from .origins import End, Given, Origin
 from .speeds_algebra import shares_critical
 
@@ -547,7 +547,7 @@ def _refined(origin: Origin, end: End, inputs: Inputs, shape: tuple[int, ...]) -
         return found
 
     highest = [math.inf] * (len(start) - 1) + [1.0] if free else None
-    values, fits = settle(inputs_at, start, sizes, misses, highest)
+    values, fits = settle(misses_of_impacts(inputs_at, misses), start, sizes, highest)
     with quietly():
         answer = solve_inputs(ECCENTRIC, inputs_at(values), "nan")
     e = values[-1] if free else np.broadcast_to(origin.restitution, fits.shape)

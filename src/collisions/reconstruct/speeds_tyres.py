@@ -24,7 +24,7 @@ from ..messages.warning import quietly
 from ..quantities.directions import from_radians
 from ..vehicle.vehicle import moved
 from .common import Cases
-from .lasting import settle, slopes_at
+from .lasting import misses_of_impacts, settle, slopes_at
 from .speeds_algebra import HELD, Root, Scene
 
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
@@ -188,10 +188,11 @@ def speeds_with_tyres(
             for part in _missed(name, value, known, tried, answer, directions)
         ]
 
-    rows = slopes_at(inputs_at, start, sizes, off)
+    missed = misses_of_impacts(inputs_at, off)
+    rows = slopes_at(missed, start, sizes)
     if len(rows) == 2:
-        values, settled = settle(inputs_at, start, sizes, off)
-        slopes = slopes_at(inputs_at, values, sizes, off)
+        values, settled = settle(missed, start, sizes)
+        slopes = slopes_at(missed, values, sizes)
         closing, sticks = _contact(inputs_at(values))
         weights = [
             _as_speed(name, value, known, inputs)
@@ -224,7 +225,7 @@ def speeds_with_tyres(
         )
         return [*met, rest][:2]
 
-    values, settled = settle(inputs_at, start, sizes, equations)
+    values, settled = settle(misses_of_impacts(inputs_at, equations), start, sizes)
     return Found(values[0], values[1], settled, *_contact(inputs_at(values)), None)
 
 

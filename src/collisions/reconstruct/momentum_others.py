@@ -1,0 +1,149 @@
+"""Another velocity before that fits a balance of momentum too, where tyres act on a vehicle so slow
+that their force turns with what is sought.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..impact.inputs import part_of
+from ..vehicle.drag import GRAVITY
+from .lasting import settle
+from .momentum_tyres import PASSED_AT_HALF, Lasting, what_is_sought
+
+if TYPE_CHECKING:
+    from .momentum_solution import MomentumSolution
+
+# Of what the tyres of a vehicle can change of its velocity: where all wheels are faster than the
+# first all the while, a change of the velocity moves their impulse by less than itself, and there
+# is one answer (the side force grows by 9.5 times a slip angle, and 1 / 6 + 0.71 * 4 / 6 of the
+# weight of Simpson's rule moves with the velocity before). Two answers nearer than the second are
+# one.
+_FAST, _ONE_ANSWER = 8.0, 1e-3
+# Where it is begun: parts of twice what the tyres can change, as no answers are farther apart, and
+# directions.
+_PARTS, _DIRECTIONS = (0.2, 0.5, 1.0), 8
+
+
+class Other(NamedTuple):
+    """Of each case another velocity that fits, and how far it is from the answer; NaN for none."""
+
+    speed: Any
+    course: Any
+    apart: Any
+
+    def sentence(self, solution: MomentumSolution, say: Callable[[float, str], str]) -> str:
+        """What it says, of a batch of the case where it is farthest; ``say`` writes a number of a
+        kind, "speed" or "angle".
+        """
+        at = int(np.nanargmax(self.apart))
+        speed, course, apart = (float(np.ravel(value)[at]) for value in self)
+        (name, angle) = solution.unknowns
+        return (
+            f"the tyres of {name[-1].upper()} can hold or turn a vehicle so slow, and another "
+            f"velocity fits too: {name} = {say(speed, 'speed')} with {angle} = "
+            f"{say(course, 'angle')}, which is {say(apart, 'speed')} away; give one of the two, or "
+            "take `posterior` with `momentum` as the model"
+        )
+
+
+def other_velocity(solution: MomentumSolution) -> Other | None:
+    """The velocity before that fits too and is farthest from the answer; None where none is found.
+
+    It is looked for where the velocity sought is that of one vehicle before, whole: what friction
+    takes grows with a velocity after, so that one alone fits.
+    """
+    name = solution.unknowns[0]
+    label = name[-1]
+    if what_is_sought(solution) != "velocity" or name.endswith("after"):
+        return None
+    if label not in solution.tyres:
+        return None
+    tyres = solution.tyres[label]
+    parts = ("speed", "course", "mass", "heading", "tyre_impulse_x", "tyre_impulse_y")
+    named = {part: getattr(solution, f"{part}_{label}") for part in parts}
+    for part in ("speed", "course", "yaw_rate"):
+        value = getattr(solution, f"{part}_{label}_after")
+        named[f"{part}_after"] = 0.0 if value is None else value
+    shape = np.broadcast_shapes(np.shape(solution.status), np.shape(solution.speed_a))
+    most = GRAVITY * tyres.friction * solution.duration
+    with np.errstate(invalid="ignore"):
+        after = _velocity(named["speed_after"], named["course_after"])
+        found = _velocity(named["speed"], named["course"])
+        half = np.hypot(
+            *(was + PASSED_AT_HALF * (now - was) for was, now in zip(found, after, strict=True))
+        )
+        # Half-way through the contact the wheels move with the turning of the vehicle too.
+        arm = np.hypot(tyres.wheelbase, tyres.track)
+        turning = PASSED_AT_HALF * abs(named["yaw_rate_after"]) * arm
+        slow = np.minimum(named["speed"], half - turning) < _FAST * most
+    where = np.flatnonzero(np.broadcast_to(slow, shape))
+    if not where.size:
+        return None
+
+    def take(value: Any) -> Any:
+        return np.broadcast_to(np.asarray(value, np.float64), shape).ravel()[where]
+
+    lasting = Lasting(
+        take(solution.duration),
+        {label: part_of(tyres, take)},
+        {label: take(named["yaw_rate_after"])},
+    )
+    x, y, apart = _farthest(
+        lasting, label, {part: take(value) for part, value in named.items()}, take(most)
+    )
+    if not np.any(apart > 0.0):
+        return None
+    there = apart > 0.0
+
+    def whole(value: Any) -> Any:
+        made = np.full(math.prod(shape), np.nan)
+        made[where] = np.where(there, value, np.nan)
+        return made.reshape(shape) if shape else float(made[0])
+
+    return Other(whole(np.hypot(x, y)), whole(np.arctan2(y, x)), whole(apart))
+
+
+def _farthest(lasting: Lasting, label: str, of: dict[str, Any], most: Any) -> tuple[Any, Any, Any]:
+    """Velocity before of the farthest answer of each case, and how far it is; 0 for none."""
+    before, after = f"speed_{label}", f"speed_{label}_after"
+    found = _velocity(of["speed"], of["course"])
+    left = _velocity(of["speed_after"], of["course_after"])
+    push = of["tyre_impulse_x"], of["tyre_impulse_y"]
+
+    def missed(values: Any) -> list[Any]:
+        pushes = lasting.impulses(
+            {label: of["mass"]},
+            {label: of["heading"]},
+            {before: tuple(values), after: left},
+            single=False,
+        )[label]
+        return [
+            (value - one + (now - was) / of["mass"]) / most
+            for value, one, now, was in zip(values, found, pushes, push, strict=True)
+        ]
+
+    angles = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
+    aside = [
+        np.concatenate([2.0 * part * turn(angles) for part in _PARTS])[:, None] * most
+        for turn in (np.cos, np.sin)
+    ]
+    # And where it stands before, or half-way through.
+    still = -PASSED_AT_HALF / (1.0 - PASSED_AT_HALF)
+    start = [
+        np.concatenate((one + away, np.zeros((1, one.size)), still * end[None]))
+        for one, away, end in zip(found, aside, left, strict=True)
+    ]
+    (x, y), settled = settle(missed, start, [most, most])
+    apart = np.hypot(x - found[0], y - found[1])
+    apart = np.where(settled & (apart > _ONE_ANSWER * most), apart, 0.0)
+    best = np.argmax(apart, axis=0)[None]
+    return tuple(np.take_along_axis(part, best, axis=0)[0] for part in (x, y, apart))
+
+
+def _velocity(speed: Any, course: Any) -> tuple[Any, Any]:
+    return speed * np.cos(course), speed * np.sin(course)

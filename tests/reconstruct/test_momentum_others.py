@@ -1,0 +1,159 @@
+"""momentum with one velocity before sought whole while tyres act on a slow vehicle: where another
+velocity fits too, it is found and said. Truths are drawn, and their motions after are those that
+momentum finds forwards, of which there is one.
+"""
+
+import math
+import random
+import re
+import warnings
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions import reconstruct
+from collisions.derivation import explain
+from collisions.travel import Tyres
+from collisions.uncertainty import Normal, propagate
+
+SOUGHT = [(f"speed_{label}", f"course_{label}") for label in "ab"]
+
+
+def drawn(seed):
+    """Arguments of a truth, half of them slow, with all speeds and courses."""
+    rng = random.Random(seed)
+
+    def speed():
+        return rng.uniform(0.0, 3.0) if rng.random() < 0.5 else rng.uniform(3.0, 25.0)
+
+    known = {"duration": rng.uniform(0.05, 0.15)}
+    for label in "ab":
+        known |= {
+            f"heading_{label}": rng.uniform(-3.0, 3.0),
+            f"yaw_rate_{label}_after": rng.gauss(0.0, 3.0),
+            f"tyres_{label}": Tyres(
+                rng.uniform(0.3, 0.9), [rng.uniform(0.0, 1.0) for _ in range(4)], 2.6, 1.5
+            ),
+        }
+    truth = {"mass_a": rng.uniform(900.0, 3000.0), "mass_b": rng.uniform(900.0, 3000.0)}
+    truth |= {f"speed_{label}": speed() for label in ("a", "b", "a_after")}
+    truth |= {f"course_{label}": known[f"heading_{label}"] + rng.gauss(0.0, 0.05) for label in "ab"}
+    truth["course_a_after"] = rng.uniform(-3.0, 3.0)
+    return known, truth
+
+
+def answered(**arguments):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        answer = reconstruct.momentum(**arguments)
+    return answer, [warning.message for warning in caught]
+
+
+def velocity(answer, label):
+    speed, course = getattr(answer, f"speed_{label}"), getattr(answer, f"course_{label}")
+    return speed * math.cos(course), speed * math.sin(course)
+
+
+def missed():
+    """The drawn truths with what was sought, the answer, its warnings and how far it is off."""
+    found = []
+    for seed in range(150):
+        known, truth = drawn(seed)
+        try:
+            whole, _ = answered(**known, **truth)
+        except col.CollisionsError:
+            continue
+        truth |= {name: getattr(whole, name) for name in ("speed_b_after", "course_b_after")}
+        for pair in SOUGHT:
+            given = {name: value for name, value in truth.items() if name not in pair}
+            try:
+                answer, warned = answered(**known, **given)
+            except col.CollisionsError:
+                continue
+            label = pair[0][-1]
+            off = math.dist(velocity(answer, label), velocity(whole, label))
+            if off > 1e-6:
+                found.append((known, given, label, answer, warned, off))
+    return found
+
+
+MISSED = missed()
+
+
+def test_no_other_velocity_is_missed_in_silence():
+    assert len(MISSED) >= 15
+    said = [[message.code for message in warned] for _, _, _, _, warned, _ in MISSED]
+    assert all({"another_fits", "momenta_cancel"} & set(codes) for codes in said)
+    assert sum("another_fits" in codes for codes in said) >= 15
+
+
+def test_what_is_said_to_fit_does():
+    """With it stated before, the same motions come after."""
+    checked = 0
+    for known, given, label, answer, warned, _ in MISSED:
+        others = [message for message in warned if message.code == "another_fits"]
+        if not others:
+            continue
+        (sentence,) = answer.statements
+        assert str(others[0]) == sentence.replace("`", "")
+        numbers = re.search(
+            r"= ([0-9.e+-]+) m/s with course_. = ([0-9.e+-]+) rad, which is ([0-9.e+-]+) m/s away",
+            sentence,
+        )
+        speed, course, apart = map(float, numbers.groups())
+        stated = {**given, f"speed_{label}": speed, f"course_{label}": course}
+        wanted = stated.pop("speed_b_after"), stated.pop("course_b_after")
+        again, _ = answered(**known, **stated)
+        was = wanted[0] * math.cos(wanted[1]), wanted[0] * math.sin(wanted[1])
+        # The sentence has three digits.
+        assert math.dist(velocity(again, "b_after"), was) < 0.02 * max(1.0, apart)
+        x, y = speed * math.cos(course), speed * math.sin(course)
+        assert math.dist((x, y), velocity(answer, label)) == pytest.approx(apart, abs=0.02)
+        assert others[0].fields["value"] == pytest.approx(apart, rel=0.01)
+        text = " ".join(explain(answer, form="text").split())
+        assert "another velocity fits too" in text.lower()
+        checked += 1
+    assert checked >= 15
+
+
+def test_a_batch_counts_the_cases():
+    known, given, label, _, _, _ = next(
+        one for one in MISSED if any(w.code == "another_fits" for w in one[4])
+    )
+    name = "speed_a_after"
+    # A fast vehicle, whose tyres hold it nowhere, beside the slow one.
+    given = {**given, name: np.array([given[name], 60.0])}
+    batch, warned = answered(**known, **given)
+    others = [message for message in warned if message.code == "another_fits"]
+    assert str(others[0]).startswith("1 of 2 cases: ")
+    alone, _ = answered(**known, **{**given, name: float(given[name][0])})
+    assert getattr(batch, f"speed_{label}")[0] == pytest.approx(getattr(alone, f"speed_{label}"))
+    assert batch.statements == alone.statements
+
+
+def test_a_study_counts_the_samples():
+    known, given, *_ = next(
+        one for one in MISSED if [message.code for message in one[4]] == ["another_fits"]
+    )
+
+    def model(mass_a):
+        answer = reconstruct.momentum(**known, **{**given, "mass_a": mass_a})
+        return {"speed": getattr(answer, answer.unknowns[0])}
+
+    with pytest.warns(col.OutOfRangeWarning, match="another velocity fits"):
+        result = propagate(model, {"mass_a": Normal(given["mass_a"], 1.0)}, samples=64, seed=1)
+    assert any("another velocity fits" in sentence for sentence in result.statements)
+
+
+def test_fast_vehicles_have_one():
+    rng = random.Random(5)
+    for _ in range(20):
+        speeds = {f"speed_{label}": rng.uniform(14.0, 25.0) for label in ("a_after", "b_after")}
+        tyres = {f"tyres_{label}": Tyres(0.8, rng.random(), 2.6, 1.5) for label in "ab"}
+        answer, warned = answered(
+            mass_a=1500.0, mass_b=1800.0, duration=0.12, **tyres, **speeds, heading_a=0.0,
+            heading_b=1.6, speed_b=15.0, course_b=1.6, course_a_after=0.5, course_b_after=0.9,
+        )  # fmt: skip
+        assert answer.statements == ()
+        assert [message.code for message in warned if message.code == "another_fits"] == []
