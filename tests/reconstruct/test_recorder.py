@@ -344,6 +344,7 @@ TABLES = [
     ("pre-crash time [s],longitudinal [km/h]", "0,1\n10,2", "pre-crash time.*says 'pre'"),
     ("time [ms],longitudinal [km/h]", "0,0\n10,-950\n20,-1.024", "'-1.024' in row 4 of longit"),
     ("time [ms];longitudinal [km/h]", "0;0\n10;-9\n20;-24,000", "'-24,000' in row 4 of longit"),
+    ("time [ms];longitudinal [mm/s]", "0;0\n10;-1,234\n20;-9,000", "'-1,234' in row 3 of longit"),
     ("time [ms];longitudinal [km/h]", "0;0,0\n10;-9,5\n20;-24.000", "'-24.000' a point"),
     ("time [ms];longitudinal [km/h]", "0;0,0\n10;-9,5\n20;-24.000,5", "'-24.000,5' a point"),
     ("time [ms],longitudinal (MPH [km/h])", "0,1\n10,2", "has two units"),
@@ -582,7 +583,11 @@ def test_a_delta_v_beyond_what_recorders_are_exact_for(tmp_path):
 
 def test_three_decimals_are_decimals_where_the_column_shows_it(tmp_path):
     path = tmp_path / "p.csv"
-    for rows in ("0;0\n10;-5,123\n20;-24,124\n60;-24,124", "0;0\n10;-5\n20;-24,124\n60;-24,12"):
+    for rows in (
+        "0;0,000\n10;-5,123\n20;-24,124\n60;-24,124",
+        "0;0\n10;-5\n20;-24,124\n60;-24,12",
+        "0;0\n10;-0,123\n20;-24,124\n60;-24,124",
+    ):
         path.write_text(f"time [ms];longitudinal [km/h]\n{rows}", encoding="utf-8")
         pulse = recorded_pulse(path, polarity="49 CFR 563")
         assert pulse.delta_v_forward == pytest.approx(-24.124 * KMH, rel=1e-12)

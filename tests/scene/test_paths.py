@@ -97,7 +97,10 @@ def test_a_number_that_cannot_be_names_its_part_of_the_scene(
 
 @pytest.mark.parametrize("paths", [["grip", "A.tyres.friction"], ["A.tyres.friction", "grip"]])
 def test_a_number_that_is_changed_twice_names_both_paths(paths: list[str]) -> None:
-    scene = crash(shared={"grip": ("A.tyres.friction", "surfaces[0]")})
+    scene = crash(
+        surfaces=[([(20, -5), (30, -5), (30, 5)], "70 %")],
+        shared={"grip": ("A.tyres.friction", "surfaces[0]")},
+    )
     with pytest.raises(col.InputError, match=f"by '{paths[0]}' and by '{paths[1]}'") as caught:
         scene.replace(dict.fromkeys(paths, 0.5))
     assert caught.value.code == "bad_combination"
@@ -114,6 +117,35 @@ def test_a_shared_name_needs_paths_that_are_and_of_one_kind() -> None:
     ]
     assert "shared['g'] has no 'A.tyres.frction'; near it are A.tyres.friction" in str(caught.value)
     assert "shared['h'] names inputs of several kinds: A.vx [m/s], A.mass [kg]" in str(caught.value)
+
+
+def test_shared_numbers_are_one_number() -> None:
+    two = ("A.tyres.friction", "B.drag")
+    with pytest.raises(col.InputError) as caught:
+        crash(shared={"ground": two})
+    assert caught.value.code == "bad_combination"
+    assert (
+        "shared['ground'] says that A.tyres.friction, B.drag are one and the same number, and these"
+        " differ: A.tyres.friction is 0.7, B.drag is 0.6; state the same at each, and change all of"
+        " them by 'ground'"
+    ) in str(caught.value)
+    scene = crash().replace({"B.drag": 0.7})
+    even = Scene(movers=scene.movers, contacts=scene.contacts, shared={"ground": two})
+    for changed in ({"B.drag": 0.5}, {"B.drag": np.array([0.7, 0.5])}):
+        with pytest.raises(col.InputError, match=r"change all of them by 'ground'"):
+            even.replace(changed)
+    with pytest.raises(col.InputError, match=r"change all of them by 'ground'"):
+        propagate(even, {"B.drag": Normal(0.7, 0.01)}, outputs=["B.rest.x"], samples=64, seed=1)
+    moved = even.replace({"ground": np.array([0.5, 0.6])})
+    assert np.array_equal(moved.movers["B"].drag, moved.movers["A"].tyres.friction)
+    # A speed is kept as vx and vy, which round it.
+    moving = crash().replace({"A.speed": 11.1, "A.course": 0.3, "B.vx": 1.0})
+    moving = moving.replace({"B.speed": 11.1, "B.course": 2.3})
+    twins = Scene(movers=moving.movers, contacts=(), shared={"v": ("A.speed", "B.speed")})
+    both = twins.replace({"v": "30 mph"}).movers.values()
+    assert [mover.vehicle.speed for mover in both] == pytest.approx([13.4112] * 2)
+    with pytest.raises(col.InputError, match=r"A.speed is 11.1 m/s, B.speed is 12 m/s"):
+        twins.replace({"B.speed": 12.0})
 
 
 def test_locks_speeds_and_courses_are_replaced_beside_other_numbers() -> None:

@@ -255,7 +255,7 @@ def _need_one_reading(name: str, column: list[str]) -> None:
     decimal one: that of thousands looks the same.
     """
     marked = {at: cell for at, cell in enumerate(column, 2) if set(cell) & {".", ","}}
-    whole = [cell for cell in column if cell.strip("+-").isdecimal() and cell.strip("+-0")]
+    whole = [cell for cell in column if cell.strip("+-").isdecimal()]
     if marked and whole and all(map(_MAYBE_THOUSANDS.fullmatch, marked.values())):
         at, cell = next(iter(marked.items()))
         raise ValueError(

@@ -86,9 +86,10 @@ def inputs_of(scene: Scene) -> dict[str, str]:
 
 
 def check_shared(scene: Scene) -> None:
-    """Refuse shared names whose paths are none, or of several kinds."""
+    """Refuse shared names whose paths are none, of several kinds, or of different numbers."""
     reader = ArgumentReader()
     known = inputs_of(scene)
+    numbers = dict(scene._numbers())
     for name, paths in scene.shared.items():
         for path in paths:
             if path not in known:
@@ -97,7 +98,38 @@ def check_shared(scene: Scene) -> None:
             listed = ", ".join(f"{path} [{known[path]}]" for path in paths if path in known)
             text = f"shared[{name!r}] names inputs of several kinds: {listed}"
             reader.refuse(InputError(text, code="bad_combination", argument="shared"))
+        elif all(path in known for path in paths):
+            first, *others = paths
+            values = {path: _number_of(scene, numbers, path) for path in paths}
+            unlike = [path for path in others if not _same(values[first], values[path])]
+            if unlike:
+                one, other = (
+                    path if np.ndim(values[path]) else f"{path} is {values[path]:.6g} {known[path]}"
+                    for path in (first, unlike[0])
+                )
+                text = (
+                    f"shared[{name!r}] says that {', '.join(paths)} are one and the same number, "
+                    f"and these differ: {one.strip()}, {other.strip()}; state the same at each, "
+                    f"and change all of them by {name!r}"
+                )
+                reader.refuse(InputError(text, code="bad_combination", argument="shared"))
     reader.close()
+
+
+def _number_of(scene: Scene, numbers: Mapping[str, Any], path: str) -> Any:
+    """The number at a path of ``inputs_of``."""
+    if path in numbers:
+        return numbers[path]
+    if f"{path}[0]" in numbers:
+        # A normal, which is asked for as an angle.
+        return np.arctan2(numbers[f"{path}[1]"], numbers[f"{path}[0]"])
+    name, _, part = path.rpartition(".")
+    return getattr(scene.movers[name].vehicle, part)
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Whether two numbers are one, but for the rounding of a speed that is kept as vx and vy."""
+    return bool(np.all(np.equal(one, other))) or bool(np.allclose(one, other, rtol=1e-9, atol=0.0))
 
 
 def no_path(path: Any, known: Iterable[str], argument: str, instead: str = "") -> InputError:
