@@ -27,7 +27,18 @@ from ..quantities.directions import Angle
 from ..reference import INTER_VEHICLE_FRICTION, RECORDER_ACCURACY
 from .common import NEARLY_COLLINEAR, Cases
 from .restitution_roots import RestitutionOf
-from .speeds_algebra import HELD, LAW, REDUNDANT, ROOT_TOL, STICK, Observed, Root, Scene, pushed
+from .speeds_algebra import (
+    EITHER,
+    HELD,
+    LAW,
+    REDUNDANT,
+    ROOT_TOL,
+    STICK,
+    Observed,
+    Root,
+    Scene,
+    pushed,
+)
 
 ACCURACY = RECORDER_ACCURACY.high
 # Beyond three times the stated accuracy the known values contradict each other.
@@ -494,7 +505,7 @@ def friction_shown(
 
     It slid where the caller stated that, where a known speed goes with a contact that slid and
     differs by more than recorders may from one that stuck, or where more energy was lost than
-    sticking loses.
+    sticking loses. A speed does not settle it where ``given`` says that it is ``EITHER``.
     """
     friction = given[FRICTION]
     speeds = [name for name in names if name.startswith("speed")]
@@ -514,7 +525,7 @@ def friction_shown(
     closing = sum(np.nan_to_num(root.closing) for root in stuck.roots())
     one, other, *_ = slid.roots()
     slides = usable & ((one.closing > 0.0) | (other.closing > 0.0)) & (slid.misfit < stuck.misfit)
-    settled = slides & (stuck.misfit > ACCURACY)
+    settled = slides & (stuck.misfit > ACCURACY) & ~np.asarray(given.get(EITHER, 0.0) > 0.0)
     apart = sum(abs(a - b) for a, b in zip(stuck.answer, slid.answer, strict=True))
     open_ = usable & slid.undetermined | slides & (apart > ACCURACY * closing)
     return (np.where(settled, shown, friction) if np.any(settled) else None), open_ & ~settled
