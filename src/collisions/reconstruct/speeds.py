@@ -256,7 +256,8 @@ def speeds(
         needs an impulse ratio at which contacts between vehicles slide, from
         ``reference.INTER_VEHICLE_FRICTION.low`` on. Or a bound was asked for, or a case of a batch
         has no answer beside a known speed, and the ratio is further from the friction than
-        recorders may be; or cases of a batch leave open whether the contact stuck or slid. Or, with no speed known, the courses are near one line.
+        recorders may be; or cases of a batch leave open whether the contact stuck or slid. Or, with
+        no speed known, the courses are near one line.
     CollisionsWarning
         Some cases of a batch have no answer; they are NaN, and ``status`` of the first impact says
         why.
