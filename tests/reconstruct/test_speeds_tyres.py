@@ -468,3 +468,46 @@ def test_a_flat_answer_has_no_condition_that_looks_well():
     found = reconstruct.speeds(a, b, **contact, **known, **lasts)
     assert min(one.reconstruction.condition for one in found) > 1e5
     assert {"ill_conditioned", "not_unique"} <= {one.code for one in col.diagnose(found[0])}
+
+
+@pytest.mark.parametrize("locks", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
+def test_contacts_at_the_edge_between_stuck_and_slid_have_an_answer(locks):
+    """Forward impacts that slid, less and less: their components and A's speed lead back to each.
+
+    Near the edge the tyres of a contact that stuck make it one that slid, and the other way round:
+    it may have been either, so the truth lies at the answer or on the side that is left open.
+    """
+    a = col.Vehicle.from_speed(
+        mass=1500, yaw_inertia=2500, speed=14.0, course=0.0, heading=0.0, x=-2.0, y=0.3
+    )
+    b = col.Vehicle.from_speed(
+        mass=1200, yaw_inertia=1900, speed=11.0, course=1.4, heading=1.4, x=0.9, y=-0.5
+    )
+    wheels = {
+        "duration": 0.16,
+        "tyres_a": Tyres(0.9, locks[0], 2.7, 1.5),
+        "tyres_b": Tyres(0.9, locks[1], 2.6, 1.5),
+    }
+    contact = {"normal": 0.1, "point": (0.0, 0.0)}
+    forward = col.eccentric(a, b, 0.1, friction=np.linspace(0.35, 0.5, 78), **contact, **wheels)
+    known = {name: read(forward, name) for name in COMPONENTS[:2]}
+    with pytest.warns(col.IllConditionedWarning, match="differ from their best common answer"):
+        (found,) = reconstruct.speeds(
+            a,
+            b,
+            course_a=0.0,
+            course_b=1.4,
+            speed_a=14.0,
+            restitution=0.1,
+            friction=math.inf,
+            slid="bound",
+            **known,
+            **contact,
+            **wheels,
+        )
+    assert not np.any(found.refused)
+    side = found.reconstruction.one_sided["speed_b"]
+    off = 11.0 - found.b.before.speed
+    assert np.all(abs(off[side == 0]) < 1e-6)
+    assert np.all(off[side != 0] * side[side != 0] > 0.0)
+    assert 0 < np.count_nonzero(side) < side.size

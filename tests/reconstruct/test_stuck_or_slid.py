@@ -474,3 +474,43 @@ def test_silent_ranges_hold_whether_it_stuck_or_slid(route):
         # Of n ranges that hold 95 times in 100, fewer do once in 500 draws.
         least = 0.95 - 2.88 * math.sqrt(0.95 * 0.05 / len(found))
         assert np.mean(found) >= least, (regime, np.mean(found), len(found))
+
+
+def test_a_friction_that_the_components_contradict_says_to_leave_it_to_them():
+    """A contact that slid at 0.02, told by A's components and its speed, with 0.05 to 0.9 stated.
+
+    Left to the components, every case has an answer, and the range holds the truth.
+    """
+    a = col.Vehicle.from_speed(
+        mass=1500, yaw_inertia=2500, speed=14.0, course=0.0, heading=0.0, x=-2.0, y=0.3
+    )
+    b = col.Vehicle.from_speed(
+        mass=1200, yaw_inertia=1900, speed=11.0, course=1.4, heading=1.4, x=0.9, y=-0.5
+    )
+    hit = {"normal": 0.1, "point": (0.0, 0.0)}
+    impact = col.eccentric(a, b, 0.1, friction=0.02, **hit)
+    known = {**recorded(impact), "course_a": 0.0, "course_b": 1.4, "restitution": 0.1, **hit}
+    advice = "Write `?friction=inf, slid='bound'`?, which takes the ratio"
+    with pytest.raises(col.NoSolutionError, match=advice):
+        speeds(a, b, **known, speed_a=14.0, friction=0.6)
+
+    def study(friction, **settings):
+        def model(speed_a, **values):
+            (found,) = speeds(a, b, **known, speed_a=speed_a, **values, **settings)
+            return {"b": found.b.before.speed}
+
+        inputs = {"speed_a": uncertainty.Normal(14.0, 0.3), "friction": friction}
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", col.CollisionsWarning)
+            found = uncertainty.propagate(model, inputs, samples=256, seed=2)
+        return found, {one.message.code: str(one.message) for one in caught}
+
+    found, told = study(uncertainty.Uniform(0.05, 0.9))
+    assert found.failed > 100
+    assert f"{found.failed} of 256" in told["friction_differs"]
+    assert "Bound inputs" not in told["failed_cases"]
+    found, told = study(math.inf, slid="bound")
+    assert not found.failed
+    assert not told
+    low, high = found["b"].interval(0.95)
+    assert low < 11.0 < high

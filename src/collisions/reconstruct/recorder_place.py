@@ -33,8 +33,9 @@ from ..vehicle.drag import read_duration
 from .speeds_algebra import Observed, Root
 from .speeds_components import CONTRADICTION, ComponentScene
 
-# Nodes of a Gauss-Legendre rule over each part of the pulse: turns of half a radian to 1e-12.
-_NODES = 8
+# Nodes and weights of a Gauss-Legendre rule over each part of the pulse: turns of half a radian to
+# 1e-12.
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 # Until two rounds differ by less than this turn, in radians; far more rounds than any crash needs.
 _SETTLED, _ROUNDS = 1e-12, 60
 
@@ -133,9 +134,8 @@ def turning(e: Any, duration: Any, spin: Any, change: Any) -> tuple[Turning, Tur
     back = np.where(e < 0.0, 0.0, e)
     length = duration / (1.0 + back)
     whole = 1.0 + e
-    at, weights = np.polynomial.legendre.leggauss(_NODES)
     shape = (-1, *[1] * np.ndim(cut + length + spin + change))
-    share, weight = 0.5 * (at + 1.0).reshape(shape), 0.5 * weights.reshape(shape)
+    share, weight = 0.5 * (_NODES + 1.0).reshape(shape), 0.5 * _WEIGHTS.reshape(shape)
     # Of each part of the pulse: time since first contact, what has passed, its sum over time, its
     # rate by the share of the part, and how long the part lasts.
     until = length / cut * (cut - np.sin(cut)) / whole
@@ -299,17 +299,46 @@ class RecorderScene(ComponentScene):
         return found
 
     def _solved_once(self, regime: Any) -> tuple[Root, Any, Any]:
-        self._linear_about(dict.fromkeys(self._own, (0.0, 0.0)))
+        self._near_the_turn(regime)
         moved: Any = math.inf
         for _ in range(_ROUNDS):
             before = dict(self._changes)
             found = super()._solved(regime)
-            moved = sum(abs(self._changes[label] - before[label]) for label in self._own)
-            moved = moved * self._duration
+            moved = self._turned_since(before)
             if not np.any(moved > _SETTLED):
                 break
         root, misfit, open_slip = found
         return root, np.where(moved > _SETTLED, np.inf, misfit), open_slip
+
+    def _near_the_turn(self, regime: Any) -> None:
+        """Set the axes to those of the turn of this regime, but for rounding.
+
+        The impulse of a regime is linear in the speeds, so that no impact has to be solved for it.
+        """
+        self._linear_about(dict.fromkeys(self._own, (0.0, 0.0)))
+        still, *moving = self.unit_responses(regime)
+        for _ in range(_ROUNDS):
+            before = dict(self._changes)
+            rest, effects, inverse, _ = self._linear_in(regime)
+            left = [momentum - part for momentum, part in zip(self._momenta, rest, strict=True)]
+            for speed, effect in zip(self.known, effects, strict=True):
+                left = [one - speed * part for one, part in zip(left, effect, strict=True)]
+            speeds = list(self.known)
+            for at, row in zip(self.unknown, inverse, strict=True):
+                step = sum(part * one for part, one in zip(row, left, strict=True))
+                speeds[at] = np.where(np.isfinite(step), step, 0.0)
+            normal, tangential = still.normal, still.tangential
+            for speed, one in zip(speeds, moving, strict=True):
+                normal = normal + speed * (one.normal - still.normal)
+                tangential = tangential + speed * (one.tangential - still.tangential)
+            self._linear_about(dict.fromkeys(self._own, (normal, tangential)))
+            if not np.any(self._turned_since(before) > _SETTLED):
+                break
+
+    def _turned_since(self, before: Mapping[str, Any]) -> Any:
+        """How far the turn of the cars is from that with these changes of their yaw rates."""
+        moved = sum(abs(self._changes[label] - before[label]) for label in self._own)
+        return moved * self._duration
 
     def _judged(
         self, regime: Any, speeds: Sequence[Any], moved: Any, stays_open: Any

@@ -57,7 +57,13 @@ from .lasting import numbers_of_times, tyre_faults
 from .recorder_place import RecorderScene, by_own_names, read_recorders
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
-from .speeds_components import CONTRADICTION, MAY_SLIDE, ComponentScene, friction_shown
+from .speeds_components import (
+    CONTRADICTION,
+    MAY_SLIDE,
+    RATIO_SHOWN,
+    ComponentScene,
+    friction_shown,
+)
 from .speeds_tyres import Attempt, in_balance, other_starts, speeds_with_tyres
 
 # What may be known: any two, or else components of delta-V, with speeds or without.
@@ -248,9 +254,10 @@ def speeds(
         ``reference.RECORDER_ACCURACY``; beyond three times that they are refused. Or the contact
         was stated to have stuck, or was taken to, and may have slid (code "may_slide"): sticking
         needs an impulse ratio at which contacts between vehicles slide, from
-        ``reference.INTER_VEHICLE_FRICTION.low`` on. Or a bound was asked for, and the ratio is
-        further from the friction than recorders may be; or cases of a batch leave open whether the
-        contact stuck or slid. Or, with no speed known, the courses are near one line.
+        ``reference.INTER_VEHICLE_FRICTION.low`` on. Or a bound was asked for, or a case of a batch
+        has no answer beside a known speed, and the ratio is further from the friction than
+        recorders may be; or cases of a batch leave open whether the contact stuck or slid. Or, with
+        no speed known, the courses are near one line.
     CollisionsWarning
         Some cases of a batch have no answer; they are NaN, and ``status`` of the first impact says
         why.
@@ -1157,6 +1164,8 @@ def _refusal(
             f"this restitution, {scene.rule} and geometry; check the courses, and the normal, "
             "which must point from A into B, or give another known in place of one of these"
         )
+        if isinstance(scene, ComponentScene) and np.any(scene.friction_differs()):
+            text += f"; or the contact slid at another ratio than this friction. {RATIO_SHOWN}"
     if status == Status.CONTRADICTORY and (wrong := turned()):
         text += f". With {wrong} of the other sign there is an answer: {LATERAL}"
     return error_of(status, text)

@@ -62,6 +62,8 @@ _FIXED = [f"{name}[{i}]" for name in ("normal", "point", "course_a", "course_b")
 _FIXED += [f"{label}.{name}" for label in "ab" for name in _OF_BODY]
 # Impulses of tyres on A and on B, along x and y and about the centre of mass, where they act.
 HELD = [f"held_{label}.{name}" for label in "ab" for name in ("impulse_x", "impulse_y", "moment")]
+# 1 where the tyres of a contact that stuck make it one that slid, and the other way round.
+EITHER = "either"
 
 
 class Root(NamedTuple):

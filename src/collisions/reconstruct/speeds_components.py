@@ -27,7 +27,18 @@ from ..quantities.directions import Angle
 from ..reference import INTER_VEHICLE_FRICTION, RECORDER_ACCURACY
 from .common import NEARLY_COLLINEAR, Cases
 from .restitution_roots import RestitutionOf
-from .speeds_algebra import HELD, LAW, REDUNDANT, ROOT_TOL, STICK, Observed, Root, Scene, pushed
+from .speeds_algebra import (
+    EITHER,
+    HELD,
+    LAW,
+    REDUNDANT,
+    ROOT_TOL,
+    STICK,
+    Observed,
+    Root,
+    Scene,
+    pushed,
+)
 
 ACCURACY = RECORDER_ACCURACY.high
 # Beyond three times the stated accuracy the known values contradict each other.
@@ -46,6 +57,8 @@ _STAYS = 1e-9
 # Of the closing speed and the slip.
 _INSIDE = 1e-12
 _REFINEMENTS = 3
+# What to write where the components show another ratio than the friction.
+RATIO_SHOWN = "Write `friction=inf, slid='bound'`, which takes the ratio that the components show"
 # What ``roots`` finds of every case.
 _FOUND = ("misfit", "ended", "ratio", "may_slide", "leaves_slip")
 
@@ -136,7 +149,8 @@ class ComponentScene(Scene):
         elif self.slid:
             ends = [self._end(regime) for regime in regimes if not isinstance(regime, str)]
             ends = [(root, np.where(sticks, np.inf, misfit), left) for root, misfit, left in ends]
-            self.ended = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
+            if ends:
+                self.ended = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
             edges = [
                 (root, np.where(self.ended, np.inf, misfit), left) for root, misfit, left in edges
             ]
@@ -158,9 +172,12 @@ class ComponentScene(Scene):
     def _stated_regimes(self) -> list[Any]:
         """The regimes to be tried: of what the caller stated, or all."""
         regimes = self.regimes()
-        if self.stated is None or self.rule != FRICTION:
+        if self.rule != FRICTION:
             return regimes
-        return [one for one in regimes if (one is STICK) == (self.stated == "sticking")]
+        if self.stated is not None:
+            return [one for one in regimes if (one is STICK) == (self.stated == "sticking")]
+        # Without a ratio to slide at, nothing slides.
+        return [one for one in regimes if one is STICK or not np.all(np.isnan(one))]
 
     def _sticks(self, regimes: Sequence[Any], tried: Sequence[tuple[Root, Any, Any]]) -> Any:
         """Where a contact that sticks fits."""
@@ -310,6 +327,19 @@ class ComponentScene(Scene):
         flat = self._linear_in(STICK)[3]
         return np.where(flat, np.nan, stuck.tangential / stuck.normal)
 
+    def friction_differs(self) -> Any:
+        """Where a friction beside a known speed is further from the ratio of the components alone
+        than recorders may differ by.
+        """
+        stated = self.rule == FRICTION and self.stated is None and len(self.unknown) == 1
+        if not stated or len(self.components) < 2:
+            return np.zeros((), dtype=bool)
+        columns = [list(parts) for parts in zip(*self._axes, strict=True)]
+        rows, flat = _inverse(columns, [abs(part) for column in columns for part in column])
+        normal, tangential = (_dot(row, self._momenta) for row in rows)
+        apart = abs(abs(tangential) - self.bound * normal) / np.hypot(normal, tangential)
+        return np.isfinite(self.bound) & np.logical_not(flat) & (apart > ACCURACY)
+
     def _solved(self, regime: Any) -> tuple[Root, Any, Any]:
         """The least squares of a regime."""
         rest, effects, inverse, stays_open = self._linear_in(regime)
@@ -458,6 +488,15 @@ class ComponentScene(Scene):
             )
             warning = IllConditionedWarning(text, code="friction_differs", value=float(self.misfit))
             warn_of_cases(warning, {text: None})
+        refused = np.logical_not(answered) & np.isinf(self.misfit) & self.friction_differs()
+        refused = refused & np.logical_not(self.undetermined)
+        if cases.shape is not None and np.any(refused):
+            text = (
+                f"no speed fits, and the ratio of {' and '.join(self.components)} is further from "
+                f"the friction than recorders may differ. {RATIO_SHOWN}"
+            )
+            warning = IllConditionedWarning(cases.how_many(refused) + text, code="friction_differs")
+            warn_of_cases(warning, {text: cases.number(refused)})
         (ax, ay), (bx, by) = (
             [self.given[f"course_{label}[{i}]"] for i in range(2)] for label in "ab"
         )
@@ -494,7 +533,7 @@ def friction_shown(
 
     It slid where the caller stated that, where a known speed goes with a contact that slid and
     differs by more than recorders may from one that stuck, or where more energy was lost than
-    sticking loses.
+    sticking loses. A speed does not settle it where ``given`` says that it is ``EITHER``.
     """
     friction = given[FRICTION]
     speeds = [name for name in names if name.startswith("speed")]
@@ -514,7 +553,7 @@ def friction_shown(
     closing = sum(np.nan_to_num(root.closing) for root in stuck.roots())
     one, other, *_ = slid.roots()
     slides = usable & ((one.closing > 0.0) | (other.closing > 0.0)) & (slid.misfit < stuck.misfit)
-    settled = slides & (stuck.misfit > ACCURACY)
+    settled = slides & (stuck.misfit > ACCURACY) & ~np.asarray(given.get(EITHER, 0.0) > 0.0)
     apart = sum(abs(a - b) for a, b in zip(stuck.answer, slid.answer, strict=True))
     open_ = usable & slid.undetermined | slides & (apart > ACCURACY * closing)
     return (np.where(settled, shown, friction) if np.any(settled) else None), open_ & ~settled

@@ -25,11 +25,14 @@ from ..quantities.directions import from_radians
 from ..vehicle.vehicle import moved
 from .common import Cases
 from .lasting import misses_of_impacts, settle, slopes_at
-from .speeds_algebra import HELD, Root, Scene
+from .speeds_algebra import EITHER, HELD, Root, Scene
 
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
 # it has not settled; and how often it is worked out. Nearly all cases need fewer than 20.
 _SAME, _STEADY, _ROUNDS = 1e-12, 1e-9, 64
+# How often a contact may turn from stuck to slid or back before it counts as either: the tyres of
+# the instant, which has none, may turn it once and their correction back.
+_TURNS = 2
 # Of the speeds: answers that differ by no more are one.
 _ONE_ANSWER = 1e-6
 # The second of a pair that together is one energy.
@@ -101,10 +104,12 @@ def _settled(
     """The impulses of the tyres that lead to the speeds from which they follow, and where there are
     some.
 
-    A case that has settled stays, so that it comes out of a batch as alone.
+    A case that has settled stays, so that it comes out of a batch as alone. One in which a contact
+    that stuck and one that slid lead to each other is ``EITHER`` from then on.
     """
     shape = cases.shape or ()
-    held = {name: np.zeros(shape) for name in HELD}
+    held = {name: np.zeros(shape) for name in (*HELD, EITHER)}
+    slid, turns = _shows_slip(now, shape), np.zeros(shape)
     moving, settled = np.ones(shape, dtype=bool), np.zeros(shape, dtype=bool)
     for _ in range(_ROUNDS):
         if slot >= len(now.found):
@@ -115,13 +120,21 @@ def _settled(
         size = np.sqrt(sum(part * part for _, part in parts))
         change = np.sqrt(sum((part - was) ** 2 for was, part in parts))
         moving = moving & np.isfinite(change)
-        held = {name: np.where(moving, new[name], was) for name, was in held.items()}
+        held |= {name: np.where(moving, new[name], held[name]) for name in HELD}
         settled = settled | (moving & (change <= _STEADY * size))
         moving = moving & (change > _SAME * size)
         if not np.any(moving):
             break
         now = attempt(held if shape else {name: float(one) for name, one in held.items()}, math.inf)
+        before, slid = slid, _shows_slip(now, shape)
+        turns = turns + (moving & (slid != before))
+        held[EITHER] = np.where(turns > _TURNS, 1.0, held[EITHER])
     return (held if shape else {name: float(one) for name, one in held.items()}), settled
+
+
+def _shows_slip(now: Attempt, shape: tuple[int, ...]) -> Any:
+    """Where a friction is used: one that was given, or the ratio of a contact that slid."""
+    return np.broadcast_to(np.isfinite(now.inputs.rule_value), shape)
 
 
 def _pushes(

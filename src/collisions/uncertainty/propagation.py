@@ -709,7 +709,7 @@ def _notes(
                 f"{failed} of {count} cases ({100.0 * failed / count:.2f} %) had no answer and "
                 "are left out: the figures hold only where there is one",
                 ""
-                if any(note.code == "stuck_or_slid" for note in notes)
+                if any(note.code in ("stuck_or_slid", "friction_differs") for note in notes)
                 else (
                     ". Bound inputs that can be impossible, as by `Normal(mean, sd, truncate=(low, "
                     "high))`"
