@@ -65,8 +65,8 @@ def ground_of(numbers: tuple[Any, ...]) -> Ground:
     if isinstance(numbers[0], np.ndarray) and numbers[0].ndim:
         # The wheels in the rows of one array: a quarter of the calls.
         return Ground(
-            Tyres((np.array(numbers[:4]),), *numbers[4:12]),
-            (np.array(numbers[12:16]),),
+            Tyres((np.stack(numbers[:4]),), *numbers[4:12]),
+            (np.stack(numbers[12:16]),),
             *numbers[16:OF_GROUND],
         )
     return Ground(Tyres(numbers[:4], *numbers[4:12]), numbers[12:16], *numbers[16:OF_GROUND])
@@ -157,7 +157,7 @@ def step(*numbers: Any) -> tuple[Any, ...]:
     settings = Settings(steered, transfers, sloped, rotates)
     vx, vy, turn, c, s, ax, ay, yaw, width = rest[OF_GROUND:]
     rows = isinstance(vx, np.ndarray) and vx.ndim == 1
-    start: Any = np.array([vx, vy, turn, c, s]) if rows else (vx, vy, turn, c, s)
+    start: Any = np.stack([vx, vy, turn, c, s]) if rows else (vx, vy, turn, c, s)
     brakes = None if settings.transfers else brake_shares(ground.tyres, ground.here)
 
     def rates(now: Any, found: tuple[Any, ...] | None = None) -> tuple[Any, tuple[Any, ...]]:
@@ -176,7 +176,7 @@ def step(*numbers: Any) -> tuple[Any, ...]:
             rate,
             speed,
         )
-        return np.array(row) if rows else row, (x, y, turning)
+        return np.stack(row) if rows else row, (x, y, turning)
 
     stages, now = [rates(start, (ax, ay, yaw))[0]], start
     for weights in _STAGES:
@@ -211,7 +211,7 @@ def _sum(weights: tuple[float, ...], stages: list[Any], first: int, end: int) ->
     if isinstance(stage, np.ndarray):
         total = weight * stage
         for weight, stage in used[1:]:
-            total += weight * stage
+            total = total + weight * stage
         return total
     found = [weight * part for part in stage]
     for weight, stage in used[1:]:

@@ -66,6 +66,18 @@ class Motion(NamedTuple):
         areas = None if self.areas is None else self.areas.of(which)
         return self._replace(ground=self.ground[:, which], start=self.start[:, which], areas=areas)
 
+    @classmethod
+    def joined(cls, parts: Sequence[Motion]) -> Motion:
+        """The cases of several, which have the same polygons, settings and tolerance."""
+        if len(parts) == 1:
+            return parts[0]
+        areas = [part.areas for part in parts if part.areas is not None]
+        return parts[0]._replace(
+            ground=np.concatenate([part.ground for part in parts], axis=1),
+            start=np.concatenate([part.start for part in parts], axis=1),
+            areas=Areas.joined(areas) if areas else None,
+        )
+
 
 @lru_cache(maxsize=8)
 def _of_floats(settings: Settings) -> tuple[Callable[..., Any], Callable[..., Any]]:
@@ -77,6 +89,16 @@ def _of_floats(settings: Settings) -> tuple[Callable[..., Any], Callable[..., An
     )
 
 
+@lru_cache(maxsize=8)
+def _of_rows(settings: Settings) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    """The step, and how near the end it is, of many cases: from parts that have the rows of their
+    numbers.
+    """
+    from ..engine.rows import RowProgram
+
+    return RowProgram(step, len(_NUMBERS), settings), RowProgram(ending, 6, ())
+
+
 @lru_cache(maxsize=1)
 def _ending_of_floats() -> Callable[..., Any]:
     """``ending`` of one case of floats, with the roots that arrays have, to the last bit."""
@@ -86,13 +108,28 @@ def _ending_of_floats() -> Callable[..., Any]:
 
 
 class Followed(NamedTuple):
-    """The rows of all steps of all cases, each of (``ROWS``, steps) in order of time; what became
-    of each case, and from where those that wait are followed on.
+    """The rows of all steps, of (``ROWS``, steps), case by case and in order of time; how many each
+    case has, what became of it, and from where those that wait are followed on.
     """
 
-    rows: list[Any]
+    rows: Any
+    counts: Any
     ended: Any
     state: Any
+
+    @property
+    def ends(self) -> Any:
+        """The first row of each case that is no longer its own."""
+        return np.cumsum(self.counts)
+
+    @property
+    def by_case(self) -> list[Any]:
+        """The rows of each case."""
+        ends = self.ends.tolist()
+        return [
+            self.rows[:, end - count : end]
+            for end, count in zip(ends, self.counts.tolist(), strict=True)
+        ]
 
 
 def follow(motion: Motion, until: Any = None, going: Any = None) -> Followed:
@@ -101,24 +138,33 @@ def follow(motion: Motion, until: Any = None, going: Any = None) -> Followed:
     """
     count = motion.start.shape[1]
     until = np.full(count, np.inf) if until is None else until
-    parts: list[list[Any]] = [[] for _ in range(count)]
+    kept: list[tuple[Any, Any]] = []
     found: Any = np.full(count, NO_END)
     state = np.zeros((_STATE, count))
     if count <= _FEW:
         for case in range(count):
             start = None if going is None else going[:, case].tolist()
             rows, found[case], state[:, case] = _one(motion.of([case]), start, float(until[case]))
-            parts[case].append(rows)
+            kept.append((np.full(rows.shape[1], case), rows))
     else:
-        _several(motion, parts, found, state, going, until)
+        _several(motion, kept, found, state, going, until)
+    followed = Followed(*_by_case(kept, count), found, state)
     if motion.settings.sloped:
         for case in np.flatnonzero(found == RESTS).tolist():
-            last = parts[case][-1]
-            place = last[1:4, -1] if last.shape[1] else going[1:4, case]
+            last = followed.ends[case] - 1
+            place = followed.rows[1:4, last] if followed.counts[case] else going[1:4, case]
             if not _holds(motion.of([case]), *place):
                 found[case] = GOES_ON
-    rows = [part[0] if len(part) == 1 else np.concatenate(part, axis=1) for part in parts]
-    return Followed(rows, found, state)
+    return followed
+
+
+def _by_case(kept: list[tuple[Any, Any]], count: int) -> tuple[Any, Any]:
+    """The rows of all steps, case by case and in order of time; and how many each case has."""
+    if len(kept) == 1 and count == 1:
+        return kept[0][1], np.array([len(kept[0][0])])
+    cases, rows = (np.concatenate(part, axis=-1) for part in zip(*kept, strict=True))
+    order = np.argsort(cases, kind="stable")
+    return rows[:, order], np.bincount(cases, minlength=count)
 
 
 def _wider(wrong: Any, tolerance: float) -> Any:
@@ -309,7 +355,7 @@ def _to_rest(state: Any, spin: Any) -> Any:
 
 
 def _several(
-    motion: Motion, parts: list[list[Any]], found: Any, states: Any, start: Any, until: Any
+    motion: Motion, kept: list[tuple[Any, Any]], found: Any, states: Any, start: Any, until: Any
 ) -> None:
     """The rows of all cases, followed together in arrays; those that are left over one by one."""
     areas, tolerance, last = motion.areas, motion.tolerance, _last(motion)
@@ -325,7 +371,7 @@ def _several(
     # Under the wheels the ground may be another from here.
     fresh: Any = first if areas is None else np.ones(len(going), dtype=bool)
     later = until
-    kept: list[tuple[Any, Any]] = []
+    stepped, ended = _of_rows(motion.settings)
 
     def noted(which: Any, rows: Any) -> None:
         kept.append((going[which], rows))
@@ -345,35 +391,36 @@ def _several(
             if first.any():
                 noted(some, np.concatenate([state[:10, some], state[7:10, some]]))
                 first = np.zeros(len(going), dtype=bool)
+            fresh = np.zeros(len(going), dtype=bool)
         spin = ground[17]
-        speed, slowing, aside, slides, spins = ending(*state[4:10])
+        speed, slowing, aside, *straight = ended(state[4:10])
+        slides, spins = (part != 0.0 for part in straight)
         usable = np.isfinite(speed + slowing)
         stops = slowing > _NO_SLOWING
         left = np.where(stops, 0.5 * speed * speed / np.where(stops, slowing, 1.0), np.inf)
         straight = usable & (slides | (spins & alone)) & (speed > 0.0)
+        some_straight = bool(straight.any())
         edge = np.full(len(going), np.inf)
-        if areas is not None and straight.any():
+        if areas is not None and some_straight:
             some = np.flatnonzero(straight)
             towards = state[4, some] / speed[some], state[5, some] / speed[some]
             edge[some] = areas.of(some).ahead(*(*state[1:4, some], *towards, left[some]))
-        goes_on = straight & ~stops & ~np.isfinite(edge)
-        rests = usable & (
-            (straight & stops & (left <= edge))
-            | (
-                ~straight
-                & (left <= last * last * state[10])
-                & _ends(state[0], speed, slowing, aside, tolerance)
-            )
-            | (speed == 0.0)
+        goes_on = straight & ~stops & ~np.isfinite(edge) if some_straight else straight
+        rests = (left <= last * last * state[10]) & _ends(
+            state[0], speed, slowing, aside, tolerance
         )
-        moved = rests & (speed > 0.0)
-        if moved.any():
+        if some_straight:
+            rests = (straight & stops & (left <= edge)) | (~straight & rests)
+        rests = usable & (rests | (speed == 0.0))
+        some_rest = bool(rests.any())
+        if some_rest:
+            moved = rests & (speed > 0.0)
             noted(moved, _to_rest(state[:10, moved], spin[moved]))
-        if goes_on.any():
+            found[going[rests]] = RESTS
+        if some_straight:
             noted(goes_on, np.concatenate([state[:10, goes_on], state[7:10, goes_on]]))
-        found[going[rests]], found[going[goes_on]] = RESTS, GOES_ON
-        fresh = np.zeros(len(going), dtype=bool)
-        slid = straight & ~rests & ~goes_on
+            found[going[goes_on]] = GOES_ON
+        slid = straight & ~rests & ~goes_on if some_straight else straight
         if slid.any():
             sliding, before = state[:, slid], speed[slid]
             after = np.maximum(before * before - 2.0 * slowing[slid] * edge[slid], 0.0) ** 0.5
@@ -386,51 +433,66 @@ def _several(
             noted(slid, np.concatenate([state[:10, slid], state[7:10, slid]]))
             fresh |= slid
         stuck = ~usable | (state[11] < _SHORTEST_STEP)
-        steps = np.flatnonzero(~(rests | goes_on | slid | stuck))
+        out = rests | goes_on | stuck
+        steps = np.flatnonzero(~(out | slid))
         if len(steps):
-            now, own = state[:, steps], ground[:, steps]
-            turning = np.abs(speed[steps] * now[6] * own[17])
-            longest = np.where(aside[steps] < _NEARLY, _settling(own), _LONGEST_STEP)
-            now[11] = np.minimum(
+            now, own = state, ground
+            if len(steps) < len(going):
+                now, own, c, s = state[:, steps], ground[:, steps], c[steps], s[steps]
+                speed, aside = speed[steps], aside[steps]
+            turning = np.abs(speed * now[6] * own[17])
+            longest = np.where(aside < _NEARLY, _settling(own), _LONGEST_STEP)
+            widths = np.minimum(
                 np.minimum(now[11], longest), _MOST_TURN / np.maximum(turning, 1e-300)
             )
-            now[11] = np.where(now[12] > 0.0, now[11], _rounded(now[11]))
-            new = np.array(
-                step(*own, *now[4:7], c[steps], s[steps], *now[7:10], now[11], *motion.settings)
-            )
+            wanted = now[12]
+            widths = np.where(wanted > 0.0, widths, _rounded(widths))
+            new = stepped(own, now[4:7], c, s, now[7:10], widths)
             wrong, took, after = new[10], new[6], size(*new[:3])
             good = wrong <= tolerance
-            rows = np.array(
-                [now[0] + took, *(now[1:4] + new[3:6]), *new[:3], *now[7:10], *new[7:10]]
-            )
-            widths, wanted = now[11], now[12]
-            scaled = np.where(good, 1.0, np.fmin(_wider(wrong, tolerance), 0.9))
+            rows = np.empty((ROWS, len(steps)))
+            np.add(now[0], took, out=rows[0])
+            np.add(now[1:4], new[3:6], out=rows[1:4])
+            rows[4:7], rows[7:10], rows[10:] = new[:3], now[7:10], new[7:10]
+            factor = _wider(wrong, tolerance)
+            shorter = np.fmin(factor, 0.9)
             if areas is not None and good.any():
                 before = np.concatenate([now[:10], now[7:10]])
                 at = np.flatnonzero(good)
                 share = np.ones(len(steps))
                 share[at] = areas.of(steps[at]).crossed(before[:, at], rows[:, at], own[17, at])
                 cut = share < 1.0
+                part = _passed(share, took, widths, speed, after)
+                shorter = np.where(good, np.where(cut, part, 1.0), shorter)
+                wanted = np.where(cut, np.maximum(wanted, widths), wanted)
                 good &= ~cut
-                part = _passed(share, took, widths, speed[steps], after)
-                scaled, wanted = (
-                    np.where(cut, part, scaled),
-                    np.where(cut, np.maximum(wanted, widths), wanted),
-                )
-            done = steps[good]
-            noted(done, rows[:, good])
-            state[:7, done], state[7:10, done] = rows[:7, good], rows[10:, good]
-            state[10, done] += (0.5 * (speed[steps] + after) * took)[good]
-            wider = np.maximum(widths * _wider(wrong, tolerance), wanted)
-            state[11, steps] = np.where(good, wider, widths * scaled)
-            state[12, steps] = np.where(good, 0.0, wanted)
+            wider = np.maximum(widths * factor, wanted)
+            wider = np.where(good, wider, widths * shorter)
+            wanted = np.where(good, 0.0, wanted)
+            way = 0.5 * (speed + after) * took
+            if good.all():
+                done = steps
+            else:
+                done, rows, way = steps[good], rows[:, good], way[good]
+            noted(done, rows)
+            if len(done) == len(going):
+                state[:7], state[7:10] = rows[:7], rows[10:]
+                state[10] += way
+            else:
+                state[:7, done], state[7:10, done] = rows[:7], rows[10:]
+                state[10, done] += way
+            if len(steps) == len(going):
+                state[11], state[12] = wider, wanted
+            else:
+                state[11, steps], state[12, steps] = wider, wanted
             if areas is not None:
                 fresh[done] = True
-        on = ~(rests | goes_on | stuck)
-        waits = on & (state[0] >= later)
-        found[going[waits]], states[:, going[waits]] = IN_TIME, state[:, waits]
-        on &= ~waits
-        if not on.all():
+        waits = ~out & (state[0] >= later)
+        if waits.any():
+            found[going[waits]], states[:, going[waits]] = IN_TIME, state[:, waits]
+            out |= waits
+        if out.any():
+            on = np.flatnonzero(~out)
             ground, state, going, fresh, first, later = (
                 ground[:, on],
                 state[:, on],
@@ -440,7 +502,6 @@ def _several(
                 later[on],
             )
             areas = None if areas is None else areas.of(on)
-    _sorted_into(parts, kept)
     begun = bool(kept) or start is not None
     for left_over, one in enumerate(going.tolist()):
         rows, found[one], states[:, one] = _one(
@@ -448,21 +509,7 @@ def _several(
             state[:, left_over].tolist() if begun else None,
             float(until[one]),
         )
-        parts[one].append(rows)
-
-
-def _sorted_into(parts: list[list[Any]], kept: list[tuple[Any, Any]]) -> None:
-    """Puts the rows of all steps to their cases, in order of time."""
-    if not kept:
-        return
-    cases, rows = (
-        np.concatenate([case for case, _ in kept]),
-        np.concatenate([row for _, row in kept], axis=1),
-    )
-    order = np.argsort(cases, kind="stable")
-    rows, counts = rows[:, order], np.bincount(cases, minlength=len(parts))
-    for part, end, count in zip(parts, np.cumsum(counts), counts, strict=True):
-        part.append(rows[:, end - count : end])
+        kept.append((np.full(rows.shape[1], one), rows))
 
 
 def went_on(rows: Any, until: float, spin: float) -> Any:

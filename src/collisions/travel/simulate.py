@@ -573,7 +573,8 @@ def _way(motion: Motion, units: Any, moments: int, until: Any) -> tuple[Any, Any
     """Time, place, motion and marks of some cases at their moments up to a time of each; and how
     each ended.
     """
-    found, ended, _ = follow(motion, until)
+    followed = follow(motion, until)
+    found, ended = followed.by_case, followed.ended
     count = len(found)
     before, after = np.empty((2, ROWS, moments, count))
     time = np.empty((moments, count))
