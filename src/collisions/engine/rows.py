@@ -48,7 +48,8 @@ class _Recorder:
 
     def call(self, function: Callable[..., Any], *operands: Any) -> Any:
         """The result of a call, which is made once for the same operands."""
-        reads, key = [], [function]
+        reads: list[Any] = []
+        key: list[Any] = [function]
         for one in operands:
             if isinstance(one, Recorded):
                 reads.append(one.place)
@@ -149,7 +150,7 @@ class RowProgram:
         sample = np.linspace(0.1, 0.9, inputs * _SAMPLE).reshape(inputs, _SAMPLE)
         with np.errstate(all="ignore"):
             rows = Recorded.of(recorder, sample, (0, 0, inputs))
-            self._result: _Place = np.stack(kernel(*rows, *settings)).place
+            self._result: _Place = recorder.stack(kernel(*rows, *settings)).place
         self._within = recorder.within
         self._calls = self._needed(recorder.calls)
         self._memory = self._placed(recorder.rows)
@@ -185,7 +186,8 @@ class RowProgram:
                 if type(place) is tuple:
                     last[place[0]] = max(at, last.get(place[0], 0))
         pieces: list[tuple[int, Any]] = [rows[0]]
-        piece_of, free = {0: 0}, {}
+        piece_of = {0: 0}
+        free: dict[Any, list[int]] = {}
         for at, (_, reads, writes) in enumerate(self._calls):
             # A function of each case alone may write over what it reads.
             for array in {one[0] for one in reads if type(one) is tuple}:
@@ -201,9 +203,7 @@ class RowProgram:
         self._calls = [
             _Call(
                 function,
-                tuple(
-                    (piece_of[one[0]], *one[1:]) if type(one) is tuple else one for one in reads
-                ),
+                tuple((piece_of[one[0]], *one[1:]) if type(one) is tuple else one for one in reads),
                 (piece_of[writes[0]], *writes[1:]),
             )
             for function, reads, writes in self._calls

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..vehicle.drag import in_plan
-from .motion import GOES_ON, IN_TIME, RESTS, Motion, between, follow
+from .motion import GOES_ON, IN_TIME, RESTS, Followed, Motion, between, follow
 from .simulate import Prepared
 
 # Cases that are followed together: few calls of numpy, and memory that is kept small.
@@ -166,8 +166,9 @@ class Following:
         kinds = ((~begun, False), (begun, True))
         return [(which[some], until[some], kind) for some, kind in kinds if some.any()]
 
-    def _keep(self, which: Any, begun: bool, whole: Any, counts: Any, ended: Any, state: Any) -> None:
-        """Keep how some cases went on: all rows, and how many of each."""
+    def keep(self, which: Any, begun: bool, found: Followed) -> None:
+        """Keep how some cases went on, which had ``begun`` before or not."""
+        whole, counts, ended, state = found
         if begun:
             # Steps begin where the ones before ended.
             start = self._state[:, which]
@@ -292,13 +293,9 @@ def _follow(parts: list[_Part]) -> None:
         counts = found.counts[cases]
         own = slice(rows, rows + int(counts.sum()))
         rows = own.stop
-        part.following._keep(
-            part.which,
-            part.begun,
-            found.rows[:, own],
-            counts,
-            found.ended[cases],
-            found.state[:, cases],
+        ended, state = found.ended[cases], found.state[:, cases]
+        part.following.keep(
+            part.which, part.begun, Followed(found.rows[:, own], counts, ended, state)
         )
 
 
