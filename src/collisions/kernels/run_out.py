@@ -226,10 +226,10 @@ def _further(start: Any, width: Any, rates: Any) -> Any:
 
 
 def ending(
-    vx: Any, vy: Any, turn: Any, ax: Any, ay: Any, yaw: Any
-) -> tuple[Any, Any, Any, Any, Any]:
-    """The speed, how fast it falls, how fast its direction changes, and whether the motion is
-    straight from here.
+    vx: Any, vy: Any, turn: Any, ax: Any, ay: Any, yaw: Any, spin: Any
+) -> tuple[Any, Any, Any, Any, Any, Any]:
+    """The speed, how fast it falls, how fast its direction changes, and that on the vehicle; and
+    whether the motion is straight from here.
 
     That is, whether it slides on without turning, and whether it turns on the spot.
     """
@@ -237,8 +237,12 @@ def ending(
     scale = select(speed > 0.0, speed, 1.0)
     ux, uy, turning = vx / scale, vy / scale, turn / scale
     slowing = -(ux * ax + uy * ay + turning * yaw)
-    aside = size(ax + slowing * ux, ay + slowing * uy, yaw + slowing * turning)
+    off_x, off_y, off_turn = ax + slowing * ux, ay + slowing * uy, yaw + slowing * turning
+    aside = size(off_x, off_y, off_turn)
+    rate = speed * (turn * spin)
+    drift = size(off_x + rate * uy, off_y - rate * ux, off_turn)
     straight = aside <= _STRAIGHT * larger(slowing, _SLOWEST + 0.0 * slowing)
     # Without any force it turns on for ever, on the spot or not.
     spins = (ux * ux + uy * uy <= _STRAIGHT * _STRAIGHT) | ((slowing == 0.0) & (aside == 0.0))
-    return speed, slowing, aside, straight & (abs(turning) <= _STRAIGHT), straight & spins
+    slides = straight & (abs(turning) <= _STRAIGHT)
+    return speed, slowing, aside, drift, slides, straight & spins

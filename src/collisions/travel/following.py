@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..vehicle.drag import in_plan
-from .motion import GOES_ON, IN_TIME, RESTS, Followed, Motion, between, follow
+from .motion import GOES_ON, IN_TIME, RESTS, STATE, Followed, Motion, between, follow
 from .simulate import Prepared
 
 # Cases that are followed together: few calls of numpy, and memory that is kept small.
@@ -52,7 +52,7 @@ class Following:
         self._rises = made.motion.ground[18:20] if made.motion.settings.sloped else None
         self._ended: Any = np.full(self.count, IN_TIME)
         self._reached: Any = np.zeros(self.count)
-        self._state: Any = np.zeros((13, self.count))
+        self._state: Any = np.zeros((STATE, self.count))
         self._left: Any = np.zeros(self.count, dtype=bool)
         self._pieces: list[_Piece] = []
         # The steps of a single case, and their times.

@@ -44,8 +44,9 @@ _WIDEST, _SAFE = 1.5, 0.9
 # Rows of a step: time, place, heading, velocities, accelerations at its start and at its end.
 ROWS = 13
 # Rows from which a case is followed on: time, place, heading, velocities, accelerations, way,
-# width, and the width that was wanted before an edge.
-_STATE = 13
+# width, the width that was wanted before an edge, and how fast the motion changed its direction on
+# the vehicle at the last step.
+STATE = 14
 
 _NUMBERS = tuple(f"[{at}]" for at in range(OF_GROUND + 9))
 
@@ -96,7 +97,7 @@ def _of_rows(settings: Settings) -> tuple[Callable[..., Any], Callable[..., Any]
     """
     from ..engine.rows import RowProgram
 
-    return RowProgram(step, len(_NUMBERS), settings), RowProgram(ending, 6, ())
+    return RowProgram(step, len(_NUMBERS), settings), RowProgram(ending, 7, ())
 
 
 @lru_cache(maxsize=1)
@@ -104,7 +105,7 @@ def _ending_of_floats() -> Callable[..., Any]:
     """``ending`` of one case of floats, with the roots that arrays have, to the last bit."""
     from ..engine.floats import compile_for_floats
 
-    return compile_for_floats(ending, _NUMBERS[:6], ())
+    return compile_for_floats(ending, _NUMBERS[:7], ())
 
 
 class Followed(NamedTuple):
@@ -140,7 +141,7 @@ def follow(motion: Motion, until: Any = None, going: Any = None) -> Followed:
     until = np.full(count, np.inf) if until is None else until
     kept: list[tuple[Any, Any]] = []
     found: Any = np.full(count, NO_END)
-    state = np.zeros((_STATE, count))
+    state = np.zeros((STATE, count))
     if count <= _FEW:
         for case in range(count):
             start = None if going is None else going[:, case].tolist()
@@ -160,8 +161,8 @@ def follow(motion: Motion, until: Any = None, going: Any = None) -> Followed:
 
 def _by_case(kept: list[tuple[Any, Any]], count: int) -> tuple[Any, Any]:
     """The rows of all steps, case by case and in order of time; and how many each case has."""
-    if len(kept) == 1 and count == 1:
-        return kept[0][1], np.array([len(kept[0][0])])
+    if not kept:
+        return np.empty((ROWS, 0)), np.zeros(count, dtype=int)
     cases, rows = (np.concatenate(part, axis=-1) for part in zip(*kept, strict=True))
     order = np.argsort(cases, kind="stable")
     return rows[:, order], np.bincount(cases, minlength=count)
@@ -205,6 +206,16 @@ def _ends(time: Any, speed: Any, slowing: Any, aside: Any, tolerance: float) -> 
     return speed * aside <= part * time * slowing * slowing
 
 
+def _settled(left: Any, drift: Any, slowing: Any, spin: Any, tolerance: float) -> Any:
+    """Whether the motion keeps its direction on the vehicle from here, so that it goes on along an
+    arc.
+
+    What is left of the change of its direction is as much as over the way on which its speed halves
+    the square; the error is weighed as that of a step.
+    """
+    return left * drift * (1.0 + spin) <= 2.0 * tolerance * slowing
+
+
 def _one(
     motion: Motion, going: Sequence[float] | None, until: float
 ) -> tuple[Any, int, Sequence[float]]:
@@ -218,14 +229,14 @@ def _one(
     ends = _ending_of_floats()
     known: Any = None
     if going is None:
-        time, x, y, way, width, wanted = 0.0, 0.0, 0.0, 0.0, _FIRST_STEP, 0.0
+        time, x, y, way, width, wanted, drifted = 0.0, 0.0, 0.0, 0.0, _FIRST_STEP, 0.0, 0.0
         vx, vy, turn, heading = (float(number) for number in motion.start[:, 0])
     else:
-        time, x, y, heading, vx, vy, turn, *known, way, width, wanted = going
+        time, x, y, heading, vx, vy, turn, *known, way, width, wanted, drifted = going
         # Under the wheels the ground may be another from here.
         known = None if areas is not None else tuple(known)
     rows: list[tuple[float, ...]] = []
-    found = NO_END
+    found, bends = NO_END, 0.0
     for _ in range(_MOST_STEPS):
         if time >= until and (rows or going is not None):
             found = IN_TIME
@@ -242,10 +253,10 @@ def _one(
                 break
             if not rows and going is None:
                 rows.append((time, x, y, heading, vx, vy, turn, *known, *known))
-        ending_now = ends((vx, vy, turn, *known))
+        ending_now = ends((vx, vy, turn, *known, spin))
         if ending_now is None:
             break
-        speed, slowing, aside, slides, spins = ending_now
+        speed, slowing, aside, drift, slides, spins = ending_now
         if speed == 0.0 or not math.isfinite(speed + slowing):
             found = RESTS if speed == 0.0 else NO_END
             break
@@ -272,6 +283,15 @@ def _one(
             continue
         if left <= last * last * way and _ends(time, speed, slowing, aside, tolerance):
             found = RESTS
+            break
+        if (
+            alone
+            and stops
+            and drift < drifted
+            and _settled(left, drift, slowing, spin, tolerance)
+            and _ends(time, speed, slowing, drift, tolerance)
+        ):
+            found, bends = RESTS, 1.0
             break
         width = min(
             width,
@@ -304,14 +324,15 @@ def _one(
         rows.append(row)
         time, x, y, heading, vx, vy, turn = row[:7]
         way += 0.5 * (speed + after) * took
+        drifted = drift
         known = new[7:10] if areas is None else None
         width, wanted = max(width * _wider(wrong, tolerance), wanted), 0.0
     table = np.array(rows, dtype=float).reshape(-1, ROWS).T
     if found == RESTS and known is not None and (vx, vy, turn) != (0.0, 0.0, 0.0):
         state = np.array([[time, x, y, heading, vx, vy, turn, *known]]).T
-        table = np.concatenate([table, _to_rest(state, np.array([spin]))], axis=1)
+        table = np.concatenate([table, _to_rest(state, np.array([spin]), bends)], axis=1)
     forces = (0.0, 0.0, 0.0) if known is None else known
-    return table, found, (time, x, y, heading, vx, vy, turn, *forces, way, width, wanted)
+    return table, found, (time, x, y, heading, vx, vy, turn, *forces, way, width, wanted, drifted)
 
 
 def _settling(ground: Any) -> Any:
@@ -340,18 +361,27 @@ def _passed(share: Any, took: Any, width: Any, before: Any, after: Any) -> Any:
     return part if isinstance(share, np.ndarray) else float(part)
 
 
-def _to_rest(state: Any, spin: Any) -> Any:
+def _to_rest(state: Any, spin: Any, bends: Any) -> Any:
     """The row of rest, from those of time to accelerations: the forces slow the whole motion as
-    they do now.
+    they do now, and turn with the vehicle where the motion ``bends`` (1, else 0).
     """
     time, x, y, heading, vx, vy, turn, ax, ay, yaw = state
-    speed, slowing, *_ = ending(vx, vy, turn, ax, ay, yaw)
+    speed, slowing, *_ = ending(vx, vy, turn, ax, ay, yaw, spin)
     takes = speed / slowing
+    turns = 0.5 * takes * turn * spin
+    # Along the chord of the arc.
+    bend = bends * turns
+    c, s, short = np.cos(0.5 * bend), np.sin(0.5 * bend), 1.0 - bend * bend / 24.0
+    along = [c * vx - s * vy, s * vx + c * vy]
+    place = [x + 0.5 * takes * (short * along[0]), y + 0.5 * takes * (short * along[1])]
     # Those that bring every part of it to rest at once.
     slowed = [-part / takes for part in (vx, vy, turn)]
-    place = [x + 0.5 * takes * vx, y + 0.5 * takes * vy, heading + 0.5 * takes * turn * spin]
+    rate = bends * turn * spin
+    begins = [slowed[0] - rate * vy, slowed[1] + rate * vx, slowed[2]]
+    c, s = np.cos(bend), np.sin(bend)
+    ends = [c * slowed[0] - s * slowed[1], s * slowed[0] + c * slowed[1], slowed[2]]
     none = 0.0 * time
-    return np.array([time + takes, *place, none, none, none, *slowed, *slowed])
+    return np.array([time + takes, *place, heading + turns, none, none, none, *begins, *ends])
 
 
 def _several(
@@ -363,7 +393,7 @@ def _several(
     ground: Any = motion.ground.copy()
     going: Any = np.arange(motion.start.shape[1])
     if start is None:
-        state: Any = np.zeros((_STATE, len(going)))
+        state: Any = np.zeros((STATE, len(going)))
         state[4:7], state[3], state[11] = motion.start[:3], motion.start[3], _FIRST_STEP
     else:
         state = start.copy()
@@ -393,7 +423,7 @@ def _several(
                 first = np.zeros(len(going), dtype=bool)
             fresh = np.zeros(len(going), dtype=bool)
         spin = ground[17]
-        speed, slowing, aside, *straight = ended(state[4:10])
+        speed, slowing, aside, drift, *straight = ended(state[4:10], spin)
         slides, spins = (part != 0.0 for part in straight)
         usable = np.isfinite(speed + slowing)
         stops = slowing > _NO_SLOWING
@@ -412,10 +442,20 @@ def _several(
         if some_straight:
             rests = (straight & stops & (left <= edge)) | (~straight & rests)
         rests = usable & (rests | (speed == 0.0))
-        some_rest = bool(rests.any())
-        if some_rest:
+        arcs = rests
+        if alone:
+            arcs = (
+                ~(rests | straight)
+                & stops
+                & (drift < state[13])
+                & _settled(left, drift, slowing, spin, tolerance)
+                & _ends(state[0], speed, slowing, drift, tolerance)
+            )
+            rests = rests | arcs
+        if rests.any():
             moved = rests & (speed > 0.0)
-            noted(moved, _to_rest(state[:10, moved], spin[moved]))
+            bends = np.where(arcs[moved], 1.0, 0.0) if alone else 0.0
+            noted(moved, _to_rest(state[:10, moved], spin[moved], bends))
             found[going[rests]] = RESTS
         if some_straight:
             noted(goes_on, np.concatenate([state[:10, goes_on], state[7:10, goes_on]]))
@@ -439,7 +479,7 @@ def _several(
             now, own = state, ground
             if len(steps) < len(going):
                 now, own, c, s = state[:, steps], ground[:, steps], c[steps], s[steps]
-                speed, aside = speed[steps], aside[steps]
+                speed, aside, drift = speed[steps], aside[steps], drift[steps]
             turning = np.abs(speed * now[6] * own[17])
             longest = np.where(aside < _NEARLY, _settling(own), _LONGEST_STEP)
             widths = np.minimum(
@@ -469,6 +509,7 @@ def _several(
             wider = np.maximum(widths * factor, wanted)
             wider = np.where(good, wider, widths * shorter)
             wanted = np.where(good, 0.0, wanted)
+            drift = np.where(good, drift, now[13])
             way = 0.5 * (speed + after) * took
             if good.all():
                 done = steps
@@ -482,9 +523,9 @@ def _several(
                 state[:7, done], state[7:10, done] = rows[:7], rows[10:]
                 state[10, done] += way
             if len(steps) == len(going):
-                state[11], state[12] = wider, wanted
+                state[11], state[12], state[13] = wider, wanted, drift
             else:
-                state[11, steps], state[12, steps] = wider, wanted
+                state[11, steps], state[12, steps], state[13, steps] = wider, wanted, drift
             if areas is not None:
                 fresh[done] = True
         waits = ~out & (state[0] >= later)
