@@ -72,7 +72,8 @@ def share_of(part: Any, whole: Any) -> Any:
     """The part of a whole, both not negative, but 1 at most; 1 of none."""
     if isinstance(part, np.ndarray) or isinstance(whole, np.ndarray):
         # 0 over 0 is no number, which ``fmin`` passes over.
-        return np.fmin(part / whole, 1.0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.fmin(part / whole, 1.0)
     less = part < whole
     return select(less, part, 1.0) / select(less, whole, 1.0)
 
