@@ -208,10 +208,10 @@ def _ends(time: Any, speed: Any, slowing: Any, aside: Any, tolerance: float) -> 
 
 def _settled(left: Any, drift: Any, slowing: Any, spin: Any, tolerance: float) -> Any:
     """Whether the motion keeps its direction on the vehicle from here, so that it goes on along an
-    arc.
+    arc, as it does where no wheel begins or ends to slide.
 
-    What is left of the change of its direction is as much as over the way on which its speed halves
-    the square; the error is weighed as that of a step.
+    The change of that direction fades as fast as the square of the speed, so that over the way that
+    is left it comes to ``drift / (2 slowing)``; its effect is weighed as the error of a step is.
     """
     return left * drift * (1.0 + spin) <= 2.0 * tolerance * slowing
 
