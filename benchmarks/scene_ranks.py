@@ -9,8 +9,8 @@ has ranks that are spread evenly, and 95 percent ranges that hold 95 percent.
         [--route recorder|rests] [--join OTHER.json ...]
 
 A run that was ended goes on where it was: every scene is written as it is done, with its seed. A
-scene takes a minute or two, so several processes may take some of the numbers each, and one more
-call joins their files.
+scene takes a minute or so, which is also given in millions of bare formulas of an impact. Several
+processes may take some of the numbers each, and one more call joins their files.
 """
 
 from __future__ import annotations
@@ -20,11 +20,14 @@ import json
 import math
 import sys
 import time
+import timeit
 import warnings
 from pathlib import Path
 from typing import Any
 
+import batch_speed
 import numpy as np
+import speed_rivals
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "src"))
 
@@ -91,13 +94,22 @@ def one(number: int, samples: int, route: str) -> dict[str, Any]:
         for name, error in errors.items()
     }
     found = reconstruct.posterior(crash(), PRIORS, observed, samples=samples, seed=number)
+    took = time.process_time() - start
     ranks = {name: float(np.mean(found[name].values < truth[name])) for name in PRIORS}
     return {
         "scene": number,
         "truth": truth,
         "ranks": ranks,
-        "seconds": round(time.process_time() - start, 1),
+        "seconds": round(took, 1),
+        "million_formulas": round(took / formula_seconds() / 1e6, 1),
     }
+
+
+def formula_seconds() -> float:
+    """Seconds of a bare formula of an impact, the unit of the budgets."""
+    numbers = [float(one[0]) for one in speed_rivals.numbers(batch_speed.scenes(1))]
+    calls = timeit.repeat(lambda: speed_rivals.formula(*numbers), number=1000, repeat=25)
+    return min(calls) / 1000
 
 
 def summed(rows: list[dict[str, Any]]) -> dict[str, Any]:

@@ -5,12 +5,14 @@ rest.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 
 import collisions as col
 from collisions.scene import Contact, Mover, Scene
+from collisions.travel import Tyres, following
 
 COUNT = 24
 RULE = {"restitution": 0.3, "friction": 0.5, "at": "touch"}
@@ -70,3 +72,33 @@ def test_every_case_of_a_batch_is_as_it_is_alone(seed: int) -> None:
         times = [columns[f"times[{k}]"][i] for k in range(len(one.times))]
         assert times == pytest.approx(one.times, abs=1e-12)
     assert len(orders) > 1
+
+
+def test_all_places_of_rest_are_followed_at_once_and_are_those_of_each_alone(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    wheels = Tyres(0.7, [1.0, 0.1, 0.1, 0.1], 2.78, 1.55)
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, x=-2.3, y=0.0, heading=0.0, vx=14.0, vy=0.0)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=0.9, y=-0.6, heading=1.5, vx=0.0, vy=9.0)
+    scene = Scene(
+        movers={"A": Mover(a, tyres=wheels), "B": Mover(b, tyres=wheels)},
+        contacts=[Contact("A", "B", restitution=0.1, friction=0.5, normal=0.0, point=(0.0, -0.2))],
+    )
+    calls: list[int] = []
+
+    def counted(motion: Any, *given: Any) -> Any:
+        calls.append(motion.start.shape[1])
+        return follow(motion, *given)
+
+    follow = following.follow
+    monkeypatch.setattr(following, "follow", counted)
+    speeds = {"A.vx": np.linspace(8.0, 20.0, 60)}
+    paths = [f"{name}.rest.{part}" for name in "AB" for part in ("x", "y", "heading")]
+    both = scene.as_model(["A.vx"], paths)(**speeds)
+    assert calls == [120]
+    for path in paths:
+        # Of one alone the other is not followed.
+        calls.clear()
+        alone = scene.as_model(["A.vx"], [path])(**speeds)
+        np.testing.assert_array_equal(alone[path].magnitude, both[path].magnitude)
+        assert calls == [60]

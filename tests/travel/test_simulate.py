@@ -5,6 +5,7 @@ for ``fit``, and refusals.
 import inspect
 import math
 import pickle
+import sys
 
 import numpy as np
 import pytest
@@ -1118,3 +1119,33 @@ def test_a_motion_of_a_batch_is_asked_at_one_time_for_each_case(times):
     with pytest.raises(col.ShapeError, match="takes one value, or one for each case") as found:
         path.at(times)
     assert (found.value.code, found.value.argument) == ("bad_shape", "time")
+
+
+@pytest.mark.parametrize("lock", [[1, 0.05, 0.05, 0.05], [0.3, 0.02, 0.02, 0.02]])
+@pytest.mark.parametrize("count", [1, 40])
+def test_a_motion_that_keeps_its_direction_on_the_vehicle_ends_along_an_arc(
+    lock, count, monkeypatch
+):
+    """Its last steps are left out, a quarter or more, and it rests where they would have led it."""
+    speeds = np.linspace(9.0, 18.0, count) if count > 1 else 12.0
+    car, tyres = CAR.replace(vx=speeds, vy=1.0, yaw_rate=1.0), travel.Tyres(0.7, lock, 2.7, 1.5)
+    rows = []
+
+    def counted_steps(*given):
+        found = follow(*given)
+        rows.append(found.rows.shape[1])
+        return found
+
+    follow = motion.follow
+    monkeypatch.setattr(sys.modules["collisions.travel.simulate"], "follow", counted_steps)
+    arc = travel.simulate(car, tyres)
+    monkeypatch.setattr(motion, "_settled", lambda left, *others: left < 0.0)
+    stepped = travel.simulate(car, tyres)
+    assert rows[0] < 0.75 * rows[1]
+    way = np.hypot(stepped.rest.x, stepped.rest.y)
+    assert np.max(np.hypot(arc.rest.x - stepped.rest.x, arc.rest.y - stepped.rest.y) / way) < 1e-5
+    assert np.max(np.abs(arc.rest.heading - stepped.rest.heading)) < 1e-5
+    # On the way as well.
+    late = 0.98 * stepped.time[-1]
+    assert np.max(np.abs(arc.at(late).x - stepped.at(late).x)) < 1e-3
+    assert np.max(np.abs(arc.at(late).heading - stepped.at(late).heading)) < 1e-4

@@ -56,6 +56,28 @@ def least(one: Any, other: Any) -> Any:
     return select(one < other, one, other)
 
 
+def greatest(one: Any, other: Any) -> Any:
+    """The larger of the two; of arrays of numpy in one step."""
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        return np.maximum(one, other)
+    return select(one > other, one, other)
+
+
+def within(value: Any, most: Any) -> Any:
+    """The value, but from ``-most`` to ``most``."""
+    return greatest(-most, least(most, value))
+
+
+def share_of(part: Any, whole: Any) -> Any:
+    """The part of a whole, both not negative, but 1 at most; 1 of none."""
+    if isinstance(part, np.ndarray) or isinstance(whole, np.ndarray):
+        # 0 over 0 is no number, which ``fmin`` passes over.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.fmin(part / whole, 1.0)
+    less = part < whole
+    return select(less, part, 1.0) / select(less, whole, 1.0)
+
+
 def safe_divisor(usable: Any, value: Any) -> Any:
     """``value``, or 1.0 where the quotient is discarded (Python floats raise on
     division by zero).

@@ -65,8 +65,8 @@ def ground_of(numbers: tuple[Any, ...]) -> Ground:
     if isinstance(numbers[0], np.ndarray) and numbers[0].ndim:
         # The wheels in the rows of one array: a quarter of the calls.
         return Ground(
-            Tyres((np.array(numbers[:4]),), *numbers[4:12]),
-            (np.array(numbers[12:16]),),
+            Tyres((np.stack(numbers[:4]),), *numbers[4:12]),
+            (np.stack(numbers[12:16]),),
             *numbers[16:OF_GROUND],
         )
     return Ground(Tyres(numbers[:4], *numbers[4:12]), numbers[12:16], *numbers[16:OF_GROUND])
@@ -157,7 +157,7 @@ def step(*numbers: Any) -> tuple[Any, ...]:
     settings = Settings(steered, transfers, sloped, rotates)
     vx, vy, turn, c, s, ax, ay, yaw, width = rest[OF_GROUND:]
     rows = isinstance(vx, np.ndarray) and vx.ndim == 1
-    start: Any = np.array([vx, vy, turn, c, s]) if rows else (vx, vy, turn, c, s)
+    start: Any = np.stack([vx, vy, turn, c, s]) if rows else (vx, vy, turn, c, s)
     brakes = None if settings.transfers else brake_shares(ground.tyres, ground.here)
 
     def rates(now: Any, found: tuple[Any, ...] | None = None) -> tuple[Any, tuple[Any, ...]]:
@@ -176,7 +176,7 @@ def step(*numbers: Any) -> tuple[Any, ...]:
             rate,
             speed,
         )
-        return np.array(row) if rows else row, (x, y, turning)
+        return np.stack(row) if rows else row, (x, y, turning)
 
     stages, now = [rates(start, (ax, ay, yaw))[0]], start
     for weights in _STAGES:
@@ -211,7 +211,7 @@ def _sum(weights: tuple[float, ...], stages: list[Any], first: int, end: int) ->
     if isinstance(stage, np.ndarray):
         total = weight * stage
         for weight, stage in used[1:]:
-            total += weight * stage
+            total = total + weight * stage
         return total
     found = [weight * part for part in stage]
     for weight, stage in used[1:]:
@@ -226,10 +226,10 @@ def _further(start: Any, width: Any, rates: Any) -> Any:
 
 
 def ending(
-    vx: Any, vy: Any, turn: Any, ax: Any, ay: Any, yaw: Any
-) -> tuple[Any, Any, Any, Any, Any]:
-    """The speed, how fast it falls, how fast its direction changes, and whether the motion is
-    straight from here.
+    vx: Any, vy: Any, turn: Any, ax: Any, ay: Any, yaw: Any, spin: Any
+) -> tuple[Any, Any, Any, Any, Any, Any]:
+    """The speed, how fast it falls, how fast its direction changes, and that on the vehicle; and
+    whether the motion is straight from here.
 
     That is, whether it slides on without turning, and whether it turns on the spot.
     """
@@ -237,8 +237,12 @@ def ending(
     scale = select(speed > 0.0, speed, 1.0)
     ux, uy, turning = vx / scale, vy / scale, turn / scale
     slowing = -(ux * ax + uy * ay + turning * yaw)
-    aside = size(ax + slowing * ux, ay + slowing * uy, yaw + slowing * turning)
+    off_x, off_y, off_turn = ax + slowing * ux, ay + slowing * uy, yaw + slowing * turning
+    aside = size(off_x, off_y, off_turn)
+    rate = speed * (turn * spin)
+    drift = size(off_x + rate * uy, off_y - rate * ux, off_turn)
     straight = aside <= _STRAIGHT * larger(slowing, _SLOWEST + 0.0 * slowing)
     # Without any force it turns on for ever, on the spot or not.
     spins = (ux * ux + uy * uy <= _STRAIGHT * _STRAIGHT) | ((slowing == 0.0) & (aside == 0.0))
-    return speed, slowing, aside, straight & (abs(turning) <= _STRAIGHT), straight & spins
+    slides = straight & (abs(turning) <= _STRAIGHT)
+    return speed, slowing, aside, drift, slides, straight & spins

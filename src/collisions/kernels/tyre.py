@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .elementwise import least, select
+from .elementwise import greatest, least, select, share_of, within
 
 # Of the speed of the vehicle: a wheel that moves slower counts as standing. Its force grows from
 # none with its motion, so that it does not jump from side to side where a wheel is held while the
@@ -44,12 +44,11 @@ def circle(cosine: Any, brake: Any, takes: Any = None) -> tuple[Any, Any]:
     """
     # Negative: against the motion.
     if takes is None:
-        forward = -least(brake, -least(brake, -cosine))
+        forward = -within(cosine, brake)
     else:
-        forward = -least(brake + takes, -least(brake - takes, -cosine))
-        forward = least(1.0, -least(1.0, -forward))
-    left = 1.0 - forward * forward
-    return forward, select(left > 0.0, left, 0.0) ** 0.5
+        forward = -least(brake + takes, greatest(takes - brake, cosine))
+        forward = within(forward, 1.0)
+    return forward, greatest(1.0 - forward * forward, 0.0) ** 0.5
 
 
 def tyre_force(
@@ -72,18 +71,15 @@ def tyre_force(
     slip = _not_standing((along * along + across * across) ** 0.5, standing)
     forward, most = circle(along / slip, brake, takes)
     # Fiala: 1 at and beyond the slip angle at which the whole contact slides.
-    steep, whole = cornering * side, 3.0 * friction * abs(along)
-    sticks = steep < whole
-    rest = 1.0 - select(sticks, steep, 1.0) / select(sticks, whole, 1.0)
+    rest = 1.0 - share_of(cornering * side, 3.0 * friction * abs(along))
     most = least(most, 1.0 - rest * rest * rest)
-    most = least(most, side / _not_standing(side, standing))
-    return forward, select(across > 0.0, -most, most)
+    return forward, -within(across / _not_standing(side, standing), most)
 
 
 def _not_standing(speed: Any, standing: Any) -> Any:
     """The speed, and below ``standing`` more than that, without a kink."""
-    curve = 0.5 * standing + (0.5 / standing) * (speed * speed)
-    return select(speed < standing, curve, speed)
+    slow = least(speed, standing)
+    return greatest(speed, 0.5 * standing + (0.5 / standing) * (slow * slow))
 
 
 class Tyres(NamedTuple):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -27,7 +27,7 @@ from ..quantities.units import texts_of
 from ..vehicle.drag import in_plan
 from ..vehicle.vehicle import needed
 from .contact import IN_TIME, USUAL_DELAY, Contact
-from .motion import Course, Ground, body_at, moved
+from .motion import Course, Ground, body_at, follow_on, moved
 from .mover import Mover
 from .touching import (
     TOUCHING,
@@ -243,6 +243,7 @@ class Followed:
         level = not self.ground.steepest
 
         def states(time: Any, cases: Any) -> tuple[Any, Any]:
+            follow_on((one, other), time, cases)
             found = one.at(time, cases), other.at(time, cases)
             if level:
                 return found
@@ -333,6 +334,12 @@ class Followed:
             self._endless(np.flatnonzero(comes), rules)
         self.gather()
         self._check()
+
+    def to_rest(self, names: Iterable[str]) -> None:
+        """Follow some movers to their rest, all at once."""
+        with np.errstate(all="ignore"):
+            every = np.arange(self.count)
+            follow_on([self.courses[name] for name in names], np.full(self.count, np.inf), every)
 
     def gather(self) -> None:
         """Leave the cases without an answer of which a motion could not be followed."""

@@ -6,7 +6,7 @@ States are rows of x, y, heading, vx, vy and yaw rate, with a column for each ca
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +16,7 @@ from ..messages.errors import CollisionsError, MissingInputError, NoSolutionErro
 from ..messages.warning import quietly
 from ..quantities.settings import in_si
 from ..quantities.units import Texts, texts_of
-from ..travel.following import ROLLS_ON, Following
+from ..travel.following import ROLLS_ON, Following, reach
 from ..travel.motion import GOES_ON, RESTS
 from ..travel.simulate import prepared, refuse_one
 from ..vehicle.drag import GRAVITY, gravity_on, in_plan
@@ -115,6 +115,14 @@ class Leg(NamedTuple):
             last[some] = self.followed.rests(place[some])
         still = ~np.any(self.state[:, cases][_RATES] != 0.0, axis=0)
         return self.start[cases] + np.where(still & (place < 0), 0.0, self.hold[cases] + last)
+
+
+def follow_on(courses: Sequence[Course], time: Any, cases: Any) -> None:
+    """Follow some cases of several movers to a time of each, all at once, so that their states are
+    there when they are asked for.
+    """
+    if len(cases) > 1:
+        reach([one for course in courses for one in course.followed_for(time, cases)])
 
 
 def moved(place: Any, way: Any, rises: Any) -> Any:
@@ -295,6 +303,19 @@ class Course:
         legs = self.settled()
         begun = [leg for leg in legs if leg.start[0] <= time]
         return (begun or legs[:1])[-1]
+
+    def followed_for(self, time: Any, cases: Any) -> list[tuple[Following, Any, Any]]:
+        """What ``reach`` takes to follow the present legs of some cases to a time of each."""
+        asked = []
+        for number, leg in enumerate(self.settled()):
+            if leg.followed is not None:
+                places = self._places[number][cases]
+                mine = np.flatnonzero((places >= 0) & (self._present[cases] == number))
+                at = places[mine]
+                after, place = time[mine] - leg.start[at] - leg.hold[at], leg.place[at]
+                moves = (place >= 0) & (after > 0.0)
+                asked.append((leg.followed, after[moves], place[moves]))
+        return asked
 
     @property
     def rests(self) -> Any:

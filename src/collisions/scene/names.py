@@ -574,6 +574,9 @@ def as_function(
     units = {path: unit_of_result(scene, path) for path in wanted}
     marks = {path: asked for path in wanted if (asked := of_mark(scene, path, "outputs"))}
     standing = _standing(scene, listed["names"])
+    # These are followed to their rest all at once.
+    ends = [found[1] for path in wanted if (found := _REST.fullmatch(path))]
+    resting = list(scene.movers) if "end" in wanted else list(dict.fromkeys(ends))
 
     def model(**values: Any) -> dict[str, Any]:
         for name in standing:
@@ -585,6 +588,7 @@ def as_function(
         made = replaced(scene, values)
         run = Run(made if at_level is None else at_level(made), tolerance)
         warn_of_findings(run)
+        run._followed.to_rest(resting)
         # All points of a mark at once: the mark is worked out for them, and not kept.
         found = dict(zip(marks, answers(run, list(marks.values())), strict=True))
         found |= {path: result_of(run, path) for path in wanted if path not in marks}

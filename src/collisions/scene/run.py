@@ -400,6 +400,7 @@ class Run(Frozen, Summarized):
 
     def _roll_out(self) -> None:
         """Work out all motions to their rest, so that what cannot be followed is refused."""
+        self._followed.to_rest(self._followed.courses)
         with np.errstate(all="ignore"):
             for course in self._followed.courses.values():
                 _ = course.rests
@@ -468,6 +469,7 @@ class Run(Frozen, Summarized):
     def _ends(self) -> Any:
         found = self._followed
         last = np.fmax.reduce([*found.times, *found.lasts.values()], axis=0, initial=0.0)
+        found.to_rest(found.courses)
         rests = np.array([course.rests for course in found.courses.values()])
         return np.maximum(last, np.where(np.isfinite(rests), rests, 0.0).max(axis=0))
 

@@ -41,6 +41,15 @@ class Areas(NamedTuple):
             self.corners, *(None if part is None else part[..., which] for part in self[1:])
         )
 
+    @classmethod
+    def joined(cls, parts: Sequence[Areas]) -> Areas:
+        """Those of the cases of several, whose polygons are the same."""
+        rows = zip(*(part[1:] for part in parts), strict=True)
+        return cls(
+            parts[0].corners,
+            *(None if row[0] is None else np.concatenate(row, axis=-1) for row in rows),
+        )
+
     def friction_at(self, px: Any, py: Any) -> Any:
         """The friction at places in the scene [m], of (wheels, cases): of the first area that holds
         each.

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..vehicle.drag import in_plan
-from .motion import GOES_ON, IN_TIME, RESTS, Motion, between, follow
+from .motion import GOES_ON, IN_TIME, RESTS, STATE, Followed, Motion, between, follow
 from .simulate import Prepared
 
 # Cases that are followed together: few calls of numpy, and memory that is kept small.
@@ -52,7 +52,7 @@ class Following:
         self._rises = made.motion.ground[18:20] if made.motion.settings.sloped else None
         self._ended: Any = np.full(self.count, IN_TIME)
         self._reached: Any = np.zeros(self.count)
-        self._state: Any = np.zeros((13, self.count))
+        self._state: Any = np.zeros((STATE, self.count))
         self._left: Any = np.zeros(self.count, dtype=bool)
         self._pieces: list[_Piece] = []
         # The steps of a single case, and their times.
@@ -146,9 +146,15 @@ class Following:
 
     def _reach(self, time: Any, cases: Any) -> None:
         """Follow some cases on until they have passed a time of each, in the units of steps."""
+        _together([_Part(self, *due) for due in self._due(time, cases)])
+
+    def _due(self, time: Any, cases: Any) -> list[tuple[Any, Any, bool]]:
+        """Which cases are to be followed on for that, until when in the units of steps, and whether
+        they have begun.
+        """
         short = (self._reached[cases] <= time) & (self._ended[cases] == IN_TIME)
         if not short.any():
-            return
+            return []
         wanted = float(np.max((time * self._second[cases])[short]))
         waits = (self._ended == IN_TIME) & ~self._left
         waits[cases[short]] = True
@@ -156,28 +162,20 @@ class Following:
         until = wanted + _AHEAD if wanted < _TO_THE_END else np.inf
         until = np.minimum(until, _FOR_EVER) / self._second[which]
         until = np.maximum(until, self._reached[which])
-        for begin in range(0, len(which), _BLOCK):
-            part = slice(begin, begin + _BLOCK)
-            self._follow(which[part], until[part])
+        begun = self._reached[which] > 0.0
+        kinds = ((~begun, False), (begun, True))
+        return [(which[some], until[some], kind) for some, kind in kinds if some.any()]
 
-    def _follow(self, which: Any, until: Any) -> None:
-        fresh = self._reached[which] == 0.0
-        for some in (fresh, ~fresh):
-            if some.any():
-                self._follow_on(which[some], until[some], begun=not fresh[some][0])
-
-    def _follow_on(self, which: Any, until: Any, *, begun: bool) -> None:
-        motion = self._motion if len(which) == self.count else self._motion.of(which)
-        start = self._state[:, which] if begun else None
-        with np.errstate(all="ignore"):
-            rows, ended, state = follow(motion, until, start)
-        if start is not None:
+    def keep(self, which: Any, begun: bool, found: Followed) -> None:
+        """Keep how some cases went on, which had ``begun`` before or not."""
+        whole, counts, ended, state = found
+        if begun:
             # Steps begin where the ones before ended.
+            start = self._state[:, which]
             leads = np.concatenate([start[:10], start[7:10]])
-            rows = [np.concatenate([leads[:, [k]], row], axis=1) for k, row in enumerate(rows)]
-        counts = np.array([row.shape[1] for row in rows])
+            whole = np.insert(whole, np.cumsum(counts) - counts, leads, axis=1)
+            counts = counts + 1
         last = np.cumsum(counts) - 1
-        whole = np.concatenate(rows, axis=1)
         answered = counts > 0
         ends = np.where(answered, whole[0, last] if whole.shape[1] else 0.0, 0.0)
         ended[(ended == IN_TIME) & (ends >= _FOR_EVER / self._second[which])] = GOES_ON
@@ -230,6 +228,74 @@ class Following:
                 length / second * rates[1],
                 rates[2] / second,
             ]
+        )
+
+
+class _Part(NamedTuple):
+    """Cases of one ``Following`` to be followed on, until a time of each, and whether they have
+    begun.
+    """
+
+    following: Following
+    which: Any
+    until: Any
+    begun: bool
+
+    @property
+    def kind(self) -> tuple[Any, ...]:
+        """What is the same for all cases that can be in one array."""
+        motion = self.following._motion
+        areas = () if motion.areas is None else tuple(map(np.ndarray.tobytes, motion.areas.corners))
+        return self.begun, motion.settings, motion.tolerance, areas
+
+
+def reach(asked: Sequence[tuple[Following, Any, Any]]) -> None:
+    """Follow the cases of several on, each until a time of its own from the start [s]: in one
+    array, as far as they are of one kind.
+    """
+    _together(
+        [
+            _Part(following, *due)
+            for following, time, cases in asked
+            for due in following._due(time / following._second[cases], cases)
+        ]
+    )
+
+
+def _together(parts: list[_Part]) -> None:
+    while parts:
+        kind = parts[0].kind
+        alike = [part for part in parts if part.kind == kind]
+        parts = [part for part in parts if part.kind != kind]
+        blocks = -(-sum(len(part.which) for part in alike) // _BLOCK)
+        cut = [np.array_split(np.arange(len(part.which)), blocks) for part in alike]
+        for block in zip(*cut, strict=True):
+            _follow(
+                [
+                    part._replace(which=part.which[some], until=part.until[some])
+                    for part, some in zip(alike, block, strict=True)
+                ]
+            )
+
+
+def _follow(parts: list[_Part]) -> None:
+    """Follow some cases of one kind in one array."""
+    motion = Motion.joined([part.following._motion.of(part.which) for part in parts])
+    start = None
+    if parts[0].begun:
+        start = np.concatenate([part.following._state[:, part.which] for part in parts], axis=1)
+    with np.errstate(all="ignore"):
+        found = follow(motion, np.concatenate([part.until for part in parts]), start)
+    begin, rows = 0, 0
+    for part in parts:
+        cases = slice(begin, begin + len(part.which))
+        begin = cases.stop
+        counts = found.counts[cases]
+        own = slice(rows, rows + int(counts.sum()))
+        rows = own.stop
+        ended, state = found.ended[cases], found.state[:, cases]
+        part.following.keep(
+            part.which, part.begun, Followed(found.rows[:, own], counts, ended, state)
         )
 
 

@@ -44,8 +44,9 @@ _WIDEST, _SAFE = 1.5, 0.9
 # Rows of a step: time, place, heading, velocities, accelerations at its start and at its end.
 ROWS = 13
 # Rows from which a case is followed on: time, place, heading, velocities, accelerations, way,
-# width, and the width that was wanted before an edge.
-_STATE = 13
+# width, the width that was wanted before an edge, and how fast the motion changed its direction on
+# the vehicle at the last step.
+STATE = 14
 
 _NUMBERS = tuple(f"[{at}]" for at in range(OF_GROUND + 9))
 
@@ -66,6 +67,18 @@ class Motion(NamedTuple):
         areas = None if self.areas is None else self.areas.of(which)
         return self._replace(ground=self.ground[:, which], start=self.start[:, which], areas=areas)
 
+    @classmethod
+    def joined(cls, parts: Sequence[Motion]) -> Motion:
+        """The cases of several, which have the same polygons, settings and tolerance."""
+        if len(parts) == 1:
+            return parts[0]
+        areas = [part.areas for part in parts if part.areas is not None]
+        return parts[0]._replace(
+            ground=np.concatenate([part.ground for part in parts], axis=1),
+            start=np.concatenate([part.start for part in parts], axis=1),
+            areas=Areas.joined(areas) if areas else None,
+        )
+
 
 @lru_cache(maxsize=8)
 def _of_floats(settings: Settings) -> tuple[Callable[..., Any], Callable[..., Any]]:
@@ -77,22 +90,47 @@ def _of_floats(settings: Settings) -> tuple[Callable[..., Any], Callable[..., An
     )
 
 
+@lru_cache(maxsize=8)
+def _of_rows(settings: Settings) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    """The step, and how near the end it is, of many cases: from parts that have the rows of their
+    numbers.
+    """
+    from ..engine.rows import RowProgram
+
+    return RowProgram(step, len(_NUMBERS), settings), RowProgram(ending, 7, ())
+
+
 @lru_cache(maxsize=1)
 def _ending_of_floats() -> Callable[..., Any]:
     """``ending`` of one case of floats, with the roots that arrays have, to the last bit."""
     from ..engine.floats import compile_for_floats
 
-    return compile_for_floats(ending, _NUMBERS[:6], ())
+    return compile_for_floats(ending, _NUMBERS[:7], ())
 
 
 class Followed(NamedTuple):
-    """The rows of all steps of all cases, each of (``ROWS``, steps) in order of time; what became
-    of each case, and from where those that wait are followed on.
+    """The rows of all steps, of (``ROWS``, steps), case by case and in order of time; how many each
+    case has, what became of it, and from where those that wait are followed on.
     """
 
-    rows: list[Any]
+    rows: Any
+    counts: Any
     ended: Any
     state: Any
+
+    @property
+    def ends(self) -> Any:
+        """The first row of each case that is no longer its own."""
+        return np.cumsum(self.counts)
+
+    @property
+    def by_case(self) -> list[Any]:
+        """The rows of each case."""
+        ends = self.ends.tolist()
+        return [
+            self.rows[:, end - count : end]
+            for end, count in zip(ends, self.counts.tolist(), strict=True)
+        ]
 
 
 def follow(motion: Motion, until: Any = None, going: Any = None) -> Followed:
@@ -101,24 +139,33 @@ def follow(motion: Motion, until: Any = None, going: Any = None) -> Followed:
     """
     count = motion.start.shape[1]
     until = np.full(count, np.inf) if until is None else until
-    parts: list[list[Any]] = [[] for _ in range(count)]
+    kept: list[tuple[Any, Any]] = []
     found: Any = np.full(count, NO_END)
-    state = np.zeros((_STATE, count))
+    state = np.zeros((STATE, count))
     if count <= _FEW:
         for case in range(count):
             start = None if going is None else going[:, case].tolist()
             rows, found[case], state[:, case] = _one(motion.of([case]), start, float(until[case]))
-            parts[case].append(rows)
+            kept.append((np.full(rows.shape[1], case), rows))
     else:
-        _several(motion, parts, found, state, going, until)
+        _several(motion, kept, found, state, going, until)
+    followed = Followed(*_by_case(kept, count), found, state)
     if motion.settings.sloped:
         for case in np.flatnonzero(found == RESTS).tolist():
-            last = parts[case][-1]
-            place = last[1:4, -1] if last.shape[1] else going[1:4, case]
+            last = followed.ends[case] - 1
+            place = followed.rows[1:4, last] if followed.counts[case] else going[1:4, case]
             if not _holds(motion.of([case]), *place):
                 found[case] = GOES_ON
-    rows = [part[0] if len(part) == 1 else np.concatenate(part, axis=1) for part in parts]
-    return Followed(rows, found, state)
+    return followed
+
+
+def _by_case(kept: list[tuple[Any, Any]], count: int) -> tuple[Any, Any]:
+    """The rows of all steps, case by case and in order of time; and how many each case has."""
+    if not kept:
+        return np.empty((ROWS, 0)), np.zeros(count, dtype=int)
+    cases, rows = (np.concatenate(part, axis=-1) for part in zip(*kept, strict=True))
+    order = np.argsort(cases, kind="stable")
+    return rows[:, order], np.bincount(cases, minlength=count)
 
 
 def _wider(wrong: Any, tolerance: float) -> Any:
@@ -159,6 +206,16 @@ def _ends(time: Any, speed: Any, slowing: Any, aside: Any, tolerance: float) -> 
     return speed * aside <= part * time * slowing * slowing
 
 
+def _settled(left: Any, drift: Any, slowing: Any, spin: Any, tolerance: float) -> Any:
+    """Whether the motion keeps its direction on the vehicle from here, so that it goes on along an
+    arc, as it does where no wheel begins or ends to slide.
+
+    The change of that direction fades as fast as the square of the speed, so that over the way that
+    is left it comes to ``drift / (2 slowing)``; its effect is weighed as the error of a step is.
+    """
+    return left * drift * (1.0 + spin) <= 2.0 * tolerance * slowing
+
+
 def _one(
     motion: Motion, going: Sequence[float] | None, until: float
 ) -> tuple[Any, int, Sequence[float]]:
@@ -172,14 +229,14 @@ def _one(
     ends = _ending_of_floats()
     known: Any = None
     if going is None:
-        time, x, y, way, width, wanted = 0.0, 0.0, 0.0, 0.0, _FIRST_STEP, 0.0
+        time, x, y, way, width, wanted, drifted = 0.0, 0.0, 0.0, 0.0, _FIRST_STEP, 0.0, 0.0
         vx, vy, turn, heading = (float(number) for number in motion.start[:, 0])
     else:
-        time, x, y, heading, vx, vy, turn, *known, way, width, wanted = going
+        time, x, y, heading, vx, vy, turn, *known, way, width, wanted, drifted = going
         # Under the wheels the ground may be another from here.
         known = None if areas is not None else tuple(known)
     rows: list[tuple[float, ...]] = []
-    found = NO_END
+    found, bends = NO_END, 0.0
     for _ in range(_MOST_STEPS):
         if time >= until and (rows or going is not None):
             found = IN_TIME
@@ -196,10 +253,10 @@ def _one(
                 break
             if not rows and going is None:
                 rows.append((time, x, y, heading, vx, vy, turn, *known, *known))
-        ending_now = ends((vx, vy, turn, *known))
+        ending_now = ends((vx, vy, turn, *known, spin))
         if ending_now is None:
             break
-        speed, slowing, aside, slides, spins = ending_now
+        speed, slowing, aside, drift, slides, spins = ending_now
         if speed == 0.0 or not math.isfinite(speed + slowing):
             found = RESTS if speed == 0.0 else NO_END
             break
@@ -226,6 +283,15 @@ def _one(
             continue
         if left <= last * last * way and _ends(time, speed, slowing, aside, tolerance):
             found = RESTS
+            break
+        if (
+            alone
+            and stops
+            and drift < drifted
+            and _settled(left, drift, slowing, spin, tolerance)
+            and _ends(time, speed, slowing, drift, tolerance)
+        ):
+            found, bends = RESTS, 1.0
             break
         width = min(
             width,
@@ -258,14 +324,15 @@ def _one(
         rows.append(row)
         time, x, y, heading, vx, vy, turn = row[:7]
         way += 0.5 * (speed + after) * took
+        drifted = drift
         known = new[7:10] if areas is None else None
         width, wanted = max(width * _wider(wrong, tolerance), wanted), 0.0
     table = np.array(rows, dtype=float).reshape(-1, ROWS).T
     if found == RESTS and known is not None and (vx, vy, turn) != (0.0, 0.0, 0.0):
         state = np.array([[time, x, y, heading, vx, vy, turn, *known]]).T
-        table = np.concatenate([table, _to_rest(state, np.array([spin]))], axis=1)
+        table = np.concatenate([table, _to_rest(state, np.array([spin]), bends)], axis=1)
     forces = (0.0, 0.0, 0.0) if known is None else known
-    return table, found, (time, x, y, heading, vx, vy, turn, *forces, way, width, wanted)
+    return table, found, (time, x, y, heading, vx, vy, turn, *forces, way, width, wanted, drifted)
 
 
 def _settling(ground: Any) -> Any:
@@ -294,22 +361,31 @@ def _passed(share: Any, took: Any, width: Any, before: Any, after: Any) -> Any:
     return part if isinstance(share, np.ndarray) else float(part)
 
 
-def _to_rest(state: Any, spin: Any) -> Any:
+def _to_rest(state: Any, spin: Any, bends: Any) -> Any:
     """The row of rest, from those of time to accelerations: the forces slow the whole motion as
-    they do now.
+    they do now, and turn with the vehicle where the motion ``bends`` (1, else 0).
     """
     time, x, y, heading, vx, vy, turn, ax, ay, yaw = state
-    speed, slowing, *_ = ending(vx, vy, turn, ax, ay, yaw)
+    speed, slowing, *_ = ending(vx, vy, turn, ax, ay, yaw, spin)
     takes = speed / slowing
+    turns = 0.5 * takes * turn * spin
+    # Along the chord of the arc.
+    bend = bends * turns
+    c, s, short = np.cos(0.5 * bend), np.sin(0.5 * bend), 1.0 - bend * bend / 24.0
+    along = [c * vx - s * vy, s * vx + c * vy]
+    place = [x + 0.5 * takes * (short * along[0]), y + 0.5 * takes * (short * along[1])]
     # Those that bring every part of it to rest at once.
     slowed = [-part / takes for part in (vx, vy, turn)]
-    place = [x + 0.5 * takes * vx, y + 0.5 * takes * vy, heading + 0.5 * takes * turn * spin]
+    rate = bends * turn * spin
+    begins = [slowed[0] - rate * vy, slowed[1] + rate * vx, slowed[2]]
+    c, s = np.cos(bend), np.sin(bend)
+    ends = [c * slowed[0] - s * slowed[1], s * slowed[0] + c * slowed[1], slowed[2]]
     none = 0.0 * time
-    return np.array([time + takes, *place, none, none, none, *slowed, *slowed])
+    return np.array([time + takes, *place, heading + turns, none, none, none, *begins, *ends])
 
 
 def _several(
-    motion: Motion, parts: list[list[Any]], found: Any, states: Any, start: Any, until: Any
+    motion: Motion, kept: list[tuple[Any, Any]], found: Any, states: Any, start: Any, until: Any
 ) -> None:
     """The rows of all cases, followed together in arrays; those that are left over one by one."""
     areas, tolerance, last = motion.areas, motion.tolerance, _last(motion)
@@ -317,7 +393,7 @@ def _several(
     ground: Any = motion.ground.copy()
     going: Any = np.arange(motion.start.shape[1])
     if start is None:
-        state: Any = np.zeros((_STATE, len(going)))
+        state: Any = np.zeros((STATE, len(going)))
         state[4:7], state[3], state[11] = motion.start[:3], motion.start[3], _FIRST_STEP
     else:
         state = start.copy()
@@ -325,7 +401,7 @@ def _several(
     # Under the wheels the ground may be another from here.
     fresh: Any = first if areas is None else np.ones(len(going), dtype=bool)
     later = until
-    kept: list[tuple[Any, Any]] = []
+    stepped, ended = _of_rows(motion.settings)
 
     def noted(which: Any, rows: Any) -> None:
         kept.append((going[which], rows))
@@ -345,35 +421,46 @@ def _several(
             if first.any():
                 noted(some, np.concatenate([state[:10, some], state[7:10, some]]))
                 first = np.zeros(len(going), dtype=bool)
+            fresh = np.zeros(len(going), dtype=bool)
         spin = ground[17]
-        speed, slowing, aside, slides, spins = ending(*state[4:10])
+        speed, slowing, aside, drift, *straight = ended(state[4:10], spin)
+        slides, spins = (part != 0.0 for part in straight)
         usable = np.isfinite(speed + slowing)
         stops = slowing > _NO_SLOWING
         left = np.where(stops, 0.5 * speed * speed / np.where(stops, slowing, 1.0), np.inf)
         straight = usable & (slides | (spins & alone)) & (speed > 0.0)
+        some_straight = bool(straight.any())
         edge = np.full(len(going), np.inf)
-        if areas is not None and straight.any():
+        if areas is not None and some_straight:
             some = np.flatnonzero(straight)
             towards = state[4, some] / speed[some], state[5, some] / speed[some]
             edge[some] = areas.of(some).ahead(*(*state[1:4, some], *towards, left[some]))
-        goes_on = straight & ~stops & ~np.isfinite(edge)
-        rests = usable & (
-            (straight & stops & (left <= edge))
-            | (
-                ~straight
-                & (left <= last * last * state[10])
-                & _ends(state[0], speed, slowing, aside, tolerance)
-            )
-            | (speed == 0.0)
+        goes_on = straight & ~stops & ~np.isfinite(edge) if some_straight else straight
+        rests = (left <= last * last * state[10]) & _ends(
+            state[0], speed, slowing, aside, tolerance
         )
-        moved = rests & (speed > 0.0)
-        if moved.any():
-            noted(moved, _to_rest(state[:10, moved], spin[moved]))
-        if goes_on.any():
+        if some_straight:
+            rests = (straight & stops & (left <= edge)) | (~straight & rests)
+        rests = usable & (rests | (speed == 0.0))
+        arcs = rests
+        if alone:
+            arcs = (
+                ~(rests | straight)
+                & stops
+                & (drift < state[13])
+                & _settled(left, drift, slowing, spin, tolerance)
+                & _ends(state[0], speed, slowing, drift, tolerance)
+            )
+            rests = rests | arcs
+        if rests.any():
+            moved = rests & (speed > 0.0)
+            bends = np.where(arcs[moved], 1.0, 0.0) if alone else 0.0
+            noted(moved, _to_rest(state[:10, moved], spin[moved], bends))
+            found[going[rests]] = RESTS
+        if some_straight:
             noted(goes_on, np.concatenate([state[:10, goes_on], state[7:10, goes_on]]))
-        found[going[rests]], found[going[goes_on]] = RESTS, GOES_ON
-        fresh = np.zeros(len(going), dtype=bool)
-        slid = straight & ~rests & ~goes_on
+            found[going[goes_on]] = GOES_ON
+        slid = straight & ~rests & ~goes_on if some_straight else straight
         if slid.any():
             sliding, before = state[:, slid], speed[slid]
             after = np.maximum(before * before - 2.0 * slowing[slid] * edge[slid], 0.0) ** 0.5
@@ -386,51 +473,67 @@ def _several(
             noted(slid, np.concatenate([state[:10, slid], state[7:10, slid]]))
             fresh |= slid
         stuck = ~usable | (state[11] < _SHORTEST_STEP)
-        steps = np.flatnonzero(~(rests | goes_on | slid | stuck))
+        out = rests | goes_on | stuck
+        steps = np.flatnonzero(~(out | slid))
         if len(steps):
-            now, own = state[:, steps], ground[:, steps]
-            turning = np.abs(speed[steps] * now[6] * own[17])
-            longest = np.where(aside[steps] < _NEARLY, _settling(own), _LONGEST_STEP)
-            now[11] = np.minimum(
+            now, own = state, ground
+            if len(steps) < len(going):
+                now, own, c, s = state[:, steps], ground[:, steps], c[steps], s[steps]
+                speed, aside, drift = speed[steps], aside[steps], drift[steps]
+            turning = np.abs(speed * now[6] * own[17])
+            longest = np.where(aside < _NEARLY, _settling(own), _LONGEST_STEP)
+            widths = np.minimum(
                 np.minimum(now[11], longest), _MOST_TURN / np.maximum(turning, 1e-300)
             )
-            now[11] = np.where(now[12] > 0.0, now[11], _rounded(now[11]))
-            new = np.array(
-                step(*own, *now[4:7], c[steps], s[steps], *now[7:10], now[11], *motion.settings)
-            )
+            wanted = now[12]
+            widths = np.where(wanted > 0.0, widths, _rounded(widths))
+            new = stepped(own, now[4:7], c, s, now[7:10], widths)
             wrong, took, after = new[10], new[6], size(*new[:3])
             good = wrong <= tolerance
-            rows = np.array(
-                [now[0] + took, *(now[1:4] + new[3:6]), *new[:3], *now[7:10], *new[7:10]]
-            )
-            widths, wanted = now[11], now[12]
-            scaled = np.where(good, 1.0, np.fmin(_wider(wrong, tolerance), 0.9))
+            rows = np.empty((ROWS, len(steps)))
+            np.add(now[0], took, out=rows[0])
+            np.add(now[1:4], new[3:6], out=rows[1:4])
+            rows[4:7], rows[7:10], rows[10:] = new[:3], now[7:10], new[7:10]
+            factor = _wider(wrong, tolerance)
+            shorter = np.fmin(factor, 0.9)
             if areas is not None and good.any():
                 before = np.concatenate([now[:10], now[7:10]])
                 at = np.flatnonzero(good)
                 share = np.ones(len(steps))
                 share[at] = areas.of(steps[at]).crossed(before[:, at], rows[:, at], own[17, at])
                 cut = share < 1.0
+                part = _passed(share, took, widths, speed, after)
+                shorter = np.where(good, np.where(cut, part, 1.0), shorter)
+                wanted = np.where(cut, np.maximum(wanted, widths), wanted)
                 good &= ~cut
-                part = _passed(share, took, widths, speed[steps], after)
-                scaled, wanted = (
-                    np.where(cut, part, scaled),
-                    np.where(cut, np.maximum(wanted, widths), wanted),
-                )
-            done = steps[good]
-            noted(done, rows[:, good])
-            state[:7, done], state[7:10, done] = rows[:7, good], rows[10:, good]
-            state[10, done] += (0.5 * (speed[steps] + after) * took)[good]
-            wider = np.maximum(widths * _wider(wrong, tolerance), wanted)
-            state[11, steps] = np.where(good, wider, widths * scaled)
-            state[12, steps] = np.where(good, 0.0, wanted)
+            wider = np.maximum(widths * factor, wanted)
+            wider = np.where(good, wider, widths * shorter)
+            wanted = np.where(good, 0.0, wanted)
+            drift = np.where(good, drift, now[13])
+            way = 0.5 * (speed + after) * took
+            if good.all():
+                done = steps
+            else:
+                done, rows, way = steps[good], rows[:, good], way[good]
+            noted(done, rows)
+            if len(done) == len(going):
+                state[:7], state[7:10] = rows[:7], rows[10:]
+                state[10] += way
+            else:
+                state[:7, done], state[7:10, done] = rows[:7], rows[10:]
+                state[10, done] += way
+            if len(steps) == len(going):
+                state[11], state[12], state[13] = wider, wanted, drift
+            else:
+                state[11, steps], state[12, steps], state[13, steps] = wider, wanted, drift
             if areas is not None:
                 fresh[done] = True
-        on = ~(rests | goes_on | stuck)
-        waits = on & (state[0] >= later)
-        found[going[waits]], states[:, going[waits]] = IN_TIME, state[:, waits]
-        on &= ~waits
-        if not on.all():
+        waits = ~out & (state[0] >= later)
+        if waits.any():
+            found[going[waits]], states[:, going[waits]] = IN_TIME, state[:, waits]
+            out |= waits
+        if out.any():
+            on = np.flatnonzero(~out)
             ground, state, going, fresh, first, later = (
                 ground[:, on],
                 state[:, on],
@@ -440,7 +543,6 @@ def _several(
                 later[on],
             )
             areas = None if areas is None else areas.of(on)
-    _sorted_into(parts, kept)
     begun = bool(kept) or start is not None
     for left_over, one in enumerate(going.tolist()):
         rows, found[one], states[:, one] = _one(
@@ -448,21 +550,7 @@ def _several(
             state[:, left_over].tolist() if begun else None,
             float(until[one]),
         )
-        parts[one].append(rows)
-
-
-def _sorted_into(parts: list[list[Any]], kept: list[tuple[Any, Any]]) -> None:
-    """Puts the rows of all steps to their cases, in order of time."""
-    if not kept:
-        return
-    cases, rows = (
-        np.concatenate([case for case, _ in kept]),
-        np.concatenate([row for _, row in kept], axis=1),
-    )
-    order = np.argsort(cases, kind="stable")
-    rows, counts = rows[:, order], np.bincount(cases, minlength=len(parts))
-    for part, end, count in zip(parts, np.cumsum(counts), counts, strict=True):
-        part.append(rows[:, end - count : end])
+        kept.append((np.full(rows.shape[1], one), rows))
 
 
 def went_on(rows: Any, until: float, spin: float) -> Any:
