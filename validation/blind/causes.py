@@ -115,6 +115,7 @@ BACKWARDS: dict[tuple[str, str], tuple[str, str]] = {
         ),
     ),
     ("RICSAC 6", "places of rest and both delta-V"): (GEOMETRY, _NOT_ONE_POINT),
+    ("RICSAC 10", "places of rest"): (SIDE_SLAP, _SIDE_SLAP),
     ("RICSAC 10", "places of rest and both delta-V"): (SIDE_SLAP, _SIDE_SLAP),
 }
 """The same for what is worked out backwards, by test and route."""

@@ -16,13 +16,15 @@ Evaluate: TypeAlias = Callable[[Any], tuple[Any, Any]]
 
 _FEWEST = 0.25  # of a population: with fewer answers more of the prior is drawn
 _MOST_DRAWS = 64  # populations of the prior
-_MOVES, _MOVES_LAST, _MOST_SWEEPS = (
-    3.0,
-    10.0,
-    80,
-)  # accepted moves a point after each resampling, and tries at most
-_ACCEPTED = 0.25  # share of moves to aim at, which suits many dimensions
+# After each resampling points are moved until they have gone so far (1: as far as one point is from
+# another), after so many accepted moves a point at least and at most; tries at most.
+_GONE, _MOVES, _MOST_MOVES = 0.4, 3.0, 4.0
+_GONE_LAST, _MOVES_LAST, _MOST_MOVES_LAST = 0.95, 10.0, 15.0
+_MOST_SWEEPS = 80
+_ACCEPTED = 0.25, 0.3  # share of steps and of draws to aim at, which suits many dimensions
+_LEAST_SHARE, _FORGET = 0.35, 0.3  # of proposals each kind keeps; weight of the last ones' success
 _NOISE = 0.1  # of the spread, beside the differences of points
+_FLAT = 1e-12  # of the prior's variance: what is added to that of points, which may be the same
 _NO_NEARER, _MOST_OF_THESE = (
     0.98,
     5,
@@ -67,15 +69,12 @@ class Islands:
 
     The powers rise to 1: P. Del Moral, A. Doucet, A. Jasra, "Sequential Monte Carlo samplers", J.
     R. Statist. Soc. B 68 (2006); each leaves half of the effective sample size. The points are then
-    moved by Metropolis steps along differences of two points, which suit separate modes too: C. J.
-    F. ter Braak, Statistics and Computing 16 (2006). These two are taken from the next island:
+    moved by Metropolis steps of two kinds (``Proposals``), made of the points of other islands:
     steps that depended on the errors of their own island would leave the evidence too high. Sharp
     bounds are met first, by thresholds that half of the points pass: S.-K. Au and J. L. Beck,
     Probabilistic Engineering Mechanics 16 (2001).
     """
 
-    # What goes with each point when points are resampled.
-    carried: ClassVar[tuple[str, ...]] = ("points", "likelihood", "missed")
     # Where the powers end.
     end: ClassVar[float] = 1.0
     points: Any
@@ -86,7 +85,11 @@ class Islands:
         self, evaluate: Evaluate, shape: tuple[int, int, int], random: np.random.Generator
     ) -> None:
         self.evaluate, self.shape, self.random = evaluate, shape, random
-        self.power, self.limit, self.scale = 0.0, math.inf, 2.38 / math.sqrt(2.0 * shape[2])
+        # What goes with each point when points are resampled.
+        self.carried: tuple[str, ...] = ("points", "likelihood", "missed")
+        self.power, self.limit = 0.0, math.inf
+        # Of each kind of proposal its size, and how far it lately went.
+        self.sizes, self.went = [2.38 / math.sqrt(2.0 * shape[2]), 0.5], [1.0, 1.0]
         self.log_evidence, self.refused, self.moved = (
             np.full(shape[0], start) for start in (0.0, 0.0, 1.0)
         )
@@ -174,7 +177,7 @@ class Islands:
         the distribution.
         """
         spread = self._resample(weights)
-        self._move(np.roll(self.points, 1, axis=0), _NOISE * np.roll(spread, 1, axis=0))
+        self._move(Proposals(self.points, np.roll(_NOISE * spread, 1, axis=0)))
 
     def _resample(self, weights: Any) -> Any:
         """Systematic resampling by weight, whose mean goes into the evidence; the weighted
@@ -197,37 +200,105 @@ class Islands:
             setattr(self, name, np.take_along_axis(part, index, axis=1))
         return spread
 
-    def _move(self, others: Any, noise: Any) -> None:
-        """Metropolis steps along differences between the points of the other islands, with some
-        noise in all directions.
-        """
-        accepted = np.zeros(self.shape[:2], dtype=np.intp)
+    def _move(self, proposals: Proposals) -> None:
+        """Metropolis steps until the points have gone far enough."""
+        accepted, start = np.zeros(self.shape[:2], dtype=np.intp), self.points.copy()
+        enough, least, most = (
+            (_GONE, _MOVES, _MOST_MOVES)
+            if self.power < self.end
+            else (_GONE_LAST, _MOVES_LAST, _MOST_MOVES_LAST)
+        )
         for _ in range(_MOST_SWEEPS):
-            points, likelihood, missed = self._evaluated(self._proposed(others, noise))
-            prior = 0.5 * np.sum((self.points - points) * (self.points + points), axis=2)
-            gain = prior + self.power * (likelihood - self.likelihood)
+            points, gain, drawn = self._proposed(proposals, self.points)
+            points, likelihood, missed = self._evaluated(points)
+            gain += self.power * (likelihood - self.likelihood)
             better = (missed <= self.limit) & (
                 -self.random.standard_exponential(accepted.shape) < gain
             )
+            self._adapt(drawn, better, proposals.gone(self.points, points))
             self.points[better], self.likelihood[better] = points[better], likelihood[better]
             self.missed[better] = missed[better]
             accepted += better
-            self.scale *= math.exp(np.mean(better) - _ACCEPTED)
-            if np.mean(accepted) >= (_MOVES if self.power < self.end else _MOVES_LAST):
+            moves = float(np.mean(accepted))
+            far = float(np.mean(proposals.gone(start, self.points)))
+            if moves >= most or (moves >= least and far >= enough):
                 break
         self.moved = np.mean(accepted > 0, axis=1)
 
-    def _proposed(self, others: Any, noise: Any) -> Any:
-        """A point to go to from each point."""
-        count, which = self.shape[1], np.arange(self.shape[0])[:, np.newaxis]
-        one = self.random.integers(count, size=self.shape[:2])
-        other = (one + self.random.integers(1, count, size=self.shape[:2])) % count
-        step = (
-            others[which, one]
-            - others[which, other]
-            + noise * self.random.standard_normal(self.shape)
-        )
-        return self.points + self.scale * step
+    def _proposed(self, proposals: Proposals, points: Any) -> tuple[Any, Any, Any]:
+        """A point to go to from each point; the logarithm of how much more likely it is by the
+        prior, and to be come from; and whether it was drawn rather than stepped to.
+        """
+        share = min(max(self.went[1] / max(sum(self.went), 1e-300), _LEAST_SHARE), 1 - _LEAST_SHARE)
+        drawn = self.random.random(self.shape[:2]) < share
+        stepped = proposals.stepped(points, self.sizes[0], self.random)
+        found, gain = proposals.drawn(points, self.sizes[1], self.random)
+        found = np.where(drawn[..., np.newaxis], found, stepped)
+        prior = 0.5 * np.sum((points - found) * (points + found), axis=2)
+        return found, prior + np.where(drawn, gain, 0.0), drawn
+
+    def _adapt(self, drawn: Any, better: Any, gone: Any) -> None:
+        """Size and share of each kind of proposal, by how many were accepted and how far these
+        went.
+        """
+        for kind, chosen in enumerate((~drawn, drawn)):
+            if np.any(chosen):
+                rate = float(np.mean(better[chosen]))
+                self.sizes[kind] *= math.exp(rate - _ACCEPTED[kind])
+                went = float(np.mean((better * gone)[chosen]))
+                self.went[kind] += _FORGET * (went - self.went[kind])
+        self.sizes[1] = min(self.sizes[1], 1.0)
+
+
+class Proposals:
+    """Where points (islands, points, dimensions) may go, of the points of the other islands.
+
+    Steps go along the difference of two points of the next island, with some ``noise`` in all
+    directions, which suits separate modes too: C. J. F. ter Braak, Statistics and Computing 16
+    (2006). Draws are from the normal distribution fitted to all the other islands, correlated with
+    where the point is so that the fitted distribution is kept: R. M. Neal, "Regression and
+    classification using Gaussian process priors", Bayesian Statistics 6 (1999). Near a normal
+    posterior they go as far in many dimensions as in few.
+    """
+
+    def __init__(self, points: Any, noise: Any) -> None:
+        self.next, self.noise, self.shape = np.roll(points, 1, axis=0), noise, points.shape
+        islands, _, dimensions = points.shape
+        fitted = []
+        for k in range(islands):
+            others = points[np.arange(islands) != k].reshape(-1, dimensions)
+            mean = np.mean(others, axis=0)
+            covariance = np.einsum("ni,nj->ij", others - mean, others - mean) / len(others)
+            # Towards independence, by how little so few points tell of so many dimensions.
+            doubt = dimensions / (dimensions + len(others))
+            covariance *= 1.0 - doubt + doubt * np.eye(dimensions)
+            root = np.linalg.cholesky(covariance + _FLAT * np.eye(dimensions))
+            fitted.append((mean, root, np.linalg.inv(root)))
+        means, self.root, self.inverse = map(np.stack, zip(*fitted, strict=True))
+        self.mean = means[:, np.newaxis]
+        self.variance = np.sum(self.root**2, axis=2)[:, np.newaxis]
+
+    def gone(self, start: Any, points: Any) -> Any:
+        """How far each point is from where it was: 1 in the mean where that does not matter."""
+        return np.mean(0.5 * (points - start) ** 2 / self.variance, axis=2)
+
+    def stepped(self, points: Any, size: float, random: np.random.Generator) -> Any:
+        """Each point and a step from it."""
+        islands, count, _ = self.shape
+        which = np.arange(islands)[:, np.newaxis]
+        one = random.integers(count, size=(islands, count))
+        other = (one + random.integers(1, count, size=(islands, count))) % count
+        step = self.next[which, one] - self.next[which, other]
+        return points + size * (step + self.noise * random.standard_normal(self.shape))
+
+    def drawn(self, points: Any, size: float, random: np.random.Generator) -> tuple[Any, Any]:
+        """A draw for each point, and the logarithm of how much less likely it is than the point by
+        the fitted distribution; of size 1 it is independent of the point.
+        """
+        scores = np.einsum("kij,knj->kni", self.inverse, points - self.mean)
+        found = math.sqrt(1.0 - size**2) * scores + size * random.standard_normal(self.shape)
+        gain = 0.5 * np.sum((found - scores) * (found + scores), axis=2)
+        return self.mean + np.einsum("kij,knj->kni", self.root, found), gain
 
 
 def step_of(ratios: Any, most: float) -> tuple[float, Any, Any]:

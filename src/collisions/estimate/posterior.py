@@ -30,7 +30,7 @@ from .fit_result import residual_of
 from .islands import Island, Islands, UnreachableError
 from .least_squares import chi_squared_tail
 from .posterior_result import Posterior, PosteriorOutput, notes_of
-from .tempering import FinerIslands, FinerUnreachableError
+from .tempering import FinerIslands, FinerUnreachableError, TwoModels
 
 ISLANDS = 8
 _SIDE_BY_SIDE = (
@@ -83,7 +83,7 @@ def posterior(
         A model that takes the same unknowns and returns the same outputs, and costs more. The
         samples go towards the posterior of ``model`` first, until its likelihood to the power 0.15,
         and from there to the posterior of ``finer``. The answer is that of ``finer`` alone, its
-        evidence included, for some twelve calls of it a sample in place of a hundred; the closer
+        evidence included, for eight to twelve calls of it a sample, not a hundred; the closer
         the two models are, the fewer.
     samples : int, optional
         Total number of samples, at least 512. Four times as many halve the sampling errors.
@@ -246,27 +246,36 @@ class _Problem:
         for row, column in zip(self.rows, columns, strict=True):
             yield row, column, row.is_angle(self.model.units[row.name])
 
-    def evaluate(self, model: Model, scores: Any, check: bool) -> tuple[Any, Any]:
-        """Log-likelihoods, and by how much sharp bounds are missed; infinite where the evidence is
-        impossible.
+    def observables(self, model: Model, scores: Any, check: bool) -> Any:
+        """What the model computes of each observation (cases, observations)."""
+        columns = self.columns(self.computed(model, scores, check)[1])
+        return np.stack([column for _, column, _ in columns], axis=1)
 
-        With a finer model, sharp bounds are softened, and only the finer model must meet them.
+    def judged(self, computed: Any) -> tuple[Any, Any]:
+        """Log-likelihoods of what was computed, and by how much it misses sharp bounds; infinite
+        where the evidence is impossible. With a finer model, sharp bounds are softened.
         """
-        likelihood, missed = np.zeros(len(scores)), np.zeros(len(scores))
-        answered = np.ones(len(scores), dtype=bool)
-        for row, column, angle in self.columns(self.computed(model, scores, check)[1]):
-            answered &= ~np.isnan(column)
+        likelihood, missed = np.zeros(len(computed)), np.zeros(len(computed))
+        for row, column in zip(self.rows, computed.T, strict=True):
+            angle = row.is_angle(self.model.units[row.name])
             likelihood += row.reading.log_likelihood(column, angle)
             by = row.reading.missed(column, angle)
             if row.name in self.softened:
                 likelihood -= 0.5 * (by / self.softened[row.name]) ** 2
             missed += by
-        if self.softened and model is self.model:
-            missed *= 0.0
-        self.answered |= bool(np.any(answered))
+        self.answered |= bool(np.any(~np.any(np.isnan(computed), axis=1)))
         possible = np.isfinite(likelihood) & np.isfinite(missed)
         self.possible |= bool(np.any(possible))
         return np.where(possible, likelihood, -np.inf), np.where(possible, missed, np.inf)
+
+    def apart(self, one: Any, other: Any) -> Any:
+        """How far the second of two such is from the first."""
+        angles = [row.is_angle(self.model.units[row.name]) for row in self.rows]
+        away = [
+            folded(column, math.pi if angle else None)
+            for column, angle in zip((other - one).T, angles, strict=True)
+        ]
+        return np.stack(away, axis=1)
 
     def islands(
         self, count: int, seed: int, threads: int, report: Callable[[int, int], None] | None
@@ -286,17 +295,21 @@ class _Problem:
             within = tell if threads == 1 else lambda part: None
             with np.errstate(all="ignore"):
                 # Always the first islands check that the model answers case by case.
-                def evaluate(scores: Any) -> tuple[Any, Any]:
-                    return self.evaluate(self.model, scores, not first)
+                def model(scores: Any) -> Any:
+                    return self.observables(self.model, scores, not first)
 
                 finer = self.finer
                 if finer is None:
-                    return Islands(evaluate, shape, random).found(within)
-
-                def evaluate_finer(scores: Any) -> tuple[Any, Any]:
-                    return self.evaluate(finer, scores, not first)
-
-                return FinerIslands(evaluate, evaluate_finer, shape, random).found(within)
+                    return Islands(lambda scores: self.judged(model(scores)), shape, random).found(
+                        within
+                    )
+                models = TwoModels(
+                    model,
+                    lambda scores: self.observables(finer, scores, not first),
+                    self.judged,
+                    self.apart,
+                )
+                return FinerIslands(models, shape, random).found(within)
 
         try:
             for each in in_order(work, range(0, ISLANDS, _SIDE_BY_SIDE), threads):
