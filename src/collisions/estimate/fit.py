@@ -22,6 +22,7 @@ from ..uncertainty.distribution import read_alike
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform
 from ..uncertainty.finer import FinerModel
 from ..uncertainty.model import AnyModel, Model, function_of, range_hint
+from ..uncertainty.normal import score_of_coverage
 from ..uncertainty.turns import folded
 from .evidence import (
     Observation,
@@ -41,6 +42,7 @@ from .least_squares import (
     minimise,
     spread,
 )
+from .profile import Found, followed, table
 
 _STARTS = 64
 _PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
@@ -53,6 +55,8 @@ _AROUND, _NUDGE = (
 )  # searches, and part of the scale of each unknown by which they start off at most
 _AGREEMENT = 1e-2  # of the scale of an unknown: values within this agree
 _TWO_ERRORS = 2.0
+_STRAIGHT = 0.05  # of two errors: with a rise within this of it, an unknown has its range by slopes
+_TWO_SIDED = score_of_coverage(0.95)
 _OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope vanishes nearby
 _LEAST_MOVE = 0.1  # standard errors: smaller moves and smaller rises are not compared
 _FLAT_SHARE = 1e-6  # of the greatest slope: directions of less are left alone
@@ -205,16 +209,10 @@ def fit(
                     "fit(finer, unknowns, observed)",
                     code="refused",
                 )
-        # The least misfit, or one that is as good where a search converged.
-        best = _examined(
-            inputs,
-            problem,
-            ends,
-            int(np.argmin(ends.chi_squared + _SAME_CHI_SQUARED * ~ends.converged)),
-        )
-        _check_minimum(best, ends, few=dearer is None)
+        best, ends, found_of = _followed(inputs, problem, ends, few=dearer is None)
+        candidates = [best, *(one for one, _ in found_of[1:])]
         fits = []
-        for one in _rivals(best, ends):
+        for one in candidates:
             where = _left_open(one, ends)
             notes = _said_at(inputs, where, inputs.model)
             if dearer is not None:
@@ -224,9 +222,9 @@ def fit(
                     for note in _said_at(inputs, where, searched)
                 )
             fits.append(replace(_answer(one), model_notes=notes))
-        if len(fits) > 1:
+        if len(fits) > 1 and _in_pieces(found_of):
             raise _ambiguous(fits)
-        found = fits[0]
+        found = replace(fits[0], **_with_profiles(fits, found_of))
         calls = {"model": searched.cases}
         if dearer is not None:
             calls["finer"] = inputs.model.cases
@@ -466,6 +464,21 @@ class _Candidate:
         return far, np.sqrt(np.maximum(rise, 0.0)).reshape(2, -1)
 
     @property
+    def bent(self) -> Any:
+        """The unknowns whose range the slopes do not give: those for which the misfit rises
+        otherwise, all of them where a bound holds one, and those that nothing determines.
+        """
+        which = np.flatnonzero(self.free)
+        if which.size < len(self.point):
+            return range(len(self.point))
+        known = np.isfinite(self.errors)
+        far, risen = self.moves
+        straight = np.all(far == _TWO_ERRORS, axis=0) & np.all(
+            abs(risen - far) <= _STRAIGHT * far, axis=0
+        )
+        return np.flatnonzero(known)[~straight]
+
+    @property
     def nonlinearity(self) -> float:
         """Relative error of the half-width of the 95 percent intervals; NaN if the model refuses
         within two errors.
@@ -545,6 +558,65 @@ def _examined(inputs: _Inputs, problem: Problem, ends: Ends, k: int) -> _Candida
 def _ended_at(ends: Ends, chi_squared: float) -> Any:
     """Which searches ended at a minimum of this misfit."""
     return ends.converged & (abs(ends.chi_squared - chi_squared) <= _SAME_CHI_SQUARED)
+
+
+def _followed(
+    inputs: _Inputs, problem: Problem, ends: Ends, few: bool
+) -> tuple[_Candidate, Ends, list[tuple[_Candidate, Found]]]:
+    """The best candidate, the ends of all searches, and the best and each rival with the profiles
+    that its range needs.
+
+    A profile that meets a lower misfit starts a search there.
+    """
+    for _ in range(_STEP_ROUNDS):
+        # The least misfit, or one that is as good where a search converged.
+        order = ends.chi_squared + _SAME_CHI_SQUARED * ~ends.converged
+        best = _examined(inputs, problem, ends, int(np.argmin(order)))
+        _check_minimum(best, ends, few)
+        rivals = _rivals(best, ends)
+        found = [
+            (one, followed(one.problem, one.point, best.chi_squared, one.determination.covariance,
+             range(len(one.point)) if len(rivals) > 1 else best.bent))
+            for one in rivals
+        ]  # fmt: skip
+        lower = [one for _, one in found if one.lowest < best.chi_squared - _SAME_CHI_SQUARED]
+        if not lower:
+            break
+        again = minimise(problem, np.stack([one.at for one in lower]))
+        # As often as it takes to count as found: it was reached on purpose.
+        ends = Ends(*(np.concatenate([one, *[two] * (_FEW + 1)]) for one, two in zip(ends, again, strict=True)))
+    return best, ends, found
+
+
+def _in_pieces(found: list[tuple[_Candidate, Found]]) -> bool:
+    """Whether the values of an unknown that the evidence does not exclude are in more than one
+    piece.
+    """
+    for j in found[0][1].sides:
+        ranges = [
+            [side.reach(_TWO_SIDED) for side in one.sides[j]] for _, one in found
+        ]
+        ranges = sorted(one for one in ranges if not np.any(np.isnan(one)))
+        high = ranges[0][1]
+        for low, top in ranges[1:]:
+            if low > high:
+                return True
+            high = max(high, top)
+    return False
+
+
+def _with_profiles(fits: list[Fit], found: list[tuple[_Candidate, Found]]) -> dict[str, Any]:
+    """What the profiles tell of the best fit: the ranges, the rivals within them, and whether the
+    model refuses there.
+    """
+    names = fits[0].names
+    return {
+        "profiles": {
+            names[j]: tuple(table([one.sides[j] for _, one in found])) for j in found[0][1].sides
+        },
+        "others": tuple(fits[1:]),
+        "refuses_nearby": any(one.refused for _, one in found),
+    }
 
 
 def _check_minimum(best: _Candidate, ends: Ends, few: bool = True) -> None:

@@ -189,9 +189,16 @@ def spread(count: int, low: Any, high: Any) -> Any:
     return low + (high - low) * share
 
 
-def minimise(problem: Problem, starts: Any) -> Ends:
+def minimise(
+    problem: Problem,
+    starts: Any,
+    *,
+    held: Any = None,
+    close: float = _CLOSE,
+    rounds: int = _ROUNDS,
+) -> Ends:
     """Levenberg-Marquardt from every start at once, projected on the bounds; a step into a refusal
-    is never taken.
+    is never taken. What is ``held`` (as the starts) stays where it is.
 
     Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is
     left, in the metric of the standard errors, is rounding; one that no step, however short, takes
@@ -203,12 +210,14 @@ def minimise(problem: Problem, starts: Any) -> Ends:
     live, left = np.isfinite(cost), np.full(len(points), np.inf)
     damping, growth = np.full(len(points), _FIRST_DAMPING), np.full(len(points), 2.0)
 
-    for _ in range(_ROUNDS):
+    fixed = np.zeros(points.shape, dtype=bool) if held is None else held
+
+    for _ in range(rounds):
         rows = np.flatnonzero(live)
         trial, foreseen, left[rows] = _step(
-            problem, points[rows], outputs[rows], slopes[rows], damping[rows]
+            problem, points[rows], outputs[rows], slopes[rows], damping[rows], fixed[rows]
         )
-        live = live & (left > _CLOSE) & (damping <= _MOST_DAMPING)
+        live = live & (left > close) & (damping <= _MOST_DAMPING)
         going = live[rows]
         rows, trial, foreseen = rows[going], trial[going], foreseen[going]
         if not rows.size:
@@ -228,8 +237,8 @@ def minimise(problem: Problem, starts: Any) -> Ends:
         growth[taken] = 2.0
         damping[other] *= growth[other]
         growth[other] *= 2.0
-    close = max(_CLOSE_ENOUGH, _NOISY_STEP * problem.noise ** (2 / 3))
-    return Ends(points, outputs, slopes, cost, left <= close)
+    enough = max(close, _CLOSE_ENOUGH, _NOISY_STEP * problem.noise ** (2 / 3))
+    return Ends(points, outputs, slopes, cost, left <= enough)
 
 
 def _cost(problem: Problem, outputs: Any, slopes: Any) -> Any:
@@ -252,7 +261,7 @@ def _slope_error(outputs: Any, scale: Any, steps: Any, noise: float) -> Any:
 
 
 def _step(
-    problem: Problem, points: Any, outputs: Any, slopes: Any, damping: Any
+    problem: Problem, points: Any, outputs: Any, slopes: Any, damping: Any, fixed: Any
 ) -> tuple[Any, Any, Any]:
     """Where the damped step within the bounds leads, the predicted fall of chi-squared, and how
     much there is left to go.
@@ -262,8 +271,10 @@ def _step(
     """
     misfit, scaled = problem.misfit(outputs), slopes * problem.scale
     gradient = np.einsum("kmn,km->kn", scaled, misfit)
-    held = ((points <= problem.low) & (gradient > 0.0)) | (
-        (points >= problem.high) & (gradient < 0.0)
+    held = (
+        fixed
+        | ((points <= problem.low) & (gradient > 0.0))
+        | ((points >= problem.high) & (gradient < 0.0))
     )
     scaled = np.where(held[:, np.newaxis], 0.0, scaled)
     weight = np.linalg.norm(scaled, axis=1)
@@ -285,6 +296,7 @@ def _step(
         / weight
     )
     trial = np.clip(points + move * problem.scale, problem.low, problem.high)
+    trial = np.where(fixed, points, trial)
     change = np.einsum("kmn,kn->km", scaled, (trial - points) / problem.scale)
     return trial, -np.sum(change * (2.0 * misfit + change), axis=1), left
 
