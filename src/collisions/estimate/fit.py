@@ -222,7 +222,7 @@ def fit(
                     for note in _said_at(inputs, where, searched)
                 )
             fits.append(replace(_answer(one), model_notes=notes))
-        if len(fits) > 1 and _in_pieces(found_of):
+        if len(fits) > 1 and _distinct(found_of):
             raise _ambiguous(fits)
         found = replace(fits[0], **_with_profiles(fits, found_of))
         calls = {"model": searched.cases}
@@ -463,13 +463,21 @@ class _Candidate:
         rise = np.sum(misfit**2, axis=(1, 2)) - self.chi_squared
         return far, np.sqrt(np.maximum(rise, 0.0)).reshape(2, -1)
 
+    @cached_property
+    def at_a_kink(self) -> bool:
+        """Whether the slopes differ from one side to the other, in a model that neither jumps nor
+        scatters: a search ends there by ever shorter steps, and profiles give the range.
+        """
+        problem, point = self.problem, self.point
+        return not problem.noise and problem.has_kink(point) and not problem.jumps(point)
+
     @property
     def bent(self) -> Any:
         """The unknowns whose range the slopes do not give: those for which the misfit rises
         otherwise, all of them where a bound holds one, and those that nothing determines.
         """
         which = np.flatnonzero(self.free)
-        if which.size < len(self.point):
+        if which.size < len(self.point) or self.at_a_kink:
             return range(len(self.point))
         known = np.isfinite(self.errors)
         far, risen = self.moves
@@ -494,7 +502,8 @@ class _Candidate:
         """Whether the searches agree in an unknown about which the slopes tell nothing: its misfit
         turns there.
         """
-        here = ends.points[_ended_at(ends, self.chi_squared)]
+        converged = ends._replace(converged=True) if self.at_a_kink else ends
+        here = ends.points[_ended_at(converged, self.chi_squared)]
         return len(here) > 0 and bool(
             np.any(np.isinf(self.errors) & (np.ptp(here, axis=0) < _AGREEMENT * self.problem.scale))
         )
@@ -505,7 +514,8 @@ class _Candidate:
         has no slope to follow.
         """
         away = np.minimum(_NUDGE * self.problem.scale, self.errors)
-        again = minimise(self.problem, self.point + spread(_AROUND, -away, away))
+        starts = self.point + spread(_AROUND, -away, away)
+        again = minimise(self.problem, starts, close=_NUDGE)
         return bool(np.min(again.chi_squared) < self.chi_squared - _SAME_CHI_SQUARED)
 
     def overstates_errors(self) -> bool:
@@ -516,13 +526,17 @@ class _Candidate:
         over = (risen > _TWO_ERRORS) & (risen > _OVERSTATED * far)
         return bool(np.any(np.all(over | (far < _LEAST_MOVE), axis=0) & np.any(over, axis=0)))
 
+    def way_to(self, point: Any) -> Any:
+        """The way to another point; of angles the short one."""
+        way = point - self.point
+        turning = np.array([unit == "rad" for unit in self.inputs.units.values()])
+        return np.where(turning, folded(way, math.pi), way)
+
     def is_apart(self, point: Any) -> bool:
         """Whether a point is more than a standard error away in what the evidence
         determines here.
         """
-        way = point - self.point
-        turning = np.array([unit == "rad" for unit in self.inputs.units.values()])
-        known, way = np.isfinite(self.errors), np.where(turning, folded(way, math.pi), way)
+        known, way = np.isfinite(self.errors), self.way_to(point)
         size = self.errors[known]
         precision = np.linalg.pinv(
             self.determination.covariance[np.ix_(known, known)] / np.outer(size, size),
@@ -584,24 +598,30 @@ def _followed(
             break
         again = minimise(problem, np.stack([one.at for one in lower]))
         # As often as it takes to count as found: it was reached on purpose.
-        ends = Ends(*(np.concatenate([one, *[two] * (_FEW + 1)]) for one, two in zip(ends, again, strict=True)))
+        ends = Ends(
+            *(
+                np.concatenate([one, *[two] * (_FEW + 1)])
+                for one, two in zip(ends, again, strict=True)
+            )
+        )
     return best, ends, found
 
 
-def _in_pieces(found: list[tuple[_Candidate, Found]]) -> bool:
-    """Whether the values of an unknown that the evidence does not exclude are in more than one
-    piece.
+def _distinct(found: list[tuple[_Candidate, Found]]) -> bool:
+    """Whether no one range describes the answers: two lie outside the errors of each other in an
+    unknown that both determine, or values in between are excluded.
     """
+    best = found[0][0]
+    for other, _ in found[1:]:
+        apart = best.way_to(other.point)
+        error = np.maximum(best.errors, other.errors)
+        if np.any(np.isfinite(error) & (abs(apart) > _TWO_SIDED * error)):
+            return True
     for j in found[0][1].sides:
-        ranges = [
-            [side.reach(_TWO_SIDED) for side in one.sides[j]] for _, one in found
-        ]
-        ranges = sorted(one for one in ranges if not np.any(np.isnan(one)))
-        high = ranges[0][1]
-        for low, top in ranges[1:]:
-            if low > high:
-                return True
-            high = max(high, top)
+        reached = [[side.reach(_TWO_SIDED) for side in one.sides[j]] for _, one in found]
+        pieces = sorted(one for one in reached if not np.any(np.isnan(one)))
+        if any(low > max(top for _, top in pieces[:k]) for k, (low, _) in enumerate(pieces) if k):
+            return True
     return False
 
 
@@ -623,20 +643,18 @@ def _check_minimum(best: _Candidate, ends: Ends, few: bool = True) -> None:
     """Raise if one value and its error do not describe the least misfit that was found, with
     ``few`` also if few of many searches ended there.
     """
+    kink = best.at_a_kink
+    here = _ended_at(ends._replace(converged=True) if kink else ends, best.chi_squared)
     if (
-        not best.converged
-        or best.problem.has_kink(best.point)
+        not (kink or best.converged)
+        or (not kink and best.problem.has_kink(best.point))
         or best.turns_round(ends)
-        or best.overstates_errors()
+        or (not kink and best.overstates_errors())
     ):
         why = (
             "where the model jumps, bends, turns round or refuses, so that its slopes give no error"
         )
-    elif few and (
-        np.count_nonzero(_ended_at(ends, best.chi_squared))
-        <= _FEW
-        < np.count_nonzero(np.isfinite(ends.chi_squared))
-    ):
+    elif few and (np.count_nonzero(here) <= _FEW < np.count_nonzero(np.isfinite(ends.chi_squared))):
         why = (
             f"where few of the {_STARTS} searches ended, so that a better answer may lie between "
             "them"

@@ -143,11 +143,11 @@ class Estimate(WithUnit):
             return self.low, self.high
         score = score_of_coverage(float(coverage))
         if self.profile:
-            level, low, high = np.array(self.profile).T
-            ends = [float(np.interp(score, level, side)) for side in (low, high)]
+            level, *sides = np.array(self.profile).T
+            ends = [float(np.interp(score, level, side)) for side in sides]
             if score > level[-1]:
                 more = (score - level[-1]) / (level[-1] - level[-2])
-                ends = [end + more * (side[-1] - side[-2]) for end, side in zip(ends, (low, high))]
+                ends = [side[-1] + more * (side[-1] - side[-2]) for side in sides]
             return max(self.low, ends[0]), min(self.high, ends[1])
         half = score * self.standard_error
         return max(self.low, self.value - half), min(self.high, self.value + half)
@@ -353,7 +353,8 @@ class Fit(SpeedsFound, Shown):
     @property
     def told_by_bounds(self) -> tuple[str, ...]:
         """The unknowns of which the evidence excludes no value within their bounds, at 95
-        percent."""
+        percent.
+        """
         return tuple(
             name
             for name, (low, high) in self.bounds.items()

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .least_squares import Problem, minimise
+from .least_squares import Ends, Problem, minimise
 
 LEVELS = np.linspace(0.0, 2.94, 13)  # sigma; the ninth is that of 95 percent
 SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
@@ -26,12 +26,13 @@ _FIRST = 0.125  # of its scale, for an unknown without a standard error
 
 
 class Side(NamedTuple):
-    """Values on one side of the answer, outward, and the rise of the misfit at each, in sigma;
-    beyond the last the model refuses if it is ``edge``, and its bound is there if it is ``bound``.
+    """Values on one side of the answer, outward, the rise of the misfit at each in sigma, and the
+    slope of chi-squared there; beyond the last the model refuses if it is ``at_edge``.
     """
 
     values: Any
     rises: Any
+    slopes: Any
     bound: float
     at_edge: bool
 
@@ -43,8 +44,7 @@ class Side(NamedTuple):
         k = int(inside[-1])
         values, rises = self.values, self.rises
         if k < len(values) - 1:
-            part = (level - rises[k]) / (rises[k + 1] - rises[k])
-            return float(values[k] + part * (values[k + 1] - values[k]))
+            return self._between(k, level)
         if self.at_edge or values[k] == self.bound:
             return float(values[k])
         slope = (values[k] - values[k - 1]) / (rises[k] - rises[k - 1]) if k else math.inf
@@ -52,6 +52,24 @@ class Side(NamedTuple):
             return self.bound  # it goes on without a rise
         end = float(values[k] + slope * (level - rises[k]))
         return min(end, self.bound) if self.bound > self.values[0] else max(end, self.bound)
+
+    def _between(self, k: int, level: float) -> float:
+        """Where chi-squared reaches the level after value k, by the cubic of both ends and slopes;
+        bisected, since that need not be monotonic.
+        """
+        start, width = self.values[k], self.values[k + 1] - self.values[k]
+        (below, above), (left, right) = self.rises[k : k + 2] ** 2, self.slopes[k : k + 2] * width
+        low, high = 0.0, 1.0
+        for _ in range(40):
+            t = 0.5 * (low + high)
+            there = (
+                below * (1.0 + 2.0 * t) * (1.0 - t) ** 2
+                + left * t * (1.0 - t) ** 2
+                + above * t * t * (3.0 - 2.0 * t)
+                - right * t * t * (1.0 - t)
+            )
+            low, high = (t, high) if there <= level * level else (low, t)
+        return float(start + low * width)
 
 
 class Found(NamedTuple):
@@ -89,11 +107,15 @@ def followed(
     bound = np.where(outward > 0.0, problem.high[unknowns], problem.low[unknowns])
     held = np.arange(n) == unknowns[:, np.newaxis]
 
-    start = minimise(problem, point[np.newaxis]).chi_squared[0]
-    begin = math.sqrt(max(0.0, start - chi_squared))
+    start = minimise(problem, point[np.newaxis])
+    begin = math.sqrt(max(0.0, start.chi_squared[0] - chi_squared))
+    # To either side by itself: the answer may be at a kink.
+    _, changes, moves = problem.neighbours(point[np.newaxis])
+    toward = np.where(moves == 0.0, 0.0, changes / moves)[:, 0] @ problem.misfit(start.outputs[0])
+    climbs = 2.0 * toward[np.where(outward > 0.0, 0, 1), unknowns]
     at, value, rise = np.tile(point, (count, 1)), point[unknowns].copy(), np.full(count, begin)
     step, least = first[unknowns].copy(), _SHORTEST * first[unknowns]
-    tracks: list[list[tuple[float, float]]] = [[(value[k], begin)] for k in range(count)]
+    tracks = [[(value[k], begin, climbs[k])] for k in range(count)]
     edge, live = np.zeros(count, dtype=bool), value != bound
     lowest, where = float(chi_squared), point
     for _ in range(_MOST_STEPS):
@@ -110,7 +132,7 @@ def followed(
         if ends.chi_squared[k] < lowest:
             lowest, where = float(ends.chi_squared[k]), ends.points[k]
         found = np.sqrt(np.maximum(0.0, ends.chi_squared - chi_squared))
-        climbed = found - rise[rows]
+        climbed, climbs = found - rise[rows], _climbs(problem, ends, unknowns[rows])
         short = step[rows] <= least[rows]
         refused = np.isinf(found)
         good = ~refused & ((climbed <= _MOST_RISE) | short)
@@ -119,18 +141,26 @@ def followed(
         step[rows[~good]] *= np.where(refused[~good], 0.5, _RISE / climbed[~good]).clip(0.1, 0.6)
         for j in np.flatnonzero(good).tolist():
             row, moved = rows[j], new[j] - value[rows[j]]
-            tracks[row].append((new[j], found[j]))
+            tracks[row].append((new[j], found[j], climbs[j]))
             ways[row] = (ends.points[j] - at[row]) / moved
             part = _RISE / climbed[j] if climbed[j] > 0.0 else _LONGER
             step[row] = abs(moved) * min(max(part, 1.0 / _LONGER), _LONGER)
             at[row], value[row], rise[row] = ends.points[j], new[j], found[j]
             live[row] = new[j] != bound[row] and found[j] < LEVELS[-1] - 0.01
-    both = [
-        Side(*np.array(track).T, bound=float(bound[k]), at_edge=bool(edge[k]))
-        for k, track in enumerate(tracks)
-    ]
+    both = []
+    for k, track in enumerate(tracks):
+        values, rises, slopes = np.array(track).T
+        both.append(Side(values, rises, slopes, float(bound[k]), bool(edge[k])))
     sides = {int(unknowns[k]): (both[k], both[k + 1]) for k in range(0, count, 2)}
     return Found(sides, lowest, where)
+
+
+def _climbs(problem: Problem, ends: Ends, unknowns: Any) -> Any:
+    """Slope of chi-squared by the unknown that each row holds: the others add nothing to it where
+    it is least in them.
+    """
+    gradient = 2.0 * np.einsum("kmn,km->kn", ends.slopes, problem.misfit(ends.outputs))
+    return gradient[np.arange(len(unknowns)), unknowns]
 
 
 def table(pairs: list[tuple[Side, Side]]) -> list[tuple[float, float, float]]:
