@@ -85,10 +85,12 @@ def fit(
     spread over what was known before). The covariance follows from the slopes of the model at the
     answer and the errors as stated; it is not scaled by the misfit. Where the model scatters
     between neighbours, as ``simulate`` does by its steps, the slopes are taken over a part of the
-    errors. All this holds where the errors of the observations are normal and independent, the
-    model is nearly linear within two standard errors and no bound is near. Where one value with
-    such an error does not describe what the evidence says, ``fit`` refuses or warns; ``posterior``
-    then has the answer, whatever the priors and however nonlinear the model.
+    errors. The standard errors hold where the errors of the observations are normal and
+    independent, the model is nearly linear within two of them and no bound is near. Elsewhere the
+    intervals follow chi-squared itself: they hold the values at which it rises by less than 3.84
+    (for 95 percent) with the other unknowns fitted again. Where one value with such a range does
+    not describe what the evidence says, ``fit`` refuses or warns; ``posterior`` then has the
+    answer, whatever the priors and however nonlinear the model.
 
     Parameters
     ----------
@@ -127,21 +129,20 @@ def fit(
         than named arrays, mixes the cases it is called with, or answers the same case differently
         when asked again.
     AmbiguousSolutionError
-        Another answer, more than a standard error away, has a chi-squared less than 4 above the
-        best; all that the searches found are in ``solutions``. With an unknown friction this
-        happens where the evidence fits a contact that slid and, about as well, one that stuck,
-        whose friction may be any that is high enough.
+        Another answer has a chi-squared less than 4 above the best, and no one range describes
+        both: each lies outside the errors of the other, or what is between them is excluded. All
+        that the searches found are in ``solutions``. Answers that form one range, such as a contact
+        that slid and one that stuck with any friction that is high enough, are in ``others``.
     NoSolutionError
-        The model refuses at every start (code "refused"); or the misfit is least at a jump, a kink,
-        an edge or a turning point of the model, where no error can be given, or at a point that at
-        most two of the searches reached (code "no_convergence").
+        The model refuses at every start (code "refused"); or the misfit is least at a jump, an edge
+        or a turning point of the model, where no error can be given, or at a point that at most two
+        of the searches reached (code "no_convergence").
 
     Warns
     -----
     IllConditionedWarning
-        Nothing determines an unknown, it ended on a bound, or its bounds say more than the
-        evidence; or the model is too nonlinear, or refuses, within two standard errors of the
-        answer.
+        Nothing determines an unknown, or the evidence excludes none of its values within its
+        bounds; or the model refuses within two standard errors of the answer.
     SuspectUnitsWarning
         A bare observation differs from its computed value by more than pi, with neither beyond pi:
         perhaps an angle.
