@@ -14,9 +14,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..uncertainty.normal import score_of_coverage
 from .least_squares import Ends, Problem, minimise
 
-LEVELS = np.linspace(0.0, 2.94, 13)  # sigma; the ninth is that of 95 percent
+LEVELS = score_of_coverage(0.95) / 8.0 * np.arange(13)  # sigma; the ninth is that of 95 percent
 SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
 _RISE = 0.98  # sigma, aimed at from one value to the next: two lead to 95 percent
 _MOST_RISE, _LONGER, _SHORTEST = 1.5, 4.0, 1e-3  # of steps, the last a part of the first
