@@ -336,10 +336,19 @@ def shown(reading: Reading, side: Any, label: str, duration: Any) -> Any:
     )
 
 
-def by_posterior(reading: Reading, *, in_time: bool = False) -> Speeds:
-    """Size of both delta-V and motion after: speeds, courses and yaw rates; by ``eccentric``, and
-    with ``in_time`` by the contact in time as the finer model.
+class Evidence(NamedTuple):
+    """Size of both delta-V and motion after (speeds, courses and yaw rates) as evidence of a model:
+    ``eccentric``, and the contact in time as the finer one.
     """
+
+    model: Model
+    unknowns: dict[str, Any]
+    observed: dict[str, Any]
+    finer: Model
+
+
+def evidence(reading: Reading) -> Evidence:
+    """What is known of a crash before, and what is seen of it."""
     priors: dict[str, Any] = reading.known | {
         "speed_a": Uniform(0.0, FASTEST),
         "speed_b": Uniform(0.0, FASTEST),
@@ -384,22 +393,52 @@ def by_posterior(reading: Reading, *, in_time: bool = False) -> Speeds:
     def finer(**values: Any) -> dict[str, Any]:
         return solved(values, col.time_resolved, steps=STEPS)
 
+    return Evidence(model, priors | lasting(reading), observed, finer)
+
+
+def asked(solver: Callable[..., Any], *arguments: Any, **settings: Any) -> Speeds:
+    """The ranges of both speeds; a warning that is about another unknown alone is left out."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", col.CollisionsWarning)
-        found = reconstruct.posterior(
-            model,
-            priors | lasting(reading),
-            observed,
-            finer=finer if in_time and reading.contact else None,
-            samples=max(512, 4 * reading.samples),
-            seed=reading.seed,
-        )
+        found = solver(*arguments, **settings)
     for one in caught:
         # That restitution or friction rests on its prior, a true one, is nothing against a speed.
-        about_others = not {"speed_a", "speed_b"}.intersection(found.prior_only)
-        if not (getattr(one.message, "code", "") == "undetermined" and about_others):
+        about_others = not {"speed_a", "speed_b"}.intersection(unsettled(found))
+        if not (getattr(one.message, "code", "") in UNSETTLED and about_others):
             warnings.warn(one.message, stacklevel=2)
     return {label: found[f"speed_{label}"].interval(0.95) for label in "ab"}
+
+
+UNSETTLED = ("undetermined", "told_by_bounds")  # codes: an unknown of which evidence tells nothing
+
+
+def unsettled(found: Any) -> set[str]:
+    """The unknowns of which the evidence tells nothing, or nothing that their bounds do not."""
+    if isinstance(found, reconstruct.Posterior):
+        return set(found.prior_only)
+    left = [one for one in found.undetermined if not one.held_by_prior]
+    return {name for one in left for name in one.unknowns} | set(found.told_by_bounds)
+
+
+def by_posterior(reading: Reading, *, in_time: bool = False) -> Speeds:
+    """All of the evidence at once, by samples."""
+    model, unknowns, observed, finer = evidence(reading)
+    return asked(
+        reconstruct.posterior,
+        model,
+        unknowns,
+        observed,
+        finer=finer if in_time and reading.contact else None,
+        samples=max(512, 4 * reading.samples),
+        seed=reading.seed,
+    )
+
+
+def by_fit(reading: Reading, *, in_time: bool = False) -> Speeds:
+    """The same evidence by weighted least squares."""
+    model, unknowns, observed, finer = evidence(reading)
+    settings = {"finer": finer} if in_time and reading.contact else {}
+    return asked(reconstruct.fit, model, unknowns, observed, **settings)
 
 
 ROUTES: dict[str, Callable[[Reading], Speeds]] = {
@@ -410,6 +449,8 @@ ROUTES: dict[str, Callable[[Reading], Speeds]] = {
     "one recorder and its speed, friction=inf": by_one_recorder_alone,
     "posterior of delta-V and motion after": by_posterior,
     "the same with the contact in time as finer=": partial(by_posterior, in_time=True),
+    "fit of delta-V and motion after": by_fit,
+    "fit with the contact in time as finer=": partial(by_fit, in_time=True),
 }
 
 

@@ -754,17 +754,6 @@ def one_reading(width):
     return reconstruct.fit(lambda x: {"p": x}, {"x": bounds}, {"p": uncertainty.Normal(0.0, 1.0)})
 
 
-def a_bent_reading(share):
-    """y = x + k x^2 observed as 0 +- 1: two errors below x = 0 the root of chi-squared is 2 - 4 k,
-    and two are 1/(1 - 2 k) of it.
-    """
-    k = 0.5 * share / (1.0 + share)
-    seen = {"y": uncertainty.Normal(0.0, 1.0)}
-    return reconstruct.fit(
-        lambda x: {"y": x + k * x * x}, {"x": uncertainty.Uniform(-3.0, 3.0)}, seen
-    )
-
-
 def nearly_cancelling(condition):
     """Two equal cars head on, of which A stops: B goes on with the difference of their speeds, and
     the condition is their sum over that.
@@ -962,8 +951,8 @@ WARNINGS = [
         [0.0, 0.1, 0.2], [0.0, -9.0, -9.0], pint.Quantity([0.0, x, x], "km/h"),
         polarity="ISO 8855")),
     Warned("change at the end of a record", 0.8 / 3.6, RANGE, "pulse_cut", a_record_that_stops),
-    Warned("fit that bends", 0.2, CONDITION, "not_linear", a_bent_reading),
-    Warned("fit within its bounds", 1.0, CONDITION, "told_by_bounds", one_reading, below=True),
+    Warned("fit within its bounds", 2.0 * statistics.NormalDist().inv_cdf(0.975), CONDITION,
+        "told_by_bounds", one_reading, below=True),
     Warned("turn between two marks", math.radians(90.0), RANGE, "wide_segment",
         lambda x: two_marks(headings=[0.0, x])),
     Warned("yaw over speed", 0.5, RANGE, "fast_yaw", yawing),

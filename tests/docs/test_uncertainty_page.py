@@ -265,7 +265,9 @@ def test_ranges_hold_at_their_rate(committed):
 
 
 def test_intervals_of_a_fit_hold_at_their_rate(committed):
-    """With a prior; without it the model bends within the errors, and most fits warn."""
+    """With a prior; without it the model bends within the errors, and the intervals hold all the
+    same, a little too often where a bound cuts them off.
+    """
     known, open_ = committed["fit"]
     assert (known["key"], open_["key"]) == ("prior", "open")
     assert known["answered"] == known["scenes"] >= 500
@@ -274,7 +276,9 @@ def test_intervals_of_a_fit_hold_at_their_rate(committed):
             0.95 * 0.05 / known["answered"]
         )
     assert known["rough"] < 0.1 * known["answered"]
-    assert open_["rough"] > 0.5 * open_["answered"]
+    assert open_["answered"] == open_["scenes"]
+    rare = RARE * math.sqrt(0.95 * 0.05 / open_["answered"])
+    assert all(held / open_["answered"] > 0.95 - rare for held in open_["held"].values())
     assert all(
         open_["standard_error"][name] > 2.0 * known["standard_error"][name]
         for name in ("speed_a", "restitution")

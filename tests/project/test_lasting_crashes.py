@@ -232,3 +232,16 @@ def test_ranges_of_momentum_hold_where_momentum_is_the_truth(scripts, instant):
     assert row["warned"] < 8
     low, high = row["interval"]
     assert 0.75 < low < 0.95 < high
+
+
+def test_a_fit_answers_ordinary_crashes_and_its_ranges_hold(scripts, instant):
+    """Contacts that stuck, slid or nearly either: of one in five at most it refuses or warns, and
+    what it refuses it hands to the posterior.
+    """
+    coverage = scripts[2]
+    read = list(coverage.readings(instant, SEED, samples=256, axes="turning"))[:30]
+    row = coverage.counted([coverage.told(coverage.by_fit, one) for one in read])
+    assert row["refused"] + row["warned"] <= 6
+    assert set(row["reasons"]) <= {"no_convergence", "contradictory", "ambiguous"}
+    low, high = row["interval"]
+    assert 0.75 < low < 0.95 < high

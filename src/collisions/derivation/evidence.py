@@ -445,8 +445,9 @@ def fit(page: Page, found: Fit, notes: Mapping[str, str] | None = None) -> None:
     page.heading("Answers")
     page.table([row for name in found.names for row in _unknown(page, found, name)])
     page.say(
-        "Each ± is one standard error and each range holds 95 percent, given the stated errors "
-        "and as far as the model is straight there. They are not widened by the misfit."
+        "Each ± is one standard error, as far as the model is straight there, and each range holds "
+        "95 percent, given the stated errors; where the model bends it is that in which "
+        "chi-squared rises by less than 3.84. They are not widened by the misfit."
     )
 
 
@@ -479,7 +480,7 @@ def _misfit(page: Page, found: Fit) -> Iterator[tuple[str, str, str]]:
     yield "all", "chance of such a chi-squared or a larger one", chance
     yield (
         "all",
-        "by how much the 95 percent intervals are off, as the model bends",
+        "by how much so many standard errors are off, as the model bends",
         percent(found.nonlinearity),
     )
 

@@ -22,6 +22,7 @@ from ..uncertainty.distribution import read_alike
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform
 from ..uncertainty.finer import FinerModel
 from ..uncertainty.model import AnyModel, Model, function_of, range_hint
+from ..uncertainty.normal import score_of_coverage
 from ..uncertainty.turns import folded
 from .evidence import (
     Observation,
@@ -41,6 +42,7 @@ from .least_squares import (
     minimise,
     spread,
 )
+from .profile import Found, followed, table
 
 _STARTS = 64
 _PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
@@ -53,6 +55,8 @@ _AROUND, _NUDGE = (
 )  # searches, and part of the scale of each unknown by which they start off at most
 _AGREEMENT = 1e-2  # of the scale of an unknown: values within this agree
 _TWO_ERRORS = 2.0
+_STRAIGHT = 0.05  # of two errors: with a rise within this of it, an unknown has its range by slopes
+_TWO_SIDED = score_of_coverage(0.95)
 _OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope vanishes nearby
 _LEAST_MOVE = 0.1  # standard errors: smaller moves and smaller rises are not compared
 _FLAT_SHARE = 1e-6  # of the greatest slope: directions of less are left alone
@@ -81,10 +85,12 @@ def fit(
     spread over what was known before). The covariance follows from the slopes of the model at the
     answer and the errors as stated; it is not scaled by the misfit. Where the model scatters
     between neighbours, as ``simulate`` does by its steps, the slopes are taken over a part of the
-    errors. All this holds where the errors of the observations are normal and independent, the
-    model is nearly linear within two standard errors and no bound is near. Where one value with
-    such an error does not describe what the evidence says, ``fit`` refuses or warns; ``posterior``
-    then has the answer, whatever the priors and however nonlinear the model.
+    errors. The standard errors hold where the errors of the observations are normal and
+    independent, the model is nearly linear within two of them and no bound is near. Elsewhere the
+    intervals follow chi-squared itself: they hold the values at which it rises by less than 3.84
+    (for 95 percent) with the other unknowns fitted again. Where one value with such a range does
+    not describe what the evidence says, ``fit`` refuses or warns; ``posterior`` then has the
+    answer, whatever the priors and however nonlinear the model.
 
     Parameters
     ----------
@@ -123,21 +129,20 @@ def fit(
         than named arrays, mixes the cases it is called with, or answers the same case differently
         when asked again.
     AmbiguousSolutionError
-        Another answer, more than a standard error away, has a chi-squared less than 4 above the
-        best; all that the searches found are in ``solutions``. With an unknown friction this
-        happens where the evidence fits a contact that slid and, about as well, one that stuck,
-        whose friction may be any that is high enough.
+        Another answer has a chi-squared less than 4 above the best, and no one range describes
+        both: each lies outside the errors of the other, or what is between them is excluded. All
+        that the searches found are in ``solutions``. Answers that form one range, such as a contact
+        that slid and one that stuck with any friction that is high enough, are in ``others``.
     NoSolutionError
-        The model refuses at every start (code "refused"); or the misfit is least at a jump, a kink,
-        an edge or a turning point of the model, where no error can be given, or at a point that at
-        most two of the searches reached (code "no_convergence").
+        The model refuses at every start (code "refused"); or the misfit is least at a jump, an edge
+        or a turning point of the model, where no error can be given, or at a point that at most two
+        of the searches reached (code "no_convergence").
 
     Warns
     -----
     IllConditionedWarning
-        Nothing determines an unknown, it ended on a bound, or its bounds say more than the
-        evidence; or the model is too nonlinear, or refuses, within two standard errors of the
-        answer.
+        Nothing determines an unknown, or the evidence excludes none of its values within its
+        bounds; or the model refuses within two standard errors of the answer.
     SuspectUnitsWarning
         A bare observation differs from its computed value by more than pi, with neither beyond pi:
         perhaps an angle.
@@ -205,16 +210,10 @@ def fit(
                     "fit(finer, unknowns, observed)",
                     code="refused",
                 )
-        # The least misfit, or one that is as good where a search converged.
-        best = _examined(
-            inputs,
-            problem,
-            ends,
-            int(np.argmin(ends.chi_squared + _SAME_CHI_SQUARED * ~ends.converged)),
-        )
-        _check_minimum(best, ends, few=dearer is None)
+        best, ends, found_of = _followed(inputs, problem, ends, few=dearer is None)
+        candidates = [best, *(one for one, _ in found_of[1:])]
         fits = []
-        for one in _rivals(best, ends):
+        for one in candidates:
             where = _left_open(one, ends)
             notes = _said_at(inputs, where, inputs.model)
             if dearer is not None:
@@ -224,9 +223,9 @@ def fit(
                     for note in _said_at(inputs, where, searched)
                 )
             fits.append(replace(_answer(one), model_notes=notes))
-        if len(fits) > 1:
+        if len(fits) > 1 and _distinct(found_of):
             raise _ambiguous(fits)
-        found = fits[0]
+        found = replace(fits[0], **_with_profiles(fits, found_of))
         calls = {"model": searched.cases}
         if dearer is not None:
             calls["finer"] = inputs.model.cases
@@ -465,6 +464,29 @@ class _Candidate:
         rise = np.sum(misfit**2, axis=(1, 2)) - self.chi_squared
         return far, np.sqrt(np.maximum(rise, 0.0)).reshape(2, -1)
 
+    @cached_property
+    def at_a_kink(self) -> bool:
+        """Whether the slopes differ from one side to the other, in a model that neither jumps nor
+        scatters: a search ends there by ever shorter steps, and profiles give the range.
+        """
+        problem, point = self.problem, self.point
+        return not problem.noise and problem.has_kink(point) and not problem.jumps(point)
+
+    @property
+    def bent(self) -> Any:
+        """The unknowns whose range the slopes do not give: those for which the misfit rises
+        otherwise, all of them where a bound holds one, and those that nothing determines.
+        """
+        which = np.flatnonzero(self.free)
+        if which.size < len(self.point) or self.at_a_kink:
+            return range(len(self.point))
+        known = np.isfinite(self.errors)
+        far, risen = self.moves
+        straight = np.all(far == _TWO_ERRORS, axis=0) & np.all(
+            abs(risen - far) <= _STRAIGHT * far, axis=0
+        )
+        return np.flatnonzero(known)[~straight]
+
     @property
     def nonlinearity(self) -> float:
         """Relative error of the half-width of the 95 percent intervals; NaN if the model refuses
@@ -481,7 +503,8 @@ class _Candidate:
         """Whether the searches agree in an unknown about which the slopes tell nothing: its misfit
         turns there.
         """
-        here = ends.points[_ended_at(ends, self.chi_squared)]
+        converged = ends._replace(converged=True) if self.at_a_kink else ends
+        here = ends.points[_ended_at(converged, self.chi_squared)]
         return len(here) > 0 and bool(
             np.any(np.isinf(self.errors) & (np.ptp(here, axis=0) < _AGREEMENT * self.problem.scale))
         )
@@ -492,7 +515,8 @@ class _Candidate:
         has no slope to follow.
         """
         away = np.minimum(_NUDGE * self.problem.scale, self.errors)
-        again = minimise(self.problem, self.point + spread(_AROUND, -away, away))
+        starts = self.point + spread(_AROUND, -away, away)
+        again = minimise(self.problem, starts, close=_NUDGE)
         return bool(np.min(again.chi_squared) < self.chi_squared - _SAME_CHI_SQUARED)
 
     def overstates_errors(self) -> bool:
@@ -503,13 +527,17 @@ class _Candidate:
         over = (risen > _TWO_ERRORS) & (risen > _OVERSTATED * far)
         return bool(np.any(np.all(over | (far < _LEAST_MOVE), axis=0) & np.any(over, axis=0)))
 
+    def way_to(self, point: Any) -> Any:
+        """The way to another point; of angles the short one."""
+        way = point - self.point
+        turning = np.array([unit == "rad" for unit in self.inputs.units.values()])
+        return np.where(turning, folded(way, math.pi), way)
+
     def is_apart(self, point: Any) -> bool:
         """Whether a point is more than a standard error away in what the evidence
         determines here.
         """
-        way = point - self.point
-        turning = np.array([unit == "rad" for unit in self.inputs.units.values()])
-        known, way = np.isfinite(self.errors), np.where(turning, folded(way, math.pi), way)
+        known, way = np.isfinite(self.errors), self.way_to(point)
         size = self.errors[known]
         precision = np.linalg.pinv(
             self.determination.covariance[np.ix_(known, known)] / np.outer(size, size),
@@ -547,24 +575,87 @@ def _ended_at(ends: Ends, chi_squared: float) -> Any:
     return ends.converged & (abs(ends.chi_squared - chi_squared) <= _SAME_CHI_SQUARED)
 
 
+def _followed(
+    inputs: _Inputs, problem: Problem, ends: Ends, few: bool
+) -> tuple[_Candidate, Ends, list[tuple[_Candidate, Found]]]:
+    """The best candidate, the ends of all searches, and the best and each rival with the profiles
+    that its range needs.
+
+    A profile that meets a lower misfit starts a search there.
+    """
+    for _ in range(_STEP_ROUNDS):
+        # The least misfit, or one that is as good where a search converged.
+        order = ends.chi_squared + _SAME_CHI_SQUARED * ~ends.converged
+        best = _examined(inputs, problem, ends, int(np.argmin(order)))
+        _check_minimum(best, ends, few)
+        rivals = _rivals(best, ends)
+        found = [
+            (one, followed(one.problem, one.point, best.chi_squared, one.determination.covariance,
+             range(len(one.point)) if len(rivals) > 1 else best.bent))
+            for one in rivals
+        ]  # fmt: skip
+        lower = [one for _, one in found if one.lowest < best.chi_squared - _SAME_CHI_SQUARED]
+        if not lower:
+            break
+        again = minimise(problem, np.stack([one.at for one in lower]))
+        # As often as it takes to count as found: it was reached on purpose.
+        ends = Ends(
+            *(
+                np.concatenate([one, *[two] * (_FEW + 1)])
+                for one, two in zip(ends, again, strict=True)
+            )
+        )
+    return best, ends, found
+
+
+def _distinct(found: list[tuple[_Candidate, Found]]) -> bool:
+    """Whether no one range describes the answers: two lie outside the errors of each other in an
+    unknown that both determine, or values in between are excluded.
+    """
+    best = found[0][0]
+    for other, _ in found[1:]:
+        apart = best.way_to(other.point)
+        error = np.maximum(best.errors, other.errors)
+        if np.any(np.isfinite(error) & (abs(apart) > _TWO_SIDED * error)):
+            return True
+    for j in found[0][1].sides:
+        reached = [[side.reach(_TWO_SIDED) for side in one.sides[j]] for _, one in found]
+        pieces = sorted(one for one in reached if not np.any(np.isnan(one)))
+        if any(low > max(top for _, top in pieces[:k]) for k, (low, _) in enumerate(pieces) if k):
+            return True
+    return False
+
+
+def _with_profiles(fits: list[Fit], found: list[tuple[_Candidate, Found]]) -> dict[str, Any]:
+    """What the profiles tell of the best fit: the ranges, the rivals within them, and whether the
+    model refuses there.
+    """
+    names = fits[0].names
+    return {
+        "profiles": {
+            names[j]: tuple(table([one.sides[j] for _, one in found])) for j in found[0][1].sides
+        },
+        "others": tuple(fits[1:]),
+        "refuses_nearby": any(one.refused for _, one in found),
+    }
+
+
 def _check_minimum(best: _Candidate, ends: Ends, few: bool = True) -> None:
     """Raise if one value and its error do not describe the least misfit that was found, with
     ``few`` also if few of many searches ended there.
     """
+    kink = best.at_a_kink
+    here = _ended_at(ends._replace(converged=True) if kink else ends, best.chi_squared)
     if (
-        not best.converged
-        or best.problem.has_kink(best.point)
+        not (kink or best.converged)
+        or (not kink and best.problem.has_kink(best.point))
         or best.turns_round(ends)
-        or best.overstates_errors()
+        or (not kink and best.overstates_errors())
     ):
         why = (
             "where the model jumps, bends, turns round or refuses, so that its slopes give no error"
         )
-    elif few and (
-        np.count_nonzero(_ended_at(ends, best.chi_squared))
-        <= _FEW
-        < np.count_nonzero(np.isfinite(ends.chi_squared))
-    ):
+    elif few and (np.count_nonzero(here) <= _FEW < np.count_nonzero(np.isfinite(ends.chi_squared))):
         why = (
             f"where few of the {_STARTS} searches ended, so that a better answer may lie between "
             "them"

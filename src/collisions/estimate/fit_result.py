@@ -104,6 +104,7 @@ class Estimate(WithUnit):
     low: float = field(metadata={"unit": OWN_UNIT})
     high: float = field(metadata={"unit": OWN_UNIT})
     at_bound: str | None
+    profile: tuple[tuple[float, float, float], ...] = ()
 
     _title = "Estimate"
 
@@ -116,8 +117,9 @@ class Estimate(WithUnit):
         """Central range that holds the truth with this probability given the stated errors, cut off
         at the bounds.
 
-        Normal theory around the estimate; the bounds themselves where nothing determines the
-        unknown.
+        Normal theory around the estimate where the model is nearly linear; elsewhere the values at
+        which chi-squared rises by less than the square of the normal score of the coverage, with
+        the other unknowns fitted again. The bounds themselves where nothing determines the unknown.
 
         Parameters
         ----------
@@ -139,7 +141,15 @@ class Estimate(WithUnit):
             )
         if not self.determined:
             return self.low, self.high
-        half = score_of_coverage(float(coverage)) * self.standard_error
+        score = score_of_coverage(float(coverage))
+        if self.profile:
+            level, *sides = np.array(self.profile).T
+            ends = [float(np.interp(score, level, side)) for side in sides]
+            if score > level[-1]:
+                more = (score - level[-1]) / (level[-1] - level[-2])
+                ends = [side[-1] + more * (side[-1] - side[-2]) for side in sides]
+            return max(self.low, ends[0]), min(self.high, ends[1])
+        half = score * self.standard_error
         return max(self.low, self.value - half), min(self.high, self.value + half)
 
 
@@ -244,12 +254,17 @@ class Fit(SpeedsFound, Shown):
     too small. ``residuals`` and ``contributions`` go by the names of the observations, and by
     "prior of x" for the priors. ``contributions[unknown][observation]`` is the share of the
     unknown's variance that is due to the error of the observation. ``nonlinearity`` is the relative
-    amount by which a 95 percent interval is too narrow or too wide, judged by the rise of
-    chi-squared when an unknown is moved by two standard errors (or to its bound) and the others
-    follow the slopes; NaN if the model refuses there. ``model_notes`` are the warnings of the model
-    at the answer, which ``statements`` have too; with an unknown that nothing determines, at each
-    of its values with which a search ended there. ``calls`` says how many cases were asked of each
-    model: "model", and "finer" if one was given, whose fit this then is.
+    amount by which 1.96 standard errors are too narrow or too wide for 95 percent, judged by the
+    rise of chi-squared when an unknown is moved by two standard errors (or to its bound) and the
+    others follow the slopes; NaN if the model refuses there. ``model_notes`` are the warnings of
+    the model at the answer, which ``statements`` have too; with an unknown that nothing determines,
+    at each of its values with which a search ended there. ``calls`` says how many cases were asked
+    of each model: "model", and "finer" if one was given, whose fit this then is.
+
+    ``profiles`` has, for unknowns whose range the slopes do not give, rows of a rise of the misfit
+    in sigma with the least and the greatest value that has no more, the others fitted again;
+    ``interval`` takes them. ``others`` are answers that fit about as well and are within the
+    ranges. ``refuses_nearby`` says whether the model refuses within the range of 95 percent.
     """
 
     values: Values
@@ -266,6 +281,9 @@ class Fit(SpeedsFound, Shown):
     at_bounds: dict[str, str]
     nonlinearity: float = field(metadata={"unit": ""})
     calls: dict[str, int] = field(default_factory=dict)
+    profiles: dict[str, tuple[tuple[float, float, float], ...]] = field(default_factory=dict)
+    others: tuple[Fit, ...] = ()
+    refuses_nearby: bool = False
     model_notes: tuple[Note, ...] = ()
 
     _title = "Fit to evidence"
@@ -286,6 +304,7 @@ class Fit(SpeedsFound, Shown):
             low=low,
             high=high,
             at_bound=self.at_bounds.get(name),
+            profile=self.profiles.get(name, ()),
         )
 
     @property
@@ -338,10 +357,16 @@ class Fit(SpeedsFound, Shown):
 
     @property
     def told_by_bounds(self) -> tuple[str, ...]:
-        """The unknowns whose standard error exceeds the width of their bounds."""
-        widths = {name: high - low for name, (low, high) in self.bounds.items()}
+        """The unknowns of which the evidence excludes no value within their bounds, at 95
+        percent.
+        """
         return tuple(
-            name for name in self.names if widths[name] < self.standard_errors[name] < math.inf
+            name
+            for name, (low, high) in self.bounds.items()
+            if low < high < math.inf
+            and low > -math.inf
+            and self[name].determined
+            and self[name].interval(0.95) == (low, high)
         )
 
     @property
@@ -460,38 +485,40 @@ def notes_of(found: Fit) -> Iterator[Note]:
         yield Note(None, direction.sentence) if direction.held_by_prior else open_
     for name, side in found.at_bounds.items():
         inward = "above" if side == "low" else "below"
-        why = (
-            "beyond which the evidence pulls it: its error is not symmetric and reaches "
-            f"{inward} only"
+        sentence = (
+            f"{name} ended on its {side} bound, beyond which the evidence pulls it: its range "
+            f"reaches {inward} only"
         )
-        yield Note(
-            IllConditionedWarning,
-            f"{name} ended on its {side} bound, {why}",
-            _TAKE_POSTERIOR,
-            "told_by_bounds",
-        )
+        yield Note(None, sentence)
     for name in found.told_by_bounds:
-        error = (
-            f"the standard error of {name}, {found.standard_errors[name]:.3g}, exceeds the width "
-            "of its bounds"
-        )
         yield Note(
             IllConditionedWarning,
-            f"{error}: they limit it, not the evidence",
+            f"the evidence excludes no value of {name} within its bounds: they limit it, not the "
+            "evidence",
             _TAKE_POSTERIOR,
             "told_by_bounds",
+        )
+    if found.refuses_nearby:
+        yield Note(
+            IllConditionedWarning,
+            "the model refuses within two standard errors of the answer: the 95 percent intervals "
+            "end there",
+            _TAKE_POSTERIOR,
+            "not_linear",
         )
     if not found.nonlinearity <= _LARGE_NONLINEARITY:
-        does = "refuses" if math.isnan(found.nonlinearity) else "bends"
-        part = f"{found.nonlinearity:.0%} of" if found.nonlinearity <= 1.0 else "more than"
-        by = (
-            "not symmetric" if math.isnan(found.nonlinearity) else f"off by {part} their half-width"
+        yield Note(
+            None,
+            "the model bends within two standard errors of the answer: the 95 percent intervals "
+            "are those in which chi-squared rises by less than 3.84, and the standard errors do "
+            "not describe them",
         )
-        sentence = (
-            f"the model {does} within two standard errors of the answer: the 95 percent "
-            f"intervals are {by}"
+    for other in found.others:
+        yield Note(
+            None,
+            f"another answer fits about as well, with chi-squared {other.chi_squared:.4g} beside "
+            f"{found.chi_squared:.4g}; the 95 percent intervals hold both",
         )
-        yield Note(IllConditionedWarning, sentence, _TAKE_POSTERIOR, "not_linear")
     for name, one in found.residuals.items():
         if (
             not one.unit

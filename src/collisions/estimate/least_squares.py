@@ -17,11 +17,15 @@ _ROUNDS = 200
 _CLOSE = 1e-8
 # The same where rounding of the model lets the search come no closer.
 _CLOSE_ENOUGH = 1e-3
+# Of chi-squared, or absolute: a search that falls by less over so many rounds gets no further.
+_STALLED, _STALLED_ROUNDS = 1e-6, 10
 _FIRST_DAMPING, _MOST_DAMPING = 1e-2, 1e16
 # of the largest slope: an unknown that changes less is damped like one that changes so much
 _LEAST_WEIGHT = 1e-3
 # of a slope; over so short a step a smooth model changes its own by less than a thousandth
 _KINK = 0.05
+# sigma, from one neighbour to the next: more is a jump
+_JUMP = 1e-2
 # sigma: evidence that changes less while an unknown moves by its whole scale does not identify it
 FLAT = 1e-3
 _NEGLIGIBLE_SHARE = (
@@ -122,25 +126,36 @@ class Problem(NamedTuple):
         """Outputs (k, m) and their derivatives (k, m, n) by differences, NaN where the model
         refuses on both sides.
         """
-        outputs, (above, below), (up, down) = self._differences(points)
+        outputs, (above, below), (up, down) = self.neighbours(points)
         return outputs, np.swapaxes((above - below) / (up - down), 1, 2)
 
-    def has_kink(self, point: Any) -> bool:
-        """Whether the one-sided slopes differ by more than a smooth model's do: a kink or a jump in
-        between.
+    def jumps(self, point: Any) -> bool:
+        """Whether the outputs change between neighbours by more than slopes could: a jump."""
+        _, changes, _ = self.neighbours(point[np.newaxis])
+        return bool(np.max(abs(changes)) > _JUMP)
+
+    def kinks(self, points: Any) -> Any:
+        """At which points (k, n) the one-sided slopes differ by more than a smooth model's do: a
+        kink or a jump in between.
         """
-        _, changes, moves = self._differences(point[np.newaxis])
+        if not len(points):
+            return np.zeros(0, dtype=bool)
+        _, changes, moves = self.neighbours(points)
         above, below = changes / moves
         sizes = [
-            np.linalg.norm(part[0], axis=1) * self.scale for part in (above, below, above - below)
+            np.linalg.norm(part, axis=2) * self.scale for part in (above, below, above - below)
         ]
         largest = np.maximum(1.0, np.fmax(sizes[0], sizes[1]))
         if not self.noise:
-            return bool(np.any(sizes[2] > _KINK * largest))
-        scatter = 4.0 * self.noise * self.scale / self.steps(point)
-        return bool(np.any(sizes[2] > _NOISY_KINK * largest + scatter))
+            return np.any(sizes[2] > _KINK * largest, axis=1)
+        scatter = 4.0 * self.noise * self.scale / self.steps(points)
+        return np.any(sizes[2] > _NOISY_KINK * largest + scatter, axis=1)
 
-    def _differences(self, points: Any) -> tuple[Any, Any, Any]:
+    def has_kink(self, point: Any) -> bool:
+        """Whether there is a kink or a jump at one point."""
+        return bool(self.kinks(point[np.newaxis])[0])
+
+    def neighbours(self, points: Any) -> tuple[Any, Any, Any]:
         """Outputs, by how much they change towards a neighbour above and below (2, k, n, m), and
         the moves (2, k, n, 1).
 
@@ -189,9 +204,16 @@ def spread(count: int, low: Any, high: Any) -> Any:
     return low + (high - low) * share
 
 
-def minimise(problem: Problem, starts: Any) -> Ends:
+def minimise(
+    problem: Problem,
+    starts: Any,
+    *,
+    held: Any = None,
+    close: float = _CLOSE,
+    rounds: int = _ROUNDS,
+) -> Ends:
     """Levenberg-Marquardt from every start at once, projected on the bounds; a step into a refusal
-    is never taken.
+    is never taken. What is ``held`` (as the starts) stays where it is.
 
     Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is
     left, in the metric of the standard errors, is rounding; one that no step, however short, takes
@@ -203,12 +225,20 @@ def minimise(problem: Problem, starts: Any) -> Ends:
     live, left = np.isfinite(cost), np.full(len(points), np.inf)
     damping, growth = np.full(len(points), _FIRST_DAMPING), np.full(len(points), 2.0)
 
-    for _ in range(_ROUNDS):
+    fixed = np.zeros(points.shape, dtype=bool) if held is None else held
+    earlier = np.full(len(points), np.inf)
+
+    for count in range(rounds):
+        if count % _STALLED_ROUNDS == 0:
+            # Along a kink a search goes on by ever shorter steps.
+            slow = np.flatnonzero(live & (earlier - cost <= _STALLED * np.maximum(1.0, cost)))
+            live[slow[problem.kinks(points[slow])]] = False
+            earlier = cost.copy()
         rows = np.flatnonzero(live)
         trial, foreseen, left[rows] = _step(
-            problem, points[rows], outputs[rows], slopes[rows], damping[rows]
+            problem, points[rows], outputs[rows], slopes[rows], damping[rows], fixed[rows]
         )
-        live = live & (left > _CLOSE) & (damping <= _MOST_DAMPING)
+        live = live & (left > close) & (damping <= _MOST_DAMPING)
         going = live[rows]
         rows, trial, foreseen = rows[going], trial[going], foreseen[going]
         if not rows.size:
@@ -228,8 +258,8 @@ def minimise(problem: Problem, starts: Any) -> Ends:
         growth[taken] = 2.0
         damping[other] *= growth[other]
         growth[other] *= 2.0
-    close = max(_CLOSE_ENOUGH, _NOISY_STEP * problem.noise ** (2 / 3))
-    return Ends(points, outputs, slopes, cost, left <= close)
+    enough = max(close, _CLOSE_ENOUGH, _NOISY_STEP * problem.noise ** (2 / 3))
+    return Ends(points, outputs, slopes, cost, left <= enough)
 
 
 def _cost(problem: Problem, outputs: Any, slopes: Any) -> Any:
@@ -252,7 +282,7 @@ def _slope_error(outputs: Any, scale: Any, steps: Any, noise: float) -> Any:
 
 
 def _step(
-    problem: Problem, points: Any, outputs: Any, slopes: Any, damping: Any
+    problem: Problem, points: Any, outputs: Any, slopes: Any, damping: Any, fixed: Any
 ) -> tuple[Any, Any, Any]:
     """Where the damped step within the bounds leads, the predicted fall of chi-squared, and how
     much there is left to go.
@@ -262,8 +292,10 @@ def _step(
     """
     misfit, scaled = problem.misfit(outputs), slopes * problem.scale
     gradient = np.einsum("kmn,km->kn", scaled, misfit)
-    held = ((points <= problem.low) & (gradient > 0.0)) | (
-        (points >= problem.high) & (gradient < 0.0)
+    held = (
+        fixed
+        | ((points <= problem.low) & (gradient > 0.0))
+        | ((points >= problem.high) & (gradient < 0.0))
     )
     scaled = np.where(held[:, np.newaxis], 0.0, scaled)
     weight = np.linalg.norm(scaled, axis=1)
@@ -285,6 +317,7 @@ def _step(
         / weight
     )
     trial = np.clip(points + move * problem.scale, problem.low, problem.high)
+    trial = np.where(fixed, points, trial)
     change = np.einsum("kmn,kn->km", scaled, (trial - points) / problem.scale)
     return trial, -np.sum(change * (2.0 * misfit + change), axis=1), left
 
