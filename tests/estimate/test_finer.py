@@ -12,6 +12,7 @@ import warnings
 
 import numpy as np
 import pytest
+from scipy import stats
 
 import collisions as col
 from collisions import reconstruct
@@ -276,6 +277,8 @@ def test_islands_agree_on_seventeen_unknowns(seed):
     ratios = [found[name].std / std[k] for k, name in enumerate(names)]
     assert np.mean(ratios) == pytest.approx(1.0, abs=0.03)
     assert found.calls["finer"] < 10 * found.samples
+    # Chi-squared of the best sample lies 4 above the least, more or less by 1.
+    assert stats.chi2.isf(found.p_value, readings) == pytest.approx(misfit, abs=2.5)
 
 
 # --- the finer model alone

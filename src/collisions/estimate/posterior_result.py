@@ -117,8 +117,9 @@ class Posterior(SpeedsFound, Summarized):
         and priors, and its standard error from sampling. It has a meaning only beside that of
         another account of the same observations.
     p_value : float
-        Chance of a misfit as large as that of the best sample or larger, counting also how far each
-        unknown is from the middle of its prior; NaN if every observation has sharp bounds.
+        Chance of a misfit as large as the least or larger, counting also how far each unknown is
+        from the middle of its prior; NaN if every observation has sharp bounds. The least is that
+        of the best sample without what the best of so many samples is above it.
     refused : float
         Share of the prior for which the model has no answer, which rules it out. With a finer model
         it is that of the other one, and points there were tried too.
