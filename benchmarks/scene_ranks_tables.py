@@ -1,5 +1,5 @@
-"""The table of the ranks of whole scenes on the page "Scenes", made of what ``scene_ranks.py``
-wrote.
+"""The tables of the page "Scenes": ranks of whole scenes, and what a posterior costs, made of what
+``scene_ranks.py`` and ``scene_posterior.py`` wrote.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from coverage_in_crashes import binomial
 from evenness import uniformity
 
 WRITTEN = Path(__file__).resolve().parents[1] / "docs" / "_generated" / "scene_ranks.json"
+COST = WRITTEN.with_name("scene_posterior.json")
 _WORDS = {
     "A.speed": "speed of A",
     "B.speed": "speed of B",
@@ -21,9 +22,9 @@ _WORDS = {
 }
 
 
-def load() -> dict[str, Any]:
+def load(path: Path = WRITTEN) -> dict[str, Any]:
     """What was written."""
-    found: dict[str, Any] = json.loads(WRITTEN.read_text(encoding="utf-8"))
+    found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
     return found
 
 
@@ -52,3 +53,26 @@ def table(found: dict[str, Any]) -> str:
             f"{' '.join(map(str, tenths))} | {uniformity(tenths):.2f} |"
         )
     return "\n".join(lines)
+
+
+def cost(found: dict[str, Any]) -> str:
+    """What ``scene_posterior.py`` wrote: the cost of a posterior by itself, and by ``finer=``."""
+    words = {"plain": "by itself", "finer": "`finer=`, below it the scene with `tolerance=1e-3`"}
+    lines = [
+        "| posterior | runs a sample | of these finer | millions of formulas | budget |",
+        "|---|---:|---:|---:|---:|",
+    ]
+    for name, row in found["rows"].items():
+        calls = row["calls_a_sample"]
+        lines.append(
+            f"| {words[name]} | {sum(calls.values()):.0f} | {calls.get('finer', 0.0):.1f} | "
+            f"{row['million_formulas']:.0f} | {found['budgets'][name]:.0f} |"
+        )
+    return "\n".join(
+        [
+            *lines,
+            "",
+            f"With {found['samples']:,} samples; the means lie up to {found['apart']:.2f} standard "
+            "deviations apart.",
+        ]
+    )

@@ -46,6 +46,16 @@ def test_ranks_are_even_and_ranges_hold(scripts):
         assert tables.binomial(found["summary"]["held"][name], count)[1] >= 0.95, name
 
 
+def test_the_cost_of_a_posterior_is_that_written(scripts):
+    _, tables = scripts
+    found = tables.load(tables.COST)
+    assert found["samples"] == 4096
+    text = tables.cost(found)
+    for row in found["rows"].values():
+        assert f"| {row['million_formulas']:.0f} |" in text
+    assert found["apart"] < 0.2
+
+
 def test_parts_are_joined(scripts, tmp_path, monkeypatch, capsys):
     script, tables = scripts
     found = tables.load()

@@ -234,6 +234,7 @@ def test_three_unknowns_by_brute_force():
     assert not codes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_islands_agree_on_seventeen_unknowns(seed):
     """Nine readings of normal unknowns, linear: mean, deviation and evidence in closed form. With
