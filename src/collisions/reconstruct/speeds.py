@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import chain, combinations
@@ -63,6 +63,7 @@ from .speeds_components import (
     RATIO_SHOWN,
     ComponentScene,
     friction_shown,
+    together,
 )
 from .speeds_tyres import Attempt, in_balance, other_starts, speeds_with_tyres
 
@@ -88,7 +89,7 @@ class Ways(NamedTuple):
     components turned, which says of which components an answer results then.
     """
 
-    again: Callable[..., Impact]
+    again: Callable[..., tuple[Impact, ...]]
     turned: Callable[[], str]
 
 
@@ -191,7 +192,10 @@ def speeds(
         Where the recorder sits that the components of A, or of B, were read from: how far ahead of
         the centre of mass, and how far to its left (``recorded_pulse(...).place``). The components
         are then the readings at that place, and carried over to the centre of mass by the yaw of
-        the vehicle, which is part of the solution (Marine and Werner, SAE 980219).
+        the vehicle, which is part of the solution (Marine and Werner, SAE 980219). Several pairs of
+        speeds may have the same readings, each with a turn of its own: they are looked for where no
+        car turns by more than a quarter while the contact lasts, and one may be missed, as
+        ``.statements`` say.
     axes : {"turning", "fixed"}, optional
         Axes of the components: those of the car, which turn with it, as the accelerometers of a
         recorder sum up, or those of its heading at maximum engagement, which stay. By default
@@ -369,15 +373,32 @@ def speeds(
             in place of an infinite one. ``shares`` says that another case has a share of the
             critical ratio.
             """
+            if recorders is None or not np.any(own["duration"] > 0.0):
+                return looked_from({}, own, some, most, plain, shares)
+            starts = scene_of(own, some.shape or (), most).impulses()
+            looks = [
+                looked_from({"start": start}, own, some, most, plain, shares) for start in starts
+            ]
+            return _together(looks, own[inputs.rule])
+
+        def looked_from(
+            start: dict[str, Any],
+            own: dict[str, Any],
+            some: Cases,
+            most: float,
+            plain: bool,
+            shares: bool,
+        ) -> _Looked:
+            """The same of the impulse at which readings that may mean several begin."""
             shape, friction, fits_both = some.shape or (), None, False
             if components and inputs.rule == FRICTION and np.any(np.isinf(inputs.rule_value)):
                 ratio, fits_both = friction_shown(
-                    partial(of_components, most=most), own, used_law, names, shape, regime
+                    partial(of_components, most=most, **start), own, used_law, names, shape, regime
                 )
                 if ratio is not None:
                     friction = some.values(ratio)
                     own = {**own, FRICTION: friction}
-            scene = scene_of(own, shape, most, plain)
+            scene = scene_of(own, shape, most, plain, start)
             scene.shares = scene.shares or shares
             if isinstance(scene, ComponentScene):
                 scene.leaves_slip = scene.leaves_slip | fits_both
@@ -388,11 +409,15 @@ def speeds(
             return _Looked(scene, _in_order(scene, roots, forward_only), friction)
 
         def scene_of(
-            own: dict[str, Any], shape: tuple[int, ...], most: float, plain: bool = False
-        ) -> Scene:
+            own: dict[str, Any],
+            shape: tuple[int, ...],
+            most: float,
+            plain: bool = False,
+            start: Mapping[str, Any] = {},
+        ) -> Any:
             kind: Callable[..., Scene] = Scene
             if components:
-                kind = partial(of_components, regime=regime, slid=slid, most=most)
+                kind = partial(of_components, regime=regime, slid=slid, most=most, **start)
             return kind(own, inputs.rule, used_law, names, shape=shape, plain=plain)
 
         def attempt(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
@@ -401,17 +426,17 @@ def speeds(
             """
             own = {**numbers, **held}
             if not together:
-                scene, found, friction = _in_parts(
+                now = _in_parts(
                     own, cases, partial(looked, most=most), partial(scene_of, most=most)
                 )
             else:
                 try:
                     single = cases.shape is None and function is None
-                    scene, found, friction = looked(own, cases, most, single)
+                    now = looked(own, cases, most, single)
                 except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
-                    scene, found, friction = looked(own, cases, most)
-            of_inputs = inputs if friction is None else _with_friction(inputs, friction)
-            return Attempt(scene, found, of_inputs)
+                    now = looked(own, cases, most)
+            of_inputs = inputs if now.friction is None else _with_friction(inputs, now.friction)
+            return Attempt(now.scene, now.found, of_inputs, now.frictions)
 
         balanced = bool(times and components) and not {"energy_loss", "ees_a"} & known.keys()
 
@@ -430,7 +455,7 @@ def speeds(
             lateral = [name for name in known if name.startswith("delta_v_left")]
             best, said_of = math.inf, ""
             for names in (names for n in (1, 2) for names in combinations(lateral, n)):
-                scene, found, _ = solved({name: -known[name] for name in names})
+                scene, found, *_ = solved({name: -known[name] for name in names})
                 assert isinstance(scene, ComponentScene)
                 answer = found[0][0][:2] if found else scene.answer
                 fits = (bool(found) or bool(np.any(scene.ambiguous))) and min(answer) >= 0.0
@@ -439,11 +464,13 @@ def speeds(
             return said_of
 
         asked = inputs
-        scene, found, inputs = solved({})
+        attempted = solved({})
+        scene, found, inputs, _ = attempted
         if inputs is not asked:
             also = (FRICTION,)
         texts = by_own_names(reader.texts, recorders, bool(times))
         inputs = replace(inputs, given={**texts, **(inputs.given or {})} or None)
+        attempted = attempted._replace(inputs=inputs)
         told = known | {
             f"course_{label}": angle.radians
             for label, angle in courses.items()
@@ -456,9 +483,9 @@ def speeds(
         }
         told = by_own_names(told, recorders, bool(times))
 
-        def again(**changes: Any) -> Impact:
+        def again(**changes: Any) -> tuple[Impact, ...]:
             with quietly():
-                return speeds(**{**given, **changes})[0]
+                return speeds(**{**given, **changes})
 
         if inputs.tyres:
             state_of_study(f"speeds with tyres: {LOOKED_FOR}", "looked_for")
@@ -473,9 +500,8 @@ def speeds(
             state_motion("speeds")
         ways = Ways(again, turned)
         reconstruction = partial(cases.reconstruction, "speeds", given=told, also=also)
-        return _answers(
-            cases, scene, found, inputs, known, function, forward_only, ways, reconstruction
-        )
+        attempted = attempted._replace(found=found)
+        return _answers(cases, attempted, known, function, forward_only, ways, reconstruction)
 
 
 def _refuse_with_tyres(given: dict[str, Any]) -> None:
@@ -690,11 +716,44 @@ def _refuse_combinations(
 
 
 class _Looked(NamedTuple):
-    """A scene, its roots and where each is, and the friction that it showed, if any."""
+    """A scene, its roots and where each is, the friction that it showed, if any, and by the way of
+    a root, where it is of several scenes.
+    """
 
     scene: Scene
     found: list[tuple[Root, Any]]
     friction: Any
+    frictions: Sequence[Any] = ()
+
+
+def _together(looks: Sequence[_Looked], given: Any) -> _Looked:
+    """The roots that fit best of scenes with the same readings and each an impulse of its own."""
+    if len(looks) == 1:
+        return looks[0]
+    scenes = [look.scene for look in looks if isinstance(look.scene, ComponentScene)]
+    answered = [
+        np.logical_or.reduce(
+            [np.zeros(look.scene.shape, dtype=bool), *(at for _, at in look.found)]
+        )
+        for look in looks
+    ]
+    whole = together(scenes, answered)
+    roots = [
+        root._replace(
+            closing=np.where(
+                there & (scene.misfit <= np.maximum(ROOT_TOL, whole.misfit)),
+                root.closing,
+                np.nan,
+            ),
+            way=np.full(whole.shape, float(i)),
+        )
+        for i, (look, scene) in enumerate(zip(looks, scenes, strict=True))
+        for root, there in look.found
+    ]
+    shown = [look.friction for look in looks]
+    frictions = [given if one is None else one for one in shown]
+    one = next((one for one in shown if one is not None), None)
+    return _Looked(whole, _in_order(whole, roots, False), one, () if one is None else frictions)
 
 
 def _in_parts(
@@ -709,7 +768,8 @@ def _in_parts(
 
     def work(part: Part) -> dict[str, Any]:
         there = {name: part.of(value) for name, value in own.items()}
-        scene, found, friction = looked(there, Cases(part.shape, cases.dtype), shares=whole.shares)
+        some = Cases(part.shape, cases.dtype)
+        scene, found, friction, _ = looked(there, some, shares=whole.shares)
         parts = scene.findings()
         for i, (root, where) in enumerate(found):
             parts |= {f"{i}.{name}": value for name, value in root._asdict().items()}
@@ -782,7 +842,7 @@ def _in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple
     if len(fitting) == 1 and scene.plain and not forward_only:
         return [(fitting[0], np.True_)]
     whole = np.array([[np.broadcast_to(part, scene.shape) for part in root] for root in fitting])
-    speeds_a, speeds_b, _, _, closing, _ = np.moveaxis(whole, 1, 0)
+    speeds_a, speeds_b, _, _, closing, *_ = np.moveaxis(whole, 1, 0)
 
     def sort() -> None:
         """Sort the answers by closing speed in every case, those left out last."""
@@ -805,9 +865,7 @@ def _in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple
 
 def _answers(
     cases: Cases,
-    scene: Scene,
-    found: list[tuple[Root, Any]],
-    inputs: Inputs,
+    attempted: Attempt,
     known: dict[str, Any],
     function: RestitutionOf | None,
     forward_only: bool,
@@ -817,6 +875,7 @@ def _answers(
     """The impact of each root; raises for a single case without one. ``reconstruction`` makes what
     says how it was found.
     """
+    scene, found, inputs, _ = attempted
     faults = input_faults(scene.numbers, inputs.incomplete)
     of_walls = [
         np.isinf(scene.numbers[f"{name[-1]}.mass"])
@@ -842,7 +901,8 @@ def _answers(
             )
             bodies.append(moved(body, vx, vy, body.yaw_rate, given))
         e = inputs.restitution if function is None else cases.where(keep, root.restitution)
-        return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
+        own = attempted.inputs_of(root)
+        return replace(own, a=bodies[0], b=bodies[1], restitution=e)
 
     if inputs.tyres:
         faults += tyre_faults(inputs.duration, inputs.tyres)
@@ -851,6 +911,7 @@ def _answers(
     # Stuck and slid.
     count = np.where(scene.ambiguous, 2, count) if np.any(scene.ambiguous) else count
     impacts: list[Impact] = []
+    scenes: list[ComponentScene | None] = []
     backward, whose, turned = 0.0, "", nowhere
     for root, there in found or [(NO_ROOT, nowhere)]:
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
@@ -869,29 +930,31 @@ def _answers(
             raise _refusal(scene, status, known, function, forward_only, say, ways.turned)
         names = (*scene.names, *getattr(scene, "recorders", ()))
         origin = reconstruction(names, root.condition, count)
-        if isinstance(scene, ComponentScene):
-            origin = replace(origin, regime=scene.stated, one_sided=_sides(scene, cases, there))
+        own = scene.of_way(root.way) if isinstance(scene, ComponentScene) else None
+        if own is not None:
+            origin = replace(origin, regime=own.stated, one_sided=_sides(own, cases, there))
         impact = run_forward(
             partial(inputs_of, root), status, origin, None if cases.shape is None else "nan"
         )
         for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
-            if isinstance(scene, ComponentScene) and scene.sides:
+            if own is not None and own.sides:
                 # A family that begins backwards goes on forwards.
-                speed = np.where(
-                    scene.sides["AB".index(label)] > 0.0, np.maximum(speed, 0.0), speed
-                )
+                speed = np.where(own.sides["AB".index(label)] > 0.0, np.maximum(speed, 0.0), speed)
             backward, whose = min(
                 (backward, whose), (float(np.fmin.reduce(speed, axis=None, initial=0.0)), label)
             )
             turned = turned | np.less(speed, 0.0)
         impacts.append(impact)
+        scenes.append(own)
     if cases.shape is not None and np.any(impacts[0].refused):
         warn_of_refusals(impacts[0].status, ASK_ALONE)
     _warn_of_folds(scene, found, count)
     if isinstance(scene, ComponentScene):
         scene.warn(np.logical_not(impacts[0].refused), cases)
-        _warn_of_slip(scene, impacts[0], cases)
+        for own, impact in zip(scenes, impacts, strict=True):
+            if own is not None:
+                _warn_of_slip(own, impact, cases)
     if backward < 0.0:
         cure = (
             "backwards along its course; check the courses, and the normal, which must point "
@@ -925,7 +988,7 @@ def _if_it_slid(scene: ComponentScene, impact: Impact, say: Sentences) -> str:
     """What follows for the speeds of a single case if its contact slid."""
     sides = {
         f"speed_{label}": int(np.nan_to_num(side))
-        for label, side in zip("ab", scene.ways(), strict=True)
+        for label, side in zip("ab", scene.if_slid(), strict=True)
     }
     speeds = {f"speed_{one}": say(_along(impact, one), "speed") for one in "ab"}
     return " and ".join(bounds_of(sides, speeds))
@@ -976,16 +1039,28 @@ def _stuck_or_slid(
     scene: ComponentScene,
     known: dict[str, Any],
     say: Sentences,
-    again: Callable[..., Impact],
+    again: Callable[..., tuple[Impact, ...]],
 ) -> AmbiguousSolutionError:
     """The error for a single case in which the contact either stuck or slid."""
-    ratio = float(abs(scene.ratio))
+    ratios = [float(abs(one.ratio)) for one in scene.ways or [scene] if np.any(one.ambiguous)]
+    ratio = ratios[0]
     friction = float(scene.bound)
     stuck = again(regime="sticking")
-    slid = again(regime="sliding", slid="bound", friction=ratio)
-    speeds = {f"speed_{label}": say(_along(stuck, label), "speed") for label in "ab"}
-    assert slid.reconstruction is not None
-    bounds = " and ".join(bounds_of(slid.reconstruction.one_sided or {}, speeds))
+    slid = [again(regime="sliding", slid="bound", friction=one)[0] for one in ratios]
+    speeds = [
+        {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"}
+        for impact in (stuck if len(stuck) == len(slid) == 1 else slid)
+    ]
+    bounds = ", or ".join(
+        " and ".join(bounds_of(getattr(impact.reconstruction, "one_sided", None) or {}, one))
+        for impact, one in zip(slid, speeds, strict=True)
+    )
+    alone = ", or ".join(
+        f"the speed of A is {say(_along(impact, 'a'), 'speed')} and that of B "
+        f"{say(_along(impact, 'b'), 'speed')}"
+        for impact in stuck
+    )
+    shown = " or ".join(f"{one:.2f}" for one in ratios)
     allowed = (
         "`friction=inf` does not say that it stuck"
         if math.isinf(friction)
@@ -993,15 +1068,14 @@ def _stuck_or_slid(
     )
     return AmbiguousSolutionError(
         f"{' and '.join(known)} do not tell whether the contact stuck or slid: they "
-        f"have an impulse ratio of {ratio:.2f}, and {allowed}. If it stuck, the speed "
-        f"of A is {speeds['speed_a']} and that of B {speeds['speed_b']}; if it slid at "
+        f"have an impulse ratio of {shown}, and {allowed}. If it stuck, {alone}; if it slid at "
         f"that ratio, {bounds}. Write `regime='sticking'` or `regime='sliding'` if you "
         "know which, the latter with one of the speeds or the energy lost; or "
         "`slid='bound'` for this end of the speeds that it may have had"
         "`|. Both answers are in .solutions|`",
         code=Status.AMBIGUOUS.label,
         ratio=ratio,
-        solutions=(stuck, slid),
+        solutions=(*stuck, *slid),
     )
 
 

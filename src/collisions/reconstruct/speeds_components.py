@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -100,6 +101,10 @@ class ComponentScene(Scene):
         self.answer: tuple[Any, Any] = (math.nan, math.nan)
         # Which way the truth may lie from each speed, where it may be another member of the family.
         self.sides: tuple[Any, Any] | None = None
+        # The misfit of a contact that leaves the slip open.
+        self.left_open: Any = np.full((), np.inf)
+        # The scenes that this one stands for, each with its own impulse from the same readings.
+        self.ways: list[ComponentScene] = []
         nx, ny = self.given["normal[0]"], self.given["normal[1]"]
         self._axes, self._momenta = [], []
         for kind in self.components:
@@ -158,6 +163,7 @@ class ComponentScene(Scene):
         found, misfits, _ = zip(*tried, *edges, strict=True)
         self.misfit = np.minimum.reduce(np.broadcast_arrays(*misfits))
         none = np.isinf(self.misfit)
+        self.left_open = open_slip
         self.undetermined = none & (open_slip <= self.most)
         if not self.slid:
             self.undetermined = self.undetermined | (open_slip <= REDUNDANT)
@@ -224,7 +230,20 @@ class ComponentScene(Scene):
         effects = [abs(one.closing - rest.closing) for one in moving]
         return effects[self.unknown[0]] <= _NO_EFFECT * np.maximum(*effects)
 
-    def ways(self) -> tuple[Any, Any]:
+    def of_way(self, way: Any) -> ComponentScene:
+        """This scene as it is for a root, by the ``way`` of that."""
+        if not self.ways:
+            return self
+        chosen = copy(self)
+        for name in (*_FOUND, "bound"):
+            setattr(chosen, name, by_way(way, [getattr(one, name) for one in self.ways]))
+        if self.slid:
+            sides = (one.sides or (np.zeros(()), np.zeros(())) for one in self.ways)
+            first, second = (by_way(way, both) for both in zip(*sides, strict=True))
+            chosen.sides = first, second
+        return chosen
+
+    def if_slid(self) -> tuple[Any, Any]:
         """To which side of the answer each speed lies if the contact slid at the ratio of the
         answer: 1 above, -1 below, 0 where it stays.
         """
@@ -335,8 +354,8 @@ class ComponentScene(Scene):
         if not stated or len(self.components) < 2:
             return np.zeros((), dtype=bool)
         columns = [list(parts) for parts in zip(*self._axes, strict=True)]
-        rows, flat = _inverse(columns, [abs(part) for column in columns for part in column])
-        normal, tangential = (_dot(row, self._momenta) for row in rows)
+        rows, flat = pseudoinverse(columns, [abs(part) for column in columns for part in column])
+        normal, tangential = (dot(row, self._momenta) for row in rows)
         apart = abs(abs(tangential) - self.bound * normal) / np.hypot(normal, tangential)
         return np.isfinite(self.bound) & np.logical_not(flat) & (apart > ACCURACY)
 
@@ -347,7 +366,7 @@ class ComponentScene(Scene):
         for _ in range(_REFINEMENTS):
             left = self._left(self.observe(regime, *speeds))
             for at, row in zip(self.unknown, inverse, strict=True):
-                step = _dot(row, left)
+                step = dot(row, left)
                 speeds[at] = speeds[at] + np.where(np.isfinite(step), step, 0.0)
         moved = self._moved(inverse, effects, self._momenta)
         return self._judged(regime, speeds, moved, stays_open)
@@ -361,7 +380,7 @@ class ComponentScene(Scene):
             )
             # A known speed enters by what it takes off the momenta.
             by_speeds = sum(
-                abs(_dot(row, effect) * speed)
+                abs(dot(row, effect) * speed)
                 for effect, speed in zip(effects, self.known, strict=True)
             )
             moved = np.maximum(moved, by_momenta + by_speeds)
@@ -376,7 +395,7 @@ class ComponentScene(Scene):
             [at - still for at, still in zip(momenta, rest, strict=True)] for momenta in moving
         ]
         columns = [effects[at] for at in self.unknown]
-        inverse, stays_open = _inverse(
+        inverse, stays_open = pseudoinverse(
             columns, [abs(part) for effect in effects for part in effect]
         )
         return rest, effects, inverse, stays_open
@@ -559,18 +578,57 @@ def friction_shown(
     return (np.where(settled, shown, friction) if np.any(settled) else None), open_ & ~settled
 
 
-def _dot(one: Sequence[Any], other: Sequence[Any]) -> Any:
+def by_way(way: Any, values: Sequence[Any]) -> Any:
+    """Of each case the value that goes with the way of its root."""
+    whole = np.stack(np.broadcast_arrays(*values, way)[:-1])
+    at = np.broadcast_to(np.asarray(way, dtype=np.int64), whole.shape[1:])
+    return np.take_along_axis(whole, at[None], axis=0)[0]
+
+
+def together(scenes: Sequence[ComponentScene], answered: Sequence[Any]) -> ComponentScene:
+    """One scene for several that have the same readings and each an impulse of its own, and where
+    they are ``answered``.
+    """
+    misfits = np.stack(np.broadcast_arrays(*(one.misfit for one in scenes)))
+    usable = [there | one.ambiguous for there, one in zip(answered, scenes, strict=True)]
+    fitting = np.where(np.stack(np.broadcast_arrays(*usable, misfits[0])[:-1]), misfits, np.inf)
+    least = np.min(fitting, axis=0)
+    none = np.isinf(least)
+    best = fitting <= np.maximum(ROOT_TOL, least)
+    # Of a single case, the texts are of the scene that fits best.
+    at = int(np.argmin(np.where(none, misfits, fitting), axis=0)) if np.ndim(least) == 0 else 0
+    whole = copy(scenes[at])
+    whole.ways = list(scenes)
+    whole.misfit = np.where(none, np.min(misfits, axis=0), least)
+    whole.undetermined = np.logical_or.reduce(
+        np.broadcast_arrays(
+            *(one.undetermined & (none | (one.left_open <= ACCURACY)) for one in scenes)
+        )
+    )
+    whole.ambiguous = np.logical_or.reduce(
+        [one.ambiguous & here & ~none for one, here in zip(scenes, best, strict=True)]
+    )
+    whole.leaves_slip = np.logical_or.reduce(
+        np.broadcast_arrays(*(one.leaves_slip for one in scenes))
+    )
+    return whole
+
+
+def dot(one: Sequence[Any], other: Sequence[Any]) -> Any:
+    """The scalar product."""
     return sum(a * b for a, b in zip(one, other, strict=True))
 
 
-def _inverse(columns: Sequence[Sequence[Any]], sizes: Sequence[Any]) -> tuple[list[list[Any]], Any]:
+def pseudoinverse(
+    columns: Sequence[Sequence[Any]], sizes: Sequence[Any]
+) -> tuple[list[list[Any]], Any]:
     """The rows of the pseudoinverse of one or two columns, by their orthogonal parts, and where
     these have no full rank.
 
     Without full rank they are those of the longer column alone.
     """
     least = (_NO_EFFECT * np.maximum.reduce(np.broadcast_arrays(*sizes))) ** 2
-    squares = [_dot(column, column) for column in columns]
+    squares = [dot(column, column) for column in columns]
     if len(columns) == 1:
         return [[part / squares[0] for part in columns[0]]], ~(squares[0] > least)
     swapped = squares[1] > squares[0]
@@ -579,9 +637,9 @@ def _inverse(columns: Sequence[Sequence[Any]], sizes: Sequence[Any]) -> tuple[li
         for pair in (columns, columns[::-1])
     )
     square = np.maximum(*squares)
-    along = _dot(first, second) / square
+    along = dot(first, second) / square
     across = [b - along * a for a, b in zip(first, second, strict=True)]
-    crossed = _dot(across, across)
+    crossed = dot(across, across)
     flat = ~(crossed > np.maximum(_NO_EFFECT**2 * square, 0.0))
     of_second = [np.where(flat, 0.0, part / crossed) for part in across]
     of_first = [part / square - along * other for part, other in zip(first, of_second, strict=True)]

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -21,11 +22,13 @@ from ..impact.run import solve_inputs
 from ..impact.time_resolved_inputs import held_impulse
 from ..kernels.reverse import energy_of_speeds
 from ..messages.warning import quietly
+from ..quantities.attributes import read_only
 from ..quantities.directions import from_radians
 from ..vehicle.vehicle import moved
 from .common import Cases
 from .lasting import settle, slopes_at
 from .speeds_algebra import EITHER, HELD, Root, Scene
+from .speeds_components import ComponentScene, by_way
 
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
 # it has not settled; and how often it is worked out. Nearly all cases need fewer than 20.
@@ -56,13 +59,22 @@ class Found(NamedTuple):
 
 
 class Attempt(NamedTuple):
-    """A scene with what acts in it, its roots and where each is, and the inputs with the friction
-    that was used.
+    """A scene with what acts in it, its roots and where each is, the inputs with the friction that
+    was used, and the frictions by the way of a root, where they differ.
     """
 
     scene: Scene
     found: list[tuple[Root, Any]]
     inputs: Inputs
+    frictions: Sequence[Any] = ()
+
+    def inputs_of(self, root: Root) -> Inputs:
+        """The inputs with the friction of a root."""
+        if not self.frictions:
+            return self.inputs
+        friction = by_way(root.way, self.frictions)
+        own: Any = read_only(friction) if np.ndim(friction) else float(friction)
+        return replace(self.inputs, rule_value=own)
 
 
 def in_balance(
@@ -77,6 +89,8 @@ def in_balance(
     instant = attempt({}, math.inf)
     results: list[Attempt] = []
     kept: list[tuple[Root, Any]] = []
+    scenes: list[ComponentScene | None] = []
+    frictions: list[Any] = []
     for slot in range(max(len(instant.found), 1)):
         held, settled = _settled(attempt, instant, slot, numbers, cases)
         last = attempt(held)
@@ -85,13 +99,26 @@ def in_balance(
             continue
         root, there = last.found[slot]
         there = there & settled
+        scenes.append(
+            last.scene.of_way(root.way) if isinstance(last.scene, ComponentScene) else None
+        )
+        frictions.append(last.inputs_of(root).rule_value)
+        root = root._replace(way=np.full(np.shape(there), float(len(kept))))
         size = np.hypot(root.speed_a, root.speed_b)
         for earlier, before in kept:
             apart = abs(earlier.speed_a - root.speed_a) + abs(earlier.speed_b - root.speed_b)
             there = there & ~(before & (apart <= _ONE_ANSWER * size))
         if np.any(there):
             kept.append((root, there))
-    return results[0]._replace(found=kept)
+        else:
+            del scenes[-1], frictions[-1]
+    first = results[0]
+    if len(kept) < 2 and not first.frictions:
+        return first._replace(found=kept)
+    scene = copy(first.scene)
+    if isinstance(scene, ComponentScene):
+        scene.ways = [one for one in scenes if one is not None]
+    return Attempt(scene, kept, first.inputs, frictions)
 
 
 def _settled(
@@ -109,7 +136,7 @@ def _settled(
     """
     shape = cases.shape or ()
     held = {name: np.zeros(shape) for name in (*HELD, EITHER)}
-    slid, turns = _shows_slip(now, shape), np.zeros(shape)
+    slid, turns = _shows_slip(now, slot, shape), np.zeros(shape)
     moving, settled = np.ones(shape, dtype=bool), np.zeros(shape, dtype=bool)
     for _ in range(_ROUNDS):
         if slot >= len(now.found):
@@ -126,15 +153,16 @@ def _settled(
         if not np.any(moving):
             break
         now = attempt(held if shape else {name: float(one) for name, one in held.items()}, math.inf)
-        before, slid = slid, _shows_slip(now, shape)
+        before, slid = slid, _shows_slip(now, slot, shape)
         turns = turns + (moving & (slid != before))
         held[EITHER] = np.where(turns > _TURNS, 1.0, held[EITHER])
     return (held if shape else {name: float(one) for name, one in held.items()}), settled
 
 
-def _shows_slip(now: Attempt, shape: tuple[int, ...]) -> Any:
+def _shows_slip(now: Attempt, slot: int, shape: tuple[int, ...]) -> Any:
     """Where a friction is used: one that was given, or the ratio of a contact that slid."""
-    return np.broadcast_to(np.isfinite(now.inputs.rule_value), shape)
+    inputs = now.inputs_of(now.found[slot][0]) if slot < len(now.found) else now.inputs
+    return np.broadcast_to(np.isfinite(inputs.rule_value), shape)
 
 
 def _pushes(
@@ -150,7 +178,12 @@ def _pushes(
         vx, vy = (cases.values(speed * part) for part in course)
         bodies.append(moved(body, vx, vy, body.yaw_rate))
     inputs = replace(
-        now.inputs, a=bodies[0], b=bodies[1], given=None, contact_velocity=None, duration=None
+        now.inputs_of(root),
+        a=bodies[0],
+        b=bodies[1],
+        given=None,
+        contact_velocity=None,
+        duration=None,
     )
     bare = replace(inputs, tyres_a=None, tyres_b=None)
     with quietly(), np.errstate(all="ignore"):
