@@ -1042,11 +1042,22 @@ def _stuck_or_slid(
     again: Callable[..., tuple[Impact, ...]],
 ) -> AmbiguousSolutionError:
     """The error for a single case in which the contact either stuck or slid."""
-    ratios = [float(abs(one.ratio)) for one in scene.ways or [scene] if np.any(one.ambiguous)]
+    # Several ways may lead to one answer.
+    ratios = list(
+        {
+            f"{float(abs(one.ratio)):.9g}": float(abs(one.ratio))
+            for one in scene.ways or [scene]
+            if np.any(one.ambiguous)
+        }.values()
+    )
     ratio = ratios[0]
     friction = float(scene.bound)
     stuck = again(regime="sticking")
-    slid = [again(regime="sliding", slid="bound", friction=one)[0] for one in ratios]
+    if math.isinf(friction) and len(scene.unknown) == 1:
+        # Beside a speed the ratio of a contact that slid is not that of the one that stuck.
+        slid = [*again(regime="sliding", slid="bound")]
+    else:
+        slid = [again(regime="sliding", slid="bound", friction=one)[0] for one in ratios]
     speeds = [
         {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"}
         for impact in (stuck if len(stuck) == len(slid) == 1 else slid)
