@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from itertools import chain, combinations
@@ -79,6 +80,8 @@ _TWO_OF = (
 _COMPONENTS = tuple(f"delta_v_{part}_{label}" for label in "ab" for part in ("forward", "left"))
 # Above this restitution hardly any energy is lost along the normal.
 _ELASTIC = 1.0 - 1e-6
+# Why a contact that slid has no direction.
+EITHER_WAY = "both fit within the accuracy stated for recorders (reference.RECORDER_ACCURACY)"
 # Distances of two answers whose ratio is less: the fold, quadratic, is as near as the samples are
 # apart.
 _NEAR_FOLD = 0.7
@@ -86,11 +89,13 @@ _NEAR_FOLD = 0.7
 
 class Ways(NamedTuple):
     """Other ways to solve a single case: with other arguments, and with the signs of lateral
-    components turned, which says of which components an answer results then.
+    components turned, which says of which components an answer results then; and with a contact
+    that slid in one direction alone, by the sign of its impulse ratio.
     """
 
     again: Callable[..., tuple[Impact, ...]]
     turned: Callable[[], str]
+    one_way: Callable[[float], tuple[Impact, ...]]
 
 
 @hinted
@@ -245,7 +250,8 @@ def speeds(
     AmbiguousSolutionError
         Components do not tell whether the contact stuck or slid. Both answers are in ``solutions``,
         first the one that stuck. They have the same numbers, but those of the other are the end of
-        its family.
+        its family. Or a bound was asked for, and sliding fits in either direction within
+        ``reference.RECORDER_ACCURACY``: ``solutions`` has the bounds of both.
 
     Warns
     -----
@@ -260,8 +266,9 @@ def speeds(
         needs an impulse ratio at which contacts between vehicles slide, from
         ``reference.INTER_VEHICLE_FRICTION.low`` on. Or a bound was asked for, or a case of a batch
         has no answer beside a known speed, and the ratio is further from the friction than
-        recorders may be; or cases of a batch leave open whether the contact stuck or slid. Or, with
-        no speed known, the courses are near one line.
+        recorders may be; or cases of a batch leave open whether the contact stuck or slid, or in
+        which direction (code "slid_either_way"). Or, with no speed known, the courses are near one
+        line.
     CollisionsWarning
         Some cases of a batch have no answer; they are NaN, and ``status`` of the first impact says
         why.
@@ -366,23 +373,31 @@ def speeds(
         # A function is called with all cases; the turn of cars is looked for until all have it.
         together = is_one_part(cases.shape or ()) or function is not None or recorders is not None
 
+        asked = inputs
+
         def looked(
-            own: dict[str, Any], some: Cases, most: float, plain: bool = False, shares: bool = False
+            own: dict[str, Any],
+            some: Cases,
+            most: float,
+            plain: bool = False,
+            shares: bool = False,
+            only: Mapping[str, Any] = {},
         ) -> _Looked:
             """The scene of these numbers and its roots, with the friction that the components show
             in place of an infinite one. ``shares`` says that another case has a share of the
-            critical ratio.
+            critical ratio, ``only`` in which direction a contact that slid did.
             """
             if recorders is None or not np.any(own["duration"] > 0.0):
-                return looked_from({}, own, some, most, plain, shares)
+                return looked_from(only, own, some, most, plain, shares)
             starts = scene_of(own, some.shape or (), most).impulses()
             looks = [
-                looked_from({"start": start}, own, some, most, plain, shares) for start in starts
+                looked_from({"start": start, **only}, own, some, most, plain, shares)
+                for start in starts
             ]
-            return _together(looks, own[inputs.rule])
+            return _together(looks, own[asked.rule])
 
         def looked_from(
-            start: dict[str, Any],
+            start: Mapping[str, Any],
             own: dict[str, Any],
             some: Cases,
             most: float,
@@ -391,7 +406,7 @@ def speeds(
         ) -> _Looked:
             """The same of the impulse at which readings that may mean several begin."""
             shape, friction, fits_both = some.shape or (), None, False
-            if components and inputs.rule == FRICTION and np.any(np.isinf(inputs.rule_value)):
+            if components and asked.rule == FRICTION and np.any(np.isinf(asked.rule_value)):
                 ratio, fits_both = friction_shown(
                     partial(of_components, most=most, **start), own, used_law, names, shape, regime
                 )
@@ -402,6 +417,7 @@ def speeds(
             scene.shares = scene.shares or shares
             if isinstance(scene, ComponentScene):
                 scene.leaves_slip = scene.leaves_slip | fits_both
+                scene.shows_friction = np.isinf(asked.rule_value) & (friction is not None)
             roots = scene.roots() if function is None else _with_function(scene, function)
             if most == math.inf:
                 # Whether it stuck or slid is asked when the tyres are known.
@@ -418,33 +434,35 @@ def speeds(
             kind: Callable[..., Scene] = Scene
             if components:
                 kind = partial(of_components, regime=regime, slid=slid, most=most, **start)
-            return kind(own, inputs.rule, used_law, names, shape=shape, plain=plain)
+            return kind(own, asked.rule, used_law, names, shape=shape, plain=plain)
 
-        def attempt(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
+        def attempt(
+            held: dict[str, Any], most: float = CONTRADICTION, only: Mapping[str, Any] = {}
+        ) -> Attempt:
             """The scene and its roots where these impulses of tyres act, and where known values may
             differ by so much.
             """
             own = {**numbers, **held}
             if not together:
                 now = _in_parts(
-                    own, cases, partial(looked, most=most), partial(scene_of, most=most)
+                    own, cases, partial(looked, most=most, only=only), partial(scene_of, most=most)
                 )
             else:
                 try:
                     single = cases.shape is None and function is None
-                    now = looked(own, cases, most, single)
+                    now = looked(own, cases, most, single, only=only)
                 except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
-                    now = looked(own, cases, most)
-            of_inputs = inputs if now.friction is None else _with_friction(inputs, now.friction)
+                    now = looked(own, cases, most, only=only)
+            of_inputs = asked if now.friction is None else _with_friction(asked, now.friction)
             return Attempt(now.scene, now.found, of_inputs, now.frictions)
 
         balanced = bool(times and components) and not {"energy_loss", "ees_a"} & known.keys()
 
-        def solved(changes: dict[str, Any]) -> Attempt:
+        def solved(changes: dict[str, Any], only: Mapping[str, Any] = {}) -> Attempt:
             """The same with some numbers changed, in balance with the tyres."""
 
             def changed(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
-                return attempt({**held, **changes}, most)
+                return attempt({**held, **changes}, most, only)
 
             return in_balance(changed, numbers, cases) if balanced else changed({})
 
@@ -463,14 +481,18 @@ def speeds(
                     best, said_of = float(scene.misfit), " and ".join(names)
             return said_of
 
-        asked = inputs
         attempted = solved({})
         scene, found, inputs, _ = attempted
         if inputs is not asked:
             also = (FRICTION,)
         texts = by_own_names(reader.texts, recorders, bool(times))
-        inputs = replace(inputs, given={**texts, **(inputs.given or {})} or None)
-        attempted = attempted._replace(inputs=inputs)
+
+        def with_texts(one: Attempt) -> Attempt:
+            own = {**texts, **(one.inputs.given or {})} or None
+            return one._replace(inputs=replace(one.inputs, given=own))
+
+        attempted = with_texts(attempted)
+        inputs = attempted.inputs
         told = known | {
             f"course_{label}": angle.radians
             for label, angle in courses.items()
@@ -485,7 +507,10 @@ def speeds(
 
         def again(**changes: Any) -> tuple[Impact, ...]:
             with quietly():
-                return speeds(**{**given, **changes})
+                try:
+                    return speeds(**{**given, **changes})
+                except AmbiguousSolutionError as error:
+                    return error.solutions
 
         if inputs.tyres:
             state_of_study(f"speeds with tyres: {LOOKED_FOR}", "looked_for")
@@ -498,10 +523,18 @@ def speeds(
             state_instant("speeds")
         if inputs.tyres:
             state_motion("speeds")
-        ways = Ways(again, turned)
         reconstruction = partial(cases.reconstruction, "speeds", given=told, also=also)
-        attempted = attempted._replace(found=found)
-        return _answers(cases, attempted, known, function, forward_only, ways, reconstruction)
+
+        def answered(one: Attempt) -> tuple[Impact, ...]:
+            return _answers(cases, one, known, function, forward_only, ways, reconstruction)
+
+        def one_way(direction: float) -> tuple[Impact, ...]:
+            with quietly(), suppress(CollisionsError):
+                return answered(with_texts(solved({}, {"direction": direction})))
+            return ()
+
+        ways = Ways(again, turned, one_way)
+        return answered(attempted._replace(found=found))
 
 
 def _refuse_with_tyres(given: dict[str, Any]) -> None:
@@ -917,6 +950,8 @@ def _answers(
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
             say = Sentences(inputs.texts)
+            if status == Status.AMBIGUOUS and np.any(getattr(scene, "both_ways", False)):
+                raise _slid_either_way(known, say, ways.one_way)
             if status == Status.AMBIGUOUS and isinstance(scene, ComponentScene):
                 raise _stuck_or_slid(scene, known, say, ways.again)
             if inputs.tyres and status == Status.CONTRADICTORY:
@@ -986,6 +1021,8 @@ def _sides(scene: ComponentScene, cases: Cases, there: Any) -> dict[str, Any] | 
 
 def _if_it_slid(scene: ComponentScene, impact: Impact, say: Sentences) -> str:
     """What follows for the speeds of a single case if its contact slid."""
+    if scene.slides_both_ways():
+        return f"it may have in either direction, since {EITHER_WAY}, and the speeds are open"
     sides = {
         f"speed_{label}": int(np.nan_to_num(side))
         for label, side in zip("ab", scene.if_slid(), strict=True)
@@ -1022,6 +1059,15 @@ def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
             cases.how_many(slides) + text, code="may_slide", ratio=ratio
         )
         warn_of_cases(warning, {sentence: cases.number(slides)})
+    if cases.shape is not None and np.any(scene.both_ways):
+        text = (
+            f"components of delta-V do not tell in which direction the contact slid: {EITHER_WAY}, "
+            "so a bound has no side; give another component, or one of the speeds"
+        )
+        warning = IllConditionedWarning(
+            cases.how_many(scene.both_ways) + text, code="slid_either_way"
+        )
+        warn_of_cases(warning, {text: cases.number(scene.both_ways)})
     if cases.shape is not None and scene.rule == FRICTION and not scene.slid:
         left = (scene.ambiguous | scene.undetermined) & np.logical_not(answered)
         if np.any(left & scene.leaves_slip):
@@ -1087,6 +1133,29 @@ def _stuck_or_slid(
         code=Status.AMBIGUOUS.label,
         ratio=ratio,
         solutions=(*stuck, *slid),
+    )
+
+
+def _slid_either_way(
+    known: dict[str, Any], say: Sentences, one_way: Callable[[float], tuple[Impact, ...]]
+) -> AmbiguousSolutionError:
+    """The error for a single case of which a bound has no side."""
+    solutions = [*one_way(1.0), *one_way(-1.0)]
+    bounds = ", or ".join(
+        " and ".join(
+            bounds_of(
+                getattr(impact.reconstruction, "one_sided", None) or {},
+                {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"},
+            )
+        )
+        for impact in solutions
+    )
+    return AmbiguousSolutionError(
+        f"{' and '.join(known)} do not tell in which direction the contact slid: {EITHER_WAY}. "
+        f"So {bounds}. Give another component of delta-V, or one of the speeds"
+        "`|. Both answers are in .solutions|`",
+        code=Status.AMBIGUOUS.label,
+        solutions=tuple(solutions),
     )
 
 

@@ -61,7 +61,7 @@ _REFINEMENTS = 3
 # What to write where the components show another ratio than the friction.
 RATIO_SHOWN = "Write `friction=inf, slid='bound'`, which takes the ratio that the components show"
 # What ``roots`` finds of every case.
-_FOUND = ("misfit", "ended", "ratio", "may_slide", "leaves_slip")
+_FOUND = ("misfit", "ended", "ratio", "may_slide", "leaves_slip", "both_ways")
 
 
 class ComponentScene(Scene):
@@ -80,8 +80,11 @@ class ComponentScene(Scene):
         regime: str | None = None,
         slid: str | None = None,
         most: float = CONTRADICTION,
+        direction: float | None = None,
     ) -> None:
         super().__init__(given, rule, law, names, shape)
+        # That of the slip which is tried, by the sign of its impulse ratio; None for both.
+        self._direction = direction
         # What known values may differ by.
         self.most = most
         self.stated, self.slid = regime, slid
@@ -99,6 +102,10 @@ class ComponentScene(Scene):
         self.energy = self.targets.get("energy_loss")
         self.leaves_slip: Any = len(self.unknown) > 1 and self.energy is None
         self.answer: tuple[Any, Any] = (math.nan, math.nan)
+        # Where a bound was asked for and sliding fits either way, so that it has no side.
+        self.both_ways: Any = np.zeros((), dtype=bool)
+        # Where the friction is the ratio that the components show.
+        self.shows_friction: Any = np.zeros((), dtype=bool)
         # Which way the truth may lie from each speed, where it may be another member of the family.
         self.sides: tuple[Any, Any] | None = None
         # The misfit of a contact that leaves the slip open.
@@ -154,8 +161,14 @@ class ComponentScene(Scene):
         elif self.slid:
             ends = [self._end(regime) for regime in regimes if not isinstance(regime, str)]
             ends = [(root, np.where(sticks, np.inf, misfit), left) for root, misfit, left in ends]
+            if len(ends) > 1:
+                self.both_ways = np.logical_and(*(misfit <= ACCURACY for _, misfit, _ in ends))
+                if np.any(self.shows_friction):
+                    one = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
+                    shown = one & self.slides_both_ways()
+                    self.both_ways = np.where(self.shows_friction, shown, self.both_ways)
             if ends:
-                self.ended = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
+                self.ended = np.isfinite(np.minimum.reduce([misfit for _, misfit, _ in ends]))
             edges = [
                 (root, np.where(self.ended, np.inf, misfit), left) for root, misfit, left in edges
             ]
@@ -170,6 +183,8 @@ class ComponentScene(Scene):
         best = [misfit <= np.maximum(ROOT_TOL, self.misfit) for misfit in misfits]
         if self.rule == FRICTION:
             self._weigh(sticks, open_slip <= ACCURACY, found, best)
+        self.both_ways = self.both_ways & self.leaves_slip
+        self.ambiguous = self.ambiguous | self.both_ways
         return [
             root._replace(closing=np.where(here, root.closing, np.nan))
             for root, here in zip(found, best, strict=True)
@@ -180,6 +195,8 @@ class ComponentScene(Scene):
         regimes = self.regimes()
         if self.rule != FRICTION:
             return regimes
+        if self._direction is not None:
+            del regimes[1 if self._direction > 0.0 else 0]
         if self.stated is not None:
             return [one for one in regimes if (one is STICK) == (self.stated == "sticking")]
         # Without a ratio to slide at, nothing slides.
@@ -242,6 +259,12 @@ class ComponentScene(Scene):
             first, second = (by_way(way, both) for both in zip(*sides, strict=True))
             chosen.sides = first, second
         return chosen
+
+    def slides_both_ways(self) -> Any:
+        """Whether a contact that slid at a ratio of either sign fits, and so one without any."""
+        smooth = np.zeros(())
+        speeds = self._solved(smooth)[0][:2]
+        return self._misfit(self.observe(smooth, *speeds)) <= ACCURACY
 
     def if_slid(self) -> tuple[Any, Any]:
         """To which side of the answer each speed lies if the contact slid at the ratio of the
@@ -607,6 +630,9 @@ def together(scenes: Sequence[ComponentScene], answered: Sequence[Any]) -> Compo
     )
     whole.ambiguous = np.logical_or.reduce(
         [one.ambiguous & here & ~none for one, here in zip(scenes, best, strict=True)]
+    )
+    whole.both_ways = np.logical_or.reduce(
+        [one.both_ways & here & ~none for one, here in zip(scenes, best, strict=True)]
     )
     whole.leaves_slip = np.logical_or.reduce(
         np.broadcast_arrays(*(one.leaves_slip for one in scenes))
