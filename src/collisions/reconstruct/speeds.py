@@ -1201,6 +1201,16 @@ def _while_tyres_act(
         fits = fits & answer.sticks
         if regime is None:
             fits = fits & np.any([there for _, there in found] or [False], axis=0)
+    if answer.misfit is not None:
+        if regime is not None:
+            # Other starts may lead to a contact that ended otherwise than was stated.
+            so = np.broadcast_to(answer.sticks == (regime == "sticking"), fits.shape).copy()
+            so[: len(found)] = True
+            fits = fits & so
+        fits = fits & (answer.misfit <= CONTRADICTION)
+        fits, least = _best_of(answer.misfit, fits)
+        if isinstance(scene, ComponentScene):
+            scene.misfit = np.where(np.isfinite(least), least, scene.misfit)
     roots = []
     for i in range(len(starts)):
         instant = found[i][0] if i < len(found) else NO_ROOT
@@ -1215,6 +1225,16 @@ def _while_tyres_act(
             )
         )
     return _in_order(scene, roots, forward_only)
+
+
+def _best_of(misfit: Any, fits: Any) -> tuple[Any, Any]:
+    """Of what was found from several starts, all that fit exactly, or else the one that fits best,
+    and by how much that misses.
+    """
+    misfit = np.where(fits, misfit, np.inf)
+    least = np.min(misfit, axis=0)
+    best = np.arange(len(misfit)).reshape(-1, *[1] * np.ndim(least)) == np.argmin(misfit, axis=0)
+    return fits & np.where(least <= ROOT_TOL, misfit <= ROOT_TOL, best), least
 
 
 def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> None:

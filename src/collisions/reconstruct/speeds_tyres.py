@@ -36,6 +36,8 @@ _SAME, _STEADY, _ROUNDS = 1e-12, 1e-9, 64
 # How often a contact may turn from stuck to slid or back before it counts as either: the tyres of
 # the instant, which has none, may turn it once and their correction back.
 _TURNS = 2
+# How often the directions are taken anew in which more components than are needed are met.
+_TURNED = 3
 # Of the speeds: answers that differ by no more are one.
 _ONE_ANSWER = 1e-6
 # The second of a pair that together is one energy.
@@ -47,7 +49,8 @@ _PARTS = (0.1, 0.3, 0.6, 1.0, 1.5)
 
 class Found(NamedTuple):
     """Speeds of A and B along their courses, where they have what was known, the closing speed,
-    where the contact sticks, and the condition, None where it is that of the instant.
+    where the contact sticks, the condition, None where it is that of the instant, and by how much
+    of the impulse the components are missed that are more than is needed, None where none is.
     """
 
     speed_a: Any
@@ -56,6 +59,7 @@ class Found(NamedTuple):
     closing: Any
     sticks: Any
     condition: Any
+    misfit: Any = None
 
 
 class Attempt(NamedTuple):
@@ -212,8 +216,7 @@ def speeds_with_tyres(
     speeds that were found without tyres, below 0 for a motion backwards, ``known`` what was known,
     by the arguments of ``speeds``. Energies are those of the contact, without what the tyres take.
     More components of delta-V than are needed are met by least squares, all weighing alike as parts
-    of the impulse, and a speed or an energy beside them exactly, as ``speeds`` does: the directions
-    in which they are met are those of the start.
+    of the impulse, and a speed or an energy beside them exactly, as ``speeds`` does.
     """
     start = [np.broadcast_to(np.asarray(speed, np.float64), shape) for speed in instant]
     speed = np.hypot(*start)
@@ -236,9 +239,10 @@ def speeds_with_tyres(
 
     rows = slopes_at(inputs_at, start, sizes, off)
     if len(rows) == 2:
+        # As many as are sought.
         values, settled = settle(inputs_at, start, sizes, off)
         slopes = slopes_at(inputs_at, values, sizes, off)
-        closing, sticks = _contact(inputs_at(values))
+        closing, sticks, _ = _contact(inputs_at(values))
         weights = [
             _as_speed(name, value, known, inputs)
             for name, value in known.items()
@@ -270,20 +274,33 @@ def speeds_with_tyres(
         )
         return [*met, rest][:2]
 
-    values, settled = settle(inputs_at, start, sizes, equations)
-    return Found(values[0], values[1], settled, *_contact(inputs_at(values)), None)
+    values, settled = start, np.False_
+    for _ in range(_TURNED):
+        # The directions in which they are met are those of the start.
+        values, settled = settle(inputs_at, values, sizes, equations)
+        rows = slopes_at(inputs_at, values, sizes, off)
+    tried = inputs_at(values)
+    closing, sticks, answer = _contact(tried)
+    missed = np.sqrt(
+        sum(
+            (one * sizes[0]) ** 2
+            for one, alone in zip(off(tried, answer), exact, strict=True)
+            if not alone
+        )
+    )
+    impulse = np.hypot(answer.normal_impulse, answer.tangential_impulse)
+    misfit = missed * (inputs.a.mass + inputs.b.mass) / impulse
+    return Found(values[0], values[1], settled, closing, sticks, None, misfit)
 
 
 def other_starts(
     inputs: Inputs, known: Mapping[str, Any], shape: tuple[int, ...]
 ) -> list[tuple[Any, Any]]:
-    """Speeds to begin from beside those of the instant; none where more than two values are known.
+    """Speeds to begin from beside those of the instant.
 
     The largest is one and a half times what all known values together stand for.
     """
     alone = [name for name in known if name not in _STANDS_FOR_NONE]
-    if len(alone) != 2:
-        return []
     # Of an energy its relative error counts half in the speed that it stands for.
     sizes = [
         _as_speed(name, known[name], known, inputs) * (2.0 if name == "energy_loss" else 1.0)
@@ -299,11 +316,11 @@ def other_starts(
     return [(one, other) for one in of_each[0] for other in of_each[1]]
 
 
-def _contact(inputs: Inputs) -> tuple[Any, Any]:
-    """The closing speed, and whether the contact sticks."""
+def _contact(inputs: Inputs) -> tuple[Any, Any, Any]:
+    """The closing speed, whether the contact sticks, and the answer that has both."""
     with quietly(), np.errstate(all="ignore"):
         answer = solve_inputs(ECCENTRIC, inputs, "nan")
-    return answer.closing_speed, answer.sticks
+    return answer.closing_speed, answer.sticks, answer
 
 
 def _condition(
