@@ -19,8 +19,9 @@ from .reconstruction import Reconstruction
 
 # Of pairs of known values that are not the components of recorders.
 LOOKED_FOR = (
-    "answers are looked for from those of an instant without tyres and, where two values are "
-    "known, from a grid of other speeds; one that none of these leads to is missed"
+    "answers are looked for from those of an instant without tyres and, unless components of "
+    "delta-V alone are more than is needed, from a grid of other speeds; one that none of these "
+    "leads to is missed"
 )
 # Of readings of recorders away from the centre of mass, or in axes that turn.
 LOOKED_FOR_TURNS = (

@@ -215,9 +215,10 @@ def speeds(
         The wheels that act on the ground meanwhile, as for ``eccentric``. A known delta-V has their
         part in it, which is taken to pass as that of the contact does where axes turn; known
         energies are those of the contact, and not taken together with a recorder, axes or
-        ``slid``. Answers are looked for from those of an instant without tyres and, where two
-        values are known that are no readings at a recorder's place, from a grid of other speeds:
-        one that none of these leads to is missed, as ``.statements`` say.
+        ``slid``. Answers are looked for from those of an instant without tyres and from a grid of
+        other speeds, but for readings at a recorder's place, a bound, and more components than are
+        needed without a speed or an energy: one that none of these leads to is missed, as
+        ``.statements`` say.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
@@ -456,6 +457,7 @@ def speeds(
             of_inputs = asked if now.friction is None else _with_friction(asked, now.friction)
             return Attempt(now.scene, now.found, of_inputs, now.frictions)
 
+        knows_speed = any(name.startswith("speed") for name in known)
         balanced = bool(times and components) and not {"energy_loss", "ees_a"} & known.keys()
 
         def solved(changes: dict[str, Any], only: Mapping[str, Any] = {}) -> Attempt:
@@ -515,7 +517,8 @@ def speeds(
         if inputs.tyres:
             state_of_study(f"speeds with tyres: {LOOKED_FOR}", "looked_for")
             # A place of a recorder and its axes are in the balance alone.
-            if not balanced or (len(known) == 2 and recorders is None and slid is None):
+            alone = recorders is None and slid is None and not attempted.frictions
+            if not balanced or (alone and (len(known) == 2 or knows_speed)):
                 found = _while_tyres_act(
                     cases, scene, found, inputs, known, forward_only, regime, balanced
                 )
@@ -1140,22 +1143,24 @@ def _slid_either_way(
     known: dict[str, Any], say: Sentences, one_way: Callable[[float], tuple[Impact, ...]]
 ) -> AmbiguousSolutionError:
     """The error for a single case of which a bound has no side."""
-    solutions = [*one_way(1.0), *one_way(-1.0)]
-    bounds = ", or ".join(
-        " and ".join(
-            bounds_of(
-                getattr(impact.reconstruction, "one_sided", None) or {},
-                {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"},
+    solutions = (*one_way(1.0), *one_way(-1.0))
+    then, where = "a bound has no side", "The end that was found is in .solutions"
+    if len(solutions) > 1:
+        where = "Both answers are in .solutions"
+        then = ", or ".join(
+            " and ".join(
+                bounds_of(
+                    getattr(impact.reconstruction, "one_sided", None) or {},
+                    {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"},
+                )
             )
+            for impact in solutions
         )
-        for impact in solutions
-    )
     return AmbiguousSolutionError(
-        f"{' and '.join(known)} do not tell in which direction the contact slid: {EITHER_WAY}. "
-        f"So {bounds}. Give another component of delta-V, or one of the speeds"
-        "`|. Both answers are in .solutions|`",
+        f"{' and '.join(known)} do not tell in which direction the contact slid: {EITHER_WAY}, so "
+        f"{then}. Give another component of delta-V, or one of the speeds`|. {where}|`",
         code=Status.AMBIGUOUS.label,
-        solutions=tuple(solutions),
+        solutions=solutions,
     )
 
 
@@ -1177,7 +1182,8 @@ def _while_tyres_act(
     """The roots of a contact in which the tyres act, in order, and where each is: those to which
     the roots of the instant and other speeds lead.
 
-    Roots that are ``balanced`` have the impulse of the tyres already, of a contact that stuck.
+    Roots that are ``balanced`` have the impulse of the tyres already: of a contact that stuck, or
+    beside a known speed and more components than it needs.
     """
     directions = {
         label: (scene.numbers[f"course_{label}[0]"], scene.numbers[f"course_{label}[1]"])
@@ -1192,11 +1198,17 @@ def _while_tyres_act(
     if not starts:
         return []
     begins = np.stack([np.stack(np.broadcast_arrays(*start)) for start in starts], axis=1)
+    more = balanced and len(known) > 2
     answer = speeds_with_tyres(
-        inputs, directions, (begins[0], begins[1]), known, (len(starts), *shape)
+        inputs,
+        directions,
+        (begins[0], begins[1]),
+        known,
+        (len(starts), *shape),
+        len(found) if more else 0,
     )
     fits = answer.settled
-    if balanced:
+    if balanced and not more:
         # Of the contacts that stick, where it is known that this one did.
         fits = fits & answer.sticks
         if regime is None:
@@ -1211,6 +1223,7 @@ def _while_tyres_act(
         fits, least = _best_of(answer.misfit, fits)
         if isinstance(scene, ComponentScene):
             scene.misfit = np.where(np.isfinite(least), least, scene.misfit)
+            scene.may_slide = scene.may_slide & np.any(fits[: len(found)], axis=0)
     roots = []
     for i in range(len(starts)):
         instant = found[i][0] if i < len(found) else NO_ROOT

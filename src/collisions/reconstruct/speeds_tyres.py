@@ -208,6 +208,7 @@ def speeds_with_tyres(
     instant: tuple[Any, Any],
     known: Mapping[str, Any],
     shape: tuple[int, ...],
+    kept: int = 0,
 ) -> Found:
     """Speeds of A and B along their courses at which a contact with these tyres has what was known.
 
@@ -216,7 +217,8 @@ def speeds_with_tyres(
     speeds that were found without tyres, below 0 for a motion backwards, ``known`` what was known,
     by the arguments of ``speeds``. Energies are those of the contact, without what the tyres take.
     More components of delta-V than are needed are met by least squares, all weighing alike as parts
-    of the impulse, and a speed or an energy beside them exactly, as ``speeds`` does.
+    of the impulse, and a speed or an energy beside them exactly, as ``speeds`` does. The first
+    ``kept`` starts are answers already, of which only the misfit is worked out.
     """
     start = [np.broadcast_to(np.asarray(speed, np.float64), shape) for speed in instant]
     speed = np.hypot(*start)
@@ -279,6 +281,12 @@ def speeds_with_tyres(
         # The directions in which they are met are those of the start.
         values, settled = settle(inputs_at, values, sizes, equations)
         rows = slopes_at(inputs_at, values, sizes, off)
+    if kept:
+        values = [
+            np.concatenate((begun[:kept], one[kept:]))
+            for begun, one in zip(start, values, strict=True)
+        ]
+        settled = np.concatenate((np.isfinite(values[0][:kept]), settled[kept:]))
     tried = inputs_at(values)
     closing, sticks, answer = _contact(tried)
     missed = np.sqrt(
