@@ -454,7 +454,7 @@ def _while_tyres_act(
     in these motions while the tyres act.
     """
     found: list[Origin] = []
-    for origin in end.candidates():
+    for origin in end.candidates(nearest=True):
         for refined in _refined(origin, end, inputs, shape):
             new = np.asarray(refined.fits)
             if regime is not None:
