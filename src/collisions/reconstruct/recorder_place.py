@@ -47,7 +47,7 @@ _SETTLED, _ROUNDS = 1e-12, 60
 _MOST_TURN, _TURNS = 0.5 * math.pi, {1: 65, 2: 9}
 # Of the impulses that those lead to: rounds, until they differ by less than this turn, and the
 # share within which two are one.
-_LOOKS, _FOUND, _ONE = 24, 1e-7, 1e-5
+_LOOKS, _FOUND, _ONE = 10, 1e-7, 1e-5
 
 
 class Recorders(NamedTuple):
