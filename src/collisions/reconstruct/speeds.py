@@ -1102,10 +1102,17 @@ def _stuck_or_slid(
     ratio = ratios[0]
     friction = float(scene.bound)
     stuck = again(regime="sticking")
-    if math.isinf(friction) and len(scene.unknown) == 1:
-        # Beside a speed the ratio of a contact that slid is not that of the one that stuck.
-        slid = [*again(regime="sliding", slid="bound")]
-    else:
+    slid: list[Impact] = []
+    if math.isinf(friction):
+        # Each at the ratio that is shown: beside a speed not that of the one that stuck.
+        with suppress(CollisionsError):
+            slid = [
+                one
+                for one in again(regime="sliding", slid="bound")
+                if len(scene.unknown) == 1
+                or any(abs(abs(one.impulse_ratio) - ratio) <= ROOT_TOL for ratio in ratios)
+            ]
+    if not slid:
         slid = [again(regime="sliding", slid="bound", friction=one)[0] for one in ratios]
     speeds = [
         {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"}

@@ -96,12 +96,12 @@ def in_balance(
     scenes: list[ComponentScene | None] = []
     frictions: list[Any] = []
     for slot in range(max(len(instant.found), 1)):
-        held, settled = _settled(attempt, instant, slot, numbers, cases)
+        held, settled, at = _settled(attempt, instant, slot, numbers, cases)
         last = attempt(held)
         results.append(last)
-        if slot >= len(last.found):
+        if not last.found:
             continue
-        root, there = last.found[slot]
+        root, there = _followed(last, at)
         there = there & settled
         scenes.append(
             last.scene.of_way(root.way) if isinstance(last.scene, ComponentScene) else None
@@ -131,21 +131,28 @@ def _settled(
     slot: int,
     numbers: Mapping[str, Any],
     cases: Cases,
-) -> tuple[dict[str, Any], Any]:
-    """The impulses of the tyres that lead to the speeds from which they follow, and where there are
-    some.
+) -> tuple[dict[str, Any], Any, tuple[Any, Any]]:
+    """The impulses of the tyres that lead to the speeds from which they follow, where there are
+    some, and those speeds.
 
     A case that has settled stays, so that it comes out of a batch as alone. One in which a contact
     that stuck and one that slid lead to each other is ``EITHER`` from then on.
     """
     shape = cases.shape or ()
     held = {name: np.zeros(shape) for name in (*HELD, EITHER)}
-    slid, turns = _shows_slip(now, slot, shape), np.zeros(shape)
+    if not now.found:
+        nowhere = np.full(shape, np.nan)
+        return _plain(held, shape), np.zeros(shape, dtype=bool), (nowhere, nowhere)
+    at = tuple(np.where(now.found[slot][1], speed, np.nan) for speed in now.found[slot][0][:2])
+    slid, turns = _shows_slip(now, at, shape), np.zeros(shape)
     moving, settled = np.ones(shape, dtype=bool), np.zeros(shape, dtype=bool)
     for _ in range(_ROUNDS):
-        if slot >= len(now.found):
+        if not now.found:
             break
-        root, there = now.found[slot]
+        root, there = _followed(now, at)
+        at = tuple(
+            np.where(moving & there, speed, was) for speed, was in zip(root[:2], at, strict=True)
+        )
         new = _pushes(now, root, there, numbers, cases)
         parts = [(held[name], new[name]) for name in HELD if not name.endswith("moment")]
         size = np.sqrt(sum(part * part for _, part in parts))
@@ -156,16 +163,38 @@ def _settled(
         moving = moving & (change > _SAME * size)
         if not np.any(moving):
             break
-        now = attempt(held if shape else {name: float(one) for name, one in held.items()}, math.inf)
-        before, slid = slid, _shows_slip(now, slot, shape)
+        now = attempt(_plain(held, shape), math.inf)
+        before, slid = slid, _shows_slip(now, at, shape)
         turns = turns + (moving & (slid != before))
         held[EITHER] = np.where(turns > _TURNS, 1.0, held[EITHER])
-    return (held if shape else {name: float(one) for name, one in held.items()}), settled
+    return _plain(held, shape), settled, (at[0], at[1])
 
 
-def _shows_slip(now: Attempt, slot: int, shape: tuple[int, ...]) -> Any:
+def _plain(held: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
+    """Floats for a single case."""
+    return held if shape else {name: float(one) for name, one in held.items()}
+
+
+def _followed(now: Attempt, at: tuple[Any, ...]) -> tuple[Root, Any]:
+    """Of several roots that which is next to these speeds, and where it is."""
+    if len(now.found) == 1:
+        return now.found[0]
+    apart = np.stack(
+        [
+            np.where(there, abs(root.speed_a - at[0]) + abs(root.speed_b - at[1]), np.inf)
+            for root, there in now.found
+        ]
+    )
+    nearest = np.argmin(np.where(np.isnan(apart), np.inf, apart), axis=0)
+    roots, places = zip(*now.found, strict=True)
+    return Root(*(by_way(nearest, parts) for parts in zip(*roots, strict=True))), by_way(
+        nearest, places
+    )
+
+
+def _shows_slip(now: Attempt, at: tuple[Any, ...], shape: tuple[int, ...]) -> Any:
     """Where a friction is used: one that was given, or the ratio of a contact that slid."""
-    inputs = now.inputs_of(now.found[slot][0]) if slot < len(now.found) else now.inputs
+    inputs = now.inputs_of(_followed(now, at)[0]) if now.found else now.inputs
     return np.broadcast_to(np.isfinite(inputs.rule_value), shape)
 
 
