@@ -416,3 +416,51 @@ def test_what_it_still_leaves_out_is_the_motion_that_the_contact_in_time_has():
     stated = float(said.partition("leaves out about ")[2].partition(" percent")[0])
     assert stated == pytest.approx(100.0 * share, rel=0.5, abs=1.0)
     assert "point and normal that move on" in str(col.report(found))
+
+
+# A crash to which the tyres bring the contact: as an instant none ends so, near a fold.
+BEYOND_A = col.Vehicle(
+    mass=1240.48, vx=7.96092, vy=-1.60398, yaw_rate=-0.232128, yaw_inertia=2920.29,
+    x=-2.7822, y=1.17859, heading=-0.0939119,
+)  # fmt: skip
+BEYOND_B = col.Vehicle(
+    mass=2497.15, vx=-10.3081, vy=13.0266, yaw_rate=0.785092, yaw_inertia=1370.88,
+    x=0.983593, y=3.17105, heading=2.26368,
+)  # fmt: skip
+BEYOND = {
+    "normal": 0.342093794, "point": (0.01822851, -0.072372669), "critical_fraction": 0.9198578,
+    "duration": 0.117,
+}  # fmt: skip
+BEYOND_WHEELS = {
+    "tyres_a": Tyres(0.376566, (0.263189, 0.842033, 0.604903, 0.283506), 2.7, 1.5, height=0.5),
+    "tyres_b": Tyres(0.45813, (0.147019, 0.896711, 0.992002, 0.514749), 2.7, 1.5),
+}
+
+
+@pytest.mark.parametrize("kind", ["restitution", "closing_speed"])
+def test_motions_before_are_found_from_the_fold_of_the_instant(kind):
+    """Each ends so by ``eccentric``, and the crash is among them."""
+    impact = col.eccentric(BEYOND_A, BEYOND_B, 0.4836653, **BEYOND, **BEYOND_WHEELS)
+    after = impact.a.after, impact.b.after
+    with pytest.raises(col.NoSolutionError) as caught:
+        reconstruct.planar(*after, **{kind: getattr(impact, kind)}, **BEYOND, **BEYOND_WHEELS)
+    solutions = caught.value.solutions
+    for one in solutions:
+        again = col.eccentric(
+            one.a.before, one.b.before, one.restitution, **BEYOND, **BEYOND_WHEELS
+        )
+        assert again.a.after.vx == pytest.approx(after[0].vx, abs=1e-6)
+        assert again.b.after.yaw_rate == pytest.approx(after[1].yaw_rate, abs=1e-6)
+    assert min(abs(one.a.before.vx - BEYOND_A.vx) for one in solutions) < 1e-5
+
+
+def test_a_motion_before_that_was_not_found_is_not_said_to_be_none():
+    """Tyres that hardly act do not bring the contact there."""
+    impact = col.eccentric(BEYOND_A, BEYOND_B, 0.4836653, **BEYOND, **BEYOND_WHEELS)
+    ice = {"tyres_a": Tyres(0.001, 1.0, 2.7, 1.5)}
+    with pytest.raises(col.NoSolutionError) as caught:
+        reconstruct.planar(impact.a.after, impact.b.after, restitution=0.4836653, **BEYOND, **ice)
+    said = str(caught.value)
+    assert said.startswith("no motion before was found")
+    assert "is missed" in said
+    assert "reconstruct.posterior" in said

@@ -156,9 +156,15 @@ def test_what_a_recorder_shows_of_a_crash_leads_back_to_it(axes, place, e, spins
     for labels in ("a", "b", "ab"):
         known = {name: value for label in labels for name, value in readings[label].items()}
         places = {f"recorder_{label}": place for label in labels}
-        (found,) = found_from(
-            known, e, spin_a=spins[0], spin_b=spins[1], **places, axes=axes, duration=duration
-        )
+        answers = found_from(
+            known, e, spin_a=spins[0], spin_b=spins[1], **places, axes=axes, duration=duration,
+            forward_only=True,
+        )  # fmt: skip
+        for label in labels:
+            for one in answers:
+                shown = read(getattr(one, label), place, duration, axes)
+                assert shown == pytest.approx(tuple(readings[label].values()), abs=2e-5)
+        found = min(answers, key=lambda one: abs(mph(one)[0] - 30.0))
         assert mph(found) == pytest.approx([30.0, 25.0], abs=2e-4)
         assert found.a.delta_v_left == pytest.approx(impact.a.delta_v_left, abs=1e-4)
         told = (*places, f"recorder_axes_{axes}")
@@ -218,15 +224,76 @@ def test_batches_are_their_cases():
     readings = np.array(
         [read(crash().a, (float(x), 0.1), float(t)) for x, t in zip(ahead, lasts, strict=True)]
     ).T
-    (found,) = found_from(names("a", readings), recorder_a=(ahead, 0.1), duration=lasts)
+    options = {"forward_only": True}
+    (found,) = found_from(names("a", readings), recorder_a=(ahead, 0.1), duration=lasts, **options)
     assert found.a.before.speed / MPH == pytest.approx(np.full(count, 30.0), abs=2e-4)
     for at in (0, 3, 6):
         (alone,) = found_from(
             names("a", readings[:, at]),
             recorder_a=(float(ahead[at]), 0.1),
             duration=float(lasts[at]),
+            **options,
         )
         assert alone.b.before.speed == pytest.approx(found.b.before.speed[at], rel=1e-9)
+
+
+# Shifts aside of A and of B, the course of B, the place of the recorder of A, both speeds.
+SEVERAL = {
+    "the other root backwards": (-0.2, -0.3, 111.0, (-0.9, 0.4), 15.9, 17.8),
+    "three roots": (0.2, 0.1, 84.0, (-0.7, -0.2), 17.9, 6.2),
+}
+
+
+@pytest.mark.parametrize("case", SEVERAL)
+@pytest.mark.parametrize("forward_only", [False, True])
+@pytest.mark.filterwarnings("ignore:the speed of B came out as")
+def test_all_speeds_with_the_readings_at_a_place_are_given(case, forward_only):
+    """By the readings that each answer has when it is stepped through time: none misses them, and
+    the crash that they were made with is among the answers.
+    """
+    ya, yb, course, place, *speeds = SEVERAL[case]
+    a = col.Vehicle.from_speed(
+        mass=1500, yaw_inertia=2500, x=-2, y=ya, speed=speeds[0], course=0, heading=0
+    )
+    b = col.Vehicle.from_speed(
+        mass=1300, yaw_inertia=2000, x=1, y=yb, speed=speeds[1],
+        course=f"{course} deg", heading=f"{course} deg",
+    )  # fmt: skip
+    contact = {"normal": "5 deg", "point": (0, 0.1), "friction": math.inf}
+    reading = read(col.eccentric(a, b, 0.1, **contact).a, place, 0.1)
+    found = reconstruct.speeds(
+        a, b, course_a=0, course_b=f"{course} deg", restitution=0.1, **contact,
+        **names("a", reading), recorder_a=place, duration=0.1, regime="sticking",
+        forward_only=forward_only,
+    )  # fmt: skip
+    for one in found:
+        assert read(one.a, place, 0.1) == pytest.approx(reading, abs=1e-6)
+        (said,) = [text for text in one.statements if "is missed" in text]
+        assert said.startswith("found from readings away from the centre of mass")
+    pairs = [(one.a.before.speed, one.b.before.speed) for one in found]
+    assert any(pair == pytest.approx(speeds, abs=1e-4) for pair in pairs)
+    assert len(found) == (3 if case == "three roots" else 1)
+
+
+# Seeds of crashes that slid, whose components alone show other ratios as well.
+@pytest.mark.parametrize("seed", [0, 2])
+def test_the_ratio_that_readings_show_is_that_of_the_crash(seed):
+    """Where the components alone may mean several impulses, the known speed says which it was."""
+    draw = np.random.default_rng(seed)
+    for _ in range(40):
+        a = A.replace(vx=draw.uniform(8, 20), y=draw.normal(0, 0.7), yaw_rate=draw.normal(0, 0.3))
+        b = B.replace(vy=draw.uniform(5, 20), y=draw.normal(0, 1), yaw_rate=draw.normal(0, 0.3))
+        place = draw.normal(0, 0.8), draw.normal(0, 0.4)
+        impact = col.eccentric(a, b, 0.1, **CONTACT, friction=0.3, on_failure="nan")
+        if not impact.ok or impact.regime != "sliding":
+            continue
+        (found,) = reconstruct.speeds(
+            a, b, **COURSES, restitution=0.1, **CONTACT, friction=math.inf, regime="sliding",
+            speed_b=b.speed, **names("a", read(impact.a, place, 0.1)), recorder_a=place,
+            duration=0.1,
+        )  # fmt: skip
+        assert found.a.before.speed == pytest.approx(a.speed, abs=1e-4)
+        assert found.regime == "sliding"
 
 
 def test_in_a_study_with_an_uncertain_place():

@@ -511,3 +511,56 @@ def test_contacts_at_the_edge_between_stuck_and_slid_have_an_answer(locks):
     assert np.all(abs(off[side == 0]) < 1e-6)
     assert np.all(off[side != 0] * side[side != 0] > 0.0)
     assert 0 < np.count_nonzero(side) < side.size
+
+
+# Speeds, courses, yaw rates and places aside of A and B, normal, point, restitution, duration,
+# wheels, and what is known.
+MET_FROM_AFAR = {
+    "components and energy": (
+        (15.68985171994705, 12.172055850289476), (-0.3832674716265385, 2.4983921716109276),
+        (-0.0330379, 0.130253), (0.302742, -0.974293), 0.33918891159121933, 0.17813544077384794,
+        0.05750901722254286, 0.05389684819440878,
+        Tyres(0.643958, (0.606346, 0.876025, 0.897866, 0.989294), 2.7, 1.5, steer=-0.160297),
+        0.993629, ("delta_v_forward_b", "delta_v_left_b", "energy_loss"),
+    ),
+    "components and a speed": (
+        (3.684547774124127, 4.626021840494893), (0.2831799093874533, 1.8851381893599877),
+        (-0.0178232, -0.355592), (-0.143217, -0.181866), 0.3614547318133461, 0.570423172050814,
+        0.2821664529186353, 0.09088965198835418,
+        Tyres(0.415736, (0.828021, 0.800255, 0.522253, 0.363955), 2.7, 1.5, steer=-0.0863032),
+        0.413604, (*COMPONENTS, "speed_a"),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", MET_FROM_AFAR)
+def test_speeds_that_meet_more_than_is_needed_are_found_from_afar(case):
+    """The contact slid, and where the instant without tyres leads to misses what was known."""
+    pair, courses, spins, aside, normal, y, e, duration, tyres, lock, names = MET_FROM_AFAR[case]
+    a, b = (
+        col.Vehicle.from_speed(
+            mass=mass, yaw_inertia=inertia, x=x, y=y_of, speed=speed, course=course,
+            heading=course, yaw_rate=spin,
+        )
+        for mass, inertia, x, y_of, speed, course, spin in zip(
+            (1500, 1300), (2500, 2000), (-2, 1), aside, pair, courses, spins, strict=True
+        )
+    )  # fmt: skip
+    contact = {"normal": normal, "point": (0, y), "friction": 0.15}
+    wheels = {"duration": duration, "tyres_a": tyres, "tyres_b": Tyres(0.7, lock, 2.7, 1.5)}
+    impact = col.eccentric(a, b, e, **contact, **wheels)
+    assert impact.regime == "sliding"
+    shown = {"energy_loss": impact.energy_loss, "speed_a": pair[0]}
+    shown |= {name: getattr(getattr(impact, name[-1]), name[:-2]) for name in COMPONENTS}
+    found = reconstruct.speeds(
+        a, b, course_a=courses[0], course_b=courses[1], restitution=e, regime="sliding",
+        **contact, **wheels, **{name: shown[name] for name in names},
+    )  # fmt: skip
+    for one in found:
+        again = col.eccentric(one.a.before, one.b.before, e, **contact, **wheels)
+        for name in names:
+            if name.startswith("delta_v"):
+                told = getattr(getattr(again, name[-1]), name[:-2])
+                assert told == pytest.approx(shown[name], abs=1e-4)
+    speeds = [(one.a.before.speed, one.b.before.speed) for one in found]
+    assert any(one == pytest.approx(pair, rel=1e-4) for one in speeds)

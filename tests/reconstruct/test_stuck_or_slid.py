@@ -514,3 +514,76 @@ def test_a_friction_that_the_components_contradict_says_to_leave_it_to_them():
     assert not told
     low, high = found["b"].interval(0.95)
     assert low < 11.0 < high
+
+
+# A contact that slid one way, of which the forward part of A and the left part of B lie nearly
+# along one line, so that they hardly tell which.
+EITHER_A = col.Vehicle(
+    mass=1500, yaw_inertia=2500, x=-2, y=-0.825192, vx=17.01, vy=7.05873, heading=0.393349,
+    yaw_rate=0.210468,
+)  # fmt: skip
+EITHER_B = col.Vehicle(
+    mass=1300, yaw_inertia=2000, x=1, y=0.86515, vx=-2.57397, vy=4.91946, heading=2.05285,
+    yaw_rate=-0.144013,
+)  # fmt: skip
+EITHER = {"normal": -0.15334484, "point": (0, 0.0485109)}
+
+
+def either_way(factor, **options):
+    """The speeds from two components, the forward one read by this factor."""
+    impact = col.eccentric(EITHER_A, EITHER_B, 0.14125, **EITHER, friction=0.15)
+    assert impact.regime == "sliding"
+    return speeds(
+        EITHER_A, EITHER_B, course_a=EITHER_A.course, course_b=EITHER_B.course,
+        restitution=0.14125, regime="sliding",
+        delta_v_forward_a=impact.a.delta_v_forward * factor,
+        delta_v_left_b=impact.b.delta_v_left, **EITHER, **options,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("friction", [0.15, math.inf])
+@pytest.mark.parametrize("factor", [0.98, 1.0, 1.01, 1.02, 1.05])
+def test_a_bound_of_which_the_direction_is_not_known_is_not_stated(factor, friction):
+    """The truth is on the stated sides of one of both solutions, never of one given alone."""
+    with pytest.raises(col.AmbiguousSolutionError, match="in which direction") as caught:
+        either_way(factor, friction=friction, slid="bound")
+    sides = [one.reconstruction.one_sided for one in caught.value.solutions]
+    assert sides == [{"speed_a": 1, "speed_b": -1}, {"speed_a": -1, "speed_b": 1}]
+    first = caught.value.solutions[0]
+    assert first.a.before.speed <= EITHER_A.speed
+    assert first.b.before.speed >= EITHER_B.speed
+    assert "at least" in str(caught.value)
+    assert "one of the speeds" in str(caught.value)
+
+
+def test_cases_of_a_batch_without_a_direction_are_refused():
+    with pytest.warns(col.CollisionsWarning) as caught:
+        (found,) = either_way(np.array([1.0, 1.02, 0.5]), friction=0.15, slid="bound")
+    assert list(found.refused) == [True, True, False]
+    assert "slid_either_way" in [warning.message.code for warning in caught]
+    assert list(found.reconstruction.one_sided["speed_a"]) == [0, 0, -1]
+
+
+def test_beside_a_speed_a_contact_that_slid_has_the_ratio_that_is_shown():
+    """It fits exactly, while the one that stuck misses the components by what recorders may."""
+    for draw in range(400):
+        of = np.random.default_rng(draw)
+        a = EITHER_A.replace(vx=of.uniform(8, 20), vy=0.0, y=of.normal(0, 0.7), yaw_rate=0.0)
+        b = EITHER_B.replace(vx=0.0, vy=of.uniform(5, 20), y=of.normal(0, 1.0), yaw_rate=0.0)
+        contact = {"normal": of.uniform(-0.4, 0.4), "point": (0, 0.1)}
+        impact = col.eccentric(a, b, 0.1, **contact, friction=1.0, on_failure="nan")
+        if not impact.ok or impact.regime != "sliding":
+            continue
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                speeds(
+                    a, b, course_a=a.course, course_b=b.course, restitution=0.1, **contact,
+                    friction=math.inf, speed_b=b.speed,
+                    delta_v_forward_a=impact.a.delta_v_forward,
+                    delta_v_left_a=impact.a.delta_v_left,
+                )  # fmt: skip
+        except col.AmbiguousSolutionError as error:
+            solutions = error.solutions
+            break
+    assert solutions[1].a.before.speed == pytest.approx(a.speed, rel=1e-6)

@@ -488,13 +488,14 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
     def statements(self) -> tuple[str, ...]:
         """What has to be said beside the numbers: of an impact that was found backwards as an
         instant, how much of delta-V that leaves out, as ``left_out`` estimates it; of one that was
-        found with tyres, that there may be others, and how much the motion during the contact is.
+        found with tyres or from readings of recorders, that there may be others, and how much the
+        motion during the contact is.
         """
-        from .instant import found_with_tyres, neglected
+        from .instant import found_from_readings, found_with_tyres, neglected
 
         found = neglected(self)
         said = () if found is None else (found.sentence,)
-        return (*said, *found_with_tyres(self))
+        return (*said, *found_from_readings(self), *found_with_tyres(self))
 
     @derived()
     def complete(self) -> Any:

@@ -19,8 +19,14 @@ from .reconstruction import Reconstruction
 
 # Of pairs of known values that are not the components of recorders.
 LOOKED_FOR = (
-    "answers are looked for from those of an instant without tyres and, where two values are "
-    "known, from a grid of other speeds; one that none of these leads to is missed"
+    "answers are looked for from those of an instant without tyres and, unless components of "
+    "delta-V alone are more than is needed, from a grid of other speeds; one that none of these "
+    "leads to is missed"
+)
+# Of readings of recorders away from the centre of mass, or in axes that turn.
+LOOKED_FOR_TURNS = (
+    "answers are looked for from many turns of the cars of up to a quarter during the contact; one "
+    "that none of these leads to is missed, and one that turns by more is none"
 )
 # Of motions before that ``planar`` finds with tyres.
 LOOKED_AROUND = (
@@ -107,6 +113,21 @@ def tyres_acted(impact: Impact) -> bool:
     """Whether the tyres are in the answer: those given, or the drags that a reverse solver took."""
     origin = impact.reconstruction
     return bool(impact.inputs.tyres) or (origin is not None and origin.duration is not None)
+
+
+def found_from_readings(impact: Impact) -> tuple[str, ...]:
+    """What has to be said of speeds from readings of recorders in a contact that lasts: how they
+    were looked for.
+    """
+    origin = impact.reconstruction
+    if origin is None or not any(name.startswith("recorder_axes") for name in origin.known):
+        return ()
+    lasts = impact.inputs.duration
+    if lasts is None:
+        lasts = (origin.given or {}).get("recorder_duration", 0.0)
+    if not np.any(np.greater(lasts, 0.0)):
+        return ()
+    return (f"found from readings away from the centre of mass: {LOOKED_FOR_TURNS}",)
 
 
 def found_with_tyres(impact: Impact) -> tuple[str, ...]:

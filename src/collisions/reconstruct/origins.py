@@ -272,8 +272,10 @@ class End:
         finite = np.where(np.isinf(self.bound) | (self.bound == 0.0), np.nan, self.bound)
         return [self._along("sliding", sign * finite) for sign in (1.0, -1.0)]
 
-    def candidates(self) -> list[Origin]:
-        """Every origin the law allows, whether it fits or not."""
+    def candidates(self, nearest: bool = False) -> list[Origin]:
+        """Every origin the law allows, whether it fits or not; beyond a fold, where a share of the
+        critical ratio has none, the ``nearest`` to one if that is asked for.
+        """
         if self.rule == IMPULSE_RATIO:
             return [self._along("given", self.bound)]
         frictionless = np.where(self.bound == 0.0, 0.0, np.nan)
@@ -282,7 +284,7 @@ class End:
         else:
             shared = [
                 np.where((self.bound > 0.0) & (self.bound < 1.0), ratio, np.nan)
-                for ratio in self._shared_ratios()
+                for ratio in self._shared_ratios(nearest)
             ]
             found = [self._along("given", ratio) for ratio in (frictionless, *shared)]
         # Under "brach" a contact that sticks keeps no trace of the slip before.
@@ -359,12 +361,12 @@ class End:
             possible,
         )
 
-    def _shared_ratios(self) -> tuple[Any, Any]:
+    def _shared_ratios(self, nearest: bool = False) -> tuple[Any, Any]:
         """Impulse ratios that are the given share of the critical one.
 
         The no-slip impulse is proportional to P - y, with y = K^-1 (0, s') under "brach" and K^-1
         (r, s') under "kudlich-slibar"; P_t N_s = f T_s P_n, with P_n from the closing speed, leaves
-        a quadratic in the ratio.
+        a quadratic in the ratio. Where it has no root, its turning point is ``nearest`` to one.
         """
         y_n, y_t = self.stopping
         if self.law == BRACH:
@@ -379,10 +381,13 @@ class End:
             - (1.0 - share) * (self._closing() + self.separation)
         )
         constant = 0.0 - share * y_t * self.k_nn
-        half = -0.5 * (
-            linear + np.copysign(np.sqrt(linear * linear - 4.0 * square * constant), linear)
-        )
-        return half / square, constant / half
+        inside = linear * linear - 4.0 * square * constant
+        half = -0.5 * (linear + np.copysign(np.sqrt(inside), linear))
+        one, other = half / square, constant / half
+        if nearest:
+            turn = np.where(inside < 0.0, -0.5 * linear / square, np.nan)
+            one, other = np.where(inside < 0.0, turn, one), np.where(inside < 0.0, turn, other)
+        return one, other
 
     def _origin(
         self,

@@ -353,7 +353,10 @@ def _answer(
             for one in fitting
             if count > 1
         )
-        return _refusal(found.status, end, regime, [one.regime for one in fitting], solutions)
+        error = _refusal(found.status, end, regime, [one.regime for one in fitting], solutions)
+        if inputs.tyres and found.status == Status.CONTRADICTORY:
+            return _not_found(str(error), end)
+        return error
 
     def solve_case(index: tuple[int, ...]) -> Impact:
         take = partial(cases.one, index=index)
@@ -451,7 +454,7 @@ def _while_tyres_act(
     in these motions while the tyres act.
     """
     found: list[Origin] = []
-    for origin in end.candidates():
+    for origin in end.candidates(nearest=True):
         for refined in _refined(origin, end, inputs, shape):
             new = np.asarray(refined.fits)
             if regime is not None:
@@ -583,6 +586,19 @@ def _unsettled() -> CollisionsError:
         "as an instant the impact has an origin, but none was found from which it ends so while "
         "the tyres act: check duration, the friction and the locks of tyres_a and tyres_b, and the "
         "motions after; without duration and tyres the answer is that of the instant",
+    )
+
+
+def _not_found(as_instant: str, end: End) -> CollisionsError:
+    """The error where neither the instant has an origin nor one was found with the tyres."""
+    return error_of(
+        Status.CONTRADICTORY,
+        f"no motion before was found from which the contact ends so while the tyres act: "
+        f"{LOOKED_AROUND}. `reconstruct.posterior` with wide priors for the speeds and yaw rates "
+        f"before looks everywhere. Without the tyres {as_instant}",
+        separation_speed=float(end.separation),
+        slip_after=float(end.slip),
+        solutions=(),
     )
 
 

@@ -13,6 +13,9 @@ C and S the means of cos psi and sin psi over the impulse, and W the integral of
 Marine, S. Werner, "Delta-V analysis from crash test data for vehicles with post-impact yaw motion",
 SAE 980219, 1998). In each regime dv and dw are linear in both speeds, and C, S and W follow from dw
 and the pulse: the readings are linear about the dw found last (Newton), until it stays.
+
+One reading may come of several impulses, each with a turn of its own. They are looked for from many
+turns (``RecorderScene.impulses``), and each begins a scene of its own.
 """
 
 from __future__ import annotations
@@ -31,13 +34,20 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.units import shown
 from ..vehicle.drag import read_duration
 from .speeds_algebra import Observed, Root
-from .speeds_components import CONTRADICTION, ComponentScene
+from .speeds_components import CONTRADICTION, ComponentScene, dot, pseudoinverse
 
 # Nodes and weights of a Gauss-Legendre rule over each part of the pulse: turns of half a radian to
 # 1e-12.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 # Until two rounds differ by less than this turn, in radians; far more rounds than any crash needs.
 _SETTLED, _ROUNDS = 1e-12, 60
+# The largest turn of a car while the contact lasts, in radians: one that turns by more does not
+# keep its point of contact and its lever arms. In how many turns it is looked for, of one recorder
+# and of each of two.
+_MOST_TURN, _TURNS = 0.5 * math.pi, {1: 65, 2: 9}
+# Of the impulses that those lead to: rounds, until they differ by less than this turn, and the
+# share within which two are one.
+_LOOKS, _FOUND, _ONE = 10, 1e-7, 1e-5
 
 
 class Recorders(NamedTuple):
@@ -194,13 +204,15 @@ class RecorderScene(ComponentScene):
         regime: str | None = None,
         slid: str | None = None,
         most: float = CONTRADICTION,
+        direction: float | None = None,
+        start: tuple[Any, Any] = (0.0, 0.0),
     ) -> None:
         self._recorders, self.recorders = recorders, recorders.names
         # By regime, which is kept with what was found for it: what is seen at unit speeds, and the
         # answer with the axes and the turns that go with it.
         self._seen: dict[Any, tuple[Any, list[Observed]]] = {}
         self._roots: dict[Any, tuple[Any, tuple[Root, Any, Any], tuple[Any, Any, Any]]] = {}
-        super().__init__(given, rule, law, names, shape, plain, regime, slid, most)
+        super().__init__(given, rule, law, names, shape, plain, regime, slid, most, direction)
         self._duration = self.given["duration"] * self.speed_unit
         self._readings = [
             self.numbers[f"{kind[-1]}.mass"] * self.numbers[kind] for kind in self.components
@@ -225,20 +237,35 @@ class RecorderScene(ComponentScene):
                 (per_inertia * (rx * ny - ry * nx), per_inertia * (rx * nx + ry * ny)),
             )
         self._changes: dict[str, Any] = {}
-        self._linear_about(dict.fromkeys(recorders.labels, (0.0, 0.0)))
+        self._turned: dict[str, Any] = {}
+        # The impulse along n and t from which each regime is looked for.
+        self._start = tuple(part / (self.mass_unit * self.speed_unit) for part in start)
+        self._linear_about(self._start)
 
-    def _linear_about(self, impulses: dict[str, tuple[Any, Any]]) -> None:
-        """Set what the components say of the impulse, linear about these impulses along n and t."""
+    def _linear_about(
+        self,
+        impulse: tuple[Any, Any],
+        changes: Mapping[str, Any] | None = None,
+        fixed: bool = False,
+    ) -> None:
+        """Set what the components say of the impulse, linear about this one along n and t.
+
+        Cars turn as it makes them, or by these ``changes`` of their yaw rates; with ``fixed`` they
+        keep to those whatever the impulse.
+        """
         rows: dict[str, Any] = {}
+        normal, tangential = impulse
         for label, own in self._own.items():
             mass, spin = self.numbers[f"{label}.mass"], self.numbers[f"{label}.yaw_rate"]
-            normal, tangential = impulses[label]
             by_contact = [n * normal + t * tangential for n, t in own]
             held = self._by_tyres[label]
             # What tyres do passes as what the contact does.
             ahead, aside, change = (one + more for one, more in zip(by_contact, held, strict=True))
+            if changes is not None:
+                change = changes[label]
             self._changes[label] = change
             turn, slope = turning(self.e, self._duration, spin, change)
+            self._turned[label] = abs(turn.after - turn.before)
             f, left = (self.given[f"recorder_{label}[{i}]"] for i in range(2))
             if self._recorders.turning:
                 c, s = turn.cos, turn.sin
@@ -263,11 +290,12 @@ class RecorderScene(ComponentScene):
                 ("forward", ((c, own[0]), (s, own[1])), by_place[0], slopes[0]),
                 ("left", ((c, own[1]), (-s, own[0])), by_place[1], slopes[1]),
             ):
+                by = 0.0 if fixed else by
                 row = tuple(
                     one[0] * one[1][i] + other[0] * other[1][i] + mass * by * own[2][i]
                     for i in range(2)
                 )
-                known = mass * (by * by_contact[2] - extra)
+                known = mass * (by * (change - held[2]) - extra)
                 if self.held:
                     at = 0 if part == "forward" else 1
                     known = known - (one[0] * held[at] + other[0] * held[1 - at])
@@ -277,6 +305,103 @@ class RecorderScene(ComponentScene):
             reading + rows[kind][1]
             for kind, reading in zip(self.components, self._readings, strict=True)
         ]
+
+    def impulses(self) -> list[tuple[Any, Any]]:
+        """The impulses along n and t, in kg m/s, that the readings may mean: each of as many cases
+        as have so many, NaN in others, those first at which the cars turn least.
+
+        They are those to which Newton's method leads from turns of up to a quarter either way: of
+        all impulses, and with a known speed of those that each regime has.
+        """
+        spaces: list[tuple[tuple[Any, Any], list[tuple[Any, Any]]]] = []
+        if len(self.components) > 1:
+            spaces.append(((0.0, 0.0), [(1.0, 0.0), (0.0, 1.0)]))
+        if len(self.unknown) == 1:
+            (at,) = self.unknown
+            for regime in self._stated_regimes():
+                still, *moving = self.unit_responses(regime)
+                by_speed = [
+                    (one.normal - still.normal, one.tangential - still.tangential) for one in moving
+                ]
+                n, t = (self.known[1 - at] * part for part in by_speed[1 - at])
+                spaces.append(((still.normal + n, still.tangential + t), [by_speed[at]]))
+        found = [self._led_to(*space) for space in spaces]
+        normal, tangential, turn = (np.concatenate(parts) for parts in zip(*found, strict=True))
+        order = np.argsort(turn, axis=0, kind="stable")
+        normal, tangential = (np.take_along_axis(p, order, 0) for p in (normal, tangential))
+        kept = np.isfinite(normal)
+        size = _ONE * np.hypot(normal, tangential)
+        for i in range(1, len(kept)):
+            apart = np.hypot(normal[:i] - normal[i], tangential[:i] - tangential[i])
+            kept[i] &= ~np.any(kept[:i] & (apart <= size[i]), axis=0)
+        order = np.argsort(~kept, axis=0, kind="stable")
+        unit = self.mass_unit * self.speed_unit
+        most = max(int(np.max(np.sum(kept, axis=0), initial=0)), 1)
+        n, t = (
+            np.take_along_axis(np.where(kept, part, np.nan), order, 0)[:most] * unit
+            for part in (normal, tangential)
+        )
+        return list(zip(n, t, strict=True))
+
+    def _led_to(
+        self, base: tuple[Any, Any], along: Sequence[tuple[Any, Any]]
+    ) -> tuple[Any, Any, Any]:
+        """The impulses that turns lead to, from a base along one direction or two, and how far the
+        cars turn there; NaN where none was found.
+        """
+        shape = self.shape
+        labels = self._recorders.labels
+        shares = np.linspace(-1.0, 1.0, _TURNS[len(labels)])
+        # Closer where cars turn little, as nearly all do.
+        turns = _MOST_TURN * shares * abs(shares)
+        whole = turning(self.e, self._duration, 0.0, np.ones(shape))[0]
+        per_change = whole.after - whole.before
+        changes = {}
+        for label, turn in zip(labels, np.meshgrid(*[turns] * len(labels)), strict=True):
+            spun = self.numbers[f"{label}.yaw_rate"] * self._duration
+            change = (turn.reshape(-1, *[1] * len(shape)) - spun) / per_change
+            changes[label] = np.where(np.isfinite(change), change, 0.0)
+
+        def impulse() -> tuple[Any, Any]:
+            columns = [[n * dn + t * dt for n, t in self._axes] for dn, dt in along]
+            left = [
+                momentum - (n * base[0] + t * base[1])
+                for (n, t), momentum in zip(self._axes, self._momenta, strict=True)
+            ]
+            inverse, _ = pseudoinverse(
+                columns, [abs(part) for column in columns for part in column]
+            )
+            steps = [dot(row, left) for row in inverse]
+            first, second = (
+                base[i] + sum(step * way[i] for step, way in zip(steps, along, strict=True))
+                for i in range(2)
+            )
+            return first, second
+
+        self._linear_about((0.0, 0.0), changes, fixed=True)
+        found = impulse()
+        self._linear_about(found, changes)
+        moved: Any = math.inf
+        for _ in range(_LOOKS):
+            before = dict(self._changes)
+            found = impulse()
+            self._linear_about(found)
+            moved = self._turned_since(before)
+            if not np.any(moved > _FOUND):
+                break
+        turn = sum(self._turned.values())
+        there = (moved <= _FOUND) & self._within_the_most()
+        whole_shape = np.broadcast_shapes(np.shape(changes[labels[0]]), shape)
+        n, t, turn = (
+            np.broadcast_to(np.where(there, part, np.nan), whole_shape) for part in (*found, turn)
+        )
+        return n, t, turn
+
+    def _within_the_most(self) -> Any:
+        """Where no car turns further than that while the contact lasts."""
+        return np.logical_and.reduce(
+            np.broadcast_arrays(*(turn <= _MOST_TURN for turn in self._turned.values()))
+        )
 
     def unit_responses(self, regime: Any) -> list[Observed]:
         """As in any scene; it does not depend on the axes, so each regime is asked once."""
@@ -308,14 +433,19 @@ class RecorderScene(ComponentScene):
             if not np.any(moved > _SETTLED):
                 break
         root, misfit, open_slip = found
-        return root, np.where(moved > _SETTLED, np.inf, misfit), open_slip
+        settled = moved <= _SETTLED
+        return (
+            root._replace(closing=np.where(settled, root.closing, np.nan)),
+            np.where(settled, misfit, np.inf),
+            np.where(settled, open_slip, np.inf),
+        )
 
     def _near_the_turn(self, regime: Any) -> None:
         """Set the axes to those of the turn of this regime, but for rounding.
 
         The impulse of a regime is linear in the speeds, so that no impact has to be solved for it.
         """
-        self._linear_about(dict.fromkeys(self._own, (0.0, 0.0)))
+        self._linear_about(self._start)
         still, *moving = self.unit_responses(regime)
         for _ in range(_ROUNDS):
             before = dict(self._changes)
@@ -331,7 +461,7 @@ class RecorderScene(ComponentScene):
             for speed, one in zip(speeds, moving, strict=True):
                 normal = normal + speed * (one.normal - still.normal)
                 tangential = tangential + speed * (one.tangential - still.tangential)
-            self._linear_about(dict.fromkeys(self._own, (normal, tangential)))
+            self._linear_about((normal, tangential))
             if not np.any(self._turned_since(before) > _SETTLED):
                 break
 
@@ -344,8 +474,14 @@ class RecorderScene(ComponentScene):
         self, regime: Any, speeds: Sequence[Any], moved: Any, stays_open: Any
     ) -> tuple[Root, Any, Any]:
         here: Observed = self.observe(regime, *speeds)
-        self._linear_about(dict.fromkeys(self._own, (here.normal, here.tangential)))
-        return super()._judged(regime, speeds, moved, stays_open)
+        self._linear_about((here.normal, here.tangential))
+        within = self._within_the_most()
+        root, misfit, open_slip = super()._judged(regime, speeds, moved, stays_open)
+        return (
+            root._replace(closing=np.where(within, root.closing, np.nan)),
+            np.where(within, misfit, np.inf),
+            np.where(within, open_slip, np.inf),
+        )
 
 
 def by_own_names(

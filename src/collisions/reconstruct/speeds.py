@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from itertools import chain, combinations
@@ -63,6 +64,7 @@ from .speeds_components import (
     RATIO_SHOWN,
     ComponentScene,
     friction_shown,
+    together,
 )
 from .speeds_tyres import Attempt, in_balance, other_starts, speeds_with_tyres
 
@@ -78,6 +80,8 @@ _TWO_OF = (
 _COMPONENTS = tuple(f"delta_v_{part}_{label}" for label in "ab" for part in ("forward", "left"))
 # Above this restitution hardly any energy is lost along the normal.
 _ELASTIC = 1.0 - 1e-6
+# Why a contact that slid has no direction.
+EITHER_WAY = "both fit within the accuracy stated for recorders (reference.RECORDER_ACCURACY)"
 # Distances of two answers whose ratio is less: the fold, quadratic, is as near as the samples are
 # apart.
 _NEAR_FOLD = 0.7
@@ -85,11 +89,13 @@ _NEAR_FOLD = 0.7
 
 class Ways(NamedTuple):
     """Other ways to solve a single case: with other arguments, and with the signs of lateral
-    components turned, which says of which components an answer results then.
+    components turned, which says of which components an answer results then; and with a contact
+    that slid in one direction alone, by the sign of its impulse ratio.
     """
 
-    again: Callable[..., Impact]
+    again: Callable[..., tuple[Impact, ...]]
     turned: Callable[[], str]
+    one_way: Callable[[float], tuple[Impact, ...]]
 
 
 @hinted
@@ -191,7 +197,10 @@ def speeds(
         Where the recorder sits that the components of A, or of B, were read from: how far ahead of
         the centre of mass, and how far to its left (``recorded_pulse(...).place``). The components
         are then the readings at that place, and carried over to the centre of mass by the yaw of
-        the vehicle, which is part of the solution (Marine and Werner, SAE 980219).
+        the vehicle, which is part of the solution (Marine and Werner, SAE 980219). Several pairs of
+        speeds may have the same readings, each with a turn of its own: they are looked for where no
+        car turns by more than a quarter while the contact lasts, and one may be missed, as
+        ``.statements`` say.
     axes : {"turning", "fixed"}, optional
         Axes of the components: those of the car, which turn with it, as the accelerometers of a
         recorder sum up, or those of its heading at maximum engagement, which stay. By default
@@ -206,9 +215,10 @@ def speeds(
         The wheels that act on the ground meanwhile, as for ``eccentric``. A known delta-V has their
         part in it, which is taken to pass as that of the contact does where axes turn; known
         energies are those of the contact, and not taken together with a recorder, axes or
-        ``slid``. Answers are looked for from those of an instant without tyres and, where two
-        values are known that are no readings at a recorder's place, from a grid of other speeds:
-        one that none of these leads to is missed, as ``.statements`` say.
+        ``slid``. Answers are looked for from those of an instant without tyres and from a grid of
+        other speeds, but for readings at a recorder's place, a bound, and more components than are
+        needed without a speed or an energy: one that none of these leads to is missed, as
+        ``.statements`` say.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
@@ -241,7 +251,8 @@ def speeds(
     AmbiguousSolutionError
         Components do not tell whether the contact stuck or slid. Both answers are in ``solutions``,
         first the one that stuck. They have the same numbers, but those of the other are the end of
-        its family.
+        its family. Or a bound was asked for, and sliding fits in either direction within
+        ``reference.RECORDER_ACCURACY``: ``solutions`` has the bounds of both.
 
     Warns
     -----
@@ -256,8 +267,9 @@ def speeds(
         needs an impulse ratio at which contacts between vehicles slide, from
         ``reference.INTER_VEHICLE_FRICTION.low`` on. Or a bound was asked for, or a case of a batch
         has no answer beside a known speed, and the ratio is further from the friction than
-        recorders may be; or cases of a batch leave open whether the contact stuck or slid. Or, with
-        no speed known, the courses are near one line.
+        recorders may be; or cases of a batch leave open whether the contact stuck or slid, or in
+        which direction (code "slid_either_way"). Or, with no speed known, the courses are near one
+        line.
     CollisionsWarning
         Some cases of a batch have no answer; they are NaN, and ``status`` of the first impact says
         why.
@@ -363,25 +375,51 @@ def speeds(
         # A function is called with all cases; the turn of cars is looked for until all have it.
         together = is_one_part(cases.shape or ()) or function is not None or recorders is not None
 
+        asked = inputs
+
         def looked(
-            own: dict[str, Any], some: Cases, most: float, plain: bool = False, shares: bool = False
+            own: dict[str, Any],
+            some: Cases,
+            most: float,
+            plain: bool = False,
+            shares: bool = False,
+            only: Mapping[str, Any] = {},
         ) -> _Looked:
             """The scene of these numbers and its roots, with the friction that the components show
             in place of an infinite one. ``shares`` says that another case has a share of the
-            critical ratio.
+            critical ratio, ``only`` in which direction a contact that slid did.
             """
+            if recorders is None or not np.any(own["duration"] > 0.0):
+                return looked_from(only, own, some, most, plain, shares)
+            starts = scene_of(own, some.shape or (), most).impulses()
+            looks = [
+                looked_from({"start": start, **only}, own, some, most, plain, shares)
+                for start in starts
+            ]
+            return _together(looks, own[asked.rule])
+
+        def looked_from(
+            start: Mapping[str, Any],
+            own: dict[str, Any],
+            some: Cases,
+            most: float,
+            plain: bool,
+            shares: bool,
+        ) -> _Looked:
+            """The same of the impulse at which readings that may mean several begin."""
             shape, friction, fits_both = some.shape or (), None, False
-            if components and inputs.rule == FRICTION and np.any(np.isinf(inputs.rule_value)):
+            if components and asked.rule == FRICTION and np.any(np.isinf(asked.rule_value)):
                 ratio, fits_both = friction_shown(
-                    partial(of_components, most=most), own, used_law, names, shape, regime
+                    partial(of_components, most=most, **start), own, used_law, names, shape, regime
                 )
                 if ratio is not None:
                     friction = some.values(ratio)
                     own = {**own, FRICTION: friction}
-            scene = scene_of(own, shape, most, plain)
+            scene = scene_of(own, shape, most, plain, start)
             scene.shares = scene.shares or shares
             if isinstance(scene, ComponentScene):
                 scene.leaves_slip = scene.leaves_slip | fits_both
+                scene.shows_friction = np.isinf(asked.rule_value) & (friction is not None)
             roots = scene.roots() if function is None else _with_function(scene, function)
             if most == math.inf:
                 # Whether it stuck or slid is asked when the tyres are known.
@@ -389,38 +427,45 @@ def speeds(
             return _Looked(scene, _in_order(scene, roots, forward_only), friction)
 
         def scene_of(
-            own: dict[str, Any], shape: tuple[int, ...], most: float, plain: bool = False
-        ) -> Scene:
+            own: dict[str, Any],
+            shape: tuple[int, ...],
+            most: float,
+            plain: bool = False,
+            start: Mapping[str, Any] = {},
+        ) -> Any:
             kind: Callable[..., Scene] = Scene
             if components:
-                kind = partial(of_components, regime=regime, slid=slid, most=most)
-            return kind(own, inputs.rule, used_law, names, shape=shape, plain=plain)
+                kind = partial(of_components, regime=regime, slid=slid, most=most, **start)
+            return kind(own, asked.rule, used_law, names, shape=shape, plain=plain)
 
-        def attempt(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
+        def attempt(
+            held: dict[str, Any], most: float = CONTRADICTION, only: Mapping[str, Any] = {}
+        ) -> Attempt:
             """The scene and its roots where these impulses of tyres act, and where known values may
             differ by so much.
             """
             own = {**numbers, **held}
             if not together:
-                scene, found, friction = _in_parts(
-                    own, cases, partial(looked, most=most), partial(scene_of, most=most)
+                now = _in_parts(
+                    own, cases, partial(looked, most=most, only=only), partial(scene_of, most=most)
                 )
             else:
                 try:
                     single = cases.shape is None and function is None
-                    scene, found, friction = looked(own, cases, most, single)
+                    now = looked(own, cases, most, single, only=only)
                 except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
-                    scene, found, friction = looked(own, cases, most)
-            of_inputs = inputs if friction is None else _with_friction(inputs, friction)
-            return Attempt(scene, found, of_inputs)
+                    now = looked(own, cases, most, only=only)
+            of_inputs = asked if now.friction is None else _with_friction(asked, now.friction)
+            return Attempt(now.scene, now.found, of_inputs, now.frictions)
 
+        knows_speed = any(name.startswith("speed") for name in known)
         balanced = bool(times and components) and not {"energy_loss", "ees_a"} & known.keys()
 
-        def solved(changes: dict[str, Any]) -> Attempt:
+        def solved(changes: dict[str, Any], only: Mapping[str, Any] = {}) -> Attempt:
             """The same with some numbers changed, in balance with the tyres."""
 
             def changed(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
-                return attempt({**held, **changes}, most)
+                return attempt({**held, **changes}, most, only)
 
             return in_balance(changed, numbers, cases) if balanced else changed({})
 
@@ -431,7 +476,7 @@ def speeds(
             lateral = [name for name in known if name.startswith("delta_v_left")]
             best, said_of = math.inf, ""
             for names in (names for n in (1, 2) for names in combinations(lateral, n)):
-                scene, found, _ = solved({name: -known[name] for name in names})
+                scene, found, *_ = solved({name: -known[name] for name in names})
                 assert isinstance(scene, ComponentScene)
                 answer = found[0][0][:2] if found else scene.answer
                 fits = (bool(found) or bool(np.any(scene.ambiguous))) and min(answer) >= 0.0
@@ -439,13 +484,20 @@ def speeds(
                     best, said_of = float(scene.misfit), " and ".join(names)
             return said_of
 
-        asked = inputs
-        scene, found, inputs = solved({})
+        attempted = solved({})
+        scene, found, inputs, _ = attempted
         if inputs is not asked:
             also = (FRICTION,)
         texts = by_own_names(reader.texts, recorders, bool(times))
-        if texts:
-            inputs = replace(inputs, given={**texts, **(inputs.given or {})})
+
+        def with_texts(one: Attempt) -> Attempt:
+            if not texts:
+                return one
+            own = {**texts, **(one.inputs.given or {})}
+            return one._replace(inputs=replace(one.inputs, given=own))
+
+        attempted = with_texts(attempted)
+        inputs = attempted.inputs
         told = known | {
             f"course_{label}": angle.radians
             for label, angle in courses.items()
@@ -458,14 +510,18 @@ def speeds(
         }
         told = by_own_names(told, recorders, bool(times))
 
-        def again(**changes: Any) -> Impact:
+        def again(**changes: Any) -> tuple[Impact, ...]:
             with quietly():
-                return speeds(**{**given, **changes})[0]
+                try:
+                    return speeds(**{**given, **changes})
+                except AmbiguousSolutionError as error:
+                    return error.solutions
 
         if inputs.tyres:
             state_of_study(f"speeds with tyres: {LOOKED_FOR}", "looked_for")
             # A place of a recorder and its axes are in the balance alone.
-            if not balanced or (len(known) == 2 and recorders is None and slid is None):
+            alone = recorders is None and slid is None and not attempted.frictions
+            if not balanced or (alone and (len(known) == 2 or knows_speed)):
                 found = _while_tyres_act(
                     cases, scene, found, inputs, known, forward_only, regime, balanced
                 )
@@ -473,11 +529,18 @@ def speeds(
             state_instant("speeds")
         if inputs.tyres:
             state_motion("speeds")
-        ways = Ways(again, turned)
         reconstruction = partial(cases.reconstruction, "speeds", given=told, also=also)
-        return _answers(
-            cases, scene, found, inputs, known, function, forward_only, ways, reconstruction
-        )
+
+        def answered(one: Attempt) -> tuple[Impact, ...]:
+            return _answers(cases, one, known, function, forward_only, ways, reconstruction)
+
+        def one_way(direction: float) -> tuple[Impact, ...]:
+            with quietly(), suppress(CollisionsError):
+                return answered(with_texts(solved({}, {"direction": direction})))
+            return ()
+
+        ways = Ways(again, turned, one_way)
+        return answered(attempted._replace(found=found))
 
 
 def _refuse_with_tyres(given: dict[str, Any]) -> None:
@@ -692,11 +755,44 @@ def _refuse_combinations(
 
 
 class _Looked(NamedTuple):
-    """A scene, its roots and where each is, and the friction that it showed, if any."""
+    """A scene, its roots and where each is, the friction that it showed, if any, and by the way of
+    a root, where it is of several scenes.
+    """
 
     scene: Scene
     found: list[tuple[Root, Any]]
     friction: Any
+    frictions: Sequence[Any] = ()
+
+
+def _together(looks: Sequence[_Looked], given: Any) -> _Looked:
+    """The roots that fit best of scenes with the same readings and each an impulse of its own."""
+    if len(looks) == 1:
+        return looks[0]
+    scenes = [look.scene for look in looks if isinstance(look.scene, ComponentScene)]
+    answered = [
+        np.logical_or.reduce(
+            [np.zeros(look.scene.shape, dtype=bool), *(at for _, at in look.found)]
+        )
+        for look in looks
+    ]
+    whole = together(scenes, answered)
+    roots = [
+        root._replace(
+            closing=np.where(
+                there & (scene.misfit <= np.maximum(ROOT_TOL, whole.misfit)),
+                root.closing,
+                np.nan,
+            ),
+            way=np.full(whole.shape, float(i)),
+        )
+        for i, (look, scene) in enumerate(zip(looks, scenes, strict=True))
+        for root, there in look.found
+    ]
+    shown = [look.friction for look in looks]
+    frictions = [given if one is None else one for one in shown]
+    one = next((one for one in shown if one is not None), None)
+    return _Looked(whole, _in_order(whole, roots, False), one, () if one is None else frictions)
 
 
 def _in_parts(
@@ -711,7 +807,8 @@ def _in_parts(
 
     def work(part: Part) -> dict[str, Any]:
         there = {name: part.of(value) for name, value in own.items()}
-        scene, found, friction = looked(there, Cases(part.shape, cases.dtype), shares=whole.shares)
+        some = Cases(part.shape, cases.dtype)
+        scene, found, friction, _ = looked(there, some, shares=whole.shares)
         parts = scene.findings()
         for i, (root, where) in enumerate(found):
             parts |= {f"{i}.{name}": value for name, value in root._asdict().items()}
@@ -784,7 +881,7 @@ def _in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple
     if len(fitting) == 1 and scene.plain and not forward_only:
         return [(fitting[0], np.True_)]
     whole = np.array([[np.broadcast_to(part, scene.shape) for part in root] for root in fitting])
-    speeds_a, speeds_b, _, _, closing, _ = np.moveaxis(whole, 1, 0)
+    speeds_a, speeds_b, _, _, closing, *_ = np.moveaxis(whole, 1, 0)
 
     def sort() -> None:
         """Sort the answers by closing speed in every case, those left out last."""
@@ -807,9 +904,7 @@ def _in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple
 
 def _answers(
     cases: Cases,
-    scene: Scene,
-    found: list[tuple[Root, Any]],
-    inputs: Inputs,
+    attempted: Attempt,
     known: dict[str, Any],
     function: RestitutionOf | None,
     forward_only: bool,
@@ -819,6 +914,7 @@ def _answers(
     """The impact of each root; raises for a single case without one. ``reconstruction`` makes what
     says how it was found.
     """
+    scene, found, inputs, _ = attempted
     faults = input_faults(scene.numbers, inputs.incomplete)
     of_walls = [
         np.isinf(scene.numbers[f"{name[-1]}.mass"])
@@ -844,7 +940,8 @@ def _answers(
             )
             bodies.append(moved(body, vx, vy, body.yaw_rate, given))
         e = inputs.restitution if function is None else cases.where(keep, root.restitution)
-        return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
+        own = attempted.inputs_of(root)
+        return replace(own, a=bodies[0], b=bodies[1], restitution=e)
 
     if inputs.tyres:
         faults += tyre_faults(inputs.duration, inputs.tyres)
@@ -853,11 +950,14 @@ def _answers(
     # Stuck and slid.
     count = np.where(scene.ambiguous, 2, count) if np.any(scene.ambiguous) else count
     impacts: list[Impact] = []
+    scenes: list[ComponentScene | None] = []
     backward, whose, turned = 0.0, "", nowhere
     for root, there in found or [(NO_ROOT, nowhere)]:
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
             say = Sentences(inputs.texts)
+            if status == Status.AMBIGUOUS and np.any(getattr(scene, "both_ways", False)):
+                raise _slid_either_way(known, say, ways.one_way)
             if status == Status.AMBIGUOUS and isinstance(scene, ComponentScene):
                 raise _stuck_or_slid(scene, known, say, ways.again)
             if inputs.tyres and status == Status.CONTRADICTORY:
@@ -871,29 +971,31 @@ def _answers(
             raise _refusal(scene, status, known, function, forward_only, say, ways.turned)
         names = (*scene.names, *getattr(scene, "recorders", ()))
         origin = reconstruction(names, root.condition, count)
-        if isinstance(scene, ComponentScene):
-            origin = replace(origin, regime=scene.stated, one_sided=_sides(scene, cases, there))
+        own = scene.of_way(root.way) if isinstance(scene, ComponentScene) else None
+        if own is not None:
+            origin = replace(origin, regime=own.stated, one_sided=_sides(own, cases, there))
         impact = run_forward(
             partial(inputs_of, root), status, origin, None if cases.shape is None else "nan"
         )
         for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
-            if isinstance(scene, ComponentScene) and scene.sides:
+            if own is not None and own.sides:
                 # A family that begins backwards goes on forwards.
-                speed = np.where(
-                    scene.sides["AB".index(label)] > 0.0, np.maximum(speed, 0.0), speed
-                )
+                speed = np.where(own.sides["AB".index(label)] > 0.0, np.maximum(speed, 0.0), speed)
             backward, whose = min(
                 (backward, whose), (float(np.fmin.reduce(speed, axis=None, initial=0.0)), label)
             )
             turned = turned | np.less(speed, 0.0)
         impacts.append(impact)
+        scenes.append(own)
     if cases.shape is not None and np.any(impacts[0].refused):
         warn_of_refusals(impacts[0].status, ASK_ALONE)
     _warn_of_folds(scene, found, count)
     if isinstance(scene, ComponentScene):
         scene.warn(np.logical_not(impacts[0].refused), cases)
-        _warn_of_slip(scene, impacts[0], cases)
+        for own, impact in zip(scenes, impacts, strict=True):
+            if own is not None:
+                _warn_of_slip(own, impact, cases)
     if backward < 0.0:
         cure = (
             "backwards along its course; check the courses, and the normal, which must point "
@@ -925,9 +1027,11 @@ def _sides(scene: ComponentScene, cases: Cases, there: Any) -> dict[str, Any] | 
 
 def _if_it_slid(scene: ComponentScene, impact: Impact, say: Sentences) -> str:
     """What follows for the speeds of a single case if its contact slid."""
+    if scene.slides_both_ways():
+        return f"it may have in either direction, since {EITHER_WAY}, and the speeds are open"
     sides = {
         f"speed_{label}": int(np.nan_to_num(side))
-        for label, side in zip("ab", scene.ways(), strict=True)
+        for label, side in zip("ab", scene.if_slid(), strict=True)
     }
     speeds = {f"speed_{one}": say(_along(impact, one), "speed") for one in "ab"}
     return " and ".join(bounds_of(sides, speeds))
@@ -961,6 +1065,15 @@ def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
             cases.how_many(slides) + text, code="may_slide", ratio=ratio
         )
         warn_of_cases(warning, {sentence: cases.number(slides)})
+    if cases.shape is not None and np.any(scene.both_ways):
+        text = (
+            f"components of delta-V do not tell in which direction the contact slid: {EITHER_WAY}, "
+            "so a bound has no side; give another component, or one of the speeds"
+        )
+        warning = IllConditionedWarning(
+            cases.how_many(scene.both_ways) + text, code="slid_either_way"
+        )
+        warn_of_cases(warning, {text: cases.number(scene.both_ways)})
     if cases.shape is not None and scene.rule == FRICTION and not scene.slid:
         left = (scene.ambiguous | scene.undetermined) & np.logical_not(answered)
         if np.any(left & scene.leaves_slip):
@@ -978,16 +1091,46 @@ def _stuck_or_slid(
     scene: ComponentScene,
     known: dict[str, Any],
     say: Sentences,
-    again: Callable[..., Impact],
+    again: Callable[..., tuple[Impact, ...]],
 ) -> AmbiguousSolutionError:
     """The error for a single case in which the contact either stuck or slid."""
-    ratio = float(abs(scene.ratio))
+    # Several ways may lead to one answer.
+    ratios = list(
+        {
+            f"{float(abs(one.ratio)):.9g}": float(abs(one.ratio))
+            for one in scene.ways or [scene]
+            if np.any(one.ambiguous)
+        }.values()
+    )
+    ratio = ratios[0]
     friction = float(scene.bound)
     stuck = again(regime="sticking")
-    slid = again(regime="sliding", slid="bound", friction=ratio)
-    speeds = {f"speed_{label}": say(_along(stuck, label), "speed") for label in "ab"}
-    assert slid.reconstruction is not None
-    bounds = " and ".join(bounds_of(slid.reconstruction.one_sided or {}, speeds))
+    slid: list[Impact] = []
+    if math.isinf(friction):
+        # Each at the ratio that is shown: beside a speed not that of the one that stuck.
+        with suppress(CollisionsError):
+            slid = [
+                one
+                for one in again(regime="sliding", slid="bound")
+                if len(scene.unknown) == 1
+                or any(abs(abs(one.impulse_ratio) - ratio) <= ROOT_TOL for ratio in ratios)
+            ]
+    if not slid:
+        slid = [again(regime="sliding", slid="bound", friction=one)[0] for one in ratios]
+    speeds = [
+        {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"}
+        for impact in (stuck if len(stuck) == len(slid) == 1 else slid)
+    ]
+    bounds = ", or ".join(
+        " and ".join(bounds_of(getattr(impact.reconstruction, "one_sided", None) or {}, one))
+        for impact, one in zip(slid, speeds, strict=True)
+    )
+    alone = ", or ".join(
+        f"the speed of A is {say(_along(impact, 'a'), 'speed')} and that of B "
+        f"{say(_along(impact, 'b'), 'speed')}"
+        for impact in stuck
+    )
+    shown = " or ".join(f"{one:.2f}" for one in ratios)
     allowed = (
         "`friction=inf` does not say that it stuck"
         if math.isinf(friction)
@@ -995,15 +1138,39 @@ def _stuck_or_slid(
     )
     return AmbiguousSolutionError(
         f"{' and '.join(known)} do not tell whether the contact stuck or slid: they "
-        f"have an impulse ratio of {ratio:.2f}, and {allowed}. If it stuck, the speed "
-        f"of A is {speeds['speed_a']} and that of B {speeds['speed_b']}; if it slid at "
+        f"have an impulse ratio of {shown}, and {allowed}. If it stuck, {alone}; if it slid at "
         f"that ratio, {bounds}. Write `regime='sticking'` or `regime='sliding'` if you "
         "know which, the latter with one of the speeds or the energy lost; or "
         "`slid='bound'` for this end of the speeds that it may have had"
         "`|. Both answers are in .solutions|`",
         code=Status.AMBIGUOUS.label,
         ratio=ratio,
-        solutions=(stuck, slid),
+        solutions=(*stuck, *slid),
+    )
+
+
+def _slid_either_way(
+    known: dict[str, Any], say: Sentences, one_way: Callable[[float], tuple[Impact, ...]]
+) -> AmbiguousSolutionError:
+    """The error for a single case of which a bound has no side."""
+    solutions = (*one_way(1.0), *one_way(-1.0))
+    then, where = "a bound has no side", "The end that was found is in .solutions"
+    if len(solutions) > 1:
+        where = "Both answers are in .solutions"
+        then = ", or ".join(
+            " and ".join(
+                bounds_of(
+                    getattr(impact.reconstruction, "one_sided", None) or {},
+                    {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"},
+                )
+            )
+            for impact in solutions
+        )
+    return AmbiguousSolutionError(
+        f"{' and '.join(known)} do not tell in which direction the contact slid: {EITHER_WAY}, so "
+        f"{then}. Give another component of delta-V, or one of the speeds`|. {where}|`",
+        code=Status.AMBIGUOUS.label,
+        solutions=solutions,
     )
 
 
@@ -1025,7 +1192,8 @@ def _while_tyres_act(
     """The roots of a contact in which the tyres act, in order, and where each is: those to which
     the roots of the instant and other speeds lead.
 
-    Roots that are ``balanced`` have the impulse of the tyres already, of a contact that stuck.
+    Roots that are ``balanced`` have the impulse of the tyres already: of a contact that stuck, or
+    beside a known speed and more components than it needs.
     """
     directions = {
         label: (scene.numbers[f"course_{label}[0]"], scene.numbers[f"course_{label}[1]"])
@@ -1040,15 +1208,32 @@ def _while_tyres_act(
     if not starts:
         return []
     begins = np.stack([np.stack(np.broadcast_arrays(*start)) for start in starts], axis=1)
+    more = balanced and len(known) > 2
     answer = speeds_with_tyres(
-        inputs, directions, (begins[0], begins[1]), known, (len(starts), *shape)
+        inputs,
+        directions,
+        (begins[0], begins[1]),
+        known,
+        (len(starts), *shape),
+        len(found) if more else 0,
     )
     fits = answer.settled
-    if balanced:
+    if balanced and not more:
         # Of the contacts that stick, where it is known that this one did.
         fits = fits & answer.sticks
         if regime is None:
             fits = fits & np.any([there for _, there in found] or [False], axis=0)
+    if answer.misfit is not None:
+        if regime is not None:
+            # Other starts may lead to a contact that ended otherwise than was stated.
+            so = np.broadcast_to(answer.sticks == (regime == "sticking"), fits.shape).copy()
+            so[: len(found)] = True
+            fits = fits & so
+        fits = fits & (answer.misfit <= CONTRADICTION)
+        fits, least = _best_of(answer.misfit, fits)
+        if isinstance(scene, ComponentScene):
+            scene.misfit = np.where(np.isfinite(least), least, scene.misfit)
+            scene.may_slide = scene.may_slide & np.any(fits[: len(found)], axis=0)
     roots = []
     for i in range(len(starts)):
         instant = found[i][0] if i < len(found) else NO_ROOT
@@ -1063,6 +1248,16 @@ def _while_tyres_act(
             )
         )
     return _in_order(scene, roots, forward_only)
+
+
+def _best_of(misfit: Any, fits: Any) -> tuple[Any, Any]:
+    """Of what was found from several starts, all that fit exactly, or else the one that fits best,
+    and by how much that misses.
+    """
+    misfit = np.where(fits, misfit, np.inf)
+    least = np.min(misfit, axis=0)
+    best = np.arange(len(misfit)).reshape(-1, *[1] * np.ndim(least)) == np.argmin(misfit, axis=0)
+    return fits & np.where(least <= ROOT_TOL, misfit <= ROOT_TOL, best), least
 
 
 def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> None:

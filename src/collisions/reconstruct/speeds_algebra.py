@@ -70,7 +70,8 @@ class Root(NamedTuple):
     """A candidate solution: both speeds, their restitution, condition and closing speed.
 
     The closing speed is NaN unless the law leads from these speeds to the observed values;
-    ``one_of_many`` says whether it leads there from those beside them as well.
+    ``one_of_many`` says whether it leads there from those beside them as well, ``way`` of which of
+    several scenes it is a root, where readings may mean one impulse or another.
     """
 
     speed_a: Any
@@ -79,6 +80,7 @@ class Root(NamedTuple):
     condition: Any
     closing: Any
     one_of_many: Any = False
+    way: Any = 0.0
 
 
 NO_ROOT = Root(*[math.nan] * 5)

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -60,7 +61,7 @@ _REFINEMENTS = 3
 # What to write where the components show another ratio than the friction.
 RATIO_SHOWN = "Write `friction=inf, slid='bound'`, which takes the ratio that the components show"
 # What ``roots`` finds of every case.
-_FOUND = ("misfit", "ended", "ratio", "may_slide", "leaves_slip")
+_FOUND = ("misfit", "ended", "ratio", "may_slide", "leaves_slip", "both_ways")
 
 
 class ComponentScene(Scene):
@@ -79,8 +80,11 @@ class ComponentScene(Scene):
         regime: str | None = None,
         slid: str | None = None,
         most: float = CONTRADICTION,
+        direction: float | None = None,
     ) -> None:
         super().__init__(given, rule, law, names, shape)
+        # That of the slip which is tried, by the sign of its impulse ratio; None for both.
+        self._direction = direction
         # What known values may differ by.
         self.most = most
         self.stated, self.slid = regime, slid
@@ -98,8 +102,16 @@ class ComponentScene(Scene):
         self.energy = self.targets.get("energy_loss")
         self.leaves_slip: Any = len(self.unknown) > 1 and self.energy is None
         self.answer: tuple[Any, Any] = (math.nan, math.nan)
+        # Where a bound was asked for and sliding fits either way, so that it has no side.
+        self.both_ways: Any = np.zeros((), dtype=bool)
+        # Where the friction is the ratio that the components show.
+        self.shows_friction: Any = np.zeros((), dtype=bool)
         # Which way the truth may lie from each speed, where it may be another member of the family.
         self.sides: tuple[Any, Any] | None = None
+        # The misfit of a contact that leaves the slip open.
+        self.left_open: Any = np.full((), np.inf)
+        # The scenes that this one stands for, each with its own impulse from the same readings.
+        self.ways: list[ComponentScene] = []
         nx, ny = self.given["normal[0]"], self.given["normal[1]"]
         self._axes, self._momenta = [], []
         for kind in self.components:
@@ -149,8 +161,14 @@ class ComponentScene(Scene):
         elif self.slid:
             ends = [self._end(regime) for regime in regimes if not isinstance(regime, str)]
             ends = [(root, np.where(sticks, np.inf, misfit), left) for root, misfit, left in ends]
+            if len(ends) > 1:
+                self.both_ways = np.logical_and(*(misfit <= ACCURACY for _, misfit, _ in ends))
+                if np.any(self.shows_friction):
+                    one = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
+                    shown = one & self.slides_both_ways()
+                    self.both_ways = np.where(self.shows_friction, shown, self.both_ways)
             if ends:
-                self.ended = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
+                self.ended = np.isfinite(np.minimum.reduce([misfit for _, misfit, _ in ends]))
             edges = [
                 (root, np.where(self.ended, np.inf, misfit), left) for root, misfit, left in edges
             ]
@@ -158,12 +176,15 @@ class ComponentScene(Scene):
         found, misfits, _ = zip(*tried, *edges, strict=True)
         self.misfit = np.minimum.reduce(np.broadcast_arrays(*misfits))
         none = np.isinf(self.misfit)
+        self.left_open = open_slip
         self.undetermined = none & (open_slip <= self.most)
         if not self.slid:
             self.undetermined = self.undetermined | (open_slip <= REDUNDANT)
         best = [misfit <= np.maximum(ROOT_TOL, self.misfit) for misfit in misfits]
         if self.rule == FRICTION:
             self._weigh(sticks, open_slip <= ACCURACY, found, best)
+        self.both_ways = self.both_ways & self.leaves_slip
+        self.ambiguous = self.ambiguous | self.both_ways
         return [
             root._replace(closing=np.where(here, root.closing, np.nan))
             for root, here in zip(found, best, strict=True)
@@ -174,6 +195,8 @@ class ComponentScene(Scene):
         regimes = self.regimes()
         if self.rule != FRICTION:
             return regimes
+        if self._direction is not None:
+            del regimes[1 if self._direction > 0.0 else 0]
         if self.stated is not None:
             return [one for one in regimes if (one is STICK) == (self.stated == "sticking")]
         # Without a ratio to slide at, nothing slides.
@@ -224,7 +247,26 @@ class ComponentScene(Scene):
         effects = [abs(one.closing - rest.closing) for one in moving]
         return effects[self.unknown[0]] <= _NO_EFFECT * np.maximum(*effects)
 
-    def ways(self) -> tuple[Any, Any]:
+    def of_way(self, way: Any) -> ComponentScene:
+        """This scene as it is for a root, by the ``way`` of that."""
+        if not self.ways:
+            return self
+        chosen = copy(self)
+        for name in (*_FOUND, "bound"):
+            setattr(chosen, name, by_way(way, [getattr(one, name) for one in self.ways]))
+        if self.slid:
+            sides = (one.sides or (np.zeros(()), np.zeros(())) for one in self.ways)
+            first, second = (by_way(way, both) for both in zip(*sides, strict=True))
+            chosen.sides = first, second
+        return chosen
+
+    def slides_both_ways(self) -> Any:
+        """Whether a contact that slid at a ratio of either sign fits, and so one without any."""
+        smooth = np.zeros(())
+        speeds = self._solved(smooth)[0][:2]
+        return self._misfit(self.observe(smooth, *speeds)) <= ACCURACY
+
+    def if_slid(self) -> tuple[Any, Any]:
         """To which side of the answer each speed lies if the contact slid at the ratio of the
         answer: 1 above, -1 below, 0 where it stays.
         """
@@ -335,8 +377,8 @@ class ComponentScene(Scene):
         if not stated or len(self.components) < 2:
             return np.zeros((), dtype=bool)
         columns = [list(parts) for parts in zip(*self._axes, strict=True)]
-        rows, flat = _inverse(columns, [abs(part) for column in columns for part in column])
-        normal, tangential = (_dot(row, self._momenta) for row in rows)
+        rows, flat = pseudoinverse(columns, [abs(part) for column in columns for part in column])
+        normal, tangential = (dot(row, self._momenta) for row in rows)
         apart = abs(abs(tangential) - self.bound * normal) / np.hypot(normal, tangential)
         return np.isfinite(self.bound) & np.logical_not(flat) & (apart > ACCURACY)
 
@@ -347,7 +389,7 @@ class ComponentScene(Scene):
         for _ in range(_REFINEMENTS):
             left = self._left(self.observe(regime, *speeds))
             for at, row in zip(self.unknown, inverse, strict=True):
-                step = _dot(row, left)
+                step = dot(row, left)
                 speeds[at] = speeds[at] + np.where(np.isfinite(step), step, 0.0)
         moved = self._moved(inverse, effects, self._momenta)
         return self._judged(regime, speeds, moved, stays_open)
@@ -361,7 +403,7 @@ class ComponentScene(Scene):
             )
             # A known speed enters by what it takes off the momenta.
             by_speeds = sum(
-                abs(_dot(row, effect) * speed)
+                abs(dot(row, effect) * speed)
                 for effect, speed in zip(effects, self.known, strict=True)
             )
             moved = np.maximum(moved, by_momenta + by_speeds)
@@ -376,7 +418,7 @@ class ComponentScene(Scene):
             [at - still for at, still in zip(momenta, rest, strict=True)] for momenta in moving
         ]
         columns = [effects[at] for at in self.unknown]
-        inverse, stays_open = _inverse(
+        inverse, stays_open = pseudoinverse(
             columns, [abs(part) for effect in effects for part in effect]
         )
         return rest, effects, inverse, stays_open
@@ -559,18 +601,60 @@ def friction_shown(
     return (np.where(settled, shown, friction) if np.any(settled) else None), open_ & ~settled
 
 
-def _dot(one: Sequence[Any], other: Sequence[Any]) -> Any:
+def by_way(way: Any, values: Sequence[Any]) -> Any:
+    """Of each case the value that goes with the way of its root."""
+    whole = np.stack(np.broadcast_arrays(*values, way)[:-1])
+    at = np.broadcast_to(np.asarray(way, dtype=np.int64), whole.shape[1:])
+    return np.take_along_axis(whole, at[None], axis=0)[0]
+
+
+def together(scenes: Sequence[ComponentScene], answered: Sequence[Any]) -> ComponentScene:
+    """One scene for several that have the same readings and each an impulse of its own, and where
+    they are ``answered``.
+    """
+    misfits = np.stack(np.broadcast_arrays(*(one.misfit for one in scenes)))
+    usable = [there | one.ambiguous for there, one in zip(answered, scenes, strict=True)]
+    fitting = np.where(np.stack(np.broadcast_arrays(*usable, misfits[0])[:-1]), misfits, np.inf)
+    least = np.min(fitting, axis=0)
+    none = np.isinf(least)
+    best = fitting <= np.maximum(ROOT_TOL, least)
+    # Of a single case, the texts are of the scene that fits best.
+    at = int(np.argmin(np.where(none, misfits, fitting), axis=0)) if np.ndim(least) == 0 else 0
+    whole = copy(scenes[at])
+    whole.ways = list(scenes)
+    whole.misfit = np.where(none, np.min(misfits, axis=0), least)
+    whole.undetermined = np.logical_or.reduce(
+        np.broadcast_arrays(
+            *(one.undetermined & (none | (one.left_open <= ACCURACY)) for one in scenes)
+        )
+    )
+    whole.ambiguous = np.logical_or.reduce(
+        [one.ambiguous & here & ~none for one, here in zip(scenes, best, strict=True)]
+    )
+    whole.both_ways = np.logical_or.reduce(
+        [one.both_ways & here & ~none for one, here in zip(scenes, best, strict=True)]
+    )
+    whole.leaves_slip = np.logical_or.reduce(
+        np.broadcast_arrays(*(one.leaves_slip for one in scenes))
+    )
+    return whole
+
+
+def dot(one: Sequence[Any], other: Sequence[Any]) -> Any:
+    """The scalar product."""
     return sum(a * b for a, b in zip(one, other, strict=True))
 
 
-def _inverse(columns: Sequence[Sequence[Any]], sizes: Sequence[Any]) -> tuple[list[list[Any]], Any]:
+def pseudoinverse(
+    columns: Sequence[Sequence[Any]], sizes: Sequence[Any]
+) -> tuple[list[list[Any]], Any]:
     """The rows of the pseudoinverse of one or two columns, by their orthogonal parts, and where
     these have no full rank.
 
     Without full rank they are those of the longer column alone.
     """
     least = (_NO_EFFECT * np.maximum.reduce(np.broadcast_arrays(*sizes))) ** 2
-    squares = [_dot(column, column) for column in columns]
+    squares = [dot(column, column) for column in columns]
     if len(columns) == 1:
         return [[part / squares[0] for part in columns[0]]], ~(squares[0] > least)
     swapped = squares[1] > squares[0]
@@ -579,9 +663,9 @@ def _inverse(columns: Sequence[Sequence[Any]], sizes: Sequence[Any]) -> tuple[li
         for pair in (columns, columns[::-1])
     )
     square = np.maximum(*squares)
-    along = _dot(first, second) / square
+    along = dot(first, second) / square
     across = [b - along * a for a, b in zip(first, second, strict=True)]
-    crossed = _dot(across, across)
+    crossed = dot(across, across)
     flat = ~(crossed > np.maximum(_NO_EFFECT**2 * square, 0.0))
     of_second = [np.where(flat, 0.0, part / crossed) for part in across]
     of_first = [part / square - along * other for part, other in zip(first, of_second, strict=True)]

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -21,11 +22,13 @@ from ..impact.run import solve_inputs
 from ..impact.time_resolved_inputs import held_impulse
 from ..kernels.reverse import energy_of_speeds
 from ..messages.warning import quietly
+from ..quantities.attributes import read_only
 from ..quantities.directions import from_radians
 from ..vehicle.vehicle import moved
 from .common import Cases
 from .lasting import misses_of_impacts, settle, slopes_at
 from .speeds_algebra import EITHER, HELD, Root, Scene
+from .speeds_components import ComponentScene, by_way
 
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
 # it has not settled; and how often it is worked out. Nearly all cases need fewer than 20.
@@ -33,6 +36,8 @@ _SAME, _STEADY, _ROUNDS = 1e-12, 1e-9, 64
 # How often a contact may turn from stuck to slid or back before it counts as either: the tyres of
 # the instant, which has none, may turn it once and their correction back.
 _TURNS = 2
+# How often the directions are taken anew in which more components than are needed are met.
+_TURNED = 3
 # Of the speeds: answers that differ by no more are one.
 _ONE_ANSWER = 1e-6
 # The second of a pair that together is one energy.
@@ -44,7 +49,8 @@ _PARTS = (0.1, 0.3, 0.6, 1.0, 1.5)
 
 class Found(NamedTuple):
     """Speeds of A and B along their courses, where they have what was known, the closing speed,
-    where the contact sticks, and the condition, None where it is that of the instant.
+    where the contact sticks, the condition, None where it is that of the instant, and by how much
+    of the impulse the components are missed that are more than is needed, None where none is.
     """
 
     speed_a: Any
@@ -53,16 +59,26 @@ class Found(NamedTuple):
     closing: Any
     sticks: Any
     condition: Any
+    misfit: Any = None
 
 
 class Attempt(NamedTuple):
-    """A scene with what acts in it, its roots and where each is, and the inputs with the friction
-    that was used.
+    """A scene with what acts in it, its roots and where each is, the inputs with the friction that
+    was used, and the frictions by the way of a root, where they differ.
     """
 
     scene: Scene
     found: list[tuple[Root, Any]]
     inputs: Inputs
+    frictions: Sequence[Any] = ()
+
+    def inputs_of(self, root: Root) -> Inputs:
+        """The inputs with the friction of a root."""
+        if not self.frictions:
+            return self.inputs
+        friction = by_way(root.way, self.frictions)
+        own: Any = read_only(friction) if np.ndim(friction) else float(friction)
+        return replace(self.inputs, rule_value=own)
 
 
 def in_balance(
@@ -77,21 +93,36 @@ def in_balance(
     instant = attempt({}, math.inf)
     results: list[Attempt] = []
     kept: list[tuple[Root, Any]] = []
+    scenes: list[ComponentScene | None] = []
+    frictions: list[Any] = []
     for slot in range(max(len(instant.found), 1)):
-        held, settled = _settled(attempt, instant, slot, numbers, cases)
+        held, settled, at = _settled(attempt, instant, slot, numbers, cases)
         last = attempt(held)
         results.append(last)
-        if slot >= len(last.found):
+        if not last.found:
             continue
-        root, there = last.found[slot]
+        root, there = _followed(last, at)
         there = there & settled
+        scenes.append(
+            last.scene.of_way(root.way) if isinstance(last.scene, ComponentScene) else None
+        )
+        frictions.append(last.inputs_of(root).rule_value)
+        root = root._replace(way=np.full(np.shape(there), float(len(kept))))
         size = np.hypot(root.speed_a, root.speed_b)
         for earlier, before in kept:
             apart = abs(earlier.speed_a - root.speed_a) + abs(earlier.speed_b - root.speed_b)
             there = there & ~(before & (apart <= _ONE_ANSWER * size))
         if np.any(there):
             kept.append((root, there))
-    return results[0]._replace(found=kept)
+        else:
+            del scenes[-1], frictions[-1]
+    first = results[0]
+    if len(kept) < 2 and not first.frictions:
+        return first._replace(found=kept)
+    scene = copy(first.scene)
+    if isinstance(scene, ComponentScene):
+        scene.ways = [one for one in scenes if one is not None]
+    return Attempt(scene, kept, first.inputs, frictions)
 
 
 def _settled(
@@ -100,21 +131,28 @@ def _settled(
     slot: int,
     numbers: Mapping[str, Any],
     cases: Cases,
-) -> tuple[dict[str, Any], Any]:
-    """The impulses of the tyres that lead to the speeds from which they follow, and where there are
-    some.
+) -> tuple[dict[str, Any], Any, tuple[Any, Any]]:
+    """The impulses of the tyres that lead to the speeds from which they follow, where there are
+    some, and those speeds.
 
     A case that has settled stays, so that it comes out of a batch as alone. One in which a contact
     that stuck and one that slid lead to each other is ``EITHER`` from then on.
     """
     shape = cases.shape or ()
     held = {name: np.zeros(shape) for name in (*HELD, EITHER)}
-    slid, turns = _shows_slip(now, shape), np.zeros(shape)
+    if not now.found:
+        nowhere = np.full(shape, np.nan)
+        return _plain(held, shape), np.zeros(shape, dtype=bool), (nowhere, nowhere)
+    at = tuple(np.where(now.found[slot][1], speed, np.nan) for speed in now.found[slot][0][:2])
+    slid, turns = _shows_slip(now, at, shape), np.zeros(shape)
     moving, settled = np.ones(shape, dtype=bool), np.zeros(shape, dtype=bool)
     for _ in range(_ROUNDS):
-        if slot >= len(now.found):
+        if not now.found:
             break
-        root, there = now.found[slot]
+        root, there = _followed(now, at)
+        at = tuple(
+            np.where(moving & there, speed, was) for speed, was in zip(root[:2], at, strict=True)
+        )
         new = _pushes(now, root, there, numbers, cases)
         parts = [(held[name], new[name]) for name in HELD if not name.endswith("moment")]
         size = np.sqrt(sum(part * part for _, part in parts))
@@ -125,16 +163,39 @@ def _settled(
         moving = moving & (change > _SAME * size)
         if not np.any(moving):
             break
-        now = attempt(held if shape else {name: float(one) for name, one in held.items()}, math.inf)
-        before, slid = slid, _shows_slip(now, shape)
+        now = attempt(_plain(held, shape), math.inf)
+        before, slid = slid, _shows_slip(now, at, shape)
         turns = turns + (moving & (slid != before))
         held[EITHER] = np.where(turns > _TURNS, 1.0, held[EITHER])
-    return (held if shape else {name: float(one) for name, one in held.items()}), settled
+    return _plain(held, shape), settled, (at[0], at[1])
 
 
-def _shows_slip(now: Attempt, shape: tuple[int, ...]) -> Any:
+def _plain(held: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
+    """Floats for a single case."""
+    return held if shape else {name: float(one) for name, one in held.items()}
+
+
+def _followed(now: Attempt, at: tuple[Any, ...]) -> tuple[Root, Any]:
+    """Of several roots that which is next to these speeds, and where it is."""
+    if len(now.found) == 1:
+        return now.found[0]
+    apart = np.stack(
+        [
+            np.where(there, abs(root.speed_a - at[0]) + abs(root.speed_b - at[1]), np.inf)
+            for root, there in now.found
+        ]
+    )
+    nearest = np.argmin(np.where(np.isnan(apart), np.inf, apart), axis=0)
+    roots, places = zip(*now.found, strict=True)
+    return Root(*(by_way(nearest, parts) for parts in zip(*roots, strict=True))), by_way(
+        nearest, places
+    )
+
+
+def _shows_slip(now: Attempt, at: tuple[Any, ...], shape: tuple[int, ...]) -> Any:
     """Where a friction is used: one that was given, or the ratio of a contact that slid."""
-    return np.broadcast_to(np.isfinite(now.inputs.rule_value), shape)
+    inputs = now.inputs_of(_followed(now, at)[0]) if now.found else now.inputs
+    return np.broadcast_to(np.isfinite(inputs.rule_value), shape)
 
 
 def _pushes(
@@ -150,7 +211,12 @@ def _pushes(
         vx, vy = (cases.values(speed * part) for part in course)
         bodies.append(moved(body, vx, vy, body.yaw_rate))
     inputs = replace(
-        now.inputs, a=bodies[0], b=bodies[1], given=None, contact_velocity=None, duration=None
+        now.inputs_of(root),
+        a=bodies[0],
+        b=bodies[1],
+        given=None,
+        contact_velocity=None,
+        duration=None,
     )
     bare = replace(inputs, tyres_a=None, tyres_b=None)
     with quietly(), np.errstate(all="ignore"):
@@ -171,6 +237,7 @@ def speeds_with_tyres(
     instant: tuple[Any, Any],
     known: Mapping[str, Any],
     shape: tuple[int, ...],
+    kept: int = 0,
 ) -> Found:
     """Speeds of A and B along their courses at which a contact with these tyres has what was known.
 
@@ -179,8 +246,8 @@ def speeds_with_tyres(
     speeds that were found without tyres, below 0 for a motion backwards, ``known`` what was known,
     by the arguments of ``speeds``. Energies are those of the contact, without what the tyres take.
     More components of delta-V than are needed are met by least squares, all weighing alike as parts
-    of the impulse, and a speed or an energy beside them exactly, as ``speeds`` does: the directions
-    in which they are met are those of the start.
+    of the impulse, and a speed or an energy beside them exactly, as ``speeds`` does. The first
+    ``kept`` starts are answers already, of which only the misfit is worked out.
     """
     start = [np.broadcast_to(np.asarray(speed, np.float64), shape) for speed in instant]
     speed = np.hypot(*start)
@@ -204,9 +271,10 @@ def speeds_with_tyres(
     missed = misses_of_impacts(inputs_at, off)
     rows = slopes_at(missed, start, sizes)
     if len(rows) == 2:
+        # As many as are sought.
         values, settled = settle(missed, start, sizes)
         slopes = slopes_at(missed, values, sizes)
-        closing, sticks = _contact(inputs_at(values))
+        closing, sticks, _ = _contact(inputs_at(values))
         weights = [
             _as_speed(name, value, known, inputs)
             for name, value in known.items()
@@ -238,20 +306,39 @@ def speeds_with_tyres(
         )
         return [*met, rest][:2]
 
-    values, settled = settle(misses_of_impacts(inputs_at, equations), start, sizes)
-    return Found(values[0], values[1], settled, *_contact(inputs_at(values)), None)
+    values, settled = start, np.False_
+    for _ in range(_TURNED):
+        # The directions in which they are met are those of the start.
+        values, settled = settle(misses_of_impacts(inputs_at, equations), values, sizes)
+        rows = slopes_at(missed, values, sizes)
+    if kept:
+        values = [
+            np.concatenate((begun[:kept], one[kept:]))
+            for begun, one in zip(start, values, strict=True)
+        ]
+        settled = np.concatenate((np.isfinite(values[0][:kept]), settled[kept:]))
+    tried = inputs_at(values)
+    closing, sticks, answer = _contact(tried)
+    left = np.sqrt(
+        sum(
+            (one * sizes[0]) ** 2
+            for one, alone in zip(off(tried, answer), exact, strict=True)
+            if not alone
+        )
+    )
+    impulse = np.hypot(answer.normal_impulse, answer.tangential_impulse)
+    misfit = left * (inputs.a.mass + inputs.b.mass) / impulse
+    return Found(values[0], values[1], settled, closing, sticks, None, misfit)
 
 
 def other_starts(
     inputs: Inputs, known: Mapping[str, Any], shape: tuple[int, ...]
 ) -> list[tuple[Any, Any]]:
-    """Speeds to begin from beside those of the instant; none where more than two values are known.
+    """Speeds to begin from beside those of the instant.
 
     The largest is one and a half times what all known values together stand for.
     """
     alone = [name for name in known if name not in _STANDS_FOR_NONE]
-    if len(alone) != 2:
-        return []
     # Of an energy its relative error counts half in the speed that it stands for.
     sizes = [
         _as_speed(name, known[name], known, inputs) * (2.0 if name == "energy_loss" else 1.0)
@@ -267,11 +354,11 @@ def other_starts(
     return [(one, other) for one in of_each[0] for other in of_each[1]]
 
 
-def _contact(inputs: Inputs) -> tuple[Any, Any]:
-    """The closing speed, and whether the contact sticks."""
+def _contact(inputs: Inputs) -> tuple[Any, Any, Any]:
+    """The closing speed, whether the contact sticks, and the answer that has both."""
     with quietly(), np.errstate(all="ignore"):
         answer = solve_inputs(ECCENTRIC, inputs, "nan")
-    return answer.closing_speed, answer.sticks
+    return answer.closing_speed, answer.sticks, answer
 
 
 def _condition(
