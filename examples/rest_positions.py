@@ -64,7 +64,7 @@ known_before = {
     "A.mass": Normal("1500 kg", "40 kg"),
     "B.mass": Normal("1200 kg", "40 kg"),
     "contacts[0].restitution": Uniform(0.0, 0.3),
-    "contacts[0].friction": Uniform(0.3, 0.8),
+    "contacts[0].friction": Normal.between(0.3, 0.8, 0.95),
     "contacts[0].normal": Normal("0 deg", "5 deg"),
     "road": Normal.between(0.6, 0.8, 0.95),
 }

@@ -109,8 +109,7 @@ def check_shared(scene: Scene) -> None:
                 )
                 text = (
                     f"shared[{name!r}] says that {', '.join(paths)} are one and the same number, "
-                    f"and these differ: {one.strip()}, {other.strip()}; state the same at each, "
-                    f"and change all of them by {name!r}"
+                    f"and these differ: {one.strip()}, {other.strip()}; state the same at each"
                 )
                 reader.refuse(InputError(text, code="bad_combination", argument="shared"))
     reader.close()
@@ -194,7 +193,7 @@ def replaced(scene: Scene, changes: Any) -> Scene:
     spread: dict[str, Any] = {}
     by: dict[str, str] = {}
     for path, value in changes.items():
-        for one in scene.shared.get(path, (path,)):
+        for one in _changed_by(scene, path):
             if one in spread:
                 raise InputError(
                     f"{one} is changed twice, by {by[one]!r} and by {path!r}; change it by one",
@@ -210,6 +209,16 @@ def replaced(scene: Scene, changes: Any) -> Scene:
     for owner, parts in grouped.items():
         _change(scene, arguments, owner, parts)
     return Scene(**arguments)
+
+
+def _changed_by(scene: Scene, path: str) -> tuple[str, ...]:
+    """The paths of the numbers that change with one: all that are one and the same with it."""
+    if path in scene.shared:
+        return scene.shared[path]
+    for paths in scene.shared.values():
+        if path in paths:
+            return paths
+    return (path,)
 
 
 _OF_CONTACT = re.compile(r"contacts\[(\d+)\]\.(\w+)(?:\[([01])\])?")
@@ -601,7 +610,7 @@ def as_function(
 
 def _standing(scene: Scene, changed: Iterable[str]) -> list[str]:
     """The vehicles that stand at the start in every case, though they could move."""
-    paths = {one for path in changed for one in scene.shared.get(path, (path,))}
+    paths = {one for path in changed for one in _changed_by(scene, path)}
     return [
         name
         for name, mover in scene.movers.items()

@@ -67,7 +67,8 @@ class Scene(Shown):
         case that goes otherwise is refused, with the order that it takes.
     shared : dict of tuples of str, optional
         By a new name, the inputs that are one and the same, such as ``{"ground":
-        ("Camry.tyres.friction", "Civic.tyres.friction")}``.
+        ("Camry.tyres.friction", "Civic.tyres.friction")}``: the same number is stated at each, and
+        a change of one is a change of all.
 
     Raises
     ------
