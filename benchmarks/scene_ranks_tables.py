@@ -12,6 +12,7 @@ from coverage_in_crashes import binomial
 from evenness import uniformity
 
 WRITTEN = Path(__file__).resolve().parents[1] / "docs" / "_generated" / "scene_ranks.json"
+SCENES = 200
 COST = WRITTEN.with_name("scene_posterior.json")
 _WORDS = {
     "A.speed": "speed of A",
@@ -30,10 +31,9 @@ def load(path: Path = WRITTEN) -> dict[str, Any]:
 
 def setting(found: dict[str, Any]) -> str:
     """How many scenes and samples."""
-    return (
-        f"So far {found['summary']['scenes']} of 200 scenes, with {found['settings']['samples']:,} "
-        "samples each."
-    )
+    count = found["summary"]["scenes"]
+    scenes = f"{count} scenes" if count >= SCENES else f"So far {count} of {SCENES} scenes"
+    return f"{scenes}, with {found['settings']['samples']:,} samples each."
 
 
 def table(found: dict[str, Any]) -> str:
