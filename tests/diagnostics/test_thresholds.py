@@ -993,10 +993,21 @@ def test_every_warning_has_its_rows():
                 continue
             if isinstance(call.func, ast.Name) and call.func.id in categories:
                 found |= {word.value.value for word in call.keywords if word.arg == "code"}
-            # Or a category among the arguments, with the code as the first word behind it.
+            # Or a category among the arguments, with the code, or one of two, as the first word
+            # behind it.
             elif any(isinstance(part, ast.Name) and part.id in categories for part in call.args):
-                words = [part.value for part in call.args if isinstance(part, ast.Constant)]
-                found |= set([word for word in words if re.fullmatch("[a-z_]+", word)][:1])
+                either = (
+                    (arg.body, arg.orelse) if isinstance(arg, ast.IfExp) else (arg,)
+                    for arg in call.args
+                )
+                words = [[getattr(end, "value", None) for end in ends] for ends in either]
+                codes = (
+                    some
+                    for some in words
+                    if all(re.fullmatch("[a-z_]+", str(word)) for word in some)
+                    and all(isinstance(word, str) for word in some)
+                )
+                found |= set(next(codes, []))
     elsewhere = {"nearly_plastic", "undetermined", "fold", "islands_disagree", "collapsed"}
     elsewhere |= {"stuck_or_slid", "beyond_model", "driven_through", "drag_during_contact"}
     elsewhere |= {"touch_without_contact", "not_linear", "another_fits", "slid_either_way"}

@@ -103,8 +103,8 @@ BACKWARDS: dict[tuple[str, str], tuple[str, str]] = {
         TYRES,
         (
             "both cars rolled, with a drag of 0.04 to 0.05; where any drag up to 0.8 is as likely, "
-            "so little is taken for improbable. The answer warns that its evidence contradicts "
-            "itself"
+            "so little is taken for improbable. The answer says that its evidence agrees only "
+            "weakly with itself"
         ),
     ),
     ("RICSAC 3", "places of rest and both delta-V"): (

@@ -174,7 +174,8 @@ def momentum(
         degrees of a right angle to that of the unknown speed.
     OutOfRangeWarning
         A speed came out negative: backwards along its course. Or, along ``normal``, the restitution
-        is outside 0 to 1, or the vehicles did not approach and it is NaN.
+        is outside 0 to 1, or the vehicles did not approach and it is NaN. Or, with tyres, another
+        velocity before fits too.
     EnergyGainWarning
         The vehicles leave with more energy than they had before, by more than an impulse from
         outside can bring: its size times the greatest of all speeds.
@@ -844,27 +845,23 @@ def _warn(
     near: Any = False
     if turning is not None:
         speed, course = solution.unknowns
-        cancel = sure & (found["condition"] > NEARLY_CANCELLING)
-        if isinstance(turning, Whole):
-            sentence = (
-                f"the momenta that leave {speed} and its course nearly cancel, and small errors of "
-                "them move both far"
-            )
-            text = f"{sentence} (condition {{:.3g}})"
-            say(
-                IllConditionedWarning, cancel, text, "momenta_cancel", "", sentence,
-                condition=found["condition"],
-            )  # fmt: skip
-        else:
-            sentence = (
-                f"{course} is within 10 degrees of a right angle to that of {speed}, and small "
-                "errors move both far, or to the other course that fits"
-            )
-            text = f"{sentence} (condition {{:.3g}})"
-            say(
-                IllConditionedWarning, cancel, text, "nearly_across", "", sentence,
-                condition=found["condition"],
-            )  # fmt: skip
+        cancels = isinstance(turning, Whole)
+        sentence = (
+            f"the momenta that leave {speed} and its course nearly cancel, and small errors of "
+            "them move both far"
+            if cancels
+            else f"{course} is within 10 degrees of a right angle to that of {speed}, and small "
+            "errors move both far, or to the other course that fits"
+        )
+        say(
+            IllConditionedWarning,
+            sure & (found["condition"] > NEARLY_CANCELLING),
+            f"{sentence} (condition {{:.3g}})",
+            "momenta_cancel" if cancels else "nearly_across",
+            "",
+            sentence,
+            condition=found["condition"],
+        )
     else:
         one, other = (known.terms[name].course for name in solution.unknowns)
         sine = abs(one.to(other)[1])

@@ -46,8 +46,8 @@ class Other(NamedTuple):
         return (
             f"the tyres of {name[-1].upper()} can hold or turn a vehicle so slow, and another "
             f"velocity fits too: {name} = {say(speed, 'speed')} with {angle} = "
-            f"{say(course, 'angle')}, which is {say(apart, 'speed')} away; give one of the two, or "
-            "take `posterior` with `momentum` as the model"
+            f"{say(course, 'angle')}, which is {say(apart, 'speed')} away; momentum does not tell "
+            "which of them it was, and other evidence has to"
         )
 
 

@@ -308,7 +308,7 @@ def speeds_with_tyres(
 
     values, settled = start, np.False_
     for _ in range(_TURNED):
-        # The directions in which they are met are those of the start.
+        # The directions in which they are met are those of where the last round ended.
         values, settled = settle(misses_of_impacts(inputs_at, equations), values, sizes)
         rows = slopes_at(missed, values, sizes)
     if kept:
