@@ -83,7 +83,7 @@ def posterior(
         A model that takes the same unknowns and returns the same outputs, and costs more. The
         samples go towards the posterior of ``model`` first, until its likelihood to the power 0.15,
         and from there to the posterior of ``finer``. The answer is that of ``finer`` alone, its
-        evidence included, for eight to twelve calls of it a sample, not a hundred; the closer
+        evidence included, for five to twelve calls of it a sample, not a hundred; the closer
         the two models are, the fewer.
     samples : int, optional
         Total number of samples, at least 512. Four times as many halve the sampling errors.
