@@ -1103,9 +1103,9 @@ def _known_of(impact: col.Impact, name: str) -> Any:
 
 FIT_OPEN = frozenset(
     f"reconstruct.Fit.{name}" for name in ("values", "covariance", "correlation_matrix",
-    "p_value", "nonlinearity", "bounds", "standard_errors", "contributions")
+    "p_value", "nonlinearity", "bounds", "standard_errors", "contributions", "profiles")
 ) | {
-    "Estimate.value", "Estimate.standard_error", "Estimate.low", "Estimate.high", "Values",
+    "Estimate.profile", "Estimate.value", "Estimate.standard_error", "Estimate.low", "Estimate.high", "Values",
     "Direction.changes",
     "uncertainty.Normal.support", "Residual.computed", "Residual.residual", "Residual.over_sigma",
 }  # fmt: skip

@@ -262,8 +262,8 @@ class Fit(SpeedsFound, Shown):
     of each model: "model", and "finer" if one was given, whose fit this then is.
 
     ``profiles`` has, for unknowns whose range the slopes do not give, rows of a rise of the misfit
-    in sigma with the least and the greatest value that has no more, the others fitted again;
-    ``interval`` takes them. ``others`` are answers that fit about as well and are within the
+    in sigma with the least and the greatest value that has no more, the others fitted again,
+    infinite where no value is too far; ``interval`` takes them. ``others`` are answers that fit about as well and are within the
     ranges. ``refuses_nearby`` says whether the model refuses within the range of 95 percent.
     """
 
