@@ -263,8 +263,9 @@ class Fit(SpeedsFound, Shown):
 
     ``profiles`` has, for unknowns whose range the slopes do not give, rows of a rise of the misfit
     in sigma with the least and the greatest value that has no more, the others fitted again,
-    infinite where no value is too far; ``interval`` takes them. ``others`` are answers that fit about as well and are within the
-    ranges. ``refuses_nearby`` says whether the model refuses within the range of 95 percent.
+    infinite where no value is too far; ``interval`` takes them. ``others`` are answers that fit
+    about as well and are within the ranges. ``refuses_nearby`` says whether the model refuses
+    within the range of 95 percent.
     """
 
     values: Values

@@ -1094,15 +1094,14 @@ def _stuck_or_slid(
     again: Callable[..., tuple[Impact, ...]],
 ) -> AmbiguousSolutionError:
     """The error for a single case in which the contact either stuck or slid."""
-    # Several ways may lead to one answer.
+    # Several ways may lead to one answer. A ratio of the other sign slid the other way.
     ratios = list(
         {
-            f"{float(abs(one.ratio)):.9g}": float(abs(one.ratio))
+            f"{float(one.ratio):.9g}": float(one.ratio)
             for one in scene.ways or [scene]
             if np.any(one.ambiguous)
         }.values()
     )
-    ratio = ratios[0]
     friction = float(scene.bound)
     stuck = again(regime="sticking")
     slid: list[Impact] = []
@@ -1113,10 +1112,12 @@ def _stuck_or_slid(
                 one
                 for one in again(regime="sliding", slid="bound")
                 if len(scene.unknown) == 1
-                or any(abs(abs(one.impulse_ratio) - ratio) <= ROOT_TOL for ratio in ratios)
+                or any(abs(one.impulse_ratio - ratio) <= ROOT_TOL for ratio in ratios)
             ]
     if not slid:
-        slid = [again(regime="sliding", slid="bound", friction=one)[0] for one in ratios]
+        for ratio in ratios:
+            either_way = again(regime="sliding", slid="bound", friction=abs(ratio))
+            slid.append(min(either_way, key=lambda one: abs(one.impulse_ratio - ratio)))
     speeds = [
         {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"}
         for impact in (stuck if len(stuck) == len(slid) == 1 else slid)
@@ -1130,7 +1131,7 @@ def _stuck_or_slid(
         f"{say(_along(impact, 'b'), 'speed')}"
         for impact in stuck
     )
-    shown = " or ".join(f"{one:.2f}" for one in ratios)
+    shown = " or ".join(dict.fromkeys(f"{abs(one):.2f}" for one in ratios))
     allowed = (
         "`friction=inf` does not say that it stuck"
         if math.isinf(friction)
@@ -1144,7 +1145,7 @@ def _stuck_or_slid(
         "`slid='bound'` for this end of the speeds that it may have had"
         "`|. Both answers are in .solutions|`",
         code=Status.AMBIGUOUS.label,
-        ratio=ratio,
+        ratio=abs(ratios[0]),
         solutions=(*stuck, *slid),
     )
 

@@ -84,45 +84,83 @@ class Attempt(NamedTuple):
 def in_balance(
     attempt: Callable[..., Attempt], numbers: Mapping[str, Any], cases: Cases
 ) -> Attempt:
-    """The roots from components of delta-V with the impulse of the tyres in the balance: of each
-    root of the instant the one that it comes to.
+    """The roots from components of delta-V with the impulse of the tyres in the balance: those that
+    each root of the instant comes to, and those that roots come to with what the tyres do where
+    both cars go forwards.
 
     ``attempt`` solves with given impulses of the tyres, by the names in ``HELD``. Until they have
-    settled, known values may differ by any amount, as the tyres may be what they differ by.
+    settled, known values may differ by any amount, as the tyres may be what they differ by: the
+    roots of the instant alone may be so far off that they lead to none or to another.
     """
     instant = attempt({}, math.inf)
     results: list[Attempt] = []
-    kept: list[tuple[Root, Any]] = []
-    scenes: list[ComponentScene | None] = []
-    frictions: list[Any] = []
-    for slot in range(max(len(instant.found), 1)):
-        held, settled, at = _settled(attempt, instant, slot, numbers, cases)
-        last = attempt(held)
-        results.append(last)
-        if not last.found:
-            continue
-        root, there = _followed(last, at)
-        there = there & settled
-        scenes.append(
-            last.scene.of_way(root.way) if isinstance(last.scene, ComponentScene) else None
-        )
-        frictions.append(last.inputs_of(root).rule_value)
-        root = root._replace(way=np.full(np.shape(there), float(len(kept))))
-        size = np.hypot(root.speed_a, root.speed_b)
-        for earlier, before in kept:
-            apart = abs(earlier.speed_a - root.speed_a) + abs(earlier.speed_b - root.speed_b)
-            there = there & ~(before & (apart <= _ONE_ANSWER * size))
-        if np.any(there):
-            kept.append((root, there))
-        else:
-            del scenes[-1], frictions[-1]
-    first = results[0]
-    if len(kept) < 2 and not first.frictions:
-        return first._replace(found=kept)
+    kept: list[_Kept] = []
+    ambiguous: Any = False
+    for begun in (instant, attempt(_forwards(instant, numbers, cases), math.inf)):
+        for slot in range(max(len(begun.found), 1)):
+            held, settled, at = _settled(attempt, begun, slot, numbers, cases)
+            last = attempt(held)
+            ambiguous = ambiguous | (last.scene.ambiguous & (settled | (not results)))
+            results.append(last)
+            if not last.found:
+                continue
+            root, there = _followed(last, at)
+            there = there & settled
+            size = np.hypot(root.speed_a, root.speed_b)
+            for earlier, before, _ in kept:
+                apart = abs(earlier.speed_a - root.speed_a) + abs(earlier.speed_b - root.speed_b)
+                there = there & ~(before & (apart <= _ONE_ANSWER * size))
+            if np.any(there):
+                kept.append(_Kept(root, there, last))
+    if not kept:
+        return results[0]._replace(found=[])
+    if len(kept) == 1 and not kept[0].of.frictions:
+        return kept[0].of._replace(found=[(kept[0].root, kept[0].there)])
+    return _as_one(kept, ambiguous)
+
+
+class _Kept(NamedTuple):
+    """A root in balance, where it is, and of which attempt it is."""
+
+    root: Root
+    there: Any
+    of: Attempt
+
+
+def _as_one(kept: Sequence[_Kept], ambiguous: Any) -> Attempt:
+    """One attempt with several roots, each of an attempt of its own."""
+    first = kept[0].of
     scene = copy(first.scene)
+    roots = [
+        (one.root._replace(way=np.full(np.shape(one.there), float(i))), one.there)
+        for i, one in enumerate(kept)
+    ]
     if isinstance(scene, ComponentScene):
-        scene.ways = [one for one in scenes if one is not None]
-    return Attempt(scene, kept, first.inputs, frictions)
+        scene.ways = [
+            one.of.scene.of_way(one.root.way)
+            for one in kept
+            if isinstance(one.of.scene, ComponentScene)
+        ]
+        answered = np.stack(np.broadcast_arrays(*(one.there for one in kept)))
+        scene.misfit = by_way(np.argmax(answered, axis=0), [one.misfit for one in scene.ways])
+        scene.undetermined = scene.undetermined & ~np.any(answered, axis=0)
+        scene.ambiguous = ambiguous
+    frictions = [one.of.inputs_of(one.root).rule_value for one in kept]
+    return Attempt(scene, roots, first.inputs, frictions)
+
+
+def _forwards(now: Attempt, numbers: Mapping[str, Any], cases: Cases) -> dict[str, Any]:
+    """The impulses of tyres of cars that go forwards, as fast as what is known; none where they do
+    not meet.
+
+    What a tyre does hardly depends on how fast its car goes, only on which way.
+    """
+    shape = cases.shape or ()
+    speeds = (now.scene.targets.get(f"speed_{label}", 1.0) for label in "ab")
+    root = Root(*(np.broadcast_to(one, shape) for one in speeds), *[math.nan] * 3)
+    found = _pushes(now, root, np.ones(shape, dtype=bool), numbers, cases)
+    held = {name: np.where(np.isfinite(one), one, 0.0) for name, one in found.items()}
+    return _plain(held | {EITHER: np.zeros(shape)}, shape)
 
 
 def _settled(
