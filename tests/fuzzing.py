@@ -528,7 +528,7 @@ class Case(random.Random):
 
     def _look_at(self, value: Any, kind: type, documented: Open, thorough: bool) -> None:
         names = _names_of(kind)
-        if kind is col.Impact and np.any(value.refused):
+        if kind in (col.Impact, col.reconstruct.MomentumSolution) and not np.all(value.ok):
             documented = None
         elif kind is col.Impact and documented is not None and incomplete(value):
             documented |= INCOMPLETE

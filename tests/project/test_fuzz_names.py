@@ -857,18 +857,18 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         # One velocity whole: three speeds, or both before of vehicles that stay together.
         lost = case.choice(("a", "b", "a_after", "b_after"))
         speeds = {name: case.value("speed") for name in ("speed_a", "speed_b")}
-        more["together"] = lost.endswith("after") and case.maybe(0.5)
-        if not more["together"]:
+        together = more["together"] = lost.endswith("after") and case.maybe(0.5)
+        if not together:
             speeds = {
                 name: case.value("speed")
                 for name in ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
                 if name != f"speed_{lost}"
             }
-        gone = ("a_after", "b_after") if more["together"] else (lost,)
+        gone = ("a_after", "b_after") if together else (lost,)
         courses = {
             name: value for name, value in courses.items() if name[len("course_") :] not in gone
         }
-    if case.maybe(0.15) and not more.get("together"):
+    elif case.maybe(0.15):
         # A course beside the speed of another: three speeds, and that course is not known.
         sought, other = case.choice(
             (("a", "b"), ("b", "a_after"), ("a_after", "b"), ("b", "b_after"))
