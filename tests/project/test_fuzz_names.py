@@ -1105,8 +1105,8 @@ FIT_OPEN = frozenset(
     f"reconstruct.Fit.{name}" for name in ("values", "covariance", "correlation_matrix",
     "p_value", "nonlinearity", "bounds", "standard_errors", "contributions", "profiles")
 ) | {
-    "Estimate.profile", "Estimate.value", "Estimate.standard_error", "Estimate.low", "Estimate.high", "Values",
-    "Direction.changes",
+    "Estimate.profile", "Estimate.value", "Estimate.standard_error", "Estimate.low",
+    "Estimate.high", "Values", "Direction.changes",
     "uncertainty.Normal.support", "Residual.computed", "Residual.residual", "Residual.over_sigma",
 }  # fmt: skip
 
