@@ -840,7 +840,7 @@ def _warn(
             warning = kind(
                 known.cases.how_many(where) + text.format(number), code=code, **{name: worst}
             )
-            warn_of_cases(warning, {sentence: known.cases.number(where)})
+            warn_of_cases(warning, {sentence: known.cases.each(where)})
 
     near: Any = False
     if turning is not None:
@@ -914,7 +914,7 @@ def _warn(
             value=float(np.nanmax(other.apart)),
         )
         sentence = f"{name} is so slow that with its tyres another velocity fits too"
-        warn_of_cases(warning, {sentence: known.cases.number(there)})
+        warn_of_cases(warning, {sentence: known.cases.each(there)})
     text = (
         "the vehicles leave with {} more than they came with, which no impact gives; check "
         "courses and speeds"

@@ -692,7 +692,7 @@ def _notes(
     local method missed.
     """
     notes = [
-        *notes_of_samples(model.noted, count),
+        *notes_of_samples(model.noted),
         *(note for run in runs for note in one_sided_notes(run.outputs)),
     ]
     if method in LOCAL:
@@ -748,7 +748,7 @@ def _without_answer(output: Output) -> bool:
 
 def _said_of_all(model: Model, count: int) -> str:
     """What the model said of its cases, to follow the message that none has an answer."""
-    said = [note.sentence for note in notes_of_samples(model.noted, count)]
+    said = [note.sentence for note in notes_of_samples(model.noted)]
     return f". It said: {'; '.join(said)}" if said else ""
 
 
