@@ -198,12 +198,12 @@ def recorded_pulse(
         Times of the samples, increasing. Or a file whose first row has the heads of the columns,
         each with its unit in round or square brackets: ``time [ms],longitudinal [km/h],lateral
         [km/h]``, or as reports write them, ``Time (msec)``, ``"Delta-V, lateral (MPH)"``. The
-        columns are found by their heads, in any order; a head that may be two of them, or none,
-        is refused, as is one of a speed, of data from before the crash or of values that were
-        adjusted. Commas, semicolons or tabs separate the columns; with the last two, numbers
-        may have decimal commas, and a mark before three digits that may be one of thousands is
-        refused. A cell of ``SNA`` is not available: in all of the lateral column,
-        or in the last rows, which are left out.
+        columns are found by their heads, in any order. A head is refused if it may be two of them,
+        or none, names a side or a standard (SAE, ISO) that contradicts ``polarity``, or has any
+        word that is not known to belong to time or cumulative delta-V. Commas, semicolons or tabs
+        separate the columns; with the last two, numbers may have decimal commas, and a mark
+        before three digits that may be one of thousands is refused. A cell of ``SNA`` is not
+        available: in all of the lateral column, or in the last rows, which are left out.
     delta_v_forward, delta_v_left : array [m/s], optional
         Cumulative delta-V at these times; left out with a file. The lateral one may be missing.
     polarity : {"49 CFR 563", "ISO 8855"}

@@ -209,8 +209,8 @@ def settle(
         if hit.any():
             why[code] = why.get(code, False) | hit
             answered &= ~hit
+    counts = {code: int(np.count_nonzero(hit)) for code, hit in why.items()}
     if why:
-        counts = {code: int(np.count_nonzero(hit)) for code, hit in why.items()}
         listed = ", ".join(f"{count} {code}" for code, count in counts.items())
         warn_of_cases(
             CollisionsWarning(

@@ -111,7 +111,8 @@ def propagate(
         "at most" is a ``OneSided``. Booleans count as 0 and 1, so their mean is a probability.
         Angles returned with a unit that all lie in [-pi, pi] (-180 to 180 degrees, not 0 to 360)
         are directions, counted round the circle about their mean (see ``Output``); return a
-        rotation as a plain number.
+        rotation as a plain number. Warnings are counted by case where solvers are called with
+        arrays of all cases; of calls with plain numbers, as in a loop, their number is stated.
         A ``scene.Scene`` is a model too: its inputs and ``outputs`` are named by their paths.
     inputs : dict
         For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``,
