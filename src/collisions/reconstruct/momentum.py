@@ -906,12 +906,12 @@ def _warn(
         )
     other = other_velocity(solution) if known.lasting is not None else None
     if other is not None:
-        there = np.isfinite(other.apart)
+        there = np.isfinite(other.apart[0])
         name = solution.unknowns[0]
         warning = OutOfRangeWarning(
             known.cases.how_many(there) + other.sentence(solution, Sentences(texts)),
             code="another_fits",
-            value=float(np.nanmax(other.apart)),
+            value=float(np.nanmax(other.apart[0])),
         )
         sentence = f"{name} is so slow that with its tyres another velocity fits too"
         warn_of_cases(warning, {sentence: known.cases.each(there)})

@@ -184,8 +184,8 @@ class MomentumSolution(Shown):
     @property
     def statements(self) -> tuple[str, ...]:
         """What has to be said beside the numbers: without tyres, by how much the speeds would
-        differ if all wheels slid for 0.1 s with a drag of 0.7; with them, that another velocity
-        fits too.
+        differ if all wheels slid for 0.1 s with a drag of 0.7; with them, which other
+        velocities fit too.
         """
         say = Sentences(self._texts())
         if self.tyres:
