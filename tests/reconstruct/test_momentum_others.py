@@ -141,7 +141,7 @@ def test_the_truth_is_among_those_that_are_said_to_fit():
 
 
 def test_of_three_that_fit_the_one_between_is_said_too():
-    """Vehicles that leave together; each of the three goes forwards to the motion that was known."""
+    """Vehicles that leave together; each of the three goes forwards to the motion known."""
     known = {
         "mass_a": 1360.451650217694, "mass_b": 966.8665820853196, "duration": 0.1362039808234032,
         "tyres_a": Tyres(0.585311, 0.70963, 2.49057, 1.44011),
@@ -205,3 +205,26 @@ def test_fast_vehicles_have_one():
         )  # fmt: skip
         assert answer.statements == ()
         assert [message.code for message in warned if message.code == "another_fits"] == []
+
+
+def test_two_speeds_along_nearly_one_line_say_that_others_were_not_looked_for():
+    """Two pairs of speeds after, each with the same motions before."""
+    known = {
+        "mass_a": 2299.1059223079574, "mass_b": 1895.7013819444162, "duration": 0.13074227810412944,
+        "heading_a": 2.9102565571733194, "heading_b": 0.8281891791037665,
+        "yaw_rate_a_after": -2.661880717584603, "yaw_rate_b_after": 5.670050726466594,
+        "tyres_a": Tyres(0.857654, 0.670307, 2.49824, 1.40478),
+        "tyres_b": Tyres(0.882231, 1.0, 2.96814, 1.46988),
+        "course_a": 2.9075134012723964, "course_b": 0.8731261685466749,
+        "course_a_after": 2.393967762212393, "course_b_after": 2.3072477459369183,
+    }  # fmt: skip
+    before = {"speed_a": 12.44500836666282, "speed_b": 8.62563877221815}
+    found, _ = answered(**known, **before)
+    for pair in ((found.speed_a_after, found.speed_b_after), (7.0263082, 3.8907646)):
+        after = dict(zip(("speed_a_after", "speed_b_after"), pair, strict=True))
+        again, _ = answered(**known, **after)
+        assert (again.speed_a, again.speed_b) == pytest.approx(tuple(before.values()), abs=2e-4)
+    (sentence,) = found.statements
+    assert "another pair may fit with the tyres, which was not looked for" in sentence
+    wide, _ = answered(**{**known, "course_b_after": 1.0}, speed_a=12.4, speed_b=8.6)
+    assert wide.statements == ()

@@ -613,6 +613,19 @@ def test_a_record_that_begins_before_or_after_its_zero_has_the_same_duration():
         assert pulse.duration == pytest.approx(0.11, rel=1e-9), start
 
 
+def test_samples_before_the_pulse_begins_are_no_part_of_its_duration():
+    """A record may begin before its time zero, or with zeros after it."""
+    for start, begins in ((-0.05, 0.0), (0.0, 0.06)):
+        time = start + np.arange(0.0, 0.3, 0.01)
+        since = np.round(time - begins, 9)
+        forward, left = -8.0 * haversine(since), 2.0 * haversine(since - 0.02)
+        pulse = recorded_pulse(time, forward, left, polarity="ISO 8855")
+        assert pulse.duration == pytest.approx(0.13, rel=1e-9), start
+        np.testing.assert_allclose(pulse.time, time, rtol=1e-12)
+    flat = recorded_pulse(TIME, 0.0 * TIME, polarity="ISO 8855")
+    assert flat.duration == 0.0
+
+
 def test_the_bound_of_a_record_that_stops_early_is_told_in_km_per_hour():
     """10 m/s are 36 km/h; the time is that of the last sample."""
     time = np.arange(0.0, 0.0601, 0.01)
