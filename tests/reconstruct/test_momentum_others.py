@@ -88,6 +88,17 @@ def test_no_other_velocity_is_missed_in_silence():
     assert sum("another_fits" in codes for codes in said) >= 15
 
 
+def others_of(sentence):
+    """Speed, course and distance of each velocity that is said to fit too."""
+    return [
+        tuple(map(float, numbers))
+        for numbers in re.findall(
+            r"= ([0-9.e+-]+) m/s with course_. = ([0-9.e+-]+) rad, which is ([0-9.e+-]+) m/s away",
+            sentence,
+        )
+    ]
+
+
 def test_what_is_said_to_fit_does():
     """With it stated before, the same motions come after."""
     checked = 0
@@ -97,24 +108,61 @@ def test_what_is_said_to_fit_does():
             continue
         (sentence,) = answer.statements
         assert str(others[0]) == sentence.replace("`", "")
-        numbers = re.search(
-            r"= ([0-9.e+-]+) m/s with course_. = ([0-9.e+-]+) rad, which is ([0-9.e+-]+) m/s away",
-            sentence,
-        )
-        speed, course, apart = map(float, numbers.groups())
-        stated = {**given, f"speed_{label}": speed, f"course_{label}": course}
-        wanted = stated.pop("speed_b_after"), stated.pop("course_b_after")
-        again, _ = answered(**known, **stated)
-        was = wanted[0] * math.cos(wanted[1]), wanted[0] * math.sin(wanted[1])
-        # The sentence has three digits.
-        assert math.dist(velocity(again, "b_after"), was) < 0.02 * max(1.0, apart)
-        x, y = speed * math.cos(course), speed * math.sin(course)
-        assert math.dist((x, y), velocity(answer, label)) == pytest.approx(apart, abs=0.02)
-        assert others[0].fields["value"] == pytest.approx(apart, rel=0.01)
-        text = " ".join(explain(answer, form="text").split())
-        assert "another velocity fits too" in text.lower()
-        checked += 1
+        for speed, course, apart in others_of(sentence):
+            stated = {**given, f"speed_{label}": speed, f"course_{label}": course}
+            wanted = stated.pop("speed_b_after"), stated.pop("course_b_after")
+            try:
+                again, _ = answered(**known, **stated)
+            except col.NoSolutionError:
+                continue  # forwards, the motions after are not always found
+            was = wanted[0] * math.cos(wanted[1]), wanted[0] * math.sin(wanted[1])
+            # The sentence has three digits.
+            assert math.dist(velocity(again, "b_after"), was) < 0.02 * max(1.0, apart)
+            x, y = speed * math.cos(course), speed * math.sin(course)
+            assert math.dist((x, y), velocity(answer, label)) == pytest.approx(apart, abs=0.02)
+            checked += 1
+        apart = [one[2] for one in others_of(sentence)]
+        assert apart == sorted(apart, reverse=True)
+        assert others[0].fields["value"] == pytest.approx(apart[0], rel=0.01)
+        text = " ".join(explain(answer, form="text").split()).lower()
+        assert ("another velocity fits too" if len(apart) == 1 else "other velocities fit") in text
+    assert checked >= 60
+
+
+def test_the_truth_is_among_those_that_are_said_to_fit():
+    """Whether it is the farthest or lies between the answer and that."""
+    checked = 0
+    for _, _, _, answer, warned, off in MISSED:
+        if any(message.code == "another_fits" for message in warned):
+            (sentence,) = answer.statements
+            assert min(abs(one[2] - off) for one in others_of(sentence)) < 1e-3
+            checked += 1
     assert checked >= 15
+
+
+def test_of_three_that_fit_the_one_between_is_said_too():
+    """Vehicles that leave together; each of the three goes forwards to the motion known."""
+    known = {
+        "mass_a": 1360.451650217694, "mass_b": 966.8665820853196, "duration": 0.1362039808234032,
+        "tyres_a": Tyres(0.585311, 0.70963, 2.49057, 1.44011),
+        "tyres_b": Tyres(0.72398, 1.0, 2.51561, 1.4735), "heading_a": -2.3510427488637093,
+        "heading_b": 0.11267472679742685, "course_b": 0.14591382383092644,
+        "speed_b": 17.820194514703957, "together": True,
+    }  # fmt: skip
+    truth = {"speed_a": 1.4958655769258506, "course_a": -2.3435942240875223}
+    forwards, _ = answered(**known, **truth)
+    after = {name: getattr(forwards, name) for name in ("course_a_after", "speed_a_after")}
+    answer, _ = answered(**known, **after)
+    (sentence,) = [one for one in answer.statements if "fit too" in one]
+    found = [(answer.speed_a, answer.course_a), *(one[:2] for one in others_of(sentence))]
+    assert len(found) == 3
+    for speed, course in found:
+        again, _ = answered(**known, speed_a=speed, course_a=course)
+        # The sentence has six digits.
+        assert again.speed_a_after == pytest.approx(after["speed_a_after"], rel=2e-5)
+        assert again.course_a_after == pytest.approx(after["course_a_after"], rel=2e-4)
+    near = [one for one in found if abs(one[0] - truth["speed_a"]) < 1e-4]
+    assert [one[1] for one in near] == [pytest.approx(truth["course_a"], abs=1e-4)]
 
 
 def test_a_batch_counts_the_cases():
@@ -157,3 +205,26 @@ def test_fast_vehicles_have_one():
         )  # fmt: skip
         assert answer.statements == ()
         assert [message.code for message in warned if message.code == "another_fits"] == []
+
+
+def test_two_speeds_along_nearly_one_line_say_that_others_were_not_looked_for():
+    """Two pairs of speeds after, each with the same motions before."""
+    known = {
+        "mass_a": 2299.1059223079574, "mass_b": 1895.7013819444162, "duration": 0.13074227810412944,
+        "heading_a": 2.9102565571733194, "heading_b": 0.8281891791037665,
+        "yaw_rate_a_after": -2.661880717584603, "yaw_rate_b_after": 5.670050726466594,
+        "tyres_a": Tyres(0.857654, 0.670307, 2.49824, 1.40478),
+        "tyres_b": Tyres(0.882231, 1.0, 2.96814, 1.46988),
+        "course_a": 2.9075134012723964, "course_b": 0.8731261685466749,
+        "course_a_after": 2.393967762212393, "course_b_after": 2.3072477459369183,
+    }  # fmt: skip
+    before = {"speed_a": 12.44500836666282, "speed_b": 8.62563877221815}
+    found, _ = answered(**known, **before)
+    for pair in ((found.speed_a_after, found.speed_b_after), (7.0263082, 3.8907646)):
+        after = dict(zip(("speed_a_after", "speed_b_after"), pair, strict=True))
+        again, _ = answered(**known, **after)
+        assert (again.speed_a, again.speed_b) == pytest.approx(tuple(before.values()), abs=2e-4)
+    (sentence,) = found.statements
+    assert "another pair may fit with the tyres, which was not looked for" in sentence
+    wide, _ = answered(**{**known, "course_b_after": 1.0}, speed_a=12.4, speed_b=8.6)
+    assert wide.statements == ()

@@ -397,6 +397,86 @@ def test_tables_that_say_something_else_are_refused(heads, cells, said, tmp_path
     assert "write time [ms],longitudinal [km/h],lateral [km/h], or give arrays" in str(caught.value)
 
 
+# Heads of the longitudinal column with a word that is not of cumulative delta-V, positive forward.
+FORWARD_HEADS = [
+    ("longitudinal deceleration", "deceleration"), ("deceleration, longitudinal", "deceleration"),
+    ("longitudinal jerk", "jerk"), ("incremental longitudinal", "incremental"),
+    ("longitudinal delta-V increment", "increment"), ("longitudinal delta-V per sample", "per"),
+    ("longitudinal delta-V (abs)", "abs"), ("|longitudinal delta-V|", "|"),
+    ("longitudinal delta-V, absolute", "absolute"), ("longitudinal delta-v x -1", "-"),
+    ("longitudinal delta-V x10", "10"), ("-longitudinal", "-"), ("\u2212longitudinal", "\u2212"),
+    ("longitudinal * 2", "*"), ("longitudinal of the other vehicle", "other"),
+    ("longitudinal error", "error"), ("longitudinal limit", "limit"),
+    ("longitudinal mean", "mean"), ("longitudinal offset", "offset"),
+    ("longitudinal target", "target"), ("longitudinal EES", "ees"),
+    ("longitudinal PDOF", "pdof"), ("longitudinal sensor 2", "sensor"),
+    ("Event 1 longitudinal", "event"), ("longitudinal delta-V 2", "2"),
+    ("loss of longitudinal velocity", "loss"), ("longitudinal inverted", "inverted"),
+    ("longitudinal SAE J670", "j"), ("longitudinal_kmh (mph)", "kmh"), ("v longitudinal", "v"),
+]  # fmt: skip
+LATERAL_HEADS = [
+    ("lateral inverted", "inverted"), ("lateral, passenger side", "passenger"),
+    ("lateral outboard", "outboard"), ("lateral nearside", "nearside"),
+    ("lateral from left", "from"), ("lateral (- right)", "-"), ("lateral ISO 6487", "6487"),
+    ("lateral x", "x"),
+]  # fmt: skip
+TIME_HEADS = [
+    ("time remaining", "remaining"), ("time to event", "to"), ("time step", "step"),
+    ("time constant", "constant"), ("sample time", "sample"), ("time since ignition", "since"),
+    ("delta time", "delta"), ("-time", "-"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("head", "word"), [*FORWARD_HEADS, *LATERAL_HEADS, *TIME_HEADS])
+def test_a_head_with_a_word_that_is_not_known_is_refused(head, word, tmp_path):
+    """What else it says may mean another quantity or the other sign."""
+    heads = {"time": "time [ms]", "longitudinal": "longitudinal [km/h]"}
+    of = next((one for one in ("longitudinal", "lateral") if one in head), "time")
+    heads[of] = head if "(mph)" in head else f"{head} [{'ms' if of == 'time' else 'km/h'}]"
+    columns = [TIMES, FORWARD, LATERAL]
+    path = written(tmp_path / "p.csv", ";".join(heads.values()), columns[: len(heads)], ";")
+    with pytest.raises(col.InputError) as caught:
+        recorded_pulse(path, polarity="49 CFR 563")
+    text = str(caught.value)
+    assert caught.value.code == "bad_file"
+    assert re.search(rf" says ('[^']*', )*{re.escape(repr(word))}[, ].*is not understood", text)
+    assert f"if it is, write '{of} [unit]' as its head" in text
+    assert "or give arrays" in text
+
+
+@pytest.mark.parametrize(
+    ("head", "polarity"),
+    [
+        *((head, "49 CFR 563") for head in ("lateral SAE", "SAE J211 lateral", "lateral (SAE)",
+            "lateral, 49 CFR 563", "lateral (Part 563)", "lateral (SAE J1733)",
+            "y axis lateral delta-V (+ = right)", "lateral, positive to the right")),
+        *((head, "ISO 8855") for head in ("lateral ISO", "ISO 8855 lateral", "lateral (ISO)",
+            "lateral left positive", "lateral from the right to the left")),
+    ],
+)  # fmt: skip
+def test_a_side_that_a_head_states_agrees_with_the_polarity_or_is_refused(head, polarity, tmp_path):
+    heads = f"time [ms];longitudinal [km/h];{head} [km/h]"
+    path = written(tmp_path / "p.csv", heads, [TIMES, FORWARD, LATERAL], ";")
+    side = {"49 CFR 563": -1.0, "ISO 8855": 1.0}[polarity]
+    assert recorded_pulse(path, polarity=polarity).delta_v_left == pytest.approx(9 * KMH * side)
+    (other,) = {"49 CFR 563", "ISO 8855"} - {polarity}
+    with pytest.raises(col.InputError, match=f"and by polarity='{other}' lateral is positive to"):
+        recorded_pulse(path, polarity=other)
+
+
+@pytest.mark.parametrize(
+    "head",
+    ["Delta-V, longitudinal (km/h)", "Longitudinal Crash Pulse (km/h)", "Long. Delta V (km/h)",
+     "Longitudinal Cumulative Delta-V (KPH)", "Recorded longitudinal velocity change [km/h]",
+     "LONGITUDINAL AXIS RECORDED VELOCITY CHANGE (KM/H)", "longitudinal change of velocity [km/h]",
+     "longitudinal (x) \u0394v, positive forward [km/h]", "longitudinal_kmh [km/h]"],
+)  # fmt: skip
+def test_heads_of_retrieval_reports_are_read(head, tmp_path):
+    path = written(tmp_path / "p.csv", f"Time (msec);{head}", [TIMES, FORWARD], ";")
+    pulse = recorded_pulse(path, polarity="49 CFR 563")
+    assert pulse.delta_v_forward == pytest.approx(-40 * KMH, rel=1e-14)
+
+
 @pytest.mark.parametrize(
     "data",
     [
@@ -531,6 +611,19 @@ def test_a_record_that_begins_before_or_after_its_zero_has_the_same_duration():
     for start in (-0.05, 0.0, 0.2):
         pulse = recorded_pulse(TIME + start, shape, polarity="ISO 8855")
         assert pulse.duration == pytest.approx(0.11, rel=1e-9), start
+
+
+def test_samples_before_the_pulse_begins_are_no_part_of_its_duration():
+    """A record may begin before its time zero, or with zeros after it."""
+    for start, begins in ((-0.05, 0.0), (0.0, 0.06)):
+        time = start + np.arange(0.0, 0.3, 0.01)
+        since = np.round(time - begins, 9)
+        forward, left = -8.0 * haversine(since), 2.0 * haversine(since - 0.02)
+        pulse = recorded_pulse(time, forward, left, polarity="ISO 8855")
+        assert pulse.duration == pytest.approx(0.13, rel=1e-9), start
+        np.testing.assert_allclose(pulse.time, time, rtol=1e-12)
+    flat = recorded_pulse(TIME, 0.0 * TIME, polarity="ISO 8855")
+    assert flat.duration == 0.0
 
 
 def test_the_bound_of_a_record_that_stops_early_is_told_in_km_per_hour():

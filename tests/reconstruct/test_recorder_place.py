@@ -352,7 +352,11 @@ def test_pages_and_records_say_that_readings_were_carried_over():
     ):
         assert re.search(rf"{what}\s+{text}", rows), (what, rows[:6000])
     assert reporting.replay(page).reconstruction == found.reconstruction
-    assert "carried over to the centre of mass" in str(col.explain(found))
+    assert "carried over to the centre of mass" in (told := str(col.explain(found)))
+    # The derivation ends at the delta-V of the centre of mass, and says so.
+    assert "it must reproduce what was known" in told
+    assert "away from it, or in axes that turn, differ from that, and are not worked out" in told
+    assert "For this one:" not in told
     again = col.Impact.from_dict(json.loads(json.dumps(found.to_dict())))
     assert again.reconstruction == found.reconstruction
     with warnings.catch_warnings():

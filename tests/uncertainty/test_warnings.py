@@ -60,9 +60,7 @@ def test_a_warning_of_few_samples_is_stated_and_not_raised():
         seldom = x > 3.2905  # one in two thousand
         if np.any(seldom):
             text = "a warning of the model"
-            warn_of_cases(
-                col.CollisionsWarning(text, code="seldom"), {text: int(np.count_nonzero(seldom))}
-            )
+            warn_of_cases(col.CollisionsWarning(text, code="seldom"), {text: seldom})
         return {"x": x}
 
     found, caught = quiet(lambda: propagate(model, {"x": Normal(0.0, 1.0)}, samples=8192, seed=2))
@@ -74,16 +72,170 @@ def test_a_warning_of_few_samples_is_stated_and_not_raised():
     )
 
 
-def test_a_warning_that_is_not_of_cases_counts_for_all_and_is_raised_once():
+def test_a_warning_that_is_not_of_cases_is_raised_once_and_gets_no_share():
+    """A call of plain numbers may stand for all cases or for one."""
+
     def model(x):
         warn(col.SuspectUnitsWarning("this is in degrees", code="bare_angle"))
         return {"x": x}
 
-    found, caught = quiet(lambda: propagate(model, {"x": Normal(0.0, 1.0)}, samples=32768, seed=2))
+    found, caught = quiet(lambda: propagate(model, {"x": Normal(0.0, 1.0)}, samples=1024, seed=2))
+    (note,) = found.notes
+    assert note.fields == {"cases": None, "share": None, "times": 1}
     assert [str(one.message) for one in caught] == [
-        "32768 of 32768 cases (100 %): this is in degrees"
+        "1 warning from calls that were not given all cases as arrays; in how many of 1024 cases "
+        "it is so is not known: this is in degrees"
     ]
-    assert found.notes[0].fields == {"cases": 32768, "share": 1.0}
+
+
+def left_at(course, speed):
+    """Speeds before from those after, SI; below 0 in many cases."""
+    return reconstruct.momentum(
+        1200.0,
+        1800.0,
+        course_a=course,
+        course_b=0.0,
+        course_a_after=-0.5,
+        course_b_after=-0.7,
+        speed_a_after=speed,
+        speed_b_after=14.0,
+    ).speed_a
+
+
+LEFT = {"course": Normal("176 deg", "10 deg"), "speed": Normal("30 km/h", "2 km/h")}
+
+
+def one_by_one(course, speed):
+    pairs = np.stack(np.broadcast_arrays(course, speed), axis=-1)
+    return np.array([left_at(*pair) for pair in pairs.tolist()])
+
+
+def of_code(found, code):
+    """The only note of a code about A."""
+    (note,) = [one for one in found.notes if one.code == code and "speed_b" not in one.sentence]
+    return note
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_a_loop_over_single_cases_is_given_no_share(threads):
+    """How many calls warned is counted; of how many cases, nobody knows."""
+    below = []
+
+    def model(course, speed):
+        values = one_by_one(course, speed)
+        if values.size > 4:  # not those that are asked again as a check
+            below.append(int(np.count_nonzero(values < 0.0)))
+        return {"speed_a": values}
+
+    found, caught = quiet(lambda: propagate(model, LEFT, samples=256, seed=1, threads=threads))
+    assert 0 < sum(below) < 256
+    note = of_code(found, "negative_speed")
+    assert note.fields == {"cases": None, "share": None, "times": sum(below)}
+    assert note.statement.startswith(f"{sum(below)} warnings from calls that were not given all")
+    assert not any("256 of 256" in text for text in found.statements)
+    assert "negative_speed" in {one.message.code for one in caught}
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_the_same_cases_as_arrays_are_counted_once_however_often_they_are_asked(threads):
+    """Two calls for the same cases: those where either warns, not the sum of both."""
+    below = []
+
+    def model(course, speed):
+        one, other = left_at(course, speed), left_at(course, speed + 3.0)
+        pair = left_at(course[:, np.newaxis], speed[:, np.newaxis] + [0.0, 3.0])
+        np.testing.assert_allclose(pair, np.stack([one, other], axis=-1), rtol=1e-12)
+        if one.size > 4:
+            below.append(int(np.count_nonzero((one < 0.0) | (other < 0.0))))
+        return {"one": one, "other": other}
+
+    found, _ = quiet(lambda: propagate(model, LEFT, samples=40000, seed=1, threads=threads))
+    note = of_code(found, "negative_speed")
+    share = sum(below) / 40000
+    assert note.fields == {"cases": sum(below), "share": share}
+    assert note.statement.startswith(f"{sum(below)} of 40000 cases ({100.0 * share:.3g} %): ")
+
+
+def test_a_model_of_both_kinds_says_what_is_sure():
+    """Arrays for all cases, and single calls for some: at least those, and the calls."""
+    below, alone = [], []
+
+    def model(course, speed):
+        values = left_at(course, speed)
+        again = np.flatnonzero(speed > 8.5)
+        single = one_by_one(course[again], speed[again] + 3.0)
+        if values.size > 4:
+            below.append(int(np.count_nonzero(values < 0.0)))
+            alone.append(int(np.count_nonzero(single < 0.0)))
+        return {"speed_a": values}
+
+    found, _ = quiet(lambda: propagate(model, LEFT, samples=512, seed=1))
+    note = of_code(found, "negative_speed")
+    assert note.fields == {"cases": None, "share": None, "times": sum(alone)}
+    assert note.statement.startswith(
+        f"at least {sum(below)} of 512 cases, and {sum(alone)} warnings from calls that were not "
+        "given all cases as arrays, so the share is not known: speed_a is below 0"
+    )
+
+
+def test_fits_and_posteriors_give_a_loop_no_share():
+    counted = []
+
+    def each(speed):
+        for value in speed.tolist():
+            if value < 20.0:
+                text = "slower than 20 m/s"
+                warn_of_cases(col.CollisionsWarning(text, code="slow"), {text: None})
+        return speed
+
+    def model(speed):
+        counted.append((speed.size, int(np.count_nonzero(speed < 20.0))))
+        return {"speed": each(speed)}
+
+    unknowns, seen = {"speed": Uniform(5.0, 60.0)}, {"speed": (19.0, 1.0)}
+    fitted, _ = quiet(lambda: reconstruct.fit(model, unknowns, seen))
+    # The answer is one case, of which it is known.
+    assert "slower than 20 m/s" in fitted.statements
+    found, _ = quiet(lambda: reconstruct.posterior(model, unknowns, seen, samples=512, seed=1))
+    below = int(np.count_nonzero(found["speed"].values < 20.0))
+    assert counted[-1] == (512, below)
+    said = (
+        f"{below} warnings from calls that were not given all cases as arrays; in how many of 512 "
+        "cases it is so is not known: slower than 20 m/s"
+    )
+    assert said in found.statements
+    more, _ = quiet(lambda: found.with_result("again", each, speed=found["speed"]))
+    assert sum(said in text for text in more.statements) == 2
+    compared, _ = quiet(lambda: reconstruct.compare({"one": found, "other": found}))
+    assert f"one: {said}" in compared.statements
+
+
+def test_one_warning_of_many_calls_is_one_statement_whatever_its_numbers():
+    """Blocks of samples say different worst numbers; their cases are added up."""
+    below = []
+
+    def model(gain):
+        after = col.Vehicle(mass=1500.0, vx=gain)
+        e = reconstruct.restitution(
+            col.Vehicle(mass=1500.0, vx=10.0),
+            col.Vehicle(mass=1200.0),
+            after,
+            col.Vehicle(mass=1200.0, vx=6.0),
+            normal=0.0,
+        )
+        if e.size > 4:
+            below.append(int(np.count_nonzero(e < 0.0)))
+        return {"e": e}
+
+    found, caught = quiet(
+        lambda: propagate(model, {"gain": Normal(4.0, 0.7)}, samples=40000, seed=1)
+    )
+    assert len(below) > 1
+    (note,) = [one for one in found.notes if one.code == "observed_restitution"]
+    assert note.fields["cases"] == sum(below) > 0
+    assert [one.message.code for one in caught].count("observed_restitution") == (
+        note.fields["share"] >= 0.005
+    )
 
 
 def test_what_a_reference_value_warns_of_reaches_the_study():

@@ -154,6 +154,12 @@ def state_before(page: Page, s: Symbols) -> None:
     for sentence in s.impact.statements:
         page.say(as_sentence(sentence))
     page.say("What follows is the same impact solved forwards; it must reproduce what was known.")
+    if any(name.startswith("recorder_") for name in origin.known):
+        page.say(
+            "Delta-V is there that of the centre of mass in the axes of the heading given. "
+            "Readings of a recorder away from it, or in axes that turn, differ from that, and are "
+            "not worked out again."
+        )
 
 
 def what_was_known(page: Page, impact: Impact) -> None:
@@ -429,7 +435,7 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
         f"Within one regime of the contact (here {s.impact.regime}) the impulse is linear in "
         "both speeds, and energies are quadratic. Each regime was solved for the two that were "
         "known, and a pair of speeds was kept if the impact, solved forwards, is in that "
-        "regime. For this one:"
+        "regime."
     )
     if s.impact.inputs.tyres:
         page.say(

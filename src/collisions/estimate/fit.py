@@ -281,7 +281,7 @@ def _said_at(inputs: _Inputs, points: Any, model: Model) -> tuple[Note, ...]:
     model.noted.clear()
     values = {name: np.array(points[:, j]) for j, name in enumerate(inputs.units)}
     model(values, len(points), check=False)
-    return notes_of_samples(model.noted, len(points))
+    return notes_of_samples(model.noted)
 
 
 class _Inputs(NamedTuple):

@@ -385,7 +385,7 @@ class _Problem:
         model = self.finer or self.model
         model.noted.clear()  # of the way to the posterior
         values, answers = self.computed(model, scores, check=False)
-        notes = notes_of_samples(model.noted, len(scores))
+        notes = notes_of_samples(model.noted)
         calls = {"model": sum(one.calls for one in islands)}
         if self.finer is None:
             calls["model"] += len(scores)
@@ -396,7 +396,7 @@ class _Problem:
             # No figure rests on it: what it warns of is stated only.
             notes += tuple(
                 note._replace(warning=None, sentence=f"model, not finer: {note.sentence}")
-                for note in notes_of_samples(self.model.noted, len(scores))
+                for note in notes_of_samples(self.model.noted)
             )
             calls = {name: count + _COMPARED for name, count in calls.items()}
             calls["model"] += len(scores)

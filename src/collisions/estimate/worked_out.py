@@ -79,7 +79,7 @@ def worked_out(
         )
     if np.all(np.isnan(found)):
         raise _no_answer(name, function, arguments, {key: values[key] for key in sampled}, values)
-    return found, own or unit, notes_of_samples(model.noted, count)
+    return found, own or unit, notes_of_samples(model.noted)
 
 
 def _bad_unit(unit: Any) -> UnitsError:

@@ -275,7 +275,7 @@ def raise_or_warn(
         most, count = float(-raw.energy_loss[gaining].min()), int(gaining.sum())
         largest = said(most, "energy", inputs.texts)
         _warn_of_gain(
-            f"{count} of {status.size} cases gain energy, up to {largest}", most, count, inputs
+            f"{count} of {status.size} cases gain energy, up to {largest}", most, gaining, inputs
         )
 
 
@@ -288,8 +288,9 @@ def warn_of_refusals(status: Any, advice: str = "see .status, or `on_failure='ra
     }
     listed = ", ".join(f"{count} {label}" for label, count in kinds.items())
     text = f"{refused} of {status.size} cases were refused and are NaN ({listed}); {advice}"
-    parts: dict[str, int | None] = {
-        f"refused by a solver, as {label}": count for label, count in kinds.items()
+    parts = {
+        f"refused by a solver, as {Status(code).label}": status == code
+        for code in np.unique(status[status > Status.ENERGY_GAIN]).tolist()
     }
     warn_of_cases(CollisionsWarning(text, code="refused_cases", counts=kinds), parts)
 
@@ -425,7 +426,7 @@ def _first_refusal(
     return InputError(f"{place}: {outcome.sentence}", code=outcome.label)
 
 
-def _warn_of_gain(what: str, gain: float, count: int | None, inputs: Inputs) -> None:
+def _warn_of_gain(what: str, gain: float, where: Any, inputs: Inputs) -> None:
     if inputs.model == TIME_RESOLVED.name:
         why = (
             "that is the error of the steps, where the contact gives back nearly all it took; "
@@ -438,4 +439,4 @@ def _warn_of_gain(what: str, gain: float, count: int | None, inputs: Inputs) -> 
             "`law='kudlich-slibar'` with `friction=`"
         )
     warning = EnergyGainWarning(f"{what}: {why}", code="energy_gain", gain=gain)
-    warn_of_cases(warning, {f"the impact gains energy: {why}": count})
+    warn_of_cases(warning, {f"the impact gains energy: {why}": where})

@@ -37,6 +37,5 @@ def noted(impact: Impact) -> Impact:
             "(reference.INTER_VEHICLE_FRICTION): if it slid, this is not the impact. Give "
             "the friction with its uncertainty"
         )
-        count = int(np.count_nonzero(sticks)) if np.ndim(sticks) else None
-        warn_of_cases(IllConditionedWarning(text, code="may_slide"), {text: count})
+        warn_of_cases(IllConditionedWarning(text, code="may_slide"), {text: sticks})
     return impact

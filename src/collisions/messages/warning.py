@@ -10,7 +10,9 @@ import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
 
 from .errors import CollisionsWarning
 from .marked import plain
@@ -20,19 +22,36 @@ from .marked import plain
 SELDOM = 0.005
 
 
-class Noted(NamedTuple):
-    """A warning raised while a model was called: what it says without its numbers, and the cases of
-    that call it is of.
+class Said(NamedTuple):
+    """A warning while a model was called: what it says without its numbers, and where it holds.
 
-    ``cases`` is None where it is of all of them. It is raised where it is of this share of all
-    samples at ``least``.
+    ``where`` is a boolean for each case of the solver's own call; None for a call of plain numbers.
+    It is raised where it is of this share of all samples at ``least``; at 0, always, and at
+    infinity never, it is said of the study and not of cases.
     """
 
     sentence: str
     warning: type[CollisionsWarning]
     code: str
-    cases: int | None
+    where: Any
     least: float = SELDOM
+
+
+class Noted(NamedTuple):
+    """A warning of one call of a model: of how many of its cases at the least, and how many times
+    it was given without saying of which cases.
+    """
+
+    sentence: str
+    warning: type[CollisionsWarning]
+    code: str
+    least: float
+    cases: int
+    uncounted: int
+
+
+# The cases of each call of a model, and what was noted of them.
+Calls: TypeAlias = list[tuple[int, list[Noted]]]
 
 
 class Note(NamedTuple):
@@ -53,16 +72,18 @@ class Note(NamedTuple):
 
 
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
-_sampling: ContextVar[list[Noted] | None] = ContextVar("sampling", default=None)
+_sampling: ContextVar[list[Said] | None] = ContextVar("sampling", default=None)
 
 
-def warn(warning: CollisionsWarning, cases: int | None = None) -> None:
-    """Warn at the line of the first caller outside this package; within a study it is noted, as of
-    so many cases, or of all.
+def warn(warning: CollisionsWarning, where: Any = None, sentence: str = "") -> None:
+    """Warn at the line of the first caller outside this package.
+
+    Within a study the sentence is noted in place of it: what it says without numbers that differ
+    from call to call, and in which cases, as in ``Said``.
     """
-    noted = _sampling.get()
-    if noted is not None:
-        noted.append(Noted(warning.marked, type(warning), warning.code, cases))
+    said = _sampling.get()
+    if said is not None:
+        said.append(Said(sentence or warning.marked, type(warning), warning.code, where))
         return
     level, package = 1, __name__.partition(".")[0]
     frame: Any = sys._getframe()
@@ -73,18 +94,18 @@ def warn(warning: CollisionsWarning, cases: int | None = None) -> None:
 
 
 def warn_of_cases(
-    warning: CollisionsWarning, parts: Mapping[str, int | None], least: float = SELDOM
+    warning: CollisionsWarning, parts: Mapping[str, Any], least: float = SELDOM
 ) -> None:
     """Warn of what some cases show; nothing within ``quietly()``.
 
-    Within a study the ``parts`` are noted instead: what is said of how many cases, without numbers
-    that belong to one of them; and raised where it is said of this share of all at ``least``.
+    Within a study the ``parts`` are noted instead: what is said without numbers that belong to one
+    case, and where, as in ``Said``; and raised where it is said of this share of all at ``least``.
     """
-    noted = _sampling.get()
-    if noted is not None:
-        noted += (
-            Noted(sentence, type(warning), warning.code, count, least)
-            for sentence, count in parts.items()
+    said = _sampling.get()
+    if said is not None:
+        said += (
+            Said(sentence, type(warning), warning.code, where, least)
+            for sentence, where in parts.items()
         )
     elif not _quiet.get():
         warn(warning)
@@ -99,23 +120,24 @@ def state_of_study(sentence: str, code: str) -> None:
     """State something of the model of a study, once in its result, without a warning; nothing
     outside a study.
     """
-    noted = _sampling.get()
-    if noted is not None:
-        noted.append(Noted(sentence, CollisionsWarning, code, None, math.inf))
+    said = _sampling.get()
+    if said is not None:
+        said.append(Said(sentence, CollisionsWarning, code, None, math.inf))
 
 
 def warn_of_samples(warning: CollisionsWarning) -> None:
-    """Note what matters only where the cases are samples of one case: within a study."""
-    if _sampling.get() is not None:
-        warn(warning)
+    """Note what is said of the samples of a study together, not of some of them."""
+    said = _sampling.get()
+    if said is not None:
+        said.append(Said(warning.marked, type(warning), warning.code, None, 0.0))
 
 
 @contextmanager
-def quietly(noted: list[Noted] | None = None) -> Iterator[None]:
-    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``noted`` the
-    cases are those of a study.
+def quietly(said: list[Said] | None = None) -> Iterator[None]:
+    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``said`` the
+    cases are those of a study, and its warnings go there.
     """
-    token, sampled = _quiet.set(True), _sampling.set(noted)
+    token, sampled = _quiet.set(True), _sampling.set(said)
     try:
         yield
     finally:
@@ -123,26 +145,69 @@ def quietly(noted: list[Noted] | None = None) -> Iterator[None]:
         _sampling.reset(sampled)
 
 
-def notes_of_samples(noted: Iterable[Noted], total: int) -> tuple[Note, ...]:
-    """What was noted over all samples of a study: each warning once, with the number and the share
-    of the samples it is of.
+def noted_in_call(said: Iterable[Said], count: int) -> list[Noted]:
+    """What was said while a model was called with so many cases: each warning once, of the cases
+    it is of.
+
+    Those are known of arrays with a number for each case, and where there is one case. A call of
+    plain numbers may be of one case of a loop or stand for all of them, and one of other arrays of
+    anything: nothing but how often it warned is known.
     """
-    counts: dict[tuple[str, type[CollisionsWarning], str, float], int] = {}
-    for sentence, kind, code, count, least in noted:
+    found: dict[tuple[Any, ...], tuple[Any, int]] = {}
+    for sentence, kind, code, where, least in said:
         key = sentence, kind, code, least
-        counts[key] = counts.get(key, 0) + (total if count is None else count)
+        cases, uncounted = found.get(key, (np.zeros(count, dtype=bool), 0))
+        own = _by_case(where, count)
+        found[key] = (cases, uncounted + 1) if own is None else (cases | own, uncounted)
+    return [
+        Noted(sentence, kind, code, least, int(np.count_nonzero(cases)), uncounted)
+        for (sentence, kind, code, least), (cases, uncounted) in found.items()
+    ]
+
+
+def _by_case(where: Any, count: int) -> Any:
+    """In which cases of a call of a model it holds; None where that is not known."""
+    shape = np.shape(where)
+    if count == 1:
+        return where is None or bool(np.any(where))
+    if shape.count(count) != 1:
+        return None
+    return np.any(where, axis=tuple(i for i, size in enumerate(shape) if size != count))
+
+
+def notes_of_samples(calls: Calls) -> tuple[Note, ...]:
+    """What was noted over all samples of a study: each warning once, with the number and the share
+    of the samples it is of where those are known.
+    """
+    total = sum(count for count, _ in calls)
+    found: dict[tuple[Any, ...], tuple[int, int]] = {}
+    for _, noted in calls:
+        for *key, cases, uncounted in noted:
+            known, more = found.get(tuple(key), (0, 0))
+            found[tuple(key)] = known + cases, more + uncounted
     notes = []
-    for (sentence, kind, code, least), found in counts.items():
-        cases = min(found, total)
-        share = cases / total
-        # What is never raised is said of the model rather than of its samples.
-        of = f"{cases} of {total} cases ({100.0 * share:.3g} %): "
-        of = "" if total == 1 or least > 1.0 else of
-        raised = kind if share >= least else None
-        notes.append(
-            Note(raised, of + sentence, code=code, fields={"cases": cases, "share": share})
-        )
-    return tuple(sorted(notes, key=lambda note: -note.fields["cases"]))
+    for (sentence, kind, code, least), (cases, uncounted) in found.items():
+        # A share that is not known may be any.
+        at_most = 1.0 if uncounted else cases / total
+        of = f"{cases} of {total} cases ({100.0 * at_most:.3g} %): "
+        fields: dict[str, Any] = {"cases": cases, "share": at_most}
+        if not 0.0 < least <= 1.0:
+            of, fields = "", {}
+        elif uncounted and cases < total:
+            of = _of_uncounted(cases, uncounted, total)
+            fields = {"cases": None, "share": None, "times": uncounted}
+        of = "" if total == 1 else of
+        note = Note(kind if at_most >= least else None, of + sentence, code=code, fields=fields)
+        notes.append((at_most, note))
+    return tuple(note for _, note in sorted(notes, key=lambda pair: -pair[0]))
+
+
+def _of_uncounted(cases: int, times: int, total: int) -> str:
+    """Of how many cases something is said where that is not known."""
+    many = f"{times} warning{'s' * (times > 1)} from calls that were not given all cases as arrays"
+    if cases:
+        return f"at least {cases} of {total} cases, and {many}, so the share is not known: "
+    return f"{many}; in how many of {total} cases it is so is not known: "
 
 
 def warn_of(notes: Iterable[Note]) -> None:

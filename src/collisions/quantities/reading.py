@@ -260,16 +260,10 @@ def warn_if_large(
                 argument=argument,
                 value=worst,
             ),
-            _count_beyond(read, limit),
+            np.abs(read) > limit,
+            f"{argument} is so large, read as {meaning}, that {' or '.join(units)} may have been "
+            "meant; then write the unit with the number",
         )
-
-
-def _count_beyond(value: Any, limit: float) -> int | None:
-    """How many numbers of an array are larger than a limit; None of a single number, which all
-    cases have.
-    """
-    beyond = np.abs(value) > limit if isinstance(value, np.ndarray) else None
-    return None if beyond is None else int(np.count_nonzero(beyond))
 
 
 def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
@@ -521,7 +515,9 @@ def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:
                 argument=argument,
                 value=worst,
             ),
-            _count_beyond(value, limit),
+            np.abs(value) > limit,
+            f"{argument} is so large, read as {unit}, that degrees may have been meant; then "
+            f"write the unit with the number, as '90 {degrees}'",
         )
 
 

@@ -250,15 +250,9 @@ class Cases(NamedTuple):
             f"{math.prod(self.shape)} cases: "
         )
 
-    def number(self, where: Any) -> int | None:
-        """The number of these cases; None for a single case, which is the same for every sample of
-        a study.
-        """
-        return (
-            None
-            if self.shape is None
-            else int(np.count_nonzero(np.broadcast_to(where, self.shape)))
-        )
+    def each(self, where: Any) -> Any:
+        """Whether it holds, for each case of a batch; None for a single case."""
+        return None if self.shape is None else np.broadcast_to(where, self.shape)
 
     def reconstruction(
         self,
@@ -373,7 +367,7 @@ def warn_of_condition(origin: Reconstruction) -> None:
     text = f"{of}the condition of {known} is {worst:.3g}: {why}"
     sentence = f"the condition of {known} is above {_ILL_CONDITIONED:.0e}: {why}"
     warning = IllConditionedWarning(text, code="ill_conditioned", condition=worst)
-    warn_of_cases(warning, {sentence: int(np.count_nonzero(ill)) if ill.ndim else None})
+    warn_of_cases(warning, {sentence: ill})
 
 
 def state_instant(solver: str, wheels: str = "`tyres_a=`, `tyres_b=`") -> None:

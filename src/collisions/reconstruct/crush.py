@@ -150,7 +150,10 @@ def crush_energy(
                 f"force_angle = {shown(force_angle)} is more than 45 deg, where the correction "
                 "exceeds 2: outside what the crush model is used for",
                 code="force_angle",
-            )
+            ),
+            cases.each(oblique),
+            "force_angle is more than 45 deg, where the correction exceeds 2: outside what the "
+            "crush model is used for",
         )
     with np.errstate(all="ignore"):
         widths, depths, (a, b) = (

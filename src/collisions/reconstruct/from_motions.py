@@ -211,13 +211,14 @@ def friction(
         by = f"{most:.0%}"
         if cases.shape is not None:
             by = f"up to {by} in {np.count_nonzero(mismatched)} of {np.size(status)} cases"
+        what, cure = (
+            "the impulses that the motions of A and B show differ by",
+            "check masses, motions, and impulses from outside",
+        )
         warn(
-            IllConditionedWarning(
-                f"the impulses that the motions of A and B show differ by {by}: check masses, "
-                "motions, and impulses from outside",
-                code="momentum_mismatch",
-                mismatch=most,
-            )
+            IllConditionedWarning(f"{what} {by}: {cure}", code="momentum_mismatch", mismatch=most),
+            cases.each(mismatched),
+            f"{what} more than {_MISMATCH:.0%}: {cure}",
         )
     observed: Value = cases.values(ratio)
     return observed
@@ -401,7 +402,10 @@ def _warn_of_restitution(answer: Any, below: Any, above: Any, batch: bool) -> No
             code="observed_restitution",
             value=worst,
             counts=counts,
-        )
+        ),
+        np.logical_or(below, above),
+        f"the observed restitution is outside 0 to 1. Below 0, {_STILL_APPROACH}; above 1, "
+        f"{_PART_FASTER}",
     )
 
 

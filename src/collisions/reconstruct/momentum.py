@@ -840,7 +840,7 @@ def _warn(
             warning = kind(
                 known.cases.how_many(where) + text.format(number), code=code, **{name: worst}
             )
-            warn_of_cases(warning, {sentence: known.cases.number(where)})
+            warn_of_cases(warning, {sentence: known.cases.each(where)})
 
     near: Any = False
     if turning is not None:
@@ -906,15 +906,15 @@ def _warn(
         )
     other = other_velocity(solution) if known.lasting is not None else None
     if other is not None:
-        there = np.isfinite(other.apart)
+        there = np.isfinite(other.apart[0])
         name = solution.unknowns[0]
         warning = OutOfRangeWarning(
             known.cases.how_many(there) + other.sentence(solution, Sentences(texts)),
             code="another_fits",
-            value=float(np.nanmax(other.apart)),
+            value=float(np.nanmax(other.apart[0])),
         )
         sentence = f"{name} is so slow that with its tyres another velocity fits too"
-        warn_of_cases(warning, {sentence: known.cases.number(there)})
+        warn_of_cases(warning, {sentence: known.cases.each(there)})
     text = (
         "the vehicles leave with {} more than they came with, which no impact gives; check "
         "courses and speeds"

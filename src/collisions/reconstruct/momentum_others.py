@@ -1,4 +1,4 @@
-"""Another velocity before that fits a balance of momentum too, where tyres act on a vehicle so slow
+"""Other velocities before that fit a balance of momentum too, where tyres act on a vehicle so slow
 that their force turns with what is sought.
 """
 
@@ -27,10 +27,14 @@ _FAST, _ONE_ANSWER = 8.0, 1e-3
 # Where it is begun: parts of twice what the tyres can change, as no answers are farther apart, and
 # directions.
 _PARTS, _DIRECTIONS = (0.2, 0.5, 1.0), 8
+# And then between the answer and the farthest other.
+_BETWEEN = (0.2, 0.35, 0.5, 0.65, 0.8)
 
 
 class Other(NamedTuple):
-    """Of each case another velocity that fits, and how far it is from the answer; NaN for none."""
+    """Other velocities that fit, and how far they are from the answer: for each case from the
+    farthest on, and NaN beyond the last. The first axis is that of the velocities.
+    """
 
     speed: Any
     course: Any
@@ -40,19 +44,26 @@ class Other(NamedTuple):
         """What it says, of a batch of the case where it is farthest; ``say`` writes a number of a
         kind, "speed" or "angle".
         """
-        at = int(np.nanargmax(self.apart))
-        speed, course, apart = (float(np.ravel(value)[at]) for value in self)
+        at = int(np.nanargmax(self.apart[0]))
         (name, angle) = solution.unknowns
+        found = [
+            f"{name} = {say(float(speed), 'speed')} with {angle} = {say(float(course), 'angle')}, "
+            f"which is {say(float(apart), 'speed')} away"
+            for speed, course, apart in zip(
+                *(value.reshape(len(value), -1)[:, at] for value in self), strict=True
+            )
+            if np.isfinite(apart)
+        ]
+        fit = "another velocity fits" if len(found) == 1 else "other velocities fit"
         return (
-            f"the tyres of {name[-1].upper()} can hold or turn a vehicle so slow, and another "
-            f"velocity fits too: {name} = {say(speed, 'speed')} with {angle} = "
-            f"{say(course, 'angle')}, which is {say(apart, 'speed')} away; momentum does not tell "
-            "which of them it was, and other evidence has to"
+            f"the tyres of {name[-1].upper()} can hold or turn a vehicle so slow, and {fit} too: "
+            f"{'; '.join(found)}; momentum does not tell which of them it was, and other evidence "
+            "has to"
         )
 
 
 def other_velocity(solution: MomentumSolution) -> Other | None:
-    """The velocity before that fits too and is farthest from the answer; None where none is found.
+    """The velocities before that fit too; None where none is found.
 
     It is looked for where the velocity sought is that of one vehicle before, whole: what friction
     takes grows with a velocity after, so that one alone fits.
@@ -93,7 +104,7 @@ def other_velocity(solution: MomentumSolution) -> Other | None:
         {label: part_of(tyres, take)},
         {label: take(named["yaw_rate_after"])},
     )
-    x, y, apart = _farthest(
+    x, y, apart = _others(
         lasting, label, {part: take(value) for part, value in named.items()}, take(most)
     )
     if not np.any(apart > 0.0):
@@ -101,15 +112,17 @@ def other_velocity(solution: MomentumSolution) -> Other | None:
     there = apart > 0.0
 
     def whole(value: Any) -> Any:
-        made = np.full(math.prod(shape), np.nan)
-        made[where] = np.where(there, value, np.nan)
-        return made.reshape(shape) if shape else float(made[0])
+        made = np.full((len(apart), math.prod(shape)), np.nan)
+        made[:, where] = np.where(there, value, np.nan)
+        return made.reshape(-1, *shape)
 
     return Other(whole(np.hypot(x, y)), whole(np.arctan2(y, x)), whole(apart))
 
 
-def _farthest(lasting: Lasting, label: str, of: dict[str, Any], most: Any) -> tuple[Any, Any, Any]:
-    """Velocity before of the farthest answer of each case, and how far it is; 0 for none."""
+def _others(lasting: Lasting, label: str, of: dict[str, Any], most: Any) -> tuple[Any, Any, Any]:
+    """Velocities before of the other answers of each case from the farthest on, and how far they
+    are; 0 beyond the last.
+    """
     before, after = f"speed_{label}", f"speed_{label}_after"
     found = _velocity(of["speed"], of["course"])
     left = _velocity(of["speed_after"], of["course_after"])
@@ -141,8 +154,24 @@ def _farthest(lasting: Lasting, label: str, of: dict[str, Any], most: Any) -> tu
     (x, y), settled = settle(missed, start, [most, most])
     apart = np.hypot(x - found[0], y - found[1])
     apart = np.where(settled & (apart > _ONE_ANSWER * most), apart, 0.0)
-    best = np.argmax(apart, axis=0)[None]
-    return tuple(np.take_along_axis(part, best, axis=0)[0] for part in (x, y, apart))
+    if np.any(apart > 0.0):
+        # Of three that fit, the one between is hard to reach from outside.
+        best = np.argmax(apart, axis=0)[None]
+        ends = [np.take_along_axis(part, best, axis=0) for part in (x, y)]
+        parts = np.array(_BETWEEN)[:, None]
+        start = [one + parts * (end - one) for one, end in zip(found, ends, strict=True)]
+        more, reached = settle(missed, start, [most, most])
+        x, y = (np.concatenate(both) for both in zip((x, y), more, strict=True))
+        settled = np.concatenate((settled, reached & np.any(apart > 0.0, axis=0)))
+        apart = np.hypot(x - found[0], y - found[1])
+        apart = np.where(settled & (apart > _ONE_ANSWER * most), apart, 0.0)
+    for i in range(1, len(x)):  # what was found from several starts is one
+        again = np.hypot(x[:i] - x[i], y[:i] - y[i]) <= _ONE_ANSWER * most
+        apart[i] = np.where(np.any(again & (apart[:i] > 0.0), axis=0), 0.0, apart[i])
+    order = np.argsort(-apart, axis=0, kind="stable")
+    x, y, apart = (np.take_along_axis(part, order, axis=0) for part in (x, y, apart))
+    count = max(1, int(np.max(np.count_nonzero(apart, axis=0))))
+    return x[:count], y[:count], apart[:count]
 
 
 def _velocity(speed: Any, course: Any) -> tuple[Any, Any]:

@@ -20,7 +20,8 @@ from ..quantities.units import Value, to_quantity
 from ..vehicle.drag import USUAL_DURATION
 from ..vehicle.tyres import Tyres
 from .momentum_others import other_velocity
-from .momentum_tyres import neglected
+from .momentum_tyres import neglected, what_is_sought
+from .momentum_vector import NEARLY_CANCELLING
 
 # The arguments that give attributes which may be None.
 _NEEDED = {
@@ -184,15 +185,32 @@ class MomentumSolution(Shown):
     @property
     def statements(self) -> tuple[str, ...]:
         """What has to be said beside the numbers: without tyres, by how much the speeds would
-        differ if all wheels slid for 0.1 s with a drag of 0.7; with them, that another velocity
-        fits too.
+        differ if all wheels slid for 0.1 s with a drag of 0.7; with them, which other
+        velocities fit too, or that others may and were not looked for.
         """
         say = Sentences(self._texts())
         if self.tyres:
             other = other_velocity(self)
-            return () if other is None else (other.sentence(self, say),)
+            if other is not None:
+                return (other.sentence(self, say),)
+            return (self._not_looked_for(),) if self._may_have_others() else ()
         found = neglected(self, float(USUAL_DURATION), 0.7, lambda value, kind: say(value, kind, 2))
         return () if found is None else (found.sentence,)
+
+    def _may_have_others(self) -> bool:
+        """Whether small changes of the tyres' impulse move what was found so far that another pair
+        may fit, which is looked for where one velocity is sought alone.
+        """
+        ill = np.asarray(self.condition) > NEARLY_CANCELLING
+        return what_is_sought(self) != "velocity" and bool(np.any(ill))
+
+    def _not_looked_for(self) -> str:
+        one, other = self.unknowns
+        return (
+            f"{one} and {other} are those to which the balance without tyres leads; with a "
+            "condition as large as here another pair may fit with the tyres, which was not looked "
+            "for, and other evidence has to tell"
+        )
 
     def _texts(self) -> Iterable[Any]:
         texts = [value for value in (self.given or {}).values() if not isinstance(value, Tyres)]

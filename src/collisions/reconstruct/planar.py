@@ -628,9 +628,7 @@ def _warn(cases: Cases, found: _Found, say: Sentences, whole: _Looked | None) ->
         taken = "taken as 0, a plastic impact, and the motions after changed by as much"
         text = f"{cases.how_many(pressed)}{what}, by up to {say(most, 'speed', 3)}: {taken}"
         warning: CollisionsWarning = OutOfRangeWarning(text, code="nearly_plastic", approach=most)
-        warn_of_cases(
-            warning, {f"{what}, by no more than rounding: {taken}": cases.number(pressed)}
-        )
+        warn_of_cases(warning, {f"{what}, by no more than rounding: {taken}": cases.each(pressed)})
     if np.any(nearly):
         where, which = "in a wide range", "follows the sign of that slip"
         if cases.shape is None and whole is not None:
@@ -649,7 +647,7 @@ def _warn(cases: Cases, found: _Found, say: Sentences, whole: _Looked | None) ->
             "the slip after the impact is so small that it may be none: then the contact stuck, "
             "and the slip before is open"
         )
-        warn_of_cases(warning, {sentence: cases.number(nearly)})
+        warn_of_cases(warning, {sentence: cases.each(nearly)})
 
 
 def _interval(low: float, high: float, say: Sentences | None = None) -> str:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -48,7 +49,9 @@ class RecordedPulse(Shown):
     The errors are half the widths of the ranges that 49 CFR 563.8, Table III allows
     (``reference.RECORDER_ACCURACY``): a tenth of each component, and at least half the step in
     which it is reported. A record that stops before the pulse has ended is a lower bound: its
-    components say how far delta-V had come. ``time``, ``forward`` and ``left`` are the samples.
+    components say how far delta-V had come. ``duration`` is the time from the last sample before
+    delta-V begins to change to the largest resultant. ``time``, ``forward`` and ``left`` are the
+    samples.
     ``place`` is where the recorder sits, ahead of the centre of mass and to its left, if that was
     given; all numbers are the readings there, which ``speeds(..., recorder_a=pulse.place)``
     carries over to the centre of mass.
@@ -198,12 +201,12 @@ def recorded_pulse(
         Times of the samples, increasing. Or a file whose first row has the heads of the columns,
         each with its unit in round or square brackets: ``time [ms],longitudinal [km/h],lateral
         [km/h]``, or as reports write them, ``Time (msec)``, ``"Delta-V, lateral (MPH)"``. The
-        columns are found by their heads, in any order; a head that may be two of them, or none,
-        is refused, as is one of a speed, of data from before the crash or of values that were
-        adjusted. Commas, semicolons or tabs separate the columns; with the last two, numbers
-        may have decimal commas, and a mark before three digits that may be one of thousands is
-        refused. A cell of ``SNA`` is not available: in all of the lateral column,
-        or in the last rows, which are left out.
+        columns are found by their heads, in any order. A head is refused if it may be two of them,
+        or none, names a side or a standard (SAE, ISO) that contradicts ``polarity``, or has any
+        word that is not known to belong to time or cumulative delta-V. Commas, semicolons or tabs
+        separate the columns; with the last two, numbers may have decimal commas, and a mark
+        before three digits that may be one of thousands is refused. A cell of ``SNA`` is not
+        available: in all of the lateral column, or in the last rows, which are left out.
     delta_v_forward, delta_v_left : array [m/s], optional
         Cumulative delta-V at these times; left out with a file. The lateral one may be missing.
     polarity : {"49 CFR 563", "ISO 8855"}
@@ -318,7 +321,7 @@ def recorded_pulse(
     found = RecordedPulse(
         delta_v_forward=float(ahead[at]),
         delta_v_left=None if aside is None else float(aside[at]),
-        duration=float(times[at] - times[0]),
+        duration=float(times[at] - times[_begun(parts.values())]),
         ended=ended,
         polarity=polarity,
         time=read_only(times),
@@ -404,6 +407,12 @@ def _cut(times: Any, size: float) -> str:
         f"the record stops at {times[-1]:.3g} s while delta-V still changes: {3.6 * size:.1f} "
         "km/h is a lower bound"
     )
+
+
+def _begun(parts: Iterable[Any]) -> int:
+    """The last sample before delta-V changes for the first time; the first where it never does."""
+    changed = np.any([part != part[0] for part in parts], axis=0)
+    return max(int(np.argmax(changed)) - 1, 0)
 
 
 def _ended(times: Any, size: Any, at: int) -> bool:

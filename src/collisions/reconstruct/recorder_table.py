@@ -17,24 +17,31 @@ from ..quantities.units import shown
 _LARGEST_FILE = 1_000_000  # bytes
 _LONGEST_CELL = 200  # characters
 _EXAMPLE = "time [ms],longitudinal [km/h],lateral [km/h]"
-# Each column with its SI unit and the words of a head that name it. A lateral head may also say
-# to which side it is positive.
+_CALLED = {"time": "time", "delta_v_forward": "longitudinal", "delta_v_left": "lateral"}
+# Each column with its SI unit, and the words of a head that name it.
 _COLUMNS = {
     "time": ("s", {"time", "t"}),
     "delta_v_forward": ("m/s", {"longitudinal", "long", "forward"}),
     "delta_v_left": ("m/s", {"lateral", "lat", "left", "right"}),
 }
-_CALLED = {"time": "time", "delta_v_forward": "longitudinal", "delta_v_left": "lateral"}
-# Words of heads whose numbers are not delta-V as it grows forward, though their unit may be the
-# same.
-_OTHERS = {
-    "acceleration", "accel", "adjusted", "algorithm", "angle", "backward", "backwards", "before",
-    "calculated", "corrected", "driver", "end", "estimated", "filtered", "gps", "indicated", "max",
-    "maximum", "maximal", "minus", "neg", "negative", "peak", "pre", "precrash", "preimpact",
-    "rate", "rear", "rearward", "rearwards", "resultant", "total", "vertical", "wheel",
-}  # fmt: skip
+# The other words that leave a column what its name says. A head with any other word, number or
+# sign may mean something else, such as an acceleration, a share or the opposite sign.
 _SPEEDS, _CHANGES = {"speed", "v", "velocity"}, {"change", "delta", "dv", "deltav", "δv", "δ"}
+_OF_DELTA_V = _SPEEDS | _CHANGES | {"axis", "crash", "cumulative", "of", "pulse", "recorded"}
+_OF_SIGNS = {"is", "pos", "positive", "the", "to"}
+_UNDERSTOOD = {
+    "time": set(),
+    "delta_v_forward": _OF_DELTA_V | _OF_SIGNS | {"x"},
+    "delta_v_left": _OF_DELTA_V | _OF_SIGNS | {"from", "y"},
+}
+_MARKS = set(",.:;/_+=()[]")
 _SIDES = {"49 CFR 563": "right", "ISO 8855": "left"}
+# Standards that a head may name, by the side to which lateral is positive in them.
+_STANDARDS = {
+    r"\b(?:49\s+cfr\s+(?:part\s+)?|part\s+)563\b": "right",
+    r"\bsae(?:\s+j\s?(?:211|1733))?\b": "right",
+    r"\biso(?:\s+8855)?\b": "left",
+}
 # How reports write units, in lower case.
 _UNITS = {
     **dict.fromkeys(("mph", "mi/h", "mi/hr"), "mph"),
@@ -129,23 +136,21 @@ def _by_name(reader: ArgumentReader, heads: list[str], polarity: str) -> dict[st
     """Place and unit of each column, in the order of the arguments, by the words of its head."""
     found: dict[str, tuple[int, str]] = {}
     for at, head in enumerate(heads):
-        words, groups = _parts(head)
-        names = [name for name, (_, own) in _COLUMNS.items() if words & own]
-        if strange := sorted(words & _OTHERS) or sorted(
-            words & _SPEEDS if not words & _CHANGES else ()
-        ):
+        said, units = _parts(head)
+        sides = {to for pattern, to in _STANDARDS.items() if re.search(pattern, said)}
+        said = re.sub("|".join(_STANDARDS), " ", said)
+        words = _words(said)
+        names = [name for name, (_, own) in _COLUMNS.items() if own & set(words)]
+        if len(names) == 1:
+            _need_understood(head, words, names[0], _same_unit(units))
+        else:
+            may = " or ".join(_CALLED[name] for name in names)
+            others = [] if names else _strange(words, "delta_v_left", set())
+            says = f", and says {', '.join(map(repr, others))}" if others else ""
             raise ValueError(
-                f"the head {shown(head)} says {strange[0]!r}, and a column has to be time or "
-                "cumulative delta-V"
-            )
-        if len(names) != 1:
-            may = (
-                " or ".join(_CALLED[name] for name in names)
-                or "neither time, longitudinal nor lateral"
-            )
-            raise ValueError(
-                f"the head {shown(head)} may be {may}; each names one, and other columns are to "
-                "be left out"
+                f"the head {shown(head)} may be "
+                f"{may or 'neither time, longitudinal nor lateral'}{says}; each names one, and "
+                "other columns are to be left out"
             )
         name = names[0]
         if name in found:
@@ -153,18 +158,13 @@ def _by_name(reader: ArgumentReader, heads: list[str], polarity: str) -> dict[st
                 f"the heads {shown(heads[found[name][0]])} and {shown(head)} are both "
                 f"{_CALLED[name]}"
             )
-        sides = words & {"left", "right"}
-        if len(sides) == 2:  # as 49 CFR 563 has it, "left to right"
-            sides = {
-                side for side in sides if f"to {side}" in " ".join(re.findall(r"\w+", head.lower()))
-            }
-        if words & {"left", "right"} and sides != {_SIDES[polarity]}:
-            says = " or ".join(sorted(sides or words & {"left", "right"}))
+        sides |= _sides(words)
+        if sides and sides != {_SIDES[polarity]}:
             raise ValueError(
-                f"the head {shown(head)} says {says}, and by `polarity={polarity!r}` lateral is "
-                f"positive to the {_SIDES[polarity]}"
+                f"the head {shown(head)} says {' or '.join(sorted(sides))}, and by "
+                f"`polarity={polarity!r}` lateral is positive to the {_SIDES[polarity]}"
             )
-        found[name] = at, _unit(groups, head, _COLUMNS[name][0])
+        found[name] = at, _unit(units, head)
     if missing := [_CALLED[name] for name in ("time", "delta_v_forward") if name not in found]:
         raise ValueError(
             f"it has no column whose head says {missing[0]!r}; its heads are "
@@ -173,9 +173,11 @@ def _by_name(reader: ArgumentReader, heads: list[str], polarity: str) -> dict[st
     return {name: found[name] for name in _COLUMNS if name in found}
 
 
-def _parts(head: str) -> tuple[set[str], list[str]]:
-    """The words of a head in lower case, and what stands in its brackets, round or square."""
-    groups: list[str] = []
+def _parts(head: str) -> tuple[str, list[str]]:
+    """What a head says beside its units, in lower case; and what stands in its brackets, round or
+    square, as a unit.
+    """
+    groups: list[tuple[int, int]] = []
     depth = start = 0
     for at, mark in enumerate(head):
         if mark in "[(":
@@ -183,22 +185,85 @@ def _parts(head: str) -> tuple[set[str], list[str]]:
         elif mark in "])" and depth:
             depth -= 1
             if not depth:
-                groups.append(head[start:at].strip())
-    return set(re.findall(r"[^\W\d_]+", head.lower())), groups
+                groups.append((start, at))
+    # What is no unit may be said in brackets; where none is, the last is refused as one.
+    units = [
+        one
+        for one in groups
+        if any(mark in head[slice(*one)] for mark in "[(") or _is_unit(head, one)
+    ] or groups[-1:]
+    said = list(head)
+    for start, end in units:
+        said[start - 1 : end + 1] = " " * (end + 2 - start)
+    return "".join(said).lower(), [head[slice(*one)].strip() for one in units]
 
 
-def _unit(groups: list[str], head: str, wanted: str) -> str:
+def _is_unit(head: str, place: tuple[int, int]) -> bool:
+    unit = _UNITS.get((text := head[slice(*place)].strip()).lower(), text)
+    return any(_reads(unit, wanted) for wanted, _ in _COLUMNS.values())
+
+
+def _words(said: str) -> list[str]:
+    """Words, numbers and signs in turn, without marks that mean nothing."""
+    # A hyphen joins two words, as in delta-V; elsewhere it is a minus.
+    joined = re.sub(r"(?<=[^\W\d_])[-\u2010\u2011](?=[^\W\d_])", " ", said)
+    found = re.findall(r"[^\W\d_]+|\d+(?:[.,]\d+)?|[^\w\s]|_", joined)
+    return [word for word in found if word not in _MARKS]
+
+
+def _strange(words: list[str], name: str, unit: set[str]) -> list[str]:
+    """What is not known to belong to the head of a column, each once."""
+    known = _COLUMNS[name][1] | _UNDERSTOOD[name] | unit
+    return list(dict.fromkeys(word for word in words if word not in known))
+
+
+def _same_unit(units: list[str]) -> set[str]:
+    """The words of which each says the same unit as that in brackets."""
+    given = {_UNITS.get(unit.lower(), unit) for unit in units}
+    return {word for word, unit in _UNITS.items() if {unit} == given}
+
+
+def _need_understood(head: str, words: list[str], name: str, unit: set[str]) -> None:
+    """Refuse a head that says more than what its column has to be."""
+    strange = _strange(words, name, unit)
+    if name == "delta_v_left" and "from" in words and not _sides(words):
+        strange.append("from")  # what it came from may be meant, or where it counts from
+    if name != "time" and not strange and not _CHANGES & set(words):
+        strange = [word for word in words if word in _SPEEDS]
+    if strange:
+        is_to_be = {
+            "time": "time since the event began, rising from row to row",
+            "delta_v_forward": "cumulative delta-V, positive forward",
+            "delta_v_left": "cumulative delta-V, positive to the side of `polarity`",
+        }[name]
+        raise ValueError(
+            f"the head {shown(head)} says {', '.join(map(repr, strange))}, which is not "
+            f"understood, and the column has to be {is_to_be}; if it is, write "
+            f"'{_CALLED[name]} [unit]' as its head"
+        )
+
+
+def _sides(words: list[str]) -> set[str]:
+    """The sides to which a head says that lateral is positive."""
+    sides = set(words) & {"left", "right"}
+    text = " ".join(word for word in words if word != "the")
+    if "from" in words or len(sides) == 2:  # as 49 CFR 563 has it, "left to right"
+        to = {side for side in sides if f"to {side}" in text}
+        return to or (set() if "from" in words else sides)
+    return sides
+
+
+def _unit(groups: list[str], head: str) -> str:
     """The unit in the brackets of a head, as this library writes it."""
     units = [_UNITS.get(group.lower(), group) for group in groups]
-    fit = [unit for unit in units if _reads(unit, wanted)]
     if any(mark in unit for unit in units for mark in "[("):
         raise ValueError(
             f"the head {shown(head)} has two units; keep one of them, and its number in each cell"
         )
-    if len(fit) > 1 or not units:
-        many = "has two units" if fit else "has no unit"
+    if len(units) != 1:
+        many = "has two units" if units else "has no unit"
         raise ValueError(f"the head {shown(head)} {many}, and needs one, its unit in brackets")
-    return (fit or units[-1:])[0]
+    return units[0]
 
 
 def _reads(unit: str, wanted: str) -> bool:

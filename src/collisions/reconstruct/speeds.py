@@ -1010,7 +1010,7 @@ def _answers(
         warning = OutOfRangeWarning(
             cases.how_many(turned) + text, code="negative_speed", value=backward
         )
-        warn_of_cases(warning, {f"a speed comes out below 0, {cure}": cases.number(turned)})
+        warn_of_cases(warning, {f"a speed comes out below 0, {cure}": cases.each(turned)})
     return tuple(impacts)
 
 
@@ -1064,7 +1064,7 @@ def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
         warning = IllConditionedWarning(
             cases.how_many(slides) + text, code="may_slide", ratio=ratio
         )
-        warn_of_cases(warning, {sentence: cases.number(slides)})
+        warn_of_cases(warning, {sentence: cases.each(slides)})
     if cases.shape is not None and np.any(scene.both_ways):
         text = (
             f"components of delta-V do not tell in which direction the contact slid: {EITHER_WAY}, "
@@ -1073,7 +1073,7 @@ def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
         warning = IllConditionedWarning(
             cases.how_many(scene.both_ways) + text, code="slid_either_way"
         )
-        warn_of_cases(warning, {text: cases.number(scene.both_ways)})
+        warn_of_cases(warning, {text: cases.each(scene.both_ways)})
     if cases.shape is not None and scene.rule == FRICTION and not scene.slid:
         left = (scene.ambiguous | scene.undetermined) & np.logical_not(answered)
         if np.any(left & scene.leaves_slip):
@@ -1084,7 +1084,7 @@ def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
                 "may have had"
             )
             warning = IllConditionedWarning(cases.how_many(left) + text, code="stuck_or_slid")
-            warn_of_cases(warning, {text: cases.number(left)})
+            warn_of_cases(warning, {text: cases.each(left)})
 
 
 def _stuck_or_slid(

@@ -520,16 +520,19 @@ class ComponentScene(Scene):
             sentence = f"{who} differ from their best common answer by more than they may, as {why}"
             warning = IllConditionedWarning(text, code="recorders_differ", value=worst)
             # Refused cases differ the most.
-            warn_of_cases(warning, {sentence: cases.number(misfit > ACCURACY)}, _DISAGREE)
+            warn_of_cases(warning, {sentence: cases.each(misfit > ACCURACY)}, _DISAGREE)
         elif cases.shape is None and np.any(answered & self.ended & (self.misfit > ACCURACY)):
-            text = (
-                f"a contact that slides with `friction={float(self.bound):.4g}` differs from "
-                f"{' and '.join(self.names)} by {float(self.misfit):.0%} of the impulse, where "
-                f"the stated accuracy of recorders is {ACCURACY:.0%}: the friction, one of them "
-                "or the geometry is wrong"
+            text, sentence = (
+                f"a contact that slides with {friction} differs from {' and '.join(self.names)} "
+                f"by {by} of the impulse, where the stated accuracy of recorders is "
+                f"{ACCURACY:.0%}: the friction, one of them or the geometry is wrong"
+                for friction, by in (
+                    (f"`friction={float(self.bound):.4g}`", f"{float(self.misfit):.0%}"),
+                    ("this friction", "more"),
+                )
             )
             warning = IllConditionedWarning(text, code="friction_differs", value=float(self.misfit))
-            warn_of_cases(warning, {text: None})
+            warn_of_cases(warning, {sentence: None})
         refused = np.logical_not(answered) & np.isinf(self.misfit) & self.friction_differs()
         refused = refused & np.logical_not(self.undetermined)
         if cases.shape is not None and np.any(refused):
@@ -538,7 +541,7 @@ class ComponentScene(Scene):
                 f"the friction than recorders may differ. {RATIO_SHOWN}"
             )
             warning = IllConditionedWarning(cases.how_many(refused) + text, code="friction_differs")
-            warn_of_cases(warning, {text: cases.number(refused)})
+            warn_of_cases(warning, {text: cases.each(refused)})
         (ax, ay), (bx, by) = (
             [self.given[f"course_{label}[{i}]"] for i in range(2)] for label in "ab"
         )
@@ -558,7 +561,7 @@ class ComponentScene(Scene):
                 f"of one line: {why}"
             )
             warning = IllConditionedWarning(text, code="nearly_collinear", sine=sine)
-            warn_of_cases(warning, {sentence: cases.number(near)})
+            warn_of_cases(warning, {sentence: cases.each(near)})
 
 
 def friction_shown(

@@ -164,8 +164,8 @@ def settle(fit: Fit, found: Value, given: dict[str, Any], usable: Any, outside: 
                 counts=counts,
             ),
             {
-                f"{fit.name} outside the range it holds for ({ranges}) or without an answer": sum(
-                    counts.values()
+                f"{fit.name} outside the range it holds for ({ranges}) or without an answer": (
+                    np.broadcast_to(beyond | lost, found.shape)
                 )
             },
         )
@@ -183,5 +183,8 @@ def _tell_of_one(fit: Fit, ranges: str, given: dict[str, Any], outside: str) -> 
             code="outside_reference",
             argument=next(iter(fit.ranges)),
         )
-    text = f"{text}; the value is an extrapolation"
-    warn_of_cases(OutOfRangeWarning(text, code="outside_reference", given=given), {text: None})
+    end = "the value is an extrapolation"
+    warn_of_cases(
+        OutOfRangeWarning(f"{text}; {end}", code="outside_reference", given=given),
+        {f"{fit.name} outside the range it holds for, {ranges} ({fit.source}); {end}": None},
+    )

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..kernels.elementwise import POSITIVE_FINITE
 from ..messages.errors import CollisionsError, InputError, NoSolutionError, UnitsError
-from ..messages.warning import Note, Noted, notes_of_samples, quietly, warn_of
+from ..messages.warning import Note, Noted, Said, noted_in_call, notes_of_samples, quietly, warn_of
 from ..quantities.reading import ArgumentReader
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence, given_texts
@@ -187,13 +187,14 @@ def required(
         points = latin_hypercube(joint.dimensions, 0, draws)(0, draws)[:, :, 0]
         values = joint.values(points)
     answers, seconds, in_batch = [], [], []
-    said: list[list[Noted]] = []
+    noted: list[list[Noted]] = []
     for level in levels:
         one = level.as_model([], list(units), tolerance=tolerance)
         seconds.append(min(_time(one, [])[1] for _ in range(_TIMED)))
-        said.append([])
+        said: list[Said] = []
         model = level.as_model(list(values), list(units), tolerance=tolerance)
-        found, spent = _time(model, said[-1], **values)
+        found, spent = _time(model, said, **values)
+        noted.append(noted_in_call(said, count))
         in_batch.append(spent / count if joint is not None else math.nan)
         answers.append(
             {
@@ -221,7 +222,7 @@ def required(
         costs.append(Cost(level, spent, case, differences, holds))
     asked = 0 if joint is None else count
     answered = 0 if joint is None else int(good.sum())
-    limits = list(_limits(levels, said, count))
+    limits = list(_limits(levels, noted, count))
     warn_of(limits)
     notes = [*(note.statement for note in limits), *notes]
     return Required(
@@ -229,34 +230,38 @@ def required(
     )
 
 
-def _limits(levels: Sequence[Level], said: Sequence[Sequence[Noted]], count: int) -> Iterator[Note]:
+def _limits(
+    levels: Sequence[Level], by_level: Sequence[Sequence[Noted]], count: int
+) -> Iterator[Note]:
     """What the models of the levels warned of, each sentence once with the levels it is of."""
     found: dict[tuple[str, str], list[tuple[Level, Note]]] = {}
-    for level, noted in zip(levels, said, strict=True):
+    for level, noted in zip(levels, by_level, strict=True):
         # Draws without an answer are counted beside, and tell in the differences.
-        for one in {(one.sentence, one.code): one for one in noted}.values():
+        for one in noted:
             if one.code != "refused_cases":
-                alike = [other for other in noted if other[:3] == one[:3]]
-                (note,) = notes_of_samples(alike, count)
+                (note,) = notes_of_samples([(count, [one])])
                 found.setdefault((one.sentence, one.code), []).append((level, note))
     for (sentence, code), places in found.items():
-        many = [int(note.fields["cases"]) for _, note in places]
-        least, most = min(many), max(many)
-        of = f"in {least}{f' to {most}' if most > least else ''} of {count} draws "
+        many = [note.fields.get("cases", count) for _, note in places]
+        of, most, share = "in draws that are not counted ", None, None
+        if None not in many:
+            least, most = min(many), max(many)
+            share = most / count
+            of = f"in {least}{f' to {most}' if most > least else ''} of {count} draws "
         where = " and ".join(f"'{level.name}'" for level, _ in places)
         where = "every level" if len(places) == len(levels) else where
         # What a coarser level leaves out is in its difference, and is stated alone.
         last, note = places[-1]
         raised = note.warning if last is levels[-1] else None
         said_of = f"{of if count > 1 else ''}at {where}: {sentence}"
-        yield Note(raised, said_of, code=code, fields={"cases": most, "share": most / count})
+        yield Note(raised, said_of, code=code, fields={"cases": most, "share": share})
 
 
-def _time(model: Any, noted: list[Noted], **values: Any) -> tuple[Any, float]:
+def _time(model: Any, said: list[Said], **values: Any) -> tuple[Any, float]:
     """What a model answers, None where it is refused, and the processor time it took [s]."""
     begun = process_time()
     try:
-        with quietly(noted):
+        with quietly(said):
             found = model(**values)
     except CollisionsError:
         found = None

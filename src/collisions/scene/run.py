@@ -725,7 +725,7 @@ def _warn_of(found: Followed, wrong: Any) -> None:
             code="refused_cases",
             counts=many,
         ),
-        {f"without an answer, as {code}": count for code, count in many.items()},
+        {f"without an answer, as {code}": wrong & (found.failed == code) for code in many},
     )
 
 
@@ -772,9 +772,10 @@ def _warn_of_notices(found: Followed) -> None:
         (found.driven, _of_driven, _DRIVEN),
         (found.dragless, _of_dragless, _DRAGLESS),
     ):
-        if count := int(np.count_nonzero(cases & (found.failed == ""))):
+        where = cases & (found.failed == "")
+        if count := int(np.count_nonzero(where)):
             said = f"in {count} of {found.count} cases of the scene {text}"
-            warn_of_cases(made(said), {text: count})
+            warn_of_cases(made(said), {text: where})
 
 
 def warn_of_findings(run: Run) -> None:
@@ -782,7 +783,7 @@ def warn_of_findings(run: Run) -> None:
     for notice in run.findings if run._followed.single else ():
         if notice.code in _OF_FINDING:
             made, text = _OF_FINDING[notice.code]
-            warn_of_cases(made(notice.sentence), {text: 1})
+            warn_of_cases(made(notice.sentence), {text: None})
 
 
 def _tyre_loss(side: Any) -> float:

@@ -569,7 +569,7 @@ def _warn_of_wide_segments(turned: Sequence[Any], locks: Sequence[Any]) -> None:
                 code="wide_segment",
                 segments=tuple(wide),
             ),
-            _count(np.any(np.broadcast_arrays(*each), axis=0)),
+            np.any(np.broadcast_arrays(*each), axis=0),
         )
 
 
@@ -586,10 +586,5 @@ def _warn_of_fast_yaw(yaw_rate: Any, speed: Any, lock: Any) -> None:
                 code="fast_yaw",
                 cases=int(np.count_nonzero(fast)),
             ),
-            _count(fast),
+            fast,
         )
-
-
-def _count(cases: Any) -> int | None:
-    """In how many cases of a batch it is so; None where it is not told apart by cases."""
-    return int(np.count_nonzero(cases)) if np.ndim(cases) else None

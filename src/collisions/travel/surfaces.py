@@ -203,13 +203,14 @@ def settle(
         if code == "bad_fraction":
             reasons.append((code, np.greater(value, 1.0)))
     answered = np.ones(shape, dtype=bool)
-    counts: dict[str, int] = {}
+    why: dict[str, Any] = {}
     for code, cases in (*reasons, *checks):
         hit = answered & cases
         if hit.any():
-            counts[code] = counts.get(code, 0) + int(np.count_nonzero(hit))
+            why[code] = why.get(code, False) | hit
             answered &= ~hit
-    if counts:
+    counts = {code: int(np.count_nonzero(hit)) for code, hit in why.items()}
+    if why:
         listed = ", ".join(f"{count} {code}" for code, count in counts.items())
         warn_of_cases(
             CollisionsWarning(
@@ -218,10 +219,7 @@ def settle(
                 code="refused_cases",
                 counts=counts,
             ),
-            {
-                f"without an answer on the ground, as {code}": count
-                for code, count in counts.items()
-            },
+            {f"without an answer on the ground, as {code}": hit for code, hit in why.items()},
         )
 
     def settled(answer: Any) -> Any:

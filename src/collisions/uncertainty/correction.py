@@ -403,7 +403,7 @@ def _notes(
             code="finer_differs",
             fields={"cases": unlike},
         )
-    for note in notes_of_samples(finer.noted, count):
+    for note in notes_of_samples(finer.noted):
         yield note._replace(sentence=f"finer: {note.sentence}")
 
 

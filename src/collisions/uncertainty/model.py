@@ -16,7 +16,7 @@ import numpy as np
 from ..kernels.elementwise import UNCHECKED
 from ..messages.errors import CollisionsError, InputError, ShapeError, UnitsError, placed, reworded
 from ..messages.marked import as_code
-from ..messages.warning import Noted, quietly
+from ..messages.warning import Calls, Said, noted_in_call, quietly
 from ..quantities.reading import ArgumentReader
 from ..quantities.settings import in_si, units_required
 from ..quantities.units import example, is_quantity, shown, si_unit
@@ -64,7 +64,7 @@ class Model:
         self.function = function
         self.fixed = dict(fixed)
         self.units: dict[str, str | None] = {}
-        self.noted: list[Noted] = []
+        self.noted: Calls = []
         self.cases = 0  # asked so far, but for those asked again as a check
         # Whether its outputs may be OneSided.
         self.one_sided = one_sided
@@ -93,17 +93,14 @@ class Model:
             )
         return found
 
-    def _answers(self, values: Mapping[str, Any], count: int, noted: list[Noted]) -> Answers:
+    def _answers(self, values: Mapping[str, Any], count: int, noted: Calls) -> Answers:
         for value in values.values():
             value.setflags(write=False)
-        here: list[Noted] = []
+        said: list[Said] = []
         try:
-            with quietly(here), in_si(), np.errstate(all="ignore"):
+            with quietly(said), in_si(), np.errstate(all="ignore"):
                 answered = self.function(**self.fixed, **values)
-            noted += (
-                one._replace(cases=count if one.cases is None else min(one.cases, count))
-                for one in here
-            )
+            noted.append((count, noted_in_call(said, count)))
         except Exception as error:
             called = (
                 f"called with arrays of {count} cases for {', '.join(values) or 'nothing'}, and "

@@ -111,7 +111,8 @@ def propagate(
         "at most" is a ``OneSided``. Booleans count as 0 and 1, so their mean is a probability.
         Angles returned with a unit that all lie in [-pi, pi] (-180 to 180 degrees, not 0 to 360)
         are directions, counted round the circle about their mean (see ``Output``); return a
-        rotation as a plain number.
+        rotation as a plain number. Warnings are counted by case where solvers are called with
+        arrays of all cases; of calls with plain numbers, as in a loop, their number is stated.
         A ``scene.Scene`` is a model too: its inputs and ``outputs`` are named by their paths.
     inputs : dict
         For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``,
@@ -692,7 +693,7 @@ def _notes(
     local method missed.
     """
     notes = [
-        *notes_of_samples(model.noted, count),
+        *notes_of_samples(model.noted),
         *(note for run in runs for note in one_sided_notes(run.outputs)),
     ]
     if method in LOCAL:
@@ -748,7 +749,7 @@ def _without_answer(output: Output) -> bool:
 
 def _said_of_all(model: Model, count: int) -> str:
     """What the model said of its cases, to follow the message that none has an answer."""
-    said = [note.sentence for note in notes_of_samples(model.noted, count)]
+    said = [note.sentence for note in notes_of_samples(model.noted)]
     return f". It said: {'; '.join(said)}" if said else ""
 
 
