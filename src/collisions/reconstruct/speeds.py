@@ -421,10 +421,14 @@ def speeds(
                 scene.leaves_slip = scene.leaves_slip | fits_both
                 scene.shows_friction = np.isinf(asked.rule_value) & (friction is not None)
             roots = scene.roots() if function is None else _with_function(scene, function)
+            if isinstance(scene, ComponentScene) and np.any(np.isfinite(scene.slid_at)):
+                slid_at = np.where(np.isfinite(scene.slid_at), scene.slid_at, own[FRICTION])
+                friction = some.values(slid_at)
             if most == math.inf:
-                # Whether it stuck or slid is asked when the tyres are known.
+                # Whether it stuck or slid, and forwards, is asked when the tyres are known.
                 scene.ambiguous = np.zeros((), dtype=bool)
-            return _Looked(scene, _in_order(scene, roots, forward_only), friction)
+            forwards = forward_only and most < math.inf
+            return _Looked(scene, _in_order(scene, roots, forwards), friction)
 
         def scene_of(
             own: dict[str, Any],
@@ -435,7 +439,14 @@ def speeds(
         ) -> Any:
             kind: Callable[..., Scene] = Scene
             if components:
-                kind = partial(of_components, regime=regime, slid=slid, most=most, **start)
+                kind = partial(
+                    of_components,
+                    regime=regime,
+                    slid=slid,
+                    most=most,
+                    forward_only=forward_only,
+                    **start,
+                )
             return kind(own, asked.rule, used_law, names, shape=shape, plain=plain)
 
         def attempt(
@@ -486,7 +497,8 @@ def speeds(
 
         attempted = solved({})
         scene, found, inputs, _ = attempted
-        if inputs is not asked:
+        finds_friction = attempted.inputs is not asked
+        if finds_friction:
             also = (FRICTION,)
         texts = by_own_names(reader.texts, recorders, bool(times))
 
@@ -508,6 +520,8 @@ def speeds(
             for name, number in (recorders.numbers if recorders else {}).items()
             if given[name.partition("[")[0]] is not None
         }
+        if finds_friction and np.any(np.isfinite(asked.rule_value)):
+            told[FRICTION] = asked.rule_value
         told = by_own_names(told, recorders, bool(times))
 
         def again(**changes: Any) -> tuple[Impact, ...]:
@@ -593,11 +607,13 @@ def if_it_slid(impact: Impact) -> Impact | None:
     ratio = abs(impact.impulse_ratio)
     try:
         with quietly():
-            return speeds(
+            found = speeds(
                 inputs.a, inputs.b, friction=ratio, regime="sliding", slid="bound", **given
-            )[0]
+            )
     except CollisionsError:
         return None
+    # A ratio of the other sign slid the other way.
+    return min(found, key=lambda one: abs(one.impulse_ratio - impact.impulse_ratio))
 
 
 def _check_branch(given: dict[str, Any]) -> None:
@@ -957,7 +973,7 @@ def _answers(
         if isinstance(status, int) and status != Status.OK:
             say = Sentences(inputs.texts)
             if status == Status.AMBIGUOUS and np.any(getattr(scene, "both_ways", False)):
-                raise _slid_either_way(known, say, ways.one_way)
+                raise _slid_either_way(scene, known, say, ways.one_way)
             if status == Status.AMBIGUOUS and isinstance(scene, ComponentScene):
                 raise _stuck_or_slid(scene, known, say, ways.again)
             if inputs.tyres and status == Status.CONTRADICTORY:
@@ -973,15 +989,12 @@ def _answers(
         origin = reconstruction(names, root.condition, count)
         own = scene.of_way(root.way) if isinstance(scene, ComponentScene) else None
         if own is not None:
-            origin = replace(origin, regime=own.stated, one_sided=_sides(own, cases, there))
+            origin = replace(origin, regime=own.stated, one_sided=_sides(own, cases, root, there))
         impact = run_forward(
             partial(inputs_of, root), status, origin, None if cases.shape is None else "nan"
         )
         for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
-            if own is not None and own.sides:
-                # A family that begins backwards goes on forwards.
-                speed = np.where(own.sides["AB".index(label)] > 0.0, np.maximum(speed, 0.0), speed)
             backward, whose = min(
                 (backward, whose), (float(np.fmin.reduce(speed, axis=None, initial=0.0)), label)
             )
@@ -1014,27 +1027,40 @@ def _answers(
     return tuple(impacts)
 
 
-def _sides(scene: ComponentScene, cases: Cases, there: Any) -> dict[str, Any] | None:
+def _sides(scene: ComponentScene, cases: Cases, root: Root, there: Any) -> dict[str, Any] | None:
     """Which way the truth may lie from each speed; None unless ``slid`` asked for it."""
     if not scene.slid:
         return None
     sides = scene.sides or (0.0, 0.0)
     return {
-        f"speed_{label}": cases.sides(np.where(there, side, 0.0))
-        for label, side in zip("ab", sides, strict=True)
+        f"speed_{label}": cases.sides(np.where(there, _of_size(side, speed), 0.0))
+        for label, side, speed in zip("ab", sides, root[:2], strict=True)
     }
+
+
+def _of_size(side: Any, speed: Any) -> Any:
+    """Which way the size of a speed may go, by which way it goes along the course: backwards, the
+    size of one that falls rises.
+    """
+    return np.where(np.less(speed, 0.0), -side, side)
 
 
 def _if_it_slid(scene: ComponentScene, impact: Impact, say: Sentences) -> str:
     """What follows for the speeds of a single case if its contact slid."""
     if scene.slides_both_ways():
         return f"it may have in either direction, since {EITHER_WAY}, and the speeds are open"
-    sides = {
-        f"speed_{label}": int(np.nan_to_num(side))
-        for label, side in zip("ab", scene.if_slid(), strict=True)
-    }
-    speeds = {f"speed_{one}": say(_along(impact, one), "speed") for one in "ab"}
-    return " and ".join(bounds_of(sides, speeds))
+    signed = [_along(impact, label, scene) for label in "ab"]
+    speeds, sides = scene.if_slid([speed / scene.speed_unit for speed in signed])
+    ends = [float(speed * scene.speed_unit) for speed in speeds]
+    return " and ".join(
+        bounds_of(
+            {
+                f"speed_{label}": int(np.nan_to_num(_of_size(side, end)))
+                for label, side, end in zip("ab", sides, ends, strict=True)
+            },
+            {f"speed_{label}": _told(end, say) for label, end in zip("ab", ends, strict=True)},
+        )
+    )
 
 
 def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
@@ -1118,18 +1144,22 @@ def _stuck_or_slid(
         for ratio in ratios:
             either_way = again(regime="sliding", slid="bound", friction=abs(ratio))
             slid.append(min(either_way, key=lambda one: abs(one.impulse_ratio - ratio)))
+    ends = [[_along(impact, label, scene) for label in "ab"] for impact in slid]
+    if len(stuck) == len(slid) == 1:
+        # Where both are one place they have the same digits.
+        same = ROOT_TOL * slid[0].closing_speed
+        alike = zip(ends[0], (_along(stuck[0], label, scene) for label in "ab"), strict=True)
+        ends = [[own if abs(own - end) <= same else end for end, own in alike]]
     speeds = [
-        {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"}
-        for impact in (stuck if len(stuck) == len(slid) == 1 else slid)
+        {f"speed_{label}": _told(end, say) for label, end in zip("ab", one, strict=True)}
+        for one in ends
     ]
     bounds = ", or ".join(
         " and ".join(bounds_of(getattr(impact.reconstruction, "one_sided", None) or {}, one))
         for impact, one in zip(slid, speeds, strict=True)
     )
     alone = ", or ".join(
-        f"the speed of A is {say(_along(impact, 'a'), 'speed')} and that of B "
-        f"{say(_along(impact, 'b'), 'speed')}"
-        for impact in stuck
+        _alone([_along(impact, label, scene) for label in "ab"], say) for impact in stuck
     )
     shown = " or ".join(dict.fromkeys(f"{abs(one):.2f}" for one in ratios))
     allowed = (
@@ -1151,7 +1181,10 @@ def _stuck_or_slid(
 
 
 def _slid_either_way(
-    known: dict[str, Any], say: Sentences, one_way: Callable[[float], tuple[Impact, ...]]
+    scene: Scene,
+    known: dict[str, Any],
+    say: Sentences,
+    one_way: Callable[[float], tuple[Impact, ...]],
 ) -> AmbiguousSolutionError:
     """The error for a single case of which a bound has no side."""
     solutions = (*one_way(1.0), *one_way(-1.0))
@@ -1162,7 +1195,7 @@ def _slid_either_way(
             " and ".join(
                 bounds_of(
                     getattr(impact.reconstruction, "one_sided", None) or {},
-                    {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"},
+                    {f"speed_{label}": _told(_along(impact, label, scene), say) for label in "ab"},
                 )
             )
             for impact in solutions
@@ -1175,9 +1208,29 @@ def _slid_either_way(
     )
 
 
-def _along(impact: Impact, label: str) -> float:
+def _along(impact: Impact, label: str, scene: Scene) -> float:
     """The speed of a vehicle before, below 0 where it goes backwards along its course."""
-    return float(getattr(impact, label).before.speed)
+    before = getattr(impact, label).before
+    c, s = (scene.numbers[f"course_{label}[{i}]"] for i in range(2))
+    return float(math.copysign(before.speed, c * before.vx + s * before.vy))
+
+
+def _told(speed: float, say: Sentences) -> str:
+    """The size of a speed along a course, and that it is backwards."""
+    return say(abs(speed), "speed") + (" backwards along its course" if speed < 0.0 else "")
+
+
+def _alone(speeds: Sequence[float], say: Sentences) -> str:
+    """The speeds of both vehicles if the contact stuck."""
+    if min(speeds) >= 0.0:
+        one, other = (say(speed, "speed") for speed in speeds)
+        return f"the speed of A is {one} and that of B {other}"
+    return " and ".join(
+        f"{label} would go backwards along its course at {say(-speed, 'speed')}"
+        if speed < 0.0
+        else f"the speed of {label} is {say(speed, 'speed')}"
+        for label, speed in zip("AB", speeds, strict=True)
+    )
 
 
 def _while_tyres_act(
