@@ -230,7 +230,8 @@ class ComponentScene(Scene):
             there = np.isfinite(end[1])
             self.slid_at = np.where(there, abs(ratio), np.nan)
             self.bound = np.where(there, abs(ratio), self.bound)
-            self.both_ways = np.where(there, self.slides_both_ways(), self.both_ways)
+            if self._direction is None:
+                self.both_ways = np.where(there, self.slides_both_ways(), self.both_ways)
             sticks = sticks & np.logical_not(backwards)
             tried = [
                 (root, np.where(backwards, np.inf, misfit), left) for root, misfit, left in tried
@@ -262,6 +263,8 @@ class ComponentScene(Scene):
             (side > 0.0) & (speed < 0.0)
             for side, speed in zip(self._ways(ratio), speeds, strict=True)
         ]
+        if self._direction is not None:
+            ratio = np.copysign(ratio, self._direction)
         return np.where(open_ & (rising[0] | rising[1]), ratio, np.nan)
 
     def _decided(self, size: Any, near: Any) -> Any:

@@ -33,9 +33,13 @@ from .speeds_components import ComponentScene, by_way
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
 # it has not settled; and how often it is worked out. Nearly all cases need fewer than 20.
 _SAME, _STEADY, _ROUNDS = 1e-12, 1e-9, 64
+# From when on only half of each change is made: tyres may turn back and forth with the speeds.
+_HALVED = 20
 # How often a contact may turn from stuck to slid or back before it counts as either: the tyres of
 # the instant, which has none, may turn it once and their correction back.
 _TURNS = 2
+# Of the impulse of the tyres and of the speeds: what comes as near as that to a root leads to it.
+_LEADS_TO = 0.03
 # How often the directions are taken anew in which more components than are needed are met.
 _TURNED = 3
 # Of the speeds: answers that differ by no more are one.
@@ -97,8 +101,11 @@ def in_balance(
     kept: list[_Kept] = []
     ambiguous: Any = False
     for begun in (instant, attempt(_forwards(instant, numbers, cases), math.inf)):
+        before = list(kept)
         for slot in range(max(len(begun.found), 1)):
-            held, settled, at = _settled(attempt, begun, slot, numbers, cases)
+            held, settled, at = _settled(attempt, begun, slot, numbers, cases, before)
+            if before and not np.any(settled):
+                continue
             last = attempt(held)
             ambiguous = ambiguous | (last.scene.ambiguous & (settled | (not results)))
             results.append(last)
@@ -107,11 +114,12 @@ def in_balance(
             root, there = _followed(last, at)
             there = there & settled
             size = np.hypot(root.speed_a, root.speed_b)
-            for earlier, before, _ in kept:
-                apart = abs(earlier.speed_a - root.speed_a) + abs(earlier.speed_b - root.speed_b)
-                there = there & ~(before & (apart <= _ONE_ANSWER * size))
+            for earlier in kept:
+                there = there & ~(
+                    earlier.there & (_apart(earlier.root, root) <= _ONE_ANSWER * size)
+                )
             if np.any(there):
-                kept.append(_Kept(root, there, last))
+                kept.append(_Kept(root, there, last, held))
     if not kept:
         return results[0]._replace(found=[])
     if len(kept) == 1 and not kept[0].of.frictions:
@@ -120,11 +128,17 @@ def in_balance(
 
 
 class _Kept(NamedTuple):
-    """A root in balance, where it is, and of which attempt it is."""
+    """A root in balance, where it is, of which attempt it is, and with what impulses of tyres."""
 
     root: Root
     there: Any
     of: Attempt
+    held: Mapping[str, Any]
+
+
+def _apart(one: Root, other: Root) -> Any:
+    """What the speeds of two roots differ by."""
+    return abs(one.speed_a - other.speed_a) + abs(one.speed_b - other.speed_b)
 
 
 def _as_one(kept: Sequence[_Kept], ambiguous: Any) -> Attempt:
@@ -169,11 +183,12 @@ def _settled(
     slot: int,
     numbers: Mapping[str, Any],
     cases: Cases,
+    kept: Sequence[_Kept] = (),
 ) -> tuple[dict[str, Any], Any, tuple[Any, Any]]:
     """The impulses of the tyres that lead to the speeds from which they follow, where there are
     some, and those speeds.
 
-    A case that has settled stays, so that it comes out of a batch as alone. One in which a contact
+    What leads to a root that was ``kept`` is not followed. A case that has settled stays, so that it comes out of a batch as alone. One in which a contact
     that stuck and one that slid lead to each other is ``EITHER`` from then on.
     """
     shape = cases.shape or ()
@@ -184,7 +199,7 @@ def _settled(
     at = tuple(np.where(now.found[slot][1], speed, np.nan) for speed in now.found[slot][0][:2])
     slid, turns = _shows_slip(now, at, shape), np.zeros(shape)
     moving, settled = np.ones(shape, dtype=bool), np.zeros(shape, dtype=bool)
-    for _ in range(_ROUNDS):
+    for number in range(_ROUNDS):
         if not now.found:
             break
         root, there = _followed(now, at)
@@ -192,11 +207,17 @@ def _settled(
             np.where(moving & there, speed, was) for speed, was in zip(root[:2], at, strict=True)
         )
         new = _pushes(now, root, there, numbers, cases)
-        parts = [(held[name], new[name]) for name in HELD if not name.endswith("moment")]
-        size = np.sqrt(sum(part * part for _, part in parts))
-        change = np.sqrt(sum((part - was) ** 2 for was, part in parts))
+        size, change = _size(new), _differ(new, held)
         moving = moving & np.isfinite(change)
-        held |= {name: np.where(moving, new[name], held[name]) for name in HELD}
+        for one in kept:
+            near = _apart(one.root, root) <= _LEADS_TO * np.hypot(root.speed_a, root.speed_b)
+            near = near & (_differ(new, one.held) <= _LEADS_TO * size)
+            moving = moving & ~(one.there & near)
+        share = 1.0 if number < _HALVED else 0.5
+        held |= {
+            name: np.where(moving, held[name] + share * (new[name] - held[name]), held[name])
+            for name in HELD
+        }
         settled = settled | (moving & (change <= _STEADY * size))
         moving = moving & (change > _SAME * size)
         if not np.any(moving):
@@ -206,6 +227,16 @@ def _settled(
         turns = turns + (moving & (slid != before))
         held[EITHER] = np.where(turns > _TURNS, 1.0, held[EITHER])
     return _plain(held, shape), settled, (at[0], at[1])
+
+
+def _size(held: Mapping[str, Any]) -> Any:
+    """The size of the impulses of tyres."""
+    return np.sqrt(sum(held[name] ** 2 for name in HELD if not name.endswith("moment")))
+
+
+def _differ(one: Mapping[str, Any], other: Mapping[str, Any]) -> Any:
+    """The size of what impulses of tyres differ by."""
+    return _size({name: one[name] - other[name] for name in HELD})
 
 
 def _plain(held: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
