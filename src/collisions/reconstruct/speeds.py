@@ -467,7 +467,7 @@ def speeds(
                 except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
                     now = looked(own, cases, most, only=only)
             of_inputs = asked if now.friction is None else _with_friction(asked, now.friction)
-            return Attempt(now.scene, now.found, of_inputs, now.frictions)
+            return Attempt(now.scene, now.found, of_inputs, now.frictions, now.friction is not None)
 
         knows_speed = any(name.startswith("speed") for name in known)
         balanced = bool(times and components) and not {"energy_loss", "ees_a"} & known.keys()
@@ -496,9 +496,8 @@ def speeds(
             return said_of
 
         attempted = solved({})
-        scene, found, inputs, _ = attempted
-        finds_friction = attempted.inputs is not asked
-        if finds_friction:
+        scene, found = attempted.scene, attempted.found
+        if attempted.shows:
             also = (FRICTION,)
         texts = by_own_names(reader.texts, recorders, bool(times))
 
@@ -520,7 +519,7 @@ def speeds(
             for name, number in (recorders.numbers if recorders else {}).items()
             if given[name.partition("[")[0]] is not None
         }
-        if finds_friction and np.any(np.isfinite(asked.rule_value)):
+        if attempted.shows and np.any(np.isfinite(asked.rule_value)):
             told[FRICTION] = asked.rule_value
         told = by_own_names(told, recorders, bool(times))
 
@@ -930,7 +929,7 @@ def _answers(
     """The impact of each root; raises for a single case without one. ``reconstruction`` makes what
     says how it was found.
     """
-    scene, found, inputs, _ = attempted
+    scene, found, inputs = attempted.scene, attempted.found, attempted.inputs
     faults = input_faults(scene.numbers, inputs.incomplete)
     of_walls = [
         np.isinf(scene.numbers[f"{name[-1]}.mass"])

@@ -68,13 +68,15 @@ class Found(NamedTuple):
 
 class Attempt(NamedTuple):
     """A scene with what acts in it, its roots and where each is, the inputs with the friction that
-    was used, and the frictions by the way of a root, where they differ.
+    was used, the frictions by the way of a root, where they differ, and whether the components
+    showed one.
     """
 
     scene: Scene
     found: list[tuple[Root, Any]]
     inputs: Inputs
     frictions: Sequence[Any] = ()
+    shows: bool = False
 
     def inputs_of(self, root: Root) -> Inputs:
         """The inputs with the friction of a root."""
@@ -99,7 +101,7 @@ def in_balance(
     instant = attempt({}, math.inf)
     results: list[Attempt] = []
     kept: list[_Kept] = []
-    ambiguous: Any = False
+    doubts: list[tuple[Attempt, Any]] = []
     for begun in (instant, attempt(_forwards(instant, numbers, cases), math.inf)):
         before = list(kept)
         for slot in range(max(len(begun.found), 1)):
@@ -107,8 +109,9 @@ def in_balance(
             if before and not np.any(settled):
                 continue
             last = attempt(held)
-            ambiguous = ambiguous | (last.scene.ambiguous & (settled | (not results)))
             results.append(last)
+            if np.any(doubt := last.scene.ambiguous & settled):
+                doubts.append((last, doubt))
             if not last.found:
                 continue
             root, there = _followed(last, at)
@@ -120,11 +123,12 @@ def in_balance(
                 )
             if np.any(there):
                 kept.append(_Kept(root, there, last, held))
-    if not kept:
-        return results[0]._replace(found=[])
-    if len(kept) == 1 and not kept[0].of.frictions:
-        return kept[0].of._replace(found=[(kept[0].root, kept[0].there)])
-    return _as_one(kept, ambiguous)
+    first = results[0]
+    if not kept and all(one is first for one, _ in doubts):
+        return first._replace(found=[])
+    if len(kept) == 1 and kept[0].of is first and not first.frictions and not doubts:
+        return first._replace(found=[(kept[0].root, kept[0].there)])
+    return _as_one(first, kept, doubts)
 
 
 class _Kept(NamedTuple):
@@ -141,26 +145,37 @@ def _apart(one: Root, other: Root) -> Any:
     return abs(one.speed_a - other.speed_a) + abs(one.speed_b - other.speed_b)
 
 
-def _as_one(kept: Sequence[_Kept], ambiguous: Any) -> Attempt:
-    """One attempt with several roots, each of an attempt of its own."""
-    first = kept[0].of
+def _as_one(
+    first: Attempt, kept: Sequence[_Kept], doubts: Sequence[tuple[Attempt, Any]]
+) -> Attempt:
+    """One attempt with several roots, each of an attempt of its own; where none is, it is that of
+    the ``first``. In ``doubts`` are those in which the contact may have stuck or slid, and where.
+    """
     scene = copy(first.scene)
     roots = [
         (one.root._replace(way=np.full(np.shape(one.there), float(i))), one.there)
         for i, one in enumerate(kept)
     ]
     if isinstance(scene, ComponentScene):
-        scene.ways = [
-            one.of.scene.of_way(one.root.way)
-            for one in kept
-            if isinstance(one.of.scene, ComponentScene)
-        ]
-        answered = np.stack(np.broadcast_arrays(*(one.there for one in kept)))
-        scene.misfit = by_way(np.argmax(answered, axis=0), [one.misfit for one in scene.ways])
-        scene.undetermined = scene.undetermined & ~np.any(answered, axis=0)
-        scene.ambiguous = ambiguous
+        ways = [(one.of, one.root.way, one.there, False) for one in kept]
+        ways += [(one, 0.0, there, True) for one, there in doubts]
+        scene.ways = []
+        for one, way, there, doubt in ways:
+            assert isinstance(one.scene, ComponentScene)
+            own = copy(one.scene.of_way(way))
+            own.ambiguous = np.logical_and(there, doubt)
+            scene.ways.append(own)
+        theres = np.stack(np.broadcast_arrays(*(there for _, _, there, _ in ways)))
+        answered = np.any(theres, axis=0)
+        misfit = by_way(np.argmax(theres, axis=0), [one.misfit for one in scene.ways])
+        scene.misfit = np.where(answered, misfit, scene.misfit)
+        scene.undetermined = scene.undetermined & ~answered
+        in_doubt = np.logical_or.reduce([one.ambiguous for one in scene.ways])
+        scene.ambiguous = in_doubt | (scene.ambiguous & ~answered)
     frictions = [one.of.inputs_of(one.root).rule_value for one in kept]
-    return Attempt(scene, roots, first.inputs, frictions)
+    frictions += [one.inputs.rule_value for one, _ in doubts]
+    shows = next((one.of for one in kept if one.of.shows), first)
+    return Attempt(scene, roots, shows.inputs, frictions, shows.shows)
 
 
 def _forwards(now: Attempt, numbers: Mapping[str, Any], cases: Cases) -> dict[str, Any]:
@@ -188,8 +203,9 @@ def _settled(
     """The impulses of the tyres that lead to the speeds from which they follow, where there are
     some, and those speeds.
 
-    What leads to a root that was ``kept`` is not followed. A case that has settled stays, so that it comes out of a batch as alone. One in which a contact
-    that stuck and one that slid lead to each other is ``EITHER`` from then on.
+    What leads to a root that was ``kept`` is not followed. A case that has settled stays, so that
+    it comes out of a batch as alone. One in which a contact that stuck and one that slid lead to
+    each other is ``EITHER`` from then on.
     """
     shape = cases.shape or ()
     held = {name: np.zeros(shape) for name in (*HELD, EITHER)}
