@@ -59,6 +59,8 @@ from .recorder_place import RecorderScene, by_own_names, read_recorders
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import (
+    ACCURACY,
+    CLEARLY_BELOW,
     CONTRADICTION,
     MAY_SLIDE,
     RATIO_SHOWN,
@@ -971,9 +973,10 @@ def _answers(
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
             say = Sentences(inputs.texts)
-            if status == Status.AMBIGUOUS and np.any(getattr(scene, "both_ways", False)):
-                raise _slid_either_way(scene, known, say, ways.one_way)
             if status == Status.AMBIGUOUS and isinstance(scene, ComponentScene):
+                sticks = any(np.any(one.ambiguous & one.sticks) for one in scene.ways or [scene])
+                if np.any(scene.both_ways) and not sticks:
+                    raise _slid_either_way(scene, known, say, ways.one_way)
                 raise _stuck_or_slid(scene, known, say, ways.again)
             if inputs.tyres and status == Status.CONTRADICTORY:
                 raise error_of(
@@ -1128,7 +1131,7 @@ def _stuck_or_slid(
         }.values()
     )
     friction = float(scene.bound)
-    stuck = again(regime="sticking")
+    stuck = again(regime="sticking", slid=None)
     slid: list[Impact] = []
     if math.isinf(friction):
         # Each at the ratio that is shown: beside a speed not that of the one that stuck.
@@ -1139,6 +1142,12 @@ def _stuck_or_slid(
                 if len(scene.unknown) == 1
                 or any(abs(one.impulse_ratio - ratio) <= ROOT_TOL for ratio in ratios)
             ]
+    # Far below the friction, a contact that slid did so at the friction, or it is that of another
+    # impulse.
+    far = not math.isinf(friction) and max(map(abs, ratios)) <= CLEARLY_BELOW * friction
+    if far:
+        with suppress(CollisionsError):
+            slid = list(again(regime="sliding", slid="bound"))
     if not slid:
         for ratio in ratios:
             either_way = again(regime="sliding", slid="bound", friction=abs(ratio))
@@ -1166,12 +1175,18 @@ def _stuck_or_slid(
         if math.isinf(friction)
         else f"`friction={friction:.4g}` is not clearly above that"
     )
+    at = "at that ratio"
+    if far:
+        at = f"with `friction={friction:.4g}`"
+        allowed = f"a contact that slid {at} has the same within {ACCURACY:.0%}"
+    then = (
+        "" if scene.slid else "; or `slid='bound'` for this end of the speeds that it may have had"
+    )
     return AmbiguousSolutionError(
         f"{' and '.join(known)} do not tell whether the contact stuck or slid: they "
-        f"have an impulse ratio of {shown}, and {allowed}. If it stuck, {alone}; if it slid at "
-        f"that ratio, {bounds}. Write `regime='sticking'` or `regime='sliding'` if you "
-        "know which, the latter with one of the speeds or the energy lost; or "
-        "`slid='bound'` for this end of the speeds that it may have had"
+        f"have an impulse ratio of {shown}, and {allowed}. If it stuck, {alone}; if it slid "
+        f"{at}, {bounds}. Write `regime='sticking'` or `regime='sliding'` if you "
+        f"know which, the latter with one of the speeds or the energy lost{then}"
         "`|. Both answers are in .solutions|`",
         code=Status.AMBIGUOUS.label,
         ratio=abs(ratios[0]),

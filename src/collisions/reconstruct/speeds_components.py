@@ -50,7 +50,7 @@ CONTRADICTION = 3.0 * ACCURACY
 # so that many differ although all is as it was stated. Where hardly any agrees, it is not.
 _DISAGREE = 0.95
 # A ratio up to this share of the friction is clearly below it: the contact stuck.
-_CLEARLY_BELOW = 0.5
+CLEARLY_BELOW = 0.5
 # Between vehicles a contact may slide from this ratio on.
 MAY_SLIDE = INTER_VEHICLE_FRICTION.low
 # Relative size below which the effect of a speed is rounding.
@@ -108,6 +108,8 @@ class ComponentScene(Scene):
         self.answer: tuple[Any, Any] = (math.nan, math.nan)
         # Where a bound was asked for and sliding fits either way, so that it has no side.
         self.both_ways: Any = np.zeros((), dtype=bool)
+        # Where a contact that sticks fits.
+        self.sticks: Any = np.zeros((), dtype=bool)
         # Where the friction is the ratio that the components show.
         self.shows_friction: Any = np.zeros((), dtype=bool)
         # The friction of a contact that may have stuck, where going forwards it must have slid.
@@ -168,6 +170,7 @@ class ComponentScene(Scene):
             tried, edges, sticks, backwards = self._bounded(
                 regimes, tried, edges, sticks, open_slip <= ACCURACY
             )
+        self.sticks = sticks
         found, misfits, _ = zip(*tried, *edges, strict=True)
         self.misfit = np.minimum.reduce(np.broadcast_arrays(*misfits))
         none = np.isinf(self.misfit)
@@ -194,6 +197,8 @@ class ComponentScene(Scene):
             return regimes
         if self._direction is not None:
             del regimes[1 if self._direction > 0.0 else 0]
+            if np.all(np.isfinite(self.bound)):
+                regimes.remove(STICK)
         if self.stated is not None:
             return [one for one in regimes if (one is STICK) == (self.stated == "sticking")]
         # Without a ratio to slide at, nothing slides.
@@ -223,7 +228,10 @@ class ComponentScene(Scene):
                 one = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
                 shown = one & self.slides_both_ways()
                 self.both_ways = np.where(self.shows_friction, shown, self.both_ways)
-        ratio = self._slid_forwards(regimes, tried, sticks, near)
+        if self._direction is None and np.any(sticks & near):
+            # At the friction, and so not at the ratio of a contact that stuck.
+            self.both_ways = self.both_ways | (sticks & near & self.slides_both_ways())
+        ratio = self._slid_forwards(regimes, tried, sticks & ~self.both_ways, near)
         backwards = np.isfinite(ratio)
         if np.any(backwards):
             end = self._end(ratio)
@@ -276,7 +284,7 @@ class ComponentScene(Scene):
         if len(self.unknown) == 1:
             self.leaves_slip = self.leaves_slip | self._slip_stays_open()
         bound = np.where(np.isinf(self.bound), MAY_SLIDE, self.bound)
-        below = (size <= _CLEARLY_BELOW * bound) & np.logical_not(near)
+        below = (size <= CLEARLY_BELOW * bound) & np.logical_not(near)
         decided = below | np.logical_not(self.leaves_slip)
         if self.slid:
             # Asked for a bound, what friction can decide is not enough where contacts slide.
@@ -719,14 +727,18 @@ def together(scenes: Sequence[ComponentScene], answered: Sequence[Any]) -> Compo
     whole = copy(scenes[at])
     whole.ways = list(scenes)
     whole.misfit = np.where(none, np.min(misfits, axis=0), least)
-    whole.undetermined = np.logical_or.reduce(
+    slides = np.logical_or.reduce(
         np.broadcast_arrays(
             *(one.undetermined & (none | (one.left_open <= ACCURACY)) for one in scenes)
         )
     )
-    whole.ambiguous = np.logical_or.reduce(
-        [one.ambiguous & here & ~none for one, here in zip(scenes, best, strict=True)]
-    )
+    whole.undetermined = slides & none
+    # A contact that slid fits beside one that stuck.
+    for at, (one, here) in enumerate(zip(scenes, best, strict=True)):
+        whole.ways[at] = copy(one)
+        whole.ways[at].ambiguous = (one.ambiguous | (slides & one.sticks)) & here & ~none
+    whole.ambiguous = np.logical_or.reduce([one.ambiguous for one in whole.ways])
+    whole.undetermined = whole.undetermined | (slides & ~whole.ambiguous)
     whole.both_ways = np.logical_or.reduce(
         [one.both_ways & here & ~none for one, here in zip(scenes, best, strict=True)]
     )
