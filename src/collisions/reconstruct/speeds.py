@@ -480,7 +480,14 @@ def speeds(
             def changed(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
                 return attempt({**held, **changes}, most, only)
 
-            return in_balance(changed, numbers, cases) if balanced else changed({})
+            if not balanced:
+                return changed({})
+            now = in_balance(changed, numbers, cases)
+            roots = [
+                root._replace(closing=np.where(there, root.closing, np.nan))
+                for root, there in now.found
+            ]
+            return now._replace(found=_in_order(now.scene, roots, forward_only))
 
         def turned() -> str:
             """What a single case may have wrong: the lateral components with whose signs turned

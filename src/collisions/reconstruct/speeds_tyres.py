@@ -27,7 +27,7 @@ from ..quantities.directions import from_radians
 from ..vehicle.vehicle import moved
 from .common import Cases
 from .lasting import misses_of_impacts, settle, slopes_at
-from .speeds_algebra import EITHER, HELD, Root, Scene
+from .speeds_algebra import EITHER, HELD, ROOT_TOL, Root, Scene
 from .speeds_components import ComponentScene, by_way
 
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
@@ -123,6 +123,7 @@ def in_balance(
                 )
             if np.any(there):
                 kept.append(_Kept(root, there, last, held))
+    kept, doubts = _best(kept, doubts)
     first = results[0]
     if not kept and all(one is first for one, _ in doubts):
         return first._replace(found=[])
@@ -138,6 +139,35 @@ class _Kept(NamedTuple):
     there: Any
     of: Attempt
     held: Mapping[str, Any]
+
+
+def _best(
+    kept: Sequence[_Kept], doubts: Sequence[tuple[Attempt, Any]]
+) -> tuple[list[_Kept], list[tuple[Attempt, Any]]]:
+    """Those that meet the known values exactly, or else the one that fits best."""
+    misfits = [np.where(one.there, _misfit(one.of, one.root.way), np.inf) for one in kept]
+    misfits += [np.where(there, _misfit(one), np.inf) for one, there in doubts]
+    if len(misfits) < 2:
+        return list(kept), list(doubts)
+    most = np.maximum(np.minimum.reduce(misfits), ROOT_TOL)
+    best = [misfit <= most for misfit in misfits]
+    return (
+        [
+            one._replace(there=one.there & here)
+            for one, here in zip(kept, best, strict=False)
+            if np.any(one.there & here)
+        ],
+        [
+            (one, there & here)
+            for (one, there), here in zip(doubts, best[len(kept) :], strict=True)
+            if np.any(there & here)
+        ],
+    )
+
+
+def _misfit(one: Attempt, way: Any = 0.0) -> Any:
+    """By how much of the impulse a root misses what is known."""
+    return one.scene.of_way(way).misfit if isinstance(one.scene, ComponentScene) else 0.0
 
 
 def _apart(one: Root, other: Root) -> Any:
