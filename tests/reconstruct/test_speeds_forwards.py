@@ -1,0 +1,291 @@
+"""speeds of contacts that slid, where the end of the family has a car go backwards along its course:
+the bounds are those of what goes forwards, against the forward solver.
+"""
+
+import json
+import math
+import warnings
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions import reconstruct, reporting
+from collisions.reconstruct import speeds
+from collisions.travel import Tyres
+from collisions.uncertainty import Normal, OneSided, propagate
+
+from .test_recorder_place import names, read
+
+# A crash that slid, of a slow car A: the contact that sticks has A go backwards at 2.66 m/s.
+SLOW = (
+    col.Vehicle(mass=1377.9, yaw_inertia=1406.2, x=-1.2256, y=2.1382, heading=-0.8367),
+    col.Vehicle(mass=2347.7, yaw_inertia=1720.1, x=-1.0283, y=-1.4380, heading=1.2920),
+)
+MET = {
+    "course_a": -0.8952, "course_b": 1.3488, "restitution": 0.3373,
+    "normal": -1.6745, "point": (0.6677, -0.9932),
+}  # fmt: skip
+TRUE, FRICTION = (0.63, 9.18), 0.3785
+
+
+def moving(cars, both, met):
+    return [
+        car.replace(vx=speed * math.cos(way), vy=speed * math.sin(way))
+        for car, speed, way in zip(cars, both, (met["course_a"], met["course_b"]), strict=True)
+    ]
+
+
+def met_forwards(cars, both, met, **rest):
+    hit = {name: met[name] for name in ("normal", "point")}
+    return col.eccentric(*moving(cars, both, met), met["restitution"], **hit, **rest)
+
+
+def along(impact, met):
+    pairs = ((getattr(impact, one).before, met[f"course_{one}"]) for one in "ab")
+    return np.array([one.vx * math.cos(way) + one.vy * math.sin(way) for one, way in pairs])
+
+
+def recorded(impact, label="b"):
+    side = getattr(impact, label)
+    return names(label, (side.delta_v_forward, side.delta_v_left))
+
+
+def slow():
+    return recorded(met_forwards(SLOW, TRUE, MET, friction=FRICTION))
+
+
+def holds(found, both):
+    """Whether these speeds are within what is stated."""
+    sides = found.reconstruction.one_sided
+    return all(
+        side * (true - speed) >= -1e-6 if side else abs(true - speed) < 1e-6
+        for side, true, speed in zip(
+            (sides["speed_a"], sides["speed_b"]),
+            both,
+            (found.a.before.speed, found.b.before.speed),
+            strict=True,
+        )
+    )
+
+
+def slow_crash(rng):
+    """A random crash that slid, with one slow car."""
+    while True:
+        ahead = rng.uniform(-math.pi, math.pi)
+        aside = ahead + rng.uniform(0.5, 2.6) * rng.choice([-1, 1])
+        cars = [
+            col.Vehicle(
+                mass=rng.uniform(900, 2500), yaw_inertia=rng.uniform(1300, 4500),
+                x=rng.uniform(-1, 1) - far * math.cos(way),
+                y=rng.uniform(-1, 1) - far * math.sin(way),
+                heading=way, yaw_rate=rng.normal(0, 0.2),
+            )
+            for way, far in ((ahead, 2), (aside, 1))
+        ]  # fmt: skip
+        a, b = cars
+        met = {
+            "course_a": ahead + rng.normal(0, 0.05), "course_b": aside + rng.normal(0, 0.05),
+            "restitution": rng.uniform(0, 0.4),
+            "normal": math.atan2(b.y - a.y, b.x - a.x) + rng.normal(0, 0.3),
+            "point": (rng.normal(0, 0.4), rng.normal(0, 0.4)),
+        }  # fmt: skip
+        both = [rng.uniform(0.1, 1.2), rng.uniform(4, 20)]
+        rng.shuffle(both)
+        friction = rng.uniform(0.2, 0.9)
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                impact = met_forwards(cars, both, met, friction=friction)
+        except col.CollisionsError:
+            continue
+        if impact.regime == "sliding" and impact.closing_speed > 0.5:
+            return cars, both, met, friction, impact
+
+
+def test_the_truth_is_within_every_bound():
+    """Also where only its friction is known to be less, alone and in a batch, and with forward_only
+    alike; the impact found has the readings, by the forward solver and its own friction.
+    """
+    rng = np.random.default_rng(12)
+    at_rest = 0
+    for _ in range(25):
+        cars, both, met, friction, impact = slow_crash(rng)
+        known = recorded(impact, "ab"[rng.integers(2)])
+        given = np.array([friction, 1.3 * friction, math.inf])
+        options = {"slid": "bound", "forward_only": bool(rng.integers(2))}
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", col.OutOfRangeWarning)
+            (many,) = speeds(*cars, **met, **known, friction=given, **options)
+            for i, one in enumerate(given):
+                (found,) = speeds(*cars, **met, **known, friction=one, **options)
+                (other,) = speeds(
+                    *cars, **met, **known, friction=one,
+                    **options | {"forward_only": not options["forward_only"]},
+                )  # fmt: skip
+                assert other == found
+                assert holds(found, both)
+                assert along(found, met).min() >= 0.0
+                again = met_forwards(cars, along(found, met), met, friction=found.friction)
+                for name, value in known.items():
+                    told = getattr(getattr(again, name[-1]), name[:-2])
+                    assert told == pytest.approx(value, abs=1e-7)
+                alone = many.case(i)
+                assert along(alone, met) == pytest.approx(along(found, met), abs=1e-9)
+                assert alone.reconstruction.one_sided == found.reconstruction.one_sided
+                assert alone.friction == pytest.approx(found.friction, rel=1e-9)
+                at_rest += along(found, met).min() == 0.0
+                # Half as much slip is still in the family, as is the truth.
+                between = 0.5 * (along(found, met) + both)
+                middle = met_forwards(cars, between, met, friction=friction)
+                assert middle.impulse_ratio == pytest.approx(impact.impulse_ratio, rel=1e-9)
+    assert at_rest > 5
+
+
+@pytest.mark.parametrize("friction", [FRICTION, 0.5, math.inf], ids=str)
+def test_a_slow_car_is_not_said_to_be_faster_than_it_was(friction):
+    """At rest is the least that is known of it; records, pages and ranges have that."""
+    given = {**MET, **slow(), "friction": friction, "slid": "bound"}
+    (found,) = speeds(*SLOW, **given)
+    assert found.a.before.speed == 0.0
+    assert found.reconstruction.one_sided == {"speed_a": 1, "speed_b": -1}
+    assert TRUE[1] < found.b.before.speed < 10.0
+    assert found.friction == pytest.approx(FRICTION, rel=1e-9)
+    assert found.regime == "sliding"
+    # Where it was given, rounding decides whether it is taken from the components.
+    assert friction == FRICTION or "friction" in found.reconstruction.found
+    record = json.loads(json.dumps(found.to_dict()))
+    assert col.Impact.from_dict(record) == found
+    page = col.report(found, form="markdown")
+    assert reporting.replay(page) == found
+    said = f"at most {found.b.before.speed:.2f} m/s"
+    for text in (str(found.summary()), page, col.explain(found, form="text")):
+        assert "speed of A is at least 0" in text
+        assert said[:13] in text
+
+    def model(forward):
+        (one,) = speeds(*SLOW, **{**given, "delta_v_forward_b": forward})
+        sides = one.reconstruction.one_sided
+        return {
+            "a": OneSided(one.a.before.speed, sides["speed_a"]),
+            "b": OneSided(one.b.before.speed, sides["speed_b"]),
+        }
+
+    run = propagate(
+        model, {"forward": Normal(given["delta_v_forward_b"], 0.003)}, samples=64, seed=1
+    )
+    (least, most), (slowest, fastest) = (run[one].interval() for one in "ab")
+    assert least <= TRUE[0] < most == math.inf
+    assert -math.inf == slowest < TRUE[1] <= fastest
+
+
+def test_a_refusal_says_that_the_contact_that_stuck_goes_backwards():
+    given = {**MET, **slow(), "friction": math.inf}
+    with pytest.raises(col.AmbiguousSolutionError) as refused:
+        speeds(*SLOW, **given)
+    text = str(refused.value)
+    stuck, slid = refused.value.solutions
+    assert f"A would go backwards along its course at {stuck.a.before.speed:.6g} m/s" in text
+    assert f"the speed of B is {stuck.b.before.speed:.6g} m/s; if it slid" in text
+    assert "A is at least 0 m/s" in text
+    assert f"B is at most {slid.b.before.speed:.6g} m/s" in text
+    assert holds(slid, TRUE)
+    # With forwards alone it slid, and the slip is open.
+    with pytest.raises(col.NoSolutionError, match="leaves the slip undetermined") as refused:
+        speeds(*SLOW, **given, forward_only=True)
+    assert refused.value.code == "undetermined"
+    with pytest.warns(col.CollisionsWarning):
+        (many,) = speeds(*SLOW, **given | {"friction": np.array([math.inf])}, forward_only=True)
+    assert [col.Status(int(one)).label for one in many.status] == ["undetermined"]
+    # Stated to have stuck, it goes backwards; the bounds beside that are of what goes forwards.
+    with pytest.warns(col.CollisionsWarning) as caught:
+        speeds(*SLOW, **given, regime="sticking")
+    told = {one.message.code: str(one.message) for one in caught}
+    assert "came out as -2.6" in told["negative_speed"]
+    assert "speed of A is at least 0 m/s" in told["may_slide"]
+    assert f"speed of B is at most {slid.b.before.speed:.6g} m/s" in told["may_slide"]
+
+
+def test_a_family_that_goes_backwards_as_a_whole():
+    """With the course of a car turned about whose speed rises: it is negative and falls, which is
+    said, and its size rises.
+    """
+    rng = np.random.default_rng(3)
+    tried = 0
+    while tried < 5:
+        cars, both, met, friction, impact = slow_crash(rng)
+        given = {**recorded(impact, "a"), "friction": friction, "slid": "bound"}
+        (right,) = speeds(*cars, **met, **given)
+        rising = [
+            one
+            for one in "ab"
+            if right.reconstruction.one_sided[f"speed_{one}"] == 1
+            and getattr(right, one).before.speed > 0.1
+        ]
+        if not rising:
+            continue
+        tried += 1
+        course = f"course_{rising[0]}"
+        turned = {**met, course: met[course] + math.pi}
+        with pytest.warns(col.OutOfRangeWarning, match="backwards along its course"):
+            (found,) = speeds(*cars, **turned, **given)
+        assert along(found, met) == pytest.approx(along(right, met), abs=1e-9)
+        assert found.reconstruction.one_sided == right.reconstruction.one_sided
+        assert holds(found, both)
+        with pytest.raises(col.NoSolutionError, match="none of them backwards"):
+            speeds(*cars, **turned, **given, forward_only=True)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_contact_that_slid_has_the_readings_at_a_place_too(seed):
+    """Of a refusal, which gives both; its bounds are those of ``slid="bound"``. Against stepping
+    through time.
+    """
+    rng = np.random.default_rng(seed)
+    doubts = 0
+    while doubts < 4:
+        cars, both, met, friction, _ = slow_crash(rng)
+        both = rng.uniform(6.0, 20.0, 2)
+        label, place = "ab"[rng.integers(2)], (rng.uniform(-1.5, 1.5), rng.uniform(-0.6, 0.6))
+        axes = ("turning", "fixed")[rng.integers(2)]
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                impact = met_forwards(cars, both, met, friction=friction)
+        except col.CollisionsError:
+            continue
+        known = names(label, read(getattr(impact, label), place, 0.08, axes))
+        given = {
+            **met, **known, f"recorder_{label}": place, "axes": axes, "duration": 0.08,
+            "friction": (1.5 * friction, math.inf)[rng.integers(2)],
+        }  # fmt: skip
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                speeds(*cars, **given)
+                continue
+            except col.AmbiguousSolutionError as error:
+                refused = error
+            except col.CollisionsError:
+                continue
+            try:
+                bounds = speeds(*cars, **given, slid="bound")
+            except col.AmbiguousSolutionError as error:
+                # In either direction, or stuck.
+                bounds = error.solutions
+        slid = [one for one in refused.solutions if one.regime == "sliding"]
+        assert slid
+        for one in slid:
+            again = read(getattr(one, label), place, 0.08, axes)
+            apart = np.hypot(*np.subtract(again, list(known.values())))
+            # At the friction that was given they differ by no more than recorders may.
+            far = 0.1 if one.friction == given["friction"] else 1e-4
+            assert apart <= far * math.hypot(*known.values()) * 3
+            same = [
+                other.reconstruction.one_sided
+                for other in bounds
+                if other.reconstruction.one_sided
+                and np.allclose(along(other, met), along(one, met), rtol=1e-4, atol=1e-4)
+            ]
+            assert one.reconstruction.one_sided in same
+        doubts += 1
