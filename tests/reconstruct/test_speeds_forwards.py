@@ -1,5 +1,5 @@
-"""speeds of contacts that slid, where the end of the family has a car go backwards along its course:
-the bounds are those of what goes forwards, against the forward solver.
+"""speeds of contacts that slid, where the end of the family has a car go backwards: the bounds are
+those of what goes forwards, against the forward solver; and what goes forwards where tyres act.
 """
 
 import json
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import collisions as col
-from collisions import reconstruct, reporting
+from collisions import reporting
 from collisions.reconstruct import speeds
 from collisions.travel import Tyres
 from collisions.uncertainty import Normal, OneSided, propagate
@@ -289,3 +289,105 @@ def test_a_contact_that_slid_has_the_readings_at_a_place_too(seed):
             ]
             assert one.reconstruction.one_sided in same
         doubts += 1
+
+
+# Masses, yaw inertias, places, headings, yaw rates and speeds of A and B, how they met, wheels, the
+# recorder and what it shows: crashes whose tyres move their readings so far that the contact
+# without tyres leads to no answer, or only to others.
+WITH_TYRES = {
+    "both recorders": (
+        (1900.8, 2389.4, -2.8225, 1.3218, -0.29169, 0.0, 17.5483),
+        (1899.3, 4213.5, 0.84092, -1.66755, 1.83498, 0.0, 15.5505),
+        {"course_a": -0.28681, "course_b": 1.84818, "restitution": 0.30389,
+         "normal": -0.78071, "point": (-0.076584, -0.611701)},
+        {"duration": 0.106458, "tyres_b": Tyres(0.444425, 1.0, 2.592, 1.474)},
+        {"recorder_a": (0.51698, 0.31319), "recorder_b": (-0.91719, 0.11)}, "fixed",
+        ("delta_v_forward_a", "delta_v_forward_b"),
+    ),
+    "near the centre of mass": (
+        (1590.07, 3097.93, -2.06007, 1.17571, -0.32747, -0.54254, 7.33366),
+        (2411.41, 3456.58, -0.12738, -0.40035, 1.49576, -0.31733, 13.88611),
+        {"course_a": -0.28597, "course_b": 1.41532, "restitution": 0.34435,
+         "normal": -0.20371, "point": (-0.086844, 0.407221)},
+        {"duration": 0.12281, "tyres_a": Tyres(0.71831, 0.766, 2.971, 1.4445),
+         "tyres_b": Tyres(0.78207, 1.0, 2.946, 1.413)},
+        {"recorder_b": (-0.016, -0.003)}, "turning", ("delta_v_forward_b", "delta_v_left_b"),
+    ),
+    "two that go forwards": (
+        (1448.24, 1353.12, 1.51593, -0.95454, 2.02644, 0.0, 23.58415),
+        (2097.01, 4279.82, -0.9008, -1.81959, 1.1491, 0.0, 18.4028),
+        {"course_a": 2.07337, "course_b": 1.0878, "restitution": 0.26548,
+         "normal": -3.34633, "point": (0.44146, -0.15103)},
+        {"duration": 0.062165, "tyres_a": Tyres(0.75959, 1.0, 2.686, 1.505),
+         "tyres_b": Tyres(0.79143, 1.0, 2.407, 1.524)},
+        {"recorder_a": (-0.80428, -0.09397)}, "fixed", ("delta_v_forward_a", "delta_v_left_a"),
+    ),
+}  # fmt: skip
+
+
+def with_tyres(case):
+    """The cars, speeds, how they met, and what is known of a contact that stuck."""
+    *bodies, met, wheels, places, axes, known = WITH_TYRES[case]
+    cars = [
+        col.Vehicle(mass=m, yaw_inertia=inertia, x=x, y=y, heading=heading, yaw_rate=spin)
+        for m, inertia, x, y, heading, spin, _ in bodies
+    ]
+    both = [body[-1] for body in bodies]
+    impact = met_forwards(cars, both, met, friction=math.inf, **wheels)
+    shown = {}
+    for name, place in places.items():
+        label = name[-1]
+        shown |= names(label, read(getattr(impact, label), place, wheels["duration"], axes))
+    rest = {**wheels, **places, "axes": axes, "regime": "sticking", "friction": math.inf}
+    return cars, both, met, {name: shown[name] for name in known}, rest
+
+
+@pytest.mark.filterwarnings("ignore:(?s).*to stick, the contact needs an impulse ratio")
+@pytest.mark.parametrize("friction", [math.inf, 0.85], ids=str)
+@pytest.mark.parametrize("case", WITH_TYRES)
+def test_what_goes_forwards_is_found_with_tyres(case, friction):
+    """Every answer has the readings, by stepping through time; the crash is among them, in order of
+    closing speeds, and what goes backwards is said.
+    """
+    cars, both, met, known, rest = with_tyres(case)
+    rest["friction"] = friction
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        found = speeds(*cars, **met, **known, **rest)
+    assert any(along(one, met) == pytest.approx(both, abs=1e-3) for one in found)
+    closing = [one.closing_speed for one in found]
+    assert closing == sorted(closing)
+    assert all(one.reconstruction.answers == len(found) for one in found)
+    backwards = any(along(one, met).min() < 0.0 for one in found)
+    assert backwards == ("negative_speed" in {one.message.code for one in caught})
+    for one in found:
+        for name, value in known.items():
+            label = name[-1]
+            reading = read(
+                getattr(one, label), rest[f"recorder_{label}"], rest["duration"], rest["axes"]
+            )
+            assert reading["left" in name] == pytest.approx(value, abs=1e-3)
+    ahead = speeds(*cars, **met, **known, **rest, forward_only=True)
+    assert ahead[0].reconstruction.answers == len(ahead) == len(
+        [one for one in found if along(one, met).min() >= 0.0]
+    )  # fmt: skip
+
+
+@pytest.mark.filterwarnings("ignore:(?s).*taken to stick at an impulse ratio", "ignore:(?s).*to st")
+def test_a_batch_with_one_answer_and_with_two_is_its_cases():
+    cars, _, met, known, rest = with_tyres("both recorders")
+    rest["duration"] = rest["duration"] * np.array([1.0, 0.7, 0.4, 0.1])
+    with pytest.warns(col.CollisionsWarning, match="backwards along its course"):
+        many = speeds(*cars, **met, **known, **rest)
+    counts = []
+    for i, duration in enumerate(rest["duration"]):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.OutOfRangeWarning)
+            alone = speeds(*cars, **met, **known, **rest | {"duration": float(duration)})
+        there = [one.case(i) for one in many if not one.refused[i]]
+        assert len(there) == len(alone)
+        for one, other in zip(alone, there, strict=True):
+            assert along(one, met) == pytest.approx(along(other, met), rel=1e-9)
+            assert other.reconstruction.answers == len(alone)
+        counts.append(len(alone))
+    assert set(counts) == {1, 2}

@@ -427,9 +427,10 @@ def speeds(
                 slid_at = np.where(np.isfinite(scene.slid_at), scene.slid_at, own[FRICTION])
                 friction = some.values(slid_at)
             if most == math.inf:
-                # Whether it stuck or slid, and forwards, is asked when the tyres are known.
+                # Whether it stuck or slid is asked when the tyres are known.
                 scene.ambiguous = np.zeros((), dtype=bool)
-            forwards = forward_only and most < math.inf
+            # Of those in balance it is asked at the end.
+            forwards = forward_only and not balanced
             return _Looked(scene, _in_order(scene, roots, forwards), friction)
 
         def scene_of(

@@ -115,8 +115,10 @@ def in_balance(
             if not last.found:
                 continue
             root, there = _followed(last, at)
-            there = there & settled
             size = np.hypot(root.speed_a, root.speed_b)
+            # Where known values differ by more than they may, the next root is another.
+            same = abs(root.speed_a - at[0]) + abs(root.speed_b - at[1]) <= _LEADS_TO * size
+            there = there & settled & same
             for earlier in kept:
                 there = there & ~(
                     earlier.there & (_apart(earlier.root, root) <= _ONE_ANSWER * size)
