@@ -391,3 +391,36 @@ def test_a_batch_with_one_answer_and_with_two_is_its_cases():
             assert other.reconstruction.answers == len(alone)
         counts.append(len(alone))
     assert set(counts) == {1, 2}
+
+
+def test_a_ratio_far_below_the_friction_is_not_said_to_slide():
+    """From readings at a place: the crash, which stuck, is the answer or among those of a refusal,
+    which says that sliding at the friction fits within the accuracy of recorders.
+    """
+    rng = np.random.default_rng(4)
+    refused = 0
+    while refused < 4:
+        cars, _, met, friction, _ = slow_crash(rng)
+        both, place = rng.uniform(6.0, 20.0, 2), (rng.uniform(-1.5, 1.5), rng.uniform(-0.6, 0.6))
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                impact = met_forwards(cars, both, met, friction=friction)
+        except col.CollisionsError:
+            continue
+        if friction < 0.3 or abs(impact.impulse_ratio) > 0.45 * friction:
+            continue
+        known = names("a", read(impact.a, place, 0.1))
+        rest = {"friction": friction, "recorder_a": place, "duration": 0.1}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            text = ""
+            try:
+                found = speeds(*cars, **met, **known, **rest)
+            except col.AmbiguousSolutionError as error:
+                found, text = error.solutions, str(error)
+        if text:
+            refused += 1
+            far = f"a contact that slid with friction={friction:.4g} has the same within 10%"
+            assert far in text or "is not clearly above that" in text
+        assert any(along(one, met) == pytest.approx(both, abs=1e-2) for one in found)

@@ -233,7 +233,8 @@ def speeds(
         What to answer, for components of delta-V with ``friction``, where the contact must have
         slid, or may have, and no speed is known: "bound" gives the end of the family, where its
         slip is least. ``reconstruction.one_sided`` says which way the truth may lie from each
-        speed.
+        speed. Where a car goes backwards there, and less so along the family, the end is where it
+        stands; a contact that may have stuck then slid, at the ratio that the components show.
 
     Returns
     -------
@@ -253,8 +254,10 @@ def speeds(
     AmbiguousSolutionError
         Components do not tell whether the contact stuck or slid. Both answers are in ``solutions``,
         first the one that stuck. They have the same numbers, but those of the other are the end of
-        its family. Or a bound was asked for, and sliding fits in either direction within
-        ``reference.RECORDER_ACCURACY``: ``solutions`` has the bounds of both.
+        its family, unless a car of the one that stuck goes backwards, or the friction is far above
+        the ratio and sliding at it fits within ``reference.RECORDER_ACCURACY``. Or a bound was
+        asked for, and sliding fits in either direction within that: ``solutions`` has the bounds of
+        both, after what stuck, if that fits.
 
     Warns
     -----
