@@ -65,6 +65,7 @@ from .speeds_components import (
     MAY_SLIDE,
     RATIO_SHOWN,
     ComponentScene,
+    Shown,
     friction_shown,
     together,
 )
@@ -235,6 +236,8 @@ def speeds(
         slip is least. ``reconstruction.one_sided`` says which way the truth may lie from each
         speed. Where a car goes backwards there, and less so along the family, the end is where it
         stands; a contact that may have stuck then slid, at the ratio that the components show.
+        Beside a known speed, where one that stuck and one that slid both fit within the accuracy
+        of recorders, it gives the one that stuck and on which side of that the other lies.
 
     Returns
     -------
@@ -412,18 +415,19 @@ def speeds(
             shares: bool,
         ) -> _Looked:
             """The same of the impulse at which readings that may mean several begin."""
-            shape, friction, fits_both = some.shape or (), None, False
+            shape, friction, shown = some.shape or (), None, Shown()
             if components and asked.rule == FRICTION and np.any(np.isinf(asked.rule_value)):
-                ratio, fits_both = friction_shown(
+                shown = friction_shown(
                     partial(of_components, most=most, **start), own, used_law, names, shape, regime
                 )
-                if ratio is not None:
-                    friction = some.values(ratio)
+                if shown.friction is not None:
+                    friction = some.values(shown.friction)
                     own = {**own, FRICTION: friction}
             scene = scene_of(own, shape, most, plain, start)
             scene.shares = scene.shares or shares
             if isinstance(scene, ComponentScene):
-                scene.leaves_slip = scene.leaves_slip | fits_both
+                scene.leaves_slip = scene.leaves_slip | shown.fits_both
+                scene.toward = shown.toward
                 scene.shows_friction = np.isinf(asked.rule_value) & (friction is not None)
             roots = scene.roots() if function is None else _with_function(scene, function)
             if isinstance(scene, ComponentScene) and np.any(np.isfinite(scene.slid_at)):

@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -53,6 +53,9 @@ _DISAGREE = 0.95
 CLEARLY_BELOW = 0.5
 # Between vehicles a contact may slide from this ratio on.
 MAY_SLIDE = INTER_VEHICLE_FRICTION.low
+# Speeds of a contact that stuck and of one that slid that differ by no more, of the closing speed,
+# are one answer.
+_ONE_ANSWER = 1e-3
 # Relative size below which the effect of a speed is rounding.
 _NO_EFFECT = 1e-12
 # The same of a change of slip on one speed beside the other.
@@ -105,6 +108,8 @@ class ComponentScene(Scene):
         # Where a contact that slid leaves the slip open, as with no speed known, or fits too.
         self.energy = self.targets.get("energy_loss")
         self.leaves_slip: Any = len(self.unknown) > 1 and self.energy is None
+        # With a known speed: to which side of the answer each speed lies if the contact slid.
+        self.toward: tuple[Any, Any] = (math.nan, math.nan)
         self.answer: tuple[Any, Any] = (math.nan, math.nan)
         # Where a bound was asked for and sliding fits either way, so that it has no side.
         self.both_ways: Any = np.zeros((), dtype=bool)
@@ -317,7 +322,10 @@ class ComponentScene(Scene):
         told = (self.stated is not None) | decided
         self.may_slide = sticks & (size >= MAY_SLIDE) & told & self.leaves_slip
         if self.slid:
-            first, second = self._ways(self.ratio)
+            first, second = (
+                np.where(np.isnan(side), way, side)
+                for side, way in zip(self.toward, self._ways(self.ratio), strict=True)
+            )
             known = (sticks & decided) | np.logical_not(self.leaves_slip)
             self.sides = np.where(known, 0.0, first), np.where(known, 0.0, second)
 
@@ -665,6 +673,17 @@ class ComponentScene(Scene):
             warn_of_cases(warning, {sentence: cases.number(near)})
 
 
+class Shown(NamedTuple):
+    """What components show of a contact: the friction in place of an infinite one, None where none
+    is used; where a contact that slid fits as well as one that stuck, with other speeds; and to
+    which side of those of the one that stuck each of those lies, NaN where that is not so.
+    """
+
+    friction: Any = None
+    fits_both: Any = False
+    toward: tuple[Any, Any] = (math.nan, math.nan)
+
+
 def friction_shown(
     kind: Callable[..., ComponentScene],
     given: dict[str, Any],
@@ -672,10 +691,9 @@ def friction_shown(
     names: tuple[str, ...],
     shape: tuple[int, ...],
     regime: str | None,
-) -> tuple[Any, Any]:
+) -> Shown:
     """The friction with the ratio that the components show in place of an infinite one, where the
-    contact slid; None if it did nowhere. And where a contact that slid fits as well as one that
-    stuck, with other speeds.
+    contact slid, and where a contact that slid fits as well as one that stuck.
 
     It slid where the caller stated that, where a known speed goes with a contact that slid and
     differs by more than recorders may from one that stuck, or where more energy was lost than
@@ -686,23 +704,25 @@ def friction_shown(
     components = tuple(name for name in names if name.startswith("delta_v"))
     settles = speeds or len(components) < len(names)
     if regime == "sticking" or len(components) < 2 or not (settles or regime):
-        return None, False
+        return Shown()
     shown = abs(kind(given, FRICTION, law, components, shape).shown_ratio())
     usable = np.isinf(friction) & np.isfinite(shown)
     ratio = np.where(usable, shown, friction)
     if regime == "sliding":
-        return ratio, False
+        return Shown(ratio)
     stuck = kind(given, FRICTION, law, names, shape)
     if not speeds:
-        return np.where(usable & stuck.loses_more(), shown, friction), False
+        return Shown(np.where(usable & stuck.loses_more(), shown, friction))
     slid = kind({**given, FRICTION: ratio}, FRICTION, law, names, shape, False, "sliding")
     closing = sum(np.nan_to_num(root.closing) for root in stuck.roots())
     one, other, *_ = slid.roots()
     slides = usable & ((one.closing > 0.0) | (other.closing > 0.0)) & (slid.misfit < stuck.misfit)
     settled = slides & (stuck.misfit > ACCURACY) & ~np.asarray(given.get(EITHER, 0.0) > 0.0)
-    apart = sum(abs(a - b) for a, b in zip(stuck.answer, slid.answer, strict=True))
-    open_ = usable & slid.undetermined | slides & (apart > ACCURACY * closing)
-    return (np.where(settled, shown, friction) if np.any(settled) else None), open_ & ~settled
+    moves = [b - a for a, b in zip(stuck.answer, slid.answer, strict=True)]
+    differs = slides & (sum(map(abs, moves)) > _ONE_ANSWER * closing)
+    open_ = (usable & slid.undetermined | differs) & ~settled
+    toward = tuple(np.where(differs & ~settled, np.sign(move), np.nan) for move in moves)
+    return Shown(np.where(settled, shown, friction) if np.any(settled) else None, open_, toward)
 
 
 def by_way(way: Any, values: Sequence[Any]) -> Any:
