@@ -269,7 +269,8 @@ def solved(cars, both, known, friction):
 
 def test_the_family_begins_at_the_bound():
     """Against the forward solver: beyond the bound, on the side that is named, every pair of speeds
-    gives the same components; before it none does. The true speeds lie on that side.
+    gives the same components; before it none does, or a car goes backwards. The true speeds lie on
+    that side.
     """
     rng = np.random.default_rng(8)
     for _ in range(40):
@@ -284,6 +285,9 @@ def test_the_family_begins_at_the_bound():
         for side, way in zip(("speed_a", "speed_b"), both - start, strict=True):
             assert sides[side] == np.sign(way) or abs(way) < 1e-8, (sides, both, start)
         for share, same in ((0.5, True), (1.5, True), (-0.02, False)):
+            if share < 0.0 and min(start) == 0.0:
+                assert min(start + share * (both - start)) < 0.0
+                continue
             there = solved(cars, start + share * (both - start), known, friction)
             if there is None:  # no closing speed there, or with a speed below 0 a gain of energy
                 continue
@@ -587,3 +591,61 @@ def test_beside_a_speed_a_contact_that_slid_has_the_ratio_that_is_shown():
             solutions = error.solutions
             break
     assert solutions[1].a.before.speed == pytest.approx(a.speed, rel=1e-6)
+
+
+def crashes_beside_a_speed(count):
+    """Crashes with the friction high enough to stick or slide, and what is known of each: both
+    components of one car and the speed of one.
+    """
+    of, found = np.random.default_rng(60), []
+    while len(found) < count:
+        heading = of.choice([-1, 1]) * of.uniform(0.5, 2.6)
+        a = EITHER_A.replace(vx=of.uniform(6, 25), vy=0.0, y=of.normal(0, 0.7), yaw_rate=0.0)
+        speed = of.uniform(6, 25)
+        b = EITHER_B.replace(
+            heading=heading, vx=speed * math.cos(heading), vy=speed * math.sin(heading),
+            y=of.normal(0, 1.0), yaw_rate=0.0,
+        )  # fmt: skip
+        contact = {"normal": of.uniform(-0.5, 0.5), "point": tuple(of.normal(0, 0.4, 2))}
+        restitution, friction = of.uniform(0, 0.4), of.uniform(0.3, 0.9)
+        impact = col.eccentric(a, b, restitution, **contact, friction=friction, on_failure="nan")
+        if not impact.ok or impact.closing_speed < 3.0:
+            continue
+        label, known = of.choice(["a", "b"]), of.choice(["a", "b"])
+        speeds_of = {"a": a.speed, "b": b.speed}
+        found.append((impact, "ab".replace(known, ""), [a, b], {
+            "course_a": a.course, "course_b": b.course, "restitution": restitution, **contact,
+            f"speed_{known}": speeds_of[known], **recorded(impact, label), "friction": math.inf,
+        }))  # fmt: skip
+    return found
+
+
+def test_one_that_stuck_with_a_misfit_does_not_silence_one_that_slid_without():
+    """Forward crashes, exact readings: the truth is the answer or one of those that are offered."""
+    slid = ambiguous = 0
+    for impact, sought, cars, known in crashes_beside_a_speed(120):
+        try:
+            offered = speeds(*cars, **known)
+        except col.AmbiguousSolutionError as error:
+            offered, ambiguous = error.solutions, ambiguous + 1
+        slid += impact.regime == "sliding"
+        truth = getattr(impact, sought).before.speed
+        nearest = min(abs(getattr(one, sought).before.speed - truth) for one in offered)
+        assert nearest <= 2e-3 * impact.closing_speed
+    assert slid >= 15
+    assert ambiguous >= 5
+
+
+def test_beside_a_speed_a_bound_lies_on_the_side_of_the_one_that_slid():
+    """The truth is the bound or lies where that says."""
+    open_ = 0
+    for impact, sought, cars, known in crashes_beside_a_speed(120):
+        (found,) = speeds(*cars, **known, slid="bound")
+        beyond = getattr(impact, sought).before.speed - getattr(found, sought).before.speed
+        side = found.reconstruction.one_sided[f"speed_{sought}"]
+        if side:
+            open_ += 1
+            assert side * beyond >= -2e-3 * impact.closing_speed
+        else:
+            assert abs(beyond) <= 2e-3 * impact.closing_speed
+    assert open_ >= 5

@@ -48,7 +48,7 @@ class Reconstruction:
     one_sided : dict of str to int or array of int, optional
         Of ``speeds(..., slid="bound")``: for "speed_a" and "speed_b" which way the truth may lie
         from the speed found, if the contact slid: +1 at least that speed, -1 at most, 0 where it is
-        known both ways.
+        known both ways. A speed is a size here, also of a vehicle that goes backwards.
     found : tuple of str
         What was found of the state before and of the contact, by name: "speed_a", "speed_b", and
         where they were sought "course_a", "yaw_rate_a", "restitution", "friction" and so on.

@@ -187,8 +187,8 @@ def _solved_again(impact: Impact, origin: Reconstruction, regime: Any) -> tuple[
         f"course_{label}": given.get(f"course_{label}", getattr(inputs, label).course)
         for label in "ab"
     }
-    # A friction that was found was given as infinite.
-    rule_value = math.inf if FRICTION in origin.found else inputs.rule_value
+    # A friction that was found was given as infinite, or as one that may have been greater.
+    rule_value = given.get(FRICTION, math.inf) if FRICTION in origin.found else inputs.rule_value
     more: dict[str, Any] = {**bodies, **contact, **known, inputs.rule: rule_value}
     return speeds(inputs.a, inputs.b, restitution=inputs.restitution, **more, **wheels)
 

@@ -205,6 +205,7 @@ class RecorderScene(ComponentScene):
         slid: str | None = None,
         most: float = CONTRADICTION,
         direction: float | None = None,
+        forward_only: bool = False,
         start: tuple[Any, Any] = (0.0, 0.0),
     ) -> None:
         self._recorders, self.recorders = recorders, recorders.names
@@ -212,7 +213,9 @@ class RecorderScene(ComponentScene):
         # answer with the axes and the turns that go with it.
         self._seen: dict[Any, tuple[Any, list[Observed]]] = {}
         self._roots: dict[Any, tuple[Any, tuple[Root, Any, Any], tuple[Any, Any, Any]]] = {}
-        super().__init__(given, rule, law, names, shape, plain, regime, slid, most, direction)
+        super().__init__(
+            given, rule, law, names, shape, plain, regime, slid, most, direction, forward_only
+        )
         self._duration = self.given["duration"] * self.speed_unit
         self._readings = [
             self.numbers[f"{kind[-1]}.mass"] * self.numbers[kind] for kind in self.components

@@ -59,10 +59,13 @@ from .recorder_place import RecorderScene, by_own_names, read_recorders
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import (
+    ACCURACY,
+    CLEARLY_BELOW,
     CONTRADICTION,
     MAY_SLIDE,
     RATIO_SHOWN,
     ComponentScene,
+    Shown,
     friction_shown,
     together,
 )
@@ -231,7 +234,10 @@ def speeds(
         What to answer, for components of delta-V with ``friction``, where the contact must have
         slid, or may have, and no speed is known: "bound" gives the end of the family, where its
         slip is least. ``reconstruction.one_sided`` says which way the truth may lie from each
-        speed.
+        speed. Where a car goes backwards there, and less so along the family, the end is where it
+        stands; a contact that may have stuck then slid, at the ratio that the components show.
+        Beside a known speed, where one that stuck and one that slid both fit within the accuracy
+        of recorders, it gives the one that stuck and on which side of that the other lies.
 
     Returns
     -------
@@ -251,8 +257,10 @@ def speeds(
     AmbiguousSolutionError
         Components do not tell whether the contact stuck or slid. Both answers are in ``solutions``,
         first the one that stuck. They have the same numbers, but those of the other are the end of
-        its family. Or a bound was asked for, and sliding fits in either direction within
-        ``reference.RECORDER_ACCURACY``: ``solutions`` has the bounds of both.
+        its family, unless a car of the one that stuck goes backwards, or the friction is far above
+        the ratio and sliding at it fits within ``reference.RECORDER_ACCURACY``. Or a bound was
+        asked for, and sliding fits in either direction within that: ``solutions`` has the bounds of
+        both, after what stuck, if that fits.
 
     Warns
     -----
@@ -407,24 +415,30 @@ def speeds(
             shares: bool,
         ) -> _Looked:
             """The same of the impulse at which readings that may mean several begin."""
-            shape, friction, fits_both = some.shape or (), None, False
+            shape, friction, shown = some.shape or (), None, Shown()
             if components and asked.rule == FRICTION and np.any(np.isinf(asked.rule_value)):
-                ratio, fits_both = friction_shown(
+                shown = friction_shown(
                     partial(of_components, most=most, **start), own, used_law, names, shape, regime
                 )
-                if ratio is not None:
-                    friction = some.values(ratio)
+                if shown.friction is not None:
+                    friction = some.values(shown.friction)
                     own = {**own, FRICTION: friction}
             scene = scene_of(own, shape, most, plain, start)
             scene.shares = scene.shares or shares
             if isinstance(scene, ComponentScene):
-                scene.leaves_slip = scene.leaves_slip | fits_both
+                scene.leaves_slip = scene.leaves_slip | shown.fits_both
+                scene.toward = shown.toward
                 scene.shows_friction = np.isinf(asked.rule_value) & (friction is not None)
             roots = scene.roots() if function is None else _with_function(scene, function)
+            if isinstance(scene, ComponentScene) and np.any(np.isfinite(scene.slid_at)):
+                slid_at = np.where(np.isfinite(scene.slid_at), scene.slid_at, own[FRICTION])
+                friction = some.values(slid_at)
             if most == math.inf:
                 # Whether it stuck or slid is asked when the tyres are known.
                 scene.ambiguous = np.zeros((), dtype=bool)
-            return _Looked(scene, _in_order(scene, roots, forward_only), friction)
+            # Of those in balance it is asked at the end.
+            forwards = forward_only and not balanced
+            return _Looked(scene, _in_order(scene, roots, forwards), friction)
 
         def scene_of(
             own: dict[str, Any],
@@ -435,7 +449,14 @@ def speeds(
         ) -> Any:
             kind: Callable[..., Scene] = Scene
             if components:
-                kind = partial(of_components, regime=regime, slid=slid, most=most, **start)
+                kind = partial(
+                    of_components,
+                    regime=regime,
+                    slid=slid,
+                    most=most,
+                    forward_only=forward_only,
+                    **start,
+                )
             return kind(own, asked.rule, used_law, names, shape=shape, plain=plain)
 
         def attempt(
@@ -456,7 +477,7 @@ def speeds(
                 except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
                     now = looked(own, cases, most, only=only)
             of_inputs = asked if now.friction is None else _with_friction(asked, now.friction)
-            return Attempt(now.scene, now.found, of_inputs, now.frictions)
+            return Attempt(now.scene, now.found, of_inputs, now.frictions, now.friction is not None)
 
         knows_speed = any(name.startswith("speed") for name in known)
         balanced = bool(times and components) and not {"energy_loss", "ees_a"} & known.keys()
@@ -467,7 +488,14 @@ def speeds(
             def changed(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
                 return attempt({**held, **changes}, most, only)
 
-            return in_balance(changed, numbers, cases) if balanced else changed({})
+            if not balanced:
+                return changed({})
+            now = in_balance(changed, numbers, cases)
+            roots = [
+                root._replace(closing=np.where(there, root.closing, np.nan))
+                for root, there in now.found
+            ]
+            return now._replace(found=_in_order(now.scene, roots, forward_only))
 
         def turned() -> str:
             """What a single case may have wrong: the lateral components with whose signs turned
@@ -485,8 +513,8 @@ def speeds(
             return said_of
 
         attempted = solved({})
-        scene, found, inputs, _ = attempted
-        if inputs is not asked:
+        scene, found = attempted.scene, attempted.found
+        if attempted.shows:
             also = (FRICTION,)
         texts = by_own_names(reader.texts, recorders, bool(times))
 
@@ -508,6 +536,8 @@ def speeds(
             for name, number in (recorders.numbers if recorders else {}).items()
             if given[name.partition("[")[0]] is not None
         }
+        if attempted.shows and np.any(np.isfinite(asked.rule_value)):
+            told[FRICTION] = asked.rule_value
         told = by_own_names(told, recorders, bool(times))
 
         def again(**changes: Any) -> tuple[Impact, ...]:
@@ -593,11 +623,13 @@ def if_it_slid(impact: Impact) -> Impact | None:
     ratio = abs(impact.impulse_ratio)
     try:
         with quietly():
-            return speeds(
+            found = speeds(
                 inputs.a, inputs.b, friction=ratio, regime="sliding", slid="bound", **given
-            )[0]
+            )
     except CollisionsError:
         return None
+    # A ratio of the other sign slid the other way.
+    return min(found, key=lambda one: abs(one.impulse_ratio - impact.impulse_ratio))
 
 
 def _check_branch(given: dict[str, Any]) -> None:
@@ -914,7 +946,7 @@ def _answers(
     """The impact of each root; raises for a single case without one. ``reconstruction`` makes what
     says how it was found.
     """
-    scene, found, inputs, _ = attempted
+    scene, found, inputs = attempted.scene, attempted.found, attempted.inputs
     faults = input_faults(scene.numbers, inputs.incomplete)
     of_walls = [
         np.isinf(scene.numbers[f"{name[-1]}.mass"])
@@ -956,9 +988,10 @@ def _answers(
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
             say = Sentences(inputs.texts)
-            if status == Status.AMBIGUOUS and np.any(getattr(scene, "both_ways", False)):
-                raise _slid_either_way(known, say, ways.one_way)
             if status == Status.AMBIGUOUS and isinstance(scene, ComponentScene):
+                sticks = any(np.any(one.ambiguous & one.sticks) for one in scene.ways or [scene])
+                if np.any(scene.both_ways) and not sticks:
+                    raise _slid_either_way(scene, known, say, ways.one_way)
                 raise _stuck_or_slid(scene, known, say, ways.again)
             if inputs.tyres and status == Status.CONTRADICTORY:
                 raise error_of(
@@ -973,15 +1006,12 @@ def _answers(
         origin = reconstruction(names, root.condition, count)
         own = scene.of_way(root.way) if isinstance(scene, ComponentScene) else None
         if own is not None:
-            origin = replace(origin, regime=own.stated, one_sided=_sides(own, cases, there))
+            origin = replace(origin, regime=own.stated, one_sided=_sides(own, cases, root, there))
         impact = run_forward(
             partial(inputs_of, root), status, origin, None if cases.shape is None else "nan"
         )
         for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
-            if own is not None and own.sides:
-                # A family that begins backwards goes on forwards.
-                speed = np.where(own.sides["AB".index(label)] > 0.0, np.maximum(speed, 0.0), speed)
             backward, whose = min(
                 (backward, whose), (float(np.fmin.reduce(speed, axis=None, initial=0.0)), label)
             )
@@ -1014,27 +1044,40 @@ def _answers(
     return tuple(impacts)
 
 
-def _sides(scene: ComponentScene, cases: Cases, there: Any) -> dict[str, Any] | None:
+def _sides(scene: ComponentScene, cases: Cases, root: Root, there: Any) -> dict[str, Any] | None:
     """Which way the truth may lie from each speed; None unless ``slid`` asked for it."""
     if not scene.slid:
         return None
     sides = scene.sides or (0.0, 0.0)
     return {
-        f"speed_{label}": cases.sides(np.where(there, side, 0.0))
-        for label, side in zip("ab", sides, strict=True)
+        f"speed_{label}": cases.sides(np.where(there, _of_size(side, speed), 0.0))
+        for label, side, speed in zip("ab", sides, root[:2], strict=True)
     }
+
+
+def _of_size(side: Any, speed: Any) -> Any:
+    """Which way the size of a speed may go, by which way it goes along the course: backwards, the
+    size of one that falls rises.
+    """
+    return np.where(np.less(speed, 0.0), -side, side)
 
 
 def _if_it_slid(scene: ComponentScene, impact: Impact, say: Sentences) -> str:
     """What follows for the speeds of a single case if its contact slid."""
     if scene.slides_both_ways():
         return f"it may have in either direction, since {EITHER_WAY}, and the speeds are open"
-    sides = {
-        f"speed_{label}": int(np.nan_to_num(side))
-        for label, side in zip("ab", scene.if_slid(), strict=True)
-    }
-    speeds = {f"speed_{one}": say(_along(impact, one), "speed") for one in "ab"}
-    return " and ".join(bounds_of(sides, speeds))
+    signed = [_along(impact, label, scene) for label in "ab"]
+    speeds, sides = scene.if_slid([speed / scene.speed_unit for speed in signed])
+    ends = [float(speed * scene.speed_unit) for speed in speeds]
+    return " and ".join(
+        bounds_of(
+            {
+                f"speed_{label}": int(np.nan_to_num(_of_size(side, end)))
+                for label, side, end in zip("ab", sides, ends, strict=True)
+            },
+            {f"speed_{label}": _told(end, say) for label, end in zip("ab", ends, strict=True)},
+        )
+    )
 
 
 def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
@@ -1103,7 +1146,7 @@ def _stuck_or_slid(
         }.values()
     )
     friction = float(scene.bound)
-    stuck = again(regime="sticking")
+    stuck = again(regime="sticking", slid=None)
     slid: list[Impact] = []
     if math.isinf(friction):
         # Each at the ratio that is shown: beside a speed not that of the one that stuck.
@@ -1114,22 +1157,32 @@ def _stuck_or_slid(
                 if len(scene.unknown) == 1
                 or any(abs(one.impulse_ratio - ratio) <= ROOT_TOL for ratio in ratios)
             ]
+    # Far below the friction, a contact that slid did so at the friction, or it is that of another
+    # impulse.
+    far = not math.isinf(friction) and max(map(abs, ratios)) <= CLEARLY_BELOW * friction
+    if far:
+        with suppress(CollisionsError):
+            slid = list(again(regime="sliding", slid="bound"))
     if not slid:
         for ratio in ratios:
             either_way = again(regime="sliding", slid="bound", friction=abs(ratio))
             slid.append(min(either_way, key=lambda one: abs(one.impulse_ratio - ratio)))
+    ends = [[_along(impact, label, scene) for label in "ab"] for impact in slid]
+    if len(stuck) == len(slid) == 1:
+        # Where both are one place they have the same digits.
+        same = ROOT_TOL * slid[0].closing_speed
+        alike = zip(ends[0], (_along(stuck[0], label, scene) for label in "ab"), strict=True)
+        ends = [[own if abs(own - end) <= same else end for end, own in alike]]
     speeds = [
-        {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"}
-        for impact in (stuck if len(stuck) == len(slid) == 1 else slid)
+        {f"speed_{label}": _told(end, say) for label, end in zip("ab", one, strict=True)}
+        for one in ends
     ]
     bounds = ", or ".join(
         " and ".join(bounds_of(getattr(impact.reconstruction, "one_sided", None) or {}, one))
         for impact, one in zip(slid, speeds, strict=True)
     )
     alone = ", or ".join(
-        f"the speed of A is {say(_along(impact, 'a'), 'speed')} and that of B "
-        f"{say(_along(impact, 'b'), 'speed')}"
-        for impact in stuck
+        _alone([_along(impact, label, scene) for label in "ab"], say) for impact in stuck
     )
     shown = " or ".join(dict.fromkeys(f"{abs(one):.2f}" for one in ratios))
     allowed = (
@@ -1137,12 +1190,18 @@ def _stuck_or_slid(
         if math.isinf(friction)
         else f"`friction={friction:.4g}` is not clearly above that"
     )
+    at = "at that ratio"
+    if far:
+        at = f"with `friction={friction:.4g}`"
+        allowed = f"a contact that slid {at} has the same within {ACCURACY:.0%}"
+    then = (
+        "" if scene.slid else "; or `slid='bound'` for this end of the speeds that it may have had"
+    )
     return AmbiguousSolutionError(
         f"{' and '.join(known)} do not tell whether the contact stuck or slid: they "
-        f"have an impulse ratio of {shown}, and {allowed}. If it stuck, {alone}; if it slid at "
-        f"that ratio, {bounds}. Write `regime='sticking'` or `regime='sliding'` if you "
-        "know which, the latter with one of the speeds or the energy lost; or "
-        "`slid='bound'` for this end of the speeds that it may have had"
+        f"have an impulse ratio of {shown}, and {allowed}. If it stuck, {alone}; if it slid "
+        f"{at}, {bounds}. Write `regime='sticking'` or `regime='sliding'` if you "
+        f"know which, the latter with one of the speeds or the energy lost{then}"
         "`|. Both answers are in .solutions|`",
         code=Status.AMBIGUOUS.label,
         ratio=abs(ratios[0]),
@@ -1151,7 +1210,10 @@ def _stuck_or_slid(
 
 
 def _slid_either_way(
-    known: dict[str, Any], say: Sentences, one_way: Callable[[float], tuple[Impact, ...]]
+    scene: Scene,
+    known: dict[str, Any],
+    say: Sentences,
+    one_way: Callable[[float], tuple[Impact, ...]],
 ) -> AmbiguousSolutionError:
     """The error for a single case of which a bound has no side."""
     solutions = (*one_way(1.0), *one_way(-1.0))
@@ -1162,7 +1224,7 @@ def _slid_either_way(
             " and ".join(
                 bounds_of(
                     getattr(impact.reconstruction, "one_sided", None) or {},
-                    {f"speed_{label}": say(_along(impact, label), "speed") for label in "ab"},
+                    {f"speed_{label}": _told(_along(impact, label, scene), say) for label in "ab"},
                 )
             )
             for impact in solutions
@@ -1175,9 +1237,29 @@ def _slid_either_way(
     )
 
 
-def _along(impact: Impact, label: str) -> float:
+def _along(impact: Impact, label: str, scene: Scene) -> float:
     """The speed of a vehicle before, below 0 where it goes backwards along its course."""
-    return float(getattr(impact, label).before.speed)
+    before = getattr(impact, label).before
+    c, s = (scene.numbers[f"course_{label}[{i}]"] for i in range(2))
+    return float(math.copysign(before.speed, c * before.vx + s * before.vy))
+
+
+def _told(speed: float, say: Sentences) -> str:
+    """The size of a speed along a course, and that it is backwards."""
+    return say(abs(speed), "speed") + (" backwards along its course" if speed < 0.0 else "")
+
+
+def _alone(speeds: Sequence[float], say: Sentences) -> str:
+    """The speeds of both vehicles if the contact stuck."""
+    if min(speeds) >= 0.0:
+        one, other = (say(speed, "speed") for speed in speeds)
+        return f"the speed of A is {one} and that of B {other}"
+    return " and ".join(
+        f"{label} would go backwards along its course at {say(-speed, 'speed')}"
+        if speed < 0.0
+        else f"the speed of {label} is {say(speed, 'speed')}"
+        for label, speed in zip("AB", speeds, strict=True)
+    )
 
 
 def _while_tyres_act(

@@ -9,7 +9,9 @@ is taken as exact.
 
 With no speed known, both speeds follow only if the contact stuck. If it slid, the impulse has the
 same direction at every slip above the one at which it would just have stuck: the answers are a
-family that begins there (``_end``), in which each speed rises, falls or stays (``sides``).
+family that begins there (``_end``), in which each speed rises, falls or stays (``sides``). Members
+in which a car goes backwards along its course are none: where its speed rises from below 0, the
+family begins where that car stands.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -48,9 +50,12 @@ CONTRADICTION = 3.0 * ACCURACY
 # so that many differ although all is as it was stated. Where hardly any agrees, it is not.
 _DISAGREE = 0.95
 # A ratio up to this share of the friction is clearly below it: the contact stuck.
-_CLEARLY_BELOW = 0.5
+CLEARLY_BELOW = 0.5
 # Between vehicles a contact may slide from this ratio on.
 MAY_SLIDE = INTER_VEHICLE_FRICTION.low
+# Speeds of a contact that stuck and of one that slid that differ by no more, of the closing speed,
+# are one answer.
+_ONE_ANSWER = 1e-3
 # Relative size below which the effect of a speed is rounding.
 _NO_EFFECT = 1e-12
 # The same of a change of slip on one speed beside the other.
@@ -81,8 +86,10 @@ class ComponentScene(Scene):
         slid: str | None = None,
         most: float = CONTRADICTION,
         direction: float | None = None,
+        forward_only: bool = False,
     ) -> None:
         super().__init__(given, rule, law, names, shape)
+        self.forward_only = forward_only
         # That of the slip which is tried, by the sign of its impulse ratio; None for both.
         self._direction = direction
         # What known values may differ by.
@@ -101,11 +108,17 @@ class ComponentScene(Scene):
         # Where a contact that slid leaves the slip open, as with no speed known, or fits too.
         self.energy = self.targets.get("energy_loss")
         self.leaves_slip: Any = len(self.unknown) > 1 and self.energy is None
+        # With a known speed: to which side of the answer each speed lies if the contact slid.
+        self.toward: tuple[Any, Any] = (math.nan, math.nan)
         self.answer: tuple[Any, Any] = (math.nan, math.nan)
         # Where a bound was asked for and sliding fits either way, so that it has no side.
         self.both_ways: Any = np.zeros((), dtype=bool)
+        # Where a contact that sticks fits.
+        self.sticks: Any = np.zeros((), dtype=bool)
         # Where the friction is the ratio that the components show.
         self.shows_friction: Any = np.zeros((), dtype=bool)
+        # The friction of a contact that may have stuck, where going forwards it must have slid.
+        self.slid_at: Any = np.full((), np.nan)
         # Which way the truth may lie from each speed, where it may be another member of the family.
         self.sides: tuple[Any, Any] | None = None
         # The misfit of a contact that leaves the slip open.
@@ -153,32 +166,24 @@ class ComponentScene(Scene):
         regimes = self._stated_regimes()
         tried, edges = [*map(self._solved, regimes)], self._edges()
         open_slip = np.fmin.reduce(np.broadcast_arrays(*(left for *_, left in tried + edges)))
-        sticks = self._sticks(regimes, tried)
+        sticks, backwards = self._sticks(regimes, tried), np.zeros((), dtype=bool)
         if self.energy is not None:
             sliding = [self._end(regime) for regime in regimes if not isinstance(regime, str)]
             tried = [self._losing(*one) for one in tried] + sliding
             open_slip = np.full((), np.inf)
         elif self.slid:
-            ends = [self._end(regime) for regime in regimes if not isinstance(regime, str)]
-            ends = [(root, np.where(sticks, np.inf, misfit), left) for root, misfit, left in ends]
-            if len(ends) > 1:
-                self.both_ways = np.logical_and(*(misfit <= ACCURACY for _, misfit, _ in ends))
-                if np.any(self.shows_friction):
-                    one = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
-                    shown = one & self.slides_both_ways()
-                    self.both_ways = np.where(self.shows_friction, shown, self.both_ways)
-            if ends:
-                self.ended = np.isfinite(np.minimum.reduce([misfit for _, misfit, _ in ends]))
-            edges = [
-                (root, np.where(self.ended, np.inf, misfit), left) for root, misfit, left in edges
-            ]
-            tried += ends
+            tried, edges, sticks, backwards = self._bounded(
+                regimes, tried, edges, sticks, open_slip <= ACCURACY
+            )
+        self.sticks = sticks
         found, misfits, _ = zip(*tried, *edges, strict=True)
         self.misfit = np.minimum.reduce(np.broadcast_arrays(*misfits))
         none = np.isinf(self.misfit)
         self.left_open = open_slip
         self.undetermined = none & (open_slip <= self.most)
-        if not self.slid:
+        if self.slid:
+            self.undetermined = self.undetermined | (none & backwards)
+        else:
             self.undetermined = self.undetermined | (open_slip <= REDUNDANT)
         best = [misfit <= np.maximum(ROOT_TOL, self.misfit) for misfit in misfits]
         if self.rule == FRICTION:
@@ -197,6 +202,8 @@ class ComponentScene(Scene):
             return regimes
         if self._direction is not None:
             del regimes[1 if self._direction > 0.0 else 0]
+            if np.all(np.isfinite(self.bound)):
+                regimes.remove(STICK)
         if self.stated is not None:
             return [one for one in regimes if (one is STICK) == (self.stated == "sticking")]
         # Without a ratio to slide at, nothing slides.
@@ -207,11 +214,90 @@ class ComponentScene(Scene):
         of = [misfit for one, (_, misfit, _) in zip(regimes, tried, strict=False) if one is STICK]
         return np.isfinite(of[0]) if of else np.zeros((), dtype=bool)
 
-    def _weigh(self, sticks: Any, near: Any, found: Sequence[Root], best: Sequence[Any]) -> None:
-        """Find where the contact may as well have slid, and to which side each speed then lies.
+    def _bounded(
+        self,
+        regimes: Sequence[Any],
+        tried: list[tuple[Root, Any, Any]],
+        edges: list[tuple[Root, Any, Any]],
+        sticks: Any,
+        near: Any,
+    ) -> tuple[list[tuple[Root, Any, Any]], list[tuple[Root, Any, Any]], Any, Any]:
+        """What was tried and the ends of families of contacts that slid, the edges beside them,
+        where sticking fits, and where it does but for a car that goes backwards.
+        """
+        ends = [self._end(regime) for regime in regimes if not isinstance(regime, str)]
+        ends = [(root, np.where(sticks, np.inf, misfit), left) for root, misfit, left in ends]
+        if len(ends) > 1:
+            self.both_ways = np.logical_and(*(misfit <= ACCURACY for _, misfit, _ in ends))
+            if np.any(self.shows_friction):
+                one = np.isfinite(np.minimum(*(misfit for _, misfit, _ in ends)))
+                shown = one & self.slides_both_ways()
+                self.both_ways = np.where(self.shows_friction, shown, self.both_ways)
+        if self._direction is None and np.any(sticks & near):
+            # At the friction, and so not at the ratio of a contact that stuck.
+            self.both_ways = self.both_ways | (sticks & near & self.slides_both_ways())
+        ratio = self._slid_forwards(regimes, tried, sticks & ~self.both_ways, near)
+        backwards = np.isfinite(ratio)
+        if np.any(backwards):
+            end = self._end(ratio)
+            there = np.isfinite(end[1])
+            self.slid_at = np.where(there, abs(ratio), np.nan)
+            self.bound = np.where(there, abs(ratio), self.bound)
+            if self._direction is None:
+                self.both_ways = np.where(there, self.slides_both_ways(), self.both_ways)
+            sticks = sticks & np.logical_not(backwards)
+            tried = [
+                (root, np.where(backwards, np.inf, misfit), left) for root, misfit, left in tried
+            ]
+            ends.append(end)
+        if ends:
+            self.ended = np.isfinite(np.minimum.reduce([misfit for _, misfit, _ in ends]))
+        edges = [(root, np.where(self.ended, np.inf, misfit), left) for root, misfit, left in edges]
+        return tried + ends, edges, sticks, backwards
+
+    def _slid_forwards(
+        self,
+        regimes: Sequence[Any],
+        tried: Sequence[tuple[Root, Any, Any]],
+        sticks: Any,
+        near: Any,
+    ) -> Any:
+        """The ratio of a contact that may have stuck, where a car goes backwards unless it slid;
+        elsewhere NaN.
+        """
+        if not np.any(sticks):
+            return np.full((), np.nan)
+        (stuck,) = (one for regime, one in zip(regimes, tried, strict=True) if regime is STICK)
+        speeds = stuck[0][:2]
+        seen = self.observe(STICK, *speeds)
+        ratio = seen.tangential / seen.normal
+        open_ = sticks & np.logical_not(self._decided(abs(ratio), near))
+        rising = [
+            (side > 0.0) & (speed < 0.0)
+            for side, speed in zip(self._ways(ratio), speeds, strict=True)
+        ]
+        if self._direction is not None:
+            ratio = np.copysign(ratio, self._direction)
+        return np.where(open_ & (rising[0] | rising[1]), ratio, np.nan)
+
+    def _decided(self, size: Any, near: Any) -> Any:
+        """Whether a contact that sticks at a ratio of this size did not slide, or slid with the
+        same speeds.
 
         A ratio that is within the accuracy of recorders ``near`` to the friction is not below it.
         """
+        if len(self.unknown) == 1:
+            self.leaves_slip = self.leaves_slip | self._slip_stays_open()
+        bound = np.where(np.isinf(self.bound), MAY_SLIDE, self.bound)
+        below = (size <= CLEARLY_BELOW * bound) & np.logical_not(near)
+        decided = below | np.logical_not(self.leaves_slip)
+        if self.slid:
+            # Asked for a bound, what friction can decide is not enough where contacts slide.
+            decided = decided & ((size < MAY_SLIDE) | np.logical_not(self.leaves_slip))
+        return decided
+
+    def _weigh(self, sticks: Any, near: Any, found: Sequence[Root], best: Sequence[Any]) -> None:
+        """Find where the contact may as well have slid, and to which side each speed then lies."""
         here = [at & (root.closing > 0.0) for at, root in zip(best, found, strict=True)]
         one, other = (
             sum(np.where(at, part, 0.0) for at, part in zip(here, parts, strict=True))
@@ -220,22 +306,26 @@ class ComponentScene(Scene):
         )
         self.answer = one, other
         stuck = self.observe(STICK, one, other)
-        self.ratio = stuck.tangential / stuck.normal
-        if len(self.unknown) == 1:
-            self.leaves_slip = self.leaves_slip | self._slip_stays_open()
+        # One that slides has no more than the friction.
+        self.ratio = np.clip(stuck.tangential / stuck.normal, -self.bound, self.bound)
         size = abs(self.ratio)
-        bound = np.where(np.isinf(self.bound), MAY_SLIDE, self.bound)
-        below = (size <= _CLEARLY_BELOW * bound) & np.logical_not(near)
-        decided = below | np.logical_not(self.leaves_slip)
-        if self.slid:
-            # Asked for a bound, what friction can decide is not enough where contacts slide.
-            decided = decided & ((size < MAY_SLIDE) | np.logical_not(self.leaves_slip))
-        elif self.stated is None:
+        decided = self._decided(size, near)
+        if not self.slid and self.stated is None:
             self.ambiguous = sticks & ~self.undetermined & ~decided
+            if self.forward_only and self.most < math.inf:
+                # Of those that go forwards, only contacts that slid.
+                least = -ROOT_TOL * stuck.closing
+                back = self.ambiguous & (np.minimum(one, other) < least)
+                ahead = np.minimum(*self.forwards(self.ratio, self.answer)) >= least
+                self.undetermined = self.undetermined | (back & ahead)
+                self.ambiguous = self.ambiguous & ~back
         told = (self.stated is not None) | decided
         self.may_slide = sticks & (size >= MAY_SLIDE) & told & self.leaves_slip
         if self.slid:
-            first, second = self._ways(self.ratio)
+            first, second = (
+                np.where(np.isnan(side), way, side)
+                for side, way in zip(self.toward, self._ways(self.ratio), strict=True)
+            )
             known = (sticks & decided) | np.logical_not(self.leaves_slip)
             self.sides = np.where(known, 0.0, first), np.where(known, 0.0, second)
 
@@ -266,17 +356,37 @@ class ComponentScene(Scene):
         speeds = self._solved(smooth)[0][:2]
         return self._misfit(self.observe(smooth, *speeds)) <= ACCURACY
 
-    def if_slid(self) -> tuple[Any, Any]:
-        """To which side of the answer each speed lies if the contact slid at the ratio of the
-        answer: 1 above, -1 below, 0 where it stays.
+    def if_slid(self, speeds: Sequence[Any]) -> tuple[Sequence[Any], tuple[Any, Any]]:
+        """The end of the family if the contact slid at the ratio of the answer, which has these
+        speeds, and to which side of it each speed lies: 1 above, -1 below, 0 where it stays.
         """
-        return self._ways(self.ratio)
+        return self.forwards(self.ratio, speeds), self._ways(self.ratio)
+
+    def forwards(self, ratio: Any, speeds: Sequence[Any]) -> tuple[Any, Any]:
+        """Of the family of contacts that slid at this ratio and begins at these speeds, the first
+        member in which no car goes backwards whose speed rises.
+        """
+        moved, way = self._along_the_family(ratio)
+        short = [
+            np.where((speed < 0.0) & (side > 0.0), -speed / abs(by_slip), 0.0)
+            for speed, side, by_slip in zip(speeds, self._ways(ratio), moved, strict=True)
+        ]
+        slip = np.maximum(*short)
+        first, second = (
+            np.where(slip > 0.0, np.where(own == slip, 0.0, speed + way * by_slip * slip), speed)
+            for own, speed, by_slip in zip(short, speeds, moved, strict=True)
+        )
+        return first, second
+
+    def _along_the_family(self, ratio: Any) -> tuple[list[Any], Any]:
+        """What both speeds change by with the slip, and the sign of the slip along the family."""
+        here, ahead = map(self._one_slip, (0.0, 1.0))
+        grows = self._beyond(ratio, ahead) - self._beyond(ratio, here)
+        return [b - a for a, b in zip(here, ahead, strict=True)], np.sign(ratio * grows)
 
     def _ways(self, ratio: Any) -> tuple[Any, Any]:
-        here, ahead = map(self._one_slip, (0.0, 1.0))
-        moved = [after - before for before, after in zip(here, ahead, strict=True)]
-        grows = self._beyond(ratio, ahead) - self._beyond(ratio, here)
-        way = np.sign(ratio * grows)
+        """Which way each speed goes along the family."""
+        moved, way = self._along_the_family(ratio)
         least = _STAYS * np.maximum(*map(abs, moved))
         least = [least if at in self.unknown else np.inf for at in range(2)]
         first, second = (
@@ -291,8 +401,8 @@ class ComponentScene(Scene):
         return stuck.tangential - ratio * stuck.normal
 
     def _end(self, ratio: Any) -> tuple[Root, Any, Any]:
-        """The end of the family of contacts that slid at this ratio: where sticking just takes it;
-        or, with an energy known, the member that loses it.
+        """The end of the family of contacts that slid at this ratio: where sticking just takes it,
+        or from where on both cars go forwards; or, with an energy known, the member that loses it.
 
         The components give the closing speed, and the end is the slip at which both regimes give
         the same impulse. From there on the loss grows linearly with the slip.
@@ -313,6 +423,8 @@ class ComponentScene(Scene):
             within = (self.energy - loss) / (more - loss)
             slip, by_energy = slip + way * within, abs(way * self.energy / (more - loss))
         speeds = self.speeds_at(closing, slip)
+        if within is None:
+            speeds = self.forwards(ratio, speeds)
         _, effects, inverse, _ = self._linear_in(STICK)
         momenta = self._seen_momenta(self.observe(ratio, *speeds))
         moved = self._moved(inverse, effects, momenta)
@@ -564,6 +676,17 @@ class ComponentScene(Scene):
             warn_of_cases(warning, {sentence: cases.each(near)})
 
 
+class Shown(NamedTuple):
+    """What components show of a contact: the friction in place of an infinite one, None where none
+    is used; where a contact that slid fits as well as one that stuck, with other speeds; and to
+    which side of those of the one that stuck each of those lies, NaN where that is not so.
+    """
+
+    friction: Any = None
+    fits_both: Any = False
+    toward: tuple[Any, Any] = (math.nan, math.nan)
+
+
 def friction_shown(
     kind: Callable[..., ComponentScene],
     given: dict[str, Any],
@@ -571,10 +694,9 @@ def friction_shown(
     names: tuple[str, ...],
     shape: tuple[int, ...],
     regime: str | None,
-) -> tuple[Any, Any]:
+) -> Shown:
     """The friction with the ratio that the components show in place of an infinite one, where the
-    contact slid; None if it did nowhere. And where a contact that slid fits as well as one that
-    stuck, with other speeds.
+    contact slid, and where a contact that slid fits as well as one that stuck.
 
     It slid where the caller stated that, where a known speed goes with a contact that slid and
     differs by more than recorders may from one that stuck, or where more energy was lost than
@@ -585,23 +707,25 @@ def friction_shown(
     components = tuple(name for name in names if name.startswith("delta_v"))
     settles = speeds or len(components) < len(names)
     if regime == "sticking" or len(components) < 2 or not (settles or regime):
-        return None, False
+        return Shown()
     shown = abs(kind(given, FRICTION, law, components, shape).shown_ratio())
     usable = np.isinf(friction) & np.isfinite(shown)
     ratio = np.where(usable, shown, friction)
     if regime == "sliding":
-        return ratio, False
+        return Shown(ratio)
     stuck = kind(given, FRICTION, law, names, shape)
     if not speeds:
-        return np.where(usable & stuck.loses_more(), shown, friction), False
+        return Shown(np.where(usable & stuck.loses_more(), shown, friction))
     slid = kind({**given, FRICTION: ratio}, FRICTION, law, names, shape, False, "sliding")
     closing = sum(np.nan_to_num(root.closing) for root in stuck.roots())
     one, other, *_ = slid.roots()
     slides = usable & ((one.closing > 0.0) | (other.closing > 0.0)) & (slid.misfit < stuck.misfit)
     settled = slides & (stuck.misfit > ACCURACY) & ~np.asarray(given.get(EITHER, 0.0) > 0.0)
-    apart = sum(abs(a - b) for a, b in zip(stuck.answer, slid.answer, strict=True))
-    open_ = usable & slid.undetermined | slides & (apart > ACCURACY * closing)
-    return (np.where(settled, shown, friction) if np.any(settled) else None), open_ & ~settled
+    moves = [b - a for a, b in zip(stuck.answer, slid.answer, strict=True)]
+    differs = slides & (sum(map(abs, moves)) > _ONE_ANSWER * closing)
+    open_ = (usable & slid.undetermined | differs) & ~settled
+    toward = tuple(np.where(differs & ~settled, np.sign(move), np.nan) for move in moves)
+    return Shown(np.where(settled, shown, friction) if np.any(settled) else None, open_, toward)
 
 
 def by_way(way: Any, values: Sequence[Any]) -> Any:
@@ -626,14 +750,18 @@ def together(scenes: Sequence[ComponentScene], answered: Sequence[Any]) -> Compo
     whole = copy(scenes[at])
     whole.ways = list(scenes)
     whole.misfit = np.where(none, np.min(misfits, axis=0), least)
-    whole.undetermined = np.logical_or.reduce(
+    slides = np.logical_or.reduce(
         np.broadcast_arrays(
             *(one.undetermined & (none | (one.left_open <= ACCURACY)) for one in scenes)
         )
     )
-    whole.ambiguous = np.logical_or.reduce(
-        [one.ambiguous & here & ~none for one, here in zip(scenes, best, strict=True)]
-    )
+    whole.undetermined = slides & none
+    # A contact that slid fits beside one that stuck.
+    for at, (one, here) in enumerate(zip(scenes, best, strict=True)):
+        whole.ways[at] = copy(one)
+        whole.ways[at].ambiguous = (one.ambiguous | (slides & one.sticks)) & here & ~none
+    whole.ambiguous = np.logical_or.reduce([one.ambiguous for one in whole.ways])
+    whole.undetermined = whole.undetermined | (slides & ~whole.ambiguous)
     whole.both_ways = np.logical_or.reduce(
         [one.both_ways & here & ~none for one, here in zip(scenes, best, strict=True)]
     )

@@ -27,15 +27,19 @@ from ..quantities.directions import from_radians
 from ..vehicle.vehicle import moved
 from .common import Cases
 from .lasting import misses_of_impacts, settle, slopes_at
-from .speeds_algebra import EITHER, HELD, Root, Scene
+from .speeds_algebra import EITHER, HELD, ROOT_TOL, Root, Scene
 from .speeds_components import ComponentScene, by_way
 
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
 # it has not settled; and how often it is worked out. Nearly all cases need fewer than 20.
 _SAME, _STEADY, _ROUNDS = 1e-12, 1e-9, 64
+# From when on only half of each change is made: tyres may turn back and forth with the speeds.
+_HALVED = 20
 # How often a contact may turn from stuck to slid or back before it counts as either: the tyres of
 # the instant, which has none, may turn it once and their correction back.
 _TURNS = 2
+# Of the impulse of the tyres and of the speeds: what comes as near as that to a root leads to it.
+_LEADS_TO = 0.03
 # How often the directions are taken anew in which more components than are needed are met.
 _TURNED = 3
 # Of the speeds: answers that differ by no more are one.
@@ -64,13 +68,15 @@ class Found(NamedTuple):
 
 class Attempt(NamedTuple):
     """A scene with what acts in it, its roots and where each is, the inputs with the friction that
-    was used, and the frictions by the way of a root, where they differ.
+    was used, the frictions by the way of a root, where they differ, and whether the components
+    showed one.
     """
 
     scene: Scene
     found: list[tuple[Root, Any]]
     inputs: Inputs
     frictions: Sequence[Any] = ()
+    shows: bool = False
 
     def inputs_of(self, root: Root) -> Inputs:
         """The inputs with the friction of a root."""
@@ -95,58 +101,113 @@ def in_balance(
     instant = attempt({}, math.inf)
     results: list[Attempt] = []
     kept: list[_Kept] = []
-    ambiguous: Any = False
+    doubts: list[tuple[Attempt, Any]] = []
     for begun in (instant, attempt(_forwards(instant, numbers, cases), math.inf)):
+        before = list(kept)
         for slot in range(max(len(begun.found), 1)):
-            held, settled, at = _settled(attempt, begun, slot, numbers, cases)
+            held, settled, at = _settled(attempt, begun, slot, numbers, cases, before)
+            if before and not np.any(settled):
+                continue
             last = attempt(held)
-            ambiguous = ambiguous | (last.scene.ambiguous & (settled | (not results)))
             results.append(last)
+            if np.any(doubt := last.scene.ambiguous & settled):
+                doubts.append((last, doubt))
             if not last.found:
                 continue
             root, there = _followed(last, at)
-            there = there & settled
             size = np.hypot(root.speed_a, root.speed_b)
-            for earlier, before, _ in kept:
-                apart = abs(earlier.speed_a - root.speed_a) + abs(earlier.speed_b - root.speed_b)
-                there = there & ~(before & (apart <= _ONE_ANSWER * size))
+            # Where known values differ by more than they may, the next root is another.
+            same = abs(root.speed_a - at[0]) + abs(root.speed_b - at[1]) <= _LEADS_TO * size
+            there = there & settled & same
+            for earlier in kept:
+                there = there & ~(
+                    earlier.there & (_apart(earlier.root, root) <= _ONE_ANSWER * size)
+                )
             if np.any(there):
-                kept.append(_Kept(root, there, last))
-    if not kept:
-        return results[0]._replace(found=[])
-    if len(kept) == 1 and not kept[0].of.frictions:
-        return kept[0].of._replace(found=[(kept[0].root, kept[0].there)])
-    return _as_one(kept, ambiguous)
+                kept.append(_Kept(root, there, last, held))
+    kept, doubts = _best(kept, doubts)
+    first = results[0]
+    if not kept and all(one is first for one, _ in doubts):
+        return first._replace(found=[])
+    if len(kept) == 1 and kept[0].of is first and not first.frictions and not doubts:
+        return first._replace(found=[(kept[0].root, kept[0].there)])
+    return _as_one(first, kept, doubts)
 
 
 class _Kept(NamedTuple):
-    """A root in balance, where it is, and of which attempt it is."""
+    """A root in balance, where it is, of which attempt it is, and with what impulses of tyres."""
 
     root: Root
     there: Any
     of: Attempt
+    held: Mapping[str, Any]
 
 
-def _as_one(kept: Sequence[_Kept], ambiguous: Any) -> Attempt:
-    """One attempt with several roots, each of an attempt of its own."""
-    first = kept[0].of
+def _best(
+    kept: Sequence[_Kept], doubts: Sequence[tuple[Attempt, Any]]
+) -> tuple[list[_Kept], list[tuple[Attempt, Any]]]:
+    """Those that meet the known values exactly, or else the one that fits best."""
+    misfits = [np.where(one.there, _misfit(one.of, one.root.way), np.inf) for one in kept]
+    misfits += [np.where(there, _misfit(one), np.inf) for one, there in doubts]
+    if len(misfits) < 2:
+        return list(kept), list(doubts)
+    most = np.maximum(np.minimum.reduce(misfits), ROOT_TOL)
+    best = [misfit <= most for misfit in misfits]
+    return (
+        [
+            one._replace(there=one.there & here)
+            for one, here in zip(kept, best, strict=False)
+            if np.any(one.there & here)
+        ],
+        [
+            (one, there & here)
+            for (one, there), here in zip(doubts, best[len(kept) :], strict=True)
+            if np.any(there & here)
+        ],
+    )
+
+
+def _misfit(one: Attempt, way: Any = 0.0) -> Any:
+    """By how much of the impulse a root misses what is known."""
+    return one.scene.of_way(way).misfit if isinstance(one.scene, ComponentScene) else 0.0
+
+
+def _apart(one: Root, other: Root) -> Any:
+    """What the speeds of two roots differ by."""
+    return abs(one.speed_a - other.speed_a) + abs(one.speed_b - other.speed_b)
+
+
+def _as_one(
+    first: Attempt, kept: Sequence[_Kept], doubts: Sequence[tuple[Attempt, Any]]
+) -> Attempt:
+    """One attempt with several roots, each of an attempt of its own; where none is, it is that of
+    the ``first``. In ``doubts`` are those in which the contact may have stuck or slid, and where.
+    """
     scene = copy(first.scene)
     roots = [
         (one.root._replace(way=np.full(np.shape(one.there), float(i))), one.there)
         for i, one in enumerate(kept)
     ]
     if isinstance(scene, ComponentScene):
-        scene.ways = [
-            one.of.scene.of_way(one.root.way)
-            for one in kept
-            if isinstance(one.of.scene, ComponentScene)
-        ]
-        answered = np.stack(np.broadcast_arrays(*(one.there for one in kept)))
-        scene.misfit = by_way(np.argmax(answered, axis=0), [one.misfit for one in scene.ways])
-        scene.undetermined = scene.undetermined & ~np.any(answered, axis=0)
-        scene.ambiguous = ambiguous
+        ways = [(one.of, one.root.way, one.there, False) for one in kept]
+        ways += [(one, 0.0, there, True) for one, there in doubts]
+        scene.ways = []
+        for one, way, there, doubt in ways:
+            assert isinstance(one.scene, ComponentScene)
+            own = copy(one.scene.of_way(way))
+            own.ambiguous = np.logical_and(there, doubt)
+            scene.ways.append(own)
+        theres = np.stack(np.broadcast_arrays(*(there for _, _, there, _ in ways)))
+        answered = np.any(theres, axis=0)
+        misfit = by_way(np.argmax(theres, axis=0), [one.misfit for one in scene.ways])
+        scene.misfit = np.where(answered, misfit, scene.misfit)
+        scene.undetermined = scene.undetermined & ~answered
+        in_doubt = np.logical_or.reduce([one.ambiguous for one in scene.ways])
+        scene.ambiguous = in_doubt | (scene.ambiguous & ~answered)
     frictions = [one.of.inputs_of(one.root).rule_value for one in kept]
-    return Attempt(scene, roots, first.inputs, frictions)
+    frictions += [one.inputs.rule_value for one, _ in doubts]
+    shows = next((one.of for one in kept if one.of.shows), first)
+    return Attempt(scene, roots, shows.inputs, frictions, shows.shows)
 
 
 def _forwards(now: Attempt, numbers: Mapping[str, Any], cases: Cases) -> dict[str, Any]:
@@ -169,12 +230,14 @@ def _settled(
     slot: int,
     numbers: Mapping[str, Any],
     cases: Cases,
+    kept: Sequence[_Kept] = (),
 ) -> tuple[dict[str, Any], Any, tuple[Any, Any]]:
     """The impulses of the tyres that lead to the speeds from which they follow, where there are
     some, and those speeds.
 
-    A case that has settled stays, so that it comes out of a batch as alone. One in which a contact
-    that stuck and one that slid lead to each other is ``EITHER`` from then on.
+    What leads to a root that was ``kept`` is not followed. A case that has settled stays, so that
+    it comes out of a batch as alone. One in which a contact that stuck and one that slid lead to
+    each other is ``EITHER`` from then on.
     """
     shape = cases.shape or ()
     held = {name: np.zeros(shape) for name in (*HELD, EITHER)}
@@ -184,7 +247,7 @@ def _settled(
     at = tuple(np.where(now.found[slot][1], speed, np.nan) for speed in now.found[slot][0][:2])
     slid, turns = _shows_slip(now, at, shape), np.zeros(shape)
     moving, settled = np.ones(shape, dtype=bool), np.zeros(shape, dtype=bool)
-    for _ in range(_ROUNDS):
+    for number in range(_ROUNDS):
         if not now.found:
             break
         root, there = _followed(now, at)
@@ -192,11 +255,17 @@ def _settled(
             np.where(moving & there, speed, was) for speed, was in zip(root[:2], at, strict=True)
         )
         new = _pushes(now, root, there, numbers, cases)
-        parts = [(held[name], new[name]) for name in HELD if not name.endswith("moment")]
-        size = np.sqrt(sum(part * part for _, part in parts))
-        change = np.sqrt(sum((part - was) ** 2 for was, part in parts))
+        size, change = _size(new), _differ(new, held)
         moving = moving & np.isfinite(change)
-        held |= {name: np.where(moving, new[name], held[name]) for name in HELD}
+        for one in kept:
+            near = _apart(one.root, root) <= _LEADS_TO * np.hypot(root.speed_a, root.speed_b)
+            near = near & (_differ(new, one.held) <= _LEADS_TO * size)
+            moving = moving & ~(one.there & near)
+        share = 1.0 if number < _HALVED else 0.5
+        held |= {
+            name: np.where(moving, held[name] + share * (new[name] - held[name]), held[name])
+            for name in HELD
+        }
         settled = settled | (moving & (change <= _STEADY * size))
         moving = moving & (change > _SAME * size)
         if not np.any(moving):
@@ -206,6 +275,16 @@ def _settled(
         turns = turns + (moving & (slid != before))
         held[EITHER] = np.where(turns > _TURNS, 1.0, held[EITHER])
     return _plain(held, shape), settled, (at[0], at[1])
+
+
+def _size(held: Mapping[str, Any]) -> Any:
+    """The size of the impulses of tyres."""
+    return np.sqrt(sum(held[name] ** 2 for name in HELD if not name.endswith("moment")))
+
+
+def _differ(one: Mapping[str, Any], other: Mapping[str, Any]) -> Any:
+    """The size of what impulses of tyres differ by."""
+    return _size({name: one[name] - other[name] for name in HELD})
 
 
 def _plain(held: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
