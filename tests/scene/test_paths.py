@@ -298,9 +298,15 @@ def test_the_speed_of_what_stands_says_how_to_build_it() -> None:
 @pytest.mark.parametrize(
     ("path", "instead"),
     [
-        ("Explorer.delta_v", "write 'impacts[0].a.delta_v'"),
-        ("Jetta.after.speed", "write 'impacts[0].b.after.speed'"),
-        ("Jetta.delta_v_right", "write 'impacts[0].b.delta_v_left' with the opposite sign"),
+        ("Explorer.delta_v", "write 'contacts[0].impact.Explorer.delta_v'"),
+        ("Jetta.after.speed", "write 'contacts[0].impact.Jetta.after.speed'"),
+        ("Jetta.delta_v_right", "write 'contacts[0].impact.Jetta.delta_v_left' with the opposite"),
+        ("contacts[0].b.delta_v", "write 'contacts[0].impact.Jetta.delta_v'"),
+        ("contacts[0].Jetta.delta_v", "write 'contacts[0].impact.Jetta.delta_v'"),
+        ("contacts[0].impact.b.delta_v", "write 'contacts[0].impact.Jetta.delta_v'"),
+        ("impacts[0].Jetta.delta_v", "write 'contacts[0].impact.Jetta.delta_v'"),
+        ("contacts[0].energy_loss", "write 'contacts[0].impact.energy_loss'"),
+        ("Jetta.ees", "write 'contacts[0].impact.Jetta.ees(0.5)', with the share"),
         ("impacts[0].a.delta_v_right", "write 'impacts[0].a.delta_v_left' with the opposite sign"),
     ],
 )

@@ -20,8 +20,8 @@ from ..plot.canvas import INK, Axes, Units
 from ..quantities.formatting import UnitSystem
 from ..quantities.units import shown
 from ..reconstruct import Fit, Posterior
-from ..scene.names import results_of, unit_of_result
 from ..scene.one_run import need_one_run
+from ..scene.results import results_of, unit_of_result
 from ..scene.run import Run
 from ..uncertainty.distributions import Normal
 from .scene_words import input_in_words, result_in_words

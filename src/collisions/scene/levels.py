@@ -15,8 +15,8 @@ from ..kernels.contact_laws import BRACH, FRICTION
 from ..quantities.attributes import same_fields
 from ..vehicle.drag import GRAVITY, USUAL_DURATION, gravity_on
 from .contact import IN_TIME, Contact
+from .model import as_function
 from .mover import Mover
-from .names import as_function
 from .run import Run
 from .scene import Scene
 
@@ -81,7 +81,7 @@ class Level:
         -------
         function
         """
-        return as_function(self.given, names, outputs, tolerance, self._of)
+        return self._function(names, outputs, tolerance)
 
     def results(self) -> dict[str, str]:
         """The paths of its results, with their units.
@@ -91,6 +91,15 @@ class Level:
         dict of str
         """
         return self.given.results()
+
+    def _function(
+        self,
+        names: Sequence[str],
+        outputs: Sequence[str],
+        tolerance: float,
+        argument: str = "outputs",
+    ) -> Callable[..., dict[str, Any]]:
+        return as_function(self.given, names, outputs, tolerance, self._of, argument)
 
     def _of(self, scene: Scene) -> Scene:
         return _made(scene, self.contacts, self.motion, self.drags)

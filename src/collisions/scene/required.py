@@ -23,7 +23,8 @@ from ..uncertainty.designs import latin_hypercube
 from ..uncertainty.distributions import Distribution
 from ..uncertainty.sampling import Joint
 from .levels import Level, levels_of
-from .names import inputs_of, no_path, unit_of_result
+from .names import units_of
+from .results import unit_of_result
 from .scene import Scene
 
 DRAWS = 32
@@ -189,10 +190,10 @@ def required(
     answers, seconds, in_batch = [], [], []
     said: list[list[Noted]] = []
     for level in levels:
-        one = level.as_model([], list(units), tolerance=tolerance)
+        one = level._function([], list(units), tolerance, "tolerances")
         seconds.append(min(_time(one, [])[1] for _ in range(_TIMED)))
         said.append([])
-        model = level.as_model(list(values), list(units), tolerance=tolerance)
+        model = level._function(list(values), list(units), tolerance, "tolerances")
         found, spent = _time(model, said[-1], **values)
         in_batch.append(spent / count if joint is not None else math.nan)
         answers.append(
@@ -305,7 +306,6 @@ def _read_tolerances(scene: Scene, given: Any) -> tuple[dict[str, float], dict[s
 
 
 def _read_unknowns(scene: Scene, given: Any) -> dict[str, Distribution]:
-    known = inputs_of(scene)
     good = isinstance(given, Mapping) and bool(given)
     if not good or not all(isinstance(one, Distribution) for one in given.values()):
         raise InputError(
@@ -314,9 +314,8 @@ def _read_unknowns(scene: Scene, given: Any) -> dict[str, Distribution]:
             code="bad_inputs",
             argument="unknowns",
         )
+    known = units_of(scene, list(given), "unknowns")
     for path, one in given.items():
-        if path not in known:
-            raise no_path(path, known, "unknowns")
         if one.unit not in ("", known[path]):
             raise UnitsError(
                 f"unknowns[{path!r}] is in {one.unit}, and {path} is in {known[path] or 'no unit'}",
