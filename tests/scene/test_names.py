@@ -212,7 +212,9 @@ def test_cases_of_a_batch_go_in_orders_of_their_own() -> None:
     assert run.status.tolist() == ["ok"] * 4 + ["contact_missing"]
     with pytest.raises(col.InputError, match="in another order in some cases"):
         len(run.impacts)
-    with pytest.warns(col.CollisionsWarning, match="of other contacts.* than in most cases") as said:
+    with pytest.warns(
+        col.CollisionsWarning, match="of other contacts.* than in most cases"
+    ) as said:
         columns = run.to_columns()
     assert said[0].message.code == "several_orders"
     for i in range(4):

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from ..engine.blocks import in_order
-from ..messages.errors import InputError, NoSolutionError
+from ..messages.errors import CollisionsWarning, InputError, NoSolutionError
 from ..messages.hints import hinted
 from ..messages.marked import as_code, type_of
 from ..messages.progress import reporter
-from ..messages.warning import notes_of_samples, warn_of
+from ..messages.warning import ONE_ORDER, Note, notes_of_samples, warn_of
 from ..quantities.attributes import read_only
 from ..uncertainty.distributions import Distribution
 from ..uncertainty.finer import FinerModel
@@ -416,6 +416,9 @@ class _Problem:
             for name, column in answers.items()
         }
         notes += tuple(wrap_notes(wraps_of(predicted | unknowns)))
+        refused = float(np.mean([one.refused for one in islands]))
+        if refused:
+            notes = tuple(_ruled_out(note) for note in notes)
         return Posterior(
             priors=dict(self.joint.inputs),
             observed={row.name: row.reading.value for row in self.rows},
@@ -429,7 +432,7 @@ class _Problem:
                 float(np.min(squares)) - _best_above_least(len(self.joint.inputs), len(scores)),
                 sum(row.reading.sigma > 0.0 for row in self.rows),
             ),
-            refused=float(np.mean([one.refused for one in islands])),
+            refused=refused,
             moved=min(one.moved for one in islands),
             samples=len(scores),
             seed=seed,
@@ -438,6 +441,11 @@ class _Problem:
             beyond=float(np.mean([one.beyond for one in islands])),
             model_notes=notes,
         )
+
+
+def _ruled_out(note: Note) -> Note:
+    """A note, as a warning if it says that evidence rules out what comes in another order."""
+    return note._replace(warning=CollisionsWarning) if note.code == ONE_ORDER else note
 
 
 def _best_above_least(unknowns: int, samples: int) -> float:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..messages.errors import CollisionsError, CollisionsWarning, InputError
-from ..messages.warning import quietly, state_of_study, warn_of_cases
+from ..messages.warning import ONE_ORDER, quietly, state_of_study, warn_of_cases
 from ..quantities.units import shown, to_quantity
 from .marks import answers, of_mark
 from .names import changed_by, replaced, units_of
@@ -78,7 +78,7 @@ def as_function(
                 "stands",
             )
         for statement in order.statements:
-            state_of_study(statement, "order_as_written")
+            state_of_study(statement, ONE_ORDER)
         made = replaced(scene, values)
         run = Run(made if at_level is None else at_level(made), tolerance)
         warn_of_findings(run)

@@ -17,7 +17,7 @@ from ..messages.errors import CollisionsWarning, InputError, NoSolutionError, Ou
 from ..messages.hints import hinted
 from ..messages.marked import type_of
 from ..messages.progress import reporter
-from ..messages.warning import Note, notes_of_samples, warn_of
+from ..messages.warning import NO_ANSWER, Note, notes_of_samples, warn_of
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
 from ..quantities.units import has_unit, rendered, shown
@@ -747,8 +747,11 @@ def _without_answer(output: Output) -> bool:
 
 
 def _said_of_all(model: Model, count: int) -> str:
-    """What the model said of its cases, to follow the message that none has an answer."""
-    said = [note.sentence for note in notes_of_samples(model.noted, count)]
+    """Why cases have no answer, as far as the model said so, to follow the message that none has
+    one; what most are of comes first.
+    """
+    causes = [one for one in model.noted if one.code in NO_ANSWER]
+    said = [note.sentence for note in notes_of_samples(causes, count)]
     return f". It said: {'; '.join(said)}" if said else ""
 
 
