@@ -129,13 +129,13 @@ def unit_of_result(scene: Scene, path: str, argument: str = "outputs") -> str:
     raise no_path(path, results_of(scene), argument, _meant(scene, path))
 
 
-def is_result(scene: Scene, path: str) -> bool:
-    """Whether a path is that of a result."""
+def is_result(scene: Scene, path: str, impacts: int) -> bool:
+    """Whether a path is that of a result, of a run with so many impacts."""
     try:
         unit_of_result(scene, path)
     except (InputError, MissingInputError):
         return False
-    return True
+    return all(number < impacts for number in numbered(scene, [path]))
 
 
 def _unit(asked: OfImpact) -> str:
