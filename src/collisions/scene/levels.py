@@ -5,6 +5,7 @@ time, and with motion by a drag or on wheels.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
@@ -29,6 +30,10 @@ _ORDER = ((INSTANT, DRAG), (FOLLOWED, DRAG), (INSTANT, WHEELS), (WITH_TYRES, WHE
           (FOLLOWED, WHEELS))  # fmt: skip
 # A way [m] that is too short to tell a drag.
 _SHORT = 0.01
+# How finely the motion of a coarser model is followed: places of rest are then off by 1 cm in the
+# median (benchmarks/scene_posterior.py).
+COARSE = 1e-3
+_OF_THE_WAY = re.compile(r"\.rest\.|\.marks\.|^end\b")
 _OF_IMPULSES = ("eccentric", "solve", IN_TIME)
 
 
@@ -83,6 +88,17 @@ class Level:
         """
         return self._function(names, outputs, tolerance)
 
+    def _coarser(
+        self, names: Sequence[str], outputs: Sequence[str]
+    ) -> Callable[..., dict[str, Any]] | None:
+        """The same level with its motion followed coarsely, to be sampled with the level as
+        ``finer``; None where that would save nothing: without wheels, or where no output is of the
+        way to rest.
+        """
+        if self.motion != WHEELS or not any(_OF_THE_WAY.search(path) for path in outputs):
+            return None
+        return self._function(names, outputs, COARSE)
+
     def results(self) -> dict[str, str]:
         """The paths of its results, with their units.
 
@@ -111,8 +127,10 @@ class Level:
         return f"<Level: {self.name}>"
 
 
-def levels_of(scene: Scene, tolerance: float) -> tuple[list[Level], list[str]]:
-    """The levels that a scene has, the finest last, and what they take as given, in sentences."""
+def levels_of(scene: Scene, tolerance: float) -> tuple[list[Level], dict[str, list[Level]]]:
+    """The levels that a scene has, the finest last, and what they take as given, in sentences with
+    the levels that these are of.
+    """
     wheeled = [name for name, mover in scene.movers.items() if mover.tyres is not None]
     followed = [i for i, contact in enumerate(scene.contacts) if _may_last(contact)]
     notes = [
@@ -140,13 +158,16 @@ def levels_of(scene: Scene, tolerance: float) -> tuple[list[Level], list[str]]:
     ]  # fmt: skip
     finest = Level(*wanted[-1], scene, {})
     drags = _drags(finest.scene.run(tolerance=tolerance), wheeled)
+    levels = [Level(contacts, motion, scene, drags) for contacts, motion in wanted]
+    found = dict.fromkeys(notes, levels)
     if wheeled:
         shares = ", ".join(f"{name} {share:.2f}" for name, share in drags.items())
-        notes.append(
+        said = (
             "a drag is the share of the friction that the tyres took on average on the way at the "
             f"stated values: {shares}"
         )
-    return [Level(contacts, motion, scene, drags) for contacts, motion in wanted], notes
+        found[said] = [one for one in levels if one.motion == DRAG]
+    return levels, found
 
 
 def _may_last(contact: Contact) -> bool:

@@ -73,12 +73,13 @@ class Required(Summarized):
         tolerances: Mapping[str, float],
         units: Mapping[str, str],
         draws: tuple[int, int],
-        notes: tuple[str, ...],
+        notes: Mapping[str, Sequence[Level]],
         texts: tuple[Any, ...],
     ) -> None:
         self.costs, self.tolerances, self.units = costs, tolerances, units
         self.draws, self.answered = draws
-        self.notes = notes
+        self.notes = tuple(notes)
+        self._of_levels = notes
         self._given = texts
 
     @property
@@ -109,6 +110,13 @@ class Required(Summarized):
             count = self.draws - self.answered
             found.append(f"{count} of {self.draws} draws have no answer at the finest level")
         return (*found, *self.notes)
+
+    def _notes_of(self, level: Level) -> tuple[str, ...]:
+        """The notes that are of a level or of the finest, against which it is measured."""
+        found = {level.name, self.finest.name}
+        return tuple(
+            note for note, levels in self._of_levels.items() if found & {one.name for one in levels}
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """All figures as strict JSON, in SI.
@@ -223,14 +231,16 @@ def required(
     asked = 0 if joint is None else count
     answered = 0 if joint is None else int(good.sum())
     limits = list(_limits(levels, said, count))
-    warn_of(limits)
-    notes = [*(note.statement for note in limits), *notes]
+    warn_of(note for note, _ in limits)
+    of_levels = {note.statement: where for note, where in limits} | notes
     return Required(
-        tuple(costs), within, units, (asked, answered), tuple(notes), tuple(given_texts(scene))
+        tuple(costs), within, units, (asked, answered), of_levels, tuple(given_texts(scene))
     )
 
 
-def _limits(levels: Sequence[Level], said: Sequence[Sequence[Noted]], count: int) -> Iterator[Note]:
+def _limits(
+    levels: Sequence[Level], said: Sequence[Sequence[Noted]], count: int
+) -> Iterator[tuple[Note, list[Level]]]:
     """What the models of the levels warned of, each sentence once with the levels it is of."""
     found: dict[tuple[str, str], list[tuple[Level, Note]]] = {}
     for level, noted in zip(levels, said, strict=True):
@@ -250,7 +260,8 @@ def _limits(levels: Sequence[Level], said: Sequence[Sequence[Noted]], count: int
         last, note = places[-1]
         raised = note.warning if last is levels[-1] else None
         said_of = f"{of if count > 1 else ''}at {where}: {sentence}"
-        yield Note(raised, said_of, code=code, fields={"cases": most, "share": most / count})
+        fields = {"cases": most, "share": most / count}
+        yield Note(raised, said_of, code=code, fields=fields), [level for level, _ in places]
 
 
 def _time(model: Any, noted: list[Noted], **values: Any) -> tuple[Any, float]:
