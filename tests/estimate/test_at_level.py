@@ -64,6 +64,7 @@ def test_a_straight_skid_needs_no_wheels() -> None:
     assert "finer" not in found.calls
 
 
+@pytest.mark.slow
 def test_wheels_are_followed_coarsely_first() -> None:
     """The answer is that of the scene itself, within the errors of both samples."""
     scene = skid([1, 1, 0, 0], turned=0.4)

@@ -88,7 +88,7 @@ def posterior(
         and from there to the posterior of ``finer``. The answer is that of ``finer`` alone, its
         evidence included, for five to twelve calls of it a sample, not a hundred; the closer
         the two models are, the fewer.
-    tolerance : float or dict, optional
+    tolerance : float [-] or dict, optional
         How far the model may be off, for a ``scene.Scene``: by result, as for ``Scene.required``;
         or one number for all, as a share of the stated error of each observation. The cheapest
         level of the scene that is within it for 95 % of the priors then answers in its place, and
