@@ -1288,11 +1288,16 @@ def posterior_of(case: Case, observed: Any = None) -> Any:
     if case.maybe(0.15):
         options["finer"] = nearly(case, model)
     elif case.maybe(0.1):
-        options["tolerance"] = case.option(0.5, {"s": 1.0}, case.uniform(0.01, 10.0))
-        if case.maybe(0.3):
-            model, unknowns = known_scene(), {"A.vx": uncertainty.Uniform(10.0, 20.0)}
-            observed = {"contacts[0].impact.A.delta_v": (4.0, 1.0)}
-            del options["correlation"]
+        path = "contacts[0].impact.A.delta_v"
+        case.call(
+            "reconstruct.posterior",
+            reconstruct.posterior,
+            known_scene(),
+            {"A.vx": uncertainty.Uniform(10.0, 20.0)},
+            {path: (4.0, 1.0)},
+            samples=512,
+            tolerance=case.option(0.5, {path: "1 m/s"}, case.uniform(0.01, 10.0), case.garbage()),
+        )
     # Islands are followed four at a time: the other four cost as much again, and go the same way.
     with mock.patch.object(posterior, "ISLANDS", 8 if case.maybe(0.1) else 4):
         return case.call(

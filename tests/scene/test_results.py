@@ -192,6 +192,14 @@ def test_one_contact_or_the_first_at_the_start_needs_no_word() -> None:
         assert found[path].mean == same[other].mean
 
 
+def test_a_scene_without_contacts_has_no_impact() -> None:
+    lone = row(contacts=[], movers={"rear": row().movers["rear"]})
+    with pytest.raises(col.InputError, match="this scene has 0 impacts"):
+        lone.as_model([], ["impacts[0].a.delta_v"])()
+    with pytest.raises(col.NoSolutionError, match=r"as impacts\[0\] does not come"):
+        propagate(lone, RANGE, outputs=["times[0]"], **ASKED)
+
+
 def test_the_time_between_two_events() -> None:
     """Both first contacts: the way that is left, over the speed that is."""
     speeds = np.array([19.0, 24.0])

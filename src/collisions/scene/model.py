@@ -108,7 +108,7 @@ def order_of(
     """
     most = max(numbers, default=-1) + 1
     certain = dict(_certain(scene, changed, most))
-    if numbers.keys() <= certain.keys():
+    if numbers.keys() <= certain.keys() or not scene.contacts:
         return Order([certain.get(k, -1) for k in range(most)])
     if scene.order is not None:
         stated = [_rules_of(scene, pair) for pair in scene.order]
@@ -160,7 +160,7 @@ def _certain(scene: Scene, changed: Iterable[str], most: int) -> Iterator[tuple[
             yield k, at_start[0]
         elif len(others) == 1:
             yield k, others[0]
-        elif not others:
+        elif at_start and not others:
             yield k, at_start[0]
 
 
