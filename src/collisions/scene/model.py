@@ -13,7 +13,7 @@ from ..messages.errors import CollisionsError, CollisionsWarning, InputError
 from ..messages.warning import ONE_ORDER, quietly, state_of_study, warn_of_cases
 from ..quantities.units import shown, to_quantity
 from .marks import answers, of_mark
-from .names import changed_by, replaced, units_of
+from .names import changed_by, inputs_of, no_path, replaced, units_of
 from .results import (
     END,
     REST,
@@ -58,6 +58,9 @@ def as_function(
     """
     given = _paths_in(names, "names"), _paths_in(outputs, "outputs")
     wanted = given[1]
+    for name in given[0]:
+        if not isinstance(name, str):
+            raise no_path(name, inputs_of(scene), "names")
     taken = units_of(scene, given[0])
     units = {path: unit_of_result(scene, path, argument) for path in wanted}
     marks = {path: asked for path in wanted if (asked := of_mark(scene, path, argument))}
