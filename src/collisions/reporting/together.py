@@ -21,7 +21,7 @@ from ..quantities.formatting import UnitSystem
 from ..quantities.units import shown
 from ..reconstruct import Fit, Posterior
 from ..scene.one_run import need_one_run
-from ..scene.results import is_result, unit_of_result
+from ..scene.results import by_contact, is_result, unit_of_result
 from ..scene.run import Run
 from ..uncertainty.distributions import Normal
 from .scene_words import input_in_words, result_in_words
@@ -157,7 +157,7 @@ class Together(NamedTuple):
         samples.
         """
         paths = [
-            (number, name, f"impacts[{number}].{name}")
+            (number, name, self._path(number, name))
             for number, impact in enumerate(self.run.impacts)
             for name in _RANGED
             if _is_known(impact, name)
@@ -167,6 +167,15 @@ class Together(NamedTuple):
         for number, name, path in paths if found else ():
             ranges[number][name] = found[path]
         return ranges
+
+    def _path(self, number: int, name: str) -> str:
+        """The path of a number of an impact: by its contact, if it is the first of that, as in
+        another order it is none of this number.
+        """
+        path, rules = f"impacts[{number}].{name}", self.run.rules
+        if rules[number] in rules[:number]:
+            return path
+        return by_contact(self.run.scene, path, rules[number])
 
     def outputs(self, paths: Sequence[str]) -> dict[str, PosteriorOutput]:
         """Results of the scene at every sample, by their paths."""
