@@ -275,6 +275,34 @@ def test_a_result_that_is_none_is_named_with_the_nearest(table: str, key: str) -
     assert line.startswith(f"{key}: the scene has no 'B.rest.z'; near it are B.rest.")
 
 
+def test_an_impact_by_its_number_is_that_of_the_file_as_written() -> None:
+    """Three cars in a row: below 18 m/s the rear one comes second."""
+    movers = "".join(
+        f'[[mover]]\nname = "{name}"\nmass = "{mass} kg"\nvx = {vx}\nheading = 0\nx = {x}\ny = 0\n'
+        'outline = ["4.4 m", "1.8 m"]\n'
+        for name, mass, vx, x in (
+            ("rear", 1500, '"13 m/s .. 25 m/s"', -11.8),
+            ("middle", 1200, 9.0, -5.9),
+            ("front", 1400, 0.0, 0.0),
+        )
+    )
+    hits = "".join(
+        f'[[contact]]\na = "{a}"\nb = "{b}"\nat = "touch"\nrestitution = 0.2\nnormal = 0\n'
+        'model = "linear_central"\n'
+        for a, b in (("rear", "middle"), ("middle", "front"))
+    )
+    study = '[propagate]\nsamples = 64\noutputs = ["{}"]\n'
+    found = answers(read_text((movers + hits + study.format("impacts[0].b.delta_v")).encode()))
+    assert "another than that of rear and middle" in " ".join(found.propagation.statements)
+    assert found.propagation.failed == pytest.approx(64 * 5 / 12, abs=1)
+    # Of the middle car, struck by one that is 9 m/s faster or more.
+    least = (1.0 + 0.2) * 1500 / 2700 * 9.0
+    assert found.propagation["impacts[0].b.delta_v"].quantile(0.0) > least
+    path = "contacts[1].impact.front.delta_v"
+    found = answers(read_text((movers + hits + study.format(path)).encode()))
+    assert found.propagation.failed == 0
+
+
 def test_the_command_plays_a_scene(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file, page = tmp_path / "crash.toml", tmp_path / "crash.html"
     file.write_text(ROW, encoding="utf-8")

@@ -1287,6 +1287,17 @@ def posterior_of(case: Case, observed: Any = None) -> Any:
         options |= run_options(case)
     if case.maybe(0.15):
         options["finer"] = nearly(case, model)
+    elif case.maybe(0.1):
+        path = "contacts[0].impact.A.delta_v"
+        case.call(
+            "reconstruct.posterior",
+            reconstruct.posterior,
+            known_scene(),
+            {"A.vx": uncertainty.Uniform(10.0, 20.0)},
+            {path: (4.0, 1.0)},
+            samples=512,
+            tolerance=case.option(0.5, {path: "1 m/s"}, case.uniform(0.01, 10.0), case.garbage()),
+        )
     # Islands are followed four at a time: the other four cost as much again, and go the same way.
     with mock.patch.object(posterior, "ISLANDS", 8 if case.maybe(0.1) else 4):
         return case.call(
@@ -2068,7 +2079,11 @@ def propagation(case: Case) -> Any:
     if case.maybe(0.05):
         model, inputs = known_scene(), {"A.vx": uncertainty.Uniform(10.0, case.uniform(11.0, 20.0))}
         options.pop("correlation", None)
-        options["outputs"] = case.option(["B.rest.x"], ["times[0]", "impacts[0].a.delta_v"])
+        options["outputs"] = case.option(
+            ["B.rest.x"],
+            ["times[0]", "impacts[0].a.delta_v"],
+            ["contacts[0].impact.B.ees(0.5)", "end - contacts[0].impact.time"],
+        )
     if case.mood == "extreme":
         inputs[case.choice(sorted(inputs))] = case.extreme()
         model = scaled

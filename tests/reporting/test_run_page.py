@@ -136,6 +136,14 @@ def test_every_path_of_a_scene_has_words() -> None:
     assert results["impacts[1].b.after.speed"] == "speed of Truck after, impact 2 (0.70 s)"
     assert result_in_words(run, "impacts[7].a.delta_v") == "delta-V of A, impact 8"
     assert result_in_words(run, "anything") == "anything"
+    first = "the first impact in the contact of Civic and Truck"
+    for path, words in {
+        "contacts[1].impact.Truck.delta_v": f"delta-V of Truck, {first}",
+        "contacts[1].impact.closing_speed": f"closing speed of {first}",
+        "contacts[1].impact.Civic.ees(0.4)": f"EES of Civic with 0.4 of the energy lost, {first}",
+        "end - contacts[1].impact.time": f"time between {first} and the moment at which all rest",
+    }.items():
+        assert result_in_words(run, path) == words
 
 
 @pytest.mark.slow

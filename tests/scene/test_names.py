@@ -55,7 +55,7 @@ def test_every_listed_input_can_be_replaced_and_every_result_has_a_value() -> No
     known = scene.results()
     assert {"Camry.rest.x", "impacts[0].a.delta_v_forward", "times[0]"} < known.keys()
     columns = same.to_columns()
-    assert set(columns) == {"status", *known}
+    assert set(columns) == {"status", *(path for path in known if ".marks." not in path)}
     assert known["impacts[0].b.after.yaw_rate"] == "rad/s"
 
 
@@ -212,13 +212,28 @@ def test_cases_of_a_batch_go_in_orders_of_their_own() -> None:
     assert run.status.tolist() == ["ok"] * 4 + ["contact_missing"]
     with pytest.raises(col.InputError, match="in another order in some cases"):
         len(run.impacts)
-    columns = run.to_columns()
+    with pytest.warns(
+        col.CollisionsWarning, match="of other contacts.* than in most cases"
+    ) as said:
+        columns = run.to_columns()
+    assert said[0].message.code == "several_orders"
     for i in range(4):
         one = scene.case(i).run()
         assert [run.times[k][i] for k in range(len(one.times))] == pytest.approx(one.times)
-        for k, impact in enumerate(one.impacts):
+        for k, (impact, pair) in enumerate(zip(one.impacts, one.pairs, strict=True)):
             found = columns[f"impacts[{k}].a.delta_v"][i]
-            assert found == pytest.approx(impact.a.delta_v, rel=1e-12)
+            # Two cases go in each order; the first contact of the list decides.
+            usual = (("A", "B"), ("B", "C"))[k % 2]
+            assert np.isnan(found) == (pair != usual)
+            assert np.isnan(columns[f"times[{k}]"][i]) == (pair != usual)
+            if pair == usual:
+                assert found == pytest.approx(impact.a.delta_v, rel=1e-12)
+        for rule, pair in enumerate((("A", "B"), ("B", "C"))):
+            k = one.pairs.index(pair)
+            path = f"contacts[{rule}].impact"
+            found = columns[f"{path}.{pair[1]}.delta_v"][i]
+            assert found == pytest.approx(one.impacts[k].b.delta_v, rel=1e-12)
+            assert columns[f"{path}.time"][i] == pytest.approx(one.times[k], rel=1e-12)
     assert np.isnan(run.times[0][4])
     with pytest.raises(col.NoSolutionError, match="does not come"):
         run.case(4)

@@ -12,7 +12,8 @@ import numpy as np
 from ..estimate.fit_result import Fit
 from ..estimate.posterior_result import Posterior
 from ..messages.errors import InputError
-from ..scene.names import unit_of_result
+from ..scene.model import as_function, order_of
+from ..scene.results import numbered, unit_of_result
 from ..scene.run import Run
 from ..scene.scene import TOLERANCE, Scene
 from .crash import SCENE
@@ -26,15 +27,17 @@ def crash_model(case: Case, outputs: Sequence[str], place: str) -> Any:
     inside: Call = case.call.arguments[SCENE]
     tolerance = case.call.arguments.get("tolerance", TOLERANCE)
     scene: Scene = inside({})
-    for path in outputs:
-        try:
+    try:
+        for path in outputs:
             unit_of_result(scene, path, "the scene")
-        except InputError as error:
-            raise CaseError((place, str(error))) from error
+        changed = _by_path(inside, dict.fromkeys(case.uncertain))
+        order = order_of(scene, changed, numbered(scene, outputs), tolerance, "the scene")
+    except InputError as error:
+        raise CaseError((place, str(error))) from error
 
     def model(**values: Any) -> Any:
         made: Scene = inside(_by_path(inside, values))
-        return made.as_model([], outputs, tolerance=tolerance)()
+        return as_function(made, [], outputs, tolerance, order=order)()
 
     vars(model)["answers_by_case"] = True
     return model

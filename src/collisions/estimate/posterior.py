@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 
 from ..engine.blocks import in_order
-from ..messages.errors import InputError, NoSolutionError
+from ..messages.errors import CollisionsWarning, InputError, NoSolutionError
 from ..messages.hints import hinted
 from ..messages.marked import as_code, type_of
 from ..messages.progress import reporter
-from ..messages.warning import notes_of_samples, warn_of
+from ..messages.warning import ONE_ORDER, Note, notes_of_samples, warn_of
 from ..quantities.attributes import read_only
+from ..quantities.units import Input
 from ..uncertainty.distributions import Distribution
 from ..uncertainty.finer import FinerModel
 from ..uncertainty.model import AnyModel, Model, function_of, range_hint, units_taken
@@ -25,6 +26,7 @@ from ..uncertainty.propagation import check_options
 from ..uncertainty.result import wrap_notes, wraps_of
 from ..uncertainty.sampling import Correlation, Joint
 from ..uncertainty.turns import folded
+from .at_level import at_level
 from .evidence import Observation, observed_columns, read_evidence, read_reading, refused_everywhere
 from .fit_result import residual_of
 from .islands import Island, Islands, UnreachableError
@@ -48,6 +50,7 @@ def posterior(
     observed: Mapping[str, Any],
     *,
     finer: AnyModel | None = None,
+    tolerance: Input | Mapping[str, Input] | None = None,
     samples: int = 8192,
     seed: int | None = None,
     correlation: Correlation | None = None,
@@ -85,6 +88,12 @@ def posterior(
         and from there to the posterior of ``finer``. The answer is that of ``finer`` alone, its
         evidence included, for five to twelve calls of it a sample, not a hundred; the closer
         the two models are, the fewer.
+    tolerance : float [-] or dict, optional
+        How far the model may be off, for a ``scene.Scene``: by result, as for ``Scene.required``;
+        or one number for all, as a share of the stated error of each observation. The cheapest
+        level of the scene that is within it for 95 % of the priors then answers in its place, and
+        a statement says which. On wheels with readings of the way to rest, the samples go towards
+        the same level followed coarsely first, as by ``finer``.
     samples : int, optional
         Total number of samples, at least 512. Four times as many halve the sampling errors.
     seed : int, optional
@@ -162,27 +171,38 @@ def posterior(
     True
     """
     # None is a choice of ``propagate`` alone.
-    given = math.nan if samples is None else samples
-    check_options("monte_carlo", given, None, seed, threads, progress, _LEAST_SAMPLES)
+    drawn = math.nan if samples is None else samples
+    check_options("monte_carlo", drawn, None, seed, threads, progress, _LEAST_SAMPLES)
     called, priors, rows = read_evidence(
         model, unknowns, observed, "`Normal('50 km/h', '10 km/h')`", _prior, read_reading
     )
-    problem = _Problem(called, Joint(priors, correlation), rows)
-    if finer is not None:
-        seen = [row.name for row in rows]
-        problem.finer = FinerModel(function_of(finer, priors, seen, "observed"), {})
-        problem.finer.check_inputs(priors, "unknowns", "bad_model")
+    seen, joint = [row.name for row in rows], Joint(priors, correlation)
     seed = int(seed) if seed is not None else secrets.randbits(64)
-    # A point at which numbers overflow counts as refused.
-    with np.errstate(all="ignore"):
-        if problem.finer is not None:
-            problem.compare_models(problem.finer, seed)
-        islands = list(
-            problem.islands(-(-int(samples) // ISLANDS), seed, int(threads), reporter(progress))
+    given = int(samples), seed, int(threads), progress
+    if tolerance is None:
+        problem = _Problem(called, joint, rows)
+        if finer is not None:
+            problem.finer = FinerModel(function_of(finer, priors, seen, "observed"), {})
+            problem.finer.check_inputs(priors, "unknowns", "bad_model")
+        return problem.answered_by(*given)
+    if finer is not None:
+        raise InputError(
+            "give `finer=` or `tolerance=`, which takes a level of the scene and a coarser one "
+            "below it, not both",
+            code="bad_combination",
+            argument="tolerance",
         )
-        found = problem.result(islands, int(samples), seed)
-    warn_of(notes_of(found))
-    return found
+    chosen = at_level(model, priors, rows, tolerance)
+    whole = function_of(chosen.model, priors, seen, "observed")
+    if chosen.below is not None:
+        problem = _Problem(Model(chosen.below, {}), joint, rows, chosen.notes)
+        problem.finer = FinerModel(whole, {})
+        try:
+            return problem.answered_by(*given)
+        except NoSolutionError as error:
+            if error.code != "too_far":
+                raise
+    return _Problem(Model(whole, {}), joint, rows, chosen.notes).answered_by(*given)
 
 
 def _prior(label: str, given: Any) -> Distribution:
@@ -200,8 +220,10 @@ def _prior(label: str, given: Any) -> Distribution:
 class _Problem:
     """The model, the priors and the observations, as a likelihood of normal scores."""
 
-    def __init__(self, model: Model, joint: Joint, rows: list[Observation]) -> None:
-        self.model, self.joint, self.rows = model, joint, rows
+    def __init__(
+        self, model: Model, joint: Joint, rows: list[Observation], notes: tuple[Note, ...] = ()
+    ) -> None:
+        self.model, self.joint, self.rows, self.notes = model, joint, rows, notes
         self.finer: FinerModel | None = None
         taken = units_taken(model)
         self.units = {
@@ -210,6 +232,17 @@ class _Problem:
         # The width by which observations with sharp bounds are softened on the way, by name.
         self.softened: dict[str, float] = {}
         self.answered = self.possible = False
+
+    def answered_by(self, samples: int, seed: int, threads: int, progress: Any) -> Posterior:
+        """The posterior by so many samples."""
+        # A point at which numbers overflow counts as refused.
+        with np.errstate(all="ignore"):
+            if self.finer is not None:
+                self.compare_models(self.finer, seed)
+            islands = list(self.islands(-(-samples // ISLANDS), seed, threads, reporter(progress)))
+            found = self.result(islands, samples, seed)
+        warn_of(notes_of(found))
+        return found
 
     def computed(
         self, model: Model, scores: Any, check: bool
@@ -416,6 +449,10 @@ class _Problem:
             for name, column in answers.items()
         }
         notes += tuple(wrap_notes(wraps_of(predicted | unknowns)))
+        refused = float(np.mean([one.refused for one in islands]))
+        if refused:
+            notes = tuple(_ruled_out(note) for note in notes)
+        notes += self.notes
         return Posterior(
             priors=dict(self.joint.inputs),
             observed={row.name: row.reading.value for row in self.rows},
@@ -429,7 +466,7 @@ class _Problem:
                 float(np.min(squares)) - _best_above_least(len(self.joint.inputs), len(scores)),
                 sum(row.reading.sigma > 0.0 for row in self.rows),
             ),
-            refused=float(np.mean([one.refused for one in islands])),
+            refused=refused,
             moved=min(one.moved for one in islands),
             samples=len(scores),
             seed=seed,
@@ -438,6 +475,11 @@ class _Problem:
             beyond=float(np.mean([one.beyond for one in islands])),
             model_notes=notes,
         )
+
+
+def _ruled_out(note: Note) -> Note:
+    """A note, as a warning if it says that evidence rules out what comes in another order."""
+    return note._replace(warning=CollisionsWarning) if note.code == ONE_ORDER else note
 
 
 def _best_above_least(unknowns: int, samples: int) -> float:

@@ -555,6 +555,16 @@ def _beyond_a_turn(normal: Any) -> dict[str, Any]:
     )
 
 
+def one_rule(names: Iterable[str], given: Iterable[str]) -> str:
+    """The refusal of none or several of these names of what friction does, of which one is due."""
+    found = " and ".join(f"`{name}=`" for name in given) or "none"
+    return (
+        f"give exactly one of {', '.join(f'`{name}=`' for name in names)}; got {found}. There is "
+        "no default, because it decides cases: `friction=0` is a frictionless contact, "
+        "`friction=inf` one that never slips"
+    )
+
+
 def _tangential(reader: ArgumentReader, values: tuple[Any, ...]) -> tuple[str, Any]:
     """The one tangential rule that was given (a friction bound, an impulse ratio or the like), and
     its value.
@@ -564,10 +574,5 @@ def _tangential(reader: ArgumentReader, values: tuple[Any, ...]) -> tuple[str, A
     if len(given) == 1:
         rule, value = given[0]
         return rule.name, reader.number(value, "", rule.name, rule.domain)
-    found = "none" if not given else " and ".join(f"`{rule.name}=`" for rule, _ in given)
-    text = (
-        f"give exactly one of {', '.join(f'`{rule.name}=`' for rule in taken)}; got "
-        f"{found}. There is no default, because it decides cases: `friction=0` is a "
-        "frictionless contact, `friction=inf` one that never slips"
-    )
+    text = one_rule([rule.name for rule in taken], [rule.name for rule, _ in given])
     return FRICTION, reader.refuse(InputError(text, code="one_tangential", argument="friction"))

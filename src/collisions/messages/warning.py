@@ -20,6 +20,10 @@ from .marked import plain
 # A warning of fewer samples than this share is stated with the result, but not raised, unless it
 # has a share of its own.
 SELDOM = 0.005
+# Codes of the warnings that say why cases have no answer.
+NO_ANSWER = frozenset({"refused_cases", "several_orders", "stuck_or_slid", "friction_differs"})
+# Of the statement that what comes in another order has no answer.
+ONE_ORDER = "one_order"
 
 
 class Said(NamedTuple):

@@ -22,7 +22,7 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.settings import callers_options
 from ..quantities.tables import as_sentence, cells, given_texts, label_of
 from ..quantities.units import kinds_in_degrees, shown
-from ..scene.names import result_of, results_of
+from ..scene.results import result_of, results_of
 from ..scene.run import Run
 from ..uncertainty import Propagation
 from . import figures as drawing

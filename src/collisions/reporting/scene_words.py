@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 from ..derivation.explain import IMPACT_ANSWERS, OF_VEHICLE
 from ..derivation.wheels import OF_WHEELS
 from ..kernels.contact_laws import RULES
+from ..scene.results import OfImpact, asked_of, between
 from ..scene.run import Run
 from ..scene.scene import Scene
 
@@ -37,8 +39,6 @@ _MOMENTS = {
 }
 _SIDES = {"a": 0, "b": 1}
 _CONTACT = re.compile(r"contacts\[(\d+)\]\.(?:tyres_after\.([^.]+)\.)?(.+)")
-_IMPACT = re.compile(r"impacts\[(\d+)\]\.(?:([ab])\.)?(.+)")
-_TIME = re.compile(r"times\[(\d+)\]")
 _AREA = re.compile(r"surfaces\[(\d+)\]")
 _REST = re.compile(r"(.+)\.rest\.(x|y|heading)")
 _MARK = re.compile(r"(.+)\.marks\.(\w+)\.(begin|end|distance)\.?(.+)")
@@ -72,8 +72,6 @@ def result_in_words(run: Run, path: str) -> str:
     """A result of a run; the vehicles of an impact are those that it has in this run."""
     if path == "end":
         return "time until all rest"
-    if found := _TIME.fullmatch(path):
-        return f"time of {_impact(run, int(found[1]))}"
     if found := _REST.fullmatch(path):
         return f"{_AT_REST[found[2]]} of {found[1]} at rest"
     if found := _MARK.fullmatch(path):
@@ -84,16 +82,43 @@ def result_in_words(run: Run, path: str) -> str:
             if what == "distance"
             else f"{rest} of the {what} of {mark}"
         )
-    found = _IMPACT.fullmatch(path)
-    if found is None:
-        return path
-    number, label, inner = int(found[1]), found[2], found[3]
-    row = IMPACT_ANSWERS.get(f"{label}.{inner}" if label else inner)
-    what = _plain(inner) if row is None else row[1]
-    if label is None:
-        return f"{what} of {_impact(run, number)}"
-    name = _pair(run, number)[_SIDES[label]]
-    return f"{_of(name, what)}, {_numbered(run, number)}"
+    if times := between(run.scene, path):
+        later, sooner = (_moment(run, one) for one in times)
+        return f"time between {sooner} and {later}"
+    asked = asked_of(run.scene, path)
+    return path if asked is None else _asked(run, asked)
+
+
+def _asked(run: Run, asked: OfImpact) -> str:
+    """A number of an impact, its vehicle by name."""
+    where = _first(run, asked.number) if asked.contact else _impact(run, asked.number)
+    if not asked.name:
+        return f"time of {where}"
+    row = IMPACT_ANSWERS.get(asked.name)
+    label, dot, inner = asked.name.partition(".")
+    what = _plain(inner if dot else label) if row is None else row[1]
+    if not math.isnan(asked.share):
+        what = "EES"
+    if not dot:
+        return f"{what} of {where}"
+    contact = run.scene.contacts[asked.number] if asked.contact else None
+    pair = (contact.a, contact.b) if contact is not None else _pair(run, asked.number)
+    whose = _of(pair[_SIDES[label]], what)
+    if not math.isnan(asked.share):
+        whose += f" with {asked.share:.3g} of the energy lost"
+    return f"{whose}, {where if asked.contact else _numbered(run, asked.number)}"
+
+
+def _first(run: Run, number: int) -> str:
+    return f"the first impact in {_contact(run.scene, number)}"
+
+
+def _moment(run: Run, path: str) -> str:
+    """A moment of a run in words."""
+    asked = asked_of(run.scene, path)
+    if asked is None:
+        return "the moment at which all rest"
+    return _first(run, asked.number) if asked.contact else _impact(run, asked.number)
 
 
 def about(what: str, letter: str) -> str:

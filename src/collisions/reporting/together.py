@@ -20,8 +20,8 @@ from ..plot.canvas import INK, Axes, Units
 from ..quantities.formatting import UnitSystem
 from ..quantities.units import shown
 from ..reconstruct import Fit, Posterior
-from ..scene.names import results_of, unit_of_result
 from ..scene.one_run import need_one_run
+from ..scene.results import by_contact, is_result, unit_of_result
 from ..scene.run import Run
 from ..uncertainty.distributions import Normal
 from .scene_words import input_in_words, result_in_words
@@ -63,7 +63,7 @@ class Together(NamedTuple):
         """The unknowns and the readings in words, by the paths of the scene that they have."""
         found, scene = self.found, self.run.scene
         read = found.observed if isinstance(found, Posterior) else {}
-        inputs, results = scene.inputs(), results_of(scene, len(self.run.impacts))
+        inputs = scene.inputs()
         words = {
             name: input_in_words(scene, name)
             for name in found.found
@@ -72,7 +72,7 @@ class Together(NamedTuple):
         return words | {
             name: result_in_words(self.run, name)
             for name in read
-            if name not in inputs and (name in results or ".marks." in name)
+            if name not in inputs and is_result(scene, name, len(self.run.impacts))
         }
 
     def marks(self) -> dict[str, str]:
@@ -157,7 +157,7 @@ class Together(NamedTuple):
         samples.
         """
         paths = [
-            (number, name, f"impacts[{number}].{name}")
+            (number, name, self._path(number, name))
             for number, impact in enumerate(self.run.impacts)
             for name in _RANGED
             if _is_known(impact, name)
@@ -167,6 +167,15 @@ class Together(NamedTuple):
         for number, name, path in paths if found else ():
             ranges[number][name] = found[path]
         return ranges
+
+    def _path(self, number: int, name: str) -> str:
+        """The path of a number of an impact: by its contact, if it is the first of that, as in
+        another order it is none of this number.
+        """
+        path, rules = f"impacts[{number}].{name}", self.run.rules
+        if rules[number] in rules[:number]:
+            return path
+        return by_contact(self.run.scene, path, rules[number])
 
     def outputs(self, paths: Sequence[str]) -> dict[str, PosteriorOutput]:
         """Results of the scene at every sample, by their paths."""
@@ -194,8 +203,10 @@ class Together(NamedTuple):
         found, scene = self.found, self.run.scene
         if not isinstance(found, Posterior) or not isinstance(names, (list, tuple)):
             return self
-        known = results_of(scene, len(self.run.impacts))
-        paths = [name for name in names if name in known and name not in found._outputs]
+        many = len(self.run.impacts)
+        paths = [
+            name for name in names if is_result(scene, name, many) and name not in found._outputs
+        ]
         return self._replace(found=replace(found, predicted=found.predicted | self.outputs(paths)))
 
     def measured(self) -> dict[str, tuple[float, float]]:
@@ -257,10 +268,11 @@ def together_of(impact: Sequence[Any]) -> Together | None:
 def _check_same_scene(found: Posterior | Fit, run: Run) -> None:
     """Refuse a run of another scene than that of which something was found."""
     inputs = run.scene.inputs()
-    results = results_of(run.scene, len(run.impacts))
     strange = [name for name in found.found if name not in inputs]
     strange += [
-        name for name, one in found.residuals.items() if not one.is_prior and name not in results
+        name
+        for name, one in found.residuals.items()
+        if not one.is_prior and not is_result(run.scene, name, len(run.impacts))
     ]
     if strange:
         kind = type(found).__name__.lower()

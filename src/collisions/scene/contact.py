@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal, TypeAlias
 
-from ..impact.inputs import Law
+from ..impact.inputs import Law, one_rule
 from ..kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from ..kernels.elementwise import FINITE, Domain, restitution_domain
 from ..messages.errors import InputError, MissingInputError
@@ -357,13 +357,7 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
         for name in given:
             refuse(f"model 'linear_central' has no {name}; leave it out, or use another", name)
     elif len(given) != 1:
-        listed = ", ".join(f"{name}=" for name in rules)
-        got = " and ".join(f"{name}=" for name in given) or "none"
-        text = (
-            f"give exactly one of {listed}; got {got}. There is no default, because it "
-            "decides cases: `friction=0` is a frictionless contact, `friction=inf` one "
-            "that never slips"
-        )
+        text = one_rule(rules, given)
         reader.refuse(InputError(text, code="one_tangential", argument=FRICTION))
     if found["point"] is not None and found["normal"] is None:
         text = (

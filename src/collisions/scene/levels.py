@@ -5,6 +5,7 @@ time, and with motion by a drag or on wheels.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
@@ -15,8 +16,8 @@ from ..kernels.contact_laws import BRACH, FRICTION
 from ..quantities.attributes import same_fields
 from ..vehicle.drag import GRAVITY, USUAL_DURATION, gravity_on
 from .contact import IN_TIME, Contact
+from .model import as_function
 from .mover import Mover
-from .names import as_function
 from .run import Run
 from .scene import Scene
 
@@ -29,6 +30,10 @@ _ORDER = ((INSTANT, DRAG), (FOLLOWED, DRAG), (INSTANT, WHEELS), (WITH_TYRES, WHE
           (FOLLOWED, WHEELS))  # fmt: skip
 # A way [m] that is too short to tell a drag.
 _SHORT = 0.01
+# How finely the motion of a coarser model is followed: places of rest are then off by 1 cm in the
+# median (benchmarks/scene_posterior.py).
+COARSE = 1e-3
+_OF_THE_WAY = re.compile(r"\.rest\.|\.marks\.|^end\b")
 _OF_IMPULSES = ("eccentric", "solve", IN_TIME)
 
 
@@ -81,7 +86,18 @@ class Level:
         -------
         function
         """
-        return as_function(self.given, names, outputs, tolerance, self._of)
+        return self._function(names, outputs, tolerance)
+
+    def _coarser(
+        self, names: Sequence[str], outputs: Sequence[str]
+    ) -> Callable[..., dict[str, Any]] | None:
+        """The same level with its motion followed coarsely, to be sampled with the level as
+        ``finer``; None where that would save nothing: without wheels, or where no output is of the
+        way to rest.
+        """
+        if self.motion != WHEELS or not any(_OF_THE_WAY.search(path) for path in outputs):
+            return None
+        return self._function(names, outputs, COARSE)
 
     def results(self) -> dict[str, str]:
         """The paths of its results, with their units.
@@ -91,6 +107,15 @@ class Level:
         dict of str
         """
         return self.given.results()
+
+    def _function(
+        self,
+        names: Sequence[str],
+        outputs: Sequence[str],
+        tolerance: float,
+        argument: str = "outputs",
+    ) -> Callable[..., dict[str, Any]]:
+        return as_function(self.given, names, outputs, tolerance, self._of, argument)
 
     def _of(self, scene: Scene) -> Scene:
         return _made(scene, self.contacts, self.motion, self.drags)
@@ -102,8 +127,10 @@ class Level:
         return f"<Level: {self.name}>"
 
 
-def levels_of(scene: Scene, tolerance: float) -> tuple[list[Level], list[str]]:
-    """The levels that a scene has, the finest last, and what they take as given, in sentences."""
+def levels_of(scene: Scene, tolerance: float) -> tuple[list[Level], dict[str, list[Level]]]:
+    """The levels that a scene has, the finest last, and what they take as given, in sentences with
+    the levels that these are of.
+    """
     wheeled = [name for name, mover in scene.movers.items() if mover.tyres is not None]
     followed = [i for i, contact in enumerate(scene.contacts) if _may_last(contact)]
     notes = [
@@ -131,13 +158,16 @@ def levels_of(scene: Scene, tolerance: float) -> tuple[list[Level], list[str]]:
     ]  # fmt: skip
     finest = Level(*wanted[-1], scene, {})
     drags = _drags(finest.scene.run(tolerance=tolerance), wheeled)
+    levels = [Level(contacts, motion, scene, drags) for contacts, motion in wanted]
+    found = dict.fromkeys(notes, levels)
     if wheeled:
         shares = ", ".join(f"{name} {share:.2f}" for name, share in drags.items())
-        notes.append(
+        said = (
             "a drag is the share of the friction that the tyres took on average on the way at the "
             f"stated values: {shares}"
         )
-    return [Level(contacts, motion, scene, drags) for contacts, motion in wanted], notes
+        found[said] = [one for one in levels if one.motion == DRAG]
+    return levels, found
 
 
 def _may_last(contact: Contact) -> bool:

@@ -23,7 +23,8 @@ from ..uncertainty.designs import latin_hypercube
 from ..uncertainty.distributions import Distribution
 from ..uncertainty.sampling import Joint
 from .levels import Level, levels_of
-from .names import inputs_of, no_path, unit_of_result
+from .names import units_of
+from .results import unit_of_result
 from .scene import Scene
 
 DRAWS = 32
@@ -72,12 +73,13 @@ class Required(Summarized):
         tolerances: Mapping[str, float],
         units: Mapping[str, str],
         draws: tuple[int, int],
-        notes: tuple[str, ...],
+        notes: Mapping[str, Sequence[Level]],
         texts: tuple[Any, ...],
     ) -> None:
         self.costs, self.tolerances, self.units = costs, tolerances, units
         self.draws, self.answered = draws
-        self.notes = notes
+        self.notes = tuple(notes)
+        self._of_levels = notes
         self._given = texts
 
     @property
@@ -108,6 +110,13 @@ class Required(Summarized):
             count = self.draws - self.answered
             found.append(f"{count} of {self.draws} draws have no answer at the finest level")
         return (*found, *self.notes)
+
+    def _notes_of(self, level: Level) -> tuple[str, ...]:
+        """The notes that are of a level or of the finest, against which it is measured."""
+        found = {level.name, self.finest.name}
+        return tuple(
+            note for note, levels in self._of_levels.items() if found & {one.name for one in levels}
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """All figures as strict JSON, in SI.
@@ -189,12 +198,18 @@ def required(
     answers, seconds, in_batch = [], [], []
     noted: list[list[Noted]] = []
     for level in levels:
-        one = level.as_model([], list(units), tolerance=tolerance)
+        one = level._function([], list(units), tolerance, "tolerances")
         seconds.append(min(_time(one, [])[1] for _ in range(_TIMED)))
+<<<<<<< HEAD
         said: list[Said] = []
         model = level.as_model(list(values), list(units), tolerance=tolerance)
         found, spent = _time(model, said, **values)
         noted.append(noted_in_call(said, count))
+=======
+        said.append([])
+        model = level._function(list(values), list(units), tolerance, "tolerances")
+        found, spent = _time(model, said[-1], **values)
+>>>>>>> paths
         in_batch.append(spent / count if joint is not None else math.nan)
         answers.append(
             {
@@ -222,17 +237,28 @@ def required(
         costs.append(Cost(level, spent, case, differences, holds))
     asked = 0 if joint is None else count
     answered = 0 if joint is None else int(good.sum())
+<<<<<<< HEAD
     limits = list(_limits(levels, noted, count))
     warn_of(limits)
     notes = [*(note.statement for note in limits), *notes]
+=======
+    limits = list(_limits(levels, said, count))
+    warn_of(note for note, _ in limits)
+    of_levels = {note.statement: where for note, where in limits} | notes
+>>>>>>> paths
     return Required(
-        tuple(costs), within, units, (asked, answered), tuple(notes), tuple(given_texts(scene))
+        tuple(costs), within, units, (asked, answered), of_levels, tuple(given_texts(scene))
     )
 
 
 def _limits(
+<<<<<<< HEAD
     levels: Sequence[Level], by_level: Sequence[Sequence[Noted]], count: int
 ) -> Iterator[Note]:
+=======
+    levels: Sequence[Level], said: Sequence[Sequence[Noted]], count: int
+) -> Iterator[tuple[Note, list[Level]]]:
+>>>>>>> paths
     """What the models of the levels warned of, each sentence once with the levels it is of."""
     found: dict[tuple[str, str], list[tuple[Level, Note]]] = {}
     for level, noted in zip(levels, by_level, strict=True):
@@ -254,7 +280,12 @@ def _limits(
         last, note = places[-1]
         raised = note.warning if last is levels[-1] else None
         said_of = f"{of if count > 1 else ''}at {where}: {sentence}"
+<<<<<<< HEAD
         yield Note(raised, said_of, code=code, fields={"cases": most, "share": share})
+=======
+        fields = {"cases": most, "share": most / count}
+        yield Note(raised, said_of, code=code, fields=fields), [level for level, _ in places]
+>>>>>>> paths
 
 
 def _time(model: Any, said: list[Said], **values: Any) -> tuple[Any, float]:
@@ -310,7 +341,6 @@ def _read_tolerances(scene: Scene, given: Any) -> tuple[dict[str, float], dict[s
 
 
 def _read_unknowns(scene: Scene, given: Any) -> dict[str, Distribution]:
-    known = inputs_of(scene)
     good = isinstance(given, Mapping) and bool(given)
     if not good or not all(isinstance(one, Distribution) for one in given.values()):
         raise InputError(
@@ -319,9 +349,8 @@ def _read_unknowns(scene: Scene, given: Any) -> dict[str, Distribution]:
             code="bad_inputs",
             argument="unknowns",
         )
+    known = units_of(scene, list(given), "unknowns")
     for path, one in given.items():
-        if path not in known:
-            raise no_path(path, known, "unknowns")
         if one.unit not in ("", known[path]):
             raise UnitsError(
                 f"unknowns[{path!r}] is in {one.unit}, and {path} is in {known[path] or 'no unit'}",

@@ -377,9 +377,12 @@ class Run(Frozen, Summarized):
         Returns
         -------
         dict of list
-            By path, as ``Scene.results`` lists them.
+            By path, as ``Scene.results`` lists them, but for those of marks. Of a batch whose
+            contacts come in several orders, "impacts[k]" and "times[k]" have the impact that most
+            cases have there, with a warning, and NaN in the others; "contacts[i].impact" has the
+            first impact of a contact in every case.
         """
-        from .names import columns_of
+        from .results import columns_of
 
         return columns_of(self, units)
 
@@ -442,7 +445,8 @@ class Run(Frozen, Summarized):
             raise InputError(
                 "the contacts come in another order in some cases of the batch, so that an "
                 "impact is not of the same vehicles in all; run.case(i).impacts has those of "
-                "one case, and scene.results() paths that are of each case",
+                "one case, and run.to_columns()['contacts[0].impact...'] the first impact of a "
+                "contact in every case",
                 code="several_orders",
                 argument="index",
             )
@@ -457,7 +461,7 @@ class Run(Frozen, Summarized):
 
     def _whole(self, number: int) -> Impact:
         """The impacts of one number over all cases, NaN where there is none."""
-        from .names import whole_impact
+        from .results import whole_impact
 
         return whole_impact(self, number)
 

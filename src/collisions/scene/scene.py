@@ -234,11 +234,16 @@ class Scene(Shown):
         Returns
         -------
         dict of str
-            By path, such as "Camry.rest.x" or "impacts[0].a.delta_v", the SI unit. Impacts are
-            counted in order of time; there are at least as many as contacts. What there is of tyre
-            marks is in ``mark_points``.
+            By path, such as "Camry.rest.x" or "contacts[0].impact.Camry.delta_v", the SI unit.
+            "contacts[i].impact" is the first impact of that contact, whenever it comes, with its
+            vehicles by name and its "time". "impacts[k]" is counted in order of time, with
+            the vehicles "a" and "b"; in a study it is the impact that it is in the scene as
+            written, and a case in which another comes in its place has no answer to it. There are
+            also paths with a number in them: "contacts[0].impact.Camry.ees(0.4)", EES with the
+            share of the energy lost that went into the vehicle; "times[1] - times[0]"; and the
+            distance of a place from a tyre mark, as in ``mark_points``.
         """
-        from .names import results_of
+        from .results import results_of
 
         return results_of(self)
 
@@ -340,7 +345,7 @@ class Scene(Shown):
         InputError
             A path that is none, with the nearest ones.
         """
-        from .names import as_function
+        from .model import as_function
 
         return as_function(self, names, outputs, _read_tolerance(tolerance))
 

@@ -17,7 +17,7 @@ from ..messages.errors import CollisionsWarning, InputError, NoSolutionError, Ou
 from ..messages.hints import hinted
 from ..messages.marked import type_of
 from ..messages.progress import reporter
-from ..messages.warning import Note, notes_of_samples, warn_of
+from ..messages.warning import NO_ANSWER, Note, notes_of_samples, warn_of
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
 from ..quantities.units import has_unit, rendered, shown
@@ -362,7 +362,7 @@ def _propagated(
         if not cases:
             raise NoSolutionError(
                 f"the model has no answer for {name!r} in any of {samples_run} cases; call it "
-                f"with the mean of the inputs to see why{_said_of_all(whole, samples_run)}",
+                f"with the mean of the inputs to see why{_said_of_all(whole)}",
                 code="all_failed",
                 output=name,
             )
@@ -747,9 +747,14 @@ def _without_answer(output: Output) -> bool:
     return math.isnan(output.mean)
 
 
-def _said_of_all(model: Model, count: int) -> str:
-    """What the model said of its cases, to follow the message that none has an answer."""
-    said = [note.sentence for note in notes_of_samples(model.noted)]
+def _said_of_all(model: Model) -> str:
+    """Why cases have no answer, as far as the model said so, to follow the message that none has
+    one; what most are of comes first.
+    """
+    causes = [
+        (count, [one for one in noted if one.code in NO_ANSWER]) for count, noted in model.noted
+    ]
+    said = [note.sentence for note in notes_of_samples(causes)]
     return f". It said: {'; '.join(said)}" if said else ""
 
 
