@@ -724,8 +724,10 @@ def friction_shown(
     moves = [b - a for a, b in zip(stuck.answer, slid.answer, strict=True)]
     differs = slides & (sum(map(abs, moves)) > _ONE_ANSWER * closing)
     open_ = (usable & slid.undetermined | differs) & ~settled
-    toward = tuple(np.where(differs & ~settled, np.sign(move), np.nan) for move in moves)
-    return Shown(np.where(settled, shown, friction) if np.any(settled) else None, open_, toward)
+    first, second = (np.where(differs & ~settled, np.sign(move), np.nan) for move in moves)
+    return Shown(
+        np.where(settled, shown, friction) if np.any(settled) else None, open_, (first, second)
+    )
 
 
 def by_way(way: Any, values: Sequence[Any]) -> Any:

@@ -200,16 +200,10 @@ def required(
     for level in levels:
         one = level._function([], list(units), tolerance, "tolerances")
         seconds.append(min(_time(one, [])[1] for _ in range(_TIMED)))
-<<<<<<< HEAD
         said: list[Said] = []
-        model = level.as_model(list(values), list(units), tolerance=tolerance)
+        model = level._function(list(values), list(units), tolerance, "tolerances")
         found, spent = _time(model, said, **values)
         noted.append(noted_in_call(said, count))
-=======
-        said.append([])
-        model = level._function(list(values), list(units), tolerance, "tolerances")
-        found, spent = _time(model, said[-1], **values)
->>>>>>> paths
         in_batch.append(spent / count if joint is not None else math.nan)
         answers.append(
             {
@@ -237,28 +231,17 @@ def required(
         costs.append(Cost(level, spent, case, differences, holds))
     asked = 0 if joint is None else count
     answered = 0 if joint is None else int(good.sum())
-<<<<<<< HEAD
     limits = list(_limits(levels, noted, count))
-    warn_of(limits)
-    notes = [*(note.statement for note in limits), *notes]
-=======
-    limits = list(_limits(levels, said, count))
     warn_of(note for note, _ in limits)
     of_levels = {note.statement: where for note, where in limits} | notes
->>>>>>> paths
     return Required(
         tuple(costs), within, units, (asked, answered), of_levels, tuple(given_texts(scene))
     )
 
 
 def _limits(
-<<<<<<< HEAD
     levels: Sequence[Level], by_level: Sequence[Sequence[Noted]], count: int
-) -> Iterator[Note]:
-=======
-    levels: Sequence[Level], said: Sequence[Sequence[Noted]], count: int
 ) -> Iterator[tuple[Note, list[Level]]]:
->>>>>>> paths
     """What the models of the levels warned of, each sentence once with the levels it is of."""
     found: dict[tuple[str, str], list[tuple[Level, Note]]] = {}
     for level, noted in zip(levels, by_level, strict=True):
@@ -280,12 +263,8 @@ def _limits(
         last, note = places[-1]
         raised = note.warning if last is levels[-1] else None
         said_of = f"{of if count > 1 else ''}at {where}: {sentence}"
-<<<<<<< HEAD
-        yield Note(raised, said_of, code=code, fields={"cases": most, "share": share})
-=======
-        fields = {"cases": most, "share": most / count}
+        fields = {"cases": most, "share": share}
         yield Note(raised, said_of, code=code, fields=fields), [level for level, _ in places]
->>>>>>> paths
 
 
 def _time(model: Any, said: list[Said], **values: Any) -> tuple[Any, float]:
