@@ -58,6 +58,8 @@ _DEEPER = 0.3
 _PUSHED = 0.05
 # Between their contact and the time they part, where it is looked how deep they are.
 _SHARES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
+# A time [s] that is later than any other.
+_LONG = 1e300
 # Later than this [s] motion that nothing slows comes together by rounding alone.
 _SOON = 1e3
 # So many moments are looked at for how near two vehicles come that do not touch.
@@ -136,7 +138,10 @@ class _Between:
         self.deepest: Any = np.zeros(count, dtype=bool)
         self.nearest: Any = np.full(count, np.inf)
         self.nearest_at: Any = np.zeros(count)
-        self.touched: list[tuple[float, float]] = []
+        # When they first touched, of the contact that they are in [s]: before the start -inf.
+        self.first: Any = np.full(count, np.nan)
+        # Touches that came: of which cases, when, and how fast they closed.
+        self.touched: list[tuple[Any, Any, Any]] = []
 
     def meets(self, cases: Any, time: Any, met: Meeting, side: Any, allowed: float) -> None:
         """Keep how some cases meet, against which it is held how deep they come to overlap; of
@@ -153,6 +158,9 @@ class _Between:
 class Followed:
     """A scene that was followed: its contacts in order, the courses of all movers, notices, and
     what became of each case.
+
+    Touches that no contact describes are looked for until the last contact of each case, and
+    ``to_rest`` also after it.
     """
 
     def __init__(
@@ -161,7 +169,10 @@ class Followed:
         contacts: Sequence[Contact],
         ground: Ground,
         order: Sequence[tuple[str, str]] | None,
+        *,
+        to_rest: bool = True,
     ) -> None:
+        self._looks_to_rest = to_rest
         self.movers, self.contacts, self.ground, self.order = movers, contacts, ground, order
         self.single = ground.single
         self.count = int(np.prod(ground.shape or (), dtype=int))
@@ -175,10 +186,13 @@ class Followed:
         self.hits: list[Hit] = []
         self.notices: list[Notice] = []
         self.failed: Any = np.full(self.count, "", dtype=object)
-        # Whether two vehicles of a case go through or into each other after their contact, and
-        # whether a drag does not act in one that is followed in time.
+        # Whether two vehicles of a case go through or into each other after their contact, whether
+        # a drag does not act in one that is followed in time, whether two touch and no contact
+        # says what happens, and whether a touch is passed over as nothing pushes in it.
         self.driven: Any = np.zeros(self.count, dtype=bool)
         self.dragless: Any = np.zeros(self.count, dtype=bool)
+        self.undescribed: Any = np.zeros(self.count, dtype=bool)
+        self.passed_over: Any = np.zeros(self.count, dtype=bool)
         # The contacts of each case in order, and when they came; -1 and NaN after the last.
         self.rules: Any = np.full((MOST_CONTACTS, self.count), -1)
         self.times: Any = np.full((MOST_CONTACTS, self.count), np.nan)
@@ -358,6 +372,7 @@ class Followed:
                 needed(self.movers[name].vehicle, part, "an outline in a scene", name)
         met, state_a, state_b = self._pair(pair).at(np.zeros(self.count), every)
         pair.apart = met.gap > TOUCHING
+        pair.first[~pair.apart] = -np.inf
         begins = np.zeros(self.count, dtype=bool)
         for rule in pair.timed:
             begins |= self.ground.cases(self.contacts[rule].at) == 0.0
@@ -382,6 +397,7 @@ class Followed:
         pair.allowed[pair.apart | begins] = np.inf
         at_once = ~pair.apart & ~wrong & ~begins & (closing >= _LEAST_CLOSING)
         pair.touch[at_once], pair.closing[at_once] = 0.0, closing[at_once]
+        pair.first[at_once] = 0.0
         self._arrange(pair, np.flatnonzero(at_once))
 
     def _next(self, now: Any, alive: Any, left: Mapping[int, Any]) -> tuple[Any, Any]:
@@ -393,25 +409,34 @@ class Followed:
             times, rules = np.where(sooner, at, times), np.where(sooner, rule, rules)
         # A contact that is due now needs no look ahead.
         looks = alive & ~(times <= now)
-        for pair in self._pairs:
-            # Of a batch, touches that no contact describes are not looked for.
-            if pair.shapes is None or (pair.rule is None and not self.single):
-                continue
-            self._look_ahead(pair, now, looks)
+        moving = [pair for pair in self._pairs if pair.shapes is not None]
+        for pair in moving:
             if pair.rule is not None:
+                self._look_ahead(pair, now, looks)
                 sooner = alive & (pair.due < times)
                 times = np.where(sooner, pair.due, times)
                 rules = np.where(sooner, pair.rule, rules)
+        # What no contact describes is looked for as far as it is known how the vehicles go on.
+        looks &= ~(times <= now)
+        if not self._looks_to_rest:
+            looks &= np.isfinite(times)
+        for pair in moving:
+            if pair.rule is None:
+                self._look_ahead(pair, now, looks, times)
         return times, rules
 
-    def _look_ahead(self, pair: _Between, now: Any, alive: Any) -> None:
-        """Find the next touch of a pair where it is not known, and what becomes of it."""
-        while True:
-            cases = np.flatnonzero(alive & np.isnan(pair.touch) & np.isinf(pair.due))
-            if not len(cases):
-                return
-            moving = self._pair(pair)
-            until = self._horizon(pair, cases)
+    def _look_ahead(self, pair: _Between, now: Any, alive: Any, limits: Any = None) -> None:
+        """Find the next touch of a pair where it is not known, and what becomes of it; with
+        ``limits`` until a time of each case [s].
+        """
+        if limits is None:
+            limits = np.full(self.count, np.inf)
+        cases = np.flatnonzero(alive & np.isnan(pair.touch) & np.isinf(pair.due))
+        while len(cases):
+            moving, limit = self._pair(pair), limits[cases]
+            until = limit.copy()
+            if np.isinf(limit).any():
+                until = np.minimum(limit, self._horizon(pair, cases))
             begin = np.maximum(now[cases], np.where(np.isnan(pair.begun), 0.0, pair.begun)[cases])
             # A contact followed in time goes to its end before another of the two begins.
             for name in pair.names:
@@ -419,15 +444,20 @@ class Followed:
             near = ~pair.apart[cases]
             if near.any():
                 begin[near] = first_apart(moving, begin[near], until[near], cases[near], APART)
-                self._note_through(pair, moving, cases[near], begin[near])
+                self._note_through(pair, moving, cases[near], begin[near], limit[near])
             touch = first_touch(moving, begin, until, cases)
             pair.apart[cases] = np.isfinite(begin)
             closer = touch.nearest < pair.nearest[cases]
             pair.nearest[cases] = np.where(closer, touch.nearest, pair.nearest[cases])
             pair.nearest_at[cases] = np.where(closer, touch.nearest_at, pair.nearest_at[cases])
-            pair.touch[cases], pair.closing[cases] = touch.time, touch.closing
-            counts = np.isfinite(touch.time) & (touch.closing >= pair.least[cases])
-            passes = np.isfinite(touch.time) & ~counts
+            touches = np.isfinite(touch.time)
+            # What is not found until then is looked for again from there on.
+            unknown = ~touches & np.isfinite(limit)
+            pair.touch[cases] = np.where(unknown, np.nan, touch.time)
+            pair.closing[cases] = touch.closing
+            pair.first[cases[touches]] = touch.time[touches]
+            counts = touches & (touch.closing >= pair.least[cases])
+            passes = touches & ~counts
             if pair.rule is not None:
                 self._arrange(pair, cases[counts])
             # A resting contact is passed over: the search goes on once they were apart.
@@ -435,21 +465,24 @@ class Followed:
             met, *_ = moving.at(touch.time[passes], over)
             pair.meets(over, touch.time[passes], met, met.axis(met.widest), _PUSHED)
             pair.touch[over], pair.begun[over], pair.apart[over] = np.nan, touch.time[passes], False
-            if not passes.any():
-                return
+            cases = over
 
-    def _note_through(self, pair: _Between, moving: Pair, cases: Any, parts: Any) -> None:
+    def _note_through(
+        self, pair: _Between, moving: Pair, cases: Any, parts: Any, limit: Any
+    ) -> None:
         """Note two that were in contact, or touched too slowly for one, and go through each other
         before they part, or come to overlap deeper than they did then: what pushes them without a
         blow is not followed.
 
-        ``parts`` is when they are apart [s]; not finite where they never are.
+        ``parts`` is when they are apart [s]; not finite where they are not until ``limit``, from
+        which on they may go another way.
         """
         had = np.isfinite(pair.allowed[cases])
-        cases, parts = cases[had], parts[had]
+        cases, parts, limit = cases[had], parts[had], limit[had]
         apart = np.isfinite(parts)
-        one, other = (self.courses[name] for name in pair.names)
-        ends = np.where(apart, parts, np.maximum(one.rests_of(cases), other.rests_of(cases)))
+        ends, still = np.where(apart, parts, limit), ~apart & np.isinf(limit)
+        rests = [self.courses[name].rests_of(cases[still]) for name in pair.names]
+        ends[still] = np.maximum(*rests)
         soon, struck = ends <= _SOON, pair.allowed[cases] > _PUSHED
         # What was passed over is looked at for so long, as it may come together ever so slowly.
         ends, apart = np.where(soon, ends, _SOON), apart & soon
@@ -610,9 +643,9 @@ class Followed:
         self.rules[number, which], self.times[number, which] = rule, time
         self.many[which] += 1
         before = self._closings(pair, which, time)
+        pair.first[which] = self._began(pair, which, time)
         ends = self._go_on(contact, which, time, states, impact)
-        if self.single and pair.rule is None and float(pair.touch[0]) <= float(time[0]):
-            pair.touched.append((float(pair.touch[0]), float(pair.closing[0])))
+        self._keep_touches(pair, which, time)
         pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
         pair.least[which], pair.begun[which] = _AGAIN, np.nan
         if contact.in_time:
@@ -647,6 +680,7 @@ class Followed:
 
     def _pass_over(self, pair: _Between, which: Any, time: Any) -> None:
         """A touch in which nothing pushes: the search goes on once the two were apart."""
+        self.passed_over[which] = True
         if self.single:
             one, other = pair.names
             text = (
@@ -677,11 +711,8 @@ class Followed:
         again; it comes at once where it is in contact and is driven together.
         """
         struck, time = times
-        if pair.shapes is not None and pair.rule is None and self.single:
-            touch = float(pair.touch[0])
-            if touch <= float(struck[0]):
-                pair.touched.append((touch, float(pair.closing[0])))
-                pair.apart[which], pair.begun[which] = False, touch
+        came = self._keep_touches(pair, which, struck)
+        pair.apart[came], pair.begun[came] = False, pair.touch[came]
         # A touch that was still ahead when it was passed over is none any more.
         ahead = which[pair.begun[which] > struck]
         pair.begun[ahead], pair.apart[ahead] = np.nan, True
@@ -716,6 +747,22 @@ class Followed:
         if contact.from_outlines and bare.any():
             pair.due[which[bare]] = np.inf
             self._arrange(pair, which[bare])
+
+    def _keep_touches(self, pair: _Between, which: Any, time: Any) -> Any:
+        """Keep the touches until a time that no rule describes, before they are looked for anew;
+        the cases that have one.
+        """
+        if pair.rule is not None:
+            return which[:0]
+        came = which[pair.touch[which] <= time]
+        if len(came):
+            pair.touched.append((came, pair.touch[came], pair.closing[came]))
+        return came
+
+    def _began(self, pair: _Between, which: Any, time: Any) -> Any:
+        """When two that are in contact at a time of each case first touched [s]."""
+        ahead = pair.apart[which] & ~np.isfinite(pair.touch[which])
+        return np.fmin(np.where(ahead, time, pair.first[which]), time)
 
     def _not_yet_apart(self, pair: _Between, which: Any, time: Any) -> None:
         """Take back that two are apart which are so only later than an impact that comes before:
@@ -949,24 +996,26 @@ class Followed:
                     order=tuple(took),
                 )
             self._fail(np.flatnonzero(~good), "other_order")
-        if self.single:
-            for one in self._pairs:
-                self._note(one)
+        for one in self._pairs:
+            self._note(one)
 
     def _note(self, pair: _Between) -> None:
         """Note touches of a pair that no contact describes."""
-        found = list(pair.touched)
-        if math.isfinite(float(pair.touch[0])):
-            found.append((float(pair.touch[0]), float(pair.closing[0])))
-        came = zip(self.longest, self.times[:, 0].tolist(), strict=False)
-        timed = [time for rule, time in came if rule in pair.timed]
+        if pair.rule is not None:
+            return
+        self._keep_touches(pair, np.arange(self.count), np.full(self.count, _LONG))
         one, other = pair.names
-        for time, closing in found if pair.rule is None else ():
-            if any(0.0 <= at - time <= _LATE for at in timed):
+        for cases, times, closings in pair.touched:
+            later = self.times[:, cases] - times
+            of_them = np.isin(self.rules[:, cases], pair.timed) & (later >= 0.0) & (later <= _LATE)
+            lacking = ~of_them.any(axis=0)
+            self.undescribed[cases[lacking]] = True
+            if not self.single or not lacking[0]:
                 continue
+            time = float(times[0])
             text = (
                 f"{one} and {other} touch at {time:.3g} s, closing by "
-                f"{self._say(closing, 'speed', 3)}, and no "
+                f"{self._say(float(closings[0]), 'speed', 3)}, and no "
                 "contact says what happens; they are followed as if they passed through each other"
             )
             self.notices.append(Notice("touch_without_contact", text, time, pair.names))

@@ -595,7 +595,9 @@ def as_function(
                 "stands",
             )
         made = replaced(scene, values)
-        run = Run(made if at_level is None else at_level(made), tolerance)
+        made = made if at_level is None else at_level(made)
+        # What vehicles touch after the last impact matters to where they come to rest.
+        run = Run(made, tolerance, to_rest=bool(resting or marks))
         warn_of_findings(run)
         run._followed.to_rest(resting)
         # All points of a mark at once: the mark is worked out for them, and not kept.

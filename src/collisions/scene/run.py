@@ -112,11 +112,11 @@ class Run(Frozen, Summarized):
     answer. Impacts are counted in order of time.
     """
 
-    def __init__(self, scene: Scene, tolerance: float) -> None:
+    def __init__(self, scene: Scene, tolerance: float, *, to_rest: bool = True) -> None:
         ground = Ground(scene.surfaces, scene.slope, tolerance, scene.shape)
         # What cannot be answered is NaN, of which numpy need not warn.
         with np.errstate(all="ignore"):
-            found = Followed(scene.movers, scene.contacts, ground, scene.order)
+            found = Followed(scene.movers, scene.contacts, ground, scene.order, to_rest=to_rest)
         vars(self).update(scene=scene, tolerance=tolerance, _followed=found)
         _warn_of(found, found.failed != "")
         _warn_of_notices(found)
@@ -744,6 +744,11 @@ _UNDESCRIBED = (
 )
 
 
+_PASSED_OVER = (
+    "two vehicles touch and do not close where the impulse would act; they are followed without one"
+)
+
+
 def _of_driven(said: str) -> OutOfRangeWarning:
     return OutOfRangeWarning(said, code="driven_through")
 
@@ -756,11 +761,16 @@ def _of_undescribed(said: str) -> OutOfRangeWarning:
     return OutOfRangeWarning(said, code="touch_without_contact")
 
 
+def _of_passed_over(said: str) -> OutOfRangeWarning:
+    return OutOfRangeWarning(said, code="touch_passed_over")
+
+
 _OF_FINDING = {
     "driven_through": (_of_driven, _DRIVEN),
     "driven_together": (_of_driven, _DRIVEN),
     "drag_during_contact": (_of_dragless, _DRAGLESS),
     "touch_without_contact": (_of_undescribed, _UNDESCRIBED),
+    "touch_passed_over": (_of_passed_over, _PASSED_OVER),
 }
 
 
@@ -771,6 +781,8 @@ def _warn_of_notices(found: Followed) -> None:
     for cases, made, text in (
         (found.driven, _of_driven, _DRIVEN),
         (found.dragless, _of_dragless, _DRAGLESS),
+        (found.undescribed, _of_undescribed, _UNDESCRIBED),
+        (found.passed_over, _of_passed_over, _PASSED_OVER),
     ):
         if count := int(np.count_nonzero(cases & (found.failed == ""))):
             said = f"in {count} of {found.count} cases of the scene {text}"
