@@ -35,6 +35,7 @@ from .touching import (
     Pair,
     Shape,
     closing_of,
+    distance_outside,
     engaged,
     first_apart,
     first_touch,
@@ -66,8 +67,20 @@ _SOON = 1e3
 _LOOKS = 129
 # Faces within this angle [rad] of each other meet face to face.
 _FACE_TO_FACE = math.radians(1.0)
+# So long [s] after a touch it is seen at the least of which edge at a corner the overlap stays
+# least.
+_BRIEF = 1e-3
 # A contact at a time that comes within this [s] of a touch is that of the touch.
 _LATE = 0.5
+# Outlines may be this far apart [m] at a contact at a time with a normal and a point of its own,
+# and the point this far outside of the nearer one. Positions to 10 cm each and outlines that are
+# rounder than drawn explain 0.3 m, at which `diagnose` has a finding; nothing explains more than
+# what a contact crushes.
+_FAR = 0.5
+# How exactly it is found when two first touched: a share of 2 to the power of minus this.
+_HALVINGS = 40
+# Axes are those of one face within the angle whose cosine this is.
+_ALIKE = math.cos(math.radians(5.0))
 # What a negative number of a contact is called.
 _NEGATIVE = {"at": "negative_time", "depth": "negative_length", "delay": "negative_duration"}
 # Outlines whose edges are this near in line [m] cross nowhere in particular.
@@ -254,20 +267,12 @@ class Followed:
         one, other = (self.courses[name] for name in pair.names)
         assert pair.shapes is not None
 
-        level = not self.ground.steepest
-
         def states(time: Any, cases: Any) -> tuple[Any, Any]:
             follow_on((one, other), time, cases)
-            found = one.at(time, cases), other.at(time, cases)
-            if level:
-                return found
-            # Outlines meet in plan, in which velocities along a slope are less.
-            rises = self.ground.rises(self.ground.taker(cases))
-            plan_a, plan_b = (
-                np.array([*state[:3], *in_plan(rises, state[3], state[4]), state[5]])
-                for state in found
+            return (
+                self._in_plan(one.at(time, cases), cases),
+                self._in_plan(other.at(time, cases), cases),
             )
-            return plan_a, plan_b
 
         kept: list[Any] = []
 
@@ -284,6 +289,43 @@ class Followed:
             return one.fastest(cases, state_a, reach_a) + other.fastest(cases, state_b, reach_b)
 
         return Pair(*pair.shapes, states, bounds, speeds)
+
+    def _in_plan(self, state: Any, cases: Any) -> Any:
+        """States as outlines meet: in plan, in which velocities along a slope are less."""
+        if not self.ground.steepest:
+            return state
+        rises = self.ground.rises(self.ground.taker(cases))
+        return np.array([*state[:3], *in_plan(rises, state[3], state[4]), state[5]])
+
+    def _back(self, pair: _Between, cases: Any) -> tuple[Pair, Any]:
+        """Both vehicles backwards from the start of some cases, unslowed, on a clock that runs
+        back; and until when they may be in contact on it [s].
+        """
+        assert pair.shapes is not None
+        start = np.zeros(len(cases))
+        begin = [
+            self._in_plan(self.courses[name].at(start, cases, before=True), cases)
+            for name in pair.names
+        ]
+
+        def states(time: Any, at: Any) -> tuple[Any, Any]:
+            one, other = (
+                np.concatenate([state[:3, at] - time * state[3:, at], -state[3:, at]])
+                for state in begin
+            )
+            return one, other
+
+        def bounds(at: Any) -> Any:
+            return np.zeros((4, len(at)))
+
+        def speeds(at: Any, *_: Any) -> Any:
+            return np.full(len(at), np.inf)
+
+        away = begin[1] - begin[0]
+        apart, speed = np.hypot(*away[:2]), np.hypot(*away[3:5])
+        far = apart + pair.shapes[0].reach + pair.shapes[1].reach
+        until = np.where(speed > 0.0, far / np.where(speed > 0.0, speed, 1.0), 0.0)
+        return Pair(*pair.shapes, states, bounds, speeds), until
 
     def _horizon(self, pair: _Between, cases: Any) -> Any:
         """Until when two movers may touch [s]."""
@@ -372,7 +414,7 @@ class Followed:
                 needed(self.movers[name].vehicle, part, "an outline in a scene", name)
         met, state_a, state_b = self._pair(pair).at(np.zeros(self.count), every)
         pair.apart = met.gap > TOUCHING
-        pair.first[~pair.apart] = -np.inf
+        pair.first[~pair.apart] = np.where(met.gap < -_OVERLAPS, -np.inf, 0.0)[~pair.apart]
         begins = np.zeros(self.count, dtype=bool)
         for rule in pair.timed:
             begins |= self.ground.cases(self.contacts[rule].at) == 0.0
@@ -546,7 +588,7 @@ class Followed:
             return
         depth = None if contact.depth is None else take(contact.depth)
         delay = take(USUAL_DELAY if contact.delay is None else contact.delay)
-        later = touch + (np.maximum(delay, 1e-3) if depth is None else USUAL_DELAY)
+        later = touch + (np.maximum(delay, _BRIEF) if depth is None else USUAL_DELAY)
         axis = pair.axis[cases] = struck_face(moving, touch, later, cases)
         self._refuse_bare(pair, moving, cases, delay if depth is None else depth)
 
@@ -803,6 +845,8 @@ class Followed:
         take = self.ground.taker(which)
         normal: Any = contact.normal
         point: Any = contact.point
+        if pair.shapes is not None:
+            self._refuse_places(pair, contact, which, time)
         if not self.single:
             normal = None if normal is None else tuple(part_of(part, take) for part in normal)
             point = None if point is None else tuple(part_of(part, take) for part in point)
@@ -821,22 +865,11 @@ class Followed:
         carried = contact.in_time and contact.touches
         seen = pair.seen[which] if carried else time
         met, state_a, state_b = self._pair(pair).at(seen, which)
-        which_axis = pair.axis[which] if contact.touches else met.widest
+        which_axis = pair.axis[which]
+        if not contact.touches and contact.normal is None:
+            which_axis = self._face(pair, contact, which, time)
         axis = self._axis(pair, contact, met, which_axis, which)
         centre, _, crossings = overlap_of(met.one, met.other)
-        apart = met.gap > TOUCHING
-        if not contact.touches and apart.any():
-            if self.single:
-                raise InputError(
-                    f"{contact.a} and {contact.b} are "
-                    f"{self._say(float(met.gap[0]), 'length', 3)} apart at "
-                    f"{float(time[0]):.4g} s, where contact says that they meet; correct the "
-                    "states, `at=` or the outlines, write `at='touch'`, or give `normal=` and "
-                    "`point=`",
-                    code="contact_missing",
-                    argument="contacts",
-                )
-            self._fail(which[apart], "contact_missing")
         if contact.plane == "crossings":
             axis = _through_crossings(met, crossings, axis)
         # Where outlines only touch, the corner that is ahead.
@@ -853,6 +886,108 @@ class Followed:
         if point is None and contact.model not in ("linear_central", "oblique_central"):
             point = tuple(float(part[0]) if self.single else part for part in centre)
         return normal, point
+
+    def _refuse_places(self, pair: _Between, contact: Contact, which: Any, time: Any) -> None:
+        """Refuse a contact at a time at which the outlines are apart, and a point that is far from
+        both.
+        """
+        if contact.touches and contact.point is None:
+            return
+        met, state_a, _ = self._pair(pair).at(time, which)
+        # What comes from the outlines needs that they touch.
+        most = TOUCHING if contact.from_outlines else _FAR
+        apart = (met.gap > most) & (not contact.touches)
+        when = f"at {float(time[0]):.4g} s"
+        if self.single and apart[0]:
+            raise InputError(
+                f"{contact.a} and {contact.b} are {self._say(float(met.gap[0]), 'length', 3)} "
+                f"apart {when}, where contact says that they meet; correct the states, `at=` or "
+                "the outlines, or write `at='touch'`",
+                code="contact_missing",
+                argument="contacts",
+                distance=float(met.gap[0]),
+                time=float(time[0]),
+                movers=(contact.a, contact.b),
+            )
+        self._fail(which[apart], "contact_missing")
+        if contact.point is None:
+            return
+        take = self.ground.taker(which)
+        point = np.array([take(part) for part in contact.point]) - state_a[:2]
+        off = np.array([distance_outside(point, one) for one in (met.one, met.other)])
+        far = off.min(axis=0) > _FAR
+        if self.single and far[0]:
+            x, y = (self._say(float(take(part)[0]), "length", 3) for part in contact.point)
+            one, other = (self._say(float(part), "length", 3) for part in off[:, 0])
+            raise InputError(
+                f"the point ({x}, {y}) of the contact of {contact.a} and {contact.b} lies {one} "
+                f"outside the outline of {pair.names[0]} and {other} outside that of "
+                f"{pair.names[1]} {when}, and may lie {self._say(_FAR, 'length', 3)} outside the "
+                "nearer one; correct `point=`, the states or the outlines, or leave out normal "
+                "and point, which then come from the outlines",
+                code="point_outside",
+                argument="contacts",
+                time=float(time[0]),
+                movers=(contact.a, contact.b),
+            )
+        self._fail(which[far], "point_outside")
+
+    def _face(self, pair: _Between, contact: Contact, which: Any, time: Any) -> Any:
+        """Which axis is that of the face struck at first touch, of a contact at a time: in the
+        scene, or before its start, to which both then came straight on.
+        """
+        moving, first = self._pair(pair), self._began(pair, which, time)
+        met, *_ = moving.at(time, which)
+        face = met.widest.copy()
+        known = np.isfinite(first)
+        if known.any():
+            later = np.maximum(time, first + _BRIEF)[known]
+            face[known] = struck_face(moving, first[known], later, which[known])
+        some = np.flatnonzero(~known)
+        if not len(some):
+            return face
+        back, until = self._back(pair, which[some])
+        every, begun = np.arange(len(some)), np.zeros(len(some))
+        parted = first_apart(back, begun, until, every, 0.0)
+        found = np.flatnonzero(np.isfinite(parted))
+        self._refuse_undecided(pair, contact, which[some[np.isinf(parted)]], met, time)
+        low, high = begun[found], parted[found]
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            apart = back.at(middle, found)[0].gap >= 0.0
+            low, high = np.where(apart, low, middle), np.where(apart, middle, high)
+        face[some[found]] = struck_face(back, high, np.minimum(begun[found], high - _BRIEF), found)
+        return face
+
+    def _refuse_undecided(
+        self, pair: _Between, contact: Contact, cases: Any, met: Meeting, time: Any
+    ) -> None:
+        """Refuse a normal from outlines that overlap from the start, of which it is not known how
+        they came to it.
+        """
+        if not len(cases) or not self.single:
+            self._fail(cases, "face_undecided")
+            return
+        sign = 1.0 if contact.a == pair.names[0] else -1.0
+        by_depth = np.argsort(-met.gaps[:, 0], kind="stable").tolist()
+        axes = [(sign * met.axes[:, at, 0], -float(met.gaps[at, 0])) for at in by_depth]
+        # Edges that are parallel have one normal.
+        other = next(one for one in axes if axes[0][0] @ one[0] < _ALIKE)
+        listed = " or ".join(
+            f"({axis[0] + 0.0:.3g}, {axis[1] + 0.0:.3g}), along which they overlap by "
+            f"{self._say(deep, 'length', 3)}"
+            for axis, deep in (axes[0], other)
+        )
+        raise InputError(
+            f"{contact.a} and {contact.b} overlap at {float(time[0]):.4g} s, and going straight "
+            "back from the states at the start they do not part, so that it is not decided which "
+            f"faces met first: the normal is {listed}; give `normal=` and `point=`, or the "
+            "velocities just before the contact",
+            code="face_undecided",
+            argument="contacts",
+            time=float(time[0]),
+            movers=(contact.a, contact.b),
+        )
 
     def _solved(
         self, rule: int, contact: Contact, which: Any, time: Any, states: Any, place: Any
