@@ -102,6 +102,14 @@ class Leg(NamedTuple):
                 found[:, some] = there
         return found
 
+    @property
+    def begun(self) -> Any:
+        """The states of its cases when what slows them begins to act, at the end of ``hold``."""
+        if self.pull is None:
+            return np.concatenate([self.state[_PLACES] + self.hold * self.state[_RATES],
+                                   self.state[_RATES]])  # fmt: skip
+        return pulled(self.state, self.hold, self.pull, self.rises)
+
     def rests(self, cases: Any, *, known: bool = False) -> Any:
         """When some of its cases have come to rest [s]; infinite where they do not, or, with
         ``known``, where they were not followed so far.
@@ -401,9 +409,13 @@ class Course:
                 place[leg.which] = np.arange(len(leg.which))
                 at = place[cases[here]]
                 stops = leg.stops[at]
-                speed = np.hypot(leg.state[3, at], leg.state[4, at])
+                begun, pulls = leg.begun[:, at], 0.0
+                if leg.pull is not None:
+                    pulls = np.hypot(*leg.pull[:, at])
+                speed = np.hypot(begun[3], begun[4])
                 moving = (stops > 0.0) & np.isfinite(stops)
-                push[here] = np.where(moving, speed / np.where(moving, stops, 1.0), 0.0)
+                slowing = np.where(moving, speed / np.where(moving, stops, 1.0), 0.0)
+                push[here] = np.maximum(slowing, pulls)
                 turning = np.abs(leg.state[5, at])
                 spin[here] = np.where(moving, turning / np.where(moving, stops, 1.0), 0.0)
         return push, spin
@@ -424,16 +436,16 @@ class Course:
     def _leg(self, begins: tuple[Any, ...], brief: Any, pull: Any) -> Leg:
         which, start, hold, state, tyres = begins
         rises = None if pull is None else np.array(self.ground.rises(self.ground.taker(which)))
-        begun = state.copy()
-        if pull is None:
-            begun[_PLACES] = state[_PLACES] + hold * state[_RATES]
-        else:
-            begun = pulled(state, hold, pull, rises)
+        count = len(which)
+        none = np.full(count, -1)
+        leg = Leg(
+            which, start, hold, state, np.zeros(count), none, None, tyres, rises=rises, pull=pull
+        )
+        begun = leg.begun
         speed = np.hypot(begun[3], begun[4])
         still = (speed == 0.0) & (begun[5] == 0.0)
-        count = len(which)
         stops = np.where(still, 0.0, np.inf)
-        place: Any = np.full(count, -1)
+        place: Any = none.copy()
         followed = None
         if self.fixed or count == 0:
             pass
@@ -445,7 +457,7 @@ class Course:
                 followed = self._followed(which[moves], begun[:, moves], tyres)
         elif self.mover.drag is not None:
             stops = self._slides(which, begun, speed, still)
-        return Leg(which, start, hold, state, stops, place, followed, tyres, rises=rises, pull=pull)
+        return leg._replace(stops=stops, place=place, followed=followed)
 
     def _rolls(self, tyres: Tyres, which: Any, state: Any, speed: Any) -> Any:
         """Whether all wheels roll freely straight on, so that nothing slows the vehicle."""

@@ -214,15 +214,17 @@ class Run(Frozen, Summarized):
     @derived("J")
     def energy(self) -> Mapping[str, Any]:
         """Where the kinetic energy went [J]: "before", the sum at the start; "contacts", what each
-        took, its tyres included; "ground", what tyres, drag and slope took, by their power along
+        took, its tyres and the pull of a slope meanwhile included; "ground", what tyres, drag and slope took, by their power along
         the way; and "left" at the end of the clock.
         """
         self._refuse_batch("energy")
         movers = self.scene.movers
         begins = [movers[name].vehicle.kinetic_energy for name in movers]
         lost = tuple(
-            impact.energy_loss + _tyre_loss(impact.a) + _tyre_loss(impact.b)
-            for impact in self.impacts
+            impact.energy_loss
+            + math.fsum((_tyre_loss(impact.a), _tyre_loss(impact.b)))
+            + math.fsum(self._pulled(name, time) for name in pair)
+            for impact, pair, time in zip(self.impacts, self.pairs, self.times, strict=True)
         )
         ends = self._ends()
         left = [
@@ -589,7 +591,8 @@ class Run(Frozen, Summarized):
             power, marks = on_wheels.power, on_wheels.marks
         elif mover.drag is not None:
             stops = float(leg.stops[0])
-            speed = math.hypot(leg.state[3, 0], leg.state[4, 0])
+            # The drag slows what a slope has added by the end of a contact too.
+            speed = math.hypot(*leg.begun[3:5, 0])
             slowing = speed / stops if 0.0 < stops < math.inf else 0.0
             power = on_drag(mover, found.ground, state, slowing)
         # What moves on unslowed does so on a slope too.
@@ -619,6 +622,20 @@ class Run(Frozen, Summarized):
             weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
             total += float(clock[1] - clock[0]) / 3.0 * float(weights @ power)
         return total
+
+    def _pulled(self, name: str, time: float) -> float:
+        """What the forces of a contact that is followed in time take from one vehicle [J] by acting
+        on the motion that the slope adds meanwhile, which the impact itself is without.
+        """
+        leg = self._followed.courses[name].leg_at(time)
+        pulls = leg.pull is not None and leg.during is not None and leg.start[0] == time
+        if not pulls or self.scene.movers[name].fixed or not np.isfinite(leg.during[0, 1, 0]):
+            return 0.0
+        (began, ended), after = leg.during[1:3, :, 0].T, leg.during[4:6, 1, 0]
+        # Forces F at the times t: the sum of F t is mass by (velocity after by time, less the way).
+        lags = ended - began - leg.hold[0] * after
+        mass: float = self.scene.movers[name].vehicle.mass
+        return mass * float(leg.pull[:, 0] @ lags)
 
     def __repr__(self) -> str:
         found = self._followed
