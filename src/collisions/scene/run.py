@@ -500,7 +500,7 @@ class Run(Frozen, Summarized):
         with np.errstate(all="ignore"):
             rests = course.rests
         if found.single and not math.isfinite(rests[0]):
-            raise no_rest(name)
+            raise no_rest(course)
         with np.errstate(all="ignore"):
             # Ever after: at the moment itself, rounding may leave it a last digit short.
             late = np.where(np.isfinite(rests), np.inf, 0.0)
