@@ -814,7 +814,7 @@ class Followed:
             return
         blow = np.where(np.any(pair.way[:, which] != 0.0, axis=0), pair.struck[which], np.nan)
         since = np.fmax(blow, pair.begun[which])
-        some = pair.apart[which] & (since < time)
+        some = pair.apart[which] & (since <= time)
         if some.any():
             cases, until = which[some], time[some]
             parts = first_apart(self._pair(pair), since[some], until, cases, APART)
