@@ -196,7 +196,9 @@ def test_outlines_and_points_are_rough(gap: float, refused: bool) -> None:
 def test_a_point_far_from_both_outlines_is_refused() -> None:
     """Its distance from both, and the time; not where either has no outline."""
     for at, gap in ((0.0, -0.3), (0.1, 0.9), ("touch", 3.0)):
-        with pytest.raises(col.InputError, match=r"the point \(50 m, 0 m\) of the contact") as found:
+        with pytest.raises(
+            col.InputError, match=r"the point \(50 m, 0 m\) of the contact"
+        ) as found:
             apart(gap, (50.0, 0.0), at=at).run()
         assert found.value.code == "point_outside"
         assert "47.8 m outside that of B" in str(found.value)

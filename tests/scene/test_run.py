@@ -631,9 +631,7 @@ def test_what_is_said_of_a_scene_is_in_the_units_of_its_vehicles() -> None:
 
 
 def sliding(vx: float, slope: Any = 0.0, **slowed: Any) -> Scene:
-    body = col.Vehicle(
-        mass=1500.0, yaw_inertia=2500.0, x=0.0, y=0.0, heading=0.0, vx=vx, vy=0.0
-    )
+    body = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=0.0, y=0.0, heading=0.0, vx=vx, vy=0.0)
     return Scene(movers={"A": Mover(body, **slowed)}, contacts=[], slope=(slope, 0.0))
 
 

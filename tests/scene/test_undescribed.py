@@ -160,5 +160,7 @@ def test_touches_that_are_passed_over_are_counted_too() -> None:
     assert said.startswith("in 2 of 3 cases of the scene two vehicles touch and do not close")
     for speed in (0.1, creeps):
         model = crash(0.1).as_model(["A.vx"], ["B.rest.x"])
-        _, said_of = warned(lambda speed=speed: model(**{"A.vx": speed}), "touch_passed_over")
+        _, said_of = warned(
+            lambda speed=speed, model=model: model(**{"A.vx": speed}), "touch_passed_over"
+        )
         assert len(said_of) == 1

@@ -632,7 +632,9 @@ def no_rest(course: Course) -> MissingInputError:
         vx, vy = last.begun[3:5, 0]
         falls = -float(ground.slope[0] * vx + ground.slope[1] * vy) / float(np.hypot(vx, vy))
         why = f"the slope falls by {falls:.3g} along its way, and its drag is {mover.drag:.3g}"
-        give = f"give a `drag=` above {falls:.3g}, as that on the level, or `tyres=`, or correct slope"
+        give = (
+            f"give a `drag=` above {falls:.3g}, as that on the level, or `tyres=`, or correct slope"
+        )
     elif last.tyres is not None:
         why = "its wheels roll freely straight on"
         give = "give the lock of its `tyres=`, for the resistance to rolling such as 0.02"

@@ -214,8 +214,9 @@ class Run(Frozen, Summarized):
     @derived("J")
     def energy(self) -> Mapping[str, Any]:
         """Where the kinetic energy went [J]: "before", the sum at the start; "contacts", what each
-        took, its tyres and the pull of a slope meanwhile included; "ground", what tyres, drag and slope took, by their power along
-        the way; and "left" at the end of the clock.
+        took, its tyres and what a slope adds to the motion meanwhile included; "ground", what
+        tyres, drag and slope took, by their power along the way; and "left" at the end of the
+        clock.
         """
         self._refuse_batch("energy")
         movers = self.scene.movers
