@@ -525,7 +525,7 @@ def test_two_answers_are_told_apart():
 
         ("80 km/h", "-80 km/h",
             ("linear_central: no impact: the bodies move apart along the normal, closing "
-             "speed -80 km/h; the normal must point from A into B, given [1, 0]; if A and B "
+             "speed -80 km/h; the normal is [1, 0], and must point from A into B; if A and B "
              "were meant the other way round, exchange them or write normal = [-1, 0]")),
         ("0.4", "1.4", "linear_central.restitution: must be from 0 to 1, got 1.4"),
         ("0.4", "[0.4, 0.5]", "linear_central.restitution: takes one value"),

@@ -102,3 +102,19 @@ def test_all_places_of_rest_are_followed_at_once_and_are_those_of_each_alone(
         alone = scene.as_model(["A.vx"], [path])(**speeds)
         np.testing.assert_array_equal(alone[path].magnitude, both[path].magnitude)
         assert calls == [60]
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize("rules", [slice(0, 1), slice(1, 2), slice(0, 0)], ids=["AB", "BC", "none"])
+def test_what_limits_a_case_is_that_of_the_case_alone(rules: slice) -> None:
+    """Touches that no contact describes or that are passed over, and what is driven together."""
+    for seed in range(2):
+        whole = crash(seed)
+        scene = Scene(movers=whole.movers, contacts=whole.contacts[rules])
+        run = scene.run()
+        found = run._followed
+        for i in np.flatnonzero(run.status == "ok").tolist():
+            codes = [one.code for one in scene.case(i).run().findings]
+            assert found.undescribed[i] == ("touch_without_contact" in codes)
+            assert found.passed_over[i] == ("touch_passed_over" in codes)
+            assert found.driven[i] == any(code.startswith("driven") for code in codes)

@@ -180,7 +180,8 @@ def test_a_batch_is_every_case_by_itself() -> None:
         "ground": rng.uniform(0.6, 0.8, count),
         "contacts[0].friction": rng.uniform(0.3, 0.6, count),
     }
-    batch = crash().replace(changes).run()
+    with pytest.warns(col.OutOfRangeWarning, match="in 1 of 8 cases .* no contact says"):
+        batch = crash().replace(changes).run()
     for i in range(0, count, 3):
         one = crash().replace({path: float(value[i]) for path, value in changes.items()}).run()
         assert batch.case(i) == one
@@ -244,8 +245,10 @@ def test_places_of_rest_on_tyres_can_be_propagated_whatever_is_drawn() -> None:
     inputs = {"Camry.vx": Normal(18.0, 1.0), "ground": Uniform(0.6, 0.8)}
     scene = Scene(movers=crash().movers, contacts=crash().contacts, shared=crash().shared)
     for seed in range(3):
-        found = propagate(
-            scene, inputs, outputs=["Camry.rest.x", "Civic.rest.y"], samples=128, seed=seed
-        )
+        # In some the Camry runs into the Civic again, of which only their contact at 0 is said.
+        with pytest.warns(col.OutOfRangeWarning, match="no contact says what happens"):
+            found = propagate(
+                scene, inputs, outputs=["Camry.rest.x", "Civic.rest.y"], samples=128, seed=seed
+            )
         assert found.failed == 0
         assert found["Civic.rest.y"].std > 0.5

@@ -451,3 +451,38 @@ def looks_the_same(movers: dict[str, Mover], crash: Scene) -> None:
         assert (again.x, again.y) == pytest.approx((rest.x, rest.y), **near)
     for runs in (other, mirror, swapped):
         assert runs.times == pytest.approx(run.times, abs=1e-4)
+
+
+def test_one_that_is_thrown_back_at_the_same_moment_is_struck_at_that_moment() -> None:
+    """B stands against the heavy C: it is struck, strikes C and is thrown back into A, all at once,
+    until they part; speeds by the laws of impact in line, one after another.
+    """
+    masses, restitution = {"A": 2000.0, "B": 1000.0, "C": 9000.0}, 0.5
+    movers = {
+        name: Mover(
+            col.Vehicle(mass=masses[name], yaw_inertia=2e3, x=x, y=0.0, heading=0.0, vx=vx),
+            outline=(4.0, 1.8),
+        )
+        for name, x, vx in (("A", -6.0, 10.0), ("B", 0.0, 0.0), ("C", 4.0, 0.0))
+    }
+    central: dict[str, Any] = {
+        "restitution": restitution, "model": "linear_central", "at": "touch"
+    }  # fmt: skip
+    hits = [Contact("A", "B", delay=0.03, **central), Contact("B", "C", normal=0.0, **central)]
+    run = Scene(movers=movers, contacts=hits).run()
+    speeds, expected = {"A": 10.0, "B": 0.0, "C": 0.0}, []
+    while True:
+        for one, other in (("A", "B"), ("B", "C")):
+            # Of two that are in contact a blow counts from 1 m/s on.
+            if speeds[one] - speeds[other] >= 1.0:
+                break
+        else:
+            break
+        m, n = masses[one], masses[other]
+        pushed = (1.0 + restitution) * (speeds[one] - speeds[other]) / (m + n)
+        speeds[one], speeds[other] = speeds[one] - n * pushed, speeds[other] + m * pushed
+        expected.append((one, other))
+    assert [*run.pairs] == expected
+    assert run.times == pytest.approx([0.2 + 0.03] * len(expected), abs=1e-9)
+    after = run.at(1.0)
+    assert {name: after[name].vx for name in "ABC"} == pytest.approx(speeds, abs=1e-9)

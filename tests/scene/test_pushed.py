@@ -80,3 +80,15 @@ def test_after_a_blow_only_what_is_deeper_than_then() -> None:
     """Cars that strike and part have no such finding."""
     contact = Contact("Lorry", "Car", restitution=0.3, friction=0.5, at="touch")
     assert not driven(behind(1.0, (8.0, 5.0), (0.7, 0.7), contacts=[contact]).run())
+
+
+@pytest.mark.parametrize("at", [0.0, "touch"])
+def test_a_batch_counts_them_after_a_contact_at_a_time_too(at: float | str) -> None:
+    """A lorry that is braked less goes into the car it struck, whatever says when it struck it."""
+    drags = np.array([0.1, 0.7, 0.2])
+    rule = {"restitution": 0.0, "model": "linear_central", "normal": 0.0, "at": at}
+    given = {"contacts": [Contact("Lorry", "Car", **rule)]}
+    said = [driven(behind(0.0, (9.0, 0.0), (part, 0.7), **given).run()) for part in drags.tolist()]
+    assert [len(one) for one in said] == [1, 0, 1]
+    with pytest.warns(col.OutOfRangeWarning, match="in 2 of 3 cases .* do not part after"):
+        behind(0.0, (9.0, 0.0), (drags, 0.7), **given).run()

@@ -628,3 +628,56 @@ def test_what_is_said_of_a_scene_is_in_the_units_of_its_vehicles() -> None:
     }
     with pytest.raises(col.NoSolutionError, match=r"are 13\d ft apart at their closest"):
         Scene(movers=far, contacts=[Contact("A", "B", **IN_LINE)]).run()
+
+
+def sliding(vx: float, slope: Any = 0.0, **slowed: Any) -> Scene:
+    body = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=0.0, y=0.0, heading=0.0, vx=vx, vy=0.0)
+    return Scene(movers={"A": Mover(body, **slowed)}, contacts=[], slope=(slope, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"slope": -0.4, "drag": 0.3}, "the slope falls by 0.4 along its way, and its drag is 0.3"),
+        ({"drag": 0.0}, "a drag of 0 slows nothing"),
+        ({"tyres": Tyres(0.7, 0.0, 2.7, 1.5)}, "its wheels roll freely straight on"),
+        ({}, r"nothing slows it; give it tyres=, or drag="),
+    ],
+)
+def test_without_a_place_of_rest_it_says_why(given: dict[str, Any], says: str) -> None:
+    with pytest.raises(col.MissingInputError, match=f"A has no place of rest, as {says}") as caught:
+        _ = sliding(10.0, **given).run().rest["A"]
+    assert caught.value.code == "missing_drag"
+
+
+def test_wheels_that_do_not_hold_on_a_slope_are_said_to_be_too_weak_for_it() -> None:
+    """And are not told to take the lock that they have."""
+    for speed in (-3.0, 0.0, 3.0):
+        with pytest.raises(col.NoSolutionError, match=r"the slope of 0.15 is too steep") as caught:
+            sliding(speed, 0.15, tyres=Tyres(0.7, 0.02, 2.7, 1.5)).run()
+        assert "0.02" not in str(caught.value)
+
+
+def test_what_slides_up_a_slope_does_not_rest_where_its_drag_cannot_hold_it() -> None:
+    """At a drag of 0.3 it would slide back from where it stops on 40 %, as wheels would."""
+    with pytest.raises(col.NoSolutionError, match="A stops on a slope that is too steep") as caught:
+        sliding(10.0, 0.4, drag=0.3).run()
+    assert caught.value.code == "never_stops"
+    # Where it is struck before that, nothing is wrong with the impact.
+    scene = sliding(10.0, 0.4, drag=0.3)
+    wall = Mover(col.Vehicle(mass=math.inf, x=5.0, y=0.0, heading=0.0, vx=0.0, vy=0.0))
+    central = {"restitution": 0.0, "normal": 0.0, "model": "linear_central"}
+    crash = Scene(
+        movers={**scene.movers, "wall": wall},
+        contacts=[Contact("A", "wall", at=0.2, **central)],
+        slope=(0.4, 0.0),
+    )
+    model = crash.as_model(["A.vx"], ["impacts[0].a.delta_v"])
+    assert model(**{"A.vx": 10.0})["impacts[0].a.delta_v"].magnitude > 8.0
+    slopes = np.array([0.4, 0.2])
+    with pytest.warns(col.CollisionsWarning, match="1 of 2 cases .*1 never_stops"):
+        run = sliding(10.0, slopes, drag=0.3).run()
+    # Level gravity less the part across the road, along the road, in plan.
+    angle = math.atan(0.2)
+    way = 100.0 / (2.0 * GRAVITY * math.cos(angle) * (0.3 + 0.2))
+    assert run.rest["A"].x == pytest.approx([math.nan, way * math.cos(angle)], nan_ok=True)

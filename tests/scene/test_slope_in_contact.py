@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Any
 
@@ -113,3 +114,69 @@ def test_what_nothing_slows_is_not_pulled() -> None:
     assert steep.at(0.2)["A"].vx == level.at(0.2)["A"].vx
     bare = in_line((0.1, 0.0), touch=False, restitution=0.2).run()
     assert bare.at(0.0)["A"].vx == bare.impacts[0].a.after.vx
+
+
+@pytest.mark.parametrize("rise", [-0.12, 0.06])
+def test_what_a_contact_takes_from_what_the_slope_adds(rise: float) -> None:
+    """Of two that push each other apart by a spring only the first is pulled. By scipy: the force
+    as on the level, which is that of the model, and its power on what the slope adds meanwhile.
+    """
+    bodies = {
+        name: col.Vehicle(mass=mass, yaw_inertia=2000.0, x=x, y=0.0, heading=0.0, vx=vx)
+        for name, mass, x, vx in zip("AB", MASSES, (-5.0, 2.2), (12.0, 4.0), strict=True)
+    }
+    movers = {
+        "A": Mover(bodies["A"], outline=OUTLINE, drag=0.5),
+        "B": Mover(bodies["B"], outline=OUTLINE),
+    }
+    rule = Contact("A", "B", restitution=1.0, friction=0.0, at="touch", duration=0.12)
+    run = Scene(movers=movers, contacts=[rule], slope=(rise, 0.0)).run()
+    (impact,) = run.impacts
+    (m, n), pull = MASSES, -GRAVITY * math.sin(math.atan(rise))
+    k = (math.pi / 0.12) ** 2 * m * n / (m + n)
+
+    def rates(time: float, state: Any) -> Any:
+        x, y, u, v, _ = state
+        force = k * max(x - y, 0.0)
+        return [u, v, -force / m, force / n, force * pull * time]
+
+    begin = [0.0, 0.0, impact.a.before.vx, impact.b.before.vx, 0.0]
+    end = solve_ivp(rates, (0.0, 0.12), begin, rtol=1e-10, atol=1e-10, max_step=1e-3)
+    taken = end.y[4, -1]
+    assert abs(taken) > 100.0
+    assert run.energy["contacts"][0] == pytest.approx(taken, rel=1e-3)
+
+
+SLOWED: dict[str, dict[str, Any]] = {
+    "wheels": {"tyres": TYRES}, "drag": {"drag": 0.5}, "nothing": {},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("touch", [True, False])
+@pytest.mark.parametrize("slope", [(-0.12, 0.0), (0.03, 0.06)])
+@pytest.mark.parametrize(("one", "other"), [*itertools.combinations_with_replacement(SLOWED, 2)])
+def test_the_account_closes_whoever_is_pulled(
+    one: str, other: str, slope: tuple[float, float], touch: bool
+) -> None:
+    """What the ground takes is the sum of its power along the way; the rest is by the states at the
+    start and at the end and by the impact. Two cars that turn after a lasting contact.
+    """
+    states = {
+        "A": {"x": -6.0 if touch else -2.0, "y": 0.3, "heading": 0.0, "vx": 12.0, "vy": 0.0},
+        "B": {"x": 0.0 if touch else 2.1, "y": 0.0, "heading": 0.3, "vx": -8.0, "vy": 2.0},
+    }
+    movers = {
+        name: Mover(
+            col.Vehicle(mass=1500.0, yaw_inertia=2500.0, **state), outline=(4.5, 1.8), **SLOWED[how]
+        )
+        for (name, state), how in zip(states.items(), (one, other), strict=True)
+    }
+    when: dict[str, Any] = {"at": "touch"} if touch else {"normal": 0.0, "point": (0.0, 0.1)}
+    rule = Contact("A", "B", restitution=0.2, friction=0.5, duration=0.1, **when)
+    run = Scene(movers=movers, contacts=[rule], slope=slope).run(tolerance=1e-6)
+    energy = run.energy
+    closes = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
+    assert abs(closes) < 2e-6 * energy["before"]
+    ends = run.at(run.end)
+    left = sum(ends[name].kinetic_energy for name in "AB")
+    assert energy["left"] == pytest.approx(left, abs=1e-6)

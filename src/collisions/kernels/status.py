@@ -58,8 +58,8 @@ class Status(IntEnum):
         "impact",
         "the bodies move apart along the normal, which must point from A into B",
         "no impact: the bodies move apart along the normal, closing speed "
-        "{closing_speed}; the normal must point from A into B, given `({nx:.4g}, "
-        "{ny:.4g})`; if A and B were meant the other way round, exchange them or write "
+        "{closing_speed}; the normal is `({nx:.4g}, {ny:.4g})`, and must point from A into B; if "
+        "A and B were meant the other way round, exchange them or write "
         "`normal=({opposite_x:.4g}, {opposite_y:.4g})`",
     )
     GRAZING = _Outcome(
@@ -67,7 +67,7 @@ class Status(IntEnum):
         "impact",
         "the bodies do not approach along the normal: the closing speed is 0",
         "no impact: the bodies neither approach nor part along the normal, closing speed 0; the "
-        "normal must point from A into B, given `({nx:.4g}, {ny:.4g})`; give the speeds just "
+        "normal is `({nx:.4g}, {ny:.4g})`, and must point from A into B; give the speeds just "
         "before contact, or the normal of the surfaces that met",
     )
     IMMOVABLE = _Outcome(

@@ -57,12 +57,16 @@ class Contact(Shown):
     restitution : float, str, Quantity or array [-]
         Coefficient of restitution along the normal, 0 to 1.
     normal : angle [rad] or tuple (nx, ny), optional
-        Direction from A into B in the scene. From the outlines if not given.
+        Direction from A into B in the scene. From the outlines if not given; of a contact at a time
+        too by the face struck at first touch, to which both came straight on where they overlap
+        from the start.
     point : pair [m], optional
-        Scene point at which the impulse acts, with ``normal``. From the outlines if not given.
+        Scene point at which the impulse acts, with ``normal``. From the outlines if not given. It
+        lies in an outline, or no more than 0.5 m outside of the nearer one.
     at : float, str, Quantity or array [s], or "touch"
-        When: a time, 0 where the states are given; or whenever the outlines meet and close by 0.02
-        m/s or more.
+        When: a time, 0 where the states are given, at which outlines have to touch, or be within
+        0.5 m of each other where normal and point are given; or whenever the outlines meet and
+        close by 0.02 m/s or more.
     depth : float, str, Quantity or array [m], optional
         Overlap along the normal at which the impulse acts.
     delay : float, str, Quantity or array [s], optional

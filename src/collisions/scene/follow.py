@@ -35,6 +35,7 @@ from .touching import (
     Pair,
     Shape,
     closing_of,
+    distance_outside,
     engaged,
     first_apart,
     first_touch,
@@ -58,14 +59,28 @@ _DEEPER = 0.3
 _PUSHED = 0.05
 # Between their contact and the time they part, where it is looked how deep they are.
 _SHARES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
+# A time [s] that is later than any other.
+_LONG = 1e300
 # Later than this [s] motion that nothing slows comes together by rounding alone.
 _SOON = 1e3
 # So many moments are looked at for how near two vehicles come that do not touch.
 _LOOKS = 129
 # Faces within this angle [rad] of each other meet face to face.
 _FACE_TO_FACE = math.radians(1.0)
+# So long [s] after a touch it is seen at the least of which edge at a corner the overlap stays
+# least.
+_BRIEF = 1e-3
 # A contact at a time that comes within this [s] of a touch is that of the touch.
 _LATE = 0.5
+# Outlines may be this far apart [m] at a contact at a time with a normal and a point of its own,
+# and the point this far outside of the nearer one. Positions to 10 cm each and outlines that are
+# rounder than drawn explain 0.3 m, at which `diagnose` has a finding; nothing explains more than
+# what a contact crushes.
+_FAR = 0.5
+# How exactly it is found when two first touched: a share of 2 to the power of minus this.
+_HALVINGS = 40
+# Axes are those of one face within the angle whose cosine this is.
+_ALIKE = math.cos(math.radians(5.0))
 # What a negative number of a contact is called.
 _NEGATIVE = {"at": "negative_time", "depth": "negative_length", "delay": "negative_duration"}
 # Outlines whose edges are this near in line [m] cross nowhere in particular.
@@ -136,7 +151,10 @@ class _Between:
         self.deepest: Any = np.zeros(count, dtype=bool)
         self.nearest: Any = np.full(count, np.inf)
         self.nearest_at: Any = np.zeros(count)
-        self.touched: list[tuple[float, float]] = []
+        # When they first touched, of the contact that they are in [s]: before the start -inf.
+        self.first: Any = np.full(count, np.nan)
+        # Touches that came: of which cases, when, and how fast they closed.
+        self.touched: list[tuple[Any, Any, Any]] = []
 
     def meets(self, cases: Any, time: Any, met: Meeting, side: Any, allowed: float) -> None:
         """Keep how some cases meet, against which it is held how deep they come to overlap; of
@@ -153,6 +171,9 @@ class _Between:
 class Followed:
     """A scene that was followed: its contacts in order, the courses of all movers, notices, and
     what became of each case.
+
+    Touches that no contact describes are looked for until the last contact of each case, and
+    ``to_rest`` also after it.
     """
 
     def __init__(
@@ -161,7 +182,10 @@ class Followed:
         contacts: Sequence[Contact],
         ground: Ground,
         order: Sequence[tuple[str, str]] | None,
+        *,
+        to_rest: bool = True,
     ) -> None:
+        self._looks_to_rest = to_rest
         self.movers, self.contacts, self.ground, self.order = movers, contacts, ground, order
         self.single = ground.single
         self.count = int(np.prod(ground.shape or (), dtype=int))
@@ -175,10 +199,13 @@ class Followed:
         self.hits: list[Hit] = []
         self.notices: list[Notice] = []
         self.failed: Any = np.full(self.count, "", dtype=object)
-        # Whether two vehicles of a case go through or into each other after their contact, and
-        # whether a drag does not act in one that is followed in time.
+        # Whether two vehicles of a case go through or into each other after their contact, whether
+        # a drag does not act in one that is followed in time, whether two touch and no contact
+        # says what happens, and whether a touch is passed over as nothing pushes in it.
         self.driven: Any = np.zeros(self.count, dtype=bool)
         self.dragless: Any = np.zeros(self.count, dtype=bool)
+        self.undescribed: Any = np.zeros(self.count, dtype=bool)
+        self.passed_over: Any = np.zeros(self.count, dtype=bool)
         # The contacts of each case in order, and when they came; -1 and NaN after the last.
         self.rules: Any = np.full((MOST_CONTACTS, self.count), -1)
         self.times: Any = np.full((MOST_CONTACTS, self.count), np.nan)
@@ -240,20 +267,12 @@ class Followed:
         one, other = (self.courses[name] for name in pair.names)
         assert pair.shapes is not None
 
-        level = not self.ground.steepest
-
         def states(time: Any, cases: Any) -> tuple[Any, Any]:
             follow_on((one, other), time, cases)
-            found = one.at(time, cases), other.at(time, cases)
-            if level:
-                return found
-            # Outlines meet in plan, in which velocities along a slope are less.
-            rises = self.ground.rises(self.ground.taker(cases))
-            plan_a, plan_b = (
-                np.array([*state[:3], *in_plan(rises, state[3], state[4]), state[5]])
-                for state in found
+            return (
+                self._in_plan(one.at(time, cases), cases),
+                self._in_plan(other.at(time, cases), cases),
             )
-            return plan_a, plan_b
 
         kept: list[Any] = []
 
@@ -270,6 +289,43 @@ class Followed:
             return one.fastest(cases, state_a, reach_a) + other.fastest(cases, state_b, reach_b)
 
         return Pair(*pair.shapes, states, bounds, speeds)
+
+    def _in_plan(self, state: Any, cases: Any) -> Any:
+        """States as outlines meet: in plan, in which velocities along a slope are less."""
+        if not self.ground.steepest:
+            return state
+        rises = self.ground.rises(self.ground.taker(cases))
+        return np.array([*state[:3], *in_plan(rises, state[3], state[4]), state[5]])
+
+    def _back(self, pair: _Between, cases: Any) -> tuple[Pair, Any]:
+        """Both vehicles backwards from the start of some cases, unslowed, on a clock that runs
+        back; and until when they may be in contact on it [s].
+        """
+        assert pair.shapes is not None
+        start = np.zeros(len(cases))
+        begin = [
+            self._in_plan(self.courses[name].at(start, cases, before=True), cases)
+            for name in pair.names
+        ]
+
+        def states(time: Any, at: Any) -> tuple[Any, Any]:
+            one, other = (
+                np.concatenate([state[:3, at] - time * state[3:, at], -state[3:, at]])
+                for state in begin
+            )
+            return one, other
+
+        def bounds(at: Any) -> Any:
+            return np.zeros((4, len(at)))
+
+        def speeds(at: Any, *_: Any) -> Any:
+            return np.full(len(at), np.inf)
+
+        away = begin[1] - begin[0]
+        apart, speed = np.hypot(*away[:2]), np.hypot(*away[3:5])
+        far = apart + pair.shapes[0].reach + pair.shapes[1].reach
+        until = np.where(speed > 0.0, far / np.where(speed > 0.0, speed, 1.0), 0.0)
+        return Pair(*pair.shapes, states, bounds, speeds), until
 
     def _horizon(self, pair: _Between, cases: Any) -> Any:
         """Until when two movers may touch [s]."""
@@ -358,6 +414,7 @@ class Followed:
                 needed(self.movers[name].vehicle, part, "an outline in a scene", name)
         met, state_a, state_b = self._pair(pair).at(np.zeros(self.count), every)
         pair.apart = met.gap > TOUCHING
+        pair.first[~pair.apart] = np.where(met.gap < -_OVERLAPS, -np.inf, 0.0)[~pair.apart]
         begins = np.zeros(self.count, dtype=bool)
         for rule in pair.timed:
             begins |= self.ground.cases(self.contacts[rule].at) == 0.0
@@ -382,6 +439,7 @@ class Followed:
         pair.allowed[pair.apart | begins] = np.inf
         at_once = ~pair.apart & ~wrong & ~begins & (closing >= _LEAST_CLOSING)
         pair.touch[at_once], pair.closing[at_once] = 0.0, closing[at_once]
+        pair.first[at_once] = 0.0
         self._arrange(pair, np.flatnonzero(at_once))
 
     def _next(self, now: Any, alive: Any, left: Mapping[int, Any]) -> tuple[Any, Any]:
@@ -393,25 +451,34 @@ class Followed:
             times, rules = np.where(sooner, at, times), np.where(sooner, rule, rules)
         # A contact that is due now needs no look ahead.
         looks = alive & ~(times <= now)
-        for pair in self._pairs:
-            # Of a batch, touches that no contact describes are not looked for.
-            if pair.shapes is None or (pair.rule is None and not self.single):
-                continue
-            self._look_ahead(pair, now, looks)
+        moving = [pair for pair in self._pairs if pair.shapes is not None]
+        for pair in moving:
             if pair.rule is not None:
+                self._look_ahead(pair, now, looks)
                 sooner = alive & (pair.due < times)
                 times = np.where(sooner, pair.due, times)
                 rules = np.where(sooner, pair.rule, rules)
+        # What no contact describes is looked for as far as it is known how the vehicles go on.
+        looks &= ~(times <= now)
+        if not self._looks_to_rest:
+            looks &= np.isfinite(times)
+        for pair in moving:
+            if pair.rule is None:
+                self._look_ahead(pair, now, looks, times)
         return times, rules
 
-    def _look_ahead(self, pair: _Between, now: Any, alive: Any) -> None:
-        """Find the next touch of a pair where it is not known, and what becomes of it."""
-        while True:
-            cases = np.flatnonzero(alive & np.isnan(pair.touch) & np.isinf(pair.due))
-            if not len(cases):
-                return
-            moving = self._pair(pair)
-            until = self._horizon(pair, cases)
+    def _look_ahead(self, pair: _Between, now: Any, alive: Any, limits: Any = None) -> None:
+        """Find the next touch of a pair where it is not known, and what becomes of it; with
+        ``limits`` until a time of each case [s].
+        """
+        if limits is None:
+            limits = np.full(self.count, np.inf)
+        cases = np.flatnonzero(alive & np.isnan(pair.touch) & np.isinf(pair.due))
+        while len(cases):
+            moving, limit = self._pair(pair), limits[cases]
+            until = limit.copy()
+            if np.isinf(limit).any():
+                until = np.minimum(limit, self._horizon(pair, cases))
             begin = np.maximum(now[cases], np.where(np.isnan(pair.begun), 0.0, pair.begun)[cases])
             # A contact followed in time goes to its end before another of the two begins.
             for name in pair.names:
@@ -419,15 +486,20 @@ class Followed:
             near = ~pair.apart[cases]
             if near.any():
                 begin[near] = first_apart(moving, begin[near], until[near], cases[near], APART)
-                self._note_through(pair, moving, cases[near], begin[near])
+                self._note_through(pair, moving, cases[near], begin[near], limit[near])
             touch = first_touch(moving, begin, until, cases)
             pair.apart[cases] = np.isfinite(begin)
             closer = touch.nearest < pair.nearest[cases]
             pair.nearest[cases] = np.where(closer, touch.nearest, pair.nearest[cases])
             pair.nearest_at[cases] = np.where(closer, touch.nearest_at, pair.nearest_at[cases])
-            pair.touch[cases], pair.closing[cases] = touch.time, touch.closing
-            counts = np.isfinite(touch.time) & (touch.closing >= pair.least[cases])
-            passes = np.isfinite(touch.time) & ~counts
+            touches = np.isfinite(touch.time)
+            # What is not found until then is looked for again from there on.
+            unknown = ~touches & np.isfinite(limit)
+            pair.touch[cases] = np.where(unknown, np.nan, touch.time)
+            pair.closing[cases] = touch.closing
+            pair.first[cases[touches]] = touch.time[touches]
+            counts = touches & (touch.closing >= pair.least[cases])
+            passes = touches & ~counts
             if pair.rule is not None:
                 self._arrange(pair, cases[counts])
             # A resting contact is passed over: the search goes on once they were apart.
@@ -435,21 +507,24 @@ class Followed:
             met, *_ = moving.at(touch.time[passes], over)
             pair.meets(over, touch.time[passes], met, met.axis(met.widest), _PUSHED)
             pair.touch[over], pair.begun[over], pair.apart[over] = np.nan, touch.time[passes], False
-            if not passes.any():
-                return
+            cases = over
 
-    def _note_through(self, pair: _Between, moving: Pair, cases: Any, parts: Any) -> None:
+    def _note_through(
+        self, pair: _Between, moving: Pair, cases: Any, parts: Any, limit: Any
+    ) -> None:
         """Note two that were in contact, or touched too slowly for one, and go through each other
         before they part, or come to overlap deeper than they did then: what pushes them without a
         blow is not followed.
 
-        ``parts`` is when they are apart [s]; not finite where they never are.
+        ``parts`` is when they are apart [s]; not finite where they are not until ``limit``, from
+        which on they may go another way.
         """
         had = np.isfinite(pair.allowed[cases])
-        cases, parts = cases[had], parts[had]
+        cases, parts, limit = cases[had], parts[had], limit[had]
         apart = np.isfinite(parts)
-        one, other = (self.courses[name] for name in pair.names)
-        ends = np.where(apart, parts, np.maximum(one.rests_of(cases), other.rests_of(cases)))
+        ends, still = np.where(apart, parts, limit), ~apart & np.isinf(limit)
+        rests = [self.courses[name].rests_of(cases[still]) for name in pair.names]
+        ends[still] = np.maximum(*rests)
         soon, struck = ends <= _SOON, pair.allowed[cases] > _PUSHED
         # What was passed over is looked at for so long, as it may come together ever so slowly.
         ends, apart = np.where(soon, ends, _SOON), apart & soon
@@ -513,7 +588,7 @@ class Followed:
             return
         depth = None if contact.depth is None else take(contact.depth)
         delay = take(USUAL_DELAY if contact.delay is None else contact.delay)
-        later = touch + (np.maximum(delay, 1e-3) if depth is None else USUAL_DELAY)
+        later = touch + (np.maximum(delay, _BRIEF) if depth is None else USUAL_DELAY)
         axis = pair.axis[cases] = struck_face(moving, touch, later, cases)
         self._refuse_bare(pair, moving, cases, delay if depth is None else depth)
 
@@ -610,9 +685,9 @@ class Followed:
         self.rules[number, which], self.times[number, which] = rule, time
         self.many[which] += 1
         before = self._closings(pair, which, time)
+        pair.first[which] = self._began(pair, which, time)
         ends = self._go_on(contact, which, time, states, impact)
-        if self.single and pair.rule is None and float(pair.touch[0]) <= float(time[0]):
-            pair.touched.append((float(pair.touch[0]), float(pair.closing[0])))
+        self._keep_touches(pair, which, time)
         pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
         pair.least[which], pair.begun[which] = _AGAIN, np.nan
         if contact.in_time:
@@ -647,6 +722,7 @@ class Followed:
 
     def _pass_over(self, pair: _Between, which: Any, time: Any) -> None:
         """A touch in which nothing pushes: the search goes on once the two were apart."""
+        self.passed_over[which] = True
         if self.single:
             one, other = pair.names
             text = (
@@ -677,11 +753,8 @@ class Followed:
         again; it comes at once where it is in contact and is driven together.
         """
         struck, time = times
-        if pair.shapes is not None and pair.rule is None and self.single:
-            touch = float(pair.touch[0])
-            if touch <= float(struck[0]):
-                pair.touched.append((touch, float(pair.closing[0])))
-                pair.apart[which], pair.begun[which] = False, touch
+        came = self._keep_touches(pair, which, struck)
+        pair.apart[came], pair.begun[came] = False, pair.touch[came]
         # A touch that was still ahead when it was passed over is none any more.
         ahead = which[pair.begun[which] > struck]
         pair.begun[ahead], pair.apart[ahead] = np.nan, True
@@ -717,6 +790,22 @@ class Followed:
             pair.due[which[bare]] = np.inf
             self._arrange(pair, which[bare])
 
+    def _keep_touches(self, pair: _Between, which: Any, time: Any) -> Any:
+        """Keep the touches until a time that no rule describes, before they are looked for anew;
+        the cases that have one.
+        """
+        if pair.rule is not None:
+            return which[:0]
+        came = which[pair.touch[which] <= time]
+        if len(came):
+            pair.touched.append((came, pair.touch[came], pair.closing[came]))
+        return came
+
+    def _began(self, pair: _Between, which: Any, time: Any) -> Any:
+        """When two that are in contact at a time of each case first touched [s]."""
+        ahead = pair.apart[which] & ~np.isfinite(pair.touch[which])
+        return np.fmin(np.where(ahead, time, pair.first[which]), time)
+
     def _not_yet_apart(self, pair: _Between, which: Any, time: Any) -> None:
         """Take back that two are apart which are so only later than an impact that comes before:
         their next touch was looked for from when they part.
@@ -725,7 +814,7 @@ class Followed:
             return
         blow = np.where(np.any(pair.way[:, which] != 0.0, axis=0), pair.struck[which], np.nan)
         since = np.fmax(blow, pair.begun[which])
-        some = pair.apart[which] & (since < time)
+        some = pair.apart[which] & (since <= time)
         if some.any():
             cases, until = which[some], time[some]
             parts = first_apart(self._pair(pair), since[some], until, cases, APART)
@@ -756,6 +845,8 @@ class Followed:
         take = self.ground.taker(which)
         normal: Any = contact.normal
         point: Any = contact.point
+        if pair.shapes is not None:
+            self._refuse_places(pair, contact, which, time)
         if not self.single:
             normal = None if normal is None else tuple(part_of(part, take) for part in normal)
             point = None if point is None else tuple(part_of(part, take) for part in point)
@@ -774,22 +865,11 @@ class Followed:
         carried = contact.in_time and contact.touches
         seen = pair.seen[which] if carried else time
         met, state_a, state_b = self._pair(pair).at(seen, which)
-        which_axis = pair.axis[which] if contact.touches else met.widest
+        which_axis = pair.axis[which]
+        if not contact.touches and contact.normal is None:
+            which_axis = self._face(pair, contact, which, time)
         axis = self._axis(pair, contact, met, which_axis, which)
         centre, _, crossings = overlap_of(met.one, met.other)
-        apart = met.gap > TOUCHING
-        if not contact.touches and apart.any():
-            if self.single:
-                raise InputError(
-                    f"{contact.a} and {contact.b} are "
-                    f"{self._say(float(met.gap[0]), 'length', 3)} apart at "
-                    f"{float(time[0]):.4g} s, where contact says that they meet; correct the "
-                    "states, `at=` or the outlines, write `at='touch'`, or give `normal=` and "
-                    "`point=`",
-                    code="contact_missing",
-                    argument="contacts",
-                )
-            self._fail(which[apart], "contact_missing")
         if contact.plane == "crossings":
             axis = _through_crossings(met, crossings, axis)
         # Where outlines only touch, the corner that is ahead.
@@ -806,6 +886,108 @@ class Followed:
         if point is None and contact.model not in ("linear_central", "oblique_central"):
             point = tuple(float(part[0]) if self.single else part for part in centre)
         return normal, point
+
+    def _refuse_places(self, pair: _Between, contact: Contact, which: Any, time: Any) -> None:
+        """Refuse a contact at a time at which the outlines are apart, and a point that is far from
+        both.
+        """
+        if contact.touches and contact.point is None:
+            return
+        met, state_a, _ = self._pair(pair).at(time, which)
+        # What comes from the outlines needs that they touch.
+        most = TOUCHING if contact.from_outlines else _FAR
+        apart = (met.gap > most) & (not contact.touches)
+        when = f"at {float(time[0]):.4g} s"
+        if self.single and apart[0]:
+            raise InputError(
+                f"{contact.a} and {contact.b} are {self._say(float(met.gap[0]), 'length', 3)} "
+                f"apart {when}, where contact says that they meet; correct the states, `at=` or "
+                "the outlines, or write `at='touch'`",
+                code="contact_missing",
+                argument="contacts",
+                distance=float(met.gap[0]),
+                time=float(time[0]),
+                movers=(contact.a, contact.b),
+            )
+        self._fail(which[apart], "contact_missing")
+        if contact.point is None:
+            return
+        take = self.ground.taker(which)
+        point = np.array([take(part) for part in contact.point]) - state_a[:2]
+        off = np.array([distance_outside(point, one) for one in (met.one, met.other)])
+        far = off.min(axis=0) > _FAR
+        if self.single and far[0]:
+            x, y = (self._say(float(take(part)[0]), "length", 3) for part in contact.point)
+            one, other = (self._say(float(part), "length", 3) for part in off[:, 0])
+            raise InputError(
+                f"the point ({x}, {y}) of the contact of {contact.a} and {contact.b} lies {one} "
+                f"outside the outline of {pair.names[0]} and {other} outside that of "
+                f"{pair.names[1]} {when}, and may lie {self._say(_FAR, 'length', 3)} outside the "
+                "nearer one; correct `point=`, the states or the outlines, or leave out normal "
+                "and point, which then come from the outlines",
+                code="point_outside",
+                argument="contacts",
+                time=float(time[0]),
+                movers=(contact.a, contact.b),
+            )
+        self._fail(which[far], "point_outside")
+
+    def _face(self, pair: _Between, contact: Contact, which: Any, time: Any) -> Any:
+        """Which axis is that of the face struck at first touch, of a contact at a time: in the
+        scene, or before its start, to which both then came straight on.
+        """
+        moving, first = self._pair(pair), self._began(pair, which, time)
+        met, *_ = moving.at(time, which)
+        face = met.widest.copy()
+        known = np.isfinite(first)
+        if known.any():
+            later = np.maximum(time, first + _BRIEF)[known]
+            face[known] = struck_face(moving, first[known], later, which[known])
+        some = np.flatnonzero(~known)
+        if not len(some):
+            return face
+        back, until = self._back(pair, which[some])
+        every, begun = np.arange(len(some)), np.zeros(len(some))
+        parted = first_apart(back, begun, until, every, 0.0)
+        found = np.flatnonzero(np.isfinite(parted))
+        self._refuse_undecided(pair, contact, which[some[np.isinf(parted)]], met, time)
+        low, high = begun[found], parted[found]
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            apart = back.at(middle, found)[0].gap >= 0.0
+            low, high = np.where(apart, low, middle), np.where(apart, middle, high)
+        face[some[found]] = struck_face(back, high, np.minimum(begun[found], high - _BRIEF), found)
+        return face
+
+    def _refuse_undecided(
+        self, pair: _Between, contact: Contact, cases: Any, met: Meeting, time: Any
+    ) -> None:
+        """Refuse a normal from outlines that overlap from the start, of which it is not known how
+        they came to it.
+        """
+        if not len(cases) or not self.single:
+            self._fail(cases, "face_undecided")
+            return
+        sign = 1.0 if contact.a == pair.names[0] else -1.0
+        by_depth = np.argsort(-met.gaps[:, 0], kind="stable").tolist()
+        axes = [(sign * met.axes[:, at, 0], -float(met.gaps[at, 0])) for at in by_depth]
+        # Edges that are parallel have one normal.
+        other = next(one for one in axes if axes[0][0] @ one[0] < _ALIKE)
+        listed = " or ".join(
+            f"({axis[0] + 0.0:.3g}, {axis[1] + 0.0:.3g}), along which they overlap by "
+            f"{self._say(deep, 'length', 3)}"
+            for axis, deep in (axes[0], other)
+        )
+        raise InputError(
+            f"{contact.a} and {contact.b} overlap at {float(time[0]):.4g} s, and going straight "
+            "back from the states at the start they do not part, so that it is not decided which "
+            f"faces met first: the normal is {listed}; give `normal=` and `point=`, or the "
+            "velocities just before the contact",
+            code="face_undecided",
+            argument="contacts",
+            time=float(time[0]),
+            movers=(contact.a, contact.b),
+        )
 
     def _solved(
         self, rule: int, contact: Contact, which: Any, time: Any, states: Any, place: Any
@@ -949,24 +1131,26 @@ class Followed:
                     order=tuple(took),
                 )
             self._fail(np.flatnonzero(~good), "other_order")
-        if self.single:
-            for one in self._pairs:
-                self._note(one)
+        for one in self._pairs:
+            self._note(one)
 
     def _note(self, pair: _Between) -> None:
         """Note touches of a pair that no contact describes."""
-        found = list(pair.touched)
-        if math.isfinite(float(pair.touch[0])):
-            found.append((float(pair.touch[0]), float(pair.closing[0])))
-        came = zip(self.longest, self.times[:, 0].tolist(), strict=False)
-        timed = [time for rule, time in came if rule in pair.timed]
+        if pair.rule is not None:
+            return
+        self._keep_touches(pair, np.arange(self.count), np.full(self.count, _LONG))
         one, other = pair.names
-        for time, closing in found if pair.rule is None else ():
-            if any(0.0 <= at - time <= _LATE for at in timed):
+        for cases, times, closings in pair.touched:
+            later = self.times[:, cases] - times
+            of_them = np.isin(self.rules[:, cases], pair.timed) & (later >= 0.0) & (later <= _LATE)
+            lacking = ~of_them.any(axis=0)
+            self.undescribed[cases[lacking]] = True
+            if not self.single or not lacking[0]:
                 continue
+            time = float(times[0])
             text = (
                 f"{one} and {other} touch at {time:.3g} s, closing by "
-                f"{self._say(closing, 'speed', 3)}, and no "
+                f"{self._say(float(closings[0]), 'speed', 3)}, and no "
                 "contact says what happens; they are followed as if they passed through each other"
             )
             self.notices.append(Notice("touch_without_contact", text, time, pair.names))

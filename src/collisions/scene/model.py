@@ -83,7 +83,9 @@ def as_function(
         for statement in order.statements:
             state_of_study(statement, ONE_ORDER)
         made = replaced(scene, values)
-        run = Run(made if at_level is None else at_level(made), tolerance)
+        made = made if at_level is None else at_level(made)
+        # What vehicles touch after the last impact matters to where they come to rest.
+        run = Run(made, tolerance, to_rest=bool(resting or marks))
         warn_of_findings(run)
         run._followed.to_rest(resting)
         if not run._followed.single:
@@ -175,7 +177,8 @@ def _warn_of_absent(run: Run, numbers: Iterable[int]) -> None:
     """Say in how many cases of a study an impact of a number does not come."""
     answered = run._followed.failed == ""
     for number in numbers:
-        if many := int(np.count_nonzero(absent(run, number) & answered)):
+        missing = absent(run, number) & answered
+        if many := int(np.count_nonzero(missing)):
             said = f"without an answer, as impacts[{number}] does not come"
             warning = CollisionsWarning(
                 f"{many} of {run._followed.count} cases are {said}",
@@ -183,7 +186,7 @@ def _warn_of_absent(run: Run, numbers: Iterable[int]) -> None:
                 counts={"no_such_impact": many},
             )
             # One that only some cases have is no mistake.
-            warn_of_cases(warning, {said: many}, least=1.0)
+            warn_of_cases(warning, {said: missing}, least=1.0)
 
 
 def _standing(scene: Scene, changed: Iterable[str], wanted: Iterable[str]) -> list[str]:

@@ -102,6 +102,14 @@ class Leg(NamedTuple):
                 found[:, some] = there
         return found
 
+    @property
+    def begun(self) -> Any:
+        """The states of its cases when what slows them begins to act, at the end of ``hold``."""
+        if self.pull is None:
+            return np.concatenate([self.state[_PLACES] + self.hold * self.state[_RATES],
+                                   self.state[_RATES]])  # fmt: skip
+        return pulled(self.state, self.hold, self.pull, self.rises)
+
     def rests(self, cases: Any, *, known: bool = False) -> Any:
         """When some of its cases have come to rest [s]; infinite where they do not, or, with
         ``known``, where they were not followed so far.
@@ -335,6 +343,8 @@ class Course:
             mine = np.flatnonzero(self._present[leg.which] == number)
             if len(mine):
                 found[leg.which[mine]] = leg.rests(mine, known=known)
+                if not known:
+                    self._refuse_steep(leg, mine)
         return found
 
     def rests_of(self, cases: Any) -> Any:
@@ -345,6 +355,7 @@ class Course:
             mine = places[(places >= 0) & (self._present[cases] == number)]
             if len(mine):
                 found[leg.which[mine]] = leg.rests(mine)
+                self._refuse_steep(leg, mine)
         return found[cases]
 
     def unslowed(self, cases: Any) -> Any:
@@ -401,9 +412,13 @@ class Course:
                 place[leg.which] = np.arange(len(leg.which))
                 at = place[cases[here]]
                 stops = leg.stops[at]
-                speed = np.hypot(leg.state[3, at], leg.state[4, at])
+                begun, pulls = leg.begun[:, at], 0.0
+                if leg.pull is not None:
+                    pulls = np.hypot(*leg.pull[:, at])
+                speed = np.hypot(begun[3], begun[4])
                 moving = (stops > 0.0) & np.isfinite(stops)
-                push[here] = np.where(moving, speed / np.where(moving, stops, 1.0), 0.0)
+                slowing = np.where(moving, speed / np.where(moving, stops, 1.0), 0.0)
+                push[here] = np.maximum(slowing, pulls)
                 turning = np.abs(leg.state[5, at])
                 spin[here] = np.where(moving, turning / np.where(moving, stops, 1.0), 0.0)
         return push, spin
@@ -424,16 +439,16 @@ class Course:
     def _leg(self, begins: tuple[Any, ...], brief: Any, pull: Any) -> Leg:
         which, start, hold, state, tyres = begins
         rises = None if pull is None else np.array(self.ground.rises(self.ground.taker(which)))
-        begun = state.copy()
-        if pull is None:
-            begun[_PLACES] = state[_PLACES] + hold * state[_RATES]
-        else:
-            begun = pulled(state, hold, pull, rises)
+        count = len(which)
+        none = np.full(count, -1)
+        leg = Leg(
+            which, start, hold, state, np.zeros(count), none, None, tyres, rises=rises, pull=pull
+        )
+        begun = leg.begun
         speed = np.hypot(begun[3], begun[4])
         still = (speed == 0.0) & (begun[5] == 0.0)
-        count = len(which)
         stops = np.where(still, 0.0, np.inf)
-        place: Any = np.full(count, -1)
+        place: Any = none.copy()
         followed = None
         if self.fixed or count == 0:
             pass
@@ -445,7 +460,7 @@ class Course:
                 followed = self._followed(which[moves], begun[:, moves], tyres)
         elif self.mover.drag is not None:
             stops = self._slides(which, begun, speed, still)
-        return Leg(which, start, hold, state, stops, place, followed, tyres, rises=rises, pull=pull)
+        return leg._replace(stops=stops, place=place, followed=followed)
 
     def _rolls(self, tyres: Tyres, which: Any, state: Any, speed: Any) -> Any:
         """Whether all wheels roll freely straight on, so that nothing slows the vehicle."""
@@ -465,22 +480,32 @@ class Course:
         ) / moving
         slowing = take(self.mover.drag) + np.where(speed > 0.0, rise, 0.0)
         spins = (speed == 0.0) & ~still
+        self._refuse(which[spins], "turns on the spot, which a drag does not slow")
         steep = still & (np.hypot(*map(take, self.ground.slope)) > slowing)
-        if self.ground.single and (spins | steep).any():
-            how = (
-                "turns on the spot, which a drag does not slow"
-                if spins.any()
-                else "stands on a slope that is too steep for its drag"
-            )
-            raise NoSolutionError(
-                f"{self.name} {how}; give it `tyres=`, with the lock of its wheels",
-                code="never_stops",
-            )
-        self._fail(which[spins | steep], "never_stops")
+        self._refuse(which[steep], "stands on a slope that is too steep for its drag")
         usable = slowing > _LEAST_DRAG
         pressing = gravity_on(self.ground.rises(take))
         stops = np.where(usable, speed / (pressing * np.where(usable, slowing, 1.0)), np.inf)
         return np.where(still, 0.0, stops)
+
+    def _refuse(self, cases: Any, how: str) -> None:
+        """Refuse what a drag does not stop."""
+        if len(cases) and self.ground.single:
+            raise NoSolutionError(
+                f"{self.name} {how}; give it `tyres=`, with the lock of its wheels",
+                code="never_stops",
+            )
+        self._fail(cases, "never_stops")
+
+    def _refuse_steep(self, leg: Leg, mine: Any) -> None:
+        """Refuse what slides up a slope and does not hold where it stops."""
+        if self.mover.drag is None or not self.ground.steepest:
+            return
+        stops = leg.stops[mine]
+        cases = leg.which[mine[(stops > 0.0) & np.isfinite(stops)]]
+        take = self.ground.taker(cases)
+        steep = np.hypot(*map(take, self.ground.slope)) > take(self.mover.drag)
+        self._refuse(cases[steep], "stops on a slope that is too steep for its drag")
 
     def _followed(self, which: Any, state: Any, tyres: Tyres) -> Following:
         """The motion of some cases on tyres."""
@@ -512,12 +537,17 @@ class Course:
 
         def ended(some: Any, how: Any) -> None:
             if one and how[0] == GOES_ON:
-                raise NoSolutionError(
-                    f"{self.name}: it does not come to rest, and does not roll straight on "
-                    "either; give the lock that stopped it, or the resistance to rolling as a "
-                    "lock such as 0.02",
-                    code="never_stops",
+                why = (
+                    "and does not roll straight on either; give the lock that stopped it, or the "
+                    "resistance to rolling as a lock such as 0.02"
                 )
+                if ground.steepest:
+                    why = (
+                        f"as the slope of {ground.steepest:.3g} is too steep for its wheels to "
+                        "hold it; give the lock that held it, or correct slope"
+                    )
+                text = f"{self.name}: it does not come to rest, {why}"
+                raise NoSolutionError(text, code="never_stops")
             if one and how[0] != ROLLS_ON:
                 try:
                     refuse_one(int(how[0]), made.motion.settings.sloped)
@@ -590,13 +620,28 @@ class Ground(NamedTuple):
         return most
 
 
-def no_rest(name: str) -> MissingInputError:
-    """The error for the place of rest of a mover that nothing slows."""
+def no_rest(course: Course) -> MissingInputError:
+    """The error for the place of rest of a mover of a single case that does not stop."""
+    mover, ground = course.mover, course.ground
+    give = "give it `tyres=`, or `drag=`, in its `|Mover|[[mover]]`"
+    why = "nothing slows it"
+    last = course.settled()[-1]
+    if mover.drag is not None and mover.drag == 0.0:
+        why, give = "a drag of 0 slows nothing", "give a `drag=` above 0, or `tyres=`"
+    elif mover.drag is not None:
+        vx, vy = last.begun[3:5, 0]
+        falls = -float(ground.slope[0] * vx + ground.slope[1] * vy) / float(np.hypot(vx, vy))
+        why = f"the slope falls by {falls:.3g} along its way, and its drag is {mover.drag:.3g}"
+        give = (
+            f"give a `drag=` above {falls:.3g}, as that on the level, or `tyres=`, or correct slope"
+        )
+    elif last.tyres is not None:
+        why = "its wheels roll freely straight on"
+        give = "give the lock of its `tyres=`, for the resistance to rolling such as 0.02"
     return MissingInputError(
-        f"{name} has no place of rest, as nothing slows it; give it `tyres=`, or "
-        "`drag=`, in its `|Mover|[[mover]]`",
+        f"{course.name} has no place of rest, as {why}; {give}",
         code="missing_drag",
-        argument=name,
+        argument=course.name,
     )
 
 

@@ -488,24 +488,24 @@ def warn_of_another(run: Run, numbers: Iterable[int], order: Sequence[int], as_i
     followed, parts = run._followed, {}
     for number in numbers:
         cases = another(run, number, order) & (followed.failed == "")
-        if many := int(np.count_nonzero(cases)):
+        if np.any(cases):
             contact = run.scene.contacts[order[number]]
             said = (
                 f"impacts[{number}] is another than that of {contact.a} and {contact.b}, which it "
                 f"is {as_in}, and has no answer; 'contacts[{order[number]}].impact...' is that of "
                 "these two in every case"
             )
-            parts[number, said] = many
+            parts[number, said] = cases
     if parts:
-        several = len(parts) > 1
-        listed = ", ".join(f"impacts[{number}] {many}" for (number, _), many in parts.items())
-        (_, said), many = next(iter(parts.items()))
-        text = f"in {many} of {followed.count} cases {said}"
-        if several:
+        many = {number: int(np.count_nonzero(cases)) for (number, _), cases in parts.items()}
+        listed = ", ".join(f"impacts[{number}] {count}" for number, count in many.items())
+        number, said = next(iter(parts))
+        text = f"in {many[number]} of {followed.count} cases {said}"
+        if len(parts) > 1:
             text = (
                 f"of {followed.count} cases some have impacts of other contacts in this order than "
                 f"{as_in}, and no answer to those ({listed}); 'contacts[0].impact...' is that of "
                 "one contact in every case"
             )
         warning = CollisionsWarning(text, code="several_orders")
-        warn_of_cases(warning, {said: many for (_, said), many in parts.items()})
+        warn_of_cases(warning, {said: cases for (_, said), cases in parts.items()})

@@ -112,11 +112,11 @@ class Run(Frozen, Summarized):
     answer. Impacts are counted in order of time.
     """
 
-    def __init__(self, scene: Scene, tolerance: float) -> None:
+    def __init__(self, scene: Scene, tolerance: float, *, to_rest: bool = True) -> None:
         ground = Ground(scene.surfaces, scene.slope, tolerance, scene.shape)
         # What cannot be answered is NaN, of which numpy need not warn.
         with np.errstate(all="ignore"):
-            found = Followed(scene.movers, scene.contacts, ground, scene.order)
+            found = Followed(scene.movers, scene.contacts, ground, scene.order, to_rest=to_rest)
         vars(self).update(scene=scene, tolerance=tolerance, _followed=found)
         _warn_of(found, found.failed != "")
         _warn_of_notices(found)
@@ -214,15 +214,18 @@ class Run(Frozen, Summarized):
     @derived("J")
     def energy(self) -> Mapping[str, Any]:
         """Where the kinetic energy went [J]: "before", the sum at the start; "contacts", what each
-        took, its tyres included; "ground", what tyres, drag and slope took, by their power along
-        the way; and "left" at the end of the clock.
+        took, its tyres and what a slope adds to the motion meanwhile included; "ground", what
+        tyres, drag and slope took, by their power along the way; and "left" at the end of the
+        clock.
         """
         self._refuse_batch("energy")
         movers = self.scene.movers
         begins = [movers[name].vehicle.kinetic_energy for name in movers]
         lost = tuple(
-            impact.energy_loss + _tyre_loss(impact.a) + _tyre_loss(impact.b)
-            for impact in self.impacts
+            impact.energy_loss
+            + math.fsum((_tyre_loss(impact.a), _tyre_loss(impact.b)))
+            + math.fsum(self._pulled(name, time) for name in pair)
+            for impact, pair, time in zip(self.impacts, self.pairs, self.times, strict=True)
         )
         ends = self._ends()
         left = [
@@ -502,7 +505,7 @@ class Run(Frozen, Summarized):
         with np.errstate(all="ignore"):
             rests = course.rests
         if found.single and not math.isfinite(rests[0]):
-            raise no_rest(name)
+            raise no_rest(course)
         with np.errstate(all="ignore"):
             # Ever after: at the moment itself, rounding may leave it a last digit short.
             late = np.where(np.isfinite(rests), np.inf, 0.0)
@@ -593,7 +596,8 @@ class Run(Frozen, Summarized):
             power, marks = on_wheels.power, on_wheels.marks
         elif mover.drag is not None:
             stops = float(leg.stops[0])
-            speed = math.hypot(leg.state[3, 0], leg.state[4, 0])
+            # The drag slows what a slope has added by the end of a contact too.
+            speed = math.hypot(*leg.begun[3:5, 0])
             slowing = speed / stops if 0.0 < stops < math.inf else 0.0
             power = on_drag(mover, found.ground, state, slowing)
         # What moves on unslowed does so on a slope too.
@@ -623,6 +627,20 @@ class Run(Frozen, Summarized):
             weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
             total += float(clock[1] - clock[0]) / 3.0 * float(weights @ power)
         return total
+
+    def _pulled(self, name: str, time: float) -> float:
+        """What the forces of a contact that is followed in time take from one vehicle [J] by acting
+        on the motion that the slope adds meanwhile, which the impact itself is without.
+        """
+        leg = self._followed.courses[name].leg_at(time)
+        pulls = leg.pull is not None and leg.during is not None and leg.start[0] == time
+        if not pulls or self.scene.movers[name].fixed or not np.isfinite(leg.during[0, 1, 0]):
+            return 0.0
+        (began, ended), after = leg.during[1:3, :, 0].T, leg.during[4:6, 1, 0]
+        # Forces F at the times t: the sum of F t is mass by (velocity after by time, less the way).
+        lags = ended - began - leg.hold[0] * after
+        mass: float = self.scene.movers[name].vehicle.mass
+        return mass * float(leg.pull[:, 0] @ lags)
 
     def __repr__(self) -> str:
         found = self._followed
@@ -748,6 +766,11 @@ _UNDESCRIBED = (
 )
 
 
+_PASSED_OVER = (
+    "two vehicles touch and do not close where the impulse would act; they are followed without one"
+)
+
+
 def _of_driven(said: str) -> OutOfRangeWarning:
     return OutOfRangeWarning(said, code="driven_through")
 
@@ -760,11 +783,16 @@ def _of_undescribed(said: str) -> OutOfRangeWarning:
     return OutOfRangeWarning(said, code="touch_without_contact")
 
 
+def _of_passed_over(said: str) -> OutOfRangeWarning:
+    return OutOfRangeWarning(said, code="touch_passed_over")
+
+
 _OF_FINDING = {
     "driven_through": (_of_driven, _DRIVEN),
     "driven_together": (_of_driven, _DRIVEN),
     "drag_during_contact": (_of_dragless, _DRAGLESS),
     "touch_without_contact": (_of_undescribed, _UNDESCRIBED),
+    "touch_passed_over": (_of_passed_over, _PASSED_OVER),
 }
 
 
@@ -775,6 +803,8 @@ def _warn_of_notices(found: Followed) -> None:
     for cases, made, text in (
         (found.driven, _of_driven, _DRIVEN),
         (found.dragless, _of_dragless, _DRAGLESS),
+        (found.undescribed, _of_undescribed, _UNDESCRIBED),
+        (found.passed_over, _of_passed_over, _PASSED_OVER),
     ):
         where = cases & (found.failed == "")
         if count := int(np.count_nonzero(where)):

@@ -360,6 +360,16 @@ def overlap_of(one: Any, other: Any) -> tuple[Any, Any, Any]:
     return mean + np.where(thin, 0.0, centre), area, crossings
 
 
+def distance_outside(point: Any, outline: Any) -> Any:
+    """How far a point (2, cases) lies outside of a convex outline; 0 within it."""
+    edges = np.roll(outline, -1, axis=1) - outline
+    away = point[:, None] - outline
+    square = (edges * edges).sum(axis=0)
+    share = (away * edges).sum(axis=0) / np.where(square > 0.0, square, 1.0)
+    off = np.hypot(*(away - np.clip(share, 0.0, 1.0) * edges)).min(axis=0)
+    return np.where(_inside(point[:, None], outline)[0], 0.0, off)
+
+
 def _inside(points: Any, outline: Any) -> Any:
     """Which points lie in a convex outline, its edge included."""
     edges = np.roll(outline, -1, axis=1) - outline
