@@ -101,6 +101,11 @@ class Moved(Frozen, Summarized):
         pairs = zip(self._run.impacts, self._run.pairs, strict=True)
         return tuple(impact for impact, pair in pairs if self.name in pair)
 
+    @property
+    def q(self) -> Any:
+        """The same attributes as pint Quantities of the application registry."""
+        return Quantities(self)
+
     def _summary(self, numbers: Cells) -> Summary:
         return self.rest._summary(numbers)
 
@@ -124,6 +129,7 @@ class Run(Frozen, Summarized):
     scene: Scene
     tolerance: float
     _followed: Followed
+    _run_in_words: ClassVar[str] = "run"
 
     @derived()
     def impacts(self) -> tuple[Impact, ...]:
@@ -195,7 +201,7 @@ class Run(Frozen, Summarized):
     @derived()
     def paths(self) -> Mapping[str, Track]:
         """The way of each vehicle, by name, on one clock."""
-        return MappingProxyType({name: self._track(name) for name in self.scene.movers})
+        return MappingProxyType(_ByName({name: self._track(name) for name in self.scene.movers}))
 
     @derived()
     def rest(self) -> Rests:
@@ -313,7 +319,9 @@ class Run(Frozen, Summarized):
         every = np.arange(found.count)
         with np.errstate(all="ignore"):
             states = {name: course.at(wanted, every) for name, course in found.courses.items()}
-        return {name: self._body(name, state + unknown) for name, state in states.items()}
+        return _ByName(
+            {name: self._body(name, state + unknown) for name, state in states.items()}
+        )
 
     def case(self, index: int | tuple[int, ...]) -> Run:
         """One case of a batch as a single run.
@@ -385,7 +393,7 @@ class Run(Frozen, Summarized):
 
     def __getitem__(self, name: str) -> Moved:
         if name not in self.scene.movers:
-            raise KeyError(f"{name!r} is no mover; the movers are {', '.join(self.scene.movers)}")
+            raise _no_mover(name, self.scene.movers)
         return Moved(self, name)
 
     def __eq__(self, other: object) -> bool:
@@ -680,14 +688,21 @@ class Rests(Frozen):
     """
 
     _run: Run
+    _quantities: bool
 
-    def __init__(self, run: Run) -> None:
-        vars(self).update(_run=run)
+    def __init__(self, run: Run, quantities: bool = False) -> None:
+        vars(self).update(_run=run, _quantities=quantities)
+
+    @property
+    def q(self) -> Any:
+        """The same places as pint Quantities of the application registry."""
+        return Rests(self._run, quantities=True)
 
     def __getitem__(self, name: str) -> Vehicle:
-        if name not in self._run.scene.movers:
-            raise KeyError(name)
-        return self._run._rest(name)
+        if name not in self:
+            raise _no_mover(name, self)
+        vehicle = self._run._rest(name)
+        return vehicle.q if self._quantities else vehicle
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._run.scene.movers)
@@ -709,6 +724,17 @@ class Rests(Frozen):
 
     def __repr__(self) -> str:
         return f"<places of rest of {', '.join(self)}>"
+
+
+class _ByName(dict[str, Any]):
+    """Something of each vehicle; the error for a name that is none has those that there are."""
+
+    def __missing__(self, name: Any) -> Any:
+        raise _no_mover(name, self)
+
+
+def _no_mover(name: Any, movers: Iterable[str]) -> KeyError:
+    return KeyError(f"{name!r} is no mover; the movers are {', '.join(movers)}")
 
 
 def _warn_of(found: Followed, wrong: Any) -> None:
