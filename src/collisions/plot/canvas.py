@@ -109,9 +109,7 @@ def number(value: float, decimals: int = _MOST_DECIMALS) -> str:
     return text.replace("-", MINUS)
 
 
-def check_impact(
-    impact: Impact, function: str, impulse: bool = False, runs: bool = False
-) -> None:
+def check_impact(impact: Impact, function: str, impulse: bool = False, runs: bool = False) -> None:
     """Raise unless it is a single solved impact with numbers that can be drawn, and an impulse
     where one is needed; ``runs`` says that the function takes a ``Run`` too.
     """

@@ -6,9 +6,10 @@ import numpy as np
 
 from ..messages.hints import hinted
 from ..quantities.formatting import UnitSystem
+from ..scene.picture import COLOURS
 from ..scene.run import Run
 from .canvas import GREY, INK, Axes, Units, begin, in_lines, legend_below, tidy
-from .run import COLOURS, STYLES, contact_name, tracks_of
+from .run import STYLES, contact_name, tracks_of
 
 _ROOM = 0.13  # of the height, above the lines, for the contacts
 

@@ -13,13 +13,14 @@ import numpy as np
 
 from ..messages.hints import hinted
 from ..plot.canvas import SMALLEST
-from ..plot.run import COLOURS, tracks_of
+from ..plot.run import tracks_of
 from ..quantities.document import Document
 from ..quantities.formatting import UnitSystem, decimals_of, typeset
 from ..quantities.printed_tables import html_row
 from ..quantities.tables import Cells, cells, given_texts
 from ..scene.frames import Frames, frames_of
 from ..scene.mover import Mover
+from ..scene.picture import COLOURS, DASHES, bar_of, from_the_front, place_of, view_of
 from ..scene.run import Run, Track
 from .render import plain
 
@@ -27,12 +28,10 @@ _PAGE = Path(__file__).with_name("play.html")
 _STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate")
 # What the table of states has, by the names that the script fills in, with the kinds of quantity.
 _SHOWN = {"speed": "speed", "yaw": "yaw rate", "x": "length", "y": "length", "heading": "angle"}
-# Parts of the dashes of a track, by vehicle, as in the pictures.
-_DASHES: tuple[list[float], ...] = ([], [6, 2], [6, 2, 1, 2], [2, 1.5])
-# As shares of the larger extent of the view: its margin, and the longest arrow and scale bar.
-_MARGIN, _ARROW, _BAR = 0.06, 0.16, 0.2
-_LEAST = 8.0  # m, of the view
-_ROOM = 2.5  # m, about a vehicle without an outline
+# The least height of the view, as a share of its width, and the other way round.
+_FLAT = 0.56
+# As a share of the larger extent of the view: the longest arrow.
+_ARROW = 0.16
 
 
 @hinted
@@ -99,7 +98,7 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
         }
         for kind in ("speed", "yaw rate", "length", "angle")
     }
-    view = _view(run, frames)
+    view = view_of(run, frames, _FLAT)
     extent = max(view[2:])
     speeds = [np.hypot(state[3], state[4]).max() for state in frames.states.values()]
     fastest = max(max(map(float, speeds)), SMALLEST)
@@ -107,7 +106,7 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
         {
             "time": run.times[number],
             "after": frames.after[number],
-            "place": _place(run, number, frames),
+            "place": place_of(run, number, frames),
             "said": _said(run, number, names, system),
         }
         for number in range(len(run.impacts))
@@ -120,7 +119,7 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
                 "name": names[name],
                 "label": escape(names[name]),
                 "colour": COLOURS[index % len(COLOURS)],
-                "dash": _DASHES[index % len(_DASHES)],
+                "dash": DASHES[index % len(DASHES)],
                 "outline": _outline(run.scene.movers[name]),
                 "marks": _marks(tracks[name]),
                 "speed": np.hypot(*frames.states[name][3:5]).tolist(),
@@ -137,7 +136,7 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
             for corners, friction in run.scene.surfaces
         ],
         "view": view,
-        "bar": _bar(extent, system),
+        "bar": bar_of(extent, system),
         "arrow": {"scale": _ARROW * extent / fastest},
         "caption": _caption(run, fastest, system),
     }
@@ -173,8 +172,7 @@ def _outline(mover: Mover) -> list[list[float]] | None:
     """The corners (forward, left) [m], from the front edge on."""
     if mover.outline is None:
         return None
-    ahead = mover.outline[:, 0] + np.roll(mover.outline[:, 0], -1)
-    found: list[list[float]] = np.roll(mover.outline, -int(np.argmax(ahead)), axis=0).tolist()
+    found: list[list[float]] = from_the_front(mover.outline).tolist()
     return found
 
 
@@ -198,33 +196,6 @@ def _marks(track: Track) -> list[dict[str, Any]]:
     return found
 
 
-def _view(run: Run, frames: Frames) -> list[float]:
-    """Left, top, width and height of what is seen [m], y downwards as in SVG."""
-    low, high = np.full(2, np.inf), np.full(2, -np.inf)
-    for name, state in frames.states.items():
-        reach = run.scene.movers[name].reach or _ROOM
-        low = np.minimum(low, state[:2].min(axis=1) - reach)
-        high = np.maximum(high, state[:2].max(axis=1) + reach)
-    middle, extent = 0.5 * (low + high), np.maximum(high - low, 0.0)
-    most = max(float(extent.max()), _LEAST)
-    half = np.maximum(0.5 * extent + _MARGIN * most, 0.28 * most)
-    return [
-        float(number)
-        for number in (middle[0] - half[0], -(middle[1] + half[1]), 2.0 * half[0], 2.0 * half[1])
-    ]
-
-
-def _place(run: Run, number: int, frames: Frames) -> list[float]:
-    """The point of an impact, or of a central one the middle between both vehicles."""
-    point = run.impacts[number].point
-    if point is not None:
-        return [float(point[0]), float(point[1])]
-    at = frames.after[number]
-    one, other = (frames.states[name][:2, at] for name in run.pairs[number])
-    middle: list[float] = (0.5 * (one + other)).tolist()
-    return middle
-
-
 def _said(run: Run, number: int, names: dict[str, str], system: Cells) -> str:
     """One sentence about an impact."""
     impact = run.impacts[number]
@@ -238,15 +209,6 @@ def _said(run: Run, number: int, names: dict[str, str], system: Cells) -> str:
         f"Contact {number + 1}, {pair} at {run.times[number]:.2f} s: closing speed {closing}, "
         f"{', '.join(each)}."
     )
-
-
-def _bar(extent: float, system: Cells) -> dict[str, Any]:
-    """A scale bar: 1, 2 or 5 times a power of ten of the unit of length."""
-    most = _BAR * extent * system.scale("length")
-    power = 10.0 ** math.floor(math.log10(most))
-    length = next(power * step for step in (5.0, 2.0, 1.0) if power * step <= most)
-    text = f"{length:g} {typeset(system.label('length'))}"
-    return {"length": length / system.scale("length"), "text": text}
 
 
 def _caption(run: Run, fastest: float, system: Cells) -> str:

@@ -22,7 +22,7 @@ from ..messages.errors import (
 from ..messages.warning import warn_of_cases
 from ..quantities.attributes import Frozen, Quantities, Shown, derived, format_value, read_only
 from ..quantities.reading import ArgumentReader
-from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, given_texts
+from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, cells, given_texts
 from ..quantities.units import Input, Texts, texts_of
 from ..vehicle.drag import one_value
 from ..vehicle.vehicle import NAMES, Vehicle, vehicle_of
@@ -319,9 +319,7 @@ class Run(Frozen, Summarized):
         every = np.arange(found.count)
         with np.errstate(all="ignore"):
             states = {name: course.at(wanted, every) for name, course in found.courses.items()}
-        return _ByName(
-            {name: self._body(name, state + unknown) for name, state in states.items()}
-        )
+        return _ByName({name: self._body(name, state + unknown) for name, state in states.items()})
 
     def case(self, index: int | tuple[int, ...]) -> Run:
         """One case of a batch as a single run.
@@ -671,6 +669,14 @@ class Run(Frozen, Summarized):
             notes.append(f"{self._followed.count} cases, {wrong} of them without an answer.")
         return Summary(title, [*parts, all_numbers(self._rows())], notes)
 
+    def _repr_html_(self) -> str:
+        table = self.summary()._repr_html_()
+        if not self._followed.single:
+            return table
+        from .picture import small_picture
+
+        return small_picture(self, cells(None, given_texts(self))) + table
+
     def _rows(self) -> Iterator[tuple[str, str]]:
         for number in range(self._most):
             yield f"times[{number}]", format_value(self._time(number), "s")
@@ -688,21 +694,19 @@ class Rests(Frozen):
     """
 
     _run: Run
-    _quantities: bool
 
-    def __init__(self, run: Run, quantities: bool = False) -> None:
-        vars(self).update(_run=run, _quantities=quantities)
+    def __init__(self, run: Run) -> None:
+        vars(self).update(_run=run)
 
     @property
     def q(self) -> Any:
         """The same places as pint Quantities of the application registry."""
-        return Rests(self._run, quantities=True)
+        return _RestsInQuantities(self._run)
 
     def __getitem__(self, name: str) -> Vehicle:
         if name not in self:
             raise _no_mover(name, self)
-        vehicle = self._run._rest(name)
-        return vehicle.q if self._quantities else vehicle
+        return self._run._rest(name)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._run.scene.movers)
@@ -724,6 +728,11 @@ class Rests(Frozen):
 
     def __repr__(self) -> str:
         return f"<places of rest of {', '.join(self)}>"
+
+
+class _RestsInQuantities(Rests):
+    def __getitem__(self, name: str) -> Any:
+        return super().__getitem__(name).q
 
 
 class _ByName(dict[str, Any]):
