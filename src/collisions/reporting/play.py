@@ -17,7 +17,7 @@ from ..plot.run import tracks_of
 from ..quantities.document import Document
 from ..quantities.formatting import UnitSystem, decimals_of, typeset
 from ..quantities.printed_tables import html_row
-from ..quantities.tables import Cells, cells, given_texts
+from ..quantities.tables import Cells, as_sentence, cells, given_texts, label_of
 from ..scene.frames import Frames, frames_of
 from ..scene.mover import Mover
 from ..scene.picture import COLOURS, DASHES, bar_of, from_the_front, place_of, view_of
@@ -30,6 +30,7 @@ _STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate")
 _SHOWN = {"speed": "speed", "yaw": "yaw rate", "x": "length", "y": "length", "heading": "angle"}
 # The least height of the view, as a share of its width, and the other way round.
 _FLAT = 0.56
+_LIMITS = "What this scene does not describe, and what limits the answer:"
 # As a share of the larger extent of the view: the longest arrow.
 _ARROW = 0.16
 
@@ -39,8 +40,9 @@ def play(run: Run, *, units: UnitSystem | None = None) -> Document:
     """One offline HTML page that plays a scene: a slider of time, and a button that moves it.
 
     At every moment it has the outlines, the tracks and tyre marks so far, the velocities, and a
-    table with speed, yaw rate, place and heading; below it the speeds over time. The numbers are
-    those of the run, written into the page in equal steps of time, with each contact twice, before
+    table with speed, yaw rate, place and heading; below it the speeds over time. The findings of
+    the run, such as that two vehicles are followed through each other, stand in a list, and are
+    said when their time comes. The numbers are those of the run, written into the page in equal steps of time, with each contact twice, before
     and after: the browser only draws them. It loads nothing from outside, and works by keyboard and
     with screen readers.
 
@@ -92,11 +94,13 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
     names = {name: plain(name) for name in tracks}
     units = {
         kind: {
-            "unit": typeset(system.label(kind)),
-            "scale": system.scale(kind),
-            "decimals": decimals_of(kind, system.name),
+            "unit": typeset(of.label(kind)),
+            "scale": of.scale(kind),
+            "decimals": decimals_of(kind, of.name),
         }
         for kind in ("speed", "yaw rate", "length", "angle")
+        # In degrees in every system, as in every table.
+        for of in [Cells("metric") if kind in ("yaw rate", "angle") else system]
     }
     view = view_of(run, frames, _FLAT)
     extent = max(view[2:])
@@ -110,6 +114,14 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
             "said": _said(run, number, names, system),
         }
         for number in range(len(run.impacts))
+    ]
+    findings = [
+        {
+            "time": one.time,
+            "after": _moment(frames, one.time),
+            "said": plain(f"{as_sentence(label_of(one.code))[:-1]}: {as_sentence(one.sentence)}"),
+        }
+        for one in run.findings
     ]
     data = {
         "units": units,
@@ -131,6 +143,7 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
             for index, name in enumerate(tracks)
         ],
         "contacts": contacts,
+        "findings": findings,
         "surfaces": [
             {"corners": np.asarray(corners).tolist(), "friction": f"{float(friction):.3g}"}
             for corners, friction in run.scene.surfaces
@@ -144,6 +157,11 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
         f'<button type="button" id="contact-{number}" data-frame="{frames.after[number]}">'
         f"Contact {number + 1}: {escape(' and '.join(names[name] for name in pair))}</button>"
         for number, pair in enumerate(run.pairs)
+    )
+    listed = "\n".join(
+        f'<li id="finding-{number}"><button type="button" data-frame="{one["after"]}">'
+        f"{one['time']:.2f} s</button> {escape(str(one['said']))}</li>"
+        for number, one in enumerate(findings)
     )
     # The script fills them in.
     rows = "\n".join(
@@ -160,12 +178,21 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
         "title": escape(f"The crash of {', '.join(names.values())}"),
         "last": str(len(frames.times) - 1),
         "contacts": buttons,
+        "findings": f'<p id="limits">{_LIMITS}</p>\n<ul>\n{listed}\n</ul>' if listed else "",
         "rows": rows,
         "version": __version__,
         "data": json.dumps(data, allow_nan=False).replace("<", "\\u003c"),
     }.items():
         text = text.replace(f"<!--{name}-->", part)
     return text
+
+
+def _moment(frames: Frames, time: float) -> int:
+    """The first moment that is not before a time; at a contact the one after it."""
+    at = int(np.searchsorted(frames.times, time))
+    if at < len(frames.times) and frames.times[at] == time:
+        at = int(np.searchsorted(frames.times, time, side="right")) - 1
+    return min(at, len(frames.times) - 1)
 
 
 def _outline(mover: Mover) -> list[list[float]] | None:
