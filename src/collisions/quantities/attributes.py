@@ -206,6 +206,8 @@ def _within(value: Any) -> Any:
     """The Quantities of an object that has some, also of each in a tuple or a mapping; any other
     value as it is.
     """
+    if (found := getattr(value, "q", None)) is not None:
+        return found
     if isinstance(value, tuple):
         parts = [_within(part) for part in value]
         same = all(one is other for one, other in zip(parts, value, strict=True))
@@ -214,7 +216,7 @@ def _within(value: Any) -> Any:
         named = {name: _within(part) for name, part in value.items()}
         same = all(part is value[name] for name, part in named.items())
         return value if same else MappingProxyType(named)
-    return getattr(value, "q", value)
+    return value
 
 
 def in_quantities(function: Callable[P, Any], unit: str) -> Callable[P, Any]:

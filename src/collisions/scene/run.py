@@ -746,6 +746,16 @@ def _no_mover(name: Any, movers: Iterable[str]) -> KeyError:
     return KeyError(f"{name!r} is no mover; the movers are {', '.join(movers)}")
 
 
+def as_letters(pair: tuple[str, str]) -> str:
+    """Which vehicle of a pair is A in an impact, and which is B; names that are the letter of the
+    other are marked as names.
+    """
+    one, other = pair
+    if one in ("b", "B") or other in ("a", "A"):
+        one, other = f"\u201c{one}\u201d", f"\u201c{other}\u201d"
+    return f"{one} as A and {other} as B"
+
+
 def _warn_of(found: Followed, wrong: Any) -> None:
     """Say how many cases of a batch have no answer, and why."""
     if found.single or not wrong.any():
