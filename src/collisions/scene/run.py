@@ -769,7 +769,9 @@ _DRIVEN = (
     "through or into each other: "
     "what pushes them without a blow is not followed, and their places of rest may be wrong. Where "
     "that is so in a few percent of the cases, no more of the probability is in doubt; where in "
-    "many, leave the places of rest out of the evidence"
+    "many, leave the places of rest out of the evidence, and give what was read before that: the "
+    "delta-V of a recorder, or speed and course right after the impact, such as "
+    "'impacts[0].a.after.course'"
 )
 _DRAGLESS = "a drag does not act during a contact that is followed in time; tyres in its place do"
 _UNDESCRIBED = (
