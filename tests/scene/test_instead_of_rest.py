@@ -54,9 +54,11 @@ def test_places_of_rest_have_the_warning_with_its_way_round() -> None:
             outline=(4.5, 1.8),
             drag=drag,
         )
-        for name, mass, x, vx, drag in (("Lorry", 9e3, -4.5, 12.0, 0.1), ("Car", 1.2e3, 0, 0, 0.8))
+        for name, mass, x, vx, drag in (("Lorry", 9e3, -4.6, 12.0, 0.1), ("Car", 1.2e3, 0, 0, 0.8))
     }
-    hit = Contact("Lorry", "Car", restitution=0.0, friction=0.5, normal=0.0, point=(-2.25, 0.0))
+    hit = Contact(
+        "Lorry", "Car", restitution=0.0, friction=0.5, normal=0.0, point=(-2.25, 0), at="touch"
+    )
     crash, speed = Scene(movers=movers, contacts=[hit]), {"Lorry.vx": Normal(12.0, 0.1)}
     with pytest.warns(col.OutOfRangeWarning, match=r"such as 'impacts\[0\]\.a\.after\.course'"):
         propagate(crash, speed, outputs=["Car.rest.x"], samples=64, seed=1)
