@@ -272,7 +272,8 @@ def _(axes: Any, names: Names) -> None:
     for time, filled in ((0.0, 0.0), (run.times[1], 0.12), (run.end, 0.25)):
         states = run.at(time)
         for index, (name, size) in enumerate(sizes.items()):
-            car(axes, states[name], size, index, filled)
+            if name == "Hatchback" or time != run.times[1]:
+                car(axes, states[name], size, index, filled)
     for index, name in enumerate(sizes):
         axes.plot(run.paths[name].x, run.paths[name].y, color=COLOURS[index], lw=1.4, ls="--")
     axes.plot([5.0], [2.3], "o", ms=11, color=INK, zorder=9)
@@ -393,8 +394,8 @@ def _(axes: Any, names: Names) -> None:
 @card("two_accounts_of_a_chain")
 def _(axes: Any, names: Names) -> None:
     for row, (name, scene) in enumerate(names["scenes"].items()):
-        states = scene.run().at(0.0)
-        for index, state in enumerate(states.values()):
+        for index, mover in enumerate(scene.movers.values()):
+            state = mover.vehicle
             car(axes, state.replace(y=-3.6 * row), (names["LONG"], 1.8), index, 0.2)
             if state.speed:
                 tail = (state.x - 1.6, -3.6 * row)
@@ -403,7 +404,8 @@ def _(axes: Any, names: Names) -> None:
     axes.plot([9.0], [0], alpha=0)
     plan(axes)
     log = names["found"].log_bayes_factors["hatchback stood", "hatchback came first"]
-    said(axes, f"the first fits better by a factor of {math.exp(log):.0f}")
+    factor = float(f"{math.exp(log):.1g}")
+    said(axes, f"the first fits better, by a factor of about {factor:.0f}")
 
 
 @card("us_units")
