@@ -103,9 +103,8 @@ unknown = {
 found = fit(crash, unknown, evidence)
 for name in ("Hatchback.speed", "Saloon.speed"):
     low, high = (KMH * end for end in found[name].interval(0.95))
-    print(
-        f"{name}: {KMH * found[name].value:.0f} km/h, from {low:.0f} to {high:.0f} km/h (95 %)"
-    )
+    best = KMH * found[name].value
+    print(f"{name}: {best:.0f} km/h, from {low:.0f} to {high:.0f} km/h (95 %)")
 print(*found.statements, sep="\n")
 
 # %% [markdown]

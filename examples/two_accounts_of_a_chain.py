@@ -35,8 +35,8 @@ DRAG = {"Van": 0.8, "Hatchback": 0.65, "Taxi": 0.4}
 
 # %%
 def account(pushed):
-    """The hatchback stood and was pushed; or it had struck the taxi when the van came. The taxi
-    is at 0, and the speeds are those to begin with.
+    """The hatchback stood and was pushed; or it had struck the taxi when the van
+    came. The taxi is at 0, and the speeds are those to begin with.
     """
     place = {"Van": -2 * LONG - 2.0, "Hatchback": -LONG - 2.0 * pushed, "Taxi": 0.0}
     speed = {"Van": 15.0, "Hatchback": 0.0 if pushed else 10.0, "Taxi": 0.0}
