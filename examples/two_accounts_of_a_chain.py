@@ -161,9 +161,9 @@ assert math.isclose(truth.impacts[1].b.delta_v, 1.25 * share * arrives, rel_tol=
 for before, after in truth.momentum:
     assert math.isclose(before[0], after[0], rel_tol=1e-12)
 lost = sum(impact.energy_loss for impact in truth.impacts)
-for name, rest in truth.rest.items():
+for name in truth.rest:
     begin = scenes["hatchback stood"].movers[name].vehicle.x
-    lost += DRAG[name] * MASS[name] * G * (rest.x - begin)
+    lost += DRAG[name] * MASS[name] * G * (truth.rest[name].x - begin)
 assert math.isclose(lost, 0.5 * MASS["Van"] * 15.0**2, rel_tol=1e-6)
 
 stood = accounts["hatchback stood"]

@@ -1715,7 +1715,7 @@ def known_scene() -> scene.Scene:
     "play", "plot.timeline",
     "Cost", "Level", "Level.as_model", "Level.results", "Required", "Required.summary",
     "Required.to_dict",
-    "Moved", "Moved.summary", "Notice", "Rests", "Track", "Track.summary",
+    "Moved", "Moved.summary", "Notice", "Rests", "Rests.keys", "Track", "Track.summary",
     "scene.Contact", "scene.Contact.as_given", "scene.Contact.replace", "scene.Contact.summary",
     "scene.Mover", "scene.Mover.as_given", "scene.Mover.replace", "scene.Mover.summary",
     "scene.Run", "scene.Run.at", "scene.Run.case", "scene.Run.from_dict", "scene.Run.summary",
@@ -1837,7 +1837,7 @@ def ran(case: Case, run: scene.Run) -> None:
     track = case.must("Track", lambda: one.path)
     assert str(case.must("Track.summary", track.summary, case.choice(UNIT_SYSTEMS)))
     case.call("Moved", lambda: one.rest)
-    assert list(case.must("Rests", run.rest.keys)) == list(run.scene.movers)
+    assert list(case.must("Rests.keys", run.rest.keys)) == list(run.scene.movers)
     case.call("scene.Run", lambda: run.energy)
     drawn(case, "timeline", run)
     drawn(case, "scene", run)

@@ -41,18 +41,6 @@ def test_q_works_out_no_place_of_rest_that_is_not_asked_for() -> None:
         run.q.rest["B"]
 
 
-def test_places_of_rest_can_be_gone_through() -> None:
-    run = three_cars()
-    assert {name: one.x for name, one in run.rest.items()} == {
-        name: run[name].rest.x for name in run.scene.movers
-    }
-    assert [one.magnitude for one in (rest.x for rest in run.q.rest.values())] == [
-        rest.x for rest in run.rest.values()
-    ]
-    assert "Van" not in run.rest
-    assert run.rest.get("Van") is None
-
-
 def test_a_name_that_is_none_is_refused_with_those_that_there_are() -> None:
     run = three_cars()
     for of in (run, run.rest, run.q.rest, run.paths, run.at("1 s")):

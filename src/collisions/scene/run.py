@@ -688,8 +688,10 @@ class Run(Frozen, Summarized):
         return given_texts(self.scene)
 
 
-class Rests(Frozen, Mapping[str, Vehicle]):
-    """Vehicles at their places of rest by name; each is worked out when it is asked for."""
+class Rests(Frozen):
+    """Vehicles at their places of rest by name, as in a dict; each is worked out when it is asked
+    for.
+    """
 
     _run: Run
 
@@ -714,6 +716,15 @@ class Rests(Frozen, Mapping[str, Vehicle]):
 
     def __contains__(self, name: object) -> bool:
         return name in self._run.scene.movers
+
+    def keys(self) -> Iterable[str]:
+        """The names of the vehicles.
+
+        Returns
+        -------
+        iterable of str
+        """
+        return self._run.scene.movers.keys()
 
     def __repr__(self) -> str:
         return f"<places of rest of {', '.join(self)}>"
