@@ -265,6 +265,24 @@ def _(axes: Any, names: Names) -> None:
     said(axes, f"from its dent and where it stands:\n{low:.0f} to {high:.0f} km/h")
 
 
+@card("pole_after_side_impact")
+def _(axes: Any, names: Names) -> None:
+    run, found = names["run"], names["found"]
+    sizes = {"Hatchback": (4.2, 1.75), "Saloon": (4.6, 1.8)}
+    for time, filled in ((0.0, 0.0), (run.times[1], 0.12), (run.end, 0.25)):
+        states = run.at(time)
+        for index, (name, size) in enumerate(sizes.items()):
+            if name == "Hatchback" or time != run.times[1]:
+                car(axes, states[name], size, index, filled)
+    for index, name in enumerate(sizes):
+        axes.plot(run.paths[name].x, run.paths[name].y, color=COLOURS[index], lw=1.4, ls="--")
+    axes.plot([5.0], [2.3], "o", ms=11, color=INK, zorder=9)
+    axes.text(5.3, 2.5, "pole", fontsize=12)
+    plan(axes)
+    low, high = (end * KMH for end in found["Hatchback.speed"].interval(0.95))
+    said(axes, f"the hatchback, from where all stood: {low:.0f} to {high:.0f} km/h")
+
+
 @card("pole_impact")
 def _(axes: Any, names: Names) -> None:
     impact = names["impact"]
@@ -371,6 +389,23 @@ def _(axes: Any, names: Names) -> None:
     axes.spines["left"].set_visible(False)
     chart(axes, "speed of A [km/h]")
     axes.legend(fontsize=12, frameon=False, loc="upper left")
+
+
+@card("two_accounts_of_a_chain")
+def _(axes: Any, names: Names) -> None:
+    for row, (name, scene) in enumerate(names["scenes"].items()):
+        for index, mover in enumerate(scene.movers.values()):
+            state = mover.vehicle
+            car(axes, state.replace(y=-3.6 * row), (names["LONG"], 1.8), index, 0.2)
+            if state.speed:
+                tail = (state.x - 1.6, -3.6 * row)
+                arrow(axes, tail, (0.2 * state.speed, 0.0), COLOURS[index])
+        axes.text(2.8, -3.6 * row, name.replace(" ", "\n", 1), va="center", fontsize=12)
+    axes.plot([9.0], [0], alpha=0)
+    plan(axes)
+    log = names["found"].log_bayes_factors["hatchback stood", "hatchback came first"]
+    factor = float(f"{math.exp(log):.1g}")
+    said(axes, f"the first fits better, by a factor of about {factor:.0f}")
 
 
 @card("us_units")

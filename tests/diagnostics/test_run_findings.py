@@ -110,5 +110,5 @@ def test_movers_called_by_the_letters_of_the_other_are_told_apart() -> None:
     text = " ".join(f"{found} {found.moves} {col.explain(run)}".split())
     assert not re.search(r"B \(A\)|A \(B\)", text)
     assert "A (named B)" in text
-    assert "impact 1, B as A and A as B" in text
+    assert "impact 1, “B” as A and “A” as B" in text
     assert not any(re.match(r"\s*\w+ \([AB]\)", line) for line in str(found).splitlines())

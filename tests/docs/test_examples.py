@@ -46,6 +46,7 @@ def test_there_are_examples():
         "paper_examples",
         "parked_truck",
         "pivoted_vehicle",
+        "pole_after_side_impact",
         "pole_from_crush",
         "pole_impact",
         "published_solutions",
@@ -57,6 +58,7 @@ def test_there_are_examples():
         "table_of_cases",
         "truck_against_car",
         "two_accounts",
+        "two_accounts_of_a_chain",
         "us_units",
     }
     assert expected <= {script.stem for script in EXAMPLES}

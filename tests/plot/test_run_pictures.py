@@ -4,6 +4,7 @@ from what was drawn.
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Any
 
@@ -122,6 +123,34 @@ def test_the_timeline_has_the_speeds_on_either_side_of_each_contact() -> None:
             assert after == pytest.approx(side.after.speed, abs=1e-9)
     assert axes.get_xlim()[1] > run.end
     assert axes.get_ylim()[1] * MPH > max(run.scene.movers["Camry"].vehicle.speed, 0.0)
+
+
+def test_names_of_contacts_stand_apart_in_the_timeline() -> None:
+    """Five cars in a row that meet within a fraction of the time, in a wide and a narrow figure."""
+    row = {"normal": 0, "model": "linear_central", "at": "touch", "restitution": 0.3}
+    names = ["Camry", "Civic", "Truck", "Accord", "Golf"]
+    movers = {
+        name: Mover(
+            col.Vehicle(mass=1500, vx=20.0 * (i == 0), x=5.0 * i, y=0, heading=0),
+            outline=(4.5, 1.8),
+            drag=0.5,
+        )
+        for i, name in enumerate(names)
+    }
+    pairs = itertools.pairwise(names)
+    run = Scene(movers=movers, contacts=[Contact(*pair, **row) for pair in pairs]).run()
+    assert len(run.impacts) > 5
+    for wide in (8.6, 5.2):
+        figure, axes = plt.subplots(figsize=(wide, 4.6))
+        plot.timeline(run, axes=axes)
+        figure.canvas.draw()
+        boxes = [
+            by_gid(axes, f"contact.{number}.name")[0].get_window_extent()
+            for number in range(len(run.impacts))
+        ]
+        for number, box in enumerate(boxes):
+            assert not any(box.overlaps(other) for other in boxes[:number])
+            assert box.x1 < figure.bbox.x1
 
 
 def test_vehicles_without_outline_that_nothing_slows_are_drawn_too() -> None:

@@ -11,7 +11,10 @@ import numpy as np
 import pytest
 
 import collisions as col
+from collisions.reporting.play import _moment
+from collisions.scene import Contact, Mover, Run, Scene
 from collisions.scene.frames import frames_of
+from collisions.travel import Tyres
 from crashes import NAMES, coasting, three_cars
 from javascript import moved
 
@@ -177,6 +180,72 @@ def test_names_are_no_markup_and_what_moves_on_goes_on_for_a_second() -> None:
     assert data["movers"][1]["x"][-1] == pytest.approx(2.0 + 6.0 * 1.0)
     (state,) = moved(page)
     assert "&lt;A &amp; co&gt;" in state["scene"]
+
+
+def through() -> Run:
+    """A car pushes another one through a third, of which no contact says anything."""
+    place = {"A": -10.0, "B": 0.0, "C": 6.5}
+    movers = {
+        name: Mover(
+            col.Vehicle(mass=1500, yaw_inertia=2500, x=x, y=0.0, heading=0.0, vx=15.0 * (x < 0)),
+            outline=(4.5, 1.8),
+            tyres=Tyres(0.7, 0.3, 2.7, 1.5),
+        )
+        for name, x in place.items()
+    }
+    hit = Contact("A", "B", restitution=0.1, friction=0.5, at="touch")
+    return Scene(movers=movers, contacts=[hit]).run()
+
+
+def test_findings_are_listed_and_said_when_their_time_comes() -> None:
+    run = through()
+    assert [one.movers for one in run.findings] == [("B", "C"), ("A", "C")]
+    page = col.play(run)
+    report = col.report(run, form="markdown")
+    data = data_of(page)
+    listed = re.findall(r'<li id="finding-\d">(.*)</li>', page)
+    assert len(listed) == len(run.findings)
+    for notice, text, found in zip(run.findings, listed, data["findings"], strict=True):
+        assert notice.sentence in text
+        assert f"{notice.time:.2f} s</button>" in text
+        assert notice.sentence in report
+        assert data["times"][found["after"] - 1] < notice.time <= data["times"][found["after"]]
+    first, second = (one["after"] for one in data["findings"])
+    moments = [first - 1, first, second - 1, second, len(data["times"]) - 1]
+    states = moved(page, *(("move", "time", at) for at in moments))[1:]
+    said = [[one.sentence in state["status"] for one in run.findings] for state in states]
+    assert said == [[False, False], [True, False], [True, False], [False, True], [False, True]]
+
+
+def test_a_finding_at_a_contact_comes_after_it_and_a_page_without_any_has_no_list() -> None:
+    run = three_cars()
+    assert not run.findings
+    assert "<li id=" not in col.play(run)
+    frames = frames_of(run)
+    assert [_moment(frames, time) for time in run.times] == frames.after
+    assert _moment(frames, 0.5 * (frames.times[5] + frames.times[6])) == 6
+    assert _moment(frames, 1e9) == len(frames.times) - 1
+
+
+def test_names_do_not_stand_in_each_other() -> None:
+    """Both come to rest in one place, within 0.7 m."""
+    page = col.play(through())
+    last = moved(page, ("move", "time", len(data_of(page)["times"]) - 1))[1]
+    at = [
+        (float(x), float(y))
+        for x, y in re.findall(r'<text class="name" x="([-\d.]+)" y="([-\d.]+)"', last["scene"])
+    ]
+    size = max(data_of(page)["view"][2:]) / 100.0
+    assert len(at) == 3
+    assert math.dist(at[0], at[2]) > 2.1 * size
+
+
+def test_angles_are_in_degrees_in_every_system() -> None:
+    for units in ("si", "metric", "us"):
+        data = data_of(col.play(three_cars(), units=units))
+        assert data["units"]["angle"]["unit"] == "°"
+        assert data["units"]["yaw rate"]["unit"] == "°/s"
+        assert data["units"]["angle"]["scale"] == pytest.approx(180.0 / math.pi)
 
 
 def test_what_cannot_be_played_is_refused() -> None:

@@ -10,7 +10,7 @@ import collisions as col
 from collisions import reconstruct
 from collisions.reporting import options, replay
 from collisions.scene import Contact, Mover, Scene
-from collisions.uncertainty import Interval, Uniform
+from collisions.uncertainty import Interval, Uniform, propagate
 
 MPH = 0.44704
 
@@ -220,3 +220,56 @@ def test_what_an_instant_leaves_out_stands_beside_the_ranges(found, run):
     what = "Impact 1 was found as an instant: of delta-V that leaves out about"
     assert f"{what} {100.0 * share:.0f} percent for tyres" in said
     assert "assumed, not given" in said
+
+
+def leaning() -> Scene:
+    """A lorry that is braked less strikes a car in line and leans on it until both rest; named by
+    letters, the other way round than in the contact.
+    """
+    movers = {
+        name: Mover(
+            col.Vehicle(mass=mass, yaw_inertia=2500, x=x, y=0.0, heading=0.0, vx=vx),
+            outline=(4.5, 1.8),
+            drag=drag,
+        )
+        for name, mass, x, vx, drag in (("A", 1200, 0.0, 0.0, 0.8), ("B", 9000, -4.6, 12.0, 0.1))
+    }
+    hit = Contact("B", "A", restitution=0.0, friction=0.5, normal=0.0, point=(-2.25, 0), at="touch")
+    return Scene(movers=movers, contacts=[hit])
+
+
+def test_what_was_warned_of_the_samples_stands_in_the_answer():
+    """How many samples are followed through each other, beside what the run itself shows; on the
+    page of the posterior alone it follows the answer.
+    """
+    prior = {"B.vx": Uniform("8 m/s", "16 m/s")}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        samples = reconstruct.posterior(
+            leaning(), prior, {"A.rest.x": ("9 m", "1 m")}, samples=512, seed=1
+        )
+        spread = propagate(leaning(), prior, outputs=["A.rest.x"], samples=64, seed=1)
+    run = leaning().replace({"B.vx": samples["B.vx"].mean}).run()
+    (counted,) = [one for one in samples.statements if " of 512 cases" in one]
+    pages = [
+        (col.report([samples, run], form="markdown"), f"- **driven through:** {counted}"),
+        (
+            col.report(run, uncertainty=spread, form="markdown"),
+            "- **driven through:** 64 of 64 cases",
+        ),
+    ]
+    for page, told in pages:
+        assert told in box(page)
+        (notice,) = run.findings
+        assert notice.sentence in box(page)
+        assert "- **delta-V of A" in box(page)
+        assert "delta-V of the A" not in page
+    alone = col.report(samples, form="markdown")
+    assert alone[: alone.index("## Record")].count(counted) == 1
+
+
+def test_findings_of_an_impact_in_the_answer_say_which(found, run):
+    page = col.report([found, run], form="markdown", limits={"tyre_impulse": 0.0})
+    told = re.findall(r"- \*\*tyre impulse:\*\* (.*)", box(page))
+    assert told
+    assert all(one.startswith("Impact 1, Rover and Seat at 0.00 s: ") for one in told)

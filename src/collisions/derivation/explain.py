@@ -210,7 +210,12 @@ def explain(
             raise no_uncertainty("Run")
         return _run(impact, units, form)
     need_one_case(
-        impact, (Impact, MomentumSolution, Fit), "explain", instead=NOT_EXPLAINED, refused=error_of
+        impact,
+        (Impact, MomentumSolution, Fit),
+        "explain",
+        instead=NOT_EXPLAINED,
+        runs=True,
+        refused=error_of,
     )
     need_found_again(impact)
     if isinstance(impact, Fit) and uncertainty is not None:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from ..impact.impact import Impact
 from ..messages.errors import CollisionsError
-from ..scene.run import Run
+from ..scene.run import Run, as_letters
 from .page import Page
 
 
@@ -25,8 +25,8 @@ def scene_steps(page: Page, run: Run, steps: Callable[[Page, Impact], None]) -> 
     for number, (time, pair, impact) in enumerate(
         zip(run.times, run.pairs, run.impacts, strict=True)
     ):
-        one, other = (page.name(name) for name in pair)
-        page.heading(f"Impact {number + 1}: {one} as A and {other} as B, at {time:.2f} s")
+        of = as_letters((page.name(pair[0]), page.name(pair[1])))
+        page.heading(f"Impact {number + 1}: {of}, at {time:.2f} s")
         with page.one_level_down():
             steps(page, impact)
     page.heading("Places of rest")

@@ -170,7 +170,7 @@ def diagnose(
                 cast(UnitSystem, spoken_system(given_texts(impact))) if units is None else units
             )
             return diagnose_run(impact, given, spoken, diagnose)
-    need_one_case(impact, (Impact, MomentumSolution), "diagnose")
+    need_one_case(impact, (Impact, MomentumSolution), "diagnose", runs=True)
     need_found_again(impact)
     with callers_options():
         reader = ArgumentReader(trusted=() if units_required.get() else implausible)

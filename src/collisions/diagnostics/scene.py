@@ -8,7 +8,7 @@ from typing import Any
 
 from ..messages.errors import InputError
 from ..scene.one_run import need_one_run
-from ..scene.run import Run
+from ..scene.run import Run, as_letters
 from .finding import NOTE, Finding, Findings
 from .moves import Move, Moves
 
@@ -50,17 +50,11 @@ def diagnose_run(
     found: list[Finding] = []
     measured: set[str] = set()
     moves: list[Move] = []
-    for number, (time, pair, impact) in enumerate(
-        zip(run.times, run.pairs, run.impacts, strict=True)
-    ):
+    for number, (pair, impact) in enumerate(zip(run.pairs, run.impacts, strict=True)):
         own = diagnose(impact, units=units, **shared, **_outlines(run, number))
         measured |= own.measured
-        where = f"impact {number + 1}, {' and '.join(pair)} at {time:.2f} s"
-        found += [
-            replace(one, sentence=f"{where}: {one.sentence}", impact=number, time=time)
-            for one in own
-        ]
-        of = f"impact {number + 1}, {pair[0]} as A and {pair[1]} as B"
+        found += [of_impact(one, run, number) for one in own]
+        of = f"impact {number + 1}, {as_letters(pair)}"
         moves += [replace(move, what=f"{of}: {move.what}") for move in own.moves]
     found += [
         Finding(
@@ -75,6 +69,13 @@ def diagnose_run(
         for notice in run.findings
     ]
     return Findings(found, measured, units, Moves(moves, units))
+
+
+def of_impact(finding: Finding, run: Run, number: int) -> Finding:
+    """A finding of one of the impacts of a run with its number, its vehicles and its time."""
+    time = run.times[number]
+    where = f"impact {number + 1}, {' and '.join(run.pairs[number])} at {time:.2f} s"
+    return replace(finding, sentence=f"{where}: {finding.sentence}", impact=number, time=time)
 
 
 def _outlines(run: Run, number: int) -> dict[str, Any]:

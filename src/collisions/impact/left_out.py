@@ -19,7 +19,7 @@ from ..messages.warning import quietly
 from ..quantities.attributes import Shown, hypot, in_units_of, math_or_numpy, read_only
 from ..quantities.directions import from_radians
 from ..quantities.precision import precision
-from ..quantities.reading import ArgumentReader, broadcast, widened
+from ..quantities.reading import ArgumentReader, broadcast, not_an_answer, widened
 from ..quantities.settings import Default, callers_options, computing
 from ..quantities.units import Input, Value, shown
 from ..travel.surfaces import out_of_range, settle
@@ -508,11 +508,7 @@ def left_out(
         )
         reader.refuse(InputError(text, code="takes_time", argument="impact"))
     elif not isinstance(impact, Impact):
-        text = (
-            f"impact must be an Impact, got {type(impact).__name__}; write "
-            "left_out(collisions.eccentric(...))"
-        )
-        reader.refuse(InputError(text, code="not_an_impact", argument="impact"))
+        reader.refuse(not_an_answer(impact, (Impact,), "left_out"))
     tyres: dict[str, Any] = {}
     if isinstance(impact, Impact):
         bodies = impact.a.before, impact.b.before

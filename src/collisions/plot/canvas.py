@@ -109,12 +109,12 @@ def number(value: float, decimals: int = _MOST_DECIMALS) -> str:
     return text.replace("-", MINUS)
 
 
-def check_impact(impact: Impact, function: str, impulse: bool = False) -> None:
+def check_impact(impact: Impact, function: str, impulse: bool = False, runs: bool = False) -> None:
     """Raise unless it is a single solved impact with numbers that can be drawn, and an impulse
-    where one is needed.
+    where one is needed; ``runs`` says that the function takes a ``Run`` too.
     """
     spread = ", or draw a spread with plot.distribution(propagate(...)['...'])"
-    need_one_case(impact, (Impact,), f"plot.{function}", many=spread)
+    need_one_case(impact, (Impact,), f"plot.{function}", many=spread, runs=runs)
     for side in (impact.a, impact.b):
         check_size("mass", side.before.mass if math.isfinite(side.before.mass) else 0.0)
         for state in (side.before, side.after):

@@ -12,15 +12,14 @@ import numpy as np
 from ..messages.errors import CollisionsError, MissingInputError
 from ..quantities.formatting import UnitSystem
 from ..scene.one_run import need_one_run
+from ..scene.picture import COLOURS, DASHES, from_the_front
 from ..scene.run import Run, Track
 from .body import draw_body
 from .canvas import GREY, INK, Axes, Units, begin, check_size, in_lines, size_of, tidy
 from .drawing import Drawing, Place, beside
 
-# Colours of vehicles in their order, again from the first after the last; lines differ in black
-# and white.
-COLOURS = ("#1f5fa8", "#b3541e", "#2f7d4f", "#7a3d8f", "#8a6d00", "#a01040")
-STYLES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (6, 2, 1, 2)), (0, (2, 1.5)))
+# Lines of vehicles in their order, as COLOURS.
+STYLES: tuple[Any, ...] = tuple((0, dashes) if dashes else "-" for dashes in DASHES)
 _ROOM = 2.0  # m, shown about a vehicle without an outline
 _MARKS = "; grey lines: tyre marks"
 _BAR = 0.22  # of the width: the longest scale bar
@@ -122,13 +121,10 @@ def _stop_at(run: Run, name: str, time: float, metre: float) -> Stop:
     outline = run.scene.movers[name].outline
     corners: list[Place] = []
     if outline is not None:
-        # From the front edge on, which is drawn heavy.
-        ahead = outline[:, 0] + np.roll(outline[:, 0], -1)
-        turned = np.roll(outline, -int(np.argmax(ahead)), axis=0)
         c, s = math.cos(heading), math.sin(heading)
         corners = [
             ((x + c * forward - s * left) * metre, (y + s * forward + c * left) * metre)
-            for forward, left in turned.tolist()
+            for forward, left in from_the_front(outline).tolist()
         ]
     place, tyres = (x * metre, y * metre), run.scene.movers[name].tyres
     if tyres is None:

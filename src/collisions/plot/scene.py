@@ -128,7 +128,7 @@ def scene(
     if isinstance(impact, Run):
         _refuse_for_runs(moment, outline_a, outline_b)
         return draw_run(impact, axes, units)
-    check_impact(impact, "scene")
+    check_impact(impact, "scene", runs=True)
     sides = impact.a, impact.b
     corners = [
         corners_of(side.before, outline, f"outline_{letter}", letter)

@@ -6,11 +6,14 @@ import numpy as np
 
 from ..messages.hints import hinted
 from ..quantities.formatting import UnitSystem
+from ..scene.picture import COLOURS
 from ..scene.run import Run
 from .canvas import GREY, INK, Axes, Units, begin, in_lines, legend_below, tidy
-from .run import COLOURS, STYLES, contact_name, tracks_of
+from .run import STYLES, contact_name, tracks_of
 
 _ROOM = 0.13  # of the height, above the lines, for the contacts
+# Points: the least gap between the names of two contacts, and how wide a letter is at most.
+_GAP, _LETTER = 10.0, 5.6
 
 
 @hinted
@@ -71,19 +74,43 @@ def timeline(run: Run, *, axes: Axes | None = None, units: UnitSystem | None = N
         )  # fmt: skip
         most, end = max(most, float(speed.max())), max(end, float(track.time[-1]))
     top, last = (most or 1.0) * (1.0 + _ROOM), end or 1.0
+    axes.set(xlim=(-0.02 * last, 1.04 * last), ylim=(0.0, top))
+    second = axes.get_window_extent().width / axes.figure.dpi * 72.0 / (1.06 * last)
+    rows: list[list[tuple[float, float]]] = []
     for number, (time, pair) in enumerate(zip(run.times, run.pairs, strict=True)):
         axes.axvline(time, color=GREY, lw=1.0, ls=":", zorder=2, gid=f"contact.{number}")
-        # Contacts soon after each other, one below the other.
-        crowded = sum(1 for other in run.times[:number] if time - other < 0.25 * last)
+        text = f"{contact_name(number, pair)}, {time:.2f} s"
+        wide = (_GAP + _LETTER * max(map(len, text.splitlines()))) / second
+        # To the left of its line where it would end beyond the axes.
+        side = -1.0 if time + wide > 1.04 * last and time > 0.5 * last else 1.0
+        ends = sorted((time, time + side * wide))
+        row = _row(rows, (ends[0], ends[1]), len(text.splitlines()))
         axes.annotate(
-            f"{contact_name(number, pair)}, {time:.2f} s",
-            (time, top), (4, -2 - 13 * crowded), textcoords="offset points", va="top", ha="left",
-            fontsize=9, color=INK, annotation_clip=False, parse_math=False, zorder=5,
+            text,
+            (time, top), (side * 4, -2 - 13 * row), textcoords="offset points", va="top",
+            ha="left" if side > 0.0 else "right", fontsize=9, color=INK, annotation_clip=False,
+            parse_math=False, zorder=5, gid=f"contact.{number}.name",
             bbox={"boxstyle": "square,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.8},
         )  # fmt: skip
-    axes.set(xlim=(-0.02 * last, 1.04 * last), ylim=(0.0, top))
     axes.set(xlabel=labels.label("time", "s"), ylabel=labels.label("speed", "m/s"))
     axes.set_title("Speeds from the start to rest, and the contacts", fontsize=10.5)
     tidy(axes)
     legend_below(axes, min(len(tracks), 4))
     return axes
+
+
+def _row(rows: list[list[tuple[float, float]]], span: tuple[float, float], lines: int) -> int:
+    """The first row from which so many lines have room for a name between these times; it is taken
+    then.
+    """
+
+    def free(at: int) -> bool:
+        return all(span[1] <= one or other <= span[0] for one, other in rows[at])
+
+    row = 0
+    while not all(free(at) for at in range(row, min(row + lines, len(rows)))):
+        row += 1
+    rows += [[] for _ in range(row + lines - len(rows))]
+    for at in range(row, row + lines):
+        rows[at].append(span)
+    return row

@@ -8,6 +8,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import Field, fields
 from functools import partial, wraps
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Never, ParamSpec, TypeVar, overload
 
 import numpy as np
@@ -182,7 +183,7 @@ class Quantities:
         if value is None and (problem := missing_error(self._owner, name)) is not None:
             raise NoQuantityError(problem.marked, code=problem.code, **problem.fields)
         if value is None or unit is None:
-            return getattr(value, "q", value)
+            return _within(value)
         return self._with_unit(value, unit)
 
     def _with_unit(self, value: Any, unit: str) -> Any:
@@ -199,6 +200,23 @@ class Quantities:
 
     def __repr__(self) -> str:
         return f"<Quantities of {self._owner!r}>"
+
+
+def _within(value: Any) -> Any:
+    """The Quantities of an object that has some, also of each in a tuple or a mapping; any other
+    value as it is.
+    """
+    if (found := getattr(value, "q", None)) is not None:
+        return found
+    if isinstance(value, tuple):
+        parts = [_within(part) for part in value]
+        same = all(one is other for one, other in zip(parts, value, strict=True))
+        return value if same else tuple(parts)
+    if isinstance(value, Mapping):
+        named = {name: _within(part) for name, part in value.items()}
+        same = all(part is value[name] for name, part in named.items())
+        return value if same else MappingProxyType(named)
+    return value
 
 
 def in_quantities(function: Callable[P, Any], unit: str) -> Callable[P, Any]:

@@ -572,6 +572,32 @@ def _refused(status: int, text: str, **fields: Any) -> CollisionsError:
     return InputError(text, code="refused_impact", status=Status(status).label, **fields)
 
 
+def not_an_answer(
+    answer: Any,
+    kinds: tuple[type[Any], ...],
+    function: str,
+    *,
+    instead: str = "",
+    runs: bool = False,
+) -> InputError:
+    """The error for an argument ``impact`` of another type than these, with what to write; of a
+    scene and a run its impact, or the whole where ``runs`` are taken.
+    """
+    names = [*(kind.__name__ for kind in kinds), *["Run"] * runs]
+    wanted = " or ".join(f"{'an' if name[0] in 'AEIOU' else 'a'} {name}" for name in names)
+    run = getattr(type(answer), "_run_in_words", "")
+    if run and runs:
+        told = f"{function}({run})"
+    elif run and "Impact" in names:
+        told = f"{function}({run}.impacts[0]) for the first impact"
+    else:
+        fit = "" if "Fit" in names else ", for a Fit with the values that it found"
+        told = f"{function}(collisions.eccentric(...)){fit}{instead}"
+    return must_be(
+        "impact", wanted, answer, f"; write {told}", code="not_an_impact", got=type_of(answer)
+    )
+
+
 def need_one_case(
     answer: Any,
     kinds: tuple[type[Any], ...],
@@ -579,13 +605,14 @@ def need_one_case(
     *,
     instead: str = "",
     many: str = "",
+    runs: bool = False,
     refused: Callable[..., CollisionsError] = _refused,
 ) -> None:
     """Raise unless the argument ``impact`` is a single result of one of these types.
 
     ``function`` is the name of the caller in messages; ``instead`` and ``many`` are advice for
-    another type and for a batch; ``refused`` makes the error of a refused case from its status, a
-    text and fields.
+    another type and for a batch; ``runs`` says that the caller takes a ``Run`` too; ``refused``
+    makes the error of a refused case from its status, a text and fields.
     """
     if not isinstance(answer, kinds):
         if isinstance(answer, tuple) and answer and all(isinstance(one, kinds) for one in answer):
@@ -595,17 +622,7 @@ def need_one_case(
                 code="not_an_impact",
                 argument="impact",
             )
-        names = [kind.__name__ for kind in kinds]
-        wanted = " or ".join(f"{'an' if name[0] in 'AEIOU' else 'a'} {name}" for name in names)
-        fit = "" if "Fit" in names else ", for a Fit with the values that it found"
-        raise must_be(
-            "impact",
-            wanted,
-            answer,
-            f"; write {function}(collisions.eccentric(...)){fit}{instead}",
-            code="not_an_impact",
-            got=type_of(answer),
-        )
+        raise not_an_answer(answer, kinds, function, instead=instead, runs=runs)
     # There are no refused fits: a fit raises instead.
     status = getattr(answer, "status", Status.OK)
     if isinstance(status, np.ndarray):

@@ -19,7 +19,7 @@ from ..quantities.tables import as_sentence, label_of
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Output, Propagation
 from ..uncertainty.result import figures
-from .posterior_part import answers_of
+from .posterior_part import answers_of, warned_of
 from .render import Sheet, plain
 from .uncertainty import Spread
 from .words import Names, listed
@@ -64,6 +64,11 @@ def answer(
         (f"{label_of(finding.code)}:", as_sentence(names(_in_words(finding.sentence))))
         for finding in told
     ]
+    if uncertainty is not None:
+        lines += warned_of(uncertainty)
+    # On a page of its own the list of all that it states follows the answer.
+    if isinstance(result, (Posterior, Fit)) and not alone:
+        lines += warned_of(result, asked or result.found, spread.named)
     origin = result.reconstruction if isinstance(result, Impact) else None
     said = any(finding.code == "not_unique" for finding in told)
     if origin is not None and origin.answers > 1 and not said:

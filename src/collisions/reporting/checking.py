@@ -59,7 +59,7 @@ def results_of(impact: Any, uncertainty: Any) -> tuple[list[tuple[Any, Any]], To
     run, if the list has one.
     """
     if not isinstance(impact, list):
-        need_one_case(impact, _RESULTS, "report", instead=NOT_EXPLAINED)
+        need_one_case(impact, _RESULTS, "report", instead=NOT_EXPLAINED, runs=True)
         need_found_again(impact)
         return [(impact, uncertainty)], None
     if not impact:
@@ -71,7 +71,7 @@ def results_of(impact: Any, uncertainty: Any) -> tuple[list[tuple[Any, Any]], To
     together = together_of(impact)
     for one in impact:
         if not isinstance(one, Run):
-            need_one_case(one, _RESULTS, "report", instead=NOT_EXPLAINED)
+            need_one_case(one, _RESULTS, "report", instead=NOT_EXPLAINED, runs=True)
             need_found_again(one)
     if uncertainty is None:
         return [(one, None) for one in impact], together

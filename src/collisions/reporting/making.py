@@ -16,7 +16,8 @@ from ..derivation.evidence import fit
 from ..derivation.explain import about_ranges, explain
 from ..derivation.scene import ledger, rests
 from ..diagnostics import diagnose
-from ..diagnostics.finding import Findings, is_note
+from ..diagnostics.finding import Finding, Findings, is_note
+from ..diagnostics.scene import of_impact
 from ..estimate.posterior_result import PosteriorOutput
 from ..impact.impact import Impact, with_vehicles
 from ..impact.instant import neglected
@@ -37,7 +38,7 @@ from . import figures as drawing
 from . import sections
 from .answer import Figure, answer, figures_of, ranged_text, rests_on
 from .checking import FILED, Checked, Form, checked, results_of
-from .posterior_part import posterior
+from .posterior_part import posterior, warned_of
 from .record import plain_options, record_of_all
 from .render import Html, Markdown, Printed, Sheet, plain
 from .run_page import report_run, units_of_run, vehicles
@@ -382,13 +383,11 @@ def _answer_together(
             sheet.say(
                 plain(f"Impact {own.number + 1} was {what} (drag and duration assumed, not given).")
             )
-    judged = [one for part in parts for one in part.findings or ()]
+    lines = list(warned_of(found, asked or found.found, parts[together.part - 1].spread.named))
+    judged = [one for part in parts for one in _numbered_findings(part) if not is_note(one)]
+    # What a scene does not describe is a note, and limits its answer.
     judged += [one for one in whole if one.impact is None]
-    lines = [
-        (f"{label_of(one.code)}:", as_sentence(plain(one.sentence)))
-        for one in judged
-        if not is_note(one)
-    ]
+    lines += [(f"{label_of(one.code)}:", as_sentence(plain(one.sentence))) for one in judged]
     if lines:
         sheet.items(list(dict.fromkeys(lines)))
     picture = None
@@ -401,6 +400,13 @@ def _answer_together(
             sheet, "scene", caption, together.draw, run, units=sheet.system.name
         )
     sheet.close_answer(picture)
+
+
+def _numbered_findings(part: _Part) -> Iterator[Finding]:
+    """The findings of a part; those of an impact of a run with its number and time."""
+    for finding in part.findings or ():
+        own = part.own
+        yield finding if own is None else of_impact(finding, own.together.run, own.number)
 
 
 def _delta_v(sheet: Sheet, own: _Own) -> Iterator[tuple[str, str, bool]]:

@@ -13,13 +13,14 @@ import numpy as np
 
 from ..messages.hints import hinted
 from ..plot.canvas import SMALLEST
-from ..plot.run import COLOURS, tracks_of
+from ..plot.run import tracks_of
 from ..quantities.document import Document
 from ..quantities.formatting import UnitSystem, decimals_of, typeset
 from ..quantities.printed_tables import html_row
-from ..quantities.tables import Cells, cells, given_texts
+from ..quantities.tables import Cells, as_sentence, cells, given_texts, label_of
 from ..scene.frames import Frames, frames_of
 from ..scene.mover import Mover
+from ..scene.picture import COLOURS, DASHES, bar_of, from_the_front, place_of, view_of
 from ..scene.run import Run, Track
 from .render import plain
 
@@ -27,12 +28,11 @@ _PAGE = Path(__file__).with_name("play.html")
 _STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate")
 # What the table of states has, by the names that the script fills in, with the kinds of quantity.
 _SHOWN = {"speed": "speed", "yaw": "yaw rate", "x": "length", "y": "length", "heading": "angle"}
-# Parts of the dashes of a track, by vehicle, as in the pictures.
-_DASHES: tuple[list[float], ...] = ([], [6, 2], [6, 2, 1, 2], [2, 1.5])
-# As shares of the larger extent of the view: its margin, and the longest arrow and scale bar.
-_MARGIN, _ARROW, _BAR = 0.06, 0.16, 0.2
-_LEAST = 8.0  # m, of the view
-_ROOM = 2.5  # m, about a vehicle without an outline
+# The least height of the view, as a share of its width, and the other way round.
+_FLAT = 0.56
+_LIMITS = "What this scene does not describe, and what limits the answer:"
+# As a share of the larger extent of the view: the longest arrow.
+_ARROW = 0.16
 
 
 @hinted
@@ -40,10 +40,11 @@ def play(run: Run, *, units: UnitSystem | None = None) -> Document:
     """One offline HTML page that plays a scene: a slider of time, and a button that moves it.
 
     At every moment it has the outlines, the tracks and tyre marks so far, the velocities, and a
-    table with speed, yaw rate, place and heading; below it the speeds over time. The numbers are
-    those of the run, written into the page in equal steps of time, with each contact twice, before
-    and after: the browser only draws them. It loads nothing from outside, and works by keyboard and
-    with screen readers.
+    table with speed, yaw rate, place and heading; below it the speeds over time. The findings of
+    the run, such as that two vehicles are followed through each other, stand in a list, and are
+    said when their time comes. The numbers are those of the run, written into the page in equal
+    steps of time, with each contact twice, before and after: the browser only draws them. It loads
+    nothing from outside, and works by keyboard and with screen readers.
 
     Parameters
     ----------
@@ -93,13 +94,15 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
     names = {name: plain(name) for name in tracks}
     units = {
         kind: {
-            "unit": typeset(system.label(kind)),
-            "scale": system.scale(kind),
-            "decimals": decimals_of(kind, system.name),
+            "unit": typeset(of.label(kind)),
+            "scale": of.scale(kind),
+            "decimals": decimals_of(kind, of.name),
         }
         for kind in ("speed", "yaw rate", "length", "angle")
+        # In degrees in every system, as in every table.
+        for of in [Cells("metric") if kind in ("yaw rate", "angle") else system]
     }
-    view = _view(run, frames)
+    view = view_of(run, frames, _FLAT)
     extent = max(view[2:])
     speeds = [np.hypot(state[3], state[4]).max() for state in frames.states.values()]
     fastest = max(max(map(float, speeds)), SMALLEST)
@@ -107,10 +110,18 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
         {
             "time": run.times[number],
             "after": frames.after[number],
-            "place": _place(run, number, frames),
+            "place": place_of(run, number, frames),
             "said": _said(run, number, names, system),
         }
         for number in range(len(run.impacts))
+    ]
+    findings = [
+        {
+            "time": one.time,
+            "after": _moment(frames, one.time),
+            "said": plain(f"{as_sentence(label_of(one.code))[:-1]}: {as_sentence(one.sentence)}"),
+        }
+        for one in run.findings
     ]
     data = {
         "units": units,
@@ -120,7 +131,7 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
                 "name": names[name],
                 "label": escape(names[name]),
                 "colour": COLOURS[index % len(COLOURS)],
-                "dash": _DASHES[index % len(_DASHES)],
+                "dash": DASHES[index % len(DASHES)],
                 "outline": _outline(run.scene.movers[name]),
                 "marks": _marks(tracks[name]),
                 "speed": np.hypot(*frames.states[name][3:5]).tolist(),
@@ -132,12 +143,13 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
             for index, name in enumerate(tracks)
         ],
         "contacts": contacts,
+        "findings": findings,
         "surfaces": [
             {"corners": np.asarray(corners).tolist(), "friction": f"{float(friction):.3g}"}
             for corners, friction in run.scene.surfaces
         ],
         "view": view,
-        "bar": _bar(extent, system),
+        "bar": bar_of(extent, system),
         "arrow": {"scale": _ARROW * extent / fastest},
         "caption": _caption(run, fastest, system),
     }
@@ -145,6 +157,11 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
         f'<button type="button" id="contact-{number}" data-frame="{frames.after[number]}">'
         f"Contact {number + 1}: {escape(' and '.join(names[name] for name in pair))}</button>"
         for number, pair in enumerate(run.pairs)
+    )
+    listed = "\n".join(
+        f'<li id="finding-{number}"><button type="button" data-frame="{one["after"]}">'
+        f"{one['time']:.2f} s</button> {escape(str(one['said']))}</li>"
+        for number, one in enumerate(findings)
     )
     # The script fills them in.
     rows = "\n".join(
@@ -161,6 +178,7 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
         "title": escape(f"The crash of {', '.join(names.values())}"),
         "last": str(len(frames.times) - 1),
         "contacts": buttons,
+        "findings": f'<p id="limits">{_LIMITS}</p>\n<ul>\n{listed}\n</ul>' if listed else "",
         "rows": rows,
         "version": __version__,
         "data": json.dumps(data, allow_nan=False).replace("<", "\\u003c"),
@@ -169,12 +187,19 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
     return text
 
 
+def _moment(frames: Frames, time: float) -> int:
+    """The first moment that is not before a time; at a contact the one after it."""
+    at = int(np.searchsorted(frames.times, time))
+    if at < len(frames.times) and frames.times[at] == time:
+        at = int(np.searchsorted(frames.times, time, side="right")) - 1
+    return min(at, len(frames.times) - 1)
+
+
 def _outline(mover: Mover) -> list[list[float]] | None:
     """The corners (forward, left) [m], from the front edge on."""
     if mover.outline is None:
         return None
-    ahead = mover.outline[:, 0] + np.roll(mover.outline[:, 0], -1)
-    found: list[list[float]] = np.roll(mover.outline, -int(np.argmax(ahead)), axis=0).tolist()
+    found: list[list[float]] = from_the_front(mover.outline).tolist()
     return found
 
 
@@ -198,33 +223,6 @@ def _marks(track: Track) -> list[dict[str, Any]]:
     return found
 
 
-def _view(run: Run, frames: Frames) -> list[float]:
-    """Left, top, width and height of what is seen [m], y downwards as in SVG."""
-    low, high = np.full(2, np.inf), np.full(2, -np.inf)
-    for name, state in frames.states.items():
-        reach = run.scene.movers[name].reach or _ROOM
-        low = np.minimum(low, state[:2].min(axis=1) - reach)
-        high = np.maximum(high, state[:2].max(axis=1) + reach)
-    middle, extent = 0.5 * (low + high), np.maximum(high - low, 0.0)
-    most = max(float(extent.max()), _LEAST)
-    half = np.maximum(0.5 * extent + _MARGIN * most, 0.28 * most)
-    return [
-        float(number)
-        for number in (middle[0] - half[0], -(middle[1] + half[1]), 2.0 * half[0], 2.0 * half[1])
-    ]
-
-
-def _place(run: Run, number: int, frames: Frames) -> list[float]:
-    """The point of an impact, or of a central one the middle between both vehicles."""
-    point = run.impacts[number].point
-    if point is not None:
-        return [float(point[0]), float(point[1])]
-    at = frames.after[number]
-    one, other = (frames.states[name][:2, at] for name in run.pairs[number])
-    middle: list[float] = (0.5 * (one + other)).tolist()
-    return middle
-
-
 def _said(run: Run, number: int, names: dict[str, str], system: Cells) -> str:
     """One sentence about an impact."""
     impact = run.impacts[number]
@@ -238,15 +236,6 @@ def _said(run: Run, number: int, names: dict[str, str], system: Cells) -> str:
         f"Contact {number + 1}, {pair} at {run.times[number]:.2f} s: closing speed {closing}, "
         f"{', '.join(each)}."
     )
-
-
-def _bar(extent: float, system: Cells) -> dict[str, Any]:
-    """A scale bar: 1, 2 or 5 times a power of ten of the unit of length."""
-    most = _BAR * extent * system.scale("length")
-    power = 10.0 ** math.floor(math.log10(most))
-    length = next(power * step for step in (5.0, 2.0, 1.0) if power * step <= most)
-    text = f"{length:g} {typeset(system.label('length'))}"
-    return {"length": length / system.scale("length"), "text": text}
 
 
 def _caption(run: Run, fastest: float, system: Cells) -> str:

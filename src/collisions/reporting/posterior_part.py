@@ -4,19 +4,30 @@ its computed value, and, folded, all that this rests on.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from operator import attrgetter
+from typing import Any
 
+from ..estimate.fit_result import notes_of as notes_of_fit
+from ..estimate.posterior_result import notes_of
 from ..estimate.worked_out import in_words
+from ..messages.warning import Note
 from ..quantities.formatting import KIND_OF, number_with_unit, rounded, typeset
 from ..quantities.printed_tables import Part
-from ..quantities.tables import as_sentence, cells
-from ..reconstruct import Posterior
+from ..quantities.tables import as_sentence, cells, label_of
+from ..reconstruct import Fit, Posterior
+from ..uncertainty import Propagation
 from ..uncertainty.distribution import Statement, stated_in
 from ..uncertainty.distributions import Normal
 from ..uncertainty.result import outputs_part
 from .render import Sheet, plain
 
 _OF_NUMBER = "0123456789.e+-"
+_NOTES: Mapping[type, Callable[[Any], Iterable[Note]]] = {
+    Posterior: notes_of,
+    Fit: notes_of_fit,
+    Propagation: attrgetter("notes"),
+}
 
 
 def answers_of(found: Posterior, answers: Sequence[str] | None) -> list[str]:
@@ -91,11 +102,28 @@ def posterior(
     sheet.say(f"Given the evidence and the priors ({found.samples} samples), seed {found.seed}.")
 
 
-def _said(sentence: str, found: Posterior, named: Callable[[str], str]) -> str:
+def warned_of(
+    found: Posterior | Fit | Propagation,
+    asked: Sequence[str] = (),
+    named: Callable[[str], str] = plain,
+) -> Iterator[tuple[str, str]]:
+    """What was warned of, as the answer has it: a label and a sentence. That nothing determines an
+    unknown belongs there if the answer is about it.
+    """
+    for note in _NOTES[type(found)](found):
+        of_others = note.code == "undetermined" and not any(name in note.sentence for name in asked)
+        if note.warning is not None and not of_others:
+            sentence = note.statement
+            if not isinstance(found, Propagation):
+                sentence = _said(sentence, found, named)
+            yield f"{label_of(note.code)}:" if note.code else "", plain(as_sentence(sentence))
+
+
+def _said(sentence: str, found: Posterior | Fit, named: Callable[[str], str]) -> str:
     """A sentence with words in place of names; the longest names first, as one may begin
     another.
     """
-    for name in sorted((*found.unknowns, *found.observed), key=len, reverse=True):
+    for name in sorted({*found.found, *found.residuals}, key=len, reverse=True):
         if named(name) != plain(name):
             sentence = sentence.replace(name, named(name))
     return sentence

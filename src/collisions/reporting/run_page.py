@@ -29,6 +29,7 @@ from . import figures as drawing
 from . import sections
 from .answer import ranged_text
 from .checking import FILED, Form
+from .posterior_part import warned_of
 from .record import record
 from .render import Html, Markdown, Printed, Sheet, plain
 from .sections import EVIDENCE
@@ -213,7 +214,8 @@ def _answer(
             "reconstruct.posterior take the scene with the errors of its inputs."
         )
     sheet.say(says)
-    lines = [
+    lines = [] if uncertainty is None else list(warned_of(uncertainty))
+    lines += [
         (f"{label_of(finding.code)}:", as_sentence(plain(finding.sentence)))
         for finding in found
         if not is_note(finding) or finding.impact is None

@@ -25,6 +25,7 @@ from ..scene.results import by_contact, is_result, unit_of_result
 from ..scene.run import Run
 from ..uncertainty.distributions import Normal
 from .scene_words import input_in_words, result_in_words
+from .words import with_article
 
 # What the samples are asked of each impact: the result, and whose it is.
 _RANGED = {
@@ -238,7 +239,7 @@ class Together(NamedTuple):
 def words_of(name: str, pair: Sequence[str]) -> str:
     """A result that the samples are asked of, in words."""
     text, whose = _RANGED[name]
-    return text if whose is None else text.format(f"the {pair[whose]}")
+    return text if whose is None else text.format(with_article(pair[whose]))
 
 
 def together_of(impact: Sequence[Any]) -> Together | None:

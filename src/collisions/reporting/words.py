@@ -60,7 +60,7 @@ class Names:
     def __call__(self, text: str) -> str:
         """A text with the vehicles' names in place of their letters."""
         text = _LEAD.sub(lambda found: self._names[found[1]], text)
-        return _OF.sub(lambda found: found[1] + self._with_article(found[2]), text)
+        return _OF.sub(lambda found: found[1] + with_article(self._names[found[2]]), text)
 
     def number_of(self, name: str) -> tuple[str, float]:
         """Kind and number of an input of the result; "" and NaN if the result has none of
@@ -85,9 +85,10 @@ class Names:
             return f"speed_{name[1]}"
         return _SYMBOLS.get(name, name)
 
-    def _with_article(self, letter: str) -> str:
-        name = self._names[letter]
-        return f"the {name}" if len(name) > 1 and name.isalpha() else name
+
+def with_article(name: str) -> str:
+    """A vehicle by its name in a sentence: a word with its article, letters and numbers without."""
+    return f"the {name}" if len(name) > 1 and name.isalpha() else name
 
 
 def _of_impact(impact: Impact) -> Iterable[tuple[str, tuple[str, str, float]]]:

@@ -22,7 +22,7 @@ from ..messages.errors import (
 from ..messages.warning import warn_of_cases
 from ..quantities.attributes import Frozen, Quantities, Shown, derived, format_value, read_only
 from ..quantities.reading import ArgumentReader
-from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, given_texts
+from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, cells, given_texts
 from ..quantities.units import Input, Texts, texts_of
 from ..vehicle.drag import one_value
 from ..vehicle.vehicle import NAMES, Vehicle, vehicle_of
@@ -101,6 +101,11 @@ class Moved(Frozen, Summarized):
         pairs = zip(self._run.impacts, self._run.pairs, strict=True)
         return tuple(impact for impact, pair in pairs if self.name in pair)
 
+    @property
+    def q(self) -> Any:
+        """The same attributes as pint Quantities of the application registry."""
+        return Quantities(self)
+
     def _summary(self, numbers: Cells) -> Summary:
         return self.rest._summary(numbers)
 
@@ -124,6 +129,7 @@ class Run(Frozen, Summarized):
     scene: Scene
     tolerance: float
     _followed: Followed
+    _run_in_words: ClassVar[str] = "run"
 
     @derived()
     def impacts(self) -> tuple[Impact, ...]:
@@ -195,7 +201,7 @@ class Run(Frozen, Summarized):
     @derived()
     def paths(self) -> Mapping[str, Track]:
         """The way of each vehicle, by name, on one clock."""
-        return MappingProxyType({name: self._track(name) for name in self.scene.movers})
+        return MappingProxyType(_ByName({name: self._track(name) for name in self.scene.movers}))
 
     @derived()
     def rest(self) -> Rests:
@@ -316,7 +322,7 @@ class Run(Frozen, Summarized):
         every = np.arange(found.count)
         with np.errstate(all="ignore"):
             states = {name: course.at(wanted, every) for name, course in found.courses.items()}
-        return {name: self._body(name, state + unknown) for name, state in states.items()}
+        return _ByName({name: self._body(name, state + unknown) for name, state in states.items()})
 
     def case(self, index: int | tuple[int, ...]) -> Run:
         """One case of a batch as a single run.
@@ -391,7 +397,7 @@ class Run(Frozen, Summarized):
 
     def __getitem__(self, name: str) -> Moved:
         if name not in self.scene.movers:
-            raise KeyError(f"{name!r} is no mover; the movers are {', '.join(self.scene.movers)}")
+            raise _no_mover(name, self.scene.movers)
         return Moved(self, name)
 
     def __eq__(self, other: object) -> bool:
@@ -685,6 +691,14 @@ class Run(Frozen, Summarized):
             notes.append(f"{self._followed.count} cases, {wrong} of them without an answer.")
         return Summary(title, [*parts, all_numbers(self._rows())], notes)
 
+    def _repr_html_(self) -> str:
+        table = self.summary()._repr_html_()
+        if not self._followed.single:
+            return table
+        from .picture import small_picture
+
+        return small_picture(self, cells(None, given_texts(self))) + table
+
     def _rows(self) -> Iterator[tuple[str, str]]:
         for number in range(self._most):
             yield f"times[{number}]", format_value(self._time(number), "s")
@@ -706,9 +720,14 @@ class Rests(Frozen):
     def __init__(self, run: Run) -> None:
         vars(self).update(_run=run)
 
+    @property
+    def q(self) -> Any:
+        """The same places as pint Quantities of the application registry."""
+        return _RestsInQuantities(self._run)
+
     def __getitem__(self, name: str) -> Vehicle:
-        if name not in self._run.scene.movers:
-            raise KeyError(name)
+        if name not in self:
+            raise _no_mover(name, self)
         return self._run._rest(name)
 
     def __iter__(self) -> Iterator[str]:
@@ -731,6 +750,32 @@ class Rests(Frozen):
 
     def __repr__(self) -> str:
         return f"<places of rest of {', '.join(self)}>"
+
+
+class _RestsInQuantities(Rests):
+    def __getitem__(self, name: str) -> Any:
+        return super().__getitem__(name).q
+
+
+class _ByName(dict[str, Any]):
+    """Something of each vehicle; the error for a name that is none has those that there are."""
+
+    def __missing__(self, name: Any) -> Any:
+        raise _no_mover(name, self)
+
+
+def _no_mover(name: Any, movers: Iterable[str]) -> KeyError:
+    return KeyError(f"{name!r} is no mover; the movers are {', '.join(movers)}")
+
+
+def as_letters(pair: tuple[str, str]) -> str:
+    """Which vehicle of a pair is A in an impact, and which is B; names that are the letter of the
+    other are marked as names.
+    """
+    one, other = pair
+    if one in ("b", "B") or other in ("a", "A"):
+        one, other = f"\u201c{one}\u201d", f"\u201c{other}\u201d"
+    return f"{one} as A and {other} as B"
 
 
 def _warn_of(found: Followed, wrong: Any) -> None:
@@ -757,7 +802,9 @@ _DRIVEN = (
     "through or into each other: "
     "what pushes them without a blow is not followed, and their places of rest may be wrong. Where "
     "that is so in a few percent of the cases, no more of the probability is in doubt; where in "
-    "many, leave the places of rest out of the evidence"
+    "many, leave the places of rest out of the evidence, and give what was read before that: the "
+    "delta-V of a recorder, or speed and course right after the impact, such as "
+    "'impacts[0].a.after.course'"
 )
 _DRAGLESS = "a drag does not act during a contact that is followed in time; tyres in its place do"
 _UNDESCRIBED = (

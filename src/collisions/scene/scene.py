@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -99,6 +99,8 @@ class Scene(Shown):
     """
 
     _title = "Scene"
+    # How to write the run of one where a result is wanted.
+    _run_in_words: ClassVar[str] = "scene.run()"
 
     movers: Mapping[str, Mover]
     contacts: tuple[Contact, ...]
