@@ -1626,7 +1626,7 @@ def test_numbers_of_the_sentences_are_those_of_pint(system, said):
         (
             {"impact": 3.0},
             "not_an_impact",
-            "impact must be an Impact or a MomentumSolution, got float",
+            "impact must be an Impact, a MomentumSolution or a Run, got float",
         ),
         ({"impact": None}, "not_an_impact", "write diagnose(collisions.eccentric(...))"),
         (

@@ -259,13 +259,14 @@ def test_what_was_warned_of_the_samples_stands_in_the_answer():
         ),
     ]
     for page, told in pages:
-        assert told in box(page)
+        # Markdown has a backslash before each bracket.
+        assert told in box(page).replace("\\", "")
         (notice,) = run.findings
         assert notice.sentence in box(page)
         assert "- **delta-V of A" in box(page)
         assert "delta-V of the A" not in page
     alone = col.report(samples, form="markdown")
-    assert alone[: alone.index("## Record")].count(counted) == 1
+    assert alone[: alone.index("## Record")].replace("\\", "").count(counted) == 1
 
 
 def test_findings_of_an_impact_in_the_answer_say_which(found, run):

@@ -584,7 +584,8 @@ def not_an_answer(
     scene and a run its impact, or the whole where ``runs`` are taken.
     """
     names = [*(kind.__name__ for kind in kinds), *["Run"] * runs]
-    wanted = " or ".join(f"{'an' if name[0] in 'AEIOU' else 'a'} {name}" for name in names)
+    *others, last = [f"{'an' if name[0] in 'AEIOU' else 'a'} {name}" for name in names]
+    wanted = f"{', '.join(others)} or {last}" if others else last
     run = getattr(type(answer), "_run_in_words", "")
     if run and runs:
         told = f"{function}({run})"
