@@ -101,9 +101,9 @@ def test_wheels_of_a_run_stand_where_its_tyres_are():
             outline=(4.5, 1.8),
             tyres=Tyres(0.7, 1.0, 2.65, 1.5),
         ),
-        "other": Mover(col.Vehicle(**car, x=2.2, y=3.0, heading=0.0, vx=9.0), outline=(4.5, 1.8)),
+        "other": Mover(col.Vehicle(**car, x=2.2, y=1.8, heading=0.0, vx=9.0), outline=(4.5, 1.8)),
     }
-    contact = Contact("one", "other", restitution=0.0, friction=0.0, normal=0.0, point=(1.0, 1.5))
+    contact = Contact("one", "other", restitution=0.0, friction=0.0, normal=0.0, point=(1.0, 0.9))
     run = Scene(movers=movers, contacts=[contact]).run()
     axes = plot.scene(run, units="metric")
     middles = {
