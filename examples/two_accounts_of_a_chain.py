@@ -68,13 +68,13 @@ for name, scene in scenes.items():
 #
 # Where the hatchback and the taxi stood is known to a metre, from where the taxi had waited. The
 # recorder of the van has its speed at its impact, and that of the taxi the delta-V of its first
-# event. An impact of the van is the first one in one account and the second in the other: so the
-# readings have names of their own, and a small function says which results of the scene they are.
+# event. The van's impact is that of another contact in each account: so the readings have names of
+# their own, and a small function says which results of the scene they are.
 
 # %%
 PATHS = {
-    "speed of the van at its impact": "impacts[{van}].a.before.speed",
-    "first delta-V of the taxi": "impacts[{taxi}].b.delta_v_forward",
+    "speed of the van at its impact": "contacts[{van}].impact.Van.before.speed",
+    "first delta-V of the taxi": "contacts[{taxi}].impact.Taxi.delta_v_forward",
     **{f"{name} at rest": f"{name}.rest.x" for name in ("Hatchback", "Taxi")},
 }
 read = {
@@ -102,7 +102,7 @@ more = {
 
 
 def found_of(name, van, taxi):
-    """What the evidence says on an account, by the numbers of the impacts in it."""
+    """What the evidence says on an account, by the numbers of the contacts in it."""
     paths = {what: path.format(van=van, taxi=taxi) for what, path in PATHS.items()}
     inputs = unknown | more[name]
     model = scenes[name].as_model(list(inputs), list(paths.values()))
@@ -115,7 +115,7 @@ def found_of(name, van, taxi):
 
 
 accounts = {
-    "hatchback stood": found_of("hatchback stood", van=0, taxi=1),
+    "hatchback stood": found_of("hatchback stood", van=0, taxi=2),
     "hatchback came first": found_of("hatchback came first", van=1, taxi=0),
 }
 
@@ -183,7 +183,7 @@ drawn = {
 }
 possible = (drawn["restitution"] >= 0) & (drawn["Hatchback.x"] < -LONG)
 drawn = {name: values[possible] for name, values in drawn.items()}
-paths = [path.format(van=0, taxi=1) for path in PATHS.values()]
+paths = [path.format(van=0, taxi=2) for path in PATHS.values()]
 model = scenes["hatchback stood"].as_model(list(drawn), paths)
 with warnings.catch_warnings():
     # In some cases the hatchback does not reach the taxi: they have no answer.

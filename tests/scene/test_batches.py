@@ -5,6 +5,9 @@ rest.
 from __future__ import annotations
 
 import math
+import re
+from collections import Counter
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -45,6 +48,28 @@ def crash(seed: int) -> Scene:
     return Scene(movers=movers, contacts=[Contact("A", "B", **RULE), Contact("B", "C", **RULE)])
 
 
+Pairs = Sequence[tuple[str, str]]
+
+
+def of_pair(pairs: Pairs, k: int) -> tuple[tuple[str, str], int]:
+    """Whose impact the k-th is, and which of those two."""
+    return pairs[k], list(pairs[:k]).count(pairs[k])
+
+
+def usual_pairs(every: list[Pairs]) -> list[tuple[str, str]]:
+    """Whose impact comes next in most of the cases that went like most so far."""
+    usual: list[tuple[str, str]] = []
+    like = every
+    while longer := [pairs for pairs in like if len(pairs) > len(usual)] or [
+        pairs for pairs in every if len(pairs) > len(usual)
+    ]:
+        k = len(usual)
+        counts = Counter(pairs[k] for pairs in longer)
+        usual.append(max(sorted(counts), key=counts.__getitem__))
+        like = [pairs for pairs in longer if pairs[k] == usual[k]]
+    return usual
+
+
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize("seed", range(3))
@@ -52,7 +77,8 @@ def test_every_case_of_a_batch_is_as_it_is_alone(seed: int) -> None:
     scene = crash(seed)
     run = scene.run()
     columns = run.to_columns()
-    orders = set()
+    alone = {i: scene.case(i).run() for i in range(COUNT) if run.status[i] == "ok"}
+    usual = usual_pairs([one.pairs for one in alone.values()])
     for i in range(COUNT):
         label = run.status[i]
         if label != "ok":
@@ -61,17 +87,23 @@ def test_every_case_of_a_batch_is_as_it_is_alone(seed: int) -> None:
             assert refused.value.code == label
             assert math.isnan(columns["A.rest.x"][i])
             continue
-        one = scene.case(i).run()
-        orders.add(one.pairs)
+        one = alone[i]
         for path, value in one.to_columns().items():
-            if path != "status":
-                assert columns[path][i] == pytest.approx(
-                    value[0], rel=1e-9, abs=1e-9, nan_ok=True
-                ), path
+            if path == "status":
+                continue
+            number = re.match(r"(?:impacts|times)\[(\d+)\]", path)
+            # In a column of impacts by number stands the one that most cases have there.
+            if number and of_pair(one.pairs, int(number[1])) != of_pair(usual, int(number[1])):
+                assert math.isnan(columns[path][i]), path
+                continue
+            assert columns[path][i] == pytest.approx(value[0], rel=1e-9, abs=1e-9, nan_ok=True), (
+                path
+            )
         assert [bool(deep[i]) for deep in run.deepest[: len(one.times)]] == [*one.deepest]
-        times = [columns[f"times[{k}]"][i] for k in range(len(one.times))]
-        assert times == pytest.approx(one.times, abs=1e-12)
-    assert len(orders) > 1
+        assert [time[i] for time in run.times[: len(one.times)]] == pytest.approx(
+            one.times, abs=1e-12
+        )
+    assert len({one.pairs for one in alone.values()}) > 1
 
 
 def test_all_places_of_rest_are_followed_at_once_and_are_those_of_each_alone(
