@@ -7,6 +7,8 @@ States are rows of x, y, heading, vx, vy and yaw rate, with a column for each ca
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -570,7 +572,8 @@ def _as_it_is(value: Any) -> Any:
     return value
 
 
-class Ground(NamedTuple):
+@dataclass(frozen=True)
+class Ground:
     """What all movers of a scene share: areas, slope, how finely motion is followed, and the cases.
 
     ``shape`` is that of the cases of a batch, None for one.
@@ -586,7 +589,7 @@ class Ground(NamedTuple):
         """Whether the scene is one case."""
         return self.shape is None
 
-    @property
+    @cached_property
     def steepest(self) -> float:
         """The greatest rise over run in any case."""
         return float(np.max(np.hypot(*self.slope), initial=0.0))
