@@ -4,6 +4,7 @@ write; and how the three compare, show and pickle.
 
 from __future__ import annotations
 
+import math
 import pickle
 from typing import Any
 
@@ -589,3 +590,30 @@ def test_what_is_no_argument_was_not_given(name: Any) -> None:
             part.as_given(name)
         check(refused.value, InputError, "unknown_name", known)
         assert refused.value.argument == "name"
+
+
+def test_two_that_graze_each_other_for_years_are_given_up() -> None:
+    """What turns and nothing slows is struck by a car, which comes to rest beside it: their corners
+    touch at every turn, while a drift of 1e-8 m/s parts them.
+    """
+    turns = Mover(
+        col.Vehicle(
+            mass=1e12, yaw_inertia=2.6e12, x=0, y=0, heading=0.55, vx=0, vy=0, yaw_rate=-0.473
+        ),
+        outline=[(0.35, 0.99), (-1.45, 0.75), (-0.84, -0.92), (-0.19, -1.0), (2.15, -0.21)],
+    )
+    car = Mover(
+        col.Vehicle(
+            mass=1500, yaw_inertia=2250, x=7.4, y=0.35, heading=math.pi, vx=-6.6, vy=0, yaw_rate=0
+        ),
+        outline=[(2.18, 0.14), (-1.61, 0.68), (0.73, -0.94)],
+        drag=0.5,
+    )
+    rule = Contact("A", "B", model="solve", restitution=0.17, friction=0.9, at="touch", delay=0.25)
+    crash = Scene(movers={"A": turns, "B": car}, contacts=[rule])
+    with pytest.raises(col.NoSolutionError, match="again and again") as refused:
+        crash.run()
+    assert refused.value.code == "never_ends"
+    with pytest.warns(col.CollisionsWarning):
+        several = crash.replace({"B.vx": [-6.6, -6.61]}).run()
+    assert list(several.status) == ["never_ends"] * 2

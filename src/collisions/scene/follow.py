@@ -48,6 +48,8 @@ _LEAST_CLOSING, _AGAIN = 0.02, 1.0
 # A pair is one contact until its outlines were so far apart [m].
 APART = 0.05
 MOST_CONTACTS = 20
+# Touches in a row that are too slow for a contact, after which two are not followed further.
+_MOST_PASSED = 100
 _MOST_ROUNDS = 200
 # Outlines overlap at the start beyond this [m].
 _OVERLAPS = 1e-6
@@ -474,7 +476,12 @@ class Followed:
         if limits is None:
             limits = np.full(self.count, np.inf)
         cases = np.flatnonzero(alive & np.isnan(pair.touch) & np.isinf(pair.due))
+        rounds = 0
         while len(cases):
+            rounds += 1
+            if rounds > _MOST_PASSED:
+                self._grazing(pair, cases)
+                return
             moving, limit = self._pair(pair), limits[cases]
             until = limit.copy()
             if np.isinf(limit).any():
@@ -1094,6 +1101,23 @@ class Followed:
     def _fail(self, cases: Any, code: str) -> None:
         fresh = cases[self.failed[cases] == ""]
         self.failed[fresh] = code
+
+    def _grazing(self, pair: _Between, cases: Any) -> None:
+        """Give up cases in which two touch again and again, too slowly for a contact: what nothing
+        slows may turn and graze another for years.
+        """
+        one, other = pair.names
+        if self.single and pair.rule is not None:
+            raise NoSolutionError(
+                f"{one} and {other} touch again and again, {_MOST_PASSED} times by "
+                f"{float(pair.begun[0]):.4g} s, always too slowly for a contact; give what moves "
+                "tyres= or drag=, which would end it",
+                code="never_ends",
+                movers=pair.names,
+            )
+        pair.touch[cases] = np.inf
+        if pair.rule is not None:
+            self._fail(cases, "never_ends")
 
     def _endless(self, cases: Any, rules: Any) -> None:
         contact = self.contacts[int(rules[cases[0]])]
