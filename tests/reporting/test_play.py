@@ -240,6 +240,26 @@ def test_names_do_not_stand_in_each_other() -> None:
     assert math.dist(at[0], at[2]) > 2.1 * size
 
 
+def test_numbers_of_contacts_at_one_moment_stand_in_a_row() -> None:
+    """Of three cars in a row with little between them, the first two meet again at once."""
+    movers = {
+        name: Mover(
+            col.Vehicle(mass=1500, yaw_inertia=2400, x=x, y=0.0, heading=0.0, vx=vx, vy=0.0),
+            outline=(4.5, 1.8),
+            drag=0.6,
+        )
+        for name, x, vx in (("A", 0.0, 18.0), ("B", 6.0, 0.0), ("C", 11.0, 0.0))
+    }
+    rule = {"restitution": 0.1, "friction": 0.5, "at": "touch"}
+    run = Scene(
+        movers=movers, contacts=[Contact("A", "B", **rule), Contact("B", "C", **rule)]
+    ).run()
+    shown = moved(col.play(run), ("move", "time", 1))[1]["speeds"]
+    found = re.findall(r'<text class="number" x="([.0-9]+)"[^>]*>([^<]+)<', shown)
+    assert [text for _, text in found] == ["1", "2, 3"]
+    assert float(found[1][0]) - float(found[0][0]) > 14.0
+
+
 def test_angles_are_in_degrees_in_every_system() -> None:
     for units in ("si", "metric", "us"):
         data = data_of(col.play(three_cars(), units=units))
