@@ -117,6 +117,7 @@ const seen = () => {
     cells: texts("td"), outputs: texts("output"), status: byId.status.textContent, said: \
 byId.said.textContent, caption: byId.caption.textContent,
     scene: byId.scene.innerHTML, viewBox: byId.scene.set.viewBox,
+    speeds: byId.speeds ? byId.speeds.innerHTML : "",
     values: Object.fromEntries(every.filter((one) => one.name === "input").map((one) => [one.id, \
 one.valueAsNumber])),
     aria: Object.fromEntries(every.filter((one) => one.name === "input").map((one) => [one.id, \
