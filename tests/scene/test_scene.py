@@ -358,6 +358,35 @@ def test_energy_closes_on_any_ground(slope: tuple[object, object], slowed: objec
         assert abs(closes) < share * energy["before"]
 
 
+def test_energy_closes_over_areas_of_other_friction() -> None:
+    """Wheels come to edges one by one, at each of which the power jumps."""
+    rng = np.random.default_rng(5)
+    missed = []
+    for _ in range(12):
+        a = col.Vehicle(
+            mass=1500.0, yaw_inertia=2400.0, x=-6.0, y=rng.uniform(-1, 1), heading=0.1, vx=20.0
+        )
+        b = col.Vehicle(
+            mass=1200.0, yaw_inertia=1700.0, x=3.0, y=0.5, heading=rng.uniform(-3, 3), vx=-3.0
+        )
+        movers = {
+            name: Mover(
+                body, outline=OUTLINE, tyres=Tyres(0.7, list(rng.uniform(0, 1, 4)), 2.7, 1.5)
+            )
+            for name, body in (("A", a), ("B", b))
+        }
+        first, second = rng.uniform(2, 12, 2)
+        ice = [(first, -30), (first + 8, -30), (first + 8, 30), (first, 30)]
+        grass = [(-30, 0.3 * second), (30, 0.3 * second + 3), (30, 40), (-30, 40)]
+        contact = Contact("A", "B", restitution=0.1, friction=0.4, at="touch")
+        scene = Scene(movers=movers, contacts=[contact], surfaces=[(ice, 0.2), (grass, 0.45)])
+        energy = scene.run(tolerance=1e-6).energy
+        closes = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
+        missed.append(abs(closes) / energy["before"])
+    assert np.median(missed) < 1e-6
+    assert max(missed) < 1e-5
+
+
 @pytest.mark.parametrize("lasts", [{"model": "eccentric"}, {}], ids=["tyres", "in time"])
 def test_energy_closes_where_contacts_last(lasts: dict[str, str]) -> None:
     """The ground takes nothing of its own while a contact lasts, and all of it from its end on."""

@@ -32,10 +32,13 @@ from .marks import WHEELS
 from .motion import STATE, Ground, body_at, no_rest
 from .scene import Scene
 
-# Moments of a track between two contacts; odd, for Simpson's rule.
+# Moments of a track between two contacts.
 _MOMENTS = 101
-# And for the work of the ground, whose power jumps where wheels come to edges.
-_FOR_WORK = 8001
+# Gauss's rule over a step, from 0 to 1, for the work of the ground.
+_NODES, _WEIGHTS = (
+    0.5 * (1.0 + np.polynomial.legendre.leggauss(5)[0]),
+    0.5 * np.polynomial.legendre.leggauss(5)[1],
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -616,22 +619,27 @@ class Run(Frozen, Summarized):
         return np.where(held, pulls, power), marks
 
     def _ground_work(self, name: str) -> float:
-        """What the ground takes from one vehicle on the whole way [J], by Simpson's rule."""
-        found, one, total = self._followed, np.zeros(1, dtype=int), 0.0
+        """What the ground takes from one vehicle on the whole way [J]: its power, by Gauss's rule
+        over the steps in which the vehicle is followed.
+        """
+        found, total = self._followed, 0.0
         course = found.courses[name]
-        ends = {float(leg.start[0] + leg.hold[0]) for leg in course.settled()}
-        known = self._bounds()[:, 0].tolist()
-        # The power jumps where a contact ends that the vehicle was held in.
-        bounds = sorted({*known, *(end for end in ends if known[0] < end < known[-1])})
-        for begin, end in pairwise(bounds):
-            clock = np.linspace(begin, end, _FOR_WORK)
-            # What acts up to the bound, and not from it on.
-            clock[-1] = math.nextafter(end, begin)
-            state = course.at(clock, np.broadcast_to(one, clock.shape))
+        # The power jumps where a contact ends that the vehicle was held in, bends where a drag has
+        # stopped it, and jumps where a wheel comes to an edge, at which a step ends.
+        jumps: list[float] = []
+        for leg in course.settled():
+            acts = float(leg.start[0] + leg.hold[0])
+            steps = [] if leg.followed is None else leg.followed.moments
+            jumps += [acts, acts + float(leg.stops[0]), *(acts + moment for moment in steps)]
+        for begin, end in pairwise(self._bounds()[:, 0].tolist()):
+            if end <= begin:
+                continue
+            bounds = np.unique([begin, *(jump for jump in jumps if begin < jump < end), end])
+            widths = np.diff(bounds)
+            clock = (bounds[:-1, None] + widths[:, None] * _NODES).reshape(-1)
+            state = course.at(clock, np.zeros(len(clock), dtype=int))
             power, _ = self._power(name, clock[:, None], state[:, :, None])
-            weights = np.ones(len(power))
-            weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
-            total += float(clock[1] - clock[0]) / 3.0 * float(weights @ power)
+            total += float(widths @ (power.reshape(-1, len(_NODES)) @ _WEIGHTS))
         return total
 
     def _pulled(self, name: str, time: float) -> float:

@@ -158,7 +158,7 @@ class Scene(Shown):
         tolerance : float [-]
             How finely motion on tyres is followed, as for ``travel.simulate``, 1e-10 to 0.01. At
             the default the energy of the scene closes to 1e-3, at 1e-6 mostly to 1e-6 and
-            always to ten times that (over areas of other friction to 1e-4).
+            always to ten times that.
 
         Returns
         -------

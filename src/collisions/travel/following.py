@@ -132,6 +132,13 @@ class Following:
         self._reach(np.full(len(cases), np.inf), cases)
         return self._reached[cases] * self._second[cases]
 
+    @property
+    def moments(self) -> list[float]:
+        """When the steps of a single case end [s], as far as it was followed; none goes over an
+        edge.
+        """
+        return [self._units[0] * time for time in self._times]
+
     def known(self, cases: Any) -> Any:
         """Whether some cases have been followed to their end."""
         return self._ended[cases] != IN_TIME
