@@ -43,6 +43,8 @@ from .speeds_algebra import (
     pushed,
 )
 
+COMPONENTS = tuple(f"delta_v_{part}_{label}" for label in "ab" for part in ("forward", "left"))
+"""The components of delta-V that may be known."""
 ACCURACY = RECORDER_ACCURACY.high
 # Beyond three times the stated accuracy the known values contradict each other.
 CONTRADICTION = 3.0 * ACCURACY

@@ -1,0 +1,446 @@
+"""The search of ``speeds``: from the scenes of the algebra to the roots that fit, in order, with a
+friction that recorders show, readings at a recorder's place, and tyres.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from itertools import combinations
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..engine.blocks import Part, in_parts, is_one_part
+from ..impact.inputs import Inputs
+from ..kernels.contact_laws import BRACH, FRICTION
+from .common import Cases, counted
+from .recorder_place import Recorders, RecorderScene
+from .restitution_roots import RestitutionOf, crossings
+from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene
+from .speeds_components import (
+    COMPONENTS,
+    CONTRADICTION,
+    ComponentScene,
+    Shown,
+    friction_shown,
+    together,
+)
+from .speeds_tyres import Attempt, in_balance, other_starts, speeds_with_tyres
+
+
+class _Looked(NamedTuple):
+    """A scene, its roots and where each is, the friction that it showed, if any, and by the way of
+    a root, where it is of several scenes.
+    """
+
+    scene: Scene
+    found: list[tuple[Root, Any]]
+    friction: Any
+    frictions: Sequence[Any] = ()
+
+
+class Search:
+    """What is sought, and from what: the numbers of all cases by name, what is known, and how.
+
+    Parameters
+    ----------
+    numbers : dict of float or array
+        What the scenes of the algebra take, courses as directions.
+    cases : Cases
+        The cases of a batch, or one.
+    inputs : Inputs
+        The impact without its speeds; an infinite friction is one that the components show.
+    known : dict of float or array
+        The known quantities, as they were given.
+    function : RestitutionOf, optional
+        What gives the restitution for a closing speed.
+    recorders : Recorders, optional
+        Where components were read, and in which axes.
+    regime, slid, forward_only
+        As for ``speeds``.
+    texts : dict of str
+        What was given as text, by the names that results have.
+    """
+
+    def __init__(
+        self,
+        numbers: dict[str, Any],
+        cases: Cases,
+        inputs: Inputs,
+        known: dict[str, Any],
+        *,
+        function: RestitutionOf | None,
+        recorders: Recorders | None,
+        regime: str | None,
+        slid: str | None,
+        forward_only: bool,
+        texts: dict[str, Any],
+    ) -> None:
+        self.numbers, self.cases, self.inputs, self.known = numbers, cases, inputs, known
+        self.function, self.recorders, self.texts = function, recorders, texts
+        self.regime, self.slid, self.forward_only = regime, slid, forward_only
+        self.components = any(name in COMPONENTS for name in known)
+        self.names, self.law = counted(known), inputs.law or BRACH
+        self._of_components: Callable[..., ComponentScene] = (
+            ComponentScene if recorders is None else partial(RecorderScene, recorders)
+        )
+        # A function is called with all cases; the turn of cars is looked for until all have it.
+        self._together = (
+            is_one_part(cases.shape or ()) or function is not None or recorders is not None
+        )
+        # The impulse of the tyres is then in the balance from which components tell that of the
+        # contact.
+        with_energy = {"energy_loss", "ees_a"} & known.keys()
+        self._balanced = bool(inputs.tyres) and self.components and not with_energy
+
+    def solved(self, changes: Mapping[str, Any] = {}, only: Mapping[str, Any] = {}) -> Attempt:
+        """The scene and its roots, with some numbers changed, in balance with the tyres; ``only``
+        says in which direction a contact that slid did.
+        """
+
+        def changed(held: dict[str, Any], most: float = CONTRADICTION) -> Attempt:
+            return self._attempt({**held, **changes}, most, only)
+
+        if self._balanced:
+            found = in_balance(changed, self.numbers, self.cases)
+            roots = [
+                root._replace(closing=np.where(there, root.closing, np.nan))
+                for root, there in found.found
+            ]
+            found = found._replace(found=in_order(found.scene, roots, self.forward_only))
+        else:
+            found = changed({})
+        if not self.texts:
+            return found
+        own = {**self.texts, **(found.inputs.given or {})}
+        return found._replace(inputs=replace(found.inputs, given=own))
+
+    def turned(self) -> str:
+        """What a single case may have wrong: the lateral components with whose signs turned both
+        vehicles go forwards; "" for none.
+        """
+        lateral = [name for name in self.known if name.startswith("delta_v_left")]
+        best, said_of = math.inf, ""
+        for names in (names for n in (1, 2) for names in combinations(lateral, n)):
+            scene, found, *_ = self.solved({name: -self.known[name] for name in names})
+            assert isinstance(scene, ComponentScene)
+            answer = found[0][0][:2] if found else scene.answer
+            fits = (bool(found) or bool(np.any(scene.ambiguous))) and min(answer) >= 0.0
+            if fits and scene.misfit < best:
+                best, said_of = float(scene.misfit), " and ".join(names)
+        return said_of
+
+    def _attempt(self, held: dict[str, Any], most: float, only: Mapping[str, Any]) -> Attempt:
+        """The scene and its roots where these impulses of tyres act, and where known values may
+        differ by so much.
+        """
+        own, asked = {**self.numbers, **held}, self.inputs
+        if not self._together:
+            now = self._in_parts(own, most, only)
+        else:
+            try:
+                single = self.cases.shape is None and self.function is None
+                now = self._looked(own, self.cases, most, single, only=only)
+            except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
+                now = self._looked(own, self.cases, most, only=only)
+        of_inputs = asked if now.friction is None else _with_friction(asked, now.friction)
+        return Attempt(now.scene, now.found, of_inputs, now.frictions, now.friction is not None)
+
+    def _looked(
+        self,
+        own: dict[str, Any],
+        some: Cases,
+        most: float,
+        plain: bool = False,
+        shares: bool = False,
+        only: Mapping[str, Any] = {},
+    ) -> _Looked:
+        """The scene of these numbers and its roots, with the friction that the components show in
+        place of an infinite one. ``shares`` says that another case has a share of the critical
+        ratio.
+        """
+        if self.recorders is None or not np.any(own["duration"] > 0.0):
+            return self._looked_from(only, own, some, most, plain, shares)
+        starts = self._scene(own, some.shape or (), most).impulses()
+        looks = [
+            self._looked_from({"start": start, **only}, own, some, most, plain, shares)
+            for start in starts
+        ]
+        return _together(looks, own[self.inputs.rule])
+
+    def _looked_from(
+        self,
+        start: Mapping[str, Any],
+        own: dict[str, Any],
+        some: Cases,
+        most: float,
+        plain: bool,
+        shares: bool,
+    ) -> _Looked:
+        """The same of the impulse at which readings that may mean several begin."""
+        asked, shape = self.inputs, some.shape or ()
+        friction, shown = None, Shown()
+        if self.components and asked.rule == FRICTION and np.any(np.isinf(asked.rule_value)):
+            of_components = partial(self._of_components, most=most, **start)
+            shown = friction_shown(of_components, own, self.law, self.names, shape, self.regime)
+            if shown.friction is not None:
+                friction = some.values(shown.friction)
+                own = {**own, FRICTION: friction}
+        scene = self._scene(own, shape, most, plain, start)
+        scene.shares = scene.shares or shares
+        if isinstance(scene, ComponentScene):
+            scene.leaves_slip = scene.leaves_slip | shown.fits_both
+            scene.toward = shown.toward
+            scene.shows_friction = np.isinf(asked.rule_value) & (friction is not None)
+        roots = scene.roots() if self.function is None else _with_function(scene, self.function)
+        if isinstance(scene, ComponentScene) and np.any(np.isfinite(scene.slid_at)):
+            slid_at = np.where(np.isfinite(scene.slid_at), scene.slid_at, own[FRICTION])
+            friction = some.values(slid_at)
+        if most == math.inf:
+            # Whether it stuck or slid is asked when the tyres are known.
+            scene.ambiguous = np.zeros((), dtype=bool)
+        # Of those in balance it is asked at the end.
+        forwards = self.forward_only and not self._balanced
+        return _Looked(scene, in_order(scene, roots, forwards), friction)
+
+    def _scene(
+        self,
+        own: dict[str, Any],
+        shape: tuple[int, ...],
+        most: float,
+        plain: bool = False,
+        start: Mapping[str, Any] = {},
+    ) -> Any:
+        """The scene of these numbers."""
+        kind: Callable[..., Scene] = Scene
+        if self.components:
+            kind = partial(
+                self._of_components,
+                regime=self.regime,
+                slid=self.slid,
+                most=most,
+                forward_only=self.forward_only,
+                **start,
+            )
+        return kind(own, self.inputs.rule, self.law, self.names, shape=shape, plain=plain)
+
+    def _in_parts(self, own: dict[str, Any], most: float, only: Mapping[str, Any]) -> _Looked:
+        """The same as ``_looked`` of all cases, block by block."""
+        shape = self.cases.shape or ()
+        whole = self._scene(own, shape, most)
+
+        def work(part: Part) -> dict[str, Any]:
+            there = {name: part.of(value) for name, value in own.items()}
+            some = Cases(part.shape, self.cases.dtype)
+            scene, found, friction, _ = self._looked(
+                there, some, most, shares=whole.shares, only=only
+            )
+            parts = scene.findings()
+            for i, (root, where) in enumerate(found):
+                parts |= {f"{i}.{name}": value for name, value in root._asdict().items()}
+                parts[f"{i}.there"] = where
+            return parts if friction is None else {**parts, FRICTION: friction}
+
+        merged = in_parts(work, shape)
+        friction = merged.get(FRICTION)
+        if friction is not None:
+            # A part that shows none has what was given.
+            friction = self.cases.values(np.where(np.isnan(friction), own[FRICTION], friction))
+            whole = self._scene({**own, FRICTION: friction}, shape, most)
+        whole.take(merged)
+        found: list[tuple[Root, Any]] = []
+        while f"{len(found)}.there" in merged:
+            root = Root(*(merged[f"{len(found)}.{name}"] for name in Root._fields))
+            found.append((root, merged[f"{len(found)}.there"]))
+        return _Looked(whole, found, friction)
+
+    def while_tyres_act(self, attempt: Attempt) -> Attempt:
+        """With the roots of a contact in which the tyres act, in order, and where each is: those to
+        which the roots of the instant and other speeds lead.
+
+        Roots that are in balance have the impulse of the tyres already: of a contact that stuck, or
+        beside a known speed and more components than it needs.
+        """
+        knows_speed = any(name.startswith("speed") for name in self.known)
+        # A place of a recorder and its axes are in the balance alone.
+        alone = self.recorders is None and self.slid is None and not attempt.frictions
+        if self._balanced and not (alone and (len(self.known) == 2 or knows_speed)):
+            return attempt
+        scene, found, inputs = attempt.scene, attempt.found, attempt.inputs
+        directions = {
+            label: (scene.numbers[f"course_{label}[0]"], scene.numbers[f"course_{label}[1]"])
+            for label in "ab"
+        }
+        shape, unit = self.cases.shape or (), scene.speed_unit
+        starts = [
+            tuple(np.where(there, speed * unit, np.nan) for speed in (root.speed_a, root.speed_b))
+            for root, there in found
+        ]
+        starts += other_starts(inputs, self.known, shape)
+        if not starts:
+            return attempt._replace(found=[])
+        begins = np.stack([np.stack(np.broadcast_arrays(*start)) for start in starts], axis=1)
+        more = self._balanced and len(self.known) > 2
+        answer = speeds_with_tyres(
+            inputs,
+            directions,
+            (begins[0], begins[1]),
+            self.known,
+            (len(starts), *shape),
+            len(found) if more else 0,
+        )
+        fits = answer.settled
+        if self._balanced and not more:
+            # Of the contacts that stick, where it is known that this one did.
+            fits = fits & answer.sticks
+            if self.regime is None:
+                fits = fits & np.any([there for _, there in found] or [False], axis=0)
+        if answer.misfit is not None:
+            if self.regime is not None:
+                # Other starts may lead to a contact that ended otherwise than was stated.
+                so = np.broadcast_to(
+                    answer.sticks == (self.regime == "sticking"), fits.shape
+                ).copy()
+                so[: len(found)] = True
+                fits = fits & so
+            fits = fits & (answer.misfit <= CONTRADICTION)
+            fits, least = _best_of(answer.misfit, fits)
+            if isinstance(scene, ComponentScene):
+                scene.misfit = np.where(np.isfinite(least), least, scene.misfit)
+                scene.may_slide = scene.may_slide & np.any(fits[: len(found)], axis=0)
+        roots = []
+        for i in range(len(starts)):
+            instant = found[i][0] if i < len(found) else NO_ROOT
+            condition = instant.condition if answer.condition is None else answer.condition[i]
+            roots.append(
+                Root(
+                    answer.speed_a[i] / unit,
+                    answer.speed_b[i] / unit,
+                    np.where(np.isfinite(answer.speed_a[i]), inputs.restitution, np.nan),
+                    condition,
+                    np.where(fits[i], answer.closing[i] / unit, np.nan),
+                )
+            )
+        return attempt._replace(found=in_order(scene, roots, self.forward_only))
+
+
+def _with_friction(inputs: Inputs, friction: Any) -> Inputs:
+    """The inputs with the friction that was found in place of an infinite one."""
+    texts = {name: text for name, text in (inputs.given or {}).items() if name != FRICTION}
+    return replace(inputs, rule_value=friction, given=texts or None)
+
+
+def _together(looks: Sequence[_Looked], given: Any) -> _Looked:
+    """The roots that fit best of scenes with the same readings and each an impulse of its own."""
+    if len(looks) == 1:
+        return looks[0]
+    scenes = [look.scene for look in looks if isinstance(look.scene, ComponentScene)]
+    answered = [
+        np.logical_or.reduce(
+            [np.zeros(look.scene.shape, dtype=bool), *(at for _, at in look.found)]
+        )
+        for look in looks
+    ]
+    whole = together(scenes, answered)
+    roots = [
+        root._replace(
+            closing=np.where(
+                there & (scene.misfit <= np.maximum(ROOT_TOL, whole.misfit)),
+                root.closing,
+                np.nan,
+            ),
+            way=np.full(whole.shape, float(i)),
+        )
+        for i, (look, scene) in enumerate(zip(looks, scenes, strict=True))
+        for root, there in look.found
+    ]
+    shown = [look.friction for look in looks]
+    frictions = [given if one is None else one for one in shown]
+    one = next((one for one in shown if one is not None), None)
+    return _Looked(whole, in_order(whole, roots, False), one, () if one is None else frictions)
+
+
+def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
+    """Candidates where the restitution is a function of the closing speed: found on a grid of e,
+    then refined.
+    """
+    count = math.prod(scene.shape)
+
+    def difference(part: Scene, closing: Any, e: Any) -> Any:
+        return function(np.ravel(part.speed_unit * closing + 0.0 * e)) - e
+
+    def mismatch(e: Any, case: Any) -> list[Any]:
+        part = scene.of(case, e)
+        return [
+            difference(part, part.observe(LAW, *pair).closing, e) for _, *pair in part.candidates()
+        ]
+
+    def slips(e: Any, case: Any) -> list[Any]:
+        part = scene.of(case, e)
+        return [part.any_slip_at(regime)[0] + 0.0 * e for regime in part.regimes()]
+
+    found: list[Root] = []
+    of_cases = crossings(mismatch, count, function.least)
+    if of_cases:
+        case, candidate, restitution = map(np.array, zip(*of_cases, strict=True))
+        roots = np.stack(scene.of(case, restitution).roots(function))
+        chosen = roots[candidate, :, np.arange(case.size)]
+        # Of each case the first root, then the second and so on.
+        rank = np.arange(case.size) - np.searchsorted(case, case)
+        whole = np.full((rank.max() + 1, count, len(Root._fields)), np.nan)
+        whole[rank, case] = chosen
+        found = [Root._make(one.T.reshape(-1, *scene.shape)) for one in whole]
+    undetermined = np.zeros(count, dtype=bool)
+    if not scene.kinds[0].startswith("speed"):
+        for at, row, e in crossings(slips, count, function.least):
+            # Any slip goes with this restitution; it is an answer if the function gives it there.
+            part = scene.of(np.array([at]), np.full(1, e))
+            undetermined[at] |= (
+                abs(difference(part, part.any_slip_at(part.regimes()[row])[1], e)[0]) <= REDUNDANT
+            )
+    scene.undetermined = undetermined.reshape(scene.shape)
+    return found
+
+
+def in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple[Root, Any]]:
+    """The distinct roots that fit, by rising closing speed, and their cases in the batch."""
+    fitting = [root for root in roots if root is not NO_ROOT and np.any(root.closing > 0.0)]
+    for root in fitting:
+        scene.undetermined = scene.undetermined | ((root.closing > 0.0) & (root.one_of_many > 0.0))
+    if not fitting or np.all(scene.undetermined | scene.ambiguous):
+        return []
+    if len(fitting) == 1 and scene.plain and not forward_only:
+        return [(fitting[0], np.True_)]
+    whole = np.array([[np.broadcast_to(part, scene.shape) for part in root] for root in fitting])
+    speeds_a, speeds_b, _, _, closing, *_ = np.moveaxis(whole, 1, 0)
+
+    def sort() -> None:
+        """Sort the answers by closing speed in every case, those left out last."""
+        order = np.argsort(closing, axis=0, kind="stable")
+        whole[:] = np.take_along_axis(whole, order[:, np.newaxis], axis=0)
+
+    closing[np.broadcast_to(scene.undetermined | scene.ambiguous, closing.shape)] = np.nan
+    if forward_only:
+        closing[np.minimum(speeds_a, speeds_b) < -ROOT_TOL * closing] = np.nan
+    sort()
+    apart = abs(speeds_a[1:] - speeds_a[:-1]) + abs(speeds_b[1:] - speeds_b[:-1])
+    closing[1:][apart <= ROOT_TOL * closing[1:]] = np.nan
+    sort()
+    return [
+        (Root(*root), there)
+        for root, there in zip(whole, closing > 0.0, strict=True)
+        if np.any(there)
+    ]
+
+
+def _best_of(misfit: Any, fits: Any) -> tuple[Any, Any]:
+    """Of what was found from several starts, all that fit exactly, or else the one that fits best,
+    and by how much that misses.
+    """
+    misfit = np.where(fits, misfit, np.inf)
+    least = np.min(misfit, axis=0)
+    best = np.arange(len(misfit)).reshape(-1, *[1] * np.ndim(least)) == np.argmin(misfit, axis=0)
+    return fits & np.where(least <= ROOT_TOL, misfit <= ROOT_TOL, best), least
