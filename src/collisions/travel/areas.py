@@ -174,9 +174,10 @@ class Areas(NamedTuple):
             same = (middle > 0.0) == (one > 0.0)
             low, one = np.where(same, share, low), np.where(same, middle, one)
             high, two = np.where(same, high, share), np.where(same, two, middle)
+            # At the edge to the last digit, either end is the share: half way between would be far.
             steep = two - one
-            new = low - one * (high - low) / np.where(steep != 0.0, steep, 1.0)
-            share = np.where((steep != 0.0) & (new > low) & (new < high), new, 0.5 * (low + high))
+            share = low - one * (high - low) / np.where(steep != 0.0, steep, 1.0)
+            share = np.minimum(np.maximum(share, low), high)
         # An end that is hardly beyond the edge is on it.
         _, px, py = beyond(share)
         _, end_x, end_y = beyond(np.ones(len(hit)))
