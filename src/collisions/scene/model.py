@@ -65,7 +65,9 @@ def as_function(
     taken = units_of(scene, given[0])
     units = {path: unit_of_result(scene, path, argument) for path in wanted}
     marks = {path: asked for path in wanted if (asked := of_mark(scene, path, argument))}
-    recorded = {path: asked for path in wanted if (asked := asked_of(scene, path)) and asked.sample}
+    recorded = {
+        path: one for path in wanted if (one := asked_of(scene, path)) and one.sample is not None
+    }
     numbers = numbered(scene, wanted)
     if order is None:
         order = order_of(scene, given[0], numbers, tolerance, argument)

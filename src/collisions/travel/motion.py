@@ -459,7 +459,8 @@ def _several(
         if areas is not None and rests.any():
             some = np.flatnonzero(rests)
             few = nears[some] & (left[some] <= (_ON_EDGES * last) ** 2 * state[10, some])
-            clear = areas.of(some).clear(*state[1:4, some], left[some])
+            x, y, heading = state[1:4, some]
+            clear = areas.of(some).clear(x, y, heading, left[some])
             rests[some] = few | clear
             arcs = arcs & rests
         if some_straight:
