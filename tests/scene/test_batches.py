@@ -137,6 +137,88 @@ def test_all_places_of_rest_are_followed_at_once_and_are_those_of_each_alone(
 
 
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize(
+    ("seed", "duration", "cases"),
+    # Among them some in which last digits of a contact grew: where steps ended at an edge, and
+    # where wheels nearly stood or rolled.
+    [
+        pytest.param(0, 0.1, [3, 8, 21], marks=pytest.mark.slow),
+        (1, None, [5, 7, 18]),
+        pytest.param(1, 0.1, [8, 10], marks=pytest.mark.slow),
+        pytest.param(2, None, [14, 20], marks=pytest.mark.slow),
+    ],
+)
+def test_over_areas_a_case_of_a_batch_rests_where_it_does_alone(
+    seed: int, duration: float | None, cases: list[int]
+) -> None:
+    """Cars that turn, struck one after another, and cross edges of two areas obliquely."""
+    rng = np.random.default_rng(seed)
+
+    def car(x: float, y: float, speed: float, course: float, spread: float, lock: Any) -> Mover:
+        speeds = speed * rng.uniform(1.0 - spread, 1.0 + spread, COUNT)
+        courses = course + rng.normal(0.0, 0.1, COUNT)
+        body = col.Vehicle(
+            mass=rng.uniform(1000.0, 2000.0, COUNT),
+            yaw_inertia=rng.uniform(1500.0, 3000.0, COUNT),
+            x=x + rng.normal(0.0, 0.2, COUNT),
+            y=y + rng.normal(0.0, 0.3, COUNT),
+            vx=speeds * np.cos(courses),
+            vy=speeds * np.sin(courses),
+            heading=course + rng.normal(0.0, 0.05, COUNT),
+            yaw_rate=rng.normal(0.0, 0.3, COUNT) * (speed > 0.0),
+        )
+        tyres = Tyres(rng.uniform(0.5, 0.8, COUNT), lock, 2.7, 1.5)
+        return Mover(body, outline=(4.5, 1.8), tyres=tyres)
+
+    movers = {
+        "A": car(-9.0, 0.0, 18.0, 0.0, 0.3, [1.0, 0.1, 0.1, 0.1]),
+        "B": car(0.0, 0.0, 0.0, 0.0, 0.0, 1.0),
+        "C": car(7.0, -5.0, 6.0, 0.5 * math.pi, 0.4, 0.3),
+    }
+    surfaces = [
+        ([(3, -6), (9, -8), (10, 4), (4, 9)], 0.25),
+        ([(-1, 3), (20, 7), (18, 14), (0, 12)], rng.uniform(0.2, 0.5, COUNT)),
+    ]
+    contacts = [Contact(*pair, **RULE, duration=duration) for pair in ("AB", "BC")]
+    scene = Scene(movers=movers, contacts=contacts, surfaces=surfaces)
+    run = scene.run()
+    for i in cases:
+        alone = scene.case(i).run()
+        for name in movers:
+            for part in ("x", "y", "heading"):
+                found = getattr(run.rest[name], part)[i]
+                assert abs(found - getattr(alone.rest[name], part)) <= 1e-9, (i, name, part)
+
+
+def test_cars_that_stop_on_an_edge_do_so_in_a_batch_and_alone() -> None:
+    """Straight, and turning onto it; some up to the last digits before or beyond it."""
+    friction, speed, edge = 0.7, 12.0, 1.35
+    way = speed**2 / (2.0 * col.travel.GRAVITY * friction)
+    # Where front wheels of a car come to rest at the end of a straight slide.
+    place = -way - np.array([0.0, 1e-12, -1e-12, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3] * 2)
+    turns = np.repeat([0.0, 0.6], 9)
+    body = col.Vehicle(
+        mass=1400.0, yaw_inertia=2200.0, x=place, y=0.0, heading=0.0, vx=speed, vy=0.0,
+        yaw_rate=turns,
+    )  # fmt: skip
+    scene = Scene(
+        movers={"A": Mover(body, tyres=Tyres(friction, 1.0, 2.0 * edge, 1.5))},
+        contacts=[],
+        surfaces=[([(edge, -9), (30, -9), (30, 9), (edge, 9)], 0.2)],
+    )
+    run = scene.run()
+    for i, turning in enumerate(turns):
+        alone = scene.case(i).run().rest["A"]
+        for part in ("x", "y", "heading"):
+            assert abs(getattr(run.rest["A"], part)[i] - getattr(alone, part)) <= 1e-9, (i, part)
+        if not turning:
+            beyond = max(place[i] + way, 0.0)
+            # The front wheels, with half of the load, are on the slippery side for what is left.
+            longer = beyond * (friction / (0.5 * friction + 0.5 * 0.2) - 1.0)
+            assert alone.x - place[i] - way == pytest.approx(longer, abs=2e-5)
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize("rules", [slice(0, 1), slice(1, 2), slice(0, 0)], ids=["AB", "BC", "none"])
 def test_what_limits_a_case_is_that_of_the_case_alone(rules: slice) -> None:
     """Touches that no contact describes or that are passed over, and what is driven together."""

@@ -885,6 +885,35 @@ def test_a_batch_is_its_cases_and_refused_ones_are_nan():
     assert np.isnan(path.time[:, :, 2:]).all()
 
 
+def test_last_digits_of_the_start_hardly_move_the_rest_over_areas():
+    """By no more than they grow in the motion itself. In some cases wheels come to an edge to the
+    last digit; in the last ones steps near rest, away from all edges, passed the digits on.
+    """
+    rng, count = np.random.default_rng(5), 1000
+    drawn = {
+        "mass": rng.uniform(900, 2500, count),
+        "yaw_inertia": rng.uniform(1500, 3000, count),
+        "x": rng.uniform(-9, 9, count),
+        "y": rng.uniform(-5, 5, count),
+        "heading": rng.uniform(-3, 3, count),
+        "vx": rng.uniform(6, 22, count),
+        "vy": rng.normal(0, 3, count),
+        "yaw_rate": rng.normal(0, 2, count),
+    }
+    some = [*range(60), 654, 978, 100, 438, 807, 979, 593, 823, 230, 559, 676, 362]
+    drawn = {name: numbers[some] for name, numbers in drawn.items()}
+    surfaces = [([(3, -6), (9, -8), (10, 4), (4, 9)], 0.25)]
+    surfaces += [([(-1, 3), (20, 7), (18, 14), (0, 12)], 0.4)]
+    rests = []
+    for last in (0.0, 2e-15):
+        cars = {name: part * (1 + last * rng.choice([-1, 1], len(some)))
+                for name, part in drawn.items()}  # fmt: skip
+        tyres = travel.Tyres(0.7, [1, 0.1, 0.3, 0.1], 2.7, 1.5)
+        path = travel.simulate(col.Vehicle(**cars), tyres, surfaces=surfaces, moments=2)
+        rests.append([path.rest.x, path.rest.y, path.rest.heading])
+    assert np.abs(np.subtract(*rests)).max() < 1e-9
+
+
 def test_a_case_rests_at_the_same_place_in_a_large_batch_and_alone():
     """In arrays, in floats, and in floats from where few cases are left, the numbers are the same:
     in two of these cases a last digit decides on which step a wheel comes to an edge.

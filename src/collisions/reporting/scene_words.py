@@ -99,6 +99,8 @@ def _asked(run: Run, asked: OfImpact) -> str:
     what = _plain(inner if dot else label) if row is None else row[1]
     if not math.isnan(asked.share):
         what = "EES"
+    if asked.sample is not None:
+        what = IMPACT_ANSWERS[f"{asked.sample.label}.delta_v_{asked.sample.part}"][1]
     if not dot:
         return f"{what} of {where}"
     contact = run.scene.contacts[asked.number] if asked.contact else None
@@ -106,6 +108,11 @@ def _asked(run: Run, asked: OfImpact) -> str:
     whose = _of(pair[_SIDES[label]], what)
     if not math.isnan(asked.share):
         whose += f" with {asked.share:.3g} of the energy lost"
+    if asked.sample is not None:
+        whose += (
+            f" after {1e3 * asked.sample.time:.4g} ms, recorded {asked.sample.forward:.4g} m ahead "
+            f"of its centre of mass and {asked.sample.left:.4g} m to its left"
+        )
     return f"{whose}, {where if asked.contact else _numbered(run, asked.number)}"
 
 

@@ -21,6 +21,7 @@ from .results import (
     asked_of,
     between,
     by_contact,
+    curves_of,
     numbered,
     result_of,
     told,
@@ -64,6 +65,9 @@ def as_function(
     taken = units_of(scene, given[0])
     units = {path: unit_of_result(scene, path, argument) for path in wanted}
     marks = {path: asked for path in wanted if (asked := of_mark(scene, path, argument))}
+    recorded = {
+        path: one for path in wanted if (one := asked_of(scene, path)) and one.sample is not None
+    }
     numbers = numbered(scene, wanted)
     if order is None:
         order = order_of(scene, given[0], numbers, tolerance, argument)
@@ -93,7 +97,9 @@ def as_function(
             warn_of_another(run, numbers, order.rules, "in the scene as written")
         # All points of a mark at once: the mark is worked out for them, and not kept.
         found = dict(zip(marks, answers(run, list(marks.values())), strict=True))
-        found |= {path: result_of(run, path, order.rules) for path in wanted if path not in marks}
+        # All samples of a recorder at once too.
+        found |= curves_of(run, recorded, order.rules)
+        found |= {path: result_of(run, path, order.rules) for path in wanted if path not in found}
         return {path: to_quantity(found[path], unit) for path, unit in units.items()}
 
     vars(model)["answers_by_case"] = True

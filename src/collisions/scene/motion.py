@@ -30,6 +30,10 @@ STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate")
 _PLACES, _RATES = slice(0, 3), slice(3, 6)
 # A wheel whose slip is below this share of the speed rolls straight.
 _ROLLS = 1e-9
+# Over areas of other friction a motion begins at whole multiples of this, in metres, radians and
+# seconds. A contact is solved with other last digits alone and in a batch; where a wheel nearly
+# stands or rolls, steps pass them on and they grow to 1e-6 m at the place of rest.
+_LAST_DIGITS = 2.0**-36
 # From the speed over gravity: below it, a drag stops nothing.
 _LEAST_DRAG = 1e-9
 
@@ -517,6 +521,8 @@ class Course:
         one = ground.single
         take = _as_it_is if one else ground.taker(which)
         numbers = {name: getattr(body, name) for name in NAMES}
+        if ground.surfaces:
+            state = np.rint(state / _LAST_DIGITS) * _LAST_DIGITS
         rows = dict(zip(STATE, state, strict=True))
         if one:
             numbers |= {name: float(row[0]) for name, row in rows.items()}

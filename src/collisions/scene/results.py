@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -26,6 +26,7 @@ from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import cells
 from ..vehicle.vehicle import UNITS as OF_VEHICLE
+from .curves import PARTS, Sample, check_lasts, no_curve, sample_of
 from .marks import WHEELS, answers, of_mark
 from .names import POLAR, no_path
 from .scene import Scene
@@ -47,20 +48,21 @@ END = "end"
 
 
 class OfImpact(NamedTuple):
-    """What a path asks for of an impact: the name of a number of it, "" for its time, or "a.ees"
-    with the share of the energy that went into that vehicle; of the first impact of a contact, or
-    of the impact of this number in order of time.
+    """What a path asks for of an impact: the name of a number of it, "" for its time, "a.ees"
+    with the share of the energy that went into that vehicle, or "a.recorded" with a sample of a
+    curve; of the first impact of a contact, or of the impact of this number in order of time.
     """
 
     contact: bool
     number: int
     name: str
     share: float = math.nan
+    sample: Sample | None = None
 
 
 def results_of(scene: Scene, impacts: int | None = None) -> dict[str, str]:
     """The paths of all results, with their units, but for those with a number in them: the distance
-    of a place from a mark, the time between two, and EES.
+    of a place from a mark, the time between two, EES, and what a recorder shows.
     """
     return in_columns(scene, impacts) | {
         f"{name}.marks.{wheel}.{end}.{axis}": "m"
@@ -123,6 +125,8 @@ def unit_of_result(scene: Scene, path: str, argument: str = "outputs") -> str:
             return _PLACE[found[2]]
         asked = asked_of(scene, path, argument)
         if asked is not None:
+            if asked.sample is not None:
+                check_lasts(scene, asked.number if asked.contact else None, path, argument)
             return _unit(asked)
         if of_mark(scene, path, argument):
             return "m"
@@ -141,7 +145,7 @@ def is_result(scene: Scene, path: str, impacts: int) -> bool:
 def _unit(asked: OfImpact) -> str:
     if not asked.name:
         return "s"
-    return of_impact()[asked.name] if math.isnan(asked.share) else "m/s"
+    return of_impact().get(asked.name, "m/s")
 
 
 def asked_of(scene: Scene, path: str, argument: str = "outputs") -> OfImpact | None:
@@ -167,6 +171,8 @@ def asked_of(scene: Scene, path: str, argument: str = "outputs") -> OfImpact | N
         return OfImpact(contact, number, name)
     if ees := _EES.fullmatch(name):
         return OfImpact(contact, number, f"{ees[1]}.ees", _share(ees[2].strip(), path, argument))
+    if sample := sample_of(name, path, argument):
+        return OfImpact(contact, number, f"{sample.label}.recorded", sample=sample)
     return None
 
 
@@ -309,6 +315,8 @@ def result_of(run: Run, path: str, order: Sequence[int] | None = None) -> Any:
         return answers(run, [mark])[0]
     asked = asked_of(run.scene, path)
     assert asked is not None
+    if asked.sample is not None:
+        return curves_of(run, {path: asked}, order)[path]
     followed = run._followed
     numbers = _numbers(run, asked, path, order)
     if followed.single:
@@ -325,6 +333,50 @@ def result_of(run: Run, path: str, order: Sequence[int] | None = None) -> Any:
             values[hit.which[some]] = part[some]
     values[followed.failed != ""] = np.nan
     return values
+
+
+def curves_of(
+    run: Run, asked: Mapping[str, OfImpact], order: Sequence[int] | None
+) -> dict[str, Any]:
+    """The values of samples of the curves of recorders, as those of ``result_of``: an impact is
+    followed once for all samples of a recorder in it.
+    """
+    by_recorder: dict[tuple[Any, ...], list[str]] = {}
+    for path, one in asked.items():
+        assert one.sample is not None
+        place = one.sample.forward, one.sample.left
+        by_recorder.setdefault((one.contact, one.number, one.name, *place), []).append(path)
+    followed, found = run._followed, {}
+    for (*_, forward, left), paths in by_recorder.items():
+        one = asked[paths[0]]
+        samples = [sample for path in paths if (sample := asked[path].sample) is not None]
+        times = np.array(list(dict.fromkeys(sample.time for sample in samples)))
+        places = [int(np.flatnonzero(times == sample.time)[0]) for sample in samples]
+        recorder = one.name[0], times, forward, left, paths[0]
+        numbers = _numbers(run, one, paths[0], order)
+        if followed.single:
+            curves = _shown(run.impacts[int(numbers[0])], *recorder)
+        else:
+            curves = np.full((2, len(times), followed.count), np.nan)
+            for hit in followed.hits:
+                some = hit.number == numbers[hit.which]
+                if some.any():
+                    own = _shown(hit.impact, *recorder).reshape(2, len(times), -1)
+                    own = np.broadcast_to(own, (2, len(times), len(hit.which)))
+                    curves[:, :, hit.which[some]] = own[:, :, some]
+            curves[:, :, followed.failed != ""] = np.nan
+        for path, sample, at in zip(paths, samples, places, strict=True):
+            value = curves[PARTS.index(sample.part), at]
+            found[path] = float(value) if followed.single else value
+    return found
+
+
+def _shown(impact: Impact, label: str, times: Any, forward: float, left: float, path: str) -> Any:
+    """Both parts of what a recorder shows at times, (2, times, ...)."""
+    if impact.pulse is None:
+        raise no_curve(f"{path}: its contact is not followed in time", path, "outputs")
+    vehicle = impact.a if label == "a" else impact.b
+    return np.array(vehicle.recorded(times, forward=forward, left=left))
 
 
 def _numbers(run: Run, asked: OfImpact, path: str, order: Sequence[int] | None) -> Any:

@@ -242,8 +242,12 @@ class Scene(Shown):
             the vehicles "a" and "b"; in a study it is the impact that it is in the scene as
             written, and a case in which another comes in its place has no answer to it. There are
             also paths with a number in them: "contacts[0].impact.Camry.ees(0.4)", EES with the
-            share of the energy lost that went into the vehicle; "times[1] - times[0]"; and the
-            distance of a place from a tyre mark, as in ``mark_points``.
+            share of the energy lost that went into the vehicle; "times[1] - times[0]"; the
+            distance of a place from a tyre mark, as in ``mark_points``; and, of a contact that is
+            followed in time, "contacts[0].impact.Camry.recorded(40 ms, 0.4 m, -0.3 m).forward" and
+            ".left": the delta-V that a recorder 0.4 m ahead of the centre of mass and 0.3 m to its
+            right shows 40 ms after first contact, in axes that turn with the vehicle, as
+            ``impact.a.recorded`` has it. With the time alone it sits at the centre of mass.
         """
         from .results import results_of
 

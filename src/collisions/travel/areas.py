@@ -14,6 +14,8 @@ _CHORDS = 8
 # A wheel this near an edge, of the length that the motion has by its speed, is on the side that it
 # moves to.
 _NEAR = 1e-6
+# Wheels are clear of all edges that are this many times as far away as the vehicle still goes.
+_CLEAR = 4.0
 
 
 class Areas(NamedTuple):
@@ -113,6 +115,18 @@ class Areas(NamedTuple):
         )
         return found
 
+    def clear(self, x: Any, y: Any, heading: Any, left: Any) -> Any:
+        """Whether no wheel comes near an edge of a vehicle that goes ``left`` until it rests."""
+        px, py = (part[:, None] for part in self.wheels(x, y, heading))
+        (qx, qy), (rx, ry) = (part.T[..., None] for part in self._edges())
+        ex, ey, away_x, away_y = rx - qx, ry - qy, px - qx, py - qy
+        square = ex * ex + ey * ey
+        share = (away_x * ex + away_y * ey) / np.where(square > 0.0, square, 1.0)
+        share = np.clip(share, 0.0, 1.0)
+        far = np.hypot(away_x - share * ex, away_y - share * ey).min(axis=(0, 1))
+        found: Any = far > _CLEAR * self.length * (left + _NEAR)
+        return found
+
     def crossed(self, before: Any, after: Any, spin: Any) -> Any:
         """The share of the time of a step at which a wheel first crosses an edge; 1 or more if none
         does before its end.
@@ -174,9 +188,10 @@ class Areas(NamedTuple):
             same = (middle > 0.0) == (one > 0.0)
             low, one = np.where(same, share, low), np.where(same, middle, one)
             high, two = np.where(same, high, share), np.where(same, two, middle)
+            # At the edge to the last digit, either end is the share: half way between would be far.
             steep = two - one
-            new = low - one * (high - low) / np.where(steep != 0.0, steep, 1.0)
-            share = np.where((steep != 0.0) & (new > low) & (new < high), new, 0.5 * (low + high))
+            share = low - one * (high - low) / np.where(steep != 0.0, steep, 1.0)
+            share = np.minimum(np.maximum(share, low), high)
         # An end that is hardly beyond the edge is on it.
         _, px, py = beyond(share)
         _, end_x, end_y = beyond(np.ones(len(hit)))

@@ -22,7 +22,9 @@ from .areas import Areas
 # come to an end; it was followed for as long as was asked for, and can be followed on.
 RESTS, GOES_ON, NO_END, IN_TIME = 0, 1, 2, 3
 # Once the motion is down to this part of the first, by the way that is left, it goes on straight.
-_ENDING, _ENDING_ON_AREAS = 1e-2, 1e-3
+_ENDING = 1e-2
+# And down to this part of that, where wheels may come to an edge of an area.
+_ON_EDGES = 0.1
 # The time until rest is then at most this part of the whole, where the motion turns aside as fast
 # as it slows.
 _ENDING_TIME = 2.5e-4
@@ -193,9 +195,7 @@ def _rounded(width: Any) -> Any:
 
 def _last(motion: Motion) -> float:
     """The part of the motion that goes on straight."""
-    return (_ENDING if motion.areas is None else _ENDING_ON_AREAS) * min(
-        1.0, math.sqrt(motion.tolerance / 1e-5)
-    )
+    return _ENDING * min(1.0, math.sqrt(motion.tolerance / 1e-5))
 
 
 def _ends(time: Any, speed: Any, slowing: Any, aside: Any, tolerance: float) -> Any:
@@ -281,17 +281,22 @@ def _one(
             rows.append((time, x, y, heading, vx, vy, turn, *known, *known))
             known = None
             continue
-        if left <= last * last * way and _ends(time, speed, slowing, aside, tolerance):
-            found = RESTS
-            break
-        if (
-            alone
+        nears = left <= last * last * way and _ends(time, speed, slowing, aside, tolerance)
+        arcs = (
+            not nears
+            and not motion.settings.sloped
             and stops
             and drift < drifted
             and _settled(left, drift, slowing, spin, tolerance)
             and _ends(time, speed, slowing, drift, tolerance)
+        )
+        if (nears or arcs) and (
+            areas is None or bool(areas.clear(*_columns(x, y, heading, left))[0])
         ):
-            found, bends = RESTS, 1.0
+            found, bends = RESTS, 1.0 if arcs else 0.0
+            break
+        if areas is not None and nears and left <= (_ON_EDGES * last) ** 2 * way:
+            found = RESTS
             break
         width = min(
             width,
@@ -436,25 +441,34 @@ def _several(
             towards = state[4, some] / speed[some], state[5, some] / speed[some]
             edge[some] = areas.of(some).ahead(*(*state[1:4, some], *towards, left[some]))
         goes_on = straight & ~stops & ~np.isfinite(edge) if some_straight else straight
-        rests = (left <= last * last * state[10]) & _ends(
+        nears = (left <= last * last * state[10]) & _ends(
             state[0], speed, slowing, aside, tolerance
         )
         if some_straight:
-            rests = (straight & stops & (left <= edge)) | (~straight & rests)
-        rests = usable & (rests | (speed == 0.0))
-        arcs = rests
-        if alone:
+            nears &= ~straight
+        arcs = nears
+        if not motion.settings.sloped:
             arcs = (
-                ~(rests | straight)
+                ~(nears | straight)
                 & stops
                 & (drift < state[13])
                 & _settled(left, drift, slowing, spin, tolerance)
                 & _ends(state[0], speed, slowing, drift, tolerance)
             )
-            rests = rests | arcs
+        rests = nears | arcs
+        if areas is not None and rests.any():
+            some = np.flatnonzero(rests)
+            few = nears[some] & (left[some] <= (_ON_EDGES * last) ** 2 * state[10, some])
+            x, y, heading = state[1:4, some]
+            clear = areas.of(some).clear(x, y, heading, left[some])
+            rests[some] = few | clear
+            arcs = arcs & rests
+        if some_straight:
+            rests |= straight & stops & (left <= edge)
+        rests = usable & (rests | (speed == 0.0))
         if rests.any():
             moved = rests & (speed > 0.0)
-            bends = np.where(arcs[moved], 1.0, 0.0) if alone else 0.0
+            bends = np.where(arcs[moved], 1.0, 0.0) if not motion.settings.sloped else 0.0
             noted(moved, _to_rest(state[:10, moved], spin[moved], bends))
             found[going[rests]] = RESTS
         if some_straight:

@@ -302,8 +302,8 @@ def simulate(
     The integration is of orders 5 and 4 with its own step for each case, in a time that slows down
     with the vehicle, in which the end of the motion is regular. Where the motion is straight, it
     goes on in closed form to its rest or to the next edge; where it keeps its direction on the
-    vehicle, on level ground without areas, along an arc to its rest, once what that leaves out is
-    no more than the error of a step. Steps end at edges of areas. A wheel
+    vehicle, on level ground and away from edges of areas, along an arc to its rest, once what that
+    leaves out is no more than the error of a step. Steps end at edges of areas. A wheel
     that nearly stands still has less than its full force, so that it is held without chatter: below
     s = 0.02 of the speed of the vehicle (of which the yaw rate times the distance of the wheels
     from the centre of mass is a part), its slip v counts as (s + v**2 / s) / 2, and across it acts
