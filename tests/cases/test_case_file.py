@@ -7,6 +7,7 @@ import math
 import re
 import subprocess
 import sys
+from inspect import getdoc
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,8 @@ from collisions import reconstruct, travel
 from collisions.__main__ import main
 from collisions.cases.answers import answers
 from collisions.cases.read import (
+    FUNCTIONS,
+    GIVES,
     SOLVERS,
     STUDIES,
     CaseError,
@@ -1310,3 +1313,67 @@ def test_sliders_of_what_is_uncertain_reach_three_deviations_or_its_bounds():
         "mass_b": pytest.approx((1100.0, 1350.0)),
         "restitution": pytest.approx((0.5, 1.0)),
     }
+
+
+GIVEN_BY = {
+    "m/s": "{ travel.speed = { distance = 12, drag = 0.7 } }",
+    "kg*m**2": "{ reference.yaw_inertia = { mass = 1500, length = 4.6, wheelbase = 2.7 } }",
+}
+MISPLACED = [
+    ("a.mass", "mass = 1500", "m/s", "kg"),
+    ("a.yaw_inertia", "yaw_inertia = 2400", "m/s", "kg*m**2"),
+    ("a.x", "x = -2.0", "m/s", "m"),
+    ("a.heading", 'heading = "0 deg"', "m/s", "rad"),
+    ("a.vx", 'vx = "50 km/h"', "kg*m**2", "m/s"),
+    ("eccentric.restitution", "restitution = 0.1", "m/s", "a plain number"),
+    ("eccentric.point[0]", "point = [0", "kg*m**2", "m"),
+    ("eccentric.normal", 'normal = "0 deg"', "m/s", "rad"),
+]
+
+
+@pytest.mark.parametrize(("key", "line", "gives", "needs"), MISPLACED)
+@pytest.mark.parametrize("study", ["", "[propagate]\n", "[posterior]\nsamples = 512\n"])
+def test_what_a_function_gives_has_to_be_of_the_kind_that_is_needed(key, line, gives, needs, study):
+    """A speed is no mass: its unit is checked as that of a text is."""
+    name = line.partition(" = ")[0]
+    value = f"[{GIVEN_BY[gives]}" if "[" in line else GIVEN_BY[gives]
+    text = ECCENTRIC.replace(line, f"{name} = {value}", 1)
+    if study:
+        text = text.replace("mass = 1200", 'mass = "1100 kg .. 1300 kg"') + study
+    if "posterior" in study:
+        text += '[observed]\n"a.delta_v" = "25 km/h +/- 5 km/h"\n'
+    (found,) = problems(text)
+    assert found.startswith(f"{key}: ")
+    assert f"which gives {gives}, and cannot be taken as {needs}" in found
+
+
+def test_a_function_within_a_function_and_ranges_in_it_are_checked_too():
+    """Whatever stands inside: the key of the argument is named."""
+    mass = 'mass = { travel.speed = { distance = "12 m .. 13 m", drag = 0.7 } }'
+    (found,) = problems(ECCENTRIC.replace("mass = 1500", mass))
+    assert found.startswith("a.mass: mass is worked out by travel.speed, which gives m/s")
+    inner = GIVEN_BY["kg*m**2"]
+    speed = f"vx = {{ travel.speed = {{ distance = {inner}, drag = 0.7 }} }}"
+    (found,) = problems(ECCENTRIC.replace('vx = "50 km/h"', speed))
+    assert found.startswith("a.vx.travel.speed.distance: distance is worked out by reference.yaw")
+    end = (
+        f"vx = {{ travel.speed = {{ distance = 12, drag = 0.7, end_speed = {GIVEN_BY['m/s']} }} }}"
+    )
+    before = travel.speed(12, drag=0.7, end_speed=travel.speed(12, drag=0.7))
+    assert solved(ECCENTRIC.replace('vx = "50 km/h"', end)).a.before.vx == before
+
+
+def test_a_number_that_a_function_gives_is_not_shown_as_given():
+    """It was worked out: in the record it is a number, and it does not choose the units."""
+    text = ECCENTRIC.replace("yaw_inertia = 2400", f"yaw_inertia = {GIVEN_BY['kg*m**2']}")
+    found = solved(text.replace('"50 km/h"', '"30 mph"').replace('"40 km/h"', '"25 mph"'))
+    assert isinstance(found.to_dict()["inputs"]["a"]["yaw_inertia"], float)
+    assert "mph" in str(found.summary())
+
+
+def test_the_unit_of_each_function_is_that_of_its_docstring():
+    """By what it says that it returns."""
+    assert GIVES.keys() == FUNCTIONS.keys() - DISTRIBUTIONS.keys()
+    for name, unit in GIVES.items():
+        returns = getdoc(FUNCTIONS[name]).partition("Returns\n-------\n")[2].partition("\n")[0]
+        assert returns == f"float or array [{unit}]"

@@ -22,6 +22,7 @@ from ..impact import solvers
 from ..messages.errors import CollisionsError, InputError, UnitsError
 from ..messages.marked import as_code
 from ..quantities.units import example, to_quantity, unit_as_written
+from ..quantities.usual_units import Worked
 from ..reporting import report
 from ..reporting.what_if import SLIDERS
 from ..scene import Contact
@@ -51,6 +52,13 @@ FUNCTIONS: dict[str, Callable[..., Any]] = DISTRIBUTIONS | {
     "reference.yaw_inertia": reference.yaw_inertia,
     "reconstruct.crush_energy": reconstruct.crush_energy,
     "reconstruct.inline_closing_speed": reconstruct.inline_closing_speed,
+}
+# The units of what they return, by which it is checked against what the place takes.
+GIVES = {
+    "travel.speed": "m/s",
+    "reference.yaw_inertia": "kg*m**2",
+    "reconstruct.crush_energy": "J",
+    "reconstruct.inline_closing_speed": "m/s",
 }
 # Arguments that a file has no use for, or that come from the rest of it.
 _NOT_IN_FILES = {
@@ -130,6 +138,11 @@ class Call:
     function: Callable[..., Any]
     arguments: Mapping[str, Any]
 
+    @property
+    def named(self) -> str:
+        """The name by which a file calls its function in place of a number; "" of any other."""
+        return next((name for name, one in FUNCTIONS.items() if one == self.function), "")
+
     def __call__(self, values: Mapping[str, Any], **options: Any) -> Any:
         """The result for these values of the uncertain numbers, by key; a refusal names the key in
         the file.
@@ -171,6 +184,8 @@ class Call:
             if isinstance(value, dict) and name in value:
                 return name if own in ("inputs", "unknowns") else f"{self.key}.{own}.{name}"
         inside = self.arguments.get(body)
+        if isinstance(inside, Call) and inside.named:  # in place of a number
+            inside = None
         if isinstance(inside, Call) or "vehicle" in error.fields:
             place = inside.key if isinstance(inside, Call) else body
             return f"{place}.{name.rpartition('.')[2]}".rstrip(".")
@@ -426,7 +441,8 @@ def _with_values(node: Any, values: Mapping[str, Any]) -> Any:
             to_quantity(given, node.stated.unit) if hasattr(node.stated.unit, "written") else given
         )
     if isinstance(node, Call):
-        return node(values)
+        found, unit = node(values), GIVES.get(node.named)
+        return found if unit is None else Worked(found, unit, node.named)
     if isinstance(node, dict):
         return {name: _with_values(part, values) for name, part in node.items()}
     return tuple(_with_values(part, values) for part in node) if isinstance(node, tuple) else node
