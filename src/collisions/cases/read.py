@@ -26,6 +26,7 @@ from ..quantities.usual_units import Worked
 from ..reporting import report
 from ..reporting.what_if import SLIDERS
 from ..scene import Contact
+from ..uncertainty.distribution import WithoutUnit
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle
 from . import crash
@@ -125,6 +126,11 @@ class Uncertain:
     stated: Any
     nominal: Any
 
+    @property
+    def said(self) -> str:
+        """What is stated, without what it means."""
+        return str(self.stated).partition(",")[0]
+
     def named(self, key: str) -> Uncertain:
         """The same under another key."""
         return Uncertain(key, self.stated, self.nominal)
@@ -167,12 +173,12 @@ class Call:
         what stands for them.
         """
         ranges = [
-            one.stated
+            one.said
             for one in self.arguments.values()
             if isinstance(one, Uncertain) and one.nominal == error.fields.get("text")
         ]
         if ranges and isinstance(error, UnitsError):
-            without = f"{str(ranges[0]).partition(',')[0]} has no unit"
+            without = f"{ranges[0]} has no unit"
             return in_file_words(f"{without}{error.fields.get('instead', '')}")
         return in_file_words(_beside_key(error, key))
 
@@ -436,10 +442,10 @@ def _with_values(node: Any, values: Mapping[str, Any]) -> Any:
         if node.key not in values:
             return node.nominal
         # Where it was stated with a unit, a bare angle of more than a turn would give a warning.
-        given = values[node.key]
-        return (
-            to_quantity(given, node.stated.unit) if hasattr(node.stated.unit, "written") else given
-        )
+        given, unit = values[node.key], node.stated.unit
+        if isinstance(unit, WithoutUnit):
+            return Worked(given, "", node.said)
+        return to_quantity(given, unit) if hasattr(unit, "written") else given
     if isinstance(node, Call):
         found, unit = node(values), GIVES.get(node.named)
         return found if unit is None else Worked(found, unit, node.named)
@@ -784,7 +790,7 @@ class Reader:
             )
         elif middle is not None and hasattr(found.unit, "written"):
             middle = f"{middle / found.unit.factor:.15g} {found.unit.written}"
-        elif middle is not None and call.function is parse_uncertain:
+        elif middle is not None and isinstance(found.unit, WithoutUnit):
             middle = f"{middle:.15g}"  # a text without a unit is refused where one is needed
         name = key.removeprefix(f"{self.solver}.")
         self.uncertain[name] = Uncertain(name, found, middle)

@@ -671,6 +671,10 @@ def _bad_units(
 
 def _of_another_kind(worked: Worked, unit: str, argument: str) -> UnitsError:
     instead = f"; write for example {example(unit)}"
+    if not worked.written:
+        return UnitsError(
+            f"{argument}: {worked.source} has no unit{instead}", code="bad_units", argument=argument
+        )
     return UnitsError(
         f"{argument} is worked out by {worked.source}, which gives {worked.written}, and cannot be "
         f"taken as {unit or _PLAIN}{instead}",

@@ -141,7 +141,7 @@ class Usual:
 
 class Worked(Usual):
     """A number in SI, or an array, that a function of a case file gave: ``source``, such as
-    "travel.speed".
+    "travel.speed". Or, with the unit "", one that stands for the text ``source`` without a unit.
 
     Its unit is checked like that of a text, but it is not what somebody wrote, so it is not shown
     as given.
@@ -152,6 +152,8 @@ class Worked(Usual):
     def __init__(self, magnitude: Any, unit: str, source: str) -> None:
         super().__init__(magnitude, unit, ("", unit, 1.0))
         self.source = source
+        if not unit:
+            self._units = {}
 
 
 def usual(magnitude: float, written: str) -> Usual | None:
