@@ -276,6 +276,18 @@ def unit_as_written(given: Any) -> str:
     return f"{getattr(given, 'units', given):~}".replace(" ", "")
 
 
+def of_another_registry(text: str) -> bool:
+    """Whether a text is a number with a unit that is not known here."""
+    number, unit = re.match(_NUMBER, text.strip()), unit_as_written(text)
+    if number is None or not re.fullmatch(_UNIT, unit):
+        return False
+    try:
+        parse(text, _ANY_KIND, "")
+    except UnitsError:
+        return True
+    return False
+
+
 def with_symbol(text: str) -> str:
     """A text with the symbol of its unit, such as mph, where it has the name that pint gives a
     Quantity's.
