@@ -1422,3 +1422,34 @@ def test_an_uncertain_number_as_a_text_needs_its_unit_in_every_study(study, spee
         text += '[observed]\n"a.delta_v" = "25 km/h +/- 1 km/h"\n'
     (found,) = problems(text)
     assert re.match(r"a\.vx: 40 (to|±) 6?0?2? ?has no unit; write", found)
+
+
+@pytest.mark.parametrize("study", ["propagate", "posterior"])
+@pytest.mark.parametrize(
+    ("line", "text", "key", "wanted"),
+    [
+        ('vx = "50 km/h"', 'vx = "0.4 m .. 0.7 m"', "a.vx: 0.4 to 0.7 m", "m/s"),
+        ("point = [0", 'point = ["0.4 kg .. 0.7 kg"', "eccentric.point[0]: 0.4 to 0.7 kg", "m"),
+    ],
+)
+def test_a_range_in_a_wrong_unit_is_not_said_to_have_none(study, line, text, key, wanted):
+    """It has one, and the message says of which kind it should be."""
+    file = f"{ECCENTRIC.replace(line, text)}[{study}]\n"
+    file += '[observed]\n"a.delta_v" = "9 m/s +/- 1 m/s"\n' if study == "posterior" else ""
+    (found,) = problems(file)
+    assert found.startswith(f"{key} cannot be taken as {wanted} (")
+    assert "; write for example" in found
+    assert "has no unit" not in found
+
+
+@pytest.mark.parametrize("study", STUDIES)
+def test_a_wrong_key_of_a_study_is_answered_with_keys_that_a_file_may_have(study):
+    """Each once; a finer model is a function, which a file cannot give."""
+    text = REAR_END.replace('"80 km/h"', '"50 km/h +/- 10 km/h"')
+    end = "" if study == "propagate" else '[observed]\n"a.delta_v" = "7 m/s +/- 1 m/s"\n'
+    for key in ("foo", "finer", "finer_samples"):
+        found = problems(f"{text}[{study}]\n{key} = 1\n{end}")[0]
+        assert found.startswith(f"{study}.{key}: is not known here")
+        listed = re.findall(r"\w+", found.partition("write one of ")[2])
+        assert len(listed) == len(set(listed))
+        assert not {"finer", "finer_samples"} & {*listed}

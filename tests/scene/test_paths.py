@@ -493,3 +493,14 @@ def test_units_that_are_required_are_required_of_readings_and_tolerances() -> No
             with pytest.raises(col.UnitsError, match=r"tolerance\['Jetta.rest.x'\].*require_units"):
                 propagate(scene, prior, outputs=["Jetta.rest.x"], tolerance=tolerance, seed=1)
         propagate(scene, prior, outputs=["Jetta.rest.x"], tolerance="0.5 m", seed=1)
+
+
+def test_a_refused_mover_is_not_missed_by_its_contacts() -> None:
+    """One line, about its name; the contact names it rightly."""
+    a, b = (Mover(col.Vehicle(mass=1000, vx=v)) for v in (5, 0))
+    contact = Contact("A", "Po.lo", restitution=0.1, normal=0, model="linear_central")
+    with pytest.raises(col.InputError, match=r"has the name 'Po.lo'") as caught:
+        Scene(movers={"A": a, "Po.lo": b}, contacts=[contact])
+    assert "and the movers are" not in str(caught.value)
+    with pytest.raises(col.InputError, match=r"names 'Po.lo', and the movers are A, Polo"):
+        Scene(movers={"A": a, "Polo": b}, contacts=[contact])

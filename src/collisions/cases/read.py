@@ -21,7 +21,7 @@ from .. import reconstruct, reference, travel, uncertainty
 from ..impact import solvers
 from ..messages.errors import CollisionsError, InputError, UnitsError
 from ..messages.marked import as_code
-from ..quantities.units import example, to_quantity, unit_as_written
+from ..quantities.units import example, shown, to_quantity, unit_as_written
 from ..quantities.usual_units import Worked
 from ..reporting import report
 from ..reporting.what_if import SLIDERS
@@ -67,6 +67,9 @@ _NOT_IN_FILES = {
     "threads",
     "progress",
     "model",
+    # Another function than the case.
+    "finer",
+    "finer_samples",
     "inputs",
     "unknowns",
     "impact",
@@ -172,15 +175,23 @@ class Call:
         """What an error says, beside the key of its argument; of a range it names both ends, not
         what stands for them.
         """
-        ranges = [
-            one.said
-            for one in self.arguments.values()
-            if isinstance(one, Uncertain) and one.nominal == error.fields.get("text")
-        ]
-        if ranges and isinstance(error, UnitsError):
-            without = f"{ranges[0]} has no unit"
-            return in_file_words(f"{without}{error.fields.get('instead', '')}")
-        return in_file_words(_beside_key(error, key))
+        text, given = _beside_key(error, key), error.fields.get("given")
+        one = self._argument(str(error.fields.get("argument")))
+        if isinstance(one, Uncertain) and isinstance(error, UnitsError) and given is not None:
+            if isinstance(one.stated.unit, WithoutUnit):
+                text = f"{one.said} has no unit{error.fields.get('instead', '')}"
+            else:
+                text = text.replace(shown(given), one.said, 1)
+        return in_file_words(text)
+
+    def _argument(self, name: str) -> Any:
+        """What was given for an argument, or for a part of it, such as "point[0]"."""
+        whole, _, place = name.partition("[")
+        found = self.arguments.get(whole)
+        if place and isinstance(found, tuple):
+            at = place.rstrip("]")
+            return found[int(at)] if at.isdigit() and int(at) < len(found) else None
+        return found
 
     def _key_of(self, error: CollisionsError) -> str:
         """The key that an error is about: an argument, that of a vehicle, or the table."""
@@ -800,7 +811,7 @@ class Reader:
         """The arguments of what is asked of the uncertain numbers."""
         given = self.table(name)
         takes = parameters(STUDIES[name])
-        self.known(given, name, [*takes, *(() if "observed" in takes else ("outputs",))])
+        self.known(given, name, takes)
         found = dict(given)
         if name == "propagate":
             bounds_only = all(

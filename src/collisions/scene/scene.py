@@ -122,7 +122,8 @@ class Scene(Shown):
     ) -> None:
         reader = ArgumentReader()
         found: dict[str, Any] = {"movers": MappingProxyType(_read_movers(reader, movers))}
-        found["contacts"] = _read_contacts(reader, contacts, found["movers"])
+        named = [*movers] if isinstance(movers, Mapping) else []
+        found["contacts"] = _read_contacts(reader, contacts, found["movers"], named)
         found["surfaces"] = _read_surfaces(reader, surfaces)
         found["slope"] = reader.pair(slope, "", "slope")
         found["order"] = _read_order(reader, order, found["movers"], found["contacts"])
@@ -608,8 +609,9 @@ def _read_movers(reader: ArgumentReader, movers: Any) -> dict[str, Mover]:
 
 
 def _read_contacts(
-    reader: ArgumentReader, contacts: Any, movers: Mapping[str, Mover]
+    reader: ArgumentReader, contacts: Any, movers: Mapping[str, Mover], named: Sequence[Any]
 ) -> tuple[Contact, ...]:
+    """The contacts; of what they name in ``named`` and not in ``movers``, the mover was refused."""
     if not isinstance(contacts, (list, tuple)):
         text = (
             "contacts must be a list of Contacts, such as [Contact('Camry', 'Civic', ...)], got "
@@ -629,7 +631,7 @@ def _read_contacts(
         found.append(contact)
         names = (contact.a, contact.b)
         for label, name in zip("ab", names, strict=True):
-            if movers and name not in movers:
+            if movers and name not in movers and name not in named:
                 text = f"contacts[{i}] names {name!r}, and the movers are {', '.join(movers)}"
                 where = f"contacts[{i}].{label}"
                 reader.refuse(InputError(text, code="unknown_name", argument=where))
