@@ -25,6 +25,11 @@ class _Carrying(BaseException):
         self.fields = fields
         super().__init__(f"{self.place}: {plain(message)}" if self.place else plain(message))
 
+    @property
+    def inner(self) -> str:
+        """The message with its marks and its place, for a message that holds it."""
+        return f"{self.place}: {self.marked}" if self.place else self.marked
+
     def __init_subclass__(cls) -> None:
         if cls.__module__ == __name__:
             # Tracebacks show the name that callers import, and pickles hold it.

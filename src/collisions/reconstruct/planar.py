@@ -355,7 +355,7 @@ def _answer(
         )
         error = _refusal(found.status, end, regime, [one.regime for one in fitting], solutions)
         if inputs.tyres and found.status == Status.CONTRADICTORY:
-            return _not_found(str(error), end)
+            return _not_found(error.inner, end)
         return error
 
     def solve_case(index: tuple[int, ...]) -> Impact:
