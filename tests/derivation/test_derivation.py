@@ -887,6 +887,29 @@ def test_a_propagation_tells_the_uncertainty():
     assert answer(text, "B", "velocity after, along x") == "10.00 ± 0.50 m/s"
 
 
+@pytest.mark.parametrize("form", ["text", "markdown"])
+def test_what_a_propagation_says_of_its_figures_stands_with_the_ranges(form):
+    """That cases have no answer, which the figures leave out."""
+
+    def model(v):
+        return {
+            "b.delta_v": col.linear_central(
+                col.Vehicle(mass=1500.0, vx=v),
+                col.Vehicle(mass=1200.0, vx=5.0),
+                restitution=0.2,
+                on_failure="nan",
+            ).b.delta_v
+        }
+
+    with pytest.warns(col.CollisionsWarning):
+        spread = uncertainty.propagate(model, {"v": uncertainty.Normal(6.0, 1.0)}, seed=1)
+    a, b = col.Vehicle(mass=1500.0, vx=6.0), col.Vehicle(mass=1200.0, vx=5.0)
+    page = explain(col.linear_central(a, b, restitution=0.2), form=form, uncertainty=spread)
+    assert any("no answer" in sentence for sentence in spread.statements)
+    for sentence in spread.statements:
+        assert sentence[1:].rstrip(".") in page.replace("\\", "")
+
+
 def test_an_output_in_another_unit_is_no_answer_of_its_name():
     """A speed that is named like the energy lost, which would be its spread in J."""
     ureg = other_registry()

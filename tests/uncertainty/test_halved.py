@@ -209,3 +209,26 @@ def test_the_input_that_narrows_some_range_the_most_comes_first():
     assert list(halved) == ["z", "m", "a"]
     left = [min(halved[name][of] / halved.now[of] for of in halved.now) for name in halved]
     assert left == pytest.approx([math.sqrt(1.5 / 4.5), math.sqrt(2 / 5), math.sqrt(4.25 / 5)])
+
+
+def test_cases_without_an_answer_are_counted_in_every_row():
+    """A car that runs into one ahead at 5 m/s catches up only where it is faster."""
+    ahead = col.Vehicle(mass=1200.0, vx=5.0)
+
+    def model(v, e):
+        impact = col.linear_central(
+            col.Vehicle(mass=1500.0, vx=v), ahead, restitution=e, on_failure="nan"
+        )
+        return {"delta_v": impact.b.delta_v}
+
+    with pytest.warns(col.CollisionsWarning):
+        propagated = propagate(model, {"v": Normal(4.0, 2.0), "e": Uniform(0.0, 0.3)}, seed=1)
+    found = propagated.if_halved()
+    slower = {sd: 0.5 * math.erfc(-1.0 / sd / math.sqrt(2.0)) for sd in (1.0, 2.0)}
+    shares = {"now": slower[2.0], "e": slower[2.0], "v": slower[1.0]}
+    assert found.without_answer == pytest.approx(shares, abs=2e-3)
+    assert list(found.without_answer) == ["now", *found]
+    assert "Cases without an answer, which the widths leave out: now 69.1%" in str(found.summary())
+    assert found.to_dict()["without_answer"] == found.without_answer
+    whole = propagate(total, INPUTS, seed=1).if_halved()
+    assert "without an answer" not in str(whole.summary())

@@ -18,7 +18,7 @@ from ..quantities.document import Document
 from ..quantities.formatting import SI_UNITS, UnitSystem, check_system
 from ..quantities.reading import ArgumentReader, at_least_zero, need_one_case, single_number
 from ..quantities.settings import callers_options, computing
-from ..quantities.tables import given_texts
+from ..quantities.tables import as_sentence, given_texts
 from ..quantities.units import kinds_in_degrees, shown, system_given
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..reconstruct.found_again import need_found_again
@@ -474,7 +474,13 @@ def _notes(page: Page, uncertainty: Any, of_impact: bool) -> None:
             f"1 {one} = {number} {other}" for (one, other), number in page.conversions.items()
         )
         lines.append(f"Numbers that convert units: {conversions.replace('**', '^')}.")
-    page.listed(lines if not page.latex else [line.replace("*", r"\*") for line in lines])
+    if page.latex:
+        lines = [line.replace("*", r"\*") for line in lines]
+    if isinstance(uncertainty, Propagation):
+        lines += [
+            f"Of the propagation: {page.name(as_sentence(one))}" for one in uncertainty.statements
+        ]
+    page.listed(lines)
 
 
 def about_ranges(uncertainty: Propagation) -> str:

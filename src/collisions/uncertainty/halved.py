@@ -40,6 +40,10 @@ class Halved(Summarized):
         Probability that a range holds [-]; None for the whole range, by ``method="interval"``.
     samples : int
         Cases drawn for each range; by a method that does not draw, cases it took.
+    without_answer : dict
+        The share of these that had no answer, which the widths leave out: as the inputs are stated
+        by the name "now", and by input with half the error of that [-]. Widths of rather different
+        shares are of different cases.
     """
 
     now: dict[str, float]
@@ -47,6 +51,7 @@ class Halved(Summarized):
     units: dict[str, str | None]
     coverage: float | None
     samples: int
+    without_answer: dict[str, float]
     given: tuple[str, ...] = ()
 
     def __getitem__(self, name: str) -> dict[str, float]:
@@ -81,7 +86,7 @@ class Halved(Summarized):
         dict
             Plain values that ``json.dumps`` writes; infinity and NaN as texts.
         """
-        names = ("coverage", "samples", "units", "now", "widths")
+        names = ("coverage", "samples", "units", "now", "widths", "without_answer")
         found: dict[str, Any] = strict({name: getattr(self, name) for name in names})
         return found
 
@@ -106,10 +111,14 @@ class Halved(Summarized):
             "Each row has the error of that input halved, as if better measurements had the same "
             "mean. The first row gains the most."
         )
+        notes = [note]
+        if any(self.without_answer.values()):
+            shares = ", ".join(f"{name} {share:.1%}" for name, share in self.without_answer.items())
+            notes.append(f"Cases without an answer, which the widths leave out: {shares}.")
         return Summary(
             f"Width of the {what} if the error of one input were halved",
             [Part(rows, columns=tuple(self.now))],
-            [note],
+            notes,
         )
 
     def _texts(self) -> tuple[str, ...]:
@@ -122,11 +131,11 @@ def widths_if_halved(
     """What ``Propagation.if_halved`` answers; ``run`` propagates other statements of the inputs in
     the same way, with so many cases.
     """
-    widths = {}
+    widths, without = {}, {}
     for name, one in now.inputs.items():
         if isinstance(one, (Distribution, Interval)):
             found = run({**now.inputs, name: with_half_the_error(one)})
-            widths[name] = _widths(found)
+            widths[name], without[name] = _widths(found), _without_answer(found)
     at_present = _widths(now)
     order = sorted(widths, key=lambda name: _least_share(widths[name], at_present))
     return Halved(
@@ -135,8 +144,13 @@ def widths_if_halved(
         units={name: output.unit for name, output in now.outputs.items()},
         coverage=None if now.method == "interval" else 0.95,
         samples=samples,
+        without_answer={"now": _without_answer(now), **{name: without[name] for name in order}},
         given=tuple(given_texts(now)),
     )
+
+
+def _without_answer(found: Propagation) -> float:
+    return found.failed / max(1, found.samples)
 
 
 def with_half_the_error(stated: Distribution | Interval) -> Distribution | Interval:

@@ -935,8 +935,9 @@ class Propagation(Summarized):
 
     @property
     def statements(self) -> tuple[str, ...]:
-        """What belongs with the figures, as sentences: every warning of the model, by how many
-        cases, and of the method.
+        """What belongs with the figures, as sentences: every warning that this library gave while
+        the model worked, by how many cases, and what is to be said of the method. What holds in
+        fewer than 0.5 percent of the cases stands here alone, and is not warned of.
         """
         return tuple(note.statement for note in self.notes)
 
