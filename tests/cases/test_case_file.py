@@ -7,6 +7,7 @@ import math
 import re
 import subprocess
 import sys
+from inspect import getdoc
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,8 @@ from collisions import reconstruct, travel
 from collisions.__main__ import main
 from collisions.cases.answers import answers
 from collisions.cases.read import (
+    FUNCTIONS,
+    GIVES,
     SOLVERS,
     STUDIES,
     CaseError,
@@ -1310,3 +1313,112 @@ def test_sliders_of_what_is_uncertain_reach_three_deviations_or_its_bounds():
         "mass_b": pytest.approx((1100.0, 1350.0)),
         "restitution": pytest.approx((0.5, 1.0)),
     }
+
+
+GIVEN_BY = {
+    "m/s": "{ travel.speed = { distance = 12, drag = 0.7 } }",
+    "kg*m**2": "{ reference.yaw_inertia = { mass = 1500, length = 4.6, wheelbase = 2.7 } }",
+}
+MISPLACED = [
+    ("a.mass", "mass = 1500", "m/s", "kg"),
+    ("a.yaw_inertia", "yaw_inertia = 2400", "m/s", "kg*m**2"),
+    ("a.x", "x = -2.0", "m/s", "m"),
+    ("a.heading", 'heading = "0 deg"', "m/s", "rad"),
+    ("a.vx", 'vx = "50 km/h"', "kg*m**2", "m/s"),
+    ("eccentric.restitution", "restitution = 0.1", "m/s", "a plain number"),
+    ("eccentric.point[0]", "point = [0", "kg*m**2", "m"),
+    ("eccentric.normal", 'normal = "0 deg"', "m/s", "rad"),
+]
+
+
+@pytest.mark.parametrize(("key", "line", "gives", "needs"), MISPLACED)
+@pytest.mark.parametrize("study", ["", "[propagate]\n", "[posterior]\nsamples = 512\n"])
+def test_what_a_function_gives_has_to_be_of_the_kind_that_is_needed(key, line, gives, needs, study):
+    """A speed is no mass: its unit is checked as that of a text is."""
+    name = line.partition(" = ")[0]
+    value = f"[{GIVEN_BY[gives]}" if "[" in line else GIVEN_BY[gives]
+    text = ECCENTRIC.replace(line, f"{name} = {value}", 1)
+    if study:
+        text = text.replace("mass = 1200", 'mass = "1100 kg .. 1300 kg"') + study
+    if "posterior" in study:
+        text += '[observed]\n"a.delta_v" = "25 km/h +/- 5 km/h"\n'
+    (found,) = problems(text)
+    assert found.startswith(f"{key}: ")
+    assert f"which gives {gives}, and cannot be taken as {needs}" in found
+
+
+def test_a_function_within_a_function_and_ranges_in_it_are_checked_too():
+    """Whatever stands inside: the key of the argument is named."""
+    mass = 'mass = { travel.speed = { distance = "12 m .. 13 m", drag = 0.7 } }'
+    (found,) = problems(ECCENTRIC.replace("mass = 1500", mass))
+    assert found.startswith("a.mass: mass is worked out by travel.speed, which gives m/s")
+    inner = GIVEN_BY["kg*m**2"]
+    speed = f"vx = {{ travel.speed = {{ distance = {inner}, drag = 0.7 }} }}"
+    (found,) = problems(ECCENTRIC.replace('vx = "50 km/h"', speed))
+    assert found.startswith("a.vx.travel.speed.distance: distance is worked out by reference.yaw")
+    end = (
+        f"vx = {{ travel.speed = {{ distance = 12, drag = 0.7, end_speed = {GIVEN_BY['m/s']} }} }}"
+    )
+    before = travel.speed(12, drag=0.7, end_speed=travel.speed(12, drag=0.7))
+    assert solved(ECCENTRIC.replace('vx = "50 km/h"', end)).a.before.vx == before
+
+
+def test_a_number_that_a_function_gives_is_not_shown_as_given():
+    """It was worked out: in the record it is a number, and it does not choose the units."""
+    text = ECCENTRIC.replace("yaw_inertia = 2400", f"yaw_inertia = {GIVEN_BY['kg*m**2']}")
+    found = solved(text.replace('"50 km/h"', '"30 mph"').replace('"40 km/h"', '"25 mph"'))
+    assert isinstance(found.to_dict()["inputs"]["a"]["yaw_inertia"], float)
+    assert "mph" in str(found.summary())
+
+
+def test_the_unit_of_each_function_is_that_of_its_docstring():
+    """By what it says that it returns."""
+    assert GIVES.keys() == FUNCTIONS.keys() - DISTRIBUTIONS.keys()
+    for name, unit in GIVES.items():
+        returns = getdoc(FUNCTIONS[name]).partition("Returns\n-------\n")[2].partition("\n")[0]
+        assert returns == f"float or array [{unit}]"
+
+
+OBSERVED = [
+    '"25 +/- 1"', '["25", "1"]', '["25", 1]', '"25 .. 26"', '"24 .. 26 (95 %)"',
+    '{ Normal = { mean = "25", sd = "1" } }', '{ Interval = { low = "5", high = "26" } }',
+    '{ Censored = { high = 5, error = "1" } }',
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("reading", OBSERVED)
+@pytest.mark.parametrize("study", ["posterior", "fit"])
+def test_a_reading_as_a_text_needs_its_unit(study, reading):
+    """The same text of an input is refused; a bare number is in SI."""
+    text = REAR_END.replace('"80 km/h"', '"50 km/h +/- 10 km/h"')
+    (found,) = problems(f'{text}[{study}]\n[observed]\n"a.delta_v" = {reading}\n')
+    assert found.startswith(f'{study}.observed."a.delta_v": ')
+    kind = "is weighed by [posterior]" in found and study == "fit"
+    assert kind or re.search(r"'\d+' has no unit; write numbers such as 22\.2 \(m/s\)", found)
+    bare = solved(f'{text}[{study}]\n[observed]\n"a.delta_v" = [7, 1]\n')
+    assert solved(f'{text}[{study}]\n[observed]\n"a.delta_v" = "7 m/s +/- 1 m/s"\n') is not bare
+
+
+def test_a_reading_of_a_plain_number_needs_no_unit():
+    """A restitution has none, and may be in percent."""
+    text = REAR_END.replace('"80 km/h"', '"50 km/h +/- 10 km/h"').replace("0.4", '"0.1 .. 0.5"')
+    for reading in ('"0.3 +/- 0.05"', '"30 % +/- 5 %"', '["0.3", "0.05"]'):
+        end = f"[posterior]\nsamples = 512\n[observed]\nrestitution = {reading}\n"
+        assert solved(text + end)["restitution"].mean == pytest.approx(0.3, abs=0.03)
+    end = '[posterior]\nsamples = 512\n[observed]\nrestitution = "3 km/h +/- 1 km/h"\n'
+    assert "the model returns it as a plain number" in problems(text + end)[0]
+    percent = end.replace("restitution", '"a.delta_v"').replace("km/h", "%")
+    assert "is in %, but the model returns it in m/s" in problems(text + percent)[0]
+
+
+@pytest.mark.parametrize("study", ["propagate", "posterior", "fit"])
+@pytest.mark.parametrize(
+    "speed", ['"40 .. 60"', '"40 +/- 2"', '{ Uniform = { low = "40", high = "60" } }']
+)
+def test_an_uncertain_number_as_a_text_needs_its_unit_in_every_study(study, speed):
+    """Only a study that solves the case with what stands for it refused it."""
+    text = f"{REAR_END.replace(chr(34) + '80 km/h' + chr(34), speed)}[{study}]\n"
+    if study != "propagate":
+        text += '[observed]\n"a.delta_v" = "25 km/h +/- 1 km/h"\n'
+    (found,) = problems(text)
+    assert re.match(r"a\.vx: 40 (to|±) 6?0?2? ?has no unit; write", found)

@@ -400,3 +400,30 @@ def test_a_refusal_within_another_is_in_the_words_of_the_file() -> None:
     ((_, said),) = refused.value.problems
     assert "are 1.9 m apart at 0 s" in said
     assert "write at = 'touch'" in said
+
+
+@pytest.mark.parametrize(
+    ("key", "line", "needs"),
+    [
+        ("A.mass", 'mass = "1500 kg"', "kg"),
+        ("A.x", 'x = "-6 m"', "m"),
+        ("A.heading", "heading = 0", "rad"),
+        ("A.drag", "drag = 0.7", "a plain number"),
+    ],
+)
+@pytest.mark.parametrize("distance", ['"12 m"', '"12 m .. 13 m"'])
+@pytest.mark.parametrize("study", ["", "[propagate]\nsamples = 512\n", "[posterior]\nseed = 1\n"])
+def test_a_function_of_another_kind_is_refused(
+    key: str, line: str, needs: str, distance: str, study: str
+) -> None:
+    """A speed is neither a mass nor a place, whatever is asked."""
+    name = line.partition(" = ")[0]
+    speed = f"{name} = {{ travel.speed = {{ distance = {distance}, drag = 0.7 }} }}"
+    text = ROW.replace(line, speed, 1)
+    if study:
+        text = text.replace('mass = "1200 kg"', 'mass = "1100 kg .. 1300 kg"') + study
+    if "posterior" in study:
+        text += '[observed]\n"B.rest.x" = "8 m +/- 1 m"\n'
+    (found,) = problems(text)
+    assert found.startswith(f"{key}: ")
+    assert f"worked out by travel.speed, which gives m/s, and cannot be taken as {needs}" in found

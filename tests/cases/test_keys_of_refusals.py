@@ -145,12 +145,19 @@ def test_a_wrong_argument_of_a_function_is_refused_at_its_key(name, key):
     }[name]
     for wrong in WRONG:
         inside = ", ".join(f"{one} = {value}" for one, value in (whole | {key: wrong}).items())
+        call, place = f"{{ {name} = {{ {inside} }} }}", "a.vx"
+        if name == "reference.yaw_inertia":
+            place = "a.yaw_inertia"
+        elif name == "reconstruct.crush_energy":
+            place = "a.vx.reconstruct.inline_closing_speed.energy_loss"
+            work = f"energy_loss = {call}, mass_a = 1100, mass_b = 950, restitution = 0.1"
+            call = f"{{ reconstruct.inline_closing_speed = {{ {work} }} }}"
         text = (
-            f"[a]\nmass = 1500\nvx = {{ {name} = {{ {inside} }} }}\n[b]\nmass = 1200\n"
+            f"[a]\nmass = 1500\n{place.split('.')[1]} = {call}\n[b]\nmass = 1200\n"
             "[linear_central]\nrestitution = 0.1\n"
         )
         found = refused(text)
-        at = f"a.vx.{name}.{key}"
-        spoken = names(f"a.vx.{name}", found) and key in str(found)
+        at = f"{place}.{name}.{key}"
+        spoken = names(f"{place}.{name}", found) and key in str(found)
         one_sided = name == "Censored" and "is a reading with one bound" in str(found)
         assert not found or names(at, found) or spoken or one_sided, (wrong, found)

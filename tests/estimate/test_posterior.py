@@ -25,7 +25,7 @@ from collisions.estimate.evidence import read_evidence, read_reading
 from collisions.estimate.islands import Island
 from collisions.estimate.posterior import _Problem
 from collisions.estimate.readings import CensoredReading, ValueReading
-from collisions.reconstruct import posterior
+from collisions.reconstruct import fit, posterior
 from collisions.uncertainty import (
     Censored,
     Interval,
@@ -1231,3 +1231,39 @@ def test_a_predicted_direction_that_jumps_is_told(returned):
     found = asked()["heading after"]
     assert math.degrees(found.mean) == pytest.approx(0.0, abs=0.8)
     assert math.degrees(found.std) == pytest.approx(5.0, rel=0.1)
+
+
+def _halved(v):
+    return {"dv": pint.application_registry.Quantity(0.5 * v, "m/s")}
+
+
+@pytest.mark.parametrize("study", [posterior, fit])
+def test_a_reading_as_a_text_needs_the_unit_that_the_model_returns(study):
+    """A text needs its unit, a bare number is in SI; of a model of bare floats it is not known."""
+    prior = {"v": Normal("10 m/s", "2 m/s")}
+    options = {"samples": 512, "seed": 1} if study is posterior else {}
+    readings = [("5", "1"), Normal("5", "1"), (5, "1"), Normal.between("4", "6", 0.95)]
+    readings += [Interval("4", "6"), Censored(low="4")] if study is posterior else []
+    for reading in readings:
+        with pytest.raises(col.UnitsError, match=r"observed\['dv'\] = '[451]' has no unit; .*m/s"):
+            study(_halved, prior, {"dv": reading}, **options)
+    for model in (_halved, lambda v: {"dv": 0.5 * v}):
+        found = study(model, prior, {"dv": (5, 1)}, **options)
+        assert found.residuals["dv"].observed == 5.0
+    assert study(model, prior, {"dv": ("5", "1")}, **options).residuals["dv"].observed == 5.0
+
+
+@pytest.mark.parametrize("study", [posterior, fit])
+def test_units_that_are_required_are_required_of_readings(study):
+    """Where the model returns a unit; a model of bare floats has none."""
+    prior = {"v": Normal("10 m/s", "2 m/s")}
+    options = {"samples": 512, "seed": 1} if study is posterior else {}
+    with col.options(require_units=True):
+        for reading in ((5, 1), Normal(5, 1), (0, 1)):
+            with pytest.raises(col.UnitsError, match=r"observed\['dv'\] .*require_units=True"):
+                study(_halved, prior, {"dv": reading}, **options)
+        study(_halved, prior, {"dv": ("5 m/s", "1 m/s")}, **options)
+        study(lambda v: {"dv": 0.5 * v}, prior, {"dv": (5, 1)}, **options)
+    if study is posterior:
+        with col.options(require_units=True), pytest.raises(col.UnitsError, match="require_units"):
+            study(_halved, prior, {"dv": (5, 1)}, threads=2, **options)

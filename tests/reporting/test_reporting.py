@@ -842,6 +842,9 @@ def test_refusals_of_impacts():
             "a.vx was given as '64 km/h', which is not its number, 15.0 m/s",
         ),
         (lambda r: r["other_texts"]["b"].update(course="90 deg"), "b.course was given as '90 deg'"),
+        (lambda r: r["other_texts"]["a"].update(mass="5 m"), "a.mass was given as '5 m', which is"),
+        (lambda r: r["other_texts"]["a"].update(mass="abc"), "a.mass was given as 'abc', which is"),
+        (lambda r: r["other_texts"]["a"].update(mass="65"), "a.mass was given as '65', which is"),
         (lambda r: r["other_texts"]["b"].update(speed="40 km/h"), "b.speed was given as '40 km/h'"),
         (
             lambda r: r["other_texts"]["a"].update(tyres="4"),

@@ -445,3 +445,51 @@ def test_a_refusal_has_numbers_in_the_units_of_the_priors() -> None:
         posterior(
             crash, {"Explorer.vx": Uniform("5 mph", "80 mph")}, {"Jetta.rest.x": ("9 m", "1 m")}
         )
+
+
+def test_a_text_of_an_input_or_a_reading_needs_its_unit() -> None:
+    """A bare number is in SI; a text is not read as if it were, and percent are no speed."""
+    scene, seen = crossing(), {"Jetta.rest.x": ("9 m", "1 m")}
+    wanted = ["Jetta.rest.x"]
+    for text in (Uniform("5", "25"), Normal("20", "2"), Normal("20 %", "2 %")):
+        for call in (
+            lambda text=text: posterior(scene, {"Explorer.vx": text}, seen),
+            lambda text=text: fit(scene, {"Explorer.vx": text}, seen),
+            lambda text=text: propagate(scene, {"Explorer.vx": text}, outputs=wanted),
+            lambda text=text: scene.required({"Jetta.rest.x": "1 m"}, {"Explorer.vx": text}),
+        ):
+            with pytest.raises(
+                col.UnitsError, match=r"\['Explorer.vx'\] (= '.*' has no unit|is stated in %)"
+            ):
+                call()
+    for call in (
+        lambda: fit(scene, {"Explorer.vx": "20"}, seen),
+        lambda: propagate(
+            scene, {"Explorer.vx": "20", "Jetta.drag": Uniform(0.6, 0.8)}, outputs=wanted
+        ),
+    ):
+        with pytest.raises(col.UnitsError, match=r"\['Explorer.vx'\] = '20' has no unit"):
+            call()
+    prior = {"Explorer.vx": Uniform("5 m/s", "25 m/s")}
+    for call in (posterior, fit):
+        with pytest.raises(col.UnitsError, match=r"observed\['Jetta.rest.x'\] = '9' has no unit"):
+            call(scene, prior, {"Jetta.rest.x": ("9", "1")})
+    slowed = propagate(
+        scene, {"Jetta.drag": Uniform("0.6", "0.8")}, outputs=wanted, samples=64, seed=1
+    )
+    assert slowed.samples == 64
+
+
+def test_units_that_are_required_are_required_of_readings_and_tolerances() -> None:
+    """As of everything else in a scene that has a dimension."""
+    scene, prior = crossing(), {"Explorer.vx": Uniform("5 m/s", "25 m/s")}
+    with col.options(require_units=True):
+        for call in (posterior, fit):
+            with pytest.raises(col.UnitsError, match=r"observed\['Jetta.rest.x'\].*require_units"):
+                call(scene, prior, {"Jetta.rest.x": (8, 0.3)})
+        with pytest.raises(col.UnitsError, match=r"unknowns\['Explorer.vx'\].*require_units"):
+            scene.required({"Jetta.rest.x": "1 m"}, {"Explorer.vx": Uniform(5, 25)})
+        for tolerance in (0.5, {"Jetta.rest.x": 0.5}):
+            with pytest.raises(col.UnitsError, match=r"tolerance\['Jetta.rest.x'\].*require_units"):
+                propagate(scene, prior, outputs=["Jetta.rest.x"], tolerance=tolerance, seed=1)
+        propagate(scene, prior, outputs=["Jetta.rest.x"], tolerance="0.5 m", seed=1)

@@ -176,7 +176,7 @@ def test_it_is_shown_and_recorded() -> None:
         (({"A.rest.x": 1}, {}), "bad_inputs", "unknowns must be a dict from inputs"),
         (({"A.rest.x": 1}, {"A.vx": 3.0}), "bad_inputs", "unknowns must be a dict"),
         (({"A.rest.x": 1}, {"A.v": Normal(3, 1)}), "unknown_name", "near it are A.v"),
-        (({"A.rest.x": 1}, {"A.vx": Normal("3 m", "1 m")}), "bad_units", "is in m, and A.vx is"),
+        (({"A.rest.x": 1}, {"A.vx": Normal("3 m", "1 m")}), "bad_units", "is stated in m, and"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_refused(given: Any, code: str, says: str) -> None:

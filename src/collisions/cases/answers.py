@@ -267,13 +267,12 @@ def _in_words(value: Any, given: bool = False) -> str:
     if isinstance(value, Uncertain):
         return str(value.stated) if given else f"Stated as {value.stated}"
     if isinstance(value, Call):
-        name = next(name for name, function in FUNCTIONS.items() if function == value.function)
         parts = [
             f"{key} {_in_words(part, given=True)}{_unit_of(value, key, part)}"
             for key, part in value.arguments.items()
             if part is not None
         ]
-        return f"{'' if given else 'Worked out by '}{name} from {'; '.join(parts)}"
+        return f"{'' if given else 'Worked out by '}{value.named} from {'; '.join(parts)}"
     if isinstance(value, tuple):
         whole = ", ".join(_in_words(part, given=True) for part in value)
         stated = f"Stated as {whole}" if any(map(_in_words, value)) else ""

@@ -22,9 +22,11 @@ from ..impact import solvers
 from ..messages.errors import CollisionsError, InputError, UnitsError
 from ..messages.marked import as_code
 from ..quantities.units import example, to_quantity, unit_as_written
+from ..quantities.usual_units import Worked
 from ..reporting import report
 from ..reporting.what_if import SLIDERS
 from ..scene import Contact
+from ..uncertainty.distribution import WithoutUnit
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle
 from . import crash
@@ -51,6 +53,13 @@ FUNCTIONS: dict[str, Callable[..., Any]] = DISTRIBUTIONS | {
     "reference.yaw_inertia": reference.yaw_inertia,
     "reconstruct.crush_energy": reconstruct.crush_energy,
     "reconstruct.inline_closing_speed": reconstruct.inline_closing_speed,
+}
+# The units of what they return, by which it is checked against what the place takes.
+GIVES = {
+    "travel.speed": "m/s",
+    "reference.yaw_inertia": "kg*m**2",
+    "reconstruct.crush_energy": "J",
+    "reconstruct.inline_closing_speed": "m/s",
 }
 # Arguments that a file has no use for, or that come from the rest of it.
 _NOT_IN_FILES = {
@@ -117,6 +126,11 @@ class Uncertain:
     stated: Any
     nominal: Any
 
+    @property
+    def said(self) -> str:
+        """What is stated, without what it means."""
+        return str(self.stated).partition(",")[0]
+
     def named(self, key: str) -> Uncertain:
         """The same under another key."""
         return Uncertain(key, self.stated, self.nominal)
@@ -129,6 +143,11 @@ class Call:
     key: str
     function: Callable[..., Any]
     arguments: Mapping[str, Any]
+
+    @property
+    def named(self) -> str:
+        """The name by which a file calls its function in place of a number; "" of any other."""
+        return next((name for name, one in FUNCTIONS.items() if one == self.function), "")
 
     def __call__(self, values: Mapping[str, Any], **options: Any) -> Any:
         """The result for these values of the uncertain numbers, by key; a refusal names the key in
@@ -154,12 +173,12 @@ class Call:
         what stands for them.
         """
         ranges = [
-            one.stated
+            one.said
             for one in self.arguments.values()
             if isinstance(one, Uncertain) and one.nominal == error.fields.get("text")
         ]
         if ranges and isinstance(error, UnitsError):
-            without = f"{str(ranges[0]).partition(',')[0]} has no unit"
+            without = f"{ranges[0]} has no unit"
             return in_file_words(f"{without}{error.fields.get('instead', '')}")
         return in_file_words(_beside_key(error, key))
 
@@ -171,6 +190,8 @@ class Call:
             if isinstance(value, dict) and name in value:
                 return name if own in ("inputs", "unknowns") else f"{self.key}.{own}.{name}"
         inside = self.arguments.get(body)
+        if isinstance(inside, Call) and inside.named:  # in place of a number
+            inside = None
         if isinstance(inside, Call) or "vehicle" in error.fields:
             place = inside.key if isinstance(inside, Call) else body
             return f"{place}.{name.rpartition('.')[2]}".rstrip(".")
@@ -421,12 +442,13 @@ def _with_values(node: Any, values: Mapping[str, Any]) -> Any:
         if node.key not in values:
             return node.nominal
         # Where it was stated with a unit, a bare angle of more than a turn would give a warning.
-        given = values[node.key]
-        return (
-            to_quantity(given, node.stated.unit) if hasattr(node.stated.unit, "written") else given
-        )
+        given, unit = values[node.key], node.stated.unit
+        if isinstance(unit, WithoutUnit):
+            return Worked(given, "", node.said)
+        return to_quantity(given, unit) if hasattr(unit, "written") else given
     if isinstance(node, Call):
-        return node(values)
+        found, unit = node(values), GIVES.get(node.named)
+        return found if unit is None else Worked(found, unit, node.named)
     if isinstance(node, dict):
         return {name: _with_values(part, values) for name, part in node.items()}
     return tuple(_with_values(part, values) for part in node) if isinstance(node, tuple) else node
@@ -768,7 +790,7 @@ class Reader:
             )
         elif middle is not None and hasattr(found.unit, "written"):
             middle = f"{middle / found.unit.factor:.15g} {found.unit.written}"
-        elif middle is not None and call.function is parse_uncertain:
+        elif middle is not None and isinstance(found.unit, WithoutUnit):
             middle = f"{middle:.15g}"  # a text without a unit is refused where one is needed
         name = key.removeprefix(f"{self.solver}.")
         self.uncertain[name] = Uncertain(name, found, middle)

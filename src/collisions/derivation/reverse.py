@@ -11,11 +11,14 @@ from operator import attrgetter
 from typing import Any, NamedTuple
 
 from ..impact.impact import Impact
-from ..impact.reconstruction import KNOWN, bounds_of, how_many, known_in_words
+from ..impact.reconstruction import (
+    KNOWN,
+    bounds_of,
+    how_many,
+    known_in_words,
+    number_of_text,
+)
 from ..kernels.central import shares
-from ..quantities.directions import course
-from ..quantities.formatting import SI_UNITS
-from ..quantities.reading import ArgumentReader
 from ..quantities.tables import as_sentence
 from .expressions import HALF, ONE, ZERO, Expression, root
 from .models import Lever, impulse_in_scene_axes
@@ -99,18 +102,6 @@ def found_inputs(impact: Impact) -> set[str]:
         names = ("vx", "vy", "speed") if quantity == "speed" else (quantity,)
         found |= {f"{label}.{one}" if label else one for one in names}
     return found
-
-
-def number_of_text(text: str, name: str) -> float | None:
-    """The number of a text in SI; None if its unit belongs to another registry."""
-    reader = ArgumentReader()
-    kind = KNOWN[name].kind
-    read = (
-        course(reader, text, name).radians
-        if kind == "angle"
-        else reader.number(text, SI_UNITS[kind], name)
-    )
-    return None if reader.problems else float(read)
 
 
 def why_this_model(page: Page, impact: Impact) -> None:

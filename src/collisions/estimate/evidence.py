@@ -11,7 +11,14 @@ from typing import Any, NamedTuple, TypeVar
 from ..messages.errors import CollisionsError, InputError, NoSolutionError, UnitsError, placed
 from ..messages.marked import as_code, type_of
 from ..quantities.reading import ArgumentReader
-from ..uncertainty.distribution import Statement, from_numbers, read_alike, show
+from ..uncertainty.distribution import (
+    GivenUnit,
+    Statement,
+    from_numbers,
+    missing_unit,
+    read_alike,
+    show,
+)
 from ..uncertainty.distributions import Censored, Interval, Normal
 from ..uncertainty.model import Model, check_names, check_units, function_of
 from .readings import KINDS, Reading
@@ -36,13 +43,18 @@ class Observation(NamedTuple):
         must agree.
         """
         observed = self.reading.value.unit
-        if returned and observed and returned != observed:
-            raise UnitsError(
-                f"observed {self.name} is in {observed}, but the model returns it in {returned}; "
-                "one of them is another quantity",
-                code="bad_units",
-                argument="observed",
-            )
+        if returned is not None and returned != observed:
+            if observed or isinstance(observed, GivenUnit):
+                stated = getattr(observed, "written", observed)
+                gives = f"in {returned}" if returned else "as a plain number"
+                raise UnitsError(
+                    f"observed {self.name} is in {observed or stated}, but the model returns it "
+                    f"{gives}; one of them is another quantity",
+                    code="bad_units",
+                    argument="observed",
+                )
+            if problem := missing_unit(f"observed[{self.name!r}]", observed, returned):
+                raise problem
         return "rad" in (observed, returned)
 
 

@@ -107,9 +107,11 @@ def fit(
         between -1 and 1 in SI if it is 0).
     observed : dict
         By output of the model, ``Normal(value, error)`` or the pair (value, error), both in SI or
-        both with a unit; the error is a standard deviation. What is observed, or returned by the
-        model, with a unit of angle is taken round the circle: its residual is within half a turn. A
-        bare number in radians cannot be told from any other number and is not.
+        both with a unit; the error is a standard deviation. A text needs its unit where the model
+        returns one; where it returns bare floats, ``("5", "1")`` is read as the numbers. What is
+        observed, or returned by the model, with a unit of angle is taken round the circle: its
+        residual is within half a turn. A bare number in radians cannot be told from any other
+        number and is not.
     finer : function, optional
         A model that takes the same unknowns and returns the same outputs, and costs more. The
         searches all over the bounds are those of ``model``; from where they end the misfit of the

@@ -81,7 +81,9 @@ def posterior(
     observed : dict
         By output of the model, ``Normal(value, error)`` or the pair (value, error) as for ``fit``;
         an ``Interval`` within which it lies; or ``Censored(low, high, error)``, a reading of which
-        only one bound, or both, are known. Angles with a unit are taken round the circle.
+        only one bound, or both, are known. Angles with a unit are taken round the circle. Bare
+        numbers are in SI; a text needs its unit where the model returns one, and where it returns
+        bare floats, whose unit is not known, ``("5", "1")`` is read as the numbers.
     finer : function, optional
         A model that takes the same unknowns and returns the same outputs, and costs more. The
         samples go towards the posterior of ``model`` first, until its likelihood to the power 0.15,

@@ -11,10 +11,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kernels.elementwise import select
+from ..kernels.elementwise import UNCHECKED, select
 from ..kernels.status import Status
 from ..quantities.attributes import equal, read_only
+from ..quantities.directions import course
+from ..quantities.formatting import SI_UNITS
+from ..quantities.reading import ArgumentReader
 from ..quantities.units import Value
+from ..vehicle.drag import read_drag
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -190,6 +194,47 @@ for _label in "ab":
         f"ees_{_label}": Known(f"EES{_of} (ISO 12353)", "speed", "", _speeds),
         f"max_crush_speed_{_label}": Known(f"speed of maximum crush{_of}", "speed", "", _speeds),
     }
+
+
+def number_of_text(text: str, name: str) -> float | None:
+    """The number [SI] of a text that a reverse solver was given; None if it cannot be read, as its
+    unit belongs to another registry, or is of another kind.
+    """
+    reader, kind = ArgumentReader(), KNOWN[name].kind
+    if kind == "angle":
+        read = course(reader, text, name).radians
+    elif name.startswith("drag_"):
+        read = read_drag(reader, text, name)
+    else:
+        read = reader.number(text, SI_UNITS[kind], name, UNCHECKED)
+    return None if reader.problems else float(read)
+
+
+def number_beside(origin: Reconstruction, name: str) -> Any:
+    """The number [SI] that stands beside a text of what a reverse solver was given, or those of a
+    batch; None where there is none.
+    """
+    own = KNOWN[name].path.partition("reconstruction.")[2]
+    return getattr(origin, own) if own else (origin.given or {}).get(name)
+
+
+def reads_as(text: str, name: str, origin: Reconstruction) -> bool:
+    """Whether a text that a reverse solver was given is the number beside it, but for rounding; in
+    a record of an earlier version, which has no numbers, whether it can be read.
+    """
+    read, number = number_of_text(text, name), number_beside(origin, name)
+    if read is None or number is None:
+        return read is not None and origin.given is None
+    numbers = np.asarray(number)
+    # Beside arrays of float32 a number is rounded to their digits.
+    within = 1e-6 if numbers.dtype == np.float32 else 1e-12
+    apart = math.inf if math.isinf(read) else np.abs(read - numbers.astype(np.float64))
+    size = abs(read)
+    if KNOWN[name].kind == "angle":
+        apart, size = np.abs(np.mod(apart + math.pi, math.tau) - math.pi), max(1.0, size)
+    same = (numbers == read) | (np.asarray(apart) <= within * size) & math.isfinite(read)
+    # A refused case of a batch may have no number.
+    return bool(np.all(same | np.isnan(numbers)))
 
 
 # Known for both vehicles at once, under the name of the one of A.

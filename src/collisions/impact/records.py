@@ -17,7 +17,7 @@ from ..kernels.elementwise import UNCHECKED
 from ..messages.errors import InputError, Status
 from ..quantities.attributes import attributes, equal, missing_error, read_only, unit_of
 from ..quantities.directions import direction
-from ..quantities.formatting import KIND_OF
+from ..quantities.formatting import KIND_OF, SI_UNITS
 from ..quantities.reading import ArgumentReader
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, cells
@@ -31,7 +31,14 @@ from .inputs import ARGUMENTS, OUTSIDE, UNITS, Inputs
 from .inputs import TYRES as TYRES_OF
 from .models import read_again
 from .pulse import CURVES, Pulse
-from .reconstruction import KNOWN, AsRecorded, Reconstruction, found_from
+from .reconstruction import (
+    KNOWN,
+    AsRecorded,
+    Reconstruction,
+    found_from,
+    number_beside,
+    reads_as,
+)
 from .vehicle_result import VehicleResult
 
 FORMAT = "collisions impact 2"
@@ -54,7 +61,13 @@ def to_record(impact: Any) -> dict[str, Any]:
     """
     sides = {label: _side(side) for label, side in (("a", impact.a), ("b", impact.b))}
     results = {name: _result(value) for name, value in _results(impact)}
-    return {"format": FORMAT, "inputs": _inputs(impact.inputs), "results": {**results, **sides}}
+    inputs, origin = _inputs(impact.inputs), impact.reconstruction
+    if origin is not None:
+        # A unit may be unknown here; the number stands with the reconstruction.
+        inputs["known"] = {
+            name: text for name, text in inputs["known"].items() if reads_as(text, name, origin)
+        }
+    return {"format": FORMAT, "inputs": inputs, "results": {**results, **sides}}
 
 
 def _inputs(inputs: Inputs) -> dict[str, Any]:
@@ -337,6 +350,15 @@ def _texts(known: Mapping[str, Any], origin: Reconstruction | None) -> dict[str,
         raise bad_record(f"it has no {shown(min(stray))} that could have been given")
     if not all(isinstance(text, str) for text in known.values()):
         raise bad_record("what its reverse solver was given is no dict of texts")
+    for name, text in known.items():
+        if origin is not None and not reads_as(text, name, origin):
+            number, unit = number_beside(origin, name), SI_UNITS[KNOWN[name].kind]
+            then = f", {shown(number)} {unit}".rstrip() if number is not None else " here"
+            raise bad_record(
+                f"{name} was given as {shown(text)}, which is not its number{then}; the text was "
+                "changed (to solve with another value call the reverse solver again), or its unit "
+                "means something else in this registry"
+            )
     return dict(known)
 
 

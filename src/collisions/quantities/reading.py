@@ -51,7 +51,7 @@ from .units import (
     unit_as_written,
     without_commas,
 )
-from .usual_units import Usual
+from .usual_units import Usual, Worked
 
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is
 # three turns a second).
@@ -111,7 +111,7 @@ class ArgumentReader:
             if problem_found is not None:
                 return self.refuse(problem_found)
         if not text and argument not in self.trusted:
-            strict = unit and units_required.get() and not isinstance(value, Default)
+            strict = unit and units_required.get() and not isinstance(value, (Default, Worked))
             if strict and 0.0 < largest(read) < math.inf:
                 return self.refuse(_without_unit(value, unit, argument))
             _warn_if_implausible(read, unit, argument)

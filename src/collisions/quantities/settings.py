@@ -33,8 +33,10 @@ class options:
         Whether a number without a unit is refused where one with a unit is expected, as in
         ``vx=20``: by vehicles, solvers, reverse solvers, ``travel``, ``diagnose``, ``left_out``,
         ``explain``, ``report`` and pictures. 0 and infinity need none, nor do the numbers of a
-        distribution such as ``Normal(13, 1)``, whose dimension is not known. Models of
-        ``propagate``, ``fit`` and ``posterior`` are called with SI numbers, and may pass them on.
+        distribution such as ``Normal(13, 1)`` where its dimension is not known; that of inputs of a
+        ``Scene`` is, and that of readings and tolerances of what a model returns as Quantities.
+        Models of ``propagate``, ``fit`` and ``posterior`` are called with SI numbers, and may pass
+        them on.
 
     Raises
     ------

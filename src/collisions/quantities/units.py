@@ -19,7 +19,7 @@ import numpy as np
 
 from ..messages.errors import InputError, UnitsError
 from ..messages.marked import as_code
-from .usual_units import SCALES, USUAL, Usual, usual
+from .usual_units import SCALES, USUAL, Usual, Worked, usual
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -59,6 +59,7 @@ else:
 UnitSystem: TypeAlias = Literal["si", "metric", "us"]
 SYSTEMS: tuple[UnitSystem, ...] = get_args(UnitSystem)
 _ANY_KIND = "a number with a unit"
+_PLAIN = "a plain number without a unit"
 _EXAMPLES = {
     "kg": "1100 (kg), '1100 kg' or '2425 lb'",
     "m/s": "22.2 (m/s), '80 km/h' or '50 mph'",
@@ -273,6 +274,18 @@ def unit_as_written(given: Any) -> str:
     if isinstance(given, str):
         return re.sub(_NUMBER, "", given.strip(), count=1).strip()
     return f"{getattr(given, 'units', given):~}".replace(" ", "")
+
+
+def of_another_registry(text: str) -> bool:
+    """Whether a text is a number with a unit that is not known here."""
+    number, unit = re.match(_NUMBER, text.strip()), unit_as_written(text)
+    if number is None or not re.fullmatch(_UNIT, unit):
+        return False
+    try:
+        parse(text, _ANY_KIND, "")
+    except UnitsError:
+        return True
+    return False
 
 
 def with_symbol(text: str) -> str:
@@ -508,6 +521,8 @@ def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, 
         by = quantity.factor(unit)
         if by is not None:
             return by, quantity.name if quantity.si else ""
+        if isinstance(quantity, Worked):
+            raise _of_another_kind(quantity, unit, argument)
         made = _of_pint(quantity)
         quantity, given = made, made if given is quantity else given
     registry = quantity._REGISTRY
@@ -640,7 +655,7 @@ def _ambiguous_unit(quantity: Any) -> str:
 def _bad_units(
     given: Any, unit: str, argument: str, error: Exception | None, hint: str = "", beside: str = ""
 ) -> UnitsError:
-    wanted = unit or "a plain number without a unit"
+    wanted = unit or _PLAIN
     text = str(given)
     dimensions = str(getattr(error, "dim1", ""))
     is_force = "[mass]" in dimensions and "[length]" in dimensions and "[time]" in dimensions
@@ -663,6 +678,21 @@ def _bad_units(
         given=given,
         instead=instead,
         text=text,
+    )
+
+
+def _of_another_kind(worked: Worked, unit: str, argument: str) -> UnitsError:
+    instead = f"; write for example {example(unit)}"
+    if not worked.written:
+        return UnitsError(
+            f"{argument}: {worked.source} has no unit{instead}", code="bad_units", argument=argument
+        )
+    return UnitsError(
+        f"{argument} is worked out by {worked.source}, which gives {worked.written}, and cannot be "
+        f"taken as {unit or _PLAIN}{instead}",
+        code="bad_units",
+        argument=argument,
+        instead=instead,
     )
 
 

@@ -6,6 +6,8 @@ Every row is what pint gives, to the last bit; other spellings are pint's to rea
 
 from __future__ import annotations
 
+from typing import Any
+
 # Pint's name of a unit, the SI unit of its kind, the factor to it, and how it is written. Pint
 # multiplies in the order of the text, which may change the last bit of a factor.
 _ROWS = (
@@ -135,6 +137,23 @@ class Usual:
     def factor(self, unit: str) -> float | None:
         """The factor to an SI unit; None where the number may be of another kind."""
         return self._factors.get(unit)
+
+
+class Worked(Usual):
+    """A number in SI, or an array, that a function of a case file gave: ``source``, such as
+    "travel.speed". Or, with the unit "", one that stands for the text ``source`` without a unit.
+
+    Its unit is checked like that of a text, but it is not what somebody wrote, so it is not shown
+    as given.
+    """
+
+    __slots__ = ("source",)
+
+    def __init__(self, magnitude: Any, unit: str, source: str) -> None:
+        super().__init__(magnitude, unit, ("", unit, 1.0))
+        self.source = source
+        if not unit:
+            self._units = {}
 
 
 def usual(magnitude: float, written: str) -> Usual | None:

@@ -28,7 +28,7 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import must_be
 from ..quantities.settings import computing, units_required
 from ..quantities.strict_json import strict
-from ..quantities.units import Texts, rendered, shown
+from ..quantities.units import Texts, of_another_registry, rendered, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior, momentum
 from ..reconstruct.found_again import contradicted_origin
 from ..scene.run import Run
@@ -319,8 +319,8 @@ def _momentum(whole: Any) -> MomentumSolution:
 
 
 def _with_texts(vehicle: Vehicle, texts: Any, label: str) -> Vehicle:
-    """The vehicle with these texts added; a text that can be read here must agree with
-    its number.
+    """The vehicle with these texts added; a text must agree with its number, unless its unit is of
+    another registry.
     """
     if not isinstance(texts, Mapping) or not all(isinstance(text, str) for text in texts.values()):
         raise _bad(f"what it says of how {label} was given is no dict of texts")
@@ -333,7 +333,8 @@ def _with_texts(vehicle: Vehicle, texts: Any, label: str) -> Vehicle:
         unit = unit_of(Vehicle, name.partition("[")[0]) or ""
         read = reader.number(text, unit, name, UNCHECKED)
         apart = math.remainder(read - number, math.tau) if unit == "rad" else read - number
-        if not reader.problems and abs(apart) > _READ_AGAIN * max(1.0, abs(number)):
+        agrees = not reader.problems and not abs(apart) > _READ_AGAIN * max(1.0, abs(number))
+        if not agrees and not of_another_registry(text):
             raise _bad(
                 f"{label}.{name} was given as {shown(text)}, which is not its number, {number!r} "
                 f"{unit}"

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..kernels.elementwise import POSITIVE_FINITE
-from ..messages.errors import CollisionsError, InputError, NoSolutionError, UnitsError
+from ..messages.errors import CollisionsError, InputError, NoSolutionError
 from ..messages.warning import Note, Noted, Said, noted_in_call, notes_of_samples, quietly, warn_of
 from ..quantities.reading import ArgumentReader
 from ..quantities.strict_json import strict
@@ -21,6 +21,7 @@ from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence, g
 from ..quantities.units import shown
 from ..uncertainty.designs import latin_hypercube
 from ..uncertainty.distributions import Distribution
+from ..uncertainty.model import compare_units
 from ..uncertainty.sampling import Joint
 from .levels import Level, levels_of
 from .names import units_of
@@ -329,11 +330,5 @@ def _read_unknowns(scene: Scene, given: Any) -> dict[str, Distribution]:
             argument="unknowns",
         )
     known = units_of(scene, list(given), "unknowns")
-    for path, one in given.items():
-        if one.unit not in ("", known[path]):
-            raise UnitsError(
-                f"unknowns[{path!r}] is in {one.unit}, and {path} is in {known[path] or 'no unit'}",
-                code="bad_units",
-                argument="unknowns",
-            )
+    compare_units({path: one.unit for path, one in given.items()}, known, "unknowns")
     return dict(given)

@@ -13,11 +13,22 @@ import numpy as np
 
 from ..kernels.elementwise import FINITE, UNCHECKED
 from ..messages.errors import InputError, ShapeError, UnitsError
+from ..messages.marked import as_code
 from ..quantities.attributes import equal
 from ..quantities.formatting import SI_UNITS, Numbers, typeset
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
-from ..quantities.units import factor, has_unit, is_quantity, parse, shown, si_unit, unit_as_written
+from ..quantities.settings import units_required
+from ..quantities.units import (
+    example,
+    factor,
+    has_unit,
+    is_quantity,
+    parse,
+    shown,
+    si_unit,
+    unit_as_written,
+)
 from .normal import both_tails
 
 
@@ -36,6 +47,22 @@ class GivenUnit(str):
         quantity = parse(given, made, argument) if isinstance(given, str) else given
         made.factor = factor(quantity, made, argument, given)[0]
         made.written = unit_as_written(given)
+        return made
+
+
+class WithoutUnit(str):
+    """The empty unit of numbers that were given as texts without one: ``text`` is the first.
+
+    A bare number is in SI; a text needs its unit wherever the quantity has one.
+    """
+
+    text: str
+
+    @classmethod
+    def of(cls, text: str) -> WithoutUnit:
+        """The unit of such a text."""
+        made = cls()
+        made.text = text
         return made
 
 
@@ -306,7 +333,12 @@ def read_alike(
     optional = optional or {}
     given = {**needed, **{name: value for name, value in optional.items() if value is not None}}
     measured = [name for name, value in given.items() if has_unit(value)]
-    unit = GivenUnit.of(given[measured[0]], measured[0]) if measured else ""
+    texts = [value for value in given.values() if isinstance(value, str)]
+    unit: str = ""
+    if measured:
+        unit = GivenUnit.of(given[measured[0]], measured[0])
+    elif texts:
+        unit = WithoutUnit.of(texts[0])
     # 0 is the same in every unit.
     zeros = [
         name
@@ -347,6 +379,24 @@ def read_alike(
             reader.refuse(must_be(name, what, given[name], code="bad_shape", kind=ShapeError))
     reader.close()
     return [numbers.get(name) for name in (*needed, *optional)], unit
+
+
+def missing_unit(label: str, stated: str, wanted: str) -> UnitsError | None:
+    """The error for numbers stated without a unit where the quantity is in ``wanted``; None where
+    they may be: bare numbers are in SI, unless options(require_units=True), and texts are not.
+    """
+    if not wanted or stated or isinstance(stated, GivenUnit):
+        return None
+    if isinstance(stated, WithoutUnit):
+        got = f" = {shown(stated.text)} has no unit; write numbers such as {example(wanted)}"
+    elif units_required.get():
+        got = (
+            " has no unit, and options(require_units=True) asks for one; write numbers such as "
+            f"{example(wanted)}"
+        )
+    else:
+        return None
+    return UnitsError(f"{as_code(label)}{got}", code="bad_units", argument=label)
 
 
 def check_order(low: float, high: float, what: str = "low and high", unit: str = "") -> None:

@@ -18,10 +18,10 @@ from ..messages.errors import CollisionsError, InputError, ShapeError, UnitsErro
 from ..messages.marked import as_code
 from ..messages.warning import Calls, Said, noted_in_call, quietly
 from ..quantities.reading import ArgumentReader
-from ..quantities.settings import in_si, units_required
+from ..quantities.settings import in_si
 from ..quantities.units import example, is_quantity, shown, si_unit
 from . import turns
-from .distribution import GivenUnit
+from .distribution import GivenUnit, missing_unit
 from .distributions import Distribution, Interval
 from .one_sided import Answers, OneSided
 
@@ -225,14 +225,20 @@ def check_units(function: Any, units: Mapping[str, str | None], argument: str) -
     """Refuse inputs stated in a unit of another kind than the model takes, where it says what it
     takes; it is called with plain numbers, which would hide that.
     """
-    taken = units_taken(function)
+    compare_units(units, units_taken(function), argument)
+
+
+def compare_units(units: Mapping[str, str | None], taken: Mapping[str, str], argument: str) -> None:
+    """Refuse what is stated in another unit than the one ``taken``, by name, or in none where it
+    has to have one.
+    """
     reader = ArgumentReader()
     for name, unit in units.items():
         wanted = taken.get(name)
         label = f"{argument}[{name!r}]"
         if wanted is None or unit is None or unit == wanted:
             continue
-        if unit:
+        if unit or isinstance(unit, GivenUnit):
             written = unit.written if isinstance(unit, GivenUnit) else unit
             what = "is of another kind" if wanted else "is a plain number"
             text = (
@@ -240,12 +246,8 @@ def check_units(function: Any, units: Mapping[str, str | None], argument: str) -
                 f"as {example(wanted)}"
             )
             reader.refuse(UnitsError(text, code="bad_units", argument=label))
-        elif units_required.get():
-            text = (
-                f"{as_code(label)} has no unit, and options(require_units=True) asks for one; "
-                f"write numbers such as {example(wanted)}"
-            )
-            reader.refuse(UnitsError(text, code="bad_units", argument=label))
+        elif problem := missing_unit(label, unit, wanted):
+            reader.refuse(problem)
     reader.close()
 
 

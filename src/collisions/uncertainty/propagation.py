@@ -20,11 +20,12 @@ from ..messages.progress import reporter
 from ..messages.warning import NO_ANSWER, Note, notes_of_samples, warn_of
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
+from ..quantities.settings import units_required
 from ..quantities.units import has_unit, rendered, shown
 from .correction import Corrected, CorrectedOutput, corrected
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
-from .distribution import GivenUnit, Statement
+from .distribution import GivenUnit, Statement, WithoutUnit
 from .distributions import Distribution, Interval
 from .finer import FinerModel
 from .halved import Halved, widths_if_halved
@@ -489,7 +490,8 @@ def _units_stated(inputs: Mapping[str, Any], stated: Mapping[str, Any]) -> dict[
         elif has_unit(given):
             units[name] = GivenUnit.of(given, name)
         else:
-            units[name] = "" if isinstance(value, float) else None
+            bare = WithoutUnit.of(given) if isinstance(given, str) else ""
+            units[name] = bare if isinstance(value, float) else None
     return units
 
 
@@ -503,7 +505,7 @@ def _read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[st
         )
         raise _bad_option("tolerance", text, "bad_tolerance")
     names = {name: f"tolerance[{rendered(name)}]" for name in given}
-    reader = ArgumentReader(trusted=tuple(names.values()))
+    reader = ArgumentReader(trusted=() if units_required.get() else tuple(names.values()))
     found = {
         name: reader.number(value, units[name] or "", names[name]) for name, value in given.items()
     }
