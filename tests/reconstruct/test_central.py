@@ -646,6 +646,7 @@ def test_refusals_say_why(code, masses, known, said):
     ):
         kind[name] = col.NoSolutionError
     assert type(error) is kind.get(code, col.InputError)
+    assert error.solutions == ()
     for part in said:
         assert part in str(error)
     again = pickle.loads(pickle.dumps(error))
