@@ -51,6 +51,13 @@ class CollisionsError(_Carrying, Exception):
     known of the case.
     """
 
+    @property
+    def solutions(self) -> tuple[Any, ...]:
+        """The solutions known when the case was refused: all that fit, or the ends of their range;
+        empty if there are none.
+        """
+        return tuple(self.fields.get("solutions", ()))
+
 
 class InputError(CollisionsError, ValueError):
     """An argument that cannot be used: the message names it, what was given, what is allowed and
@@ -113,13 +120,6 @@ class NoImpactError(CollisionsError, ValueError):
 
 class NoSolutionError(CollisionsError, ValueError):
     """The arguments are in order, but the model has no answer for them."""
-
-    @property
-    def solutions(self) -> tuple[Any, ...]:
-        """The solutions known when the case was refused: all that fit, or the ends of their range;
-        empty if there are none.
-        """
-        return tuple(self.fields.get("solutions", ()))
 
 
 class AmbiguousSolutionError(NoSolutionError):
