@@ -18,7 +18,7 @@ from ..quantities.document import Document
 from ..quantities.formatting import SI_UNITS, UnitSystem, check_system
 from ..quantities.reading import ArgumentReader, at_least_zero, need_one_case, single_number
 from ..quantities.settings import callers_options, computing
-from ..quantities.tables import as_sentence, given_texts
+from ..quantities.tables import given_texts
 from ..quantities.units import kinds_in_degrees, shown, system_given
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..reconstruct.found_again import need_found_again
@@ -161,8 +161,9 @@ def explain(
         Standard deviations by the name of the answer, such as "b.after.vx" or "energy_loss";
         "b_after_vx" means the same. From a propagation, the outputs with such a name are taken, as
         SI if the model returned plain numbers. With an ``Interval`` among its inputs an answer gets
-        its range, because a standard deviation would leave the interval out. A ``Fit`` has standard
-        errors of its own.
+        its range, because a standard deviation would leave the interval out. The ``statements`` of
+        the propagation, such as that cases have no answer, stand in the notes below the answers. A
+        ``Fit`` has standard errors of its own.
 
     Returns
     -------
@@ -477,8 +478,9 @@ def _notes(page: Page, uncertainty: Any, of_impact: bool) -> None:
     if page.latex:
         lines = [line.replace("*", r"\*") for line in lines]
     if isinstance(uncertainty, Propagation):
+        # As they are: a name of an output or an option has no capital.
         lines += [
-            f"Of the propagation: {page.name(as_sentence(one))}" for one in uncertainty.statements
+            f"Of the propagation: {page.name(one.rstrip('.'))}." for one in uncertainty.statements
         ]
     page.listed(lines)
 
