@@ -355,7 +355,7 @@ def test_new_prints_a_scene_that_runs(capsys: pytest.CaptureFixture[str]) -> Non
         texts[units] = text = capsys.readouterr().out
         assert not list(check.iter_errors(tomllib.loads(text)))
         assert max(map(len, text.splitlines())) < 80
-        found = answers(read_text(text.replace("samples = 256", "samples = 64").encode()))
+        found = answers(read_text(text.replace("samples = 512", "samples = 64").encode()))
         assert found.case.report["units"] == units
         assert found.warnings == []
         assert found.results[0].findings == ()
@@ -389,6 +389,17 @@ def test_the_schema_has_the_arguments_of_each_table() -> None:
         "pivot", "name",
     }  # fmt: skip
     assert set(tables["scene"]["properties"]) == set(OF_SCENE)
+
+
+def test_a_refusal_within_another_is_in_the_words_of_the_file() -> None:
+    """The reason that the scene gives stands in that of the posterior."""
+    text = ROW.replace('at = "touch"\n', "at = 0\n").replace('"50 km/h"', '"40 km/h .. 60 km/h"')
+    text += '\n[observed]\n"B.rest.x" = "5 m +/- 1 m"\n[posterior]\nsamples = 512\n'
+    with pytest.raises(CaseError) as refused:
+        answers(read_text(text.encode()))
+    ((_, said),) = refused.value.problems
+    assert "are 1.9 m apart at 0 s" in said
+    assert "write at = 'touch'" in said
 
 
 @pytest.mark.parametrize(

@@ -887,6 +887,49 @@ def test_a_propagation_tells_the_uncertainty():
     assert answer(text, "B", "velocity after, along x") == "10.00 ± 0.50 m/s"
 
 
+@pytest.mark.parametrize("form", ["text", "markdown"])
+def test_what_a_propagation_says_of_its_figures_stands_with_the_ranges(form):
+    """That cases have no answer, which the figures leave out."""
+
+    def model(v):
+        return {
+            "b.delta_v": col.linear_central(
+                col.Vehicle(mass=1500.0, vx=v),
+                col.Vehicle(mass=1200.0, vx=5.0),
+                restitution=0.2,
+                on_failure="nan",
+            ).b.delta_v
+        }
+
+    with pytest.warns(col.CollisionsWarning):
+        spread = uncertainty.propagate(model, {"v": uncertainty.Normal(6.0, 1.0)}, seed=1)
+    a, b = col.Vehicle(mass=1500.0, vx=6.0), col.Vehicle(mass=1200.0, vx=5.0)
+    page = explain(col.linear_central(a, b, restitution=0.2), form=form, uncertainty=spread)
+    assert any("no answer" in sentence for sentence in spread.statements)
+    for sentence in spread.statements:
+        assert f"- Of the propagation: {sentence}." in page.replace("\\", "")
+
+
+@pytest.mark.parametrize("form", ["text", "markdown"])
+def test_that_a_local_method_differs_stands_with_its_deviations(form):
+    """Friction that only limits: its sliding end lies within the spread."""
+
+    def model(friction):
+        a, b = col.Vehicle(mass=1500.0, vx=14.0), col.Vehicle(mass=1200.0, vy=8.0)
+        impact = col.oblique_central(a, b, 0.1, normal=0.0, friction=friction)
+        return {"b.after.vy": impact.b.after.vy}
+
+    stated = {"friction": uncertainty.Uniform(0.2, 0.8)}
+    with pytest.warns(col.OutOfRangeWarning, match="differs"):
+        spread = uncertainty.propagate(model, stated, method="first_order")
+    a, b = col.Vehicle(mass=1500.0, vx=14.0), col.Vehicle(mass=1200.0, vy=8.0)
+    impact = col.oblique_central(a, b, 0.1, normal=0.0, friction=0.5)
+    page = explain(impact, form=form, uncertainty=spread).replace("\\", "")
+    (sentence,) = spread.statements
+    assert sentence.startswith("method='first_order' differs from cases drawn from the inputs")
+    assert f"- Of the propagation: {sentence}." in page
+
+
 def test_an_output_in_another_unit_is_no_answer_of_its_name():
     """A speed that is named like the energy lost, which would be its spread in J."""
     ureg = other_registry()

@@ -455,10 +455,9 @@ def test_every_root_is_found_and_no_more(names):
             assert isinstance(found, tuple)
             assert code == "ambiguous"
             for solution in found:
-                assert (
-                    f"va = {solution.a.before.vx:.6g} m/s with e = {solution.restitution:.4g}"
-                    in text
-                )
+                sought = "vb" if "va" in names else "va"
+                speed = getattr(solution, sought[1]).before.vx
+                assert f"{sought} = {speed:.6g} m/s with e = {solution.restitution:.4g}" in text
         assert len(found) == roots_by_search(mass_a, mass_b, names, known), (mass_a, mass_b, known)
         counted[len(found)] += 1
         for solution in found:
@@ -500,6 +499,41 @@ def test_a_third_velocity_decides_between_two_answers():
     again = pickle.loads(pickle.dumps(caught.value))
     assert isinstance(again, col.AmbiguousSolutionError)
     assert again.solutions == caught.value.solutions
+
+
+@pytest.mark.parametrize(
+    ("masses", "known", "said"),
+    [
+        ((1000.0, 1500.0), {"va": 20.0, "vb": 0.0}, "va_after = 2 m/s with e = 0.5"),
+        ((INF, 600.0), {"va": 20.0, "vb": 0.0}, "vb_after = 30 m/s with e = 0.5"),
+        ((1500.0, 2500.0), {"va": 25.0, "vb_after": 15.0}, "vb = "),
+        ((2500.0, 1500.0), {"vb": 0.0, "va_after": 10.0}, "va = "),
+    ],
+)
+def test_two_answers_are_told_apart_by_what_is_sought(masses, known, said):
+    """With e = 1/2 of either sign, 3/4 of 600 x 20^2 / 2 is lost."""
+    error = refusal(lambda: reconstruct.central(*masses, **known, energy_loss=9e4, incomplete=True))
+    assert error.code == "ambiguous"
+    one, other = str(error).partition(": ")[2].partition("; both")[0].split(" or ")
+    assert one != other
+    assert one.startswith(said)
+    assert other.startswith(said.partition("=")[0])
+    decides = str(error).partition("what decides is ")[2].split(" ")
+    for name in ("va", "vb", "va_after", "vb_after"):
+        when = "after" if name.endswith("after") else "before"
+        speeds = {getattr(getattr(one, name[1]), when).vx for one in error.solutions}
+        assert (name in decides) == (len(speeds) > 1 and name not in known)
+
+
+def test_two_answers_near_each_other_are_written_with_figures_that_differ():
+    """Near the most that these speeds can lose, at e = 3/5."""
+    most = 937.5 * 10.0**2 / 2.0 / ((5 / 8) ** 2 - (3 / 8) ** 2)
+    for less in (1e-6, 1e-8, 1e-10):
+        known = {"va": 25.0, "vb_after": 15.0, "energy_loss": most * (1.0 - less)}
+        error = refusal(lambda known=known: reconstruct.central(1500.0, 2500.0, **known))
+        both = str(error).partition(": ")[2].partition("; both")[0].split(" or ")
+        speeds, restitutions = zip(*(one.split(" with ") for one in both), strict=True)
+        assert len(set(speeds)) == len(set(restitutions)) == 2
 
 
 def test_two_answers_in_a_batch():
@@ -646,6 +680,7 @@ def test_refusals_say_why(code, masses, known, said):
     ):
         kind[name] = col.NoSolutionError
     assert type(error) is kind.get(code, col.InputError)
+    assert error.solutions == ()
     for part in said:
         assert part in str(error)
     again = pickle.loads(pickle.dumps(error))

@@ -530,7 +530,12 @@ def test_a_cut_record_of_exactly_0_says_nothing_of_the_side():
 SHAPE = -10 * haversine(TIME)
 REFUSALS = [
     ("bad_option", (TIME, SHAPE), {"polarity": "right"}, "'49 CFR 563'"),
-    ("bad_shape", (TIME,), {}, "delta_v_forward"),
+    ("bad_shape", (TIME,), {}, "got no delta_v_forward, time"),
+    ("bad_shape", (None, SHAPE), {}, "got no time, delta_v_forward"),
+    ("bad_shape", (None, SHAPE, SHAPE), {}, "got no time, delta_v_forward"),
+    ("bad_shape", (None, None, None), {}, "got no time, no delta_v_forward"),
+    # What is to the left is not taken for what is ahead.
+    ("bad_shape", (TIME, None, SHAPE), {}, "got no delta_v_forward, time"),
     ("bad_shape", (TIME, SHAPE[1:]), {}, "arrays of one length"),
     ("bad_shape", (TIME[:1], SHAPE[:1]), {}, "two samples at least"),
     ("bad_shape", (0.1, 3.0), {}, "two samples"),

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy import optimize
 
 import collisions as col
 from collisions import reconstruct
@@ -511,6 +512,72 @@ def test_contacts_at_the_edge_between_stuck_and_slid_have_an_answer(locks):
     assert np.all(abs(off[side == 0]) < 1e-6)
     assert np.all(off[side != 0] * side[side != 0] > 0.0)
     assert 0 < np.count_nonzero(side) < side.size
+
+
+def test_beside_a_speed_a_case_is_the_same_alone_in_a_batch_and_with_a_bound():
+    """Components that differ are met by least squares, whatever the other cases leave open."""
+    wheels = Tyres(0.7, 0.3, 2.7, 1.5)
+    bodies = {
+        "a": {"mass": 2470.5, "yaw_inertia": 4222.5, "heading": 0.05706, "yaw_rate": -0.25685},
+        "b": {
+            "mass": 2291.5, "yaw_inertia": 4722.6, "x": 3.7988, "heading": 4.4979,
+            "yaw_rate": 0.23584,
+        },
+    }  # fmt: skip
+    contact = {
+        "restitution": 0.32988, "normal": 0.14559, "point": (1.7033, 0.8067), "friction": math.inf,
+        "duration": 0.1, "tyres_a": wheels, "tyres_b": wheels,
+    }  # fmt: skip
+    cars = [col.Vehicle(**{"x": 0.0, "y": 0.0, **fields}) for fields in bodies.values()]
+    known = {"speed_b": 8.949, "delta_v_forward_a": -6.04465, "delta_v_left_a": -1.3205}
+    # The other case leaves open whether it stuck or slid.
+    beside = {"speed_b": 8.0, "delta_v_forward_a": -4.0, "delta_v_left_a": -0.6}
+
+    def missed(speed):
+        moving = [
+            col.Vehicle.from_speed(speed=v, course=course, **{"x": 0.0, "y": 0.0, **fields})
+            for v, course, fields in zip(
+                (speed, known["speed_b"]), (0.07229, 4.56458), bodies.values(), strict=True
+            )
+        ]
+        impact = col.eccentric(*moving, **contact)
+        return sum((read(impact, name) - known[name]) ** 2 for name in COMPONENTS[:2])
+
+    def found(**options):
+        (one,) = reconstruct.speeds(*cars, course_a=0.07229, course_b=4.56458, **contact, **options)
+        return one.a.before.speed
+
+    best = optimize.minimize_scalar(missed, bounds=(9.5, 10.5), options={"xatol": 1e-9}).x
+    alone = found(**known)
+    assert alone == pytest.approx(best, abs=1e-5)
+    assert found(**known, slid="bound") == pytest.approx(alone, rel=1e-9)
+    with pytest.warns(col.CollisionsWarning):
+        both = found(**{name: np.array([known[name], beside[name]]) for name in known})
+    assert both[0] == pytest.approx(alone, rel=1e-9)
+    assert math.isnan(both[1])
+
+
+@pytest.mark.parametrize("slid", [None, "bound"])
+def test_a_speed_and_one_component_of_a_contact_that_slid_lead_back_to_it(slid):
+    wheels = Tyres(0.7, 0.3, 2.7, 1.5)
+    a, b = (
+        col.Vehicle.from_speed(
+            mass=mass, yaw_inertia=2 * mass, speed=speed, course=course, heading=course, x=x, y=0
+        )
+        for mass, speed, course, x in ((2470, 12.0, 0.057, 0.0), (2291, 9.0, 4.498, 3.8))
+    )
+    contact = {
+        "restitution": 0.33, "normal": 0.146, "point": (1.7, 0.81), "friction": 0.02,
+        "duration": 0.1, "tyres_a": wheels, "tyres_b": wheels,
+    }  # fmt: skip
+    impact = col.eccentric(a, b, **contact)
+    assert impact.regime == "sliding"
+    (found,) = reconstruct.speeds(
+        a, b, course_a=0.057, course_b=4.498, **contact, slid=slid, speed_b=9.0,
+        delta_v_forward_a=impact.a.delta_v_forward,
+    )  # fmt: skip
+    assert found.a.before.speed == pytest.approx(12.0, rel=1e-9)
+    assert found.regime == "sliding"
 
 
 # Speeds, courses, yaw rates and places aside of A and B, normal, point, restitution, duration,

@@ -593,6 +593,27 @@ def test_beside_a_speed_a_contact_that_slid_has_the_ratio_that_is_shown():
     assert solutions[1].a.before.speed == pytest.approx(a.speed, rel=1e-6)
 
 
+def test_beside_a_speed_the_refusal_has_the_speeds_of_both_with_their_ratios():
+    a = col.Vehicle(mass=1361, yaw_inertia=2299, x=0, y=0, heading=-0.1523)
+    b = col.Vehicle(mass=1585, yaw_inertia=3470, x=3.4151, y=-1.2449, heading=-0.1409)
+    with pytest.raises(col.AmbiguousSolutionError) as caught:
+        speeds(
+            a, b, course_a=-0.1728, course_b=-0.1974, restitution=0.1404, normal=-0.6065,
+            point=(1.8875, -0.56), friction=math.inf, speed_b=3.8356,
+            delta_v_forward_a=-12.413, delta_v_left_a=1.8387,
+        )  # fmt: skip
+    stuck, slid = caught.value.solutions
+    said = str(caught.value)
+    assert (
+        f"have an impulse ratio of {abs(stuck.impulse_ratio):.2f}, and `friction=inf` does not say "
+        f"that it stuck. If it stuck, the speed of A is {stuck.a.before.speed:.6g} m/s and that of "
+        f"B 3.8356 m/s; if it slid at a ratio of {abs(slid.impulse_ratio):.2f}, the speed of A is "
+        f"{slid.a.before.speed:.6g} m/s and that of B 3.8356 m/s. Write "
+    ).replace("`", "") in said.replace("`", "")
+    assert f"{abs(stuck.impulse_ratio):.2f}" != f"{abs(slid.impulse_ratio):.2f}"
+    assert "with one of the speeds" not in said  # one is given
+
+
 def crashes_beside_a_speed(count):
     """Crashes with the friction high enough to stick or slide, and what is known of each: both
     components of one car and the speed of one.

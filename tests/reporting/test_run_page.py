@@ -174,6 +174,31 @@ def test_a_record_that_was_changed_is_refused() -> None:
         replay(changed)
 
 
+def numbers(part: Any, path: tuple[Any, ...] = ()) -> Any:
+    """Every number but 0 of a record, and where it stands."""
+    if isinstance(part, (dict, list)):
+        for key, value in part.items() if isinstance(part, dict) else enumerate(part):
+            yield from numbers(value, (*path, key))
+    elif isinstance(part, float) and part:
+        yield path, part
+
+
+def test_a_record_of_which_any_number_of_an_impact_was_changed_is_refused() -> None:
+    page = col.report(coasting(), form="markdown", figures=False)
+    head = page[: page.index("```json\n") + 8]
+    text = page[len(head) : page.rindex("```")]
+    places = list(numbers(json.loads(text)["run"]["impacts"]))
+    assert any("mass" in path for path, _ in places)
+    for path, value in places:
+        record = json.loads(text)
+        part = record["run"]["impacts"]
+        for key in path[:-1]:
+            part = part[key]
+        part[path[-1]] = 1.001 * value + 1e-5
+        with pytest.raises(col.InputError, match="its inputs do not give its"):
+            replay(f"{head}{json.dumps(record)}\n```\n")
+
+
 def test_html_of_what_moves_on_and_has_a_name_like_markup() -> None:
     page = col.report(coasting(), figures=False)
     assert "<A & co>" not in page

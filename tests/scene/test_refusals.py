@@ -377,6 +377,18 @@ SCENE_REFUSALS = [
         "bad_shape",
         "surfaces[0] has an array among its corners; they are the same for every case",
     ),
+    (
+        {"surfaces": [([(3, -9), (23, 9), (23, -9), (3, 9)], 0.2)]},
+        InputError,
+        "bad_outline",
+        "surfaces[0] has sides that cross, from corner 0 to 1 and from 2 to 3; give its corners",
+    ),
+    (
+        {"surfaces": [([(0, 0), (5, 5), (9, 9)], 0.2)]},
+        InputError,
+        "bad_outline",
+        "surfaces[0] encloses no area; give its corners",
+    ),
     ({"surfaces": [(AREA, -0.3)]}, InputError, "bad_friction", "surfaces[0] must be >= 0, got"),
     # The order.
     (
@@ -412,6 +424,15 @@ SCENE_REFUSALS = [
         InputError,
         "bad_name",
         "shared has the name 'times', which is taken",
+    ),
+    *(
+        (
+            {"shared": {path: ("A.vx",)}},
+            InputError,
+            "bad_name",
+            f"shared has the name {path!r}, which is taken; give the numbers that are one and the",
+        )
+        for path in ("A.vx", "A.speed", "B.rest.x", "contacts[0].friction", "times[0]", "end")
     ),
 ]
 

@@ -448,3 +448,35 @@ def test_outlines_of_vehicles_without_a_place_are_only_for_pictures() -> None:
     touching = Contact("A", "B", restitution=0.0, **IN_ROW)
     with pytest.raises(col.MissingInputError, match="A has no x"):
         Scene(movers=movers, contacts=[touching]).run()
+
+
+@pytest.mark.parametrize(("speed", "drag"), [(0.2, 0.0), (0.1, 0.0), (0.2, 7e-4)])
+def test_a_depth_that_takes_long_to_reach_is_reached(speed: float, drag: float) -> None:
+    """Two in line whose gap is 0.7 m, by kinematics; alone and beside one that is quick."""
+    way, slowing = 0.7 + 0.3, drag * col.travel.GRAVITY
+    takes = way / speed
+    if drag:
+        takes = (speed - math.sqrt(speed**2 - 2.0 * slowing * way)) / slowing
+
+    def crash(speed: object) -> Scene:
+        body = {"mass": 1500.0, "yaw_inertia": 2500.0, "heading": 0.0}
+        a = Mover(col.Vehicle(x=-5.0, y=0.2, vx=speed, **body), outline=(4.4, 1.8), drag=drag)
+        b = Mover(col.Vehicle(x=0.0, y=0.0, **body), outline=(4.2, 1.8))
+        hit = Contact("A", "B", restitution=0.1, friction=0.4, at="touch", depth=0.3)
+        return Scene(movers={"A": a, "B": b}, contacts=[hit])
+
+    alone, both = crash(speed).run(), crash(np.array([speed, 20.0])).run()
+    assert alone.times[0] == pytest.approx(takes, rel=1e-9)
+    assert both.times[0][0] == pytest.approx(takes, rel=1e-9)
+    assert not alone.deepest[0]
+
+
+def test_two_that_stop_before_they_are_so_deep_have_no_contact_there() -> None:
+    body = {"mass": 1500.0, "yaw_inertia": 2500.0, "heading": 0.0}
+    # Stops 0.2 m after first touch.
+    drag = 0.2**2 / (2.0 * col.travel.GRAVITY * 0.9)
+    a = Mover(col.Vehicle(x=-5.0, y=0.2, vx=0.2, **body), outline=(4.4, 1.8), drag=drag)
+    b = Mover(col.Vehicle(x=0.0, y=0.0, **body), outline=(4.2, 1.8))
+    hit = Contact("A", "B", restitution=0.1, friction=0.4, at="touch", depth=0.3)
+    with pytest.raises(col.NoSolutionError, match="do not close along the normal"):
+        Scene(movers={"A": a, "B": b}, contacts=[hit]).run()

@@ -164,3 +164,38 @@ def test_touches_that_are_passed_over_are_counted_too() -> None:
             lambda speed=speed, model=model: model(**{"A.vx": speed}), "touch_passed_over"
         )
         assert len(said_of) == 1
+
+
+def test_impulses_at_the_deepest_are_counted_too() -> None:
+    """A clips a corner of B, by which some do not come as deep as was asked for."""
+
+    def crash(across: Any) -> Scene:
+        a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-6.0, y=1.55, heading=0.0, vx=14.0)
+        b = col.Vehicle(mass=1200.0, yaw_inertia=1900.0, x=0.0, y=0.0, heading="90 deg", vy=across)
+        movers = {
+            "A": Mover(a, outline=(4.4, 1.8), drag=0.7),
+            "B": Mover(b, outline=(4.2, 1.7), drag=0.7),
+        }
+        hit = Contact("A", "B", restitution=0.1, friction=0.4, at="touch", depth=0.3)
+        return Scene(movers=movers, contacts=[hit])
+
+    across = np.linspace(-7.6, -6.6, 12)
+    batch, _ = warned(crash(across).run)
+    answered = batch.status == "ok"
+    single = [
+        ok and "at_deepest" in codes(crash(one).run())
+        for one, ok in zip(across.tolist(), answered.tolist(), strict=True)
+    ]
+    assert 0 < sum(single) < answered.sum()
+    _, (said,) = warned(crash(across).run, "at_deepest")
+    assert said.startswith(f"in {sum(single)} of 12 cases of the scene two vehicles part before")
+    model = crash(-7.0).as_model(["B.vy"], ["impacts[0].b.delta_v"])
+    _, said_of = warned(lambda: model(**{"B.vy": float(across[single.index(True)])}), "at_deepest")
+    assert len(said_of) == 1
+    unknown = {"B.vy": Uniform(-7.6, -6.6)}
+    found, said_of = warned(
+        lambda: propagate(crash(-7.0), unknown, outputs=["times[0]"], samples=64, seed=1),
+        "at_deepest",
+    )
+    assert len(said_of) == 1
+    assert any("the impulse acts at their deepest" in one for one in found.statements)

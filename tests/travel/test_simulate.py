@@ -1064,6 +1064,12 @@ def test_places_of_rest_are_evidence_for_fit():
         (CAR, {"moments": 10.0}, "bad_option", "got 10.0"),
         (CAR, {"until": 0.0}, "not_positive", "until must be > 0"),
         (CAR, {"rotating_mass": "11 kg"}, "bad_units", "rotating_mass"),
+        (
+            CAR,
+            {"surfaces": [([(3, -9), (23, 9), (23, -9), (3, 9)], 0.2)]},
+            "bad_outline",
+            "surfaces[0] has sides that cross, from corner 0 to 1 and from 2 to 3",
+        ),
         (CAR, {"surfaces": 0.7}, "bad_shape", "surfaces[0] must be a pair of corners"),
         (
             CAR,
@@ -1178,3 +1184,20 @@ def test_a_motion_that_keeps_its_direction_on_the_vehicle_ends_along_an_arc(
     late = 0.98 * stepped.time[-1]
     assert np.max(np.abs(arc.at(late).x - stepped.at(late).x)) < 1e-3
     assert np.max(np.abs(arc.at(late).heading - stepped.at(late).heading)) < 1e-4
+
+
+def test_areas_may_have_dents_holes_and_a_closing_corner():
+    """A ring around a hole, its sides there and back along one line, as one list of corners."""
+    car = col.Vehicle(mass=1500, yaw_inertia=2500, x=0, y=0, heading=0, vx=10, vy=0)
+    tyres = travel.Tyres(0.7, 1.0, 2.7, 1.5)
+    ring = [(-9, -9), (30, -9), (30, 9), (-9, 9), (-9, -9)]
+    hole = [(-5, -5), (-5, 5), (25, 5), (25, -5), (-5, -5)]
+    bare = travel.simulate(car, tyres)
+    assert travel.simulate(car, tyres, surfaces=[([*ring, *hole], 0.2)]).x[-1] == bare.x[-1]
+    dented = [(-9, -9), (30, -9), (30, 9), (12, 0), (-9, 9)]
+    # Back at the first corner, as maps write areas.
+    closed, open_ = (
+        travel.simulate(car, tyres, surfaces=[(corners, 0.2)])
+        for corners in ([*dented, dented[0]], dented)
+    )
+    assert closed.x[-1] == open_.x[-1] > bare.x[-1]

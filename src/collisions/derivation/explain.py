@@ -161,8 +161,9 @@ def explain(
         Standard deviations by the name of the answer, such as "b.after.vx" or "energy_loss";
         "b_after_vx" means the same. From a propagation, the outputs with such a name are taken, as
         SI if the model returned plain numbers. With an ``Interval`` among its inputs an answer gets
-        its range, because a standard deviation would leave the interval out. A ``Fit`` has standard
-        errors of its own.
+        its range, because a standard deviation would leave the interval out. The ``statements`` of
+        the propagation, such as that cases have no answer, stand in the notes below the answers. A
+        ``Fit`` has standard errors of its own.
 
     Returns
     -------
@@ -474,7 +475,14 @@ def _notes(page: Page, uncertainty: Any, of_impact: bool) -> None:
             f"1 {one} = {number} {other}" for (one, other), number in page.conversions.items()
         )
         lines.append(f"Numbers that convert units: {conversions.replace('**', '^')}.")
-    page.listed(lines if not page.latex else [line.replace("*", r"\*") for line in lines])
+    if page.latex:
+        lines = [line.replace("*", r"\*") for line in lines]
+    if isinstance(uncertainty, Propagation):
+        # As they are: a name of an output or an option has no capital.
+        lines += [
+            f"Of the propagation: {page.name(one.rstrip('.'))}." for one in uncertainty.statements
+        ]
+    page.listed(lines)
 
 
 def about_ranges(uncertainty: Propagation) -> str:

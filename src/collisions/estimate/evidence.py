@@ -187,7 +187,7 @@ def refused_everywhere(
     try:
         model.function(**at)
     except CollisionsError as error:
-        reason = f": {error}"
+        reason = f": {error.inner}"
     except Exception:
         # A model of arrays need not take floats; an error about that says nothing about the scene.
         pass

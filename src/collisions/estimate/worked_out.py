@@ -115,7 +115,7 @@ def _no_answer(
             case = {key: float(f"{column[0]:.4g}") for key, column in values.items()}
             function(**{**arguments, **case})
     except CollisionsError as error:
-        reason, blamed = f": {error}", getattr(error, "argument", None) or ""
+        reason, blamed = f": {error.inner}", getattr(error, "argument", None) or ""
     except Exception:
         # A function of arrays need not take floats; an error about that says nothing of the case.
         pass

@@ -25,6 +25,11 @@ class _Carrying(BaseException):
         self.fields = fields
         super().__init__(f"{self.place}: {plain(message)}" if self.place else plain(message))
 
+    @property
+    def inner(self) -> str:
+        """The message with its marks and its place, for a message that holds it."""
+        return f"{self.place}: {self.marked}" if self.place else self.marked
+
     def __init_subclass__(cls) -> None:
         if cls.__module__ == __name__:
             # Tracebacks show the name that callers import, and pickles hold it.
@@ -45,6 +50,13 @@ class CollisionsError(_Carrying, Exception):
     ``code`` is a short label that does not change between versions; ``fields`` holds what else is
     known of the case.
     """
+
+    @property
+    def solutions(self) -> tuple[Any, ...]:
+        """The solutions known when the case was refused: all that fit, or the ends of their range;
+        empty if there are none.
+        """
+        return tuple(self.fields.get("solutions", ()))
 
 
 class InputError(CollisionsError, ValueError):
@@ -108,13 +120,6 @@ class NoImpactError(CollisionsError, ValueError):
 
 class NoSolutionError(CollisionsError, ValueError):
     """The arguments are in order, but the model has no answer for them."""
-
-    @property
-    def solutions(self) -> tuple[Any, ...]:
-        """The solutions known when the case was refused: all that fit, or the ends of their range;
-        empty if there are none.
-        """
-        return tuple(self.fields.get("solutions", ()))
 
 
 class AmbiguousSolutionError(NoSolutionError):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -138,6 +138,16 @@ class Sentences:
         # else.
         system = self._system if math.isfinite(value * self._system.scale(kind)) else Cells("si")
         return f"{value * system.scale(kind) + 0.0:.{figures}g}{system.unit(kind)}"
+
+    def apart(self, values: Sequence[float], kind: str, figures: int = 6) -> list[str]:
+        """Each of these numbers, with more figures where so few would write two of them alike."""
+        texts: list[str] = []
+        # Seventeen figures tell any two floats apart.
+        for enough in range(figures, 18):
+            texts = [self(value, kind, enough) for value in values]
+            if len(set(texts)) == len(set(values)):
+                break
+        return texts
 
 
 def said(value: float, kind: str, texts: Iterable[Any], figures: int = 6) -> str:

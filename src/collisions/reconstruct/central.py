@@ -290,15 +290,7 @@ def _answer(
             )
             for i, one in enumerate(candidates)
         )
-        both = " or ".join(
-            f"va = {say(s.a.before.vx, 'speed')} with e = {s.restitution:.4g}" for s in solutions
-        )
-        return AmbiguousSolutionError(
-            f"two impacts fit {', '.join(known)}: {both}`|; both are in .solutions|`, and a "
-            "velocity of the other kind decides",
-            code="ambiguous",
-            solutions=solutions,
-        )
+        return _ambiguous(known, solutions, say)
 
     def solve_case(index: tuple[int, ...]) -> Impact:
         of_case: dict[str, Any] = {
@@ -517,6 +509,33 @@ def _refusal(
         case _:
             text = _contradiction(given, known, e, numbers, incomplete, say)
     return error_of(status, text, restitution=e, closing_speed=closing)
+
+
+def _ambiguous(
+    known: tuple[str, ...], solutions: tuple[Impact, ...], say: Sentences
+) -> CollisionsError:
+    """The error for a single case that two impacts fit: it names what they differ in."""
+    speeds = {
+        name: [float(getattr(getattr(one, name[1]), when).vx) for one in solutions]
+        for name in VELOCITIES
+        for when in ["after" if name.endswith("after") else "before"]
+        if name not in known
+    }
+    # Both speeds before may be known, and a wall has the same speed after.
+    speeds = {name: found for name, found in speeds.items() if len(set(found)) > 1}
+    parts = [
+        [f"{name} = {text}" for text in say.apart(found, "speed")]
+        for name, found in list(speeds.items())[:1]
+    ]
+    restitutions = [float(one.restitution) for one in solutions]
+    parts.append([f"e = {text}" for text in say.apart(restitutions, "number", 4)])
+    both = " or ".join(" with ".join(part) for part in zip(*parts, strict=True))
+    return AmbiguousSolutionError(
+        f"two impacts fit {', '.join(known)}: {both}`|; both are in .solutions|`; what decides is "
+        f"{' or '.join((*speeds, 'restitution'))} in place of energy_loss",
+        code="ambiguous",
+        solutions=solutions,
+    )
 
 
 def _contradiction(

@@ -125,7 +125,7 @@ def _again(impact: Impact, origin: Reconstruction) -> Reconstruction | None:
                 found = _solved_again(impact, origin, regime)
         except CollisionsError as error:
             # Several answers, or the ends of a range of them.
-            found = getattr(error, "solutions", ())
+            found = error.solutions
         except TypeError:
             # A known value that the method does not take; such a record was refused above, or is of
             # an older version.

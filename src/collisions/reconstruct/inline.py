@@ -293,7 +293,7 @@ def _with_function(
     if len(answers) > 1:
         raise AmbiguousSolutionError(
             "the function of restitution is met at closing speeds of "
-            f"{' and '.join(say(g, 'speed') for g in answers)}",
+            f"{' and '.join(say.apart(answers, 'speed'))}",
             code="ambiguous",
             solutions=answers,
         )

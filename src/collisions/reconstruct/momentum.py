@@ -676,10 +676,10 @@ def _both(known: _Known, given: dict[str, Any], course: str) -> CollisionsError:
             solutions.append(replace(one, given=ordered, course_near=stated))
     say = Sentences(given.values())
     speed = solutions[0].unknowns[0]
+    courses = say.apart([getattr(one, course) for one in solutions], "angle")
     each = " or ".join(
-        f"{course} = {say(getattr(one, course), 'angle')} with {speed} = "
-        f"{say(getattr(one, speed), 'speed')}"
-        for one in solutions
+        f"{course} = {lies} with {speed} = {say(getattr(one, speed), 'speed')}"
+        for lies, one in zip(courses, solutions, strict=True)
     )
     return AmbiguousSolutionError(
         f"two answers fit: {each}`|; both are in .solutions|`; what decides is `course_near=`, "

@@ -355,7 +355,7 @@ def _answer(
         )
         error = _refusal(found.status, end, regime, [one.regime for one in fitting], solutions)
         if inputs.tyres and found.status == Status.CONTRADICTORY:
-            return _not_found(str(error), end)
+            return _not_found(error.inner, end)
         return error
 
     def solve_case(index: tuple[int, ...]) -> Impact:
@@ -697,15 +697,15 @@ def _several(end: End, regimes: list[str], solutions: tuple[Impact, ...]) -> Col
         )
         deciding.append("`impulse_ratio=` of one of them")
     else:
-        # Origins of one regime with tyres: they differ in what the tyres did.
-        def turning(state: Vehicle) -> str:
-            # To a microradian a second, far below what anybody can know.
-            return end.say(round(float(state.yaw_rate), 6) + 0.0, "yaw rate", 3)
-
+        # Origins of one regime with tyres: they differ in what the tyres did. To a microradian a
+        # second, far below what anybody can know.
+        rates = [
+            end.say.apart([round(float(one.yaw_rate), 6) + 0.0 for one in states], "yaw rate", 3)
+            for states in zip(*((one.a.before, one.b.before) for one in solutions), strict=True)
+        ]
         each = " or ".join(
-            f"{how}, with yaw rates before of {turning(impact.a.before)} (A) and "
-            f"{turning(impact.b.before)} (B)"
-            for how, impact in zip(regimes, solutions, strict=True)
+            f"{how}, with yaw rates before of {of_a} (A) and {of_b} (B)"
+            for how, of_a, of_b in zip(regimes, *rates, strict=True)
         )
         deciding.append("what is known of the yaw rates before: take the one that it fits")
     return AmbiguousSolutionError(

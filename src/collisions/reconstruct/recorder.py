@@ -281,21 +281,27 @@ def recorded_pulse(
     place = _read_place(reader, forward, left)
     reader.close()
     shapes = {name: np.shape(value) for name, value in read.items()}
+    # Lateral readings alone would else stand where those ahead do.
+    missing = [name for name in ("time", "delta_v_forward") if name not in shapes]
     if (
-        len(shapes) < 2
+        missing
         or len(set(shapes.values())) > 1
         or len(shapes["time"]) != 1
         or shapes["time"][0] < 2
     ):
+        got = [f"no {name}" for name in missing]
+        got += [f"{name} {shape}" for name, shape in shapes.items()]
         raise ShapeError(
             "a pulse is time, delta_v_forward and perhaps delta_v_left as arrays of one length, "
-            "two samples at least; got "
-            f"{', '.join(f'{name} {shape}' for name, shape in shapes.items())}",
+            f"two samples at least; got {', '.join(got)}",
             code="bad_shape",
-            argument="time",
+            argument=missing[0] if missing else "time",
         )
-    times, ahead, *rest = (np.array(value, dtype=np.float64) + 0.0 for value in read.values())
-    aside = _LEFTWARD[polarity] * rest[0] + 0.0 if rest else None
+    samples = {name: np.array(value, dtype=np.float64) + 0.0 for name, value in read.items()}
+    times, ahead = samples["time"], samples["delta_v_forward"]
+    aside = (
+        _LEFTWARD[polarity] * samples["delta_v_left"] + 0.0 if "delta_v_left" in samples else None
+    )
     size = np.hypot(ahead, 0.0 if aside is None else aside)
     if not (
         np.isfinite(size).all()

@@ -298,9 +298,13 @@ def _stuck_or_slid(
         {f"speed_{label}": _told(end, say) for label, end in zip("ab", one, strict=True)}
         for one in ends
     ]
-    bounds = ", or ".join(
+    bounds = [
         " and ".join(bounds_of(getattr(impact.reconstruction, "one_sided", None) or {}, one))
         for impact, one in zip(slid, speeds, strict=True)
+    ]
+    # One that leaves nothing open, as beside a known speed, has no bound.
+    if_slid = ", or ".join(
+        bound or _alone(end, say) for bound, end in zip(bounds, ends, strict=True)
     )
     alone = ", or ".join(
         _alone([_along(impact, label, scene) for label in "ab"], say) for impact in stuck
@@ -312,17 +316,24 @@ def _stuck_or_slid(
         else f"`friction={friction:.4g}` is not clearly above that"
     )
     at = "at that ratio"
+    beside_speed = len(scene.unknown) == 1
+    if beside_speed and math.isinf(friction):
+        # That of the components alone, from which one that stuck beside this speed differs.
+        own = dict.fromkeys(f"{abs(one.impulse_ratio):.2f}" for one in slid)
+        at = f"at a ratio of {' or '.join(own)}"
     if far:
         at = f"with `friction={friction:.4g}`"
         allowed = f"a contact that slid {at} has the same within {ACCURACY:.0%}"
-    then = (
-        "" if scene.slid else "; or `slid='bound'` for this end of the speeds that it may have had"
-    )
+    with_ = "" if beside_speed else ", the latter with one of the speeds or the energy lost"
+    then = "this end of the speeds that it may have had"
+    if beside_speed and not any(bounds):
+        then = "the one that stuck and the side of it on which the other lies"
+    then = "" if scene.slid else f"; or `slid='bound'` for {then}"
     return AmbiguousSolutionError(
         f"{' and '.join(known)} do not tell whether the contact stuck or slid: they "
         f"have an impulse ratio of {shown}, and {allowed}. If it stuck, {alone}; if it slid "
-        f"{at}, {bounds}. Write `regime='sticking'` or `regime='sliding'` if you "
-        f"know which, the latter with one of the speeds or the energy lost{then}"
+        f"{at}, {if_slid}. Write `regime='sticking'` or `regime='sliding'` if you "
+        f"know which{with_}{then}"
         "`|. Both answers are in .solutions|`",
         code=Status.AMBIGUOUS.label,
         ratio=abs(ratios[0]),

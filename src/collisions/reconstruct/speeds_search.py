@@ -262,14 +262,16 @@ class Search:
         which the roots of the instant and other speeds lead.
 
         Roots that are in balance have the impulse of the tyres already: of a contact that stuck, or
-        beside a known speed and more components than it needs.
+        beside a known speed and more components than it needs. Of a case, all are tried with the
+        friction of its first.
         """
         knows_speed = any(name.startswith("speed") for name in self.known)
-        # A place of a recorder and its axes are in the balance alone.
-        alone = self.recorders is None and self.slid is None and not attempt.frictions
+        # A place of a recorder and its axes are in the balance alone, and so is a bound, which has
+        # an end of a family where no speed is known.
+        alone = self.recorders is None and (knows_speed if self.slid else True)
         if self._balanced and not (alone and (len(self.known) == 2 or knows_speed)):
             return attempt
-        scene, found, inputs = attempt.scene, attempt.found, attempt.inputs
+        scene, found = attempt.scene, attempt.found
         directions = {
             label: (scene.numbers[f"course_{label}[0]"], scene.numbers[f"course_{label}[1]"])
             for label in "ab"
@@ -279,9 +281,15 @@ class Search:
             tuple(np.where(there, speed * unit, np.nan) for speed in (root.speed_a, root.speed_b))
             for root, there in found
         ]
-        starts += other_starts(inputs, self.known, shape)
+        starts += other_starts(attempt.inputs, self.known, shape)
         if not starts:
             return attempt._replace(found=[])
+        of_starts = attempt.ways_of_starts(len(starts))
+        inputs = attempt.inputs_of_way(of_starts)
+        ended: Any = np.zeros((), dtype=bool)
+        if self.slid and isinstance(scene, ComponentScene):
+            # Ends of families stay as they are.
+            ended = scene.of_way(of_starts[0]).ended
         begins = np.stack([np.stack(np.broadcast_arrays(*start)) for start in starts], axis=1)
         more = self._balanced and len(self.known) > 2
         answer = speeds_with_tyres(
@@ -293,24 +301,23 @@ class Search:
             len(found) if more else 0,
         )
         fits = answer.settled
-        if self._balanced and not more:
+        if self._balanced and not (more or knows_speed):
             # Of the contacts that stick, where it is known that this one did.
             fits = fits & answer.sticks
             if self.regime is None:
                 fits = fits & np.any([there for _, there in found] or [False], axis=0)
+        elif self.regime is not None:
+            # Other starts may lead to a contact that ended otherwise than was stated.
+            so = np.broadcast_to(answer.sticks == (self.regime == "sticking"), fits.shape).copy()
+            so[: len(found)] = True
+            fits = fits & so
         if answer.misfit is not None:
-            if self.regime is not None:
-                # Other starts may lead to a contact that ended otherwise than was stated.
-                so = np.broadcast_to(
-                    answer.sticks == (self.regime == "sticking"), fits.shape
-                ).copy()
-                so[: len(found)] = True
-                fits = fits & so
             fits = fits & (answer.misfit <= CONTRADICTION)
             fits, least = _best_of(answer.misfit, fits)
             if isinstance(scene, ComponentScene):
-                scene.misfit = np.where(np.isfinite(least), least, scene.misfit)
-                scene.may_slide = scene.may_slide & np.any(fits[: len(found)], axis=0)
+                for one in [scene, *scene.ways]:
+                    one.misfit = np.where(np.isfinite(least), least, one.misfit)
+                    one.may_slide = one.may_slide & np.any(fits[: len(found)], axis=0)
         roots = []
         for i in range(len(starts)):
             instant = found[i][0] if i < len(found) else NO_ROOT
@@ -321,9 +328,15 @@ class Search:
                     answer.speed_b[i] / unit,
                     np.where(np.isfinite(answer.speed_a[i]), inputs.restitution, np.nan),
                     condition,
-                    np.where(fits[i], answer.closing[i] / unit, np.nan),
+                    np.where(fits[i] & ~ended, answer.closing[i] / unit, np.nan),
+                    way=of_starts[i],
                 )
             )
+        roots += [
+            root._replace(closing=np.where(there & ended, root.closing, np.nan))
+            for root, there in found
+            if np.any(ended)
+        ]
         return attempt._replace(found=in_order(scene, roots, self.forward_only))
 
 

@@ -80,11 +80,26 @@ class Attempt(NamedTuple):
 
     def inputs_of(self, root: Root) -> Inputs:
         """The inputs with the friction of a root."""
+        return self.inputs_of_way(root.way)
+
+    def inputs_of_way(self, way: Any) -> Inputs:
+        """The inputs with the friction that goes with the way of a root."""
         if not self.frictions:
             return self.inputs
-        friction = by_way(root.way, self.frictions)
+        friction = by_way(way, self.frictions)
         own: Any = read_only(friction) if np.ndim(friction) else float(friction)
         return replace(self.inputs, rule_value=own)
+
+    def ways_of_starts(self, count: int) -> Any:
+        """The way of each of so many starts, of which the first are the roots: of others that of
+        the first root that a case has, and in a case without one the last, which is no root's.
+        """
+        none = max(len(self.frictions) - 1, 0)
+        of_roots = [np.where(there, root.way, none) for root, there in self.found]
+        first: Any = np.full(self.scene.shape, float(none))
+        for (_, there), way in zip(self.found[::-1], of_roots[::-1], strict=True):
+            first = np.where(there, way, first)
+        return np.stack([*of_roots, *[first] * (count - len(of_roots))])
 
 
 def in_balance(
@@ -181,7 +196,8 @@ def _as_one(
     first: Attempt, kept: Sequence[_Kept], doubts: Sequence[tuple[Attempt, Any]]
 ) -> Attempt:
     """One attempt with several roots, each of an attempt of its own; where none is, it is that of
-    the ``first``. In ``doubts`` are those in which the contact may have stuck or slid, and where.
+    the ``first``, which is the last of the ways. In ``doubts`` are those in which the contact may
+    have stuck or slid, and where.
     """
     scene = copy(first.scene)
     roots = [
@@ -191,6 +207,7 @@ def _as_one(
     if isinstance(scene, ComponentScene):
         ways = [(one.of, one.root.way, one.there, False) for one in kept]
         ways += [(one, 0.0, there, True) for one, there in doubts]
+        ways.append((first, 0.0, np.zeros(first.scene.shape, dtype=bool), False))
         scene.ways = []
         for one, way, there, doubt in ways:
             assert isinstance(one.scene, ComponentScene)
@@ -205,7 +222,7 @@ def _as_one(
         in_doubt = np.logical_or.reduce([one.ambiguous for one in scene.ways])
         scene.ambiguous = in_doubt | (scene.ambiguous & ~answered)
     frictions = [one.of.inputs_of(one.root).rule_value for one in kept]
-    frictions += [one.inputs.rule_value for one, _ in doubts]
+    frictions += [one.inputs.rule_value for one, _ in [*doubts, (first, None)]]
     shows = next((one.of for one in kept if one.of.shows), first)
     return Attempt(scene, roots, shows.inputs, frictions, shows.shows)
 

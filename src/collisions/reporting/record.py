@@ -278,11 +278,27 @@ def _run(whole: Any) -> Run:
     """A scene run again from a record."""
     try:
         run = Run.from_dict(whole)
-        results = whole["columns"]
-    except (CollisionsError, LookupError, TypeError) as error:
+        recorded, impacts = _without_scene(whole), whole["impacts"]
+    except (CollisionsError, LookupError, TypeError, AttributeError) as error:
         raise _bad(str(error)) from error
-    _check(results, json.loads(json.dumps(strict(run.to_columns()))))
+    found = json.loads(json.dumps(run.to_dict()))
+    _check(recorded, _without_scene(found))
+    # Each impact by itself, as its numbers are of sizes of their own.
+    if not isinstance(impacts, list) or len(impacts) != len(found["impacts"]):
+        raise _bad(f"its inputs give {len(found['impacts'])} impacts, and it has others")
+    for impact, one in zip(impacts, found["impacts"], strict=True):
+        _check(impact, one)
     return run
+
+
+def _without_scene(run: Mapping[str, Any]) -> dict[str, Any]:
+    """What stands in the record of a run beside its scene and its impacts, without sentences."""
+    found = {name: part for name, part in run.items() if name not in ("scene", "impacts")}
+    found["findings"] = [
+        {name: part for name, part in finding.items() if name != "sentence"}
+        for finding in found["findings"]
+    ]
+    return found
 
 
 def _momentum(whole: Any) -> MomentumSolution:

@@ -11,7 +11,7 @@ from .. import reference
 from ..derivation import reverse
 from ..derivation.evidence import momentum_answers, momentum_assumption, momentum_inputs
 from ..derivation.explain import impact_answers, impact_inputs, key_of
-from ..derivation.reverse import evidence_of, found_inputs, number_of_text
+from ..derivation.reverse import evidence_of, found_inputs
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note, letter_of
@@ -20,6 +20,7 @@ from ..impact.impact import Impact
 from ..impact.instant import found_with_tyres, neglected
 from ..impact.left_out import LeftOutVehicle, left_out
 from ..impact.models import BY_NAME
+from ..impact.reconstruction import number_of_text
 from ..kernels.contact_laws import FRICTION, LAWS
 from ..messages.errors import Status
 from ..plot.canvas import who

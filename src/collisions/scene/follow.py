@@ -219,6 +219,14 @@ class Followed:
             self._refuse_numbers(contact)
         self._follow()
 
+    @property
+    def at_deepest(self) -> Any:
+        """Whether an impulse of each case acts at the deepest, before what was asked for."""
+        found = np.zeros(self.count, dtype=bool)
+        for hit in self.hits:
+            found[hit.which] |= hit.deepest
+        return found
+
     def _all_pairs(self) -> list[_Between]:
         shapes = {
             name: Shape.of(mover.outline)

@@ -130,7 +130,7 @@ def order_of(
             rules = usual_order(Run(scene, tolerance))
         reason = f"it has {len(rules)} impact{'' if len(rules) == 1 else 's'}"
     except CollisionsError as error:
-        rules, reason = (), f"it has no answer ({str(error).rstrip('.')})"
+        rules, reason = (), f"it has no answer ({error.inner.rstrip('.')})"
     if most > len(rules):
         number = next(k for k in sorted(numbers) if k >= len(rules))
         meant = [

@@ -826,6 +826,12 @@ _PASSED_OVER = (
 )
 
 
+_AT_DEEPEST = (
+    "two vehicles part before the depth or delay of their contact is reached; the impulse acts at "
+    "their deepest"
+)
+
+
 def _of_driven(said: str) -> OutOfRangeWarning:
     return OutOfRangeWarning(said, code="driven_through")
 
@@ -842,12 +848,17 @@ def _of_passed_over(said: str) -> OutOfRangeWarning:
     return OutOfRangeWarning(said, code="touch_passed_over")
 
 
+def _of_deepest(said: str) -> OutOfRangeWarning:
+    return OutOfRangeWarning(said, code="at_deepest")
+
+
 _OF_FINDING = {
     "driven_through": (_of_driven, _DRIVEN),
     "driven_together": (_of_driven, _DRIVEN),
     "drag_during_contact": (_of_dragless, _DRAGLESS),
     "touch_without_contact": (_of_undescribed, _UNDESCRIBED),
     "touch_passed_over": (_of_passed_over, _PASSED_OVER),
+    "at_deepest": (_of_deepest, _AT_DEEPEST),
 }
 
 
@@ -860,6 +871,7 @@ def _warn_of_notices(found: Followed) -> None:
         (found.dragless, _of_dragless, _DRAGLESS),
         (found.undescribed, _of_undescribed, _UNDESCRIBED),
         (found.passed_over, _of_passed_over, _PASSED_OVER),
+        (found.at_deepest, _of_deepest, _AT_DEEPEST),
     ):
         where = cases & (found.failed == "")
         if count := int(np.count_nonzero(where)):

@@ -4,12 +4,11 @@ start to rest.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar
-
-import numpy as np
 
 from ..kernels.elementwise import POSITIVE_FINITE
 from ..messages.errors import InputError, MissingInputError, ShapeError
@@ -19,7 +18,7 @@ from ..quantities.reading import ArgumentReader, broadcast
 from ..quantities.settings import Default
 from ..quantities.tables import Cells, Part, Summary, all_numbers, given_texts
 from ..quantities.units import Input, Pair, Texts, Value, shown, texts_of
-from ..vehicle.drag import read_friction
+from ..travel.corners import read_areas
 from ..vehicle.vehicle import numbers_of
 from .contact import Contact
 from .mover import Mover
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
     from .run import Run
 
 # Names that results and inputs of a scene have already.
-RESERVED = ("contacts", "impacts", "times", "surfaces", "slope", "energy", "momentum")
+RESERVED = ("contacts", "impacts", "times", "surfaces", "slope", "energy", "momentum", "end")
 _FINEST, _COARSEST = 1e-10, 1e-2
 TOLERANCE = Default(1e-5)
 """How finely motion on tyres is followed, where nothing else is asked for."""
@@ -55,7 +54,8 @@ class Scene(Shown):
         Which of them meet, and how.
     surfaces : sequence of (corners, friction), optional
         Areas with a different friction, each with three or more corners [m] in order, for movers
-        with tyres. The first that a wheel is in counts.
+        with tyres. The first that a wheel is in counts. An area may have dents; sides that cross
+        are refused.
     slope : pair of float, str, Quantity or array [-]
         Rise over run of the ground along x and along y, for movers with tyres or a drag. Places are
         in plan, speeds and times along the ground, as in ``travel.simulate``. While a contact with
@@ -66,7 +66,7 @@ class Scene(Shown):
         The order of the contacts that an account claims, such as ``[("A", "B"), ("B", "C")]``. A
         case that goes otherwise is refused, with the order that it takes.
     shared : dict of tuples of str, optional
-        By a new name, the inputs that are one and the same, such as ``{"ground":
+        By a new name, no path, the inputs that are one and the same, such as ``{"ground":
         ("Camry.tyres.friction", "Civic.tyres.friction")}``: the same number is stated at each, and
         a change of one is a change of all.
 
@@ -124,7 +124,7 @@ class Scene(Shown):
         found: dict[str, Any] = {"movers": MappingProxyType(_read_movers(reader, movers))}
         named = [*movers] if isinstance(movers, Mapping) else []
         found["contacts"] = _read_contacts(reader, contacts, found["movers"], named)
-        found["surfaces"] = _read_surfaces(reader, surfaces)
+        found["surfaces"] = () if surfaces is None else tuple(read_areas(reader, surfaces))
         found["slope"] = reader.pair(slope, "", "slope")
         found["order"] = _read_order(reader, order, found["movers"], found["contacts"])
         found["shared"] = MappingProxyType(_read_shared(reader, shared, found["movers"]))
@@ -676,29 +676,6 @@ def _read_contacts(
     return tuple(found)
 
 
-def _read_surfaces(reader: ArgumentReader, surfaces: Any) -> tuple[Any, ...]:
-    found = []
-    listed = surfaces if isinstance(surfaces, (list, tuple)) else [surfaces]
-    for i, area in enumerate(() if surfaces is None else listed):
-        corners = area[0] if isinstance(area, (list, tuple)) and len(area) == 2 else None
-        if not isinstance(corners, (list, tuple)) or len(corners) < 3:
-            text = (
-                f"surfaces[{i}] must be a pair of corners, three or more `(x, y)` in a list, "
-                f"and friction; got {shown(area)}"
-            )
-            reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))
-            continue
-        places = tuple(
-            reader.pair(place, "m", f"surfaces[{i}][0][{j}]") for j, place in enumerate(corners)
-        )
-        if any(isinstance(part, np.ndarray) for place in places for part in place):
-            text = f"surfaces[{i}] has an array among its corners; they are the same for every case"
-            reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))
-            continue
-        found.append((places, read_friction(reader, area[1], f"surfaces[{i}]")))
-    return tuple(found)
-
-
 def _read_order(
     reader: ArgumentReader, order: Any, movers: Mapping[str, Mover], contacts: Sequence[Contact]
 ) -> tuple[tuple[str, str], ...] | None:
@@ -741,8 +718,13 @@ def _read_shared(
         reader.refuse(ShapeError(text, code="bad_shape", argument="shared"))
         return {}
     for name in shared:
-        if name in movers or name in RESERVED:
-            text = f"shared has the name {name!r}, which is taken"
+        # Also "Camry.vx" and "contacts[0].friction" are taken, as paths.
+        first = re.split(r"[.\[]", name)[0].strip()
+        if first in movers or first in RESERVED:
+            text = (
+                f"shared has the name {name!r}, which is taken; give the numbers that are one "
+                "and the same a name of their own, such as 'road'"
+            )
             reader.refuse(InputError(text, code="bad_name", argument="shared"))
     return {name: tuple(paths) for name, paths in shared.items()}
 

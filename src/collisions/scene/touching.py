@@ -24,7 +24,10 @@ _SHORTEST_LOOK = 1e-2
 _SECTIONS = 48
 _GOLDEN = 0.6180339887498949
 # The depth of an overlap is looked at this often [s], or in so many parts of a delay.
-_SEARCH, _MOST_SEARCHES, _PARTS = 2.5e-3, 400, 12
+_SEARCH, _PARTS = 2.5e-3, 12
+# From a second after first touch on, looks for a depth are apart by this share of the time since
+# then; a pair that has not parted, stopped or come to it after so long [s] acts at its deepest.
+_SEARCH_SHARE, _LONGEST_SEARCH = 2.5e-3, 1e3
 
 
 class Shape(NamedTuple):
@@ -268,13 +271,16 @@ def engaged(
     ``depth`` along that axis, of which one is None; of a pair that parts before, at its deepest.
     """
 
-    def deep(time: Any) -> tuple[Any, Any]:
-        """The depth along the axis, and the least along any: below 0 where they are apart."""
-        met, *_ = pair.at(time, cases)
+    def deep(time: Any) -> tuple[Any, Any, Any]:
+        """The depth along the axis, the least along any, which is below 0 where they are apart, and
+        whether both stand.
+        """
+        met, state_a, state_b = pair.at(time, cases)
         axis = axis_of(met)
         p = axis[0] * met.one[0] + axis[1] * met.one[1]
         q = axis[0] * met.other[0] + axis[1] * met.other[1]
-        return p.max(axis=0) - q.min(axis=0), -met.gap
+        stand = ~np.any((state_a[3:] != 0.0) | (state_b[3:] != 0.0), axis=0)
+        return p.max(axis=0) - q.min(axis=0), -met.gap, stand
 
     count = len(cases)
     if delay is None:
@@ -307,24 +313,26 @@ def engaged(
 
 
 def _searched(
-    deep: Callable[[Any], tuple[Any, Any]], touch: Any, depth: Any
-) -> tuple[Any, float, Any, Any]:
-    """The look at which a depth is reached, or the pair parts before; the time between looks; and
-    which of both it is.
+    deep: Callable[[Any], tuple[Any, Any, Any]], touch: Any, depth: Any
+) -> tuple[Any, Any, Any, Any]:
+    """The look at which a depth is reached, or the pair parts or stands before; the time since the
+    look before it; and which of both it is.
     """
     count = len(touch)
     time, before = np.array(touch, dtype=float), np.zeros(count)
     reached, parted = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
-    for _ in range(_MOST_SEARCHES):
-        going = ~(reached | parted)
-        if not going.any():
-            break
-        time = np.where(going, time + _SEARCH, time)
-        now, least = deep(time)
+    width = np.full(count, _SEARCH)
+    going = ~reached
+    while going.any():
+        width = np.where(going, np.maximum(_SEARCH, _SEARCH_SHARE * (time - touch)), width)
+        time = np.where(going, time + width, time)
+        now, least, stand = deep(time)
         hit = going & (least >= 0.0) & (now >= depth)
-        parts = going & ~hit & ((least < 0.0) | (now < before))
+        ends = (least < 0.0) | (now < before) | stand | (time - touch > _LONGEST_SEARCH)
+        parts = going & ~hit & ends
         reached, parted, before = reached | hit, parted | parts, np.where(going, now, before)
-    return time, _SEARCH, reached, parted
+        going = ~(reached | parted)
+    return time, width, reached, parted
 
 
 def overlap_of(one: Any, other: Any) -> tuple[Any, Any, Any]:

@@ -22,10 +22,11 @@ from ..quantities.reading import ArgumentReader, broadcast, is_whole
 from ..quantities.settings import Default
 from ..quantities.tables import Cells, Summary
 from ..quantities.units import Input, Pair, Texts, shown, texts_of
-from ..vehicle.drag import gravity_on, in_plan, one_value, read_friction
+from ..vehicle.drag import gravity_on, in_plan, one_value
 from ..vehicle.tyres import LOCKS, Tyres, kernel_numbers, lifts, not_tyres, refuse_lifting
 from ..vehicle.vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehicle_of
 from .areas import Areas
+from .corners import read_areas
 from .motion import GOES_ON, IN_TIME, RESTS, ROWS, Motion, between, follow, went_on
 from .surfaces import out_of_range, settle
 
@@ -239,7 +240,7 @@ def simulate(
         Friction, braking and size; arrays in it are many cases.
     surfaces : sequence of (corners, friction), optional
         Areas with a different friction, each with three or more corners [m] in order. The first
-        that a wheel is in counts.
+        that a wheel is in counts. An area may have dents; sides that cross are refused.
     slope : pair of float, str, Quantity or array [-]
         Rise over run of the ground along x and along y of the scene: (0.05, 0) if it rises by 5 %
         in the direction of x.
@@ -333,7 +334,10 @@ def simulate(
     170 deg at (25.1, 0.2) m
     """
     reader = ArgumentReader()
-    areas = [] if surfaces is None else _read_surfaces(reader, surfaces)
+    areas = [
+        (np.array(corners), mu)
+        for corners, mu in ([] if surfaces is None else read_areas(reader, surfaces))
+    ]
     rises = reader.pair(slope, "", "slope")
     rotating = one_value(reader, rotating_mass, "", "rotating_mass", UNIT_INTERVAL)
     ends = None if until is None else one_value(reader, until, "s", "until", POSITIVE_FINITE)
@@ -681,26 +685,3 @@ def refuse_one(ended: int, sloped: bool) -> None:
             "hardly anything slows it",
             code="no_convergence",
         )
-
-
-def _read_surfaces(reader: ArgumentReader, surfaces: Any) -> list[tuple[Any, Any]]:
-    """Corners as an array of (n, 2), and friction, of each area."""
-    areas = []
-    for i, area in enumerate(surfaces if isinstance(surfaces, (list, tuple)) else [surfaces]):
-        corners = area[0] if isinstance(area, (list, tuple)) and len(area) == 2 else None
-        if not isinstance(corners, (list, tuple)) or len(corners) < 3:
-            text = (
-                f"surfaces[{i}] must be a pair of corners, three or more `(x, y)` in a list, "
-                f"and friction; got {shown(area)}"
-            )
-            reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))
-            continue
-        places = [
-            reader.pair(place, "m", f"surfaces[{i}][0][{j}]") for j, place in enumerate(corners)
-        ]
-        if any(isinstance(part, np.ndarray) for place in places for part in place):
-            text = f"surfaces[{i}] has an array among its corners; they are the same for every case"
-            reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))
-            continue
-        areas.append((np.array(places), read_friction(reader, area[1], f"surfaces[{i}]")))
-    return areas

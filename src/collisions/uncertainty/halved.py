@@ -5,13 +5,13 @@ input.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..messages.errors import InputError
 from ..quantities.strict_json import strict
-from ..quantities.tables import Cells, Part, Summarized, Summary, given_texts
+from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence, given_texts
 from ..quantities.units import shown, to_quantity
 from .distribution import Distribution, from_numbers
 from .distributions import Interval, Samples
@@ -40,6 +40,14 @@ class Halved(Summarized):
         Probability that a range holds [-]; None for the whole range, by ``method="interval"``.
     samples : int
         Cases drawn for each range; by a method that does not draw, cases it took.
+    without_answer : dict
+        The share without an answer to at least one output, of the cases drawn from the inputs and
+        searched between bounds; the widths say nothing of these. As the inputs are stated by the
+        name "now", and by input with half the error of that [-]. Widths of rather different shares
+        are of different cases.
+    statements : tuple of str
+        What else was warned of the widths now, and of those of a row where it is not of all: such
+        as that a local method differs from the model with half the error of that input.
     """
 
     now: dict[str, float]
@@ -47,6 +55,8 @@ class Halved(Summarized):
     units: dict[str, str | None]
     coverage: float | None
     samples: int
+    without_answer: dict[str, float]
+    statements: tuple[str, ...] = ()
     given: tuple[str, ...] = ()
 
     def __getitem__(self, name: str) -> dict[str, float]:
@@ -81,9 +91,9 @@ class Halved(Summarized):
         dict
             Plain values that ``json.dumps`` writes; infinity and NaN as texts.
         """
-        names = ("coverage", "samples", "units", "now", "widths")
+        names = ("coverage", "samples", "units", "now", "widths", "without_answer")
         found: dict[str, Any] = strict({name: getattr(self, name) for name in names})
-        return found
+        return found | {"statements": list(self.statements)}
 
     def _with_unit(self, output: str, width: float) -> Any:
         unit = self.units[output]
@@ -106,10 +116,17 @@ class Halved(Summarized):
             "Each row has the error of that input halved, as if better measurements had the same "
             "mean. The first row gains the most."
         )
+        notes = [note]
+        if any(self.without_answer.values()):
+            shares = ", ".join(
+                f"{name} {100.0 * share:.3g}%" for name, share in self.without_answer.items()
+            )
+            notes.append(f"Cases without an answer, which the widths leave out: {shares}.")
+        notes += map(as_sentence, self.statements)
         return Summary(
             f"Width of the {what} if the error of one input were halved",
             [Part(rows, columns=tuple(self.now))],
-            [note],
+            notes,
         )
 
     def _texts(self) -> tuple[str, ...]:
@@ -122,11 +139,13 @@ def widths_if_halved(
     """What ``Propagation.if_halved`` answers; ``run`` propagates other statements of the inputs in
     the same way, with so many cases.
     """
-    widths = {}
+    widths, without, said = {}, {}, {}
+    known = {note.code for note in now.notes if note.warning}
     for name, one in now.inputs.items():
         if isinstance(one, (Distribution, Interval)):
             found = run({**now.inputs, name: with_half_the_error(one)})
-            widths[name] = _widths(found)
+            widths[name], without[name] = _widths(found), found._unanswered
+            said[name] = tuple(_warned_of(found, known))
     at_present = _widths(now)
     order = sorted(widths, key=lambda name: _least_share(widths[name], at_present))
     return Halved(
@@ -135,8 +154,30 @@ def widths_if_halved(
         units={name: output.unit for name, output in now.outputs.items()},
         coverage=None if now.method == "interval" else 0.95,
         samples=samples,
+        without_answer={"now": now._unanswered, **{name: without[name] for name in order}},
+        statements=(
+            *(f"as stated, {sentence}" for sentence in _warned_of(now)),
+            *(
+                f"with half the error of {name}, {sentence}"
+                for name in order
+                for sentence in said[name]
+            ),
+        ),
         given=tuple(given_texts(now)),
     )
+
+
+def _warned_of(found: Propagation, known: Container[str] = ()) -> Iterator[str]:
+    """What was warned of these widths, but for the codes that are known, and cases without an
+    answer, which are counted in each row.
+    """
+    for note in found.notes:
+        if note.code == "not_local":
+            if note.fields["differences"]:
+                # Its size is another in each row.
+                yield note.statement.partition(". ")[0]
+        elif note.warning and note.code != "failed_cases" and note.code not in known:
+            yield note.statement
 
 
 def with_half_the_error(stated: Distribution | Interval) -> Distribution | Interval:

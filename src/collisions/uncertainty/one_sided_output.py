@@ -162,12 +162,10 @@ class OneSidedOutput(Sampled):
         differ.
         """
         known = ~np.isnan(self.values)
-        values, sides = self.values[known], self.sides[known]
-        if not values.size:
+        if not np.any(known):
             return p * math.nan
         share = np.asarray(p, dtype=np.float64)
-        low = _quantiles(np.where(sides < 0, -np.inf, values), share)
-        high = _quantiles(np.where(sides > 0, np.inf, values), share)
+        low, high = (_quantiles(self._counted(side)[known], share) for side in (-1, 1))
         middle = np.where(low == high, low, np.nan)
         found = np.where(share < 0.5, low, np.where(share > 0.5, high, middle))
         return found if found.ndim else float(found)
@@ -175,7 +173,14 @@ class OneSidedOutput(Sampled):
     def _quantile_error(self, share: float) -> float:
         if not math.isfinite(self._quantile(share)):
             return math.nan
-        return super()._quantile_error(share)
+        counted = self._counted(-1 if share < 0.5 else 1)
+        error = self._like(self.name, counted)._quantile_error(share)
+        # Within the error of the share the quantile may be infinite.
+        return math.inf if math.isnan(error) and 0.0 < share < 1.0 else error
+
+    def _counted(self, side: int) -> Any:
+        """The values, those of cases that this side leaves open at infinity."""
+        return np.where(np.sign(self.sides) == side, side * np.inf, self.values)
 
 
 def _quantiles(values: Any, share: Any) -> Any:

@@ -67,6 +67,7 @@ class Run:
     outputs: Mapping[str, Any]
     samples: int
     failed: int
+    drawn: int = 0  # cases drawn from the inputs, of which those that failed are counted
     interrupted: bool = False
     unreached: bool = False
     wrapped: Mapping[str, str] = field(default_factory=dict)
@@ -368,6 +369,7 @@ def _propagated(
                 output=name,
             )
         answered[name] = Bounds(name, output.unit, cases, cuts.get(name)) if intervals else output
+    judged = count + sum(one.drawn for one in runs)
     count, failed = count + samples_run, failed + sum(one.failed for one in runs)
     notes = _notes(method, runs, len(places), count, failed, whole)
     found = runs[0].corrected
@@ -385,6 +387,7 @@ def _propagated(
         notes,
         {"model": count, "finer": found.calls} if found else {},
         found.scatter if found else {},
+        _unanswered=failed / judged,
     )
 
 
@@ -555,7 +558,7 @@ def _local(method: str, joint: Joint, model: Model, report: Report | None) -> Ru
             for name, slope in found.items()
         }
         differing, failed = differences(model, _evenly_drawn(joint, 0, PROBES), outputs)
-    return Run(outputs, count + PROBES, failed, differing=differing)
+    return Run(outputs, count + PROBES, failed, PROBES, differing=differing)
 
 
 def _evenly_drawn(joint: Joint, seed: int, count: int) -> dict[str, Any]:
@@ -620,6 +623,7 @@ def _sampled(
         outputs,
         sample.done,
         count_failed(sample.outputs),
+        sample.done,
         sample.interrupted,
         unreached,
         wraps_of(outputs),
@@ -685,7 +689,15 @@ def _by_interval(model: Model, stated: dict[str, Any], correlation: Any) -> Prop
         )
     run = Run(outputs, found.samples, found.failed, wrapped=found.wrapped)
     notes = _notes("interval", [run], 1, found.samples, found.failed, model)
-    return Propagation("interval", stated, outputs, found.samples, found.failed, notes=notes)
+    return Propagation(
+        "interval",
+        stated,
+        outputs,
+        found.samples,
+        found.failed,
+        notes=notes,
+        _unanswered=found.failed / found.samples,
+    )
 
 
 def _notes(
