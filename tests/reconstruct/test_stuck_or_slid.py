@@ -608,10 +608,75 @@ def test_beside_a_speed_the_refusal_has_the_speeds_of_both_with_their_ratios():
         f"have an impulse ratio of {abs(stuck.impulse_ratio):.2f}, and `friction=inf` does not say "
         f"that it stuck. If it stuck, the speed of A is {stuck.a.before.speed:.6g} m/s and that of "
         f"B 3.8356 m/s; if it slid at a ratio of {abs(slid.impulse_ratio):.2f}, the speed of A is "
-        f"{slid.a.before.speed:.6g} m/s and that of B 3.8356 m/s. Write "
+        f"{slid.a.before.speed:.6g} m/s and that of B 3.8356 m/s; that of A may then be from "
     ).replace("`", "") in said.replace("`", "")
     assert f"{abs(stuck.impulse_ratio):.2f}" != f"{abs(slid.impulse_ratio):.2f}"
     assert "with one of the speeds" not in said  # one is given
+
+
+FAR = {
+    "course_a": -0.1265, "course_b": 1.8415, "restitution": 0.229, "normal": 0.2967,
+    "point": (1.449, -0.778), "speed_a": 11.565, "delta_v_forward_b": -1.952,
+    "delta_v_left_b": -3.597, "friction": math.inf,
+}  # fmt: skip
+FAR_CARS = (
+    col.Vehicle(mass=2088, yaw_inertia=3179, x=0, y=0, heading=-0.111, yaw_rate=0.268),
+    col.Vehicle(mass=1602, yaw_inertia=2287, x=3.027, y=0.824, heading=1.866, yaw_rate=-0.086),
+)
+
+
+def misfit_of(speed_b, friction):
+    """What a forward contact at this speed of B misses both components by, of its own, and
+    whether it slid.
+    """
+    a, b = FAR_CARS
+    impact = col.eccentric(
+        a.replace(vx=11.565 * math.cos(-0.1265), vy=11.565 * math.sin(-0.1265)),
+        b.replace(vx=speed_b * math.cos(1.8415), vy=speed_b * math.sin(1.8415)),
+        0.229, normal=FAR["normal"], point=FAR["point"], friction=friction,
+    )  # fmt: skip
+    off = [getattr(impact.b, name[:-2]) - FAR[name] for name in FAR if name.startswith("delta")]
+    return math.hypot(*off) / impact.b.delta_v, impact.regime == "sliding"
+
+
+def test_beside_a_speed_all_that_slid_and_fit_count_and_not_the_best_alone():
+    """The best that slid lies next to the one that stuck, and others that fit far from it."""
+    with pytest.raises(col.AmbiguousSolutionError, match="whether the contact stuck") as caught:
+        speeds(*FAR_CARS, **FAR)
+    stuck, slid = caught.value.solutions
+    assert (stuck.regime, slid.regime) == ("sticking", "sliding")
+    assert stuck.b.before.speed == pytest.approx(8.361, abs=1e-3)
+    (found,) = speeds(*FAR_CARS, **FAR, slid="bound")
+    assert found.b.before.speed == pytest.approx(stuck.b.before.speed, rel=1e-12)
+    assert found.reconstruction.one_sided == {"speed_a": 0, "speed_b": 1}
+    assert misfit_of(20.8, 0.545)[0] < 0.04
+    assert misfit_of(20.8, 0.545)[1]
+    # The ends that are stated: forward contacts on a grid of ratios fit up to there and no further.
+    least, most = (
+        float(word) for word in str(caught.value).partition("may then be from ")[2].split()[:4:3]
+    )
+    ratios = np.linspace(0.35, 0.7, 176)
+
+    def fits(speed):
+        return any(miss <= 0.1 and slips for miss, slips in (misfit_of(speed, r) for r in ratios))
+
+    assert [fits(least * 0.99), fits(least * 1.01)] == [False, True]
+    assert [fits(most * 0.99), fits(most * 1.01)] == [True, False]
+
+
+def test_a_batch_beside_a_speed_has_the_sides_of_its_cases():
+    left = np.array([-3.597, -1.2, -3.597])
+    forward = np.array([-1.952, -1.952, -0.5])
+    cases = {**FAR, "delta_v_left_b": left, "delta_v_forward_b": forward, "slid": "bound"}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        (found,) = speeds(*FAR_CARS, **cases)
+        for i in range(3):
+            own = {**cases, "delta_v_left_b": left[i], "delta_v_forward_b": forward[i]}
+            (alone,) = speeds(*FAR_CARS, **own)
+            assert found.b.before.speed[i] == pytest.approx(alone.b.before.speed, rel=1e-12)
+            side = found.reconstruction.one_sided["speed_b"][i]
+            assert side == alone.reconstruction.one_sided["speed_b"]
 
 
 def crashes_beside_a_speed(count):

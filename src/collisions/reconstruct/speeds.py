@@ -198,7 +198,9 @@ def speeds(
         speed. Where a car goes backwards there, and less so along the family, the end is where it
         stands; a contact that may have stuck then slid, at the ratio that the components show.
         Beside a known speed, where one that stuck and one that slid both fit within the accuracy
-        of recorders, it gives the one that stuck and on which side of that the other lies.
+        of recorders, it gives the one that stuck and on which side of that the other lies. Of all
+        that slid and fit, those count that lie beyond all that stuck and fit by more than a tenth
+        of the closing speed, and the best, where it fits better than the one that stuck.
 
     Returns
     -------
@@ -221,7 +223,8 @@ def speeds(
         its family, unless a car of the one that stuck goes backwards, or the friction is far above
         the ratio and sliding at it fits within ``reference.RECORDER_ACCURACY``. Or a bound was
         asked for, and sliding fits in either direction within that: ``solutions`` has the bounds of
-        both, after what stuck, if that fits.
+        both, after what stuck, if that fits. Or beside a known speed a bound was asked for, and
+        contacts that slid fit on both sides of one that stuck.
 
     Warns
     -----

@@ -284,7 +284,18 @@ def _stuck_or_slid(
     if far:
         with suppress(CollisionsError):
             slid = list(again(regime="sliding", slid="bound"))
-    if not slid:
+    beside_speed = len(scene.unknown) == 1
+    reaches = [
+        one.reach
+        for one in scene.ways or [scene]
+        if np.any(one.ambiguous) and math.isfinite(one.reach[0])
+    ]
+    if not slid and reaches:
+        # Those that fit have other ratios than the one shown.
+        for ratio in dict.fromkeys(abs(float(one)) for one in reaches[0][2:]):
+            with suppress(CollisionsError):
+                slid += again(regime="sliding", slid=None, friction=ratio)
+    elif not slid:
         for ratio in ratios:
             either_way = again(regime="sliding", slid="bound", friction=abs(ratio))
             slid.append(min(either_way, key=lambda one: abs(one.impulse_ratio - ratio)))
@@ -306,6 +317,16 @@ def _stuck_or_slid(
     if_slid = ", or ".join(
         bound or _alone(end, say) for bound, end in zip(bounds, ends, strict=True)
     )
+    if reaches:
+        least, most = (
+            pick(float(one[at]) for one in reaches) * scene.speed_unit
+            for at, pick in enumerate((min, max))
+        )
+        if_slid += (
+            f"{'; ' if slid else ', '}that of {'AB'[scene.unknown[0]]} may then be from "
+            f"{_told(least, say)} to {_told(most, say)} within the accuracy stated for recorders "
+            "(reference.RECORDER_ACCURACY)"
+        )
     alone = ", or ".join(
         _alone([_along(impact, label, scene) for label in "ab"], say) for impact in stuck
     )
@@ -315,9 +336,8 @@ def _stuck_or_slid(
         if math.isinf(friction)
         else f"`friction={friction:.4g}` is not clearly above that"
     )
-    at = "at that ratio"
-    beside_speed = len(scene.unknown) == 1
-    if beside_speed and math.isinf(friction):
+    at = "at a ratio near that" if reaches else "at that ratio"
+    if slid and beside_speed and math.isinf(friction):
         # That of the components alone, from which one that stuck beside this speed differs.
         own = dict.fromkeys(f"{abs(one.impulse_ratio):.2f}" for one in slid)
         at = f"at a ratio of {' or '.join(own)}"

@@ -58,6 +58,12 @@ MAY_SLIDE = INTER_VEHICLE_FRICTION.low
 # Speeds of a contact that stuck and of one that slid that differ by no more, of the closing speed,
 # are one answer.
 _ONE_ANSWER = 1e-3
+# Beside a known speed, readings within their accuracy lead from the one to the other nearly always.
+# What lies beyond those with which a contact sticks by more, of the closing speed, is another one.
+_BEYOND = 0.1
+# Ratios beside the one that both components of a vehicle show which are tried, by their angles:
+# beyond these none fits.
+_BESIDE = np.linspace(-1.0, 1.0, 13) * math.asin(ACCURACY)
 # Relative size below which the effect of a speed is rounding.
 _NO_EFFECT = 1e-12
 # The same of a change of slip on one speed beside the other.
@@ -113,6 +119,10 @@ class ComponentScene(Scene):
         # With a known speed: to which side of the answer each speed lies if the contact slid.
         self.toward: tuple[Any, Any] = (math.nan, math.nan)
         self.answer: tuple[Any, Any] = (math.nan, math.nan)
+        # The least and the greatest other speed if it slid, and the ratio of each; and where these
+        # lie to both sides of those of one that stuck, so that a bound has none.
+        self.reach: tuple[Any, ...] = (math.nan,) * 4
+        self.no_side: Any = np.zeros((), dtype=bool)
         # Where a bound was asked for and sliding fits either way, so that it has no side.
         self.both_ways: Any = np.zeros((), dtype=bool)
         # Where a contact that sticks fits.
@@ -274,6 +284,9 @@ class ComponentScene(Scene):
         seen = self.observe(STICK, *speeds)
         ratio = seen.tangential / seen.normal
         open_ = sticks & np.logical_not(self._decided(abs(ratio), near))
+        if len(self.unknown) == 1:
+            # There is a family only where the other speed leaves the slip open.
+            open_ = open_ & self._slip_stays_open()
         rising = [
             (side > 0.0) & (speed < 0.0)
             for side, speed in zip(self._ways(ratio), speeds, strict=True)
@@ -324,12 +337,88 @@ class ComponentScene(Scene):
         told = (self.stated is not None) | decided
         self.may_slide = sticks & (size >= MAY_SLIDE) & told & self.leaves_slip
         if self.slid:
+            self.ambiguous = self.ambiguous | (sticks & self.no_side & ~decided)
             first, second = (
                 np.where(np.isnan(side), way, side)
                 for side, way in zip(self.toward, self._ways(self.ratio), strict=True)
             )
             known = (sticks & decided) | np.logical_not(self.leaves_slip)
             self.sides = np.where(known, 0.0, first), np.where(known, 0.0, second)
+
+    def fitting(self, regime: Any) -> tuple[Any, Any]:
+        """Beside a known speed, the least and the greatest other one at which a contact of this
+        regime fits the components within the accuracy of recorders; NaN for none.
+
+        A speed from which the law leads to another regime counts as well.
+        """
+        here, ahead = (self.observe(regime, *self._with_unknown(one)) for one in (0.0, 1.0))
+        n, t = here.normal, here.tangential
+        by_n, by_t = ahead.normal - n, ahead.tangential - t
+        allowed = ACCURACY**2
+        low, high = np.full((), -np.inf), np.full((), np.inf)
+        for label in "ab":
+            left = [
+                (target - (one * n + other * t), -(one * by_n + other * by_t))
+                for kind, (one, other), target in zip(
+                    self.components, self._axes, self._momenta, strict=True
+                )
+                if kind[-1] == label
+            ]
+            if not left:
+                continue
+            # What is left is no more than its share of the impulse: a quadratic in the speed.
+            square = sum(by * by for _, by in left) - allowed * (by_n**2 + by_t**2)
+            half = sum(at * by for at, by in left) - allowed * (n * by_n + t * by_t)
+            at_0 = sum(at * at for at, _ in left) - allowed * (n**2 + t**2)
+            root = np.sqrt(half**2 - square * at_0)
+            # Along an axis across the impulse however much may be left.
+            low = np.maximum(low, np.where(square > 0.0, (-half - root) / square, -np.inf))
+            high = np.minimum(high, np.where(square > 0.0, (root - half) / square, np.inf))
+        none = ~(low <= high)
+        return np.where(none, np.nan, low), np.where(none, np.nan, high)
+
+    def sliding(self, shown: Any, least: Any) -> tuple[Any, Any, Any, Any]:
+        """Beside a known speed, the least and the greatest other one at which a contact that slid
+        fits the components within the accuracy of recorders, at a ratio near the one ``shown``,
+        and the ratio of each; NaN for none. Speeds below ``least`` are none.
+        """
+        # Components of both vehicles may each show another, all between these.
+        wide = 1.0 if len({name[-1] for name in self.components}) == 1 else 2.0
+        angle = np.arctan(shown) + wide * _BESIDE.reshape(-1, *[1] * len(self.shape))
+        ratio = np.where(abs(angle) < 0.5 * math.pi, np.tan(angle), np.nan)
+        low, high = self.fitting(ratio)
+        here, ahead = (
+            np.sign(ratio) * self._beyond(ratio, self._with_unknown(one)) for one in (0.0, 1.0)
+        )
+        # It slides where sticking takes more than this ratio.
+        edge, rises = here / (here - ahead), ahead > here
+        low = np.maximum(np.where(rises, np.maximum(low, edge), low), least)
+        high = np.where(rises, high, np.minimum(high, edge))
+        at_ratio = copy(self)
+        at_ratio.bound = abs(ratio)
+        ends = []
+        for end, other, most in ((low, high, np.argmin), (high, low, np.argmax)):
+            # A hair inside, as rounding decides whether the end itself slides.
+            speed = end + _STAYS * (other - end)
+            pair = self._with_unknown(speed)
+            as_slid, seen = at_ratio.observe(ratio, *pair), at_ratio.observe(LAW, *pair)
+            apart = abs(seen.normal - as_slid.normal) + abs(seen.tangential - as_slid.tangential)
+            fits = pushed(seen) & (apart <= ROOT_TOL * abs(as_slid.normal)) & (low < high)
+            worst = math.inf if most is np.argmin else -math.inf
+            chosen = most(np.where(fits, speed, worst), axis=0)[np.newaxis]
+            ends += [
+                np.take_along_axis(np.where(fits, part, np.nan), chosen, axis=0)[0]
+                for part in np.broadcast_arrays(speed, ratio)
+            ]
+        return ends[0], ends[2], ends[1], ends[3]
+
+    def _with_unknown(self, speed: Any) -> tuple[Any, Any]:
+        """The known speed and this other one, those of A and B."""
+        first, second = (
+            speed if at in self.unknown else known + 0.0 * speed
+            for at, known in enumerate(self.known)
+        )
+        return first, second
 
     def _slip_stays_open(self) -> Any:
         """With one speed known: whether the other does not show in the closing speed, so that a
@@ -681,12 +770,16 @@ class ComponentScene(Scene):
 class Shown(NamedTuple):
     """What components show of a contact: the friction in place of an infinite one, None where none
     is used; where a contact that slid fits as well as one that stuck, with other speeds; and to
-    which side of those of the one that stuck each of those lies, NaN where that is not so.
+    which side of those of the one that stuck each of those lies, NaN where that is not so; the
+    least and the greatest of those beside a known speed, with the ratio of each; and where they lie
+    to both sides.
     """
 
     friction: Any = None
     fits_both: Any = False
     toward: tuple[Any, Any] = (math.nan, math.nan)
+    reach: tuple[Any, ...] = (math.nan,) * 4
+    no_side: Any = False
 
 
 def friction_shown(
@@ -702,7 +795,8 @@ def friction_shown(
 
     It slid where the caller stated that, where a known speed goes with a contact that slid and
     differs by more than recorders may from one that stuck, or where more energy was lost than
-    sticking loses. A speed does not settle it where ``given`` says that it is ``EITHER``.
+    sticking loses. A speed does not settle it where ``given`` says that it is ``EITHER``, and where
+    a contact that slid fits within the accuracy of recorders with speeds far from one that stuck.
     """
     friction = given[FRICTION]
     speeds = [name for name in names if name.startswith("speed")]
@@ -710,7 +804,8 @@ def friction_shown(
     settles = speeds or len(components) < len(names)
     if regime == "sticking" or len(components) < 2 or not (settles or regime):
         return Shown()
-    shown = abs(kind(given, FRICTION, law, components, shape).shown_ratio())
+    of_components = kind(given, FRICTION, law, components, shape).shown_ratio()
+    shown = abs(of_components)
     usable = np.isinf(friction) & np.isfinite(shown)
     ratio = np.where(usable, shown, friction)
     if regime == "sliding":
@@ -723,12 +818,31 @@ def friction_shown(
     one, other, *_ = slid.roots()
     slides = usable & ((one.closing > 0.0) | (other.closing > 0.0)) & (slid.misfit < stuck.misfit)
     settled = slides & (stuck.misfit > ACCURACY) & ~np.asarray(given.get(EITHER, 0.0) > 0.0)
-    moves = [b - a for a, b in zip(stuck.answer, slid.answer, strict=True)]
-    differs = slides & (sum(map(abs, moves)) > _ONE_ANSWER * closing)
-    open_ = (usable & slid.undetermined | differs) & ~settled
-    first, second = (np.where(differs & ~settled, np.sign(move), np.nan) for move in moves)
+    (at,) = stuck.unknown
+    move = slid.answer[at] - stuck.answer[at]
+    least = _ONE_ANSWER * closing
+    rises, falls = slides & (move > least), slides & (move < -least)
+    stuck_at = stuck.answer[at]
+    of_stuck = kind(given, FRICTION, law, names, shape)
+    low, high = of_stuck.fitting(STICK)
+    there = usable & (closing > 0.0) & ~settled
+    reach: tuple[Any, ...] = (np.full((), np.nan),) * 4
+    if np.any(there):
+        reach = of_stuck.sliding(of_components, np.minimum(stuck_at, 0.0))
+    rises = rises | (there & (reach[1] - np.fmax(high, stuck_at) > _BEYOND * closing))
+    falls = falls | (there & (np.fmin(low, stuck_at) - reach[0] > _BEYOND * closing))
+    differs = (rises | falls) & ~settled
+    # One that hardly slid has the speeds of one that just stuck, to the ends of those.
+    reach = np.fmin(reach[0], np.fmax(low, 0.0)), np.fmax(reach[1], high), *reach[2:]
+    open_ = (usable & slid.undetermined & ~settled) | differs
+    side = np.where(differs, np.subtract(rises, falls, dtype=np.float64), np.nan)
+    of_known = np.where(differs, 0.0, np.nan)
     return Shown(
-        np.where(settled, shown, friction) if np.any(settled) else None, open_, (first, second)
+        np.where(settled, shown, friction) if np.any(settled) else None,
+        open_,
+        (side, of_known) if at == 0 else (of_known, side),
+        reach,
+        rises & falls & ~settled,
     )
 
 

@@ -193,7 +193,7 @@ class Search:
         scene.shares = scene.shares or shares
         if isinstance(scene, ComponentScene):
             scene.leaves_slip = scene.leaves_slip | shown.fits_both
-            scene.toward = shown.toward
+            scene.toward, scene.reach, scene.no_side = shown.toward, shown.reach, shown.no_side
             scene.shows_friction = np.isinf(asked.rule_value) & (friction is not None)
         roots = scene.roots() if self.function is None else _with_function(scene, self.function)
         if isinstance(scene, ComponentScene) and np.any(np.isfinite(scene.slid_at)):
