@@ -163,3 +163,16 @@ def test_a_number_beyond_the_unit_stays_si():
     assert say(1e308, "speed") == "1e+308 m/s"
     assert say(-0.0, "speed") == "0 mph"
     assert say(35 * MPH, "speed") == "35 mph"
+
+
+def test_numbers_near_each_other_are_written_apart():
+    """With as many figures as that takes, in the unit that they are printed in; equal ones, and a
+    number alone, stay short.
+    """
+    say = Sentences(["10 mph"])
+    assert say.apart([10 * MPH, 12 * MPH], "speed") == ["10 mph", "12 mph"]
+    near = [10 * MPH, 10.0000001 * MPH]
+    assert say.apart(near, "speed") == ["10 mph", "10.0000001 mph"]
+    assert say.apart([0.03432, 0.03432], "number", 4) == ["0.03432", "0.03432"]
+    one = 0.1
+    assert len(set(say.apart([one, np.nextafter(one, 1.0)], "number"))) == 2

@@ -4,6 +4,7 @@ found again from every three values.
 
 import json
 import random
+from fractions import Fraction
 from itertools import combinations
 
 import numpy as np
@@ -13,6 +14,7 @@ import collisions as col
 from collisions import reconstruct
 
 G = 9.80665
+EPS = 2.0**-52
 KNOWN = ("va", "vb", "va_after", "vb_after", "restitution", "energy_loss")
 
 
@@ -77,6 +79,106 @@ def test_an_integrated_motion_is_found_again_from_any_three_values(crashes, name
             wanted = truth | {"energy_loss": truth["va"]}
             misses.append(max(abs(values[name] - wanted[name]) for name in KNOWN))
         assert min(misses) < 1e-6
+
+
+def exactly_ended(mass_a, mass_b, va, vb, e, held):
+    """What momentum makes of an impact with tyres, in rationals, each rounded once."""
+    mass_a, mass_b, va, vb, e = map(Fraction, (mass_a, mass_b, va, vb, e))
+    slowed_a, slowed_b = (
+        Fraction(G) * Fraction(held["duration"]) * Fraction(held.get(f"drag_{label}", 0.0))
+        for label in "ab"
+    )
+    closing = va - vb
+    impulse = mass_a * mass_b / (mass_a + mass_b) * ((1 + e) * closing + slowed_b - slowed_a)
+    after = va - impulse / mass_a - slowed_a, vb + impulse / mass_b - slowed_b
+    values = va, vb, *after, e, impulse * (1 - e) * closing / 2
+    return dict(zip(KNOWN, map(float, values), strict=True))
+
+
+def answers(masses, known, held):
+    """The answers, one or both, and the code of the refusal if there is one."""
+    try:
+        return [reconstruct.central(*masses, **known, **held)], None
+    except col.CollisionsError as error:
+        return error.solutions, error.code
+
+
+def lost(names, equal, e):
+    """The code for what these values say nothing of."""
+    if e == 0.0:
+        return "inverse_e0" if {"va_after", "vb_after", "restitution"} == {*names} else None
+    # Equal masses exchange their velocities, whatever they were.
+    crossed = ({"va", "vb_after"}, {"vb", "va_after"})
+    exchanged = equal and any({*names} - pair <= {"restitution", "energy_loss"} for pair in crossed)
+    return "undetermined" if exchanged or {"restitution", "energy_loss"} < {*names} else None
+
+
+HELD = [
+    {"duration": 0.1, "drag_a": 0.3, "drag_b": 0.5},
+    {"duration": 0.1, "drag_a": 0.5, "drag_b": 0.3},
+    {"duration": 0.1, "drag_a": 0.7},
+    {"duration": 0.15, "drag_b": 0.7},
+    {"duration": 0.1, "drag_a": 0.4, "drag_b": 0.4},
+    {"duration": 0.1, "drag_a": 1e-9},
+    {"duration": 0.1, "drag_b": 1e-9},
+]
+
+
+@pytest.mark.parametrize("names", list(combinations(KNOWN, 3)), ids="-".join)
+@pytest.mark.parametrize("e", [0.0, 1.0])
+def test_the_edges_of_restitution_are_found_again(names, e):
+    """An e of exactly 0 or 1, which rounding moves to either side, is among the answers; or the
+    refusal says what is lost. Where a root is double, e is the square root of its rounding.
+    """
+    for masses in ((1200.0, 900.0), (1000.0, 1600.0), (1477.163, 1412.903), (1200.0, 1200.0)):
+        for va, vb in ((20.0, 10.0), (35.859796, 16.370361)):
+            for held in HELD:
+                truth = exactly_ended(*masses, va, vb, e, held)
+                known = {name: truth[name] for name in names}
+                found, code = answers(masses, known, held)
+                if not found:
+                    assert code == lost(names, masses[0] == masses[1], e), (masses, known, held)
+                    continue
+                near = min(found, key=lambda one: abs(one.restitution - e))
+                within = 16.0 * EPS * (1.0 + near.reconstruction.condition) * va
+                assert abs(near.a.before.vx - va) < within, (masses, known, held)
+                assert abs(near.b.before.vx - vb) < within, (masses, known, held)
+                assert 0.0 <= near.restitution <= 1.0
+                assert abs(near.restitution - e) < 4.0 * np.sqrt(EPS), (masses, known, held)
+
+
+@pytest.mark.parametrize("held", HELD[:4])
+@pytest.mark.parametrize("more", [3e-14, 1e-12, 1e-9, 1e-6])
+def test_a_restitution_below_0_is_not_taken_for_rounding(held, more):
+    """Where B is held more, more energy than that of a plastic impact means a separation below 0;
+    where A is held more, less energy does, and what fits is the bounce that loses as much.
+    """
+    known = {"va": 20.0, "vb": 10.0}
+    most = exactly_ended(1200.0, 900.0, 20.0, 10.0, 0.0, held)["energy_loss"]
+    bounces = held.get("drag_a", 0.0) > held.get("drag_b", 0.0)
+    energy = most * (1.0 - more if bounces else 1.0 + more)
+    found, code = answers((1200.0, 900.0), known | {"energy_loss": energy}, held)
+    assert code == (None if bounces else "not_separating")
+    assert [one.restitution > 0.01 for one in found] == [True] * bounces
+
+
+def test_of_two_answers_with_tyres_neither_is_left_out():
+    """Tyres of A slow the approach: a plastic impact and a bounce lose the same, whichever way the
+    energy was rounded.
+    """
+    held = {"duration": 0.1, "drag_a": 0.7}
+    truth = exactly_ended(1000.0, 1600.0, 20.0, 0.0, 0.0, held)
+    for ulps in range(-4, 5):
+        energy = truth["energy_loss"] + ulps * np.spacing(truth["energy_loss"])
+        found, code = answers(
+            (1000.0, 1600.0), {"va": 20.0, "vb": 0.0, "energy_loss": energy}, held
+        )
+        assert code == "ambiguous"
+        plastic, bounce = sorted(found, key=lambda one: one.restitution)
+        assert plastic.restitution == pytest.approx(0.0, abs=1e-13)
+        assert plastic.a.after.vx == pytest.approx(truth["va_after"], rel=1e-13)
+        # (e g + k / 2)^2 is the same for both: e = -k / g.
+        assert bounce.restitution == pytest.approx(0.07 * G / 20.0, rel=1e-12)
 
 
 def test_every_way_of_finding_it_can_be_derived(crashes):

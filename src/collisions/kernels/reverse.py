@@ -42,19 +42,27 @@ def inline_speeds(
     eps: float = EPS,
     incomplete: bool = False,
     more: Any = 0.0,
+    slowed: Any = 0.0,
 ) -> list[Pair]:
     """Closing and separation speeds that fit the three known values: one pair, or two that the
     caller must tell apart.
 
     ``incomplete`` says whether the separation speed may be below 0. ``more`` is what tyres add to
-    both, k/2, of velocities with half of what they do.
+    both, k/2, of velocities with half of what they do, ``slowed``.
     """
     v = {name: known[name] for name in VELOCITIES if name in known}
     restitution: Any = known.get("restitution")
     if len(v) == 3:
         return [_from_three(v, share_a, share_b)]
-    if "energy_loss" not in known:
+    if len(v) == 2:
         p, q, difference = _relation(v, share_a, share_b)
+        if np.any(np.not_equal(slowed, 0.0)):
+            # Velocities with half of what tyres do are rounded, so that equal ones may differ.
+            sizes = sum(abs(value) for value in v.values()) + slowed
+            rounding = np.where(slowed > 0.0, 4.0 * eps * sizes, 0.0)
+            difference = np.where(abs(difference) <= rounding, 0.0, difference)
+        relation = p, q, difference
+    if "energy_loss" not in known:
         beside = (1.0 - restitution) * more
         closing = (difference - q * beside) / (p + q * restitution)
         return [(closing, restitution * closing + beside)]
@@ -64,7 +72,39 @@ def inline_speeds(
         return [(closing, restitution * closing + (1.0 - restitution) * more)]
     # Where tyres take from the approach, a separation below 0 here may be none of the bodies.
     both = incomplete or bool(np.any(np.less(more, 0.0)))
-    return _from_energy(v, share_a, share_b, squared, eps, both)
+    return _from_energy(v, relation, squared, eps, both)
+
+
+def moved_by_rounding(
+    known: dict[str, Any],
+    share_a: Any,
+    share_b: Any,
+    reduced: Any,
+    eps: float,
+    pair: Pair,
+    scale: Any,
+) -> tuple[Any, Any]:
+    """How far rounding may move a closing and a separation speed that two velocities and an energy
+    give; ``scale`` is the size of the velocities. 0 for other known values.
+
+    The pair lies where the line p g + q r = d cuts the hyperbola (g - r)(g + r) = s. A step t along
+    the line, (-q, p) t, changes (g - r)(g + r) by -2 h t - (p^2 - q^2) t^2, h = p r + q g. What
+    rounding does to s and d is a change ds: away from a double root it moves the pair by ds/(2 h),
+    and at one, where h = 0, by the root of ds/(p^2 - q^2), which is the most.
+    """
+    v = {name: known[name] for name in VELOCITIES if name in known}
+    if len(v) != 2 or "energy_loss" not in known:
+        return 0.0, 0.0
+    p, q, _ = _relation(v, share_a, share_b)
+    larger = np.fmax(abs(p), abs(q))
+    p, q = p / larger, q / larger
+    g, r = pair
+    squared = 2.0 * known["energy_loss"] / reduced
+    ds = 16.0 * eps * (squared + scale / larger * (abs(g) + abs(r)))
+    bend = abs(p * p - q * q) * ds
+    h = np.fmax(abs(p * r + q * g), np.sqrt(bend))
+    step = ds / (h + np.sqrt(h * h - bend))
+    return abs(q) * step, abs(p) * step
 
 
 def allowed_losses(
@@ -159,10 +199,10 @@ def _names(v: dict[str, Any]) -> tuple[str, str]:
 
 
 def _from_energy(
-    v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, eps: float, both: bool
+    v: dict[str, Any], relation: tuple[Any, Any, Any], squared: Any, eps: float, both: bool
 ) -> list[Pair]:
     """With (g - r)(g + r) given; ``both`` asks for a separation speed below 0 too."""
-    p, q, difference = _relation(v, share_a, share_b)
+    p, q, difference = relation
     root = np.sqrt(squared)
     match _names(v):
         case ("va", "vb"):

@@ -18,7 +18,13 @@ from ..impact.run import error_of
 from ..kernels.central import shares
 from ..kernels.contact_laws import BRACH, FRICTION
 from ..kernels.elementwise import restitution_domain
-from ..kernels.reverse import VELOCITIES, allowed_losses, inline_speeds, moving_apart
+from ..kernels.reverse import (
+    VELOCITIES,
+    allowed_losses,
+    inline_speeds,
+    moved_by_rounding,
+    moving_apart,
+)
 from ..kernels.status import Status
 from ..messages.errors import AmbiguousSolutionError, CollisionsError
 from ..messages.hints import hinted
@@ -60,14 +66,15 @@ _STILL = 1e-9  # of the speeds: below, a vehicle that is held does not move back
 
 
 class Candidate(NamedTuple):
-    """A candidate solution: velocities before, restitution, closing speed, and whether it is a
-    possible impact.
+    """A candidate solution: velocities before, restitution, closing speed, how far rounding may
+    move the restitution, and whether it is a possible impact.
     """
 
     va: Any
     vb: Any
     restitution: Any
     closing: Any
+    rounding: Any
     fits: Any
 
 
@@ -231,7 +238,9 @@ def _answer(
     which = np.where(one.fits | (~other.fits & (one.closing > 0.0)), 0, len(candidates) - 1)
     found = Candidate(*(np.choose(which, parts) for parts in zip(*candidates, strict=True)))
     apart = abs(one.closing - other.closing) > 64.0 * cases.eps * abs(one.closing)
-    apart = apart | (abs(one.restitution - other.restitution) > np.sqrt(64.0 * cases.eps))
+    # Of two roots that rounding brings together, one may be at 0 in place of below it.
+    alike = np.fmax(np.sqrt(64.0 * cases.eps), one.rounding + other.rounding)
+    apart = apart | (abs(one.restitution - other.restitution) > alike)
     ambiguous = one.fits & other.fits & apart
     held = "duration" in arrays
     status = cases.first_status(
@@ -355,7 +364,7 @@ def _against(known: dict[str, Any], found: Candidate) -> Any:
     after = {"a": found.va - share_a * passed, "b": found.vb + share_b * passed}
     for label, before in (("a", found.va), ("b", found.vb)):
         end = after[label] - slowed[label]
-        rounding = _STILL * (abs(before) + found.closing)
+        rounding = _STILL * (abs(before) + found.closing) + found.rounding * found.closing
         backwards = (before < -rounding) | (end < -rounding)
         against = against | ((slowed[label] > 0.0) & backwards)
     return against
@@ -368,8 +377,11 @@ def _candidates(given: dict[str, Any], eps: float, incomplete: bool) -> list[Can
     # The change of velocity of a heavy body says little about the impact.
     share = {"a": share_a, "b": share_b, "": 1.0}[_only_changing(known)]
     found = []
-    pairs = inline_speeds(known, share_a, share_b, reduced, eps, incomplete, more)
+    half = _half_of(given)
+    slowed = half["a"] + half["b"]
+    pairs = inline_speeds(known, share_a, share_b, reduced, eps, incomplete, more, slowed)
     for closing, separation in pairs:
+        pair, pushed = (closing, separation), closing + separation > 0.0
         va, vb = known.get("va"), known.get("vb")
         if va is None and vb is None:
             total = closing + separation
@@ -378,20 +390,26 @@ def _candidates(given: dict[str, Any], eps: float, incomplete: bool) -> list[Can
         va = vb + closing if va is None else va
         vb = va - closing if vb is None else vb
         if "duration" in given:
-            half = _half_of(given)
             va, vb = va + half["a"], vb + half["b"]
             closing, separation = closing - more, separation - more
         # Rounding may move an e of exactly 0 or 1.
         scale = sum(abs(known[name]) for name in VELOCITIES if name in known) + abs(va) + abs(vb)
-        rounding = np.fmin(16.0 * eps * (1.0 + scale / (share * abs(closing))), _MOST_ROUNDING)
         e = separation / closing
+        rounding = 16.0 * eps * (1.0 + scale / (share * abs(closing)))
+        # The roots of an energy are moved by more, and by its square root where they meet.
+        parts = moved_by_rounding(known, share_a, share_b, reduced, eps, pair, scale)
+        rounding = rounding + (parts[1] + abs(e) * parts[0]) / abs(closing)
+        rounding = np.fmin(rounding, _MOST_ROUNDING)
         e = np.where(
             (e < 0.0) & (e >= -rounding), 0.0, np.where((e > 1.0) & (e <= 1.0 + rounding), 1.0, e)
         )
         e = known.get("restitution", e)
         least = (e > -1.0) if incomplete else (e >= 0.0)
         fits = (closing > 0.0) & least & (e <= 1.0) & np.isfinite(va + vb) & ~np.asarray(fixed)
-        one = Candidate(va, vb, e, closing, fits)
+        if len(pairs) > 1:
+            # One of two may be that of no contact, in which tyres alone part the bodies.
+            fits = fits & pushed
+        one = Candidate(va, vb, e, closing, rounding, fits)
         found.append(one._replace(fits=fits & ~_against(given, one)))
     return found
 
