@@ -562,7 +562,9 @@ class Sampled(Output):
 
         The standard error of the share of cases up to the quantile, times the slope of the
         quantiles there. How the quantiles differ between the sequences would tell less, because
-        each sequence is evenly spread in itself.
+        each sequence is evenly spread in itself. Where some cases are known from one side only, it
+        is of the same values as the quantile, with these cases at infinity: NaN where the quantile
+        is infinite itself, and infinite where, within the error of its share, it may be.
 
         Parameters
         ----------
@@ -941,8 +943,9 @@ class Propagation(Summarized):
     @property
     def statements(self) -> tuple[str, ...]:
         """What belongs with the figures, as sentences: every warning that this library gave while
-        the model worked, by how many cases, and what is to be said of the method. What holds in
-        fewer than 0.5 percent of the cases stands here alone, and is not warned of.
+        the model worked, by how many cases, and what is to be said of the method. What is warned of
+        in fewer than 0.5 percent of the cases stands here alone and is not raised; that cases have
+        no answer is raised of any. Other warnings that the model gives are not here.
         """
         return tuple(note.statement for note in self.notes)
 
