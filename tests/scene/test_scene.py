@@ -480,3 +480,23 @@ def test_two_that_stop_before_they_are_so_deep_have_no_contact_there() -> None:
     hit = Contact("A", "B", restitution=0.1, friction=0.4, at="touch", depth=0.3)
     with pytest.raises(col.NoSolutionError, match="do not close along the normal"):
         Scene(movers={"A": a, "B": b}, contacts=[hit]).run()
+
+
+def test_a_depth_of_which_it_is_not_known_whether_it_is_reached_is_refused() -> None:
+    """At 0.021 m/s the 30 m would take 1,430 s, of which 1,000 are looked at; never replaced."""
+
+    def crash(speed: object) -> Scene:
+        body = {"mass": 1500.0, "yaw_inertia": 2500.0, "heading": 0.0}
+        a = Mover(col.Vehicle(x=-60.7, y=0.2, vx=speed, **body), outline=("60 m", "1.8 m"))
+        b = Mover(col.Vehicle(x=0.0, y=0.0, **body), outline=("60 m", "1.8 m"))
+        hit = Contact("A", "B", restitution=0.1, friction=0.4, at="touch", depth="30 m")
+        return Scene(movers={"A": a, "B": b}, contacts=[hit])
+
+    with pytest.raises(col.NoSolutionError, match="in the 1000 s after it they neither") as caught:
+        crash(0.021).run()
+    assert caught.value.code == "depth_undecided"
+    with pytest.warns(col.CollisionsWarning, match="1 depth_undecided"):
+        both = crash(np.array([0.021, 20.0])).run()
+    assert both.status.tolist() == ["depth_undecided", "ok"]
+    assert math.isnan(both.times[0][0])
+    assert both.times[0][1] == pytest.approx(30.7 / 20.0, rel=1e-9)

@@ -113,8 +113,8 @@ def test_contact_points_close_by_the_turning_of_either_car(spins):
     assert _closing_at(contact, states, normal, point)[0] == pytest.approx(closing, rel=1e-12)
 
 
-def along_x(met: Meeting):
-    """The normal of the face struck, of each case."""
+def along_x(met: Meeting, some):
+    """The normal of the face struck, of each of some cases."""
     return np.array([[1.0], [0.0]])
 
 
@@ -124,14 +124,14 @@ PASSING = ((0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (2.0, 1.0, 0.0, -1.0, 2.0, 0.0))
 
 def test_a_pair_that_parts_first_is_taken_at_its_deepest():
     """Where neither overlap is less than the other, after a third of a second."""
-    due, parted = engaged(evenly(*PASSING), along_x, np.zeros(1), CASE, np.full(1, 0.6), None)
+    due, parted, _ = engaged(evenly(*PASSING), along_x, np.zeros(1), CASE, np.full(1, 0.6), None)
     assert parted[0]
     assert due[0] == pytest.approx(1.0 / 3.0, abs=1e-6)
 
 
 def test_a_depth_is_counted_along_the_normal():
     """Not along the direction in which the pair is about to part."""
-    due, parted = engaged(evenly(*PASSING), along_x, np.zeros(1), CASE, None, np.full(1, 0.45))
+    due, parted, _ = engaged(evenly(*PASSING), along_x, np.zeros(1), CASE, None, np.full(1, 0.45))
     assert not parted[0]
     assert due[0] == pytest.approx(0.45, abs=1e-9)
 

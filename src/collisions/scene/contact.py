@@ -68,7 +68,9 @@ class Contact(Shown):
         0.5 m of each other where normal and point are given; or whenever the outlines meet and
         close by 0.02 m/s or more.
     depth : float, str, Quantity or array [m], optional
-        Overlap along the normal at which the impulse acts.
+        Overlap along the normal at which the impulse acts, however long after first touch. Where
+        the two part before, or stop, it acts at their deepest; where neither comes within 1,000 s
+        it is refused.
     delay : float, str, Quantity or array [s], optional
         Time from first touch to the impulse, 0.03 s if no depth is given.
     plane : {"face", "crossings"}, optional

@@ -30,6 +30,7 @@ from .contact import IN_TIME, USUAL_DELAY, Contact
 from .motion import Course, Ground, body_at, follow_on, moved
 from .mover import Mover
 from .touching import (
+    LONGEST_SEARCH,
     TOUCHING,
     Meeting,
     Pair,
@@ -607,10 +608,15 @@ class Followed:
         axis = pair.axis[cases] = struck_face(moving, touch, later, cases)
         self._refuse_bare(pair, moving, cases, delay if depth is None else depth)
 
-        def along(met: Meeting) -> Any:
-            return self._axis(pair, contact, met, axis, cases)
+        def along(met: Meeting, some: Any) -> Any:
+            return self._axis(pair, contact, met, axis[some], cases[some])
 
-        due, deepest = engaged(moving, along, touch, cases, delay if depth is None else None, depth)
+        due, deepest, unknown = engaged(
+            moving, along, touch, cases, delay if depth is None else None, depth
+        )
+        if unknown.any():
+            self._refuse_unknown_depth(pair, cases[unknown])
+            due = np.where(unknown, np.inf, due)
         pair.due[cases], pair.deepest[cases] = due, deepest
         if contact.in_time:
             # It begins at first touch, where the face and the place that it comes to are known.
@@ -640,6 +646,21 @@ class Followed:
                 argument="delay",
             )
         self._fail(cases[flat], "bare_touch")
+
+    def _refuse_unknown_depth(self, pair: _Between, cases: Any) -> None:
+        """Refuse a depth of which it is not found out whether two come to it."""
+        if self.single:
+            one, other = pair.names
+            raise NoSolutionError(
+                f"{one} and {other} touch at {float(pair.touch[0]):.4g} s, and in the "
+                f"{LONGEST_SEARCH:g} s after it they neither come as deep as the `depth=` of their "
+                "contact, nor part, nor stop; give a `depth=` that is less, a `delay=`, or "
+                "velocities with which they come there sooner",
+                code="depth_undecided",
+                time=float(pair.touch[0]),
+                movers=pair.names,
+            )
+        self._fail(cases, "depth_undecided")
 
     def _axis(self, pair: _Between, contact: Contact, met: Meeting, axis: Any, cases: Any) -> Any:
         """The normal from the first of the pair to the second, of each case."""

@@ -26,8 +26,10 @@ _GOLDEN = 0.6180339887498949
 # The depth of an overlap is looked at this often [s], or in so many parts of a delay.
 _SEARCH, _PARTS = 2.5e-3, 12
 # From a second after first touch on, looks for a depth are apart by this share of the time since
-# then; a pair that has not parted, stopped or come to it after so long [s] acts at its deepest.
-_SEARCH_SHARE, _LONGEST_SEARCH = 2.5e-3, 1e3
+# then; of a pair that has not parted, stopped or come to it after so long [s] it is not known.
+_SEARCH_SHARE, LONGEST_SEARCH = 2.5e-3, 1e3
+# So many looks at all cases, which are then over for nearly all.
+_TOGETHER = 400
 
 
 class Shape(NamedTuple):
@@ -259,32 +261,37 @@ def struck_face(pair: Pair, touch: Any, later: Any, cases: Any) -> Any:
 
 def engaged(
     pair: Pair,
-    axis_of: Callable[[Meeting], Any],
+    axis_of: Callable[[Meeting, Any], Any],
     touch: Any,
     cases: Any,
     delay: Any,
     depth: Any,
-) -> tuple[Any, Any]:
-    """When the impulse acts [s], and whether the pair was at its deepest before.
+) -> tuple[Any, Any, Any]:
+    """When the impulse acts [s], whether the pair was at its deepest before, and whether neither is
+    known.
 
-    ``axis_of`` gives the axis of each case. The impulse acts ``delay`` after first touch, or at the
-    ``depth`` along that axis, of which one is None; of a pair that parts before, at its deepest.
+    ``axis_of`` gives the axis of some of these cases, by their place. The impulse acts ``delay``
+    after first touch, or at the ``depth`` along that axis, of which one is None; of a pair that
+    parts before, at its deepest. One that neither reaches the depth nor parts nor stands within
+    ``LONGEST_SEARCH`` is not known, and NaN.
     """
 
-    def deep(time: Any) -> tuple[Any, Any, Any]:
+    def deep(time: Any, some: Any = slice(None)) -> tuple[Any, Any, Any]:
         """The depth along the axis, the least along any, which is below 0 where they are apart, and
         whether both stand.
         """
-        met, state_a, state_b = pair.at(time, cases)
-        axis = axis_of(met)
+        met, state_a, state_b = pair.at(time, cases[some])
+        axis = axis_of(met, some)
         p = axis[0] * met.one[0] + axis[1] * met.one[1]
         q = axis[0] * met.other[0] + axis[1] * met.other[1]
         stand = ~np.any((state_a[3:] != 0.0) | (state_b[3:] != 0.0), axis=0)
         return p.max(axis=0) - q.min(axis=0), -met.gap, stand
 
     count = len(cases)
+    unknown = np.zeros(count, dtype=bool)
     if delay is None:
         time, width, reached, parted = _searched(deep, touch, depth)
+        unknown = ~(reached | parted)
     else:
         width, reached = delay / _PARTS, np.zeros(count, dtype=bool)
         # All looks at once.
@@ -309,29 +316,36 @@ def engaged(
             more = deep(one)[1] > deep(two)[1]
             left, right = np.where(more, left, one), np.where(more, two, right)
         due = np.where(parted, 0.5 * (left + right), due)
-    return due, parted
+    return np.where(unknown, np.nan, due), parted, unknown
 
 
 def _searched(
-    deep: Callable[[Any], tuple[Any, Any, Any]], touch: Any, depth: Any
+    deep: Callable[..., tuple[Any, Any, Any]], touch: Any, depth: Any
 ) -> tuple[Any, Any, Any, Any]:
     """The look at which a depth is reached, or the pair parts or stands before; the time since the
-    look before it; and which of both it is.
+    look before it; and which of both it is: neither where the search came to its end.
     """
     count = len(touch)
     time, before = np.array(touch, dtype=float), np.zeros(count)
     reached, parted = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
     width = np.full(count, _SEARCH)
-    going = ~reached
-    while going.any():
-        width = np.where(going, np.maximum(_SEARCH, _SEARCH_SHARE * (time - touch)), width)
-        time = np.where(going, time + width, time)
-        now, least, stand = deep(time)
-        hit = going & (least >= 0.0) & (now >= depth)
-        ends = (least < 0.0) | (now < before) | stand | (time - touch > _LONGEST_SEARCH)
-        parts = going & ~hit & ends
-        reached, parted, before = reached | hit, parted | parts, np.where(going, now, before)
-        going = ~(reached | parted)
+    depth = np.broadcast_to(depth, count)
+    some, looks = np.arange(count), 0
+    while len(some):
+        looks += 1
+        # Those that are through stand still meanwhile.
+        going = ~(reached | parted)[some]
+        wide = np.maximum(_SEARCH, _SEARCH_SHARE * (time - touch)[some])
+        width[some[going]] = wide[going]
+        time[some[going]] += wide[going]
+        now, least, stand = deep(time[some], some)
+        hit = going & (least >= 0.0) & (now >= depth[some])
+        ends = going & ~hit & ((least < 0.0) | (now < before[some]) | stand)
+        reached[some[hit]], parted[some[ends]] = True, True
+        before[some[going]] = now[going]
+        on = ~(reached | parted) & (time - touch <= LONGEST_SEARCH)
+        if looks >= _TOGETHER or not on.any():
+            some = np.flatnonzero(on)
     return time, width, reached, parted
 
 
