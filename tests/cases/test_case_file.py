@@ -336,6 +336,21 @@ def test_propagation_is_that_of_the_same_model():
     assert set(found.inputs) == {"a.vx", "b.mass", "restitution"}
 
 
+def test_a_warning_of_few_cases_is_among_the_statements_of_the_record():
+    """Without loss along the normal an impact gains energy where the ratio is above 0, here beyond
+    three standard deviations: one case of 740, too few to warn of.
+    """
+    text = ECCENTRIC.replace("restitution = 0.1", "restitution = 1")
+    text = text.replace("friction = 0.5", 'impulse_ratio = "-0.3 +/- 0.1"')
+    text += '[propagate]\nmethod = "quasi_random"\nseed = 1\noutputs = ["b.delta_v"]\n'
+    found = answers(read_text(text.encode())).to_dict()
+    (stated,) = found["uncertainty"]["statements"]
+    cases, _, rest = stated.partition(" of 8192 cases ")
+    assert int(cases) == pytest.approx(8192 * 0.5 * math.erfc(3.0 / math.sqrt(2.0)), abs=2)
+    assert "the impact gains energy" in rest
+    assert found["warnings"] == []
+
+
 def test_bounds_alone_give_bounds():
     """Intervals are no distributions, and nothing is drawn from them."""
     text = REAR_END.replace("0.4", "{ Interval = { low = 0.2, high = 0.4 } }")

@@ -72,6 +72,27 @@ def test_a_warning_of_few_samples_is_stated_and_not_raised():
     )
 
 
+def test_few_cases_without_an_answer_are_raised_all_the_same():
+    def model(x):
+        return {"x": np.where(x > 3.2905, np.nan, x)}
+
+    found, caught = quiet(lambda: propagate(model, {"x": Normal(0.0, 1.0)}, samples=8192, seed=2))
+    assert 0 < found.failed < 0.005 * 8192
+    assert [str(one.message).startswith(f"{found.failed} of 8192 cases") for one in caught] == [
+        True
+    ]
+
+
+def test_a_warning_of_the_model_itself_passes_and_is_in_no_statement():
+    def model(x):
+        warnings.warn("the marks were measured in the rain", UserWarning, stacklevel=2)
+        return {"x": x}
+
+    found, caught = quiet(lambda: propagate(model, {"x": Normal(0.0, 1.0)}, samples=1024, seed=2))
+    assert {one.category for one in caught} == {UserWarning}
+    assert found.statements == ()
+
+
 def test_a_warning_that_is_not_of_cases_is_raised_once_and_gets_no_share():
     """A call of plain numbers may stand for all cases or for one."""
 

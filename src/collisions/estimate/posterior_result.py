@@ -138,8 +138,8 @@ class Posterior(SpeedsFound, Summarized):
     beyond : float
         With a finer model, the share of the samples that lie where the other model has no answer.
     model_notes : tuple
-        The warnings of the model at the samples, each with the number and share of those it is of;
-        ``statements`` has them.
+        The warnings of this library while the model worked at the samples, each with the number and
+        share of those it is of; ``statements`` has them, those that were too few to raise too.
     results : dict of PosteriorOutput
         What ``with_result`` worked out from the samples.
     results_from : dict of dict

@@ -113,8 +113,9 @@ def propagate(
         "at most" is a ``OneSided``. Booleans count as 0 and 1, so their mean is a probability.
         Angles returned with a unit that all lie in [-pi, pi] (-180 to 180 degrees, not 0 to 360)
         are directions, counted round the circle about their mean (see ``Output``); return a
-        rotation as a plain number. Warnings are counted by case where solvers are called with
-        arrays of all cases; of calls with plain numbers, as in a loop, their number is stated.
+        rotation as a plain number. Warnings of this library are counted by case where solvers are
+        called with arrays of all cases; of calls with plain numbers, as in a loop, their number is
+        stated. Other warnings that the model gives go where warnings go, and are counted nowhere.
         A ``scene.Scene`` is a model too: its inputs and ``outputs`` are named by their paths.
     inputs : dict
         For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``,
@@ -178,6 +179,10 @@ def propagate(
     OutOfRangeWarning
         Cases had no answer, or a local method differs from the model; or an output looks like an
         angle that jumps, or has directions to all sides, so that its mean means nothing, or little.
+    CollisionsWarning
+        What this library warned of while the model worked, once for each code. A warning of fewer
+        than 0.5 percent of the cases is not raised and stands in ``statements`` alone; that cases
+        have no answer is raised of any.
 
     Examples
     --------

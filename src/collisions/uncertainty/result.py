@@ -941,8 +941,9 @@ class Propagation(Summarized):
     @property
     def statements(self) -> tuple[str, ...]:
         """What belongs with the figures, as sentences: every warning that this library gave while
-        the model worked, by how many cases, and what is to be said of the method. What holds in
-        fewer than 0.5 percent of the cases stands here alone, and is not warned of.
+        the model worked, by how many cases, and what is to be said of the method. What is warned of
+        in fewer than 0.5 percent of the cases stands here alone and is not raised; that cases have
+        no answer is raised of any. Other warnings that the model gives are not here.
         """
         return tuple(note.statement for note in self.notes)
 
