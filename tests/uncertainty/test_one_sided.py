@@ -89,6 +89,51 @@ def test_the_standard_error_of_a_quantile_is_how_far_it_is_off(method):
         assert 0.5 < size / np.median(stated[share]) < 2.0, share
 
 
+@pytest.mark.parametrize("method", ["quasi_random", "latin_hypercube"])
+def test_the_standard_error_beside_the_open_share_is_how_far_the_quantile_is_off(method):
+    """The same numbers, one percent of the cases from where the quantiles become infinite."""
+    exact = {0.06: 10.0 + 2.0 * float(ndtri(0.01 / 0.95)), 0.89: 10.0 + 2.0 * float(ndtri(89 / 90))}
+    off, stated = ({share: [] for share in exact} for _ in range(2))
+    for seed in range(40):
+        output = propagate(
+            lambda v, q: {"x": OneSided(v, np.where(q < 0.1, 1, np.where(q > 0.95, -1, 0)))},
+            {"v": Normal(10.0, 2.0), "q": Uniform(0.0, 1.0)},
+            samples=8192,
+            seed=seed,
+            method=method,
+        )["x"]
+        for share, right in exact.items():
+            off[share].append(output.quantile(share) - right)
+            stated[share].append(output.quantile_standard_error(share))
+    for share in exact:
+        size = math.sqrt(np.mean(np.square(off[share])))
+        assert 0.5 < size / np.mean(stated[share]) < 2.0, share
+    # Infinite where the quantile may be, and none where it is.
+    assert output.quantile(0.8975) < math.inf == output.quantile_standard_error(0.8975)
+    assert output.quantile(0.0515) > -math.inf
+    assert output.quantile_standard_error(0.0515) == math.inf
+    assert output.quantile(0.04) == -math.inf
+    assert math.isnan(output.quantile_standard_error(0.04))
+
+
+@pytest.mark.parametrize("method", ["quasi_random", "latin_hypercube", "monte_carlo"])
+def test_the_standard_error_of_a_probability_is_how_far_it_is_off(method):
+    """Of a condition that no side leaves open: every case above 8 says "at least"."""
+    off, stated = [], []
+    for seed in range(40):
+        output = propagate(
+            lambda v, q: {"x": OneSided(v + 0.0 * q, np.where(v > 8.0, 1, 0))},
+            {"v": Normal(10.0, 2.0), "q": Uniform(0.0, 1.0)},
+            samples=2048,
+            seed=seed,
+            method=method,
+        )["x"]
+        probability, error = output.probability(lambda x: x > 7.0)
+        off.append(probability - 0.5 * math.erfc(-1.5 / math.sqrt(2.0)))
+        stated.append(error)
+    assert 0.5 < math.sqrt(np.mean(np.square(off))) / np.median(stated) < 2.0
+
+
 def test_without_a_side_it_is_what_it_was():
     """Sides of 0 change no bit; nor do those of one output change another."""
     plain = propagate(lambda x: {"x": x}, UNIT, **OPTIONS)["x"]

@@ -562,7 +562,9 @@ class Sampled(Output):
 
         The standard error of the share of cases up to the quantile, times the slope of the
         quantiles there. How the quantiles differ between the sequences would tell less, because
-        each sequence is evenly spread in itself.
+        each sequence is evenly spread in itself. Where some cases are known from one side only, it
+        is of the same values as the quantile, with these cases at infinity: NaN where the quantile
+        is infinite itself, and infinite where, within the error of its share, it may be.
 
         Parameters
         ----------
