@@ -5,11 +5,12 @@ once where it matters.
 import json
 import warnings
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
 import collisions as col
-from collisions import reconstruct, reference
+from collisions import plot, reconstruct, reference
 from collisions.messages.warning import warn, warn_of_cases
 from collisions.uncertainty import Interval, Normal, Uniform, propagate
 
@@ -81,6 +82,37 @@ def test_few_cases_without_an_answer_are_raised_all_the_same():
     assert [str(one.message).startswith(f"{found.failed} of 8192 cases") for one in caught] == [
         True
     ]
+
+
+def test_one_output_by_itself_says_how_many_cases_it_leaves_out():
+    """Half of a normal distribution has a mean of its own, sqrt(2 / pi), and no word said why."""
+
+    def model(x):
+        return {"x": np.where(x < 0.0, np.nan, x), "whole": x}
+
+    found, _ = quiet(lambda: propagate(model, {"x": Normal(0.0, 1.0)}, samples=1024, seed=2))
+    half = found["x"]
+    assert half.mean == pytest.approx(np.sqrt(2.0 / np.pi), abs=0.01)
+    given = "the stated inputs, and an answer: 50 % have none"
+    assert str(half).startswith(f"Given {given}\n")
+    assert repr(half).endswith(f"given {given}>")
+    axes = plot.distribution(half)
+    assert axes.get_title() == f"given {given}"
+    assert axes.get_ylabel() == "share of the cases with an answer [%]"
+    assert str(found["whole"]).startswith("Given the stated inputs\n")
+    assert plot.distribution(found["whole"]).get_ylabel() == "share of the cases [%]"
+    plt.close("all")
+
+
+def test_the_caption_of_its_figure_in_a_report_says_so_too():
+    def model(v):
+        a, b = col.Vehicle(mass=1500.0, vx=v), col.Vehicle(mass=1200.0, vx=5.0)
+        return {"b.delta_v": col.linear_central(a, b, 0.2, on_failure="nan").b.delta_v}
+
+    found, _ = quiet(lambda: propagate(model, {"v": Normal(5.0, 1.0)}, samples=1024, seed=2))
+    a, b = col.Vehicle(mass=1500.0, vx=6.0), col.Vehicle(mass=1200.0, vx=5.0)
+    page = col.report(col.linear_central(a, b, 0.2), uncertainty=found, derivation=False)
+    assert "in the cases drawn, given the stated inputs, and an answer: 50 % have none." in page
 
 
 def test_a_warning_of_the_model_itself_passes_and_is_in_no_statement():

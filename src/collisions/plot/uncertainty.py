@@ -14,7 +14,7 @@ from ..messages.hints import hinted
 from ..quantities.formatting import UnitSystem, with_decimals
 from ..quantities.units import shown
 from ..uncertainty.intervals import Bounds
-from ..uncertainty.result import COVERAGE, Output, Propagation
+from ..uncertainty.result import COVERAGE, Output, Propagation, Sampled
 from .canvas import (
     BARS,
     FORCE,
@@ -138,8 +138,9 @@ def distribution(
         axes.axvline(value * factor, color=colour, lw=1.7, ls=style, zorder=4, gid=gid, label=text)
     axes.set_ylim(0.0, 1.08 * 100.0 * float(histogram.shares.max()))
     axes.set_xlabel(drawable(labels.label(output.name, unit)), parse_math=False)
-    axes.set_ylabel("share of the cases [%]")
-    axes.set_title(f"given {output.given}", fontsize=10.5, color=GREY)
+    answered = " with an answer" if isinstance(output, Sampled) and output.failed else ""
+    axes.set_ylabel(f"share of the cases{answered} [%]")
+    axes.set_title(f"given {output._given()}", fontsize=10.5, color=GREY)
     tidy(axes)
     legend_below(axes)
     return axes

@@ -156,7 +156,7 @@ def _of_outputs(
         options: dict[str, Any] = {"units": units, "words": {output.name: name}}
         drawn_of = _with_unit(output, spread.kind_of(output))
         if isinstance(output, Sampled):
-            caption = f"{_begun(name)}, in the cases drawn, given {output.given}."
+            caption = f"{_begun(name)}, in the cases drawn, given {output._given()}."
             _draw(sheet, f"distribution-{number}", caption, plot.distribution, drawn_of, **options)
         if not of_posterior and len(shares_of(output)) != 1:
             caption = (

@@ -387,14 +387,18 @@ class Output(Summarized):
 
     def __repr__(self) -> str:
         name, text = self.row()
-        return f"<{name}: {text}, given {self.given}>"
+        return f"<{name}: {text}, given {self._given()}>"
 
     def __str__(self) -> str:
         return str(self.summary())
 
     def _summary(self, numbers: Cells) -> Summary:
         parts = [outputs_part({self.name: self}, numbers), all_numbers([self.row()])]
-        return Summary(f"Given {self.given}", parts, _notes([self]))
+        return Summary(f"Given {self._given()}", parts, _notes([self]))
+
+    def _given(self) -> str:
+        """What the figures are given, for a title."""
+        return self.given
 
     def _texts(self) -> tuple[str, ...]:
         return self.texts
@@ -443,7 +447,7 @@ class InUnit(Quantities):
         text = "; ".join(
             f"{what}: {figure}" for what, figure in figures(self._owner, self._numbers)
         )
-        return f"<{self._owner.name}, given {self._owner.given}; {text}>"
+        return f"<{self._owner.name}, given {self._owner._given()}; {text}>"
 
     def _repr_html_(self) -> str:
         summary: Summary = self._owner._summary(self._numbers)
@@ -499,6 +503,13 @@ class Sampled(Output):
     def failed(self) -> int:
         """Cases without an answer, which the figures leave out."""
         return int(np.count_nonzero(np.isnan(self.values)))
+
+    def _given(self) -> str:
+        if not self.failed:
+            return self.given
+        return (
+            f"{self.given}, and an answer: {100.0 * self.failed / self.values.size:.3g} % have none"
+        )
 
     def turned(self, turns: float) -> Sampled:
         """The same directions plus this many turns.
