@@ -383,6 +383,25 @@ SCENE_REFUSALS = [
         "bad_outline",
         "surfaces[0] has sides that cross, from corner 0 to 1 and from 2 to 3; give its corners",
     ),
+    # A third and a fourth way through one place; a border that goes around twice.
+    (
+        {"surfaces": [([(3, -9), (13, 0), (23, 9), (33, -9), (13, 0), (3, 9)], 0.2)]},
+        InputError,
+        "bad_outline",
+        "surfaces[0] has sides that cross at (13, 0) m, from corner 0 to 2 and from 3 to 5; give",
+    ),
+    (
+        {"surfaces": [([(3, -9), (23, 9), (23, -9), (13, 0), (13, 0), (3, 9)], 0.2)]},
+        InputError,
+        "bad_outline",
+        "surfaces[0] has sides that cross at (13, 0) m, from corner 0 to 1 and from 2 to 5; give",
+    ),
+    (
+        {"surfaces": [([(3, -9), (23, -9), (23, 9), (3, 9)] * 2, 0.2)]},
+        InputError,
+        "bad_outline",
+        "surfaces[0] goes twice along one line, from corner 0 to 1 and from 4 to 5; give",
+    ),
     (
         {"surfaces": [([(0, 0), (5, 5), (9, 9)], 0.2)]},
         InputError,
