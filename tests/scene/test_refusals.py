@@ -451,7 +451,17 @@ SCENE_REFUSALS = [
             "bad_name",
             f"shared has the name {path!r}, which is taken; give the numbers that are one and the",
         )
-        for path in ("A.vx", "A.speed", "B.rest.x", "contacts[0].friction", "times[0]", "end")
+        for path in (
+            "A.vx",
+            "A.speed",
+            "B.rest.x",
+            "contacts[0].friction",
+            "times[0]",
+            "end",
+            "end - times[0]",
+            "times[0]-contacts[0].impact.time",
+            " A.vx",
+        )
     ),
 ]
 
