@@ -265,6 +265,18 @@ def test_what_a_scene_shares_is_stated_alike() -> None:
     assert "write the same text at each" in line
 
 
+def test_a_shared_name_that_is_a_path_is_refused() -> None:
+    (line,) = problems(ROW + '[scene.shared]\n"A.vx" = ["A.drag", "B.drag"]\n')
+    assert "shared has the name 'A.vx', which is taken" in line
+
+
+def test_a_surface_whose_sides_cross_is_refused() -> None:
+    corners = "[[3, -9], [23, 9], [23, -9], [3, 9]]"
+    (line,) = problems(ROW + f"[[surface]]\ncorners = {corners}\nfriction = 0.3\n")
+    assert "surfaces[0] has sides that cross, from corner 0 to 1 and from 2 to 3" in line
+    assert "(20" not in line
+
+
 @pytest.mark.parametrize(
     ("table", "key"),
     [('[propagate]\noutputs = ["B.rest.z"]\n', "propagate.outputs"),

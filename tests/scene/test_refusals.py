@@ -383,6 +383,25 @@ SCENE_REFUSALS = [
         "bad_outline",
         "surfaces[0] has sides that cross, from corner 0 to 1 and from 2 to 3; give its corners",
     ),
+    # A third and a fourth way through one place; a border that goes around twice.
+    (
+        {"surfaces": [([(3, -9), (13, 0), (23, 9), (33, -9), (13, 0), (3, 9)], 0.2)]},
+        InputError,
+        "bad_outline",
+        "surfaces[0] has sides that cross at (13, 0) m, from corner 0 to 2 and from 3 to 5; give",
+    ),
+    (
+        {"surfaces": [([(3, -9), (23, 9), (23, -9), (13, 0), (13, 0), (3, 9)], 0.2)]},
+        InputError,
+        "bad_outline",
+        "surfaces[0] has sides that cross at (13, 0) m, from corner 0 to 1 and from 2 to 5; give",
+    ),
+    (
+        {"surfaces": [([(3, -9), (23, -9), (23, 9), (3, 9)] * 2, 0.2)]},
+        InputError,
+        "bad_outline",
+        "surfaces[0] goes twice along one line, from corner 0 to 1 and from 4 to 5; give",
+    ),
     (
         {"surfaces": [([(0, 0), (5, 5), (9, 9)], 0.2)]},
         InputError,
@@ -432,7 +451,17 @@ SCENE_REFUSALS = [
             "bad_name",
             f"shared has the name {path!r}, which is taken; give the numbers that are one and the",
         )
-        for path in ("A.vx", "A.speed", "B.rest.x", "contacts[0].friction", "times[0]", "end")
+        for path in (
+            "A.vx",
+            "A.speed",
+            "B.rest.x",
+            "contacts[0].friction",
+            "times[0]",
+            "end",
+            "end - times[0]",
+            "times[0]-contacts[0].impact.time",
+            " A.vx",
+        )
     ),
 ]
 

@@ -1201,3 +1201,8 @@ def test_areas_may_have_dents_holes_and_a_closing_corner():
         for corners in ([*dented, dented[0]], dented)
     )
     assert closed.x[-1] == open_.x[-1] > bare.x[-1]
+    # A corner given twice, sides that touch in a corner, and one there and back.
+    touching = [(30, 9), (12, 0), (12, 0), (-9, 9), (-9, -9), (12, 0), (30, -9)]
+    spiked = [(-9, -9), (30, -9), (40, -9), (30, -9), (30, 9), (12, 0), (-9, 9)]
+    for corners in (touching, spiked):
+        assert travel.simulate(car, tyres, surfaces=[(corners, 0.2)]).x[-1] > bare.x[-1]

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 # Names that results and inputs of a scene have already.
 RESERVED = ("contacts", "impacts", "times", "surfaces", "slope", "energy", "momentum", "end")
+# Those with times, of which a difference is a result too.
+_OF_TIMES = ("contacts", "times")
 _FINEST, _COARSEST = 1e-10, 1e-2
 TOLERANCE = Default(1e-5)
 """How finely motion on tyres is followed, where nothing else is asked for."""
@@ -718,9 +720,11 @@ def _read_shared(
         reader.refuse(ShapeError(text, code="bad_shape", argument="shared"))
         return {}
     for name in shared:
-        # Also "Camry.vx" and "contacts[0].friction" are taken, as paths.
-        first = re.split(r"[.\[]", name)[0].strip()
-        if first in movers or first in RESERVED:
+        # Also "Camry.vx" and "contacts[0].friction" are taken, as paths, and "end - times[0]".
+        first = re.split(r"[.\[]", name)[0]
+        ends = [re.split(r"[.\[]", part)[0].strip() for part in name.split("-")]
+        of_time = len(ends) == 2 and all(one in ("end", *_OF_TIMES) for one in ends)
+        if {first, first.strip()} & {*movers, *RESERVED} or of_time:
             text = (
                 f"shared has the name {name!r}, which is taken; give the numbers that are one "
                 "and the same a name of their own, such as 'road'"

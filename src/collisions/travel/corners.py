@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from functools import lru_cache
 from itertools import combinations
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -12,6 +14,10 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.units import shown
 from ..vehicle.drag import read_friction
 
+Place: TypeAlias = tuple[float, float]
+
+# Directions within this angle [rad] are one.
+_ONE_WAY = 1e-9
 # Of the square of its extent: below it an area is rounding.
 _NO_AREA = 1e-12
 _AROUND = (
@@ -20,9 +26,7 @@ _AROUND = (
 )
 
 
-def read_areas(
-    reader: ArgumentReader, surfaces: Any
-) -> list[tuple[tuple[tuple[float, float], ...], Any]]:
+def read_areas(reader: ArgumentReader, surfaces: Any) -> list[tuple[tuple[Place, ...], Any]]:
     """Corners and friction of each area; refuses corners that enclose none, or whose sides cross,
     as those of an exchanged pair do.
     """
@@ -43,7 +47,7 @@ def read_areas(
             text = f"surfaces[{i}] has an array among its corners; they are the same for every case"
             reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))
             continue
-        if wrong := _no_area(np.array(places)):
+        if wrong := _no_area(places):
             text = f"surfaces[{i}] {wrong}; {_AROUND}"
             reader.refuse(InputError(text, code="bad_outline", argument="surfaces"))
             continue
@@ -51,22 +55,89 @@ def read_areas(
     return areas
 
 
-def _no_area(corners: Any) -> str:
-    """Why corners are not those of an area; "" if they are. Sides may touch, as around a hole."""
-    if not np.all(np.isfinite(corners)):
+@lru_cache(maxsize=64)
+def _no_area(corners: tuple[Place, ...]) -> str:
+    """Why corners are not those of an area; "" if they are. Sides may touch, and go there and back
+    along one line, as around a hole.
+    """
+    if not all(math.isfinite(part) for place in corners for part in place):
         return ""  # refused by its number
-    ends = np.roll(corners, -1, axis=0)
-    for i, j in combinations(range(len(corners)), 2):
-        (p, q), (r, s) = (corners[i], ends[i]), (corners[j], ends[j])
-        if _side(p, q, r) * _side(p, q, s) < 0.0 and _side(r, s, p) * _side(r, s, q) < 0.0:
-            after_i, after_j = ((k + 1) % len(corners) for k in (i, j))
-            return f"has sides that cross, from corner {i} to {after_i} and from {j} to {after_j}"
-    x, y = (corners - corners[0]).T
-    area = 0.5 * abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
-    extent = float(np.max(np.ptp(corners, axis=0)))
+    count = len(corners)
+    sides = [(i, (i + 1) % count) for i in range(count)]
+    for one, other in combinations(sides, 2):
+        (p, q), (r, s) = ((corners[i], corners[j]) for i, j in (one, other))
+        ends = _side(p, q, r), _side(p, q, s)
+        if ends[0] * ends[1] < 0 and _side(r, s, p) * _side(r, s, q) < 0:
+            return f"has sides that cross, from corner {_listed(one, other)}"
+        # What lies within an area counts by how often its sides go around it: twice is not at all.
+        if ends == (0, 0) and p != q and _share(p, q, r, s):
+            return f"goes twice along one line, from corner {_listed(one, other)}"
+    for place in dict.fromkeys(corners):
+        for one, other in combinations(_through(corners, place), 2):
+            if _interleaved(place, *(corners[i] for i in (*one, *other))):
+                return (
+                    f"has sides that cross at ({place[0]:g}, {place[1]:g}) m, from corner "
+                    f"{_listed(one, other)}"
+                )
+    (x0, y0), ahead = corners[0], (*corners[1:], corners[0])
+    area = 0.5 * abs(
+        math.fsum(
+            (x - x0) * (v - y0) - (u - x0) * (y - y0)
+            for (x, y), (u, v) in zip(corners, ahead, strict=True)
+        )
+    )
+    extent = max(max(parts) - min(parts) for parts in zip(*corners, strict=True))
     return "" if area > _NO_AREA * extent * extent else "encloses no area"
 
 
-def _side(p: Any, q: Any, place: Any) -> float:
+def _listed(one: tuple[int, int], other: tuple[int, int]) -> str:
+    return f"{one[0]} to {one[1]} and from {other[0]} to {other[1]}"
+
+
+def _side(p: Place, q: Place, place: Place) -> int:
     """On which side of the line from p to q a place lies: 1, -1 or 0."""
-    return float(np.sign((q[0] - p[0]) * (place[1] - p[1]) - (q[1] - p[1]) * (place[0] - p[0])))
+    found = (q[0] - p[0]) * (place[1] - p[1]) - (q[1] - p[1]) * (place[0] - p[0])
+    return (found > 0.0) - (found < 0.0)
+
+
+def _share(p: Place, q: Place, r: Place, s: Place) -> bool:
+    """Whether two sides in one line, from p to q and from r to s, share a part of it and go the
+    same way.
+    """
+    x, y = q[0] - p[0], q[1] - p[1]
+    along = [x * (place[0] - p[0]) + y * (place[1] - p[1]) for place in (r, s)]
+    return along[0] < along[1] and along[1] > 0.0 and along[0] < x * x + y * y
+
+
+def _through(corners: tuple[Place, ...], place: Place) -> list[tuple[int, int]]:
+    """The corners before and after a place, each time that the sides come through it."""
+    count, found = len(corners), []
+    for i, corner in enumerate(corners):
+        ahead = (i + 1) % count
+        if corner == place:
+            # A corner that is given twice in a row is one.
+            if corners[i - 1] != place:
+                while corners[ahead] == place and ahead != i:
+                    ahead = (ahead + 1) % count
+                found.append(((i - 1) % count, ahead))
+        elif corners[ahead] != place and _side(corner, corners[ahead], place) == 0:
+            ways = (
+                (corner[0] - place[0]) * (corners[ahead][0] - place[0])
+                + (corner[1] - place[1]) * (corners[ahead][1] - place[1])
+            )  # fmt: skip
+            if ways < 0.0:
+                found.append((i, ahead))
+    return found
+
+
+def _interleaved(place: Place, *ends: Place) -> bool:
+    """Whether, around a place, just one of the last two of four others lies between the first
+    two; not where two lie in one direction.
+    """
+    angles = [math.atan2(end[1] - place[1], end[0] - place[0]) for end in ends]
+    turned = [(angle - angles[0]) % math.tau for angle in angles[1:]]
+    alike = any(
+        abs(math.remainder(one - other, math.tau)) < _ONE_WAY
+        for one, other in combinations(angles, 2)
+    )
+    return not alike and (turned[1] < turned[0]) != (turned[2] < turned[0])
