@@ -107,7 +107,7 @@ KNOWNS = {
 @pytest.mark.parametrize("kind", KNOWNS)
 def test_round_trips(kind):
     """The speeds come out again to rounding times the condition; where the contact slid, one of
-    them must be known.
+    them must be known. Where one that stuck and one that slid fit, both are offered.
     """
     answered = 0
     for impact, both, courses, contact in hits():
@@ -122,7 +122,12 @@ def test_round_trips(kind):
             continue
         if "speed_b" not in known and "friction" in contact:
             known["regime"] = "sticking"
-        found = solve_back(impact, courses, contact, **known)
+        try:
+            found = solve_back(impact, courses, contact, **known)
+        except col.AmbiguousSolutionError as error:
+            if contact.get("friction") != math.inf or "speed_b" not in known:
+                raise
+            found = error.solutions
         known.pop("regime", None)
         nearest = min(found, key=lambda root: off(root, impact))
         # Some tens of eps of what was given, as much larger as the condition says; the ratio a root
