@@ -679,6 +679,25 @@ def test_a_batch_beside_a_speed_has_the_sides_of_its_cases():
             assert side == alone.reconstruction.one_sided["speed_b"]
 
 
+def test_beside_a_speed_a_bound_is_given_where_the_one_that_stuck_goes_backwards():
+    """A crash at 11.1 m/s, with readings off by some percent."""
+    a = col.Vehicle(
+        mass=1847.729571, yaw_inertia=3528.311724, x=0, y=0, heading=-0.07836, yaw_rate=0.053004
+    )
+    b = col.Vehicle(
+        mass=2082.78471, yaw_inertia=4551.805123, x=3.704804, y=0.38907, heading=4.419801,
+        yaw_rate=0.241927,
+    )  # fmt: skip
+    with pytest.warns(col.OutOfRangeWarning, match="speed of B came out"):
+        (found,) = speeds(
+            a, b, course_a=-0.10367, course_b=4.413577, restitution=0.308045, normal=-0.307991,
+            point=(1.732086, 0.163863), speed_a=11.788906, delta_v_forward_b=-1.595525,
+            delta_v_left_b=6.128532, friction=math.inf, slid="bound",
+        )  # fmt: skip
+    assert found.regime == "sticking"
+    assert found.reconstruction.one_sided["speed_b"] != 0
+
+
 def crashes_beside_a_speed(count):
     """Crashes with the friction high enough to stick or slide, and what is known of each: both
     components of one car and the speed of one.
