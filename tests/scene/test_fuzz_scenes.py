@@ -61,9 +61,11 @@ class Drawn(random.Random):
         mass = self.number(700.0, 3000.0, 1500.0)
         speed = self.number(0.0, 30.0, 0.0, 0.0, 10.0)
         course = self.one(-math.pi, math.pi, 0.0, math.pi / 2, math.pi)
+        with np.errstate(over="ignore"):
+            yaw_inertia = mass * self.one(1.0, 3.0, 1.5)
         body = col.Vehicle(
             mass=mass,
-            yaw_inertia=mass * self.one(1.0, 3.0, 1.5),
+            yaw_inertia=yaw_inertia,
             x=7.0 * place + self.number(-2.0, 2.0, 0.0),
             y=self.number(-3.0, 3.0, 0.0, 0.0),
             heading=course + self.choice((0.0, 0.0, self.one(-1.0, 1.0), math.pi / 2)),
