@@ -75,7 +75,7 @@ _READ_AGAIN = 2e-9
 # that many digits.
 _OTHER_MACHINE = 1e-6
 # Sentences, which another version may word differently.
-_SENTENCES = ("choice.reason",)
+_SENTENCES = ("choice.reason", "].sentence")
 # What a record of an earlier version lacks.
 _LATER = ("reconstruction.found", "reconstruction.given")
 
@@ -278,27 +278,15 @@ def _run(whole: Any) -> Run:
     """A scene run again from a record."""
     try:
         run = Run.from_dict(whole)
-        recorded, impacts = _without_scene(whole), whole["impacts"]
-    except (CollisionsError, LookupError, TypeError, AttributeError) as error:
+    except (CollisionsError, LookupError, TypeError) as error:
         raise _bad(str(error)) from error
-    found = json.loads(json.dumps(run.to_dict()))
-    _check(recorded, _without_scene(found))
-    # Each impact by itself, as its numbers are of sizes of their own.
-    if not isinstance(impacts, list) or len(impacts) != len(found["impacts"]):
-        raise _bad(f"its inputs give {len(found['impacts'])} impacts, and it has others")
-    for impact, one in zip(impacts, found["impacts"], strict=True):
-        _check(impact, one)
+    # All that follows from the scene: its impacts too, with the states in which they come.
+    recorded, found = (
+        {name: part for name, part in record.items() if name != "scene"}
+        for record in (whole, json.loads(json.dumps(run.to_dict())))
+    )
+    _check(recorded, found)
     return run
-
-
-def _without_scene(run: Mapping[str, Any]) -> dict[str, Any]:
-    """What stands in the record of a run beside its scene and its impacts, without sentences."""
-    found = {name: part for name, part in run.items() if name not in ("scene", "impacts")}
-    found["findings"] = [
-        {name: part for name, part in finding.items() if name != "sentence"}
-        for finding in found["findings"]
-    ]
-    return found
 
 
 def _momentum(whole: Any) -> MomentumSolution:
@@ -460,7 +448,7 @@ def _differences(recorded: Any, found: Any, name: str, off: float) -> Iterator[s
                     yield f"{path}, which is missing"
             elif key not in found:
                 yield f"{path}, which no impact has"
-            elif path not in _SENTENCES:
+            elif not path.endswith(_SENTENCES):
                 yield from _differences(recorded[key], found[key], path, off)
     elif isinstance(recorded, list) and isinstance(found, list) and len(recorded) == len(found):
         for i, (one, other) in enumerate(zip(recorded, found, strict=True)):
