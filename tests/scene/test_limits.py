@@ -2,6 +2,7 @@
 
 from itertools import pairwise
 
+import numpy as np
 import pytest
 
 import collisions as col
@@ -120,3 +121,27 @@ def test_a_fly_that_hits_one_of_two_in_contact_changes_nothing(push, hold, after
     for name in ("A", "B"):
         assert run.rest[name].x == pytest.approx(alone.rest[name].x, abs=1e-3)
         assert run.rest[name].y == pytest.approx(alone.rest[name].y, abs=1e-3)
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize("described", [True, False])
+def test_two_that_come_nearer_for_longer_than_is_looked_at_are_refused(described: bool) -> None:
+    """A creeps down a slope that its drag hardly holds, for 800 s until it is at B."""
+
+    def creeps(gap: object) -> Scene:
+        a, b = (
+            col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=x, y=0.2, vx=vx, heading=0.0)
+            for x, vx in ((-4.3 - gap, 0.5), (0.0, 0.0))
+        )
+        movers = {
+            "A": Mover(a, outline=(4.4, 1.8), drag=0.0100001),
+            "B": Mover(b, outline=(4.2, 1.7), drag=0.7),
+        }
+        hit = Contact("A", "B", restitution=0.1, friction=0.4, at="touch")
+        return Scene(movers=movers, contacts=[hit] if described else [], slope=(-0.01, 0.0))
+
+    with pytest.raises(col.NoSolutionError, match="and still come nearer") as caught:
+        creeps(400.0).run()
+    assert caught.value.code == "touch_undecided"
+    both = creeps(np.array([400.0, 10.0])).run()
+    assert both.status.tolist() == ["touch_undecided", "ok"]

@@ -4,7 +4,9 @@ has the finding.
 
 from __future__ import annotations
 
+import re
 import warnings
+from collections import Counter
 from collections.abc import Callable
 from typing import Any
 
@@ -14,6 +16,7 @@ import pytest
 import collisions as col
 from collisions.reconstruct import compare, fit, posterior
 from collisions.scene import Contact, Mover, Run, Scene
+from collisions.scene.run import _OF_FINDING
 from collisions.travel import GRAVITY
 from collisions.uncertainty import Normal, Uniform, propagate
 
@@ -199,3 +202,62 @@ def test_impulses_at_the_deepest_are_counted_too() -> None:
     )
     assert len(said_of) == 1
     assert any("the impulse acts at their deepest" in one for one in found.statements)
+
+
+# What varies between the cases of a scene of three cars.
+VARIED = (
+    "A.vx", "A.y", "A.heading", "B.heading", "B.vy", "C.y", "C.heading", "C.vx", "C.drag",
+)  # fmt: skip
+
+
+def three(rng: np.random.Generator, count: int, kind: int) -> tuple[Scene, dict[str, Any]]:
+    """A scene of three cars, of which two or three may meet, and what varies in it."""
+    low = np.array([1.0, -2.2, -0.4, 0.0, -5.0, -2.0, -2.0, -1.0, 0.3])
+    high = np.array([16.0, 2.2, 0.4, 3.0, 5.0, 2.0, 2.0, 1.0, 0.8])
+    drawn = dict(zip(VARIED, rng.uniform(low, high, (count, len(low))).T, strict=True))
+    bodies = {
+        "A": col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-6.0, y=0.0, vx=9.0, heading=0.0),
+        "B": col.Vehicle(mass=1200.0, yaw_inertia=1900.0, x=0.0, y=0.0, vy=1.0, heading=1.0),
+        "C": col.Vehicle(mass=1800.0, yaw_inertia=2900.0, x=5.5, y=0.0, vx=1.0, heading=0.0),
+    }
+    movers = {name: Mover(body, outline=(4.4, 1.8), drag=0.5) for name, body in bodies.items()}
+    place = ({"depth": 1.0}, {"delay": 0.2}, {"duration": 0.1})[kind % 3]
+    pairs = ("AB", "BC") if kind < 3 else ("AB",)
+    hits = [Contact(*two, restitution=0.1, friction=0.4, at="touch", **place) for two in pairs]
+    return Scene(movers=movers, contacts=hits), drawn
+
+
+def counted(said: list[Any]) -> dict[str, int]:
+    """The cases that warnings of findings count, by code."""
+    found = {}
+    for one in said:
+        if many := re.match(r"in (\d+) of \d+ cases of the scene ", str(one.message)):
+            found[one.message.code] = int(many[1])
+    return found
+
+
+def test_each_finding_of_single_runs_is_counted_in_batches_and_studies() -> None:
+    """Of 240 cases one by one: every code that there is comes, and each is counted."""
+    rng, total = np.random.default_rng(8), Counter[str]()
+    alike = {"driven_together": "driven_through"}
+    for kind in range(6):
+        scene, drawn = three(rng, 40, kind)
+        with warnings.catch_warnings(record=True) as of_batch:
+            warnings.simplefilter("always")
+            batch = scene.replace(drawn).run()
+        model = scene.as_model(VARIED, ["A.rest.x"])
+        with warnings.catch_warnings(record=True) as of_study:
+            warnings.simplefilter("always")
+            model(**drawn)
+        single = Counter[str]()
+        for i in np.flatnonzero(batch.status == "ok").tolist():
+            one = {name: float(values[i]) for name, values in drawn.items()}
+            found = codes(scene.replace(one).run())
+            single.update({alike.get(code, code) for code in found})
+            total.update(set(found))
+            with warnings.catch_warnings(record=True) as of_one:
+                warnings.simplefilter("always")
+                model(**one)
+            assert {each.message.code for each in of_one} == {alike.get(c, c) for c in found}
+        assert counted(of_batch) == counted(of_study) == dict(single)
+    assert set(total) == set(_OF_FINDING)

@@ -504,6 +504,7 @@ class Followed:
                 begin[near] = first_apart(moving, begin[near], until[near], cases[near], APART)
                 self._note_through(pair, moving, cases[near], begin[near], limit[near])
             touch = first_touch(moving, begin, until, cases)
+            self._refuse_unknown_touch(pair, cases, touch.given_up)
             pair.apart[cases] = np.isfinite(begin)
             closer = touch.nearest < pair.nearest[cases]
             pair.nearest[cases] = np.where(closer, touch.nearest, pair.nearest[cases])
@@ -524,6 +525,23 @@ class Followed:
             pair.meets(over, touch.time[passes], met, met.axis(met.widest), _PUSHED)
             pair.touch[over], pair.begun[over], pair.apart[over] = np.nan, touch.time[passes], False
             cases = over
+
+    def _refuse_unknown_touch(self, pair: _Between, cases: Any, until: Any) -> None:
+        """Refuse what goes on for so long that it is not found out whether two touch; ``until``
+        when they were followed [s], NaN where it is known.
+        """
+        lost = np.isfinite(until)
+        if self.single and lost.any():
+            one, other = pair.names
+            raise NoSolutionError(
+                f"{one} and {other} were followed until {float(until[0]):.4g} s, and still come "
+                "nearer, so that it is not known whether they touch later; give what moves more "
+                "drag, or tyres, or leave out the outline of one that is not to touch",
+                code="touch_undecided",
+                time=float(until[0]),
+                movers=pair.names,
+            )
+        self._fail(cases[lost], "touch_undecided")
 
     def _note_through(
         self, pair: _Between, moving: Pair, cases: Any, parts: Any, limit: Any

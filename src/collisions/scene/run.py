@@ -882,9 +882,8 @@ def _warn_of_notices(found: Followed) -> None:
 def warn_of_findings(run: Run) -> None:
     """Say of a single run what limits its answer, where the run itself is not seen."""
     for notice in run.findings if run._followed.single else ():
-        if notice.code in _OF_FINDING:
-            made, text = _OF_FINDING[notice.code]
-            warn_of_cases(made(notice.sentence), {text: None})
+        made, text = _OF_FINDING[notice.code]
+        warn_of_cases(made(notice.sentence), {text: None})
 
 
 def _tyre_loss(side: Any) -> float:

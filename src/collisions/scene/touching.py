@@ -172,14 +172,16 @@ def closing_of(met: Meeting, axis: Any, state_a: Any, state_b: Any) -> Any:
 
 
 class Touch(NamedTuple):
-    """When outlines first touch [s] (infinite: never), how fast they close there [m/s], and the
-    nearest that they were [m], and when.
+    """When outlines first touch [s] (infinite: never), how fast they close there [m/s], the nearest
+    that they were [m], and when; and until when they were followed [s] where they still came
+    nearer as the search came to its end, NaN elsewhere.
     """
 
     time: Any
     closing: Any
     nearest: Any
     nearest_at: Any
+    given_up: Any
 
 
 def first_touch(pair: Pair, begin: Any, until: Any, cases: Any) -> Touch:
@@ -192,8 +194,9 @@ def first_touch(pair: Pair, begin: Any, until: Any, cases: Any) -> Touch:
     total = len(cases)
     time = np.array(begin, dtype=float)
     found = Touch(
-        np.full(total, np.inf), np.zeros(total), np.full(total, np.inf), np.array(begin, float)
-    )
+        np.full(total, np.inf), np.zeros(total), np.full(total, np.inf), np.array(begin, float),
+        np.full(total, np.nan),
+    )  # fmt: skip
     going = np.flatnonzero(time <= until)
     for _ in range(_MOST_STEPS):
         if not len(going):
@@ -223,6 +226,12 @@ def first_touch(pair: Pair, begin: Any, until: Any, cases: Any) -> Touch:
         on = ~touch & (now + step <= until[going]) & np.isfinite(gap) & moves
         time[going] = now + np.maximum(step, _SHORTEST_STEP)
         going = going[on]
+    if len(going):
+        met, state_a, state_b = pair.at(time[going], cases[going])
+        _, rates = _corner_rates(met, met.axis(met.widest), state_a, state_b)
+        # Those that only move apart by then are left alone.
+        nearer = going[rates.max(axis=(0, 1)) > 0.0]
+        found.given_up[nearer] = time[nearer]
     return found
 
 
