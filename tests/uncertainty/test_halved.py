@@ -225,9 +225,10 @@ def test_cases_without_an_answer_are_counted_in_every_row():
         propagated = propagate(model, {"v": Normal(4.0, 2.0), "e": Uniform(0.0, 0.3)}, seed=1)
     found = propagated.if_halved()
     slower = {sd: 0.5 * math.erfc(-1.0 / sd / math.sqrt(2.0)) for sd in (1.0, 2.0)}
-    shares = {"now": slower[2.0], "e": slower[2.0], "v": slower[1.0]}
+    assert found.without_answer_now == pytest.approx(slower[2.0], abs=2e-3)
+    shares = {"e": slower[2.0], "v": slower[1.0]}
     assert found.without_answer == pytest.approx(shares, abs=2e-3)
-    assert list(found.without_answer) == ["now", *found]
+    assert list(found.without_answer) == [*found]
     assert "Cases without an answer, which the widths leave out: now 69.1%" in str(found.summary())
     assert found.to_dict()["without_answer"] == found.without_answer
     whole = propagate(total, INPUTS, seed=1).if_halved()
@@ -247,8 +248,8 @@ def test_the_share_without_an_answer_is_of_the_cases_drawn(method):
     with pytest.warns(col.OutOfRangeWarning):
         found = propagate(model, inputs, method=method, seed=1).if_halved()
     below = {sd: 0.5 * math.erfc(1.0 / sd / math.sqrt(2.0)) for sd in (1.0, 0.5)}
-    assert found.without_answer["now"] == pytest.approx(below[1.0], abs=1e-3)
-    assert found.without_answer["x1"] == found.without_answer["now"]
+    assert found.without_answer_now == pytest.approx(below[1.0], abs=1e-3)
+    assert found.without_answer["x1"] == found.without_answer_now
     assert found.without_answer["x0"] == pytest.approx(below[0.5], abs=1e-3)
 
 
@@ -258,8 +259,8 @@ def test_a_seldom_case_without_an_answer_is_not_rounded_away():
 
     with pytest.warns(col.OutOfRangeWarning):
         halved = propagate(model, {"x": Normal(0.0, 1.0)}, seed=1).if_halved()
-    assert 0.0 < halved.without_answer["now"] < 5e-4
-    assert f"now {100.0 * halved.without_answer['now']:.3g}%, x 0%" in str(halved.summary())
+    assert 0.0 < halved.without_answer_now < 5e-4
+    assert f"now {100.0 * halved.without_answer_now:.3g}%, x 0%" in str(halved.summary())
 
 
 def test_what_is_warned_of_one_row_alone_stands_with_the_table():
@@ -291,3 +292,17 @@ def test_what_is_warned_of_all_widths_is_said_once():
     halved = found.if_halved()
     (said,) = halved.statements
     assert said == f"as stated, {found.statements[0]}"
+
+
+def test_an_input_may_be_called_now():
+    with pytest.warns(col.OutOfRangeWarning):
+        found = propagate(
+            lambda now, x: {"y": np.where(now > 0.0, x, np.nan)},
+            {"now": Normal(1.0, 1.0), "x": Normal(0.0, 1.0)},
+            seed=1,
+        )
+    halved = found.if_halved()
+    none = {sd: 0.5 * math.erfc(1.0 / sd / math.sqrt(2.0)) for sd in (0.5, 1.0)}
+    assert halved.without_answer_now == pytest.approx(none[1.0], abs=2e-3)
+    assert halved.without_answer["now"] == pytest.approx(none[0.5], abs=2e-3)
+    assert halved.without_answer["x"] == pytest.approx(none[1.0], abs=2e-3)

@@ -40,11 +40,12 @@ class Halved(Summarized):
         Probability that a range holds [-]; None for the whole range, by ``method="interval"``.
     samples : int
         Cases drawn for each range; by a method that does not draw, cases it took.
-    without_answer : dict
+    without_answer_now : float
         The share without an answer to at least one output, of the cases drawn from the inputs and
-        searched between bounds; the widths say nothing of these. As the inputs are stated by the
-        name "now", and by input with half the error of that [-]. Widths of rather different shares
-        are of different cases.
+        searched between bounds, as the inputs are stated [-]; the widths say nothing of these.
+    without_answer : dict
+        By input, that share with half the error of that input [-]. Widths of rather different
+        shares are of different cases.
     statements : tuple of str
         What else was warned of the widths now, and of those of a row where it is not of all: such
         as that a local method differs from the model with half the error of that input.
@@ -55,6 +56,7 @@ class Halved(Summarized):
     units: dict[str, str | None]
     coverage: float | None
     samples: int
+    without_answer_now: float
     without_answer: dict[str, float]
     statements: tuple[str, ...] = ()
     given: tuple[str, ...] = ()
@@ -91,7 +93,15 @@ class Halved(Summarized):
         dict
             Plain values that ``json.dumps`` writes; infinity and NaN as texts.
         """
-        names = ("coverage", "samples", "units", "now", "widths", "without_answer")
+        names = (
+            "coverage",
+            "samples",
+            "units",
+            "now",
+            "widths",
+            "without_answer_now",
+            "without_answer",
+        )
         found: dict[str, Any] = strict({name: getattr(self, name) for name in names})
         return found | {"statements": list(self.statements)}
 
@@ -117,10 +127,9 @@ class Halved(Summarized):
             "mean. The first row gains the most."
         )
         notes = [note]
-        if any(self.without_answer.values()):
-            shares = ", ".join(
-                f"{name} {100.0 * share:.3g}%" for name, share in self.without_answer.items()
-            )
+        without = [("now", self.without_answer_now), *self.without_answer.items()]
+        if any(share for _, share in without):
+            shares = ", ".join(f"{name} {100.0 * share:.3g}%" for name, share in without)
             notes.append(f"Cases without an answer, which the widths leave out: {shares}.")
         notes += map(as_sentence, self.statements)
         return Summary(
@@ -154,7 +163,8 @@ def widths_if_halved(
         units={name: output.unit for name, output in now.outputs.items()},
         coverage=None if now.method == "interval" else 0.95,
         samples=samples,
-        without_answer={"now": now._unanswered, **{name: without[name] for name in order}},
+        without_answer_now=now._unanswered,
+        without_answer={name: without[name] for name in order},
         statements=(
             *(f"as stated, {sentence}" for sentence in _warned_of(now)),
             *(
