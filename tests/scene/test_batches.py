@@ -21,23 +21,30 @@ COUNT = 24
 RULE = {"restitution": 0.3, "friction": 0.5, "at": "touch"}
 
 
+def driven(
+    rng: np.random.Generator, x: float, y: float, speed: float, course: float, spread: float
+) -> col.Vehicle:
+    """A vehicle near a place in many cases, at speeds and courses that differ."""
+    speeds = speed * rng.uniform(1.0 - spread, 1.0 + spread, COUNT)
+    courses = course + rng.normal(0.0, 0.1, COUNT)
+    return col.Vehicle(
+        mass=rng.uniform(1000.0, 2000.0, COUNT),
+        yaw_inertia=rng.uniform(1500.0, 3000.0, COUNT),
+        x=x + rng.normal(0.0, 0.2, COUNT),
+        y=y + rng.normal(0.0, 0.3, COUNT),
+        vx=speeds * np.cos(courses),
+        vy=speeds * np.sin(courses),
+        heading=course + rng.normal(0.0, 0.05, COUNT),
+        yaw_rate=rng.normal(0.0, 0.3, COUNT) * (speed > 0.0),
+    )
+
+
 def crash(seed: int) -> Scene:
     """Three cars that slide, in many cases; the second stands or drives across."""
     rng = np.random.default_rng(seed)
 
-    def car(x: float, y: float, speed: float, course: float, spread: float) -> Mover:
-        speeds = speed * rng.uniform(1.0 - spread, 1.0 + spread, COUNT)
-        courses = course + rng.normal(0.0, 0.1, COUNT)
-        body = col.Vehicle(
-            mass=rng.uniform(1000.0, 2000.0, COUNT),
-            yaw_inertia=rng.uniform(1500.0, 3000.0, COUNT),
-            x=x + rng.normal(0.0, 0.2, COUNT),
-            y=y + rng.normal(0.0, 0.3, COUNT),
-            vx=speeds * np.cos(courses),
-            vy=speeds * np.sin(courses),
-            heading=course + rng.normal(0.0, 0.05, COUNT),
-            yaw_rate=rng.normal(0.0, 0.3, COUNT) * (speed > 0.0),
-        )
+    def car(*place: float) -> Mover:
+        body = driven(rng, *place)
         return Mover(body, outline=(4.5, 1.8), drag=rng.uniform(0.3, 0.7, COUNT))
 
     movers = {
@@ -154,26 +161,15 @@ def test_over_areas_a_case_of_a_batch_rests_where_it_does_alone(
     """Cars that turn, struck one after another, and cross edges of two areas obliquely."""
     rng = np.random.default_rng(seed)
 
-    def car(x: float, y: float, speed: float, course: float, spread: float, lock: Any) -> Mover:
-        speeds = speed * rng.uniform(1.0 - spread, 1.0 + spread, COUNT)
-        courses = course + rng.normal(0.0, 0.1, COUNT)
-        body = col.Vehicle(
-            mass=rng.uniform(1000.0, 2000.0, COUNT),
-            yaw_inertia=rng.uniform(1500.0, 3000.0, COUNT),
-            x=x + rng.normal(0.0, 0.2, COUNT),
-            y=y + rng.normal(0.0, 0.3, COUNT),
-            vx=speeds * np.cos(courses),
-            vy=speeds * np.sin(courses),
-            heading=course + rng.normal(0.0, 0.05, COUNT),
-            yaw_rate=rng.normal(0.0, 0.3, COUNT) * (speed > 0.0),
-        )
+    def car(*place: float, lock: Any) -> Mover:
+        body = driven(rng, *place)
         tyres = Tyres(rng.uniform(0.5, 0.8, COUNT), lock, 2.7, 1.5)
         return Mover(body, outline=(4.5, 1.8), tyres=tyres)
 
     movers = {
-        "A": car(-9.0, 0.0, 18.0, 0.0, 0.3, [1.0, 0.1, 0.1, 0.1]),
-        "B": car(0.0, 0.0, 0.0, 0.0, 0.0, 1.0),
-        "C": car(7.0, -5.0, 6.0, 0.5 * math.pi, 0.4, 0.3),
+        "A": car(-9.0, 0.0, 18.0, 0.0, 0.3, lock=[1.0, 0.1, 0.1, 0.1]),
+        "B": car(0.0, 0.0, 0.0, 0.0, 0.0, lock=1.0),
+        "C": car(7.0, -5.0, 6.0, 0.5 * math.pi, 0.4, lock=0.3),
     }
     surfaces = [
         ([(3, -6), (9, -8), (10, 4), (4, 9)], 0.25),
