@@ -1191,6 +1191,41 @@ def test_speeds_of_momentum_are_solved_for():
         assert caption in explain(solution, form="text")
 
 
+@pytest.mark.parametrize("turned", ["1e20 rad", "-3e38 rad", "1e20 deg"])
+def test_courses_of_many_turns_are_written_within_one(turned, equations):
+    """Such an angle has a direction, but differences from it have lost theirs: the answer is that
+    of the same direction within a turn, and its derivation holds.
+    """
+    number, unit = turned.split()
+    # Python takes both remainders exactly.
+    degrees = math.fmod(float(number), 360.0)
+    sine, cosine = (
+        (math.sin(float(number)), math.cos(float(number)))
+        if unit == "rad"
+        else (math.sin(math.radians(degrees)), math.cos(math.radians(degrees)))
+    )
+    within = math.atan2(sine, cosine)
+
+    def found(course_b_after):
+        return reconstruct.momentum(
+            1200.0,
+            1500.0,
+            speed_a=20.0,
+            speed_b=15.0,
+            speed_a_after=8.0,
+            course_a=within - 1.1,
+            course_a_after=within - 0.3,
+            course_b_after=course_b_after,
+            course_near=within + 0.8,
+        )
+
+    of_many, of_few = found(turned), found(within)
+    assert of_many.speed_b_after == pytest.approx(of_few.speed_b_after, rel=1e-12)
+    assert of_many.course_b == pytest.approx(of_few.course_b, abs=1e-12)
+    explain(of_many, form="text")
+    assert exact(equations) >= 6
+
+
 def test_nothing_else_across_leaves_no_speed():
     """B cannot leave sideways when A comes and goes straight on."""
     still = reconstruct.momentum(

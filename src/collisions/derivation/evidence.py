@@ -68,6 +68,9 @@ class _Momenta:
             self.speed[name] = Symbol(f"v_{index}", getattr(solution, name), "speed")
             course = getattr(solution, name.replace("speed", "course"))
             if course is not None:
+                # Within a turn: a difference of angles of many turns has lost the direction.
+                if abs(course) > math.tau:
+                    course = math.atan2(math.sin(course), math.cos(course))
                 self.course[name] = Symbol(rf"\theta_{index}", course, "angle")
         self.pushes = {axis: list(self._pushes(axis)) for axis in "xy"}
 

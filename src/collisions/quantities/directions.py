@@ -30,10 +30,23 @@ class Angle(NamedTuple):
 
     @property
     def radians(self) -> Any:
-        """The angle in radians."""
-        return (
-            np.multiply(self.value, math.pi / 180.0) if self.in_degrees else np.asarray(self.value)
-        )
+        """The angle in radians; degrees of many turns within one, which loses nothing of them."""
+        if not self.in_degrees:
+            return np.asarray(self.value)
+        with np.errstate(invalid="ignore"):
+            many = np.greater(np.abs(self.value), 360.0 * _MANY_TURNS)
+            degrees = np.where(many, np.fmod(self.value, 360.0), self.value)
+        return np.multiply(degrees, math.pi / 180.0)
+
+    @property
+    def within_turns(self) -> Any:
+        """The angle in radians, within a turn where it is of so many that a difference from it
+        would lose its direction.
+        """
+        radians = self.radians
+        with np.errstate(invalid="ignore"):
+            many = np.greater(np.abs(radians), math.tau * _MANY_TURNS)
+            return np.where(many, np.arctan2(np.sin(radians), np.cos(radians)), radians)
 
     @property
     def direction(self) -> tuple[Any, Any]:
@@ -47,8 +60,11 @@ class Angle(NamedTuple):
         if self.in_degrees and other.in_degrees:
             return from_degrees(np.fmod(other.value, 360.0) - np.fmod(self.value, 360.0))
         with np.errstate(over="ignore"):
-            return from_radians(np.asarray(other.radians - self.radians))
+            return from_radians(np.asarray(other.within_turns - self.within_turns))
 
+
+# Turns up to which the rounding of an angle counts for nothing in its direction.
+_MANY_TURNS = 1000.0
 
 # A vector whose length is this close to 1 is taken as it is, so that a unit vector read from a
 # result stays the same bits.

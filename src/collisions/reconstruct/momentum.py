@@ -369,7 +369,10 @@ def _angle_rounding(one: Angle, other: Angle, eps: float) -> Any:
     return (
         4.0
         * eps
-        * (1.0 + sum(0.0 if angle.in_degrees else abs(angle.radians) for angle in (one, other)))
+        * (
+            1.0
+            + sum(0.0 if angle.in_degrees else abs(angle.within_turns) for angle in (one, other))
+        )
     )
 
 
