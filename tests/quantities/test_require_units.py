@@ -81,6 +81,11 @@ def test_solvers_and_travel_refuse_too():
         assert col.eccentric(
             a, b, 0.1, **{**contact, "normal": (1, 0)}
         ).ok  # a direction has no unit
+        for ask in (col.solve, col.required_model):
+            with pytest.raises(col.UnitsError, match=r"tolerance = 0\.5 has no unit, and"):
+                ask(a, b, 0.1, **contact, tolerance=0.5)
+            ask(a, b, 0.1, **contact, tolerance="0.5 m/s")
+            ask(a, b, 0.1, **contact)  # 0 needs none
         with pytest.raises(col.UnitsError, match="distance"):
             travel.speed(20, drag=0.7)
         assert travel.speed("20 m", drag=0.7) == pytest.approx(
@@ -112,6 +117,26 @@ def test_what_is_asked_of_a_result_needs_a_unit(name, value):
                 ask(impact, **{name: value})
             ask(impact)  # the package's own duration has none, and is none of the caller's
     col.diagnose(impact, **{name: value})
+
+
+def test_what_stands_beside_the_samples_of_a_posterior_needs_a_unit():
+    with col.options(require_units=True):
+        found = reconstruct.posterior(
+            lambda speed: {"video": speed},
+            {"speed": uncertainty.Uniform("0 m/s", "40 m/s")},
+            {"video": ("10 m/s", "0.1 m/s")},
+            samples=512,
+            seed=1,
+        )
+        skid = {"drag": 0.7, "end_speed": found["speed"]}
+        for function, unit in ((travel.speed, "m/s"), (travel.q.speed, None)):
+            with pytest.raises(col.UnitsError, match=r"distance = 9 .*has no unit, and"):
+                found.with_result("skid", function, unit, distance=9, **skid)
+            more = found.with_result("skid", function, unit, distance="9 m", **skid)
+            exact = (10.0**2 + 2 * 0.7 * 9.80665 * 9) ** 0.5
+            assert more["skid"].mean == pytest.approx(exact, abs=0.05)
+    bare = found.with_result("skid", travel.q.speed, distance=9, **skid)
+    assert bare["skid"].mean == more["skid"].mean
 
 
 def test_functions_of_a_result_and_published_values_refuse_too():

@@ -13,12 +13,13 @@ from ..messages.errors import CollisionsError, InputError, NoSolutionError, Unit
 from ..messages.marked import as_code
 from ..messages.warning import Note, notes_of_samples
 from ..quantities.formatting import KIND_OF
-from ..quantities.settings import in_si
+from ..quantities.settings import in_si, units_required
 from ..quantities.units import rendered, shown, si_unit
 from ..uncertainty.distributions import Distribution, Interval
 from ..uncertainty.model import Model
 from ..uncertainty.result import Sampled
 from ..uncertainty.sampling import Joint
+from .fit_result import with_unit
 
 
 def worked_out(
@@ -68,6 +69,10 @@ def worked_out(
         random = np.random.Generator(np.random.PCG64DXSM(seed))
         values |= joint.scored(random.standard_normal((joint.dimensions, count)))
     fixed = {key: one for key, one in arguments.items() if key not in values}
+    if units_required.get():
+        units = {key: one.unit for key, one in {**drawn, **sampled}.items()}
+        first = {key: with_unit(float(values[key][0]), unit) for key, unit in units.items()}
+        _check_units(function, fixed, first)
     model = Model(lambda **given: {name: function(**given)}, fixed)
     found = model(values, count)[name]
     own = model.units[name]
@@ -80,6 +85,25 @@ def worked_out(
     if np.all(np.isnan(found)):
         raise _no_answer(name, function, arguments, {key: values[key] for key in sampled}, values)
     return found, own or unit, notes_of_samples(model.noted)
+
+
+def _check_units(
+    function: Callable[..., Any], fixed: Mapping[str, Any], first: Mapping[str, Any]
+) -> None:
+    """Where units are required: refuse what the function refuses of the values that stand beside
+    the samples. It is asked as its caller would, with the first sample in its units; the samples
+    themselves are bare numbers in SI.
+    """
+    try:
+        function(**fixed, **first)
+    except UnitsError as error:
+        parts = error.fields.get("problems", (error,))
+        for part in parts:
+            if str(part.fields.get("argument")).partition("[")[0] in fixed:
+                raise part from None
+    except Exception:
+        # Whether it has an answer is seen at every sample.
+        pass
 
 
 def _bad_unit(unit: Any) -> UnitsError:

@@ -25,7 +25,7 @@ from ..kernels.problem import Body, Contact, Problem
 from ..kernels.status import Answer
 from ..messages.errors import InputError
 from ..quantities.reading import ArgumentReader, amount
-from ..quantities.settings import in_si
+from ..quantities.settings import in_si, units_required
 from .inputs import (
     ARGUMENTS,
     PINNED,
@@ -319,7 +319,8 @@ def read_for_solve(
     times = {}
     if not (duration is drag is tyres_a is tyres_b is None):
         times = read_least_time(reader, *arguments[:2], duration, drag, (tyres_a, tyres_b))
-    if not (type(tolerance) is float and 0.0 <= tolerance < math.inf):
+    as_it_is = type(tolerance) is float and 0.0 <= tolerance < math.inf
+    if not as_it_is or units_required.get():
         tolerance = _read_tolerance(reader, tolerance)
     inputs = read_inputs("solve", arguments, reader.problems, **more)
     # Nobody else has these inputs yet.

@@ -345,7 +345,9 @@ class Noted(list[tuple[float, ...]]):
         )
         rows = np.array(self, dtype=np.float64)
         time = 2 * len(Motion._fields) + Passing._fields.index("time")
-        rows += rows[:, time : time + 1] / was[0, time] * (end - was)
+        # A way over which no time passes is its end alone.
+        passed = rows[:, time : time + 1] / was[0, time] if was[0, time] > 0.0 else 1.0
+        rows += passed * (end - was)
         self[:] = map(tuple, rows.tolist())
 
 

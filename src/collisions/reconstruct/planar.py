@@ -789,7 +789,7 @@ def _not_parting(end: End, separation: float) -> str:
 def _contradiction(end: End, separation: float, slip: float, regime: str | None) -> str:
     """The reason why no origin fits, and a remedy."""
     here = f"separation speed {end.say(separation, 'speed')}, slip after {end.say(slip, 'speed')}"
-    given, known, bound = f"{end.rule}={float(end.bound):g}", float(end.known), float(end.bound)
+    given, known, bound = f"`{end.rule}={float(end.bound):g}`", float(end.known), float(end.bound)
     free = "give a finite `friction=`, or `impulse_ratio=`"
     origins = end.origins(None)
     fitting = {one.regime for one in origins if one.fits}
@@ -843,8 +843,9 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
                 "instead"
             )
     kind = {"energy_loss": "energy", "closing_speed": "speed"}.get(end.kind, "number")
+    other = ", or give `friction=` or `impulse_ratio=`"
     return (
         f"no motion before ends so under {end.law!r} with {given} and "
         f"`{end.kind}={end.say(known, kind)}`: {here}; check the normal and the motions "
-        f"after{', or give friction= or impulse_ratio=' if end.rule == CRITICAL_FRACTION else ''}"
+        f"after{other if end.rule == CRITICAL_FRACTION else ''}"
     )
