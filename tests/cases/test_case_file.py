@@ -128,6 +128,8 @@ def test_files_with_long_texts_are_refused_at_once(form, end):
             ("-3.–4. deg", "-3. deg .. 4. deg"),
         ("40 mph    -    50 mph", "40 mph .. 50 mph"),
             ("30 deg to 45 \u00b0 ", "30 \u00b0 .. 45 \u00b0"),
+        ("40...50 mph", "40 mph .. 50 mph"), ("0.2 \u2026 0.4", "0.2 .. 0.4"),
+            ("-5 mph...5 mph", "-5 mph .. 5 mph"),
     ],
 )  # fmt: skip
 def test_what_people_write_for_a_range_is_read_for_the_cure(given, meant):
@@ -261,6 +263,7 @@ def test_a_solver_without_tyres_takes_no_table_of_them():
         ("-5 deg .. 5 deg", Uniform("-5 deg", "5 deg")),
         ("1400 kg .. 1600 kg (95 %)", Normal.between("1400 kg", "1600 kg", 0.95)),
         ("0.5 +/- 0.1 (90 %)", Normal.between(0.4, 0.6, 0.9)),
+        (" 0.5 +/- 0.1 (90 %) ", Normal.between(0.4, 0.6, 0.9)),
     ],
 )
 def test_texts_of_what_is_not_known_exactly(text, wanted):
@@ -279,6 +282,7 @@ def test_texts_of_what_is_not_known_exactly(text, wanted):
         "0.7 .. 0.4",
         "5 kg +/- 1 m",
         "1 .. 2 .. 3",
+        "0...1",
         "5 +/- ",
         "1 .. 2 (100 %)",
         "1 +/- 0",
@@ -593,7 +597,7 @@ def test_two_answers_are_told_apart():
              "example '40 mph .. 50 mph'")),
         ("80 km/h", "40-50 mph",
             "a.vx: cannot read '40-50 mph'; a range has two dots: write \"40 mph .. 50 mph\""),
-        ("80 km/h", "0.4...0.7", "a.vx: cannot read '.0.7'"),
+        ("80 km/h", "0.4...0.7", "a.vx: cannot read '0.4...0.7'; a range has two dots"),
         ("80 km/h", "\u221280 km/h",
             "a.vx: cannot read '\u221280 km/h': a minus is typed as a hyphen, '-80 km/h'"),
         ("0.4", '"0.4 to 0.7"',

@@ -82,11 +82,13 @@ _IN_FILES = {(Contact, "model")}
 # Annotations of arguments that may be several numbers.
 SEVERAL = ("Pair", "Impulse", "Segments", "Sequence[Input]", "tuple")
 _PROPAGATE, _POSTERIOR = {"method": "quasi_random", "seed": 0}, {"seed": 0}
-_UNCERTAIN = re.compile(r"(.*?)(\+/?-|±|\.\.)(.*?)(?:\(([^()]*%)\s*\))?", re.DOTALL)
-# What people write for a range: "40-50 mph", "0.4 to 0.7".
+_UNCERTAIN = re.compile(r"(.*?)(\+/?-|±|(?<!\.)\.\.(?!\.))(.*?)(?:\(([^()]*%)\s*\)\s*)?", re.DOTALL)
+# What people write for a range: "40-50 mph", "0.4 to 0.7", "1...2", which may also end in ".2".
 _END = r"[0-9]+(?:\.[0-9]*)?"
 _RANGE = re.compile(
-    rf"(-?{_END})\s*(?:(?![eE]-)[^\d\s*^]+?\s*)?(?:-|–|to)\s*({_END})\s*([a-zA-Z°%].*)?", re.DOTALL
+    rf"(-?{_END})\s*(?:(?![eE]-)[^\d\s*^]+?\s*)?(?:-|–|to|…|\.{{3,}})\s*({_END})\s*"
+    r"([a-zA-Z°%].*)?",
+    re.DOTALL,
 )
 _TOO_MANY = re.compile(r"(?<![\d_])\d[\d_]{4300}")  # digits in a row, which Python does not read
 _PAIR = '["1.2 m", "-0.4 m"]'
