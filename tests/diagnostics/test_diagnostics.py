@@ -102,7 +102,12 @@ def found(**known):
         for vehicle in (square().a.before, square(b={"y": -1.0}).b.before)
     )
     contact = {"normal": 0.0, "point": (0.0, 0.0), "restitution": 0.1, "friction": 0.5}
-    return reconstruct.speeds(a, b, course_a=0.0, course_b="150 deg", **contact, **known)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        return reconstruct.speeds(a, b, course_a=0.0, course_b="150 deg", **contact, **known)
+
+
+COMPONENTS = {"delta_v_forward_a": -8.0, "delta_v_left_a": 3.0}
 
 
 def two():
@@ -278,6 +283,14 @@ CASES = {
     "may_slide": (
         lambda: (square(b={"vy": -60.0}, friction=math.inf), {}),
         lambda: (square(b={"vy": -60.0}, friction=0.3), {}),
+    ),
+    "one_sided": (
+        lambda: (found(**COMPONENTS, slid="bound")[0], {}),
+        lambda: (found(**COMPONENTS, regime="sticking")[0], {}),
+    ),
+    "components_differ": (
+        lambda: (found(**COMPONENTS, speed_b=8.0)[0], {}),
+        lambda: (found(**COMPONENTS, regime="sticking")[0], {}),
     ),
     "ratio_high": (
         lambda: (square(b={"vy": -60.0}, friction=2.0), {}),

@@ -111,6 +111,25 @@ def by_momentum(
     return reconstruct.momentum(*mass, **{**known, **more})
 
 
+def by_components(delta_v=(-10.0, 10.0), course_b=0.5 * math.pi, slid=None, **more):
+    """Two points of one mass that stick, A along x, from the components of its delta-V: the
+    difference of their velocities is twice that, and a second recorder adds to the mean of both.
+    """
+    cars = (
+        col.Vehicle(mass=1500.0, yaw_inertia=math.inf, x=x, y=0.0, heading=0.0) for x in (-2.0, 2.0)
+    )
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "restitution": 0.0, "friction": math.inf}
+    contact |= {"regime": "sticking"} if slid is None else {"slid": slid}
+    forward, left = delta_v
+    known = {"delta_v_forward_a": forward, "delta_v_left_a": left}
+    return reconstruct.speeds(*cars, course_a=0.0, course_b=course_b, **contact, **known, **more)[0]
+
+
+def bounded(sides):
+    """B of two that slid, or may have, across the course of A; that they stuck leaves no bound."""
+    return by_components(slid="bound") if sides else by_components()
+
+
 def fitted_restitution(speed):
     """Cipriani and others (SAE 2002-01-0540), as printed."""
     x = math.log10(speed)
@@ -422,8 +441,14 @@ ROWS = [
         lambda x: by_momentum(course_b=math.pi - x), below=True),
     Row("ill_conditioned", 10.0, OWN, condition_of_planar),
     Row("ill_conditioned", 10.0, OWN, lambda x: by_momentum(course_b=2.0 * math.atan(1.0 / x))),
+    Row("near_collinear", math.radians(10.0), "EDCRASH manual, chapter 4",
+        lambda x: by_components(course_b=math.pi - x), below=True),
     Row("not_unique", 1.0, OWN, lambda x: two_answers(both=x > 1.0), beyond=2.0),
     Row("speed_backwards", 0.1, OWN, lambda x: by_momentum((2.0, 5.0), (-2.0 - x, 5.0))),
+    Row("speed_backwards", 0.1, OWN, lambda x: by_components((-10.0, -0.5 * x))),
+    Row("one_sided", 0.0, OWN, bounded, beyond=1.0),
+    Row("components_differ", 0.1, "the wider accuracy of recorders",
+        lambda x: by_components((-10.0, 0.0), delta_v_forward_b=10.0 * (1.0 + x) / (1.0 - x))),
     Row("tyre_impulse", 0.25, OWN, lambda x: in_line(2.0 * 0.7 * GRAVITY * 0.1 / x)),
     Row("tyre_impulse", 0.25, OWN, lambda x: by_momentum((6.0, 0.8 * 0.07 * GRAVITY / x),
         (0.6 * 0.07 * GRAVITY / x, 5.0))),

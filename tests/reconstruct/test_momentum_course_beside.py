@@ -280,6 +280,25 @@ def test_pages_and_findings_have_it():
     assert reporting.replay(page) == found
 
 
+def test_a_course_exactly_across_has_an_infinite_condition_and_a_derivation():
+    """The balance across A's course gives the speed of B that leaves it no way but across."""
+    known = {
+        "mass_a": 1500.0, "mass_b": 1200.0, "course_a": 0.0, "course_a_after": math.radians(20.0),
+        "course_b_after": math.radians(50.0), "speed_a_after": 8.0, "speed_b_after": 9.0,
+    }  # fmt: skip
+    across = 1500.0 * 8.0 * math.sin(math.radians(20.0)) + 1200.0 * 9.0 * math.sin(
+        math.radians(50.0)
+    )
+    with pytest.warns(col.IllConditionedWarning, match="right angle"):
+        found = reconstruct.momentum(**known, speed_b=across / 1200.0)
+    along = 1500.0 * 8.0 * math.cos(math.radians(20.0)) + 1200.0 * 9.0 * math.cos(
+        math.radians(50.0)
+    )
+    assert found.speed_a == pytest.approx(along / 1500.0, rel=1e-7)
+    assert found.condition == math.inf
+    assert "the condition is infinite" in str(col.explain(found))
+
+
 def test_a_side_that_is_lost_while_the_tyres_are_worked_out_is_refused():
     """Of a slow car the tyres decide where it came from: along the other side the balance does not
     settle, though the truth lies there, so the one that settles is no answer.

@@ -260,6 +260,9 @@ def _speed_and_course(page: Page, m: _Momenta) -> None:
         m.speed[name],
         left / mass,
     )
+    if math.isinf(m.solution.condition):
+        page.say("Both courses are at right angles, but for rounding: the condition is infinite.")
+        return
     cosine, sine = (Function("abs", Function(one, course - axis)) for one in ("cos", "sin"))
     page.equation(
         "Condition, from the angle between both courses (1 in line)",

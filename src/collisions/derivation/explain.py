@@ -396,11 +396,13 @@ def _inputs(page: Page, impact: Impact) -> None:
         rows.append((letter, what, text))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution", impact.law.title()))
-    rows += [
-        ("evidence", one.what, page.number(one.number, one.kind))
-        for one in evidence_of(impact)
-        if one.number is not None
-    ]
+    for one in evidence_of(impact):
+        if one.number is not None:
+            text = page.number(one.number, one.kind)
+            if one.differs and one.answer is not None:
+                answer = page.number(one.answer, one.kind)
+                text += f"; {answer} in this answer" if answer != text else ""
+            rows.append(("evidence", one.what, text))
     page.table(rows)
 
 

@@ -20,11 +20,15 @@ from ..impact.reconstruction import (
 )
 from ..kernels.central import shares
 from ..quantities.tables import as_sentence
+from ..reconstruct.found_again import components_apart
 from .expressions import HALF, ONE, ZERO, Expression, root
 from .models import Lever, impulse_in_scene_axes
 from .page import Page
 from .symbols import AFTER, Symbol, Symbols
 
+# A reverse solver's result agrees with its inputs within this, relative to the speeds or energies
+# of the impact.
+COMES_OUT = 1e-6
 _VELOCITIES = ("va", "vb", "va_after", "vb_after")
 
 
@@ -42,6 +46,16 @@ class Evidence(NamedTuple):
     number: float | None
     text: str | None
     answer: float | None
+
+    @property
+    def differs(self) -> bool:
+        """Whether the impact that was found has another number: components of delta-V are met as
+        well as they agree, and a speed below 0 turns its course round.
+        """
+        if self.number is None or self.answer is None:
+            return False
+        apart = self.number - self.answer
+        return abs(math.remainder(apart, math.tau) if self.kind == "angle" else apart) > COMES_OUT
 
 
 def evidence_of(impact: Impact) -> list[Evidence]:
@@ -176,6 +190,8 @@ def what_was_known(page: Page, impact: Impact) -> None:
             "one of them. Nothing here tells which of them happened; look at the others too, "
             "and rule them out by other evidence."
         )
+    if (apart := components_apart(impact)) is not None:
+        page.stress(as_sentence(apart[1]))
     if origin.regime is not None:
         ended = {"sticking": "stuck", "sliding": "slid to its end"}[origin.regime]
         page.say(f"That the contact {ended} was stated; what was known does not tell.")

@@ -11,11 +11,12 @@ from typing import Any
 from ..impact.impact import Impact
 from ..impact.inputs import PLACED
 from ..impact.instant import neglected, tyres_acted
-from ..impact.reconstruction import bounds_of, how_many, known_in_words
+from ..impact.reconstruction import Reconstruction, bounds_of, how_many, known_in_words
 from ..impact.vehicle_result import VehicleResult
+from ..reconstruct.found_again import components_apart
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..reconstruct.speeds import if_it_slid, taken_to_stick
-from ..reference import INTER_VEHICLE_FRICTION
+from ..reference import INTER_VEHICLE_FRICTION, RECORDER_ACCURACY
 from ..vehicle.drag import GRAVITY
 from .case import RATIO_ROUNDING, Case, ImpactCase, MomentumCase, off_by, plain
 from .finding import MESSAGES, METHOD, Measured, above, at_or_below, below, finding
@@ -26,23 +27,37 @@ _YAW_RATE_SEEN = 0.1
 
 
 @finding(
-    "in a reconstruction by momentum, angle between the courses of both unknowns, or to the "
-    "opposite",
+    "in a reconstruction of two speeds by momentum or from components of delta-V, angle between "
+    "both courses, or to the opposite",
     at_or_below(math.radians(10.0), "rad"),
     f"collinear impacts, {METHOD}",
 )
-def near_collinear(case: MomentumCase) -> Iterator[Measured]:
-    names = case.answer.unknowns
-    if any(name.startswith("course") for name in names):
-        return  # of one vehicle, whose course is an answer
-    one, other = (getattr(case.answer, name.replace("speed", "course")) for name in names)
+def near_collinear(case: Case) -> Iterator[Measured]:
+    if isinstance(case, MomentumCase):
+        names = case.answer.unknowns
+        if any(name.startswith("course") for name in names):
+            return  # of one vehicle, whose course is an answer
+        one, other = (getattr(case.answer, name.replace("speed", "course")) for name in names)
+        of = f"the courses of {' and '.join(names)}"
+        then = "across it, momentum tells little of these speeds"
+    else:
+        origin = case.answer.reconstruction
+        if origin is None or not _from_components(origin) or len(origin.found) < 2:
+            return
+        given = origin.given or {}
+        if not {"course_a", "course_b"} <= given.keys():
+            return  # a record of an earlier version
+        one, other = given["course_a"], given["course_b"]
+        of = "course_a and course_b"
+        then = "small errors of delta-V and of the courses move both speeds far"
     # Exactly ten degrees still count, even where rounding makes them more.
     angle = max(abs(math.remainder(one - other, math.pi)) - off_by(one, other, math.pi), 0.0)
-    sentence = (
-        f"the courses of {' and '.join(names)} are {case.text(angle, 'angle')} from one line: "
-        "across it, momentum tells little of these speeds"
-    )
-    yield Measured(angle, sentence)
+    yield Measured(angle, f"{of} are {case.text(angle, 'angle')} from one line: {then}")
+
+
+def _from_components(origin: Reconstruction) -> bool:
+    """Whether an impact was found from components of delta-V."""
+    return any(name.startswith(("delta_v_forward", "delta_v_left")) for name in origin.known)
 
 
 @finding(
@@ -93,17 +108,27 @@ def not_unique(case: ImpactCase) -> Iterator[Measured]:
 
 
 @finding(
-    "speed that momentum found, backwards along its course",
+    "speed that was found, backwards along its course",
     above(0.1, "m/s"),
     "set here: 0.4 km/h, below what evidence shows",
 )
-def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
-    for name in case.answer.unknowns:
-        if name.startswith("course"):
-            continue
-        speed = getattr(case.answer, name)
+def speed_backwards(case: Case) -> Iterator[Measured]:
+    if isinstance(case, MomentumCase):
+        names = [name for name in case.answer.unknowns if name.startswith("speed")]
+        along = {name: getattr(case.answer, name) for name in names}
+    else:
+        origin = case.answer.reconstruction
+        given = {} if origin is None else origin.given or {}
+        along = {}
+        for label, _, side in case.sides:
+            course = given.get(f"course_{label}")
+            if origin is not None and f"speed_{label}" in origin.found and course is not None:
+                c, s = math.cos(course), math.sin(course)
+                along[f"speed_{label}"] = side.before.vx * c + side.before.vy * s
+    for name, speed in along.items():
         sentence = (
             f"{name} is {case.text(speed, 'speed')}, backwards along its course: check the courses"
+            f"{'' if isinstance(case, MomentumCase) else ' and the normal'}"
         )
         yield Measured(-speed, sentence, vehicle=name.split("_")[1])
 
@@ -379,13 +404,12 @@ def friction_low(case: ImpactCase) -> Iterator[Measured]:
 def may_slide(case: ImpactCase) -> Iterator[Measured]:
     impact, origin = case.answer, case.answer.reconstruction
     movable = math.isfinite(impact.a.before.mass) and math.isfinite(impact.b.before.mass)
-    known = () if origin is None else origin.known
-    if any(name.startswith(("delta_v_forward", "delta_v_left")) for name in known):
+    if origin is not None and _from_components(origin):
         stated = taken_to_stick(impact)
     else:
         stated = impact.friction == math.inf and movable
-    one_sided = origin is not None and any((origin.one_sided or {}).values())
-    if impact.regime != "sticking" or one_sided or not stated:
+    bound = origin is not None and any((origin.one_sided or {}).values())
+    if impact.regime != "sticking" or bound or not stated:
         return
     ratio = abs(impact.impulse_ratio)
     slid = if_it_slid(impact)
@@ -398,6 +422,39 @@ def may_slide(case: ImpactCase) -> Iterator[Measured]:
         f"vehicles slide from {INTER_VEHICLE_FRICTION.low:g} on; if it slid, {then}"
     )
     yield Measured(ratio, sentence)
+
+
+@finding(
+    "number of speeds known from one side only, as the contact slid or may have",
+    above(0.0),
+    "set here: a bound is no value",
+)
+def one_sided(case: ImpactCase) -> Iterator[Measured]:
+    origin = case.answer.reconstruction
+    sides = {} if origin is None else origin.one_sided or {}
+    count = sum(map(abs, sides.values()))
+    speeds = {
+        f"speed_{label}": case.text(side.before.speed, "speed") for label, _, side in case.sides
+    }
+    sentence = (
+        f"the contact slid, or may have: {' and '.join(bounds_of(sides, speeds))}; a speed, an "
+        "energy or both EES would tell more"
+    )
+    yield Measured(count, sentence)
+
+
+@finding(
+    "largest difference between components of delta-V that were given and the answer, as a share "
+    "of the impulse",
+    above(RECORDER_ACCURACY.high),
+    "reference.RECORDER_ACCURACY",
+)
+def components_differ(case: ImpactCase) -> Iterator[Measured]:
+    origin = case.answer.reconstruction
+    if origin is None or not _from_components(origin):
+        return
+    apart = components_apart(case.answer)
+    yield Measured(*(apart or (0.0, "components of delta-V that were given agree")))
 
 
 @finding(

@@ -70,7 +70,8 @@ def worked_out(
         values |= joint.scored(random.standard_normal((joint.dimensions, count)))
     fixed = {key: one for key, one in arguments.items() if key not in values}
     if units_required.get():
-        units = {key: one.unit for key, one in {**drawn, **sampled}.items()}
+        units: dict[str, Any] = {key: one.unit for key, one in sampled.items()}
+        units |= {key: one.unit for key, one in drawn.items()}
         first = {key: with_unit(float(values[key][0]), unit) for key, unit in units.items()}
         _check_units(function, fixed, first)
     model = Model(lambda **given: {name: function(**given)}, fixed)

@@ -12,17 +12,25 @@ from typing import Any, get_args
 
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES
-from ..impact.reconstruction import KNOWN, AsRecorded, Reconstruction
+from ..impact.reconstruction import KNOWN, AsRecorded, Reconstruction, known_in_words
 from ..kernels.contact_laws import BRACH, FRICTION, RULES
-from ..messages.errors import CollisionsError, InputError
+from ..messages.errors import CollisionsError, CollisionsWarning, InputError
 from ..quantities.settings import in_si
 from .central import central
 from .planar import Regime, planar
 from .speeds import speeds
+from .speeds_components import ACCURACY, COMPONENTS
 
 # What is worked out from an answer that was rounded differs in its later digits; a changed record
 # differs in its first ones.
 _SAME_CONDITION = 0.01
+_APART = {
+    "recorders_differ": ("their best common answer", "one of them, a course or the geometry"),
+    "friction_differs": (
+        "a contact that slides with this friction",
+        "the friction, one of them or the geometry",
+    ),
+}
 _METHODS = ("central", "planar", "speeds")
 _MOTION = ("vx", "vy", "yaw_rate")
 _AS_ARGUMENTS = {"contact_duration": "duration"}
@@ -89,6 +97,13 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             f"its reconstruction was given {', '.join(origin.known)}, and solving again takes "
             f"{', '.join(again.known)}"
         )
+    for name in ("duration", "drag_a", "drag_b"):
+        stands, found_with = getattr(origin, name), getattr(again, name)
+        if stands != found_with:
+            yield (
+                f"its reconstruction has a {name} of {stands}, and its solver was given "
+                f"{'none' if found_with is None else found_with}"
+            )
     if again.answers != origin.answers:
         yield f"its inputs have {again.answers} answers, and it says {origin.answers}"
     if again.one_sided != origin.one_sided:
@@ -96,6 +111,35 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             f"its inputs leave the speeds known by {again.one_sided or 'both sides'}, and it says "
             f"{origin.one_sided or 'both sides'}"
         )
+
+
+def components_apart(impact: Impact) -> tuple[float, str] | None:
+    """How far components of delta-V that ``speeds`` was given are from each other, or from a
+    contact with the friction given, as a share of the impulse, with a sentence; None where it does
+    not warn of it when the impact is solved again.
+    """
+    origin = impact.reconstruction
+    if origin is None or origin.method != "speeds":
+        return None
+    with warnings.catch_warnings(record=True) as caught, in_si():
+        warnings.simplefilter("always")
+        try:
+            _solved_again(impact, origin, None)
+        except (CollisionsError, TypeError):
+            return None  # as in _again
+    for one in (each.message for each in caught):
+        if isinstance(one, CollisionsWarning) and one.code in _APART:
+            share = float(one.fields["value"])
+            from_what, wrong = _APART[one.code]
+            known = " and ".join(
+                f"the {words}"
+                for words in known_in_words(name for name in origin.known if name in COMPONENTS)
+            )
+            return share, (
+                f"{known} differ from {from_what} by {100.0 * share:.0f} percent of the impulse, "
+                f"where recorders are accurate to {100.0 * ACCURACY:.0f} percent: {wrong} is wrong"
+            )
+    return None
 
 
 def _taken(method: str) -> set[str]:
@@ -205,9 +249,10 @@ def _recorders(given: Mapping[str, float], names: Collection[str]) -> dict[str, 
 
 
 def _is_same(one: Impact, other: Impact) -> bool:
-    """Whether two impacts have the same speeds before, to what the condition leaves of
+    """Whether two impacts have the same speeds before and after, to what the condition leaves of
     the digits.
     """
     scale = abs(other.closing_speed)
-    pairs = ((getattr(one.inputs, label), getattr(other.inputs, label)) for label in "ab")
+    sides = [(getattr(one, label), getattr(other, label)) for label in "ab"]
+    pairs = [pair for a, b in sides for pair in ((a.before, b.before), (a.after, b.after))]
     return all(math.hypot(a.vx - b.vx, a.vy - b.vy) <= 1e-6 * scale for a, b in pairs)

@@ -80,7 +80,7 @@ def read_recorders(
             text = (
                 f"duration = {shown(duration)} is that over which recorders turn or tyres act; "
                 "write `axes='turning'` (or 'fixed'), and `recorder_a=(forward, left)` for the "
-                "place; or give tyres_a=travel.Tyres"
+                "place; or give `tyres_a=`"
             )
             reader.refuse(InputError(text, code="bad_combination", argument="duration"))
         return None

@@ -709,9 +709,9 @@ class ComponentScene(Scene):
         """
         misfit = np.where(self.ended, self._own_misfit(), self.misfit) if self.slid else self.misfit
         differ = answered & (misfit > ACCURACY)
+        who = " and ".join(self.names)
         if np.any(differ):
             worst = float(np.max(np.where(answered, misfit, 0.0), initial=0.0))
-            who = " and ".join(self.names)
             why = (
                 f"the stated accuracy of recorders is {ACCURACY:.0%}: one of them, a course or "
                 "the geometry is wrong"
@@ -721,21 +721,25 @@ class ComponentScene(Scene):
                 f"where {why}"
             )
             sentence = f"{who} differ from their best common answer by more than they may, as {why}"
+            text = cases.how_many(differ) + text
             warning = IllConditionedWarning(text, code="recorders_differ", value=worst)
             # Refused cases differ the most.
             warn_of_cases(warning, {sentence: cases.each(misfit > ACCURACY)}, _DISAGREE)
-        elif cases.shape is None and np.any(answered & self.ended & (self.misfit > ACCURACY)):
-            text, sentence = (
-                f"a contact that slides with {friction} differs from {' and '.join(self.names)} "
-                f"by {by} of the impulse, where the stated accuracy of recorders is "
-                f"{ACCURACY:.0%}: the friction, one of them or the geometry is wrong"
-                for friction, by in (
-                    (f"`friction={float(self.bound):.4g}`", f"{float(self.misfit):.0%}"),
-                    ("this friction", "more"),
-                )
+        ended = answered & self.ended & (self.misfit > ACCURACY) & np.logical_not(differ)
+        if np.any(ended):
+            worst = float(np.max(np.where(ended, self.misfit, 0.0)))
+            friction = (
+                f"`friction={float(self.bound):.4g}`" if cases.shape is None else "this friction"
             )
-            warning = IllConditionedWarning(text, code="friction_differs", value=float(self.misfit))
-            warn_of_cases(warning, {sentence: None})
+            text, sentence = (
+                f"a contact that slides with {friction} differs from {who} by {by} of the impulse, "
+                f"where the stated accuracy of recorders is {ACCURACY:.0%}: the friction, one of "
+                "them or the geometry is wrong"
+                for friction, by in ((friction, f"{worst:.0%}"), ("this friction", "more"))
+            )
+            text = cases.how_many(ended) + text
+            warning = IllConditionedWarning(text, code="friction_differs", value=worst)
+            warn_of_cases(warning, {sentence: cases.each(ended)}, _DISAGREE)
         refused = np.logical_not(answered) & np.isinf(self.misfit) & self.friction_differs()
         refused = refused & np.logical_not(self.undetermined)
         if cases.shape is not None and np.any(refused):
@@ -763,6 +767,7 @@ class ComponentScene(Scene):
                 f"course_a and course_b are within {math.degrees(NEARLY_COLLINEAR):.2g} degrees "
                 f"of one line: {why}"
             )
+            text = cases.how_many(near) + text
             warning = IllConditionedWarning(text, code="nearly_collinear", sine=sine)
             warn_of_cases(warning, {sentence: cases.each(near)})
 

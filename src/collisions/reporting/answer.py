@@ -128,8 +128,21 @@ def _figures(
     for name in wanted:
         value = attrgetter(name)(result)
         if name not in spread.outputs and value is not None and math.isfinite(value):
-            text = system.answer(float(value), kinds[name])
+            text = _bound(result, name) + system.answer(float(value), kinds[name])
             yield Figure(_begun(spread.names(words[name])), text, False)
+
+
+def _bound(result: Impact | MomentumSolution, name: str) -> str:
+    """What stands before a figure that is known from one side only, as the contact slid: "at least"
+    or "at most".
+    """
+    origin = result.reconstruction if isinstance(result, Impact) else None
+    one_sided = {} if origin is None else origin.one_sided or {}
+    sides = {f"{one[-1]}.before.speed": side for one, side in one_sided.items() if side}
+    if sides:
+        # More slip than at this end costs more energy.
+        sides["energy_loss"] = 1
+    return {1: "at least ", -1: "at most "}.get(sides.get(name, 0), "")
 
 
 def _in_words(sentence: str) -> str:
@@ -174,7 +187,8 @@ def ranged_text(system: Numbers, output: Output, kind: str | None) -> tuple[str,
     low, high = output.interval()
     rows = figures(output, system, kind)
     if kind is None or not math.isfinite(low + high) or rows[-1][0].startswith(("the same", "in ")):
-        return plain(rows[-1][1]), kind is None
+        # An end that is infinite is a range all the same: "at least 12 m/s".
+        return plain(rows[-1][1]), kind is None or math.inf in (-low, high)
     means = "every value of the stated intervals" if output.bounds_only else "95 %"
     return f"{system.span(low, high, kind, 0.5 * (high - low))} ({means})", True
 

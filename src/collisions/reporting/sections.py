@@ -11,7 +11,7 @@ from .. import reference
 from ..derivation import reverse
 from ..derivation.evidence import momentum_answers, momentum_assumption, momentum_inputs
 from ..derivation.explain import impact_answers, impact_inputs, key_of
-from ..derivation.reverse import evidence_of, found_inputs
+from ..derivation.reverse import COMES_OUT, evidence_of, found_inputs
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note, letter_of
@@ -45,10 +45,9 @@ from .render import Sheet, given_as, plain
 from .uncertainty import Spread
 from .words import Names
 
-# A reverse solver's result agrees with its inputs within this, relative to the speeds or energies
-# of the impact; end states that still approach by up to a hundredth of the closing speed are taken
-# to stay together.
-_COMES_OUT, _TOGETHER = 1e-6, 0.02
+# End states that still approach by up to a hundredth of the closing speed are taken to stay
+# together.
+_TOGETHER = 0.02
 # Components of delta-V are measured: if more are given than are needed, they are met only as well
 # as they agree.
 _RECORDED = 0.3
@@ -307,11 +306,9 @@ def _known(
             value = "stated" if "_axes_" in one.name else "kept only in what was found from it"
         else:
             value = sheet.as_given(one.number, one.kind, one.text)
-        if one.number is not None and one.answer is not None:
-            # Components are met as well as they agree; a speed below 0 turns its course round.
-            apart, answer = one.number - one.answer, sheet.number(one.answer, one.kind)
-            apart = math.remainder(apart, math.tau) if one.kind == "angle" else apart
-            if abs(apart) > _COMES_OUT and answer != sheet.number(one.number, one.kind):
+        if one.differs and one.number is not None and one.answer is not None:
+            answer = sheet.number(one.answer, one.kind)
+            if answer != sheet.number(one.number, one.kind):
                 value += f"; {answer} in this answer"
         if one.number is not None and spread is not None:
             stated = spread.stated(sheet, one.name, one.kind, one.number)
@@ -334,11 +331,11 @@ def contradicted(impact: Impact) -> Iterator[str]:
     turning = sum(abs(side.before.yaw_rate) + abs(side.after.yaw_rate) for side in sides)
     together = _TOGETHER if impact.restitution == 0.0 else 0.0
     allowed = {
-        "speed": _COMES_OUT * speeds + together * impact.closing_speed,
-        "energy": _COMES_OUT * (abs(impact.energy_absorbed) + abs(impact.energy_loss)),
-        "yaw rate": _COMES_OUT * turning + _TOGETHER,
-        "angle": _COMES_OUT + together,
-        **dict.fromkeys(("time", "number"), _COMES_OUT),
+        "speed": COMES_OUT * speeds + together * impact.closing_speed,
+        "energy": COMES_OUT * (abs(impact.energy_absorbed) + abs(impact.energy_loss)),
+        "yaw rate": COMES_OUT * turning + _TOGETHER,
+        "angle": COMES_OUT + together,
+        **dict.fromkeys(("time", "number"), COMES_OUT),
     }
     for one in evidence_of(impact):
         unit = SI_UNITS[one.kind]
