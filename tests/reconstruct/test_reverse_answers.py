@@ -309,7 +309,15 @@ def test_a_text_that_is_not_its_number_is_refused():
 
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize(
-    "changed", [{"condition": 1.0}, {"answers": 7}, {"known": ["restitution"]}, {"method": "guess"}]
+    "changed",
+    [
+        {"condition": 1.0},
+        {"answers": 7},
+        {"known": ["restitution"]},
+        {"method": "guess"},
+        {"duration": 0.1, "drag_a": 0.7, "drag_b": 0.7},
+        {"drag_b": 0.7},
+    ],
 )
 @pytest.mark.parametrize("show", [col.diagnose, col.explain, col.report], ids=lambda f: f.__name__)
 def test_a_reconstruction_that_a_record_alone_says_is_refused_where_it_is_shown(changed, show):

@@ -714,3 +714,23 @@ def test_no_sign_is_named_where_none_helps():
     with pytest.raises(col.NoSolutionError) as refused:
         speeds(A, B, **GIVEN, **known)
     assert "of the other sign" not in str(refused.value)
+
+
+def test_a_warning_of_a_batch_says_of_how_many_cases():
+    """Each beside cases that do not warn."""
+    known = {"course_a": 0.1, "delta_v_forward_a": -6.0, "delta_v_left_a": 1.0, "restitution": 0.1}
+    known |= {"friction": math.inf, "regime": "sticking", **CONTACT}
+
+    def warned(course_b, forward_b):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", col.CollisionsWarning)
+            speeds(A, B, **known, course_b=course_b, delta_v_forward_b=forward_b)
+        return {one.message.code: str(one.message) for one in caught}
+
+    cases = ((0.12, 3.0), (1.5, 3.0), (1.5, 1.0), (1.5, 1.0))
+    alone = [warned(*case) for case in cases]
+    together = warned(*map(np.array, zip(*cases, strict=True)))
+    for code in ("nearly_collinear", "recorders_differ"):
+        count = sum(code in one for one in alone)
+        assert 0 < count < 4
+        assert together[code].startswith(f"{count} of 4 cases: ")

@@ -5,6 +5,7 @@ where the contact just stuck, and ranges that hold whichever it was.
 import json
 import math
 import pickle
+import re
 import warnings
 
 import jsonschema
@@ -221,6 +222,54 @@ def test_a_friction_far_from_the_ratio_has_a_bound_and_is_warned_of():
     true = crossing()
     along = (true.normal_impulse - 0.3 * true.tangential_impulse) / (1.0 + 0.3**2)
     assert found.normal_impulse == pytest.approx(along, rel=1e-9)
+
+
+def test_a_friction_that_differs_is_counted_in_batches_and_studies_too():
+    """As recorders that differ are: where hardly any sample agrees, something is wrong; where many
+    do, the stated errors are enough to say why.
+    """
+    with pytest.warns(col.IllConditionedWarning, match=r"^1 of 3 cases: a contact that") as caught:
+        back(friction=np.array([0.45, 0.3, 0.44]), slid="bound")
+    assert codes(caught) == ["friction_differs"]
+
+    def told(friction):
+        def model(friction):
+            (found,) = back(friction=friction, slid="bound")
+            return {"b": found.b.before.speed}
+
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", col.CollisionsWarning)
+            found = uncertainty.propagate(model, {"friction": friction}, samples=256, seed=2)
+        said = [one for one in found.statements if "a contact that slides with" in one]
+        return said, [one.message.code for one in caught]
+
+    # The ratio is 0.45, and 10 percent less than it, across the impulse, is a friction of 0.335.
+    said, raised = told(uncertainty.Uniform(0.25, 0.33))
+    assert said[0].startswith("256 of 256 cases")
+    assert raised == ["friction_differs"]
+    said, raised = told(uncertainty.Uniform(0.3, 0.45))
+    assert said
+    assert raised == []
+
+
+def test_the_finding_and_the_derivation_say_what_the_call_warns_of():
+    """Also read from a record, and with recorders away from the centres of mass."""
+    with pytest.warns(col.IllConditionedWarning) as caught:
+        (found,) = back(friction=0.3, slid="bound")
+    share = caught[0].message.fields["value"]
+    for one in (found, col.Impact.from_dict(found.to_dict())):
+        findings = {each.code: each for each in col.diagnose(one)}
+        assert findings["components_differ"].measured == pytest.approx(share, rel=1e-9)
+        assert "a contact that slides with this friction" in findings["components_differ"].sentence
+        assert findings["one_sided"].measured == 1.0
+        assert "by 13 percent of the impulse" in str(col.explain(one))
+        page = str(col.report(one, form="markdown", figures=False))
+        answer = page.partition("## Inputs")[0]
+        assert re.search(r"A: speed before:\*\* \d", answer)
+        assert re.search(r"B: speed before:\*\* at least \d", answer)
+        assert re.search(r"Energy lost:\*\* at least \d", answer)
+        assert "13 percent" in answer
+    assert "in this answer" in str(col.explain(found))
 
 
 def slid_at_random(rng):

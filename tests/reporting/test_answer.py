@@ -5,6 +5,7 @@ words in place of letters.
 import html
 import math
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -45,9 +46,8 @@ def spread(**changes):
 
 def found_speeds(**known):
     known = known or {"delta_v_forward_a": crash().a.delta_v_forward, "speed_b": "25 mph"}
-    return reconstruct.speeds(
-        A, B, course_a="0 deg", course_b="90 deg", restitution=0.1, **PLACE, **known
-    )[0]
+    known = {"course_a": "0 deg", "course_b": "90 deg", **known}
+    return reconstruct.speeds(A, B, restitution=0.1, **PLACE, **known)[0]
 
 
 def box(page):
@@ -65,6 +65,39 @@ def test_the_range_of_a_figure_stands_first_with_two_figures_of_its_half_width()
     assert f"- **Civic: delta-V:** {other:.1f} mph\n" in text
     assert "No range is stated for the figures above that have only one number." in text
     assert "No range is stated for these figures" not in text
+
+
+def test_a_range_that_is_open_on_one_side_is_a_range():
+    """Nothing asks for what was given."""
+
+    def model(course_b):
+        found = found_speeds(
+            delta_v_forward_a=crash().a.delta_v_forward,
+            delta_v_left_a=crash().a.delta_v_left,
+            course_b=course_b,
+            slid="bound",
+        )
+        sides = found.reconstruction.one_sided
+        return {
+            f"{label}.before.speed": uncertainty.OneSided(
+                getattr(found, label).before.speed, sides[f"speed_{label}"]
+            )
+            for label in "ab"
+        }
+
+    inputs = {"course_b": uncertainty.Normal("90 deg", "1 deg")}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        known = uncertainty.propagate(model, inputs, samples=64, seed=1)
+        result = found_speeds(
+            delta_v_forward_a=crash().a.delta_v_forward,
+            delta_v_left_a=crash().a.delta_v_left,
+            slid="bound",
+        )
+    names = ["a.before.speed", "b.before.speed"]
+    text = box(report(result, form="markdown", uncertainty=known, answers=names))
+    assert "Civic: speed before:** at least" in text
+    assert "No range is stated" not in text
 
 
 def test_a_wide_range_has_no_decimals():
