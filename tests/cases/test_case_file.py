@@ -7,6 +7,7 @@ import math
 import re
 import subprocess
 import sys
+import warnings
 from inspect import getdoc
 from pathlib import Path
 
@@ -1472,3 +1473,32 @@ def test_a_wrong_key_of_a_study_is_answered_with_keys_that_a_file_may_have(study
         listed = re.findall(r"\w+", found.partition("write one of ")[2])
         assert len(listed) == len(set(listed))
         assert not {"finer", "finer_samples"} & {*listed}
+
+
+SLID = (
+    '[a]\nmass = "1500 kg"\nyaw_inertia = "2500 kg*m**2"\nx = "-2 m"\ny = 0\nheading = 0\n'
+    '[b]\nmass = "1300 kg"\nyaw_inertia = "2200 kg*m**2"\nx = "2 m"\ny = "0.2 m"\n'
+    'heading = "90 deg"\n[reconstruct.speeds]\ncourse_a = 0\ncourse_b = "90 deg"\n'
+    'delta_v_forward_a = "-6 m/s +/- 0.3 m/s"\ndelta_v_left_a = "1.9 m/s"\nslid = "bound"\n'
+    'friction = "0.28 .. 0.34"\nrestitution = 0.1\nnormal = 0\npoint = [0, 0]\n'
+)
+
+
+def test_what_is_known_from_one_side_has_a_range_with_one_end():
+    """As `propagate` gives the same model with `OneSided`; what more slip leaves as it is has two
+    ends, and what it changes by nobody knows how much is refused.
+    """
+    more = '[propagate]\nsamples = 512\noutputs = ["b.before.speed", "a.delta_v", "energy_loss"]\n'
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found = answers(read_text((SLID + more).encode()))
+    assert found.propagation["b.before.speed"].interval()[1] == math.inf
+    assert found.propagation["energy_loss"].interval()[1] == math.inf
+    low, high = found.propagation["a.delta_v"].interval()
+    assert low < found.results[0].a.delta_v < high < math.inf
+    assert "at least" in found.text("us").partition("Given the stated inputs")[2]
+    for name in ("b.after.speed", "slip_before", "b.kinetic_energy_change"):
+        (line,) = problems(SLID + f'[propagate]\noutputs = ["{name}"]\n')
+        assert line.startswith(f"propagate.outputs: '{name}' is open, as the contact slid")
+    (line,) = problems(SLID + '[posterior.observed]\n"b.before.speed" = "8 m/s +/- 1 m/s"\n')
+    assert "known from one side only" in line

@@ -13,8 +13,9 @@ import numpy as np
 import pytest
 
 import collisions as col
-from collisions import reference, reporting, uncertainty
+from collisions import reconstruct, reference, reporting, uncertainty
 from collisions.diagnostics import diagnose
+from collisions.impact.reconstruction import side_of
 from collisions.reconstruct import speeds
 from scenes import IN_POUNDS
 
@@ -270,6 +271,35 @@ def test_the_finding_and_the_derivation_say_what_the_call_warns_of():
         assert re.search(r"Energy lost:\*\* at least \d", answer)
         assert "13 percent" in answer
     assert "in this answer" in str(col.explain(found))
+
+
+def test_more_slip_changes_what_is_open_and_nothing_else():
+    """Two members of a family: both cars faster along their courses, closing as before."""
+    a = {"mass": 1500.0, "yaw_inertia": 2500.0, "x": -2.0, "y": 0.0, "heading": 0.0}
+    b = {"mass": 1300.0, "yaw_inertia": 2200.0, "x": 2.0, "y": 0.2, "heading": 1.2}
+
+    def hit(more):
+        cars = (
+            col.Vehicle.from_speed(**a, speed=23.0 + more * math.cos(1.2), course=0.0),
+            col.Vehicle.from_speed(**b, speed=33.0 + more, course=1.2),
+        )
+        found = col.eccentric(*cars, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.15)
+        assert found.regime == "sliding"
+        return {name: value[0] for name, value in found.to_columns().items()}
+
+    one, other = hit(0.0), hit(1.0)
+    open_ = reconstruct.Reconstruction(
+        method="speeds", known=(), condition=1.0, one_sided={"speed_a": 1, "speed_b": 1}
+    )
+    for name, value in one.items():
+        if not isinstance(value, float) or name.startswith("reconstruction"):
+            continue
+        change = other[name] - value
+        side = side_of(open_, name)
+        if side == 0:
+            assert change == pytest.approx(0.0, abs=1e-9 * max(1.0, abs(value))), name
+        elif side is not None:
+            assert change > 0.0, name
 
 
 def slid_at_random(rng):

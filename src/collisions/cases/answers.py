@@ -19,6 +19,7 @@ import numpy as np
 
 from ..diagnostics import diagnose
 from ..impact.impact import Impact
+from ..impact.reconstruction import side_of
 from ..messages.errors import CollisionsWarning, InputError, as_marked
 from ..quantities.attributes import missing_error, unit_of
 from ..quantities.formatting import percent
@@ -33,7 +34,7 @@ from ..reporting.scene_words import input_in_words
 from ..reporting.what_if import starts, what_if
 from ..scene.run import Run
 from ..scene.scene import Scene
-from ..uncertainty import Interval
+from ..uncertainty import Interval, OneSided
 from .crash import SCENE
 from .crash_answers import crash_model, found_run, usual_outputs
 from .read import (
@@ -507,7 +508,7 @@ def _model(case: Case, outputs: Any, which: int, count: int) -> Any:
         shape = np.broadcast_shapes(*map(np.shape, values.values()))
         found = roots[min(which, len(roots) - 1)]
         return {
-            name: _output(found, name, f"{case.study}.{place}", all_there, shape)
+            name: _output(found, name, f"{case.study or 'propagate'}.{place}", all_there, shape)
             for name in outputs
         }
 
@@ -539,7 +540,24 @@ def _output(result: Any, name: str, place: str, there: Any, shape: tuple[int, ..
     if value is None:
         why = missing_error(owner, last) or "this case has none"
         raise CaseError((place, f"{rendered(name)} is not known: {why}"))
-    return to_quantity(np.broadcast_to(np.where(there, value, np.nan), shape), unit)
+    values = to_quantity(np.broadcast_to(np.where(there, value, np.nan), shape), unit)
+    origin = result.reconstruction if isinstance(result, Impact) else None
+    if origin is None or not origin.one_sided:
+        return values
+    side = side_of(origin, name)
+    if side is None:
+        text = (
+            f"{rendered(name)} is open, as the contact slid, or may have, and more slip changes "
+            "it; ask for the speeds before, delta-V or energy_loss"
+        )
+        raise CaseError((place, text), refused=True)
+    if np.any(side) and not place.startswith("propagate"):
+        text = (
+            f"{rendered(name)} is known from one side only, as the contact slid, or may have: that "
+            "is no value to compare; take [eccentric] with the speeds among the unknowns"
+        )
+        raise CaseError((place, text), refused=True)
+    return OneSided(values, np.broadcast_to(np.where(there, side, 0), shape))
 
 
 def _default_outputs(result: Any) -> tuple[str, ...]:

@@ -88,8 +88,9 @@ def posterior(
         A model that takes the same unknowns and returns the same outputs, and costs more. The
         samples go towards the posterior of ``model`` first, until its likelihood to the power 0.15,
         and from there to the posterior of ``finer``. The answer is that of ``finer`` alone, its
-        evidence included, for five to twelve calls of it a sample, not a hundred; the closer
-        the two models are, the fewer.
+        evidence included, wherever ``model`` leads, for five to twelve calls of it a sample, not a
+        hundred; the closer the two models are, the fewer. Values that fit under ``finer`` alone,
+        far from all that fit under ``model``, get no samples and are not found.
     tolerance : float [-] or dict, optional
         How far the model may be off, for a ``scene.Scene``: by result, as for ``Scene.required``;
         or one number for all, as a share of the stated error of each observation. The cheapest

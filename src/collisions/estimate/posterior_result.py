@@ -493,12 +493,12 @@ def notes_of(found: Posterior) -> Iterator[Note]:
             f"the model has no answer for {found.refused:.0%} of the prior, {there}",
         )
     if "finer" in found.calls:
-        a_sample = found.calls["finer"] / max(found.samples, 1)
+        cheap, dear = (found.calls[name] / max(found.samples, 1) for name in ("model", "finer"))
         yield Note(
             None,
-            f"the figures are those of the finer model, called {a_sample:.3g} times a sample; the "
-            f"other model was called {found.calls['model'] / max(found.samples, 1):.3g} times a "
-            "sample",
+            f"the figures are those of the finer model, called {dear:.3g} times a sample, wherever "
+            f"the other model leads, called {cheap:.3g} times: values that fit under the finer one "
+            "alone, far from all that fit under the other, are not looked for",
         )
     if found.beyond > _MOST_BEYOND:
         yield Note(

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, fields, replace
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -279,6 +280,35 @@ def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction
         contact_velocity=velocity,
         one_sided=sides,
     )
+
+
+# What changes with the slip of an impact whose impulse stays: of the contact, of a vehicle in its
+# states, and of a vehicle in the impact.
+_OF_SLIP = frozenset(
+    ("relative_speed", "slip_before", "slip_after", "critical_impulse_ratio", "common_velocity")
+)
+_OF_STATES = frozenset(("vx", "vy", "speed", "momentum", "kinetic_energy"))
+_OF_VEHICLES = frozenset(("kinetic_energy_change", "tyre_loss"))
+_LOSSES = frozenset(("energy_loss", "energy_loss_tangential"))
+
+
+def side_of(origin: Reconstruction | None, path: str) -> Any:
+    """Which way the truth may lie from a number of an impact that was found, by its path: +1 at
+    least, -1 at most, 0 where it is known; None where it is that of the least slip, and more would
+    change it by nobody knows how much.
+    """
+    sides = {} if origin is None else origin.one_sided or {}
+    if not any(map(np.any, sides.values())):
+        return 0
+    parts = path.split(".")
+    if parts[1:] == ["before", "speed"]:
+        return sides.get(f"speed_{parts[0]}", 0)
+    if path in _LOSSES:
+        # Friction does more work over more slip.
+        return reduce(np.maximum, map(np.abs, sides.values()))
+    moves = parts[-1] in _OF_STATES or (parts[-1] == "course" and "before" not in parts)
+    open_ = path in _OF_SLIP or parts[-1] in _OF_VEHICLES or (len(parts) == 3 and moves)
+    return None if open_ else 0
 
 
 def how_many(answers: float) -> str:

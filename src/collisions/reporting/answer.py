@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from ..derivation.explain import kinds_of_answers, names_of_answers, words_of_answers
 from ..diagnostics.finding import Finding, is_note
 from ..impact.impact import Impact
-from ..impact.reconstruction import how_many, known_in_words
+from ..impact.reconstruction import how_many, known_in_words, side_of
 from ..quantities.formatting import KIND_OF, Numbers
 from ..quantities.tables import as_sentence, label_of
 from ..reconstruct import Fit, MomentumSolution, Posterior
@@ -133,16 +133,13 @@ def _figures(
 
 
 def _bound(result: Impact | MomentumSolution, name: str) -> str:
-    """What stands before a figure that is known from one side only, as the contact slid: "at least"
-    or "at most".
+    """What stands before a figure that is known from one side only, or not at all, as the contact
+    slid: "at least".
     """
-    origin = result.reconstruction if isinstance(result, Impact) else None
-    one_sided = {} if origin is None else origin.one_sided or {}
-    sides = {f"{one[-1]}.before.speed": side for one, side in one_sided.items() if side}
-    if sides:
-        # More slip than at this end costs more energy.
-        sides["energy_loss"] = 1
-    return {1: "at least ", -1: "at most "}.get(sides.get(name, 0), "")
+    side = side_of(result.reconstruction, name) if isinstance(result, Impact) else 0
+    return (
+        "with the least slip " if side is None else {1: "at least ", -1: "at most "}.get(side, "")
+    )
 
 
 def _in_words(sentence: str) -> str:
