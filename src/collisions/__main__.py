@@ -5,6 +5,7 @@ from.
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from os import getpid
@@ -27,8 +28,9 @@ _HTML, _MARKDOWN = (".html", ".htm"), (".md", ".markdown")
 _ENDS = """\
 exit codes: 0 answered; 1 the case was read, but has no answer, or more than one where one is \
 needed; 2 the file or the command
-cannot be used; 130 stopped by Ctrl-C. What is wrong is one line each: the file, the key in it, \
-and what to write."""
+cannot be used; 130 stopped by Ctrl-C; 141 nobody reads the output. What is wrong is one line \
+each: the file, the key in it, and
+what to write."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -39,7 +41,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     try:
-        return _run(_parser().parse_args(arguments))
+        code = _run(_parser().parse_args(arguments))
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        # Whoever reads the output has enough, as head has; Python would flush it again at the end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 141  # as shells have it
     except KeyboardInterrupt:
         print("stopped; nothing more was written", file=sys.stderr)
         return 130  # as shells have it

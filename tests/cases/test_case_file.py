@@ -1475,6 +1475,17 @@ def test_a_wrong_key_of_a_study_is_answered_with_keys_that_a_file_may_have(study
         assert not {"finer", "finer_samples"} & {*listed}
 
 
+def test_output_that_nobody_reads_ends_quietly(tmp_path):
+    """As in `| head`, which closes the pipe when it has enough."""
+    file = tmp_path / "case.toml"
+    file.write_text(REAR_END, encoding="utf-8")
+    command = [sys.executable, "-m", "collisions", str(file), "--json"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started:
+        started.stdout.close()
+        assert started.stderr.read() == b""
+    assert started.returncode == 141
+
+
 SLID = (
     '[a]\nmass = "1500 kg"\nyaw_inertia = "2500 kg*m**2"\nx = "-2 m"\ny = 0\nheading = 0\n'
     '[b]\nmass = "1300 kg"\nyaw_inertia = "2200 kg*m**2"\nx = "2 m"\ny = "0.2 m"\n'
