@@ -635,7 +635,8 @@ def _with_profiles(fits: list[Fit], found: list[tuple[_Candidate, Found]]) -> di
     names = fits[0].names
     return {
         "profiles": {
-            names[j]: tuple(table([one.sides[j] for _, one in found])) for j in found[0][1].sides
+            names[j]: tuple(table([pair for _, one in found for pair in one.pairs(j)]))
+            for j in found[0][1].sides
         },
         "others": tuple(fits[1:]),
         "refuses_nearby": any(one.refused for _, one in found),
