@@ -169,7 +169,7 @@ class Search:
             self._looked_from({"start": start, **only}, own, some, most, plain, shares)
             for start in starts
         ]
-        return _together(looks, own[self.inputs.rule])
+        return _together(looks, own[self.inputs.rule], self._balanced)
 
     def _looked_from(
         self,
@@ -346,8 +346,11 @@ def _with_friction(inputs: Inputs, friction: Any) -> Inputs:
     return replace(inputs, rule_value=friction, given=texts or None)
 
 
-def _together(looks: Sequence[_Looked], given: Any) -> _Looked:
-    """The roots that fit best of scenes with the same readings and each an impulse of its own."""
+def _together(looks: Sequence[_Looked], given: Any, balanced: bool) -> _Looked:
+    """The roots that fit best of scenes with the same readings and each an impulse of its own.
+
+    All roots where tyres are in the balance, as only with its own tyres each fits as it does.
+    """
     if len(looks) == 1:
         return looks[0]
     scenes = [look.scene for look in looks if isinstance(look.scene, ComponentScene)]
@@ -361,7 +364,7 @@ def _together(looks: Sequence[_Looked], given: Any) -> _Looked:
     roots = [
         root._replace(
             closing=np.where(
-                there & (scene.misfit <= np.maximum(ROOT_TOL, whole.misfit)),
+                there & (balanced | (scene.misfit <= np.maximum(ROOT_TOL, whole.misfit))),
                 root.closing,
                 np.nan,
             ),

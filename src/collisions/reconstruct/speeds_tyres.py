@@ -120,26 +120,33 @@ def in_balance(
     for begun in (instant, attempt(_forwards(instant, numbers, cases), math.inf)):
         before = list(kept)
         for slot in range(max(len(begun.found), 1)):
-            held, settled, at = _settled(attempt, begun, slot, numbers, cases, before)
-            if before and not np.any(settled):
-                continue
-            last = attempt(held)
-            results.append(last)
-            if np.any(doubt := last.scene.ambiguous & settled):
-                doubts.append((last, doubt))
-            if not last.found:
-                continue
-            root, there = _followed(last, at)
-            size = np.hypot(root.speed_a, root.speed_b)
-            # Where known values differ by more than they may, the next root is another.
-            same = abs(root.speed_a - at[0]) + abs(root.speed_b - at[1]) <= _LEADS_TO * size
-            there = there & settled & same
-            for earlier in kept:
-                there = there & ~(
-                    earlier.there & (_apart(earlier.root, root) <= _ONE_ANSWER * size)
+            left: Any = np.ones(cases.shape or (), dtype=bool)
+            for halved in (_HALVED, 0):
+                # Whole changes may lead past a root to where there is none.
+                if halved == 0 and not np.any(left):
+                    break
+                held, settled, at, left = _settled(
+                    attempt, begun, slot, numbers, cases, before, left, halved
                 )
-            if np.any(there):
-                kept.append(_Kept(root, there, last, held))
+                if (before or halved == 0) and not np.any(settled):
+                    continue
+                last = attempt(held)
+                results.append(last)
+                if np.any(doubt := last.scene.ambiguous & settled):
+                    doubts.append((last, doubt))
+                if not last.found:
+                    continue
+                root, there = _followed(last, at)
+                size = np.hypot(root.speed_a, root.speed_b)
+                # Where known values differ by more than they may, the next root is another.
+                same = abs(root.speed_a - at[0]) + abs(root.speed_b - at[1]) <= _LEADS_TO * size
+                there = there & settled & same
+                for earlier in kept:
+                    there = there & ~(
+                        earlier.there & (_apart(earlier.root, root) <= _ONE_ANSWER * size)
+                    )
+                if np.any(there):
+                    kept.append(_Kept(root, there, last, held))
     kept, doubts = _best(kept, doubts)
     first = results[0]
     if not kept and all(one is first for one, _ in doubts):
@@ -247,11 +254,14 @@ def _settled(
     slot: int,
     numbers: Mapping[str, Any],
     cases: Cases,
-    kept: Sequence[_Kept] = (),
-) -> tuple[dict[str, Any], Any, tuple[Any, Any]]:
+    kept: Sequence[_Kept],
+    sought: Any,
+    halved: int,
+) -> tuple[dict[str, Any], Any, tuple[Any, Any], Any]:
     """The impulses of the tyres that lead to the speeds from which they follow, where there are
-    some, and those speeds.
+    some, and those speeds; and in which cases they led nowhere.
 
+    Only of cases that are ``sought``; from the round ``halved`` on half of each change is made.
     What leads to a root that was ``kept`` is not followed. A case that has settled stays, so that
     it comes out of a batch as alone. One in which a contact that stuck and one that slid lead to
     each other is ``EITHER`` from then on.
@@ -260,10 +270,12 @@ def _settled(
     held = {name: np.zeros(shape) for name in (*HELD, EITHER)}
     if not now.found:
         nowhere = np.full(shape, np.nan)
-        return _plain(held, shape), np.zeros(shape, dtype=bool), (nowhere, nowhere)
+        none = np.zeros(shape, dtype=bool)
+        return _plain(held, shape), none, (nowhere, nowhere), none
+    sought = sought & now.found[slot][1]
     at = tuple(np.where(now.found[slot][1], speed, np.nan) for speed in now.found[slot][0][:2])
     slid, turns = _shows_slip(now, at, shape), np.zeros(shape)
-    moving, settled = np.ones(shape, dtype=bool), np.zeros(shape, dtype=bool)
+    moving, settled, known = sought, np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool)
     for number in range(_ROUNDS):
         if not now.found:
             break
@@ -276,9 +288,10 @@ def _settled(
         moving = moving & np.isfinite(change)
         for one in kept:
             near = _apart(one.root, root) <= _LEADS_TO * np.hypot(root.speed_a, root.speed_b)
-            near = near & (_differ(new, one.held) <= _LEADS_TO * size)
-            moving = moving & ~(one.there & near)
-        share = 1.0 if number < _HALVED else 0.5
+            near = near & (_differ(new, one.held) <= _LEADS_TO * size) & one.there
+            known = known | (moving & near)
+            moving = moving & ~near
+        share = 1.0 if number < halved else 0.5
         held |= {
             name: np.where(moving, held[name] + share * (new[name] - held[name]), held[name])
             for name in HELD
@@ -291,7 +304,7 @@ def _settled(
         before, slid = slid, _shows_slip(now, at, shape)
         turns = turns + (moving & (slid != before))
         held[EITHER] = np.where(turns > _TURNS, 1.0, held[EITHER])
-    return _plain(held, shape), settled, (at[0], at[1])
+    return _plain(held, shape), settled, (at[0], at[1]), sought & ~settled & ~known
 
 
 def _size(held: Mapping[str, Any]) -> Any:
