@@ -177,6 +177,34 @@ def test_speeds_to_which_only_their_own_tyres_lead_are_found(known):
         assert list(shown) == pytest.approx(list(readings.values()), abs=1e-5)
 
 
+def test_a_contact_that_sticks_only_with_its_own_tyres_is_found():
+    """Without them, or with those of cars that go forwards, it takes more than the friction."""
+    wheels = {
+        "duration": 0.122,
+        "tyres_a": Tyres(0.857, 0.4, 2.7, 1.5),
+        "tyres_b": Tyres(0.59, 1.0, 2.7, 1.5),
+    }
+    met = {"restitution": 0.071, "normal": 0.0432, "point": (-0.258, 0.097), "friction": 0.698}
+    a = col.Vehicle.from_speed(
+        mass=1338, yaw_inertia=2075, x=-1.8, y=-1.11, heading=0.022, yaw_rate=-0.128, speed=8.22,
+        course=0.0,
+    )  # fmt: skip
+    b = col.Vehicle.from_speed(
+        mass=1598, yaw_inertia=2441, x=1.8, y=1.915, heading=2.038, yaw_rate=0.155, speed=13.3,
+        course=2.12,
+    )  # fmt: skip
+    place = (-0.719, 0.003)
+    impact = col.eccentric(a, b, **met, **wheels)
+    assert impact.regime == "sticking"
+    readings = names("a", read(impact.a, place, wheels["duration"]))
+    (found,) = reconstruct.speeds(
+        a, b, course_a=0.0, course_b=2.12, **met, **wheels, **readings, recorder_a=place,
+        regime="sticking",
+    )  # fmt: skip
+    pair = found.a.before.speed, found.b.before.speed
+    assert pair == pytest.approx((8.22, 13.3), abs=1e-3)
+
+
 def test_readings_with_tyres_come_out_of_a_batch_as_alone():
     wheels = {"duration": np.array([0.06, 0.12]), "tyres_a": Tyres(0.7, 1.0, 2.7, 1.5)}
     place = {"recorder_b": (0.4, 0.1)}

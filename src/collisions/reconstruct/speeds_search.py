@@ -19,7 +19,7 @@ from ..kernels.contact_laws import BRACH, FRICTION
 from .common import Cases, counted
 from .recorder_place import Recorders, RecorderScene
 from .restitution_roots import RestitutionOf, crossings
-from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene
+from .speeds_algebra import FREE, LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene
 from .speeds_components import (
     COMPONENTS,
     CONTRADICTION,
@@ -105,7 +105,8 @@ class Search:
             return self._attempt({**held, **changes}, most, only)
 
         if self._balanced:
-            found = in_balance(changed, self.numbers, self.cases)
+            free = self.regime == "sticking" and self.inputs.rule == FRICTION
+            found = in_balance(changed, self.numbers, self.cases, free)
             roots = [
                 root._replace(closing=np.where(there, root.closing, np.nan))
                 for root, there in found.found
@@ -182,6 +183,8 @@ class Search:
     ) -> _Looked:
         """The same of the impulse at which readings that may mean several begin."""
         asked, shape = self.inputs, some.shape or ()
+        if FREE in own:
+            own = {**own, FRICTION: np.where(own[FREE] > 0.0, math.inf, own[FRICTION])}
         friction, shown = None, Shown()
         if self.components and asked.rule == FRICTION and np.any(np.isinf(asked.rule_value)):
             of_components = partial(self._of_components, most=most, **start)

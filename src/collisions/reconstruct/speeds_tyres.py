@@ -27,7 +27,7 @@ from ..quantities.directions import from_radians
 from ..vehicle.vehicle import moved
 from .common import Cases
 from .lasting import misses_of_impacts, settle, slopes_at
-from .speeds_algebra import EITHER, HELD, ROOT_TOL, Root, Scene
+from .speeds_algebra import EITHER, FREE, HELD, ROOT_TOL, Root, Scene
 from .speeds_components import ComponentScene, by_way
 
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
@@ -103,7 +103,7 @@ class Attempt(NamedTuple):
 
 
 def in_balance(
-    attempt: Callable[..., Attempt], numbers: Mapping[str, Any], cases: Cases
+    attempt: Callable[..., Attempt], numbers: Mapping[str, Any], cases: Cases, free: bool = False
 ) -> Attempt:
     """The roots from components of delta-V with the impulse of the tyres in the balance: those that
     each root of the instant comes to, and those that roots come to with what the tyres do where
@@ -113,22 +113,33 @@ def in_balance(
     settled, known values may differ by any amount, as the tyres may be what they differ by: the
     roots of the instant alone may be so far off that they lead to none or to another.
     """
+
+    def of_free(held: Mapping[str, Any], most: float) -> Attempt:
+        return attempt({**held, FREE: 1.0}, most)
+
     instant = attempt({}, math.inf)
     results: list[Attempt] = []
     kept: list[_Kept] = []
     doubts: list[tuple[Attempt, Any]] = []
-    for begun in (instant, attempt(_forwards(instant, numbers, cases), math.inf)):
+    forwards = _forwards(instant, numbers, cases)
+    begins = [(attempt, instant), (attempt, attempt(forwards, math.inf))]
+    if free:
+        # What it takes to stick may be too much only until the tyres are those of the answer.
+        begins += [(of_free, of_free(one, math.inf)) for one in ({}, forwards)]
+    for way, begun in begins:
         before = list(kept)
         for slot in range(max(len(begun.found), 1)):
             left: Any = np.ones(cases.shape or (), dtype=bool)
+            if way is of_free:
+                left = ~np.logical_or.reduce([left & False, *(one.there for one in before)])
             for halved in (_HALVED, 0):
                 # Whole changes may lead past a root to where there is none.
-                if halved == 0 and not np.any(left):
+                if not np.any(left):
                     break
                 held, settled, at, left = _settled(
-                    attempt, begun, slot, numbers, cases, before, left, halved
+                    way, begun, slot, numbers, cases, before, left, halved
                 )
-                if (before or halved == 0) and not np.any(settled):
+                if (before or halved == 0 or way is of_free) and not np.any(settled):
                     continue
                 last = attempt(held)
                 results.append(last)
