@@ -105,7 +105,8 @@ class Search:
             return self._attempt({**held, **changes}, most, only)
 
         if self._balanced:
-            free = self.regime == "sticking" and self.inputs.rule == FRICTION
+            states = self.regime == "sticking" and self.inputs.rule == FRICTION
+            free = states and bool(np.any(np.isfinite(self.inputs.rule_value)))
             found = in_balance(changed, self.numbers, self.cases, free)
             roots = [
                 root._replace(closing=np.where(there, root.closing, np.nan))
