@@ -109,11 +109,11 @@ def in_balance(
     each root of the instant comes to, and those that roots come to with what the tyres do where
     both cars go forwards.
 
-    ``attempt`` solves with given impulses of the tyres, by the names in ``HELD``; with ``free`` the
-    friction that was given is one that a contact stated to have stuck may exceed until then, in
-    cases without a root otherwise. Until they have
+    ``attempt`` solves with given impulses of the tyres, by the names in ``HELD``. Until they have
     settled, known values may differ by any amount, as the tyres may be what they differ by: the
-    roots of the instant alone may be so far off that they lead to none or to another.
+    roots of the instant alone may be so far off that they lead to none or to another. With ``free``
+    a contact that is stated to have stuck may take any friction until then, in cases without
+    another root.
     """
 
     def of_free(held: Mapping[str, Any], most: float) -> Attempt:
