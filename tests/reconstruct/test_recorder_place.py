@@ -130,6 +130,81 @@ def test_readings_lead_back_to_a_crash_in_which_tyres_act(axes, labels):
         assert "as its recorder reads it" in page or "place of the recorder" in page
 
 
+@pytest.mark.parametrize(
+    "known",
+    [{"speed_a": 17.4, "friction": math.inf}, {"friction": 0.717}],
+    ids=["speed", "friction"],
+)
+def test_speeds_to_which_only_their_own_tyres_lead_are_found(known):
+    """Of turns far apart the wrong one fits better until the tyres are those of the answer; and
+    whole changes of the tyres lead past it.
+    """
+    wheels = {
+        "duration": 0.1045,
+        "tyres_a": Tyres(0.706, 0.4, 2.7, 1.5),
+        "tyres_b": Tyres(0.81, 0.0, 2.7, 1.5),
+    }
+    met = {"restitution": 0.277, "normal": 0.415, "point": (0.286, 0.046)}
+    a = col.Vehicle.from_speed(
+        mass=1387, yaw_inertia=2404, x=-1.8, y=-0.122, heading=-0.0135, yaw_rate=0.107, speed=17.4,
+        course=0.0,
+    )  # fmt: skip
+    b = col.Vehicle.from_speed(
+        mass=1042, yaw_inertia=1946, x=1.8, y=1.457, heading=-1.158, yaw_rate=0.0066, speed=8.29,
+        course=-1.155,
+    )  # fmt: skip
+    place = (-0.701, -0.092)
+    impact = col.eccentric(a, b, **met, **wheels, friction=0.717)
+    assert impact.regime == "sticking"
+    readings = names("a", read(impact.a, place, wheels["duration"]))
+    found = reconstruct.speeds(
+        a,
+        b,
+        course_a=0.0,
+        course_b=-1.155,
+        **met,
+        **wheels,
+        **readings,
+        recorder_a=place,
+        **known,
+        regime="sticking",
+        forward_only=True,
+    )
+    pairs = [(one.a.before.speed, one.b.before.speed) for one in found]
+    assert min(math.dist(pair, (17.4, 8.29)) for pair in pairs) < 1e-3
+    for one in found:
+        shown = read(one.a, place, wheels["duration"])
+        assert list(shown) == pytest.approx(list(readings.values()), abs=1e-5)
+
+
+def test_a_contact_that_sticks_only_with_its_own_tyres_is_found():
+    """Without them, or with those of cars that go forwards, it takes more than the friction."""
+    wheels = {
+        "duration": 0.122,
+        "tyres_a": Tyres(0.857, 0.4, 2.7, 1.5),
+        "tyres_b": Tyres(0.59, 1.0, 2.7, 1.5),
+    }
+    met = {"restitution": 0.071, "normal": 0.0432, "point": (-0.258, 0.097), "friction": 0.698}
+    a = col.Vehicle.from_speed(
+        mass=1338, yaw_inertia=2075, x=-1.8, y=-1.11, heading=0.022, yaw_rate=-0.128, speed=8.22,
+        course=0.0,
+    )  # fmt: skip
+    b = col.Vehicle.from_speed(
+        mass=1598, yaw_inertia=2441, x=1.8, y=1.915, heading=2.038, yaw_rate=0.155, speed=13.3,
+        course=2.12,
+    )  # fmt: skip
+    place = (-0.719, 0.003)
+    impact = col.eccentric(a, b, **met, **wheels)
+    assert impact.regime == "sticking"
+    readings = names("a", read(impact.a, place, wheels["duration"]))
+    (found,) = reconstruct.speeds(
+        a, b, course_a=0.0, course_b=2.12, **met, **wheels, **readings, recorder_a=place,
+        regime="sticking",
+    )  # fmt: skip
+    pair = found.a.before.speed, found.b.before.speed
+    assert pair == pytest.approx((8.22, 13.3), abs=1e-3)
+
+
 def test_readings_with_tyres_come_out_of_a_batch_as_alone():
     wheels = {"duration": np.array([0.06, 0.12]), "tyres_a": Tyres(0.7, 1.0, 2.7, 1.5)}
     place = {"recorder_b": (0.4, 0.1)}

@@ -820,6 +820,54 @@ def test_one_that_stuck_with_a_misfit_does_not_silence_one_that_slid_without():
     assert ambiguous >= 5
 
 
+def moved_forwards(impact, sought, cars, known):
+    """What the components and the known speed move the one ``sought`` by, each by the whole of
+    itself: by the forward solver, in which the friction is sought too.
+    """
+    given = next(name for name in known if name.startswith("speed"))
+    read = [name for name in known if name.startswith("delta_v")]
+    contact = {name: known[name] for name in ("restitution", "normal", "point")}
+
+    def components(speed, friction, given_speed):
+        moving = [
+            car.replace(vx=one * math.cos(course), vy=one * math.sin(course))
+            for car, one, course in zip(
+                cars,
+                (speed, given_speed) if sought == "a" else (given_speed, speed),
+                (known["course_a"], known["course_b"]),
+                strict=True,
+            )
+        ]
+        there = col.eccentric(*moving, **contact, friction=friction)
+        return np.array([getattr(getattr(there, one[-1]), one[:-2]) for one in read])
+
+    at = getattr(impact, sought).before.speed, abs(impact.impulse_ratio), known[given]
+    slopes = []
+    for i in range(3):
+        step = 1e-6 * at[i]
+        high, low = ([*at[:i], at[i] + way * step, *at[i + 1 :]] for way in (1, -1))
+        slopes.append((components(*high) - components(*low)) / (2 * step))
+    row = np.linalg.inv(np.column_stack(slopes[:2]))[0]
+    return sum(abs(row * [known[one] for one in read])) + abs(row @ slopes[2]) * known[given]
+
+
+def test_beside_a_speed_the_condition_has_the_error_of_the_ratio_that_is_shown():
+    grows = []
+    for impact, sought, cars, known in crashes_beside_a_speed(120):
+        # Beside the end of sliding a step of differences may stick.
+        if impact.regime != "sliding" or abs(impact.slip_after) < 1e-3:
+            continue
+        (found,) = speeds(*cars, **known, regime="sliding")
+        exact = moved_forwards(impact, sought, cars, known) / impact.closing_speed
+        assert found.reconstruction.condition == pytest.approx(exact, rel=1e-5)
+        # A friction that is stated has no error of what was read.
+        stated = {**known, "friction": abs(impact.impulse_ratio), "regime": "sliding"}
+        (with_friction,) = speeds(*cars, **stated)
+        grows.append(exact / with_friction.reconstruction.condition)
+    assert len(grows) >= 15
+    assert max(grows) > 1.5
+
+
 def test_beside_a_speed_a_bound_lies_on_the_side_of_the_one_that_slid():
     """The truth is the bound or lies where that says."""
     open_ = 0

@@ -39,7 +39,8 @@ class Reconstruction:
     condition : float or array [1]
         How well-posed the problem was: the factor by which relative errors of the inputs may grow
         in the speeds before the impact, taken relative to the closing speed. 10 means that one
-        percent may become ten. It leaves out errors of friction, restitution, normal and courses.
+        percent may become ten. It leaves out errors of friction, restitution, normal and courses,
+        but has those of a friction that components of delta-V show beside a known speed.
         For ``planar`` it is the factor that restitution brings in, (1 + e)/e where e was given, or,
         where larger, the jump between the two directions of sliding divided by the slip.
     answers : int or array of int

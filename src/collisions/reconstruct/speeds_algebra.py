@@ -64,6 +64,8 @@ _FIXED += [f"{label}.{name}" for label in "ab" for name in _OF_BODY]
 HELD = [f"held_{label}.{name}" for label in "ab" for name in ("impulse_x", "impulse_y", "moment")]
 # 1 where the tyres of a contact that stuck make it one that slid, and the other way round.
 EITHER = "either"
+# 1 where a contact that is stated to have stuck may take any friction.
+FREE = "free"
 
 
 class Root(NamedTuple):

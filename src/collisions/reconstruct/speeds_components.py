@@ -594,8 +594,30 @@ class ComponentScene(Scene):
             for at, row in zip(self.unknown, inverse, strict=True):
                 step = dot(row, left)
                 speeds[at] = speeds[at] + np.where(np.isfinite(step), step, 0.0)
+        if len(self.unknown) == 1 and not isinstance(regime, str) and np.any(self.shows_friction):
+            inverse = [self._with_the_ratio(inverse[0], regime, speeds)]
         moved = self._moved(inverse, effects, self._momenta)
         return self._judged(regime, speeds, moved, stays_open)
+
+    def _with_the_ratio(self, row: Sequence[Any], ratio: Any, speeds: Sequence[Any]) -> list[Any]:
+        """What the momenta change the unknown speed by, with what they change the ratio by where
+        they show it.
+        """
+        here, smooth = (self.observe(one, *speeds) for one in (ratio, 0.0 * ratio))
+        # At one closing speed the reciprocal of the normal impulse is linear in the ratio.
+        normal = (here.normal / smooth.normal - 1.0) * here.normal / ratio
+        tangential = here.normal + ratio * normal
+        by_ratio = -dot(row, [n * normal + t * tangential for n, t in self._axes])
+        by_ratio = np.where(self.shows_friction & (ratio != 0.0), np.sign(ratio) * by_ratio, 0.0)
+        return [one + by_ratio * part for one, part in zip(row, self._of_friction(), strict=True)]
+
+    def _of_friction(self) -> list[Any]:
+        """What the momenta change the friction by that they show."""
+        columns = [list(parts) for parts in zip(*self._axes, strict=True)]
+        rows, _ = pseudoinverse(columns, [abs(part) for column in columns for part in column])
+        normal, tangential = (dot(row, self._momenta) for row in rows)
+        ratio = tangential / normal
+        return [np.sign(ratio) * (t - ratio * n) / normal for n, t in zip(*rows, strict=True)]
 
     def _moved(self, inverse: Sequence[Any], effects: Sequence[Any], momenta: Sequence[Any]) -> Any:
         """How far relative errors of the momenta and of a known speed may move the speeds."""
@@ -654,6 +676,13 @@ class ComponentScene(Scene):
                 np.isfinite(self.bound) & (self.bound > 0.0), -here / slope, np.nan
             )
             moved = abs((by_known - here) / slope * known[1 - at])
+            if np.any(self.shows_friction):
+                by_friction = abs(self.observe(STICK, *speeds).normal / slope)
+                by_friction = np.where(self.shows_friction, by_friction, 0.0)
+                moved = moved + by_friction * sum(
+                    abs(part * momentum)
+                    for part, momentum in zip(self._of_friction(), self._momenta, strict=True)
+                )
             found.append(self._judged(STICK, speeds, moved, False))
         return found
 

@@ -19,7 +19,7 @@ from ..kernels.contact_laws import BRACH, FRICTION
 from .common import Cases, counted
 from .recorder_place import Recorders, RecorderScene
 from .restitution_roots import RestitutionOf, crossings
-from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene
+from .speeds_algebra import FREE, LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene
 from .speeds_components import (
     COMPONENTS,
     CONTRADICTION,
@@ -105,7 +105,9 @@ class Search:
             return self._attempt({**held, **changes}, most, only)
 
         if self._balanced:
-            found = in_balance(changed, self.numbers, self.cases)
+            states = self.regime == "sticking" and self.inputs.rule == FRICTION
+            free = states and bool(np.any(np.isfinite(self.inputs.rule_value)))
+            found = in_balance(changed, self.numbers, self.cases, free)
             roots = [
                 root._replace(closing=np.where(there, root.closing, np.nan))
                 for root, there in found.found
@@ -169,7 +171,7 @@ class Search:
             self._looked_from({"start": start, **only}, own, some, most, plain, shares)
             for start in starts
         ]
-        return _together(looks, own[self.inputs.rule])
+        return _together(looks, own[self.inputs.rule], self._balanced)
 
     def _looked_from(
         self,
@@ -182,6 +184,8 @@ class Search:
     ) -> _Looked:
         """The same of the impulse at which readings that may mean several begin."""
         asked, shape = self.inputs, some.shape or ()
+        if FREE in own:
+            own = {**own, FRICTION: np.where(own[FREE] > 0.0, math.inf, own[FRICTION])}
         friction, shown = None, Shown()
         if self.components and asked.rule == FRICTION and np.any(np.isinf(asked.rule_value)):
             of_components = partial(self._of_components, most=most, **start)
@@ -346,8 +350,11 @@ def _with_friction(inputs: Inputs, friction: Any) -> Inputs:
     return replace(inputs, rule_value=friction, given=texts or None)
 
 
-def _together(looks: Sequence[_Looked], given: Any) -> _Looked:
-    """The roots that fit best of scenes with the same readings and each an impulse of its own."""
+def _together(looks: Sequence[_Looked], given: Any, balanced: bool) -> _Looked:
+    """The roots that fit best of scenes with the same readings and each an impulse of its own.
+
+    All roots where tyres are in the balance, as only with its own tyres each fits as it does.
+    """
     if len(looks) == 1:
         return looks[0]
     scenes = [look.scene for look in looks if isinstance(look.scene, ComponentScene)]
@@ -361,7 +368,7 @@ def _together(looks: Sequence[_Looked], given: Any) -> _Looked:
     roots = [
         root._replace(
             closing=np.where(
-                there & (scene.misfit <= np.maximum(ROOT_TOL, whole.misfit)),
+                there & (balanced | (scene.misfit <= np.maximum(ROOT_TOL, whole.misfit))),
                 root.closing,
                 np.nan,
             ),

@@ -27,7 +27,7 @@ from ..quantities.directions import from_radians
 from ..vehicle.vehicle import moved
 from .common import Cases
 from .lasting import misses_of_impacts, settle, slopes_at
-from .speeds_algebra import EITHER, HELD, ROOT_TOL, Root, Scene
+from .speeds_algebra import EITHER, FREE, HELD, ROOT_TOL, Root, Scene
 from .speeds_components import ComponentScene, by_way
 
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
@@ -103,7 +103,7 @@ class Attempt(NamedTuple):
 
 
 def in_balance(
-    attempt: Callable[..., Attempt], numbers: Mapping[str, Any], cases: Cases
+    attempt: Callable[..., Attempt], numbers: Mapping[str, Any], cases: Cases, free: bool = False
 ) -> Attempt:
     """The roots from components of delta-V with the impulse of the tyres in the balance: those that
     each root of the instant comes to, and those that roots come to with what the tyres do where
@@ -111,35 +111,55 @@ def in_balance(
 
     ``attempt`` solves with given impulses of the tyres, by the names in ``HELD``. Until they have
     settled, known values may differ by any amount, as the tyres may be what they differ by: the
-    roots of the instant alone may be so far off that they lead to none or to another.
+    roots of the instant alone may be so far off that they lead to none or to another. With ``free``
+    a contact that is stated to have stuck may take any friction until then, in cases without
+    another root.
     """
+
+    def of_free(held: Mapping[str, Any], most: float) -> Attempt:
+        return attempt({**held, FREE: 1.0}, most)
+
     instant = attempt({}, math.inf)
     results: list[Attempt] = []
     kept: list[_Kept] = []
     doubts: list[tuple[Attempt, Any]] = []
-    for begun in (instant, attempt(_forwards(instant, numbers, cases), math.inf)):
+    forwards = _forwards(instant, numbers, cases)
+    begins = [(attempt, instant), (attempt, attempt(forwards, math.inf))]
+    if free:
+        # What it takes to stick may be too much only until the tyres are those of the answer.
+        begins += [(of_free, of_free(one, math.inf)) for one in ({}, forwards)]
+    for way, begun in begins:
         before = list(kept)
         for slot in range(max(len(begun.found), 1)):
-            held, settled, at = _settled(attempt, begun, slot, numbers, cases, before)
-            if before and not np.any(settled):
-                continue
-            last = attempt(held)
-            results.append(last)
-            if np.any(doubt := last.scene.ambiguous & settled):
-                doubts.append((last, doubt))
-            if not last.found:
-                continue
-            root, there = _followed(last, at)
-            size = np.hypot(root.speed_a, root.speed_b)
-            # Where known values differ by more than they may, the next root is another.
-            same = abs(root.speed_a - at[0]) + abs(root.speed_b - at[1]) <= _LEADS_TO * size
-            there = there & settled & same
-            for earlier in kept:
-                there = there & ~(
-                    earlier.there & (_apart(earlier.root, root) <= _ONE_ANSWER * size)
+            left: Any = np.ones(cases.shape or (), dtype=bool)
+            if way is of_free:
+                left = ~np.logical_or.reduce([left & False, *(one.there for one in before)])
+            for halved in (_HALVED, 0):
+                # Whole changes may lead past a root to where there is none.
+                if not np.any(left):
+                    break
+                held, settled, at, left = _settled(
+                    way, begun, slot, numbers, cases, before, left, halved
                 )
-            if np.any(there):
-                kept.append(_Kept(root, there, last, held))
+                if (before or halved == 0 or way is of_free) and not np.any(settled):
+                    continue
+                last = attempt(held)
+                results.append(last)
+                if np.any(doubt := last.scene.ambiguous & settled):
+                    doubts.append((last, doubt))
+                if not last.found:
+                    continue
+                root, there = _followed(last, at)
+                size = np.hypot(root.speed_a, root.speed_b)
+                # Where known values differ by more than they may, the next root is another.
+                same = abs(root.speed_a - at[0]) + abs(root.speed_b - at[1]) <= _LEADS_TO * size
+                there = there & settled & same
+                for earlier in kept:
+                    there = there & ~(
+                        earlier.there & (_apart(earlier.root, root) <= _ONE_ANSWER * size)
+                    )
+                if np.any(there):
+                    kept.append(_Kept(root, there, last, held))
     kept, doubts = _best(kept, doubts)
     first = results[0]
     if not kept and all(one is first for one, _ in doubts):
@@ -247,11 +267,14 @@ def _settled(
     slot: int,
     numbers: Mapping[str, Any],
     cases: Cases,
-    kept: Sequence[_Kept] = (),
-) -> tuple[dict[str, Any], Any, tuple[Any, Any]]:
+    kept: Sequence[_Kept],
+    sought: Any,
+    halved: int,
+) -> tuple[dict[str, Any], Any, tuple[Any, Any], Any]:
     """The impulses of the tyres that lead to the speeds from which they follow, where there are
-    some, and those speeds.
+    some, and those speeds; and in which cases they led nowhere.
 
+    Only of cases that are ``sought``; from the round ``halved`` on half of each change is made.
     What leads to a root that was ``kept`` is not followed. A case that has settled stays, so that
     it comes out of a batch as alone. One in which a contact that stuck and one that slid lead to
     each other is ``EITHER`` from then on.
@@ -260,10 +283,12 @@ def _settled(
     held = {name: np.zeros(shape) for name in (*HELD, EITHER)}
     if not now.found:
         nowhere = np.full(shape, np.nan)
-        return _plain(held, shape), np.zeros(shape, dtype=bool), (nowhere, nowhere)
+        none = np.zeros(shape, dtype=bool)
+        return _plain(held, shape), none, (nowhere, nowhere), none
+    sought = sought & now.found[slot][1]
     at = tuple(np.where(now.found[slot][1], speed, np.nan) for speed in now.found[slot][0][:2])
     slid, turns = _shows_slip(now, at, shape), np.zeros(shape)
-    moving, settled = np.ones(shape, dtype=bool), np.zeros(shape, dtype=bool)
+    moving, settled, known = sought, np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool)
     for number in range(_ROUNDS):
         if not now.found:
             break
@@ -276,9 +301,10 @@ def _settled(
         moving = moving & np.isfinite(change)
         for one in kept:
             near = _apart(one.root, root) <= _LEADS_TO * np.hypot(root.speed_a, root.speed_b)
-            near = near & (_differ(new, one.held) <= _LEADS_TO * size)
-            moving = moving & ~(one.there & near)
-        share = 1.0 if number < _HALVED else 0.5
+            near = near & (_differ(new, one.held) <= _LEADS_TO * size) & one.there
+            known = known | (moving & near)
+            moving = moving & ~near
+        share = 1.0 if number < halved else 0.5
         held |= {
             name: np.where(moving, held[name] + share * (new[name] - held[name]), held[name])
             for name in HELD
@@ -291,7 +317,7 @@ def _settled(
         before, slid = slid, _shows_slip(now, at, shape)
         turns = turns + (moving & (slid != before))
         held[EITHER] = np.where(turns > _TURNS, 1.0, held[EITHER])
-    return _plain(held, shape), settled, (at[0], at[1])
+    return _plain(held, shape), settled, (at[0], at[1]), sought & ~settled & ~known
 
 
 def _size(held: Mapping[str, Any]) -> Any:
