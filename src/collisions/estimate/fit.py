@@ -199,7 +199,7 @@ def fit(
             )
             start = inputs.named(inputs.start)
             raise refused_everywhere(inputs.model, _STARTS, start, inputs.units, advice)
-        searched = inputs.model
+        searched, cheap = inputs.model, problem
         if dearer is not None:
             starts = _ends_to_refine(inputs, problem, ends)
             inputs, problem = dearer
@@ -212,7 +212,8 @@ def fit(
                     "fit(finer, unknowns, observed)",
                     code="refused",
                 )
-        best, ends, found_of = _followed(inputs, problem, ends, few=dearer is None)
+        scout = None if dearer is None else cheap
+        best, ends, found_of = _followed(inputs, problem, ends, dearer is None, scout)
         candidates = [best, *(one for one, _ in found_of[1:])]
         fits = []
         for one in candidates:
@@ -578,7 +579,7 @@ def _ended_at(ends: Ends, chi_squared: float) -> Any:
 
 
 def _followed(
-    inputs: _Inputs, problem: Problem, ends: Ends, few: bool
+    inputs: _Inputs, problem: Problem, ends: Ends, few: bool, scout: Problem | None
 ) -> tuple[_Candidate, Ends, list[tuple[_Candidate, Found]]]:
     """The best candidate, the ends of all searches, and the best and each rival with the profiles
     that its range needs.
@@ -593,7 +594,7 @@ def _followed(
         rivals = _rivals(best, ends)
         found = [
             (one, followed(one.problem, one.point, best.chi_squared, one.determination.covariance,
-             range(len(one.point)) if len(rivals) > 1 else best.bent))
+             range(len(one.point)) if len(rivals) > 1 else best.bent, scout or one.problem))
             for one in rivals
         ]  # fmt: skip
         lower = [one for _, one in found if one.lowest < best.chi_squared - _SAME_CHI_SQUARED]

@@ -126,8 +126,11 @@ class _Profiles:
     answer. The covariance says where to look first.
     """
 
-    def __init__(self, problem: Problem, point: Any, chi_squared: float, covariance: Any) -> None:
+    def __init__(
+        self, problem: Problem, point: Any, chi_squared: float, covariance: Any, scout: Problem
+    ) -> None:
         self.problem, self.point, self.chi_squared = problem, point, chi_squared
+        self.scout = scout
         errors = np.sqrt(np.diagonal(covariance))
         self.known = np.isfinite(errors)
         wide = np.minimum(problem.high - problem.low, problem.scale)
@@ -218,6 +221,7 @@ class _Profiles:
     def valleys(self, ends: dict[tuple[int, float], tuple[float, float]]) -> list[_Row]:
         """Where the misfit has another valley beside a profile's: at these values, by unknown and
         side, with their rises, searches from around find the others elsewhere for clearly less.
+        The ``scout`` searches, and where it ended the others are fitted again.
 
         At a kink, as where a contact just sticks, one valley leads up on either side of it.
         """
@@ -232,13 +236,18 @@ class _Profiles:
             around[:, k] = value
             starts.append(around)
             places += [k] * _BESIDE
-        found, rises, climbs = self.fitted(np.concatenate(starts), places)
-        rows = []
-        for i, ((k, outward), (_, rise)) in enumerate(ends.items()):
-            best = i * _BESIDE + int(np.argmin(rises[i * _BESIDE : (i + 1) * _BESIDE]))
-            if rises[best] < rise - _CLEARLY:
-                rows.append(_Row(k, outward, found.points[best], rises[best], climbs[best]))
-        return rows
+        held = np.arange(len(self.point)) == np.asarray(places)[:, np.newaxis]
+        tried = minimise(
+            self.scout, np.concatenate(starts), held=held, close=_CLOSE, rounds=_ROUNDS
+        )
+        best = np.argmin(tried.chi_squared.reshape(-1, _BESIDE), axis=1)
+        points = tried.points.reshape(-1, _BESIDE, len(self.point))[np.arange(len(ends)), best]
+        found, rises, climbs = self.fitted(points, [k for k, _ in ends])
+        return [
+            _Row(k, outward, found.points[i], rises[i], climbs[i])
+            for i, ((k, outward), (_, rise)) in enumerate(ends.items())
+            if rises[i] < rise - _CLEARLY
+        ]
 
     def inward(self, row: _Row) -> list[tuple[float, float, float]]:
         """The way back from another valley towards the answer, outward again: values, rises and
@@ -259,14 +268,22 @@ class _Profiles:
 
 
 def followed(
-    problem: Problem, point: Any, chi_squared: float, covariance: Any, which: Iterable[int]
+    problem: Problem,
+    point: Any,
+    chi_squared: float,
+    covariance: Any,
+    which: Iterable[int],
+    scout: Problem,
 ) -> Found:
     """The profiles of these unknowns from a point, and of those whose range reaches into another
     valley of the misfit; the rise is above ``chi_squared``, which is that of the best answer.
+
+    ``scout`` is a problem with nearly the same answers, or the same, that costs less.
     """
-    profiles = _Profiles(problem, point, chi_squared, covariance)
+    profiles = _Profiles(problem, point, chi_squared, covariance, scout)
     chosen = [int(k) for k in which]
-    several = len(point) > 1  # one unknown has no others to be found elsewhere
+    # One unknown has no others to be found elsewhere, and where no range bends all lie in one.
+    several = len(point) > 1 and len(chosen) > 0
     two: dict[tuple[int, float], tuple[float, float]] = {}
     for k in np.flatnonzero(profiles.known).tolist():
         if k not in chosen and several:
