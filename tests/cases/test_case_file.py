@@ -1414,7 +1414,7 @@ def test_a_reading_as_a_text_needs_its_unit(study, reading):
     (found,) = problems(f'{text}[{study}]\n[observed]\n"a.delta_v" = {reading}\n')
     assert found.startswith(f'{study}.observed."a.delta_v": ')
     kind = "is weighed by [posterior]" in found and study == "fit"
-    assert kind or re.search(r"'\d+' has no unit; write numbers such as 22\.2 \(m/s\)", found)
+    assert kind or re.search(r"'\d+' has no unit; write for example '80 km/h'", found)
     bare = solved(f'{text}[{study}]\n[observed]\n"a.delta_v" = [7, 1]\n')
     assert solved(f'{text}[{study}]\n[observed]\n"a.delta_v" = "7 m/s +/- 1 m/s"\n') is not bare
 

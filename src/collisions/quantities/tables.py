@@ -235,9 +235,15 @@ def given_texts(result: Summarized) -> list[str]:
     return [text for text in result._texts() if isinstance(text, str)]
 
 
+_NAME = re.compile(r"`|[a-z]\w*(?:[_=(\[]|\.\w)")
+
+
 def as_sentence(text: str) -> str:
-    """A statement as a sentence of its own, with a capital and a full stop."""
-    return f"{text[:1].upper()}{text[1:].rstrip('.')}."
+    """A statement as a sentence of its own, with a capital and a full stop; a name at its
+    beginning, such as ``energy_loss`` or ``a.delta_v``, stays as it is written.
+    """
+    begins = text[:1] if _NAME.match(text) else text[:1].upper()
+    return f"{begins}{text[1:].rstrip('.')}."
 
 
 def all_numbers(rows: Iterable[tuple[str, str]]) -> Part:

@@ -387,13 +387,13 @@ def missing_unit(label: str, stated: str, wanted: str) -> UnitsError | None:
     """
     if not wanted or stated or isinstance(stated, GivenUnit):
         return None
+    # Of the examples the first one that is a text with its unit.
+    text = example(wanted).split("'")[1]
+    written = f"write for example {text!r}"
     if isinstance(stated, WithoutUnit):
-        got = f" = {shown(stated.text)} has no unit; write numbers such as {example(wanted)}"
+        got = f" = {shown(stated.text)} has no unit; {written}"
     elif units_required.get():
-        got = (
-            " has no unit, and options(require_units=True) asks for one; write numbers such as "
-            f"{example(wanted)}"
-        )
+        got = f" has no unit, and options(require_units=True) asks for one; {written}"
     else:
         return None
     return UnitsError(f"{as_code(label)}{got}", code="bad_units", argument=label)
