@@ -63,6 +63,8 @@ def posterior(
     Bayes' theorem by sampling, for any priors, however nonlinear the model and however many answers
     there are. Tempered sequential Monte Carlo takes the samples from the priors to the posterior in
     eight islands, each resampled by itself; the differences between them give the sampling errors.
+    An answer far from all others that has little of the probability may lose all its samples on the
+    way, and the errors do not tell.
     All figures are conditional on the model, the priors and the stated errors of the observations,
     which are taken as normal and independent. For the method in this field see G. A. Davis,
     "Bayesian reconstruction of traffic accidents", Law, Probability and Risk 2 (2003) 69-89.

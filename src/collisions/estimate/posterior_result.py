@@ -203,7 +203,8 @@ class Posterior(SpeedsFound, Summarized):
         -------
         probability, standard_error : float
             Between 0 and 1. If the condition holds in no sample or in every one, the error is 1
-            over the number of samples. It is NaN where one island has all the samples, of which
+            over the number of samples; an answer far from all others that got no sample is not in
+            it. It is NaN where one island has all the samples, of which
             ``posterior`` warns.
 
         Raises
