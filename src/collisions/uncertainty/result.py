@@ -737,6 +737,8 @@ def _beyond_a_gap(found: Any, at: float, low: float, high: float) -> float:
     two shares, 0 without one: a slope tells nothing of a jump, on the other side of which the
     quantile may lie.
     """
+    if not low < high:
+        return 0.0  # not known, as where values are too large to be squared
     first = max(0, int(low * found.size))
     last = min(found.size - 1, math.ceil(high * found.size))
     if last - first < _FOR_A_GAP:
