@@ -42,7 +42,7 @@ from .least_squares import (
     minimise,
     spread,
 )
-from .profile import Found, followed, table
+from .profile import Found, beside, followed, table
 
 _STARTS = 64
 _PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
@@ -432,7 +432,8 @@ class _Candidate:
         """Two errors of each unknown up and down (2, n), within the bounds, and how far the misfit
         rises there, in sigma.
 
-        The others follow within their bounds, first by the slopes here, then by those there.
+        The others follow within their bounds, first by the slopes here, then by those there; where
+        that is as in a linear model, they are fitted from elsewhere as well.
         """
         covariance = self.determination_of(self.free).covariance
         known = np.isfinite(np.diagonal(covariance))
@@ -453,18 +454,27 @@ class _Candidate:
             -1, len(self.point)
         )
         within = np.clip(points, self.problem.low, self.problem.high)
-        outputs, slopes = self.problem.with_slopes(within)
+        outputs, original = self.problem.with_slopes(within)
+        held = np.tile(which, 2)
         fixed = (
-            ~self.free
-            | (within != points)
-            | np.tile(np.arange(len(self.point)) == which[:, np.newaxis], (2, 1))
+            ~self.free | (within != points) | (np.arange(len(self.point)) == held[:, np.newaxis])
         )
-        slopes = slopes * self.problem.scale
+        slopes = original * self.problem.scale
         slopes = np.where(fixed[:, np.newaxis] | ~np.isfinite(slopes), 0.0, slopes)
         misfit = self.problem.misfit(outputs)[..., np.newaxis]
         misfit = misfit - slopes @ (np.linalg.pinv(slopes, _FLAT_SHARE) @ misfit)
-        rise = np.sum(misfit**2, axis=(1, 2)) - self.chi_squared
-        return far, np.sqrt(np.maximum(rise, 0.0)).reshape(2, -1)
+        total = np.sum(misfit**2, axis=(1, 2))
+        straight = np.tile(_straight(far, self._rise(total)), 2)
+        if np.any(straight):
+            # Those that are not are followed, which looks for other valleys where they lead.
+            parts = (within, outputs, original, total, straight)
+            lower = beside(self.problem, Ends(*(x[straight] for x in parts)), held[straight])
+            total[straight] = np.minimum(total[straight], lower.chi_squared)
+        return far, self._rise(total)
+
+    def _rise(self, chi_squared: Any) -> Any:
+        """The rise of the misfit in sigma, up and down (2, n)."""
+        return np.sqrt(np.maximum(chi_squared - self.chi_squared, 0.0)).reshape(2, -1)
 
     @cached_property
     def at_a_kink(self) -> bool:
@@ -484,10 +494,7 @@ class _Candidate:
             return range(len(self.point))
         known = np.isfinite(self.errors)
         far, risen = self.moves
-        straight = np.all(far == _TWO_ERRORS, axis=0) & np.all(
-            abs(risen - far) <= _STRAIGHT * far, axis=0
-        )
-        return np.flatnonzero(known)[~straight]
+        return np.flatnonzero(known)[~_straight(far, risen)]
 
     @property
     def nonlinearity(self) -> float:
@@ -570,6 +577,11 @@ def _examined(inputs: _Inputs, problem: Problem, ends: Ends, k: int) -> _Candida
             break
         found = _Candidate(inputs, finer, *(part[0] for part in again))
     return found
+
+
+def _straight(far: Any, risen: Any) -> Any:
+    """Which unknowns make the misfit rise as in a linear model, two errors up and down (2, n)."""
+    return np.all(far == _TWO_ERRORS, axis=0) & np.all(abs(risen - far) <= _STRAIGHT * far, axis=0)
 
 
 def _ended_at(ends: Ends, chi_squared: float) -> Any:

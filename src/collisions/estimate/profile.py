@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..uncertainty.normal import score_of_coverage
-from .least_squares import Ends, Problem, minimise
+from .least_squares import Ends, Problem, minimise, spread
 
 LEVELS = score_of_coverage(0.95) / 8.0 * np.arange(13)  # sigma; the ninth is that of 95 percent
 SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
@@ -24,11 +24,18 @@ _MOST_RISE, _LONGER, _SHORTEST = 1.5, 4.0, 1e-3  # of steps, the last a part of 
 _MOST_STEPS = 24
 _CLOSE, _ROUNDS = 1e-2, 40  # of the fits again: chi-squared to 1e-4
 _FIRST = 0.125  # of its scale, for an unknown without a standard error
+# Sigma: where 95 percent counts as reached, and what is aimed at on the way back from another valley
+_REACHED, _FINE = 1.8, 0.3
+_MOST_VALLEYS = 4  # one beyond the other
+_ELSEWHERE, _AWAY = 12, 3.0  # places beside a fit to start from, and how far away [sigma] at most
+_DEPARTS = 0.1  # sigma: places where the model is nearer to its slopes need no search
+_LOWER = 0.05  # of chi-squared: what is lower by less is the same valley
 
 
 class Side(NamedTuple):
     """Values on one side of the answer, outward, the rise of the misfit at each in sigma, and the
-    slope of chi-squared there; beyond the last the model refuses if it is ``at_edge``.
+    slope of chi-squared there; beyond the last the model refuses if it is ``at_edge``. ``valleys``
+    are others in which the misfit is lower from some value on.
     """
 
     values: Any
@@ -36,9 +43,16 @@ class Side(NamedTuple):
     slopes: Any
     bound: float
     at_edge: bool
+    valleys: tuple[Side, ...] = ()
 
     def reach(self, level: float) -> float:
-        """The furthest value with no more than this rise."""
+        """The furthest value with no more than this rise; NaN if there is none."""
+        ends = [one._end(level) for one in (self, *self.valleys)]
+        outward = max if self.bound > self.values[0] else min
+        return float(outward((x for x in ends if not math.isnan(x)), default=math.nan))
+
+    def _end(self, level: float) -> float:
+        """The furthest value with no more than this rise in this valley."""
         inside = np.flatnonzero(self.rises <= level)
         if not inside.size:
             return math.nan
@@ -90,35 +104,119 @@ class Found(NamedTuple):
         )
 
 
+class _Begin(NamedTuple):
+    """Where a track begins: the unknown that is held, which way it goes and how far at most, what
+    is known there, the first step and how the others go with it, and the rise to aim at from one
+    value to the next.
+    """
+
+    unknown: int
+    outward: float
+    bound: float
+    point: Any
+    rise: float
+    climb: float
+    step: float
+    way: Any
+    aim: float
+
+
+class _Track(NamedTuple):
+    """Values, rises and slopes of chi-squared along a track (3, k), whether the model refuses
+    beyond the last, and the fit that first reached 95 percent, if any.
+    """
+
+    along: Any
+    at_edge: bool
+    reached: Ends | None
+
+
 def followed(
     problem: Problem, point: Any, chi_squared: float, covariance: Any, which: Iterable[int]
 ) -> Found:
     """The profiles of these unknowns from a point, by the rise above ``chi_squared``, which is that
     of the best answer. The covariance says where to look first.
+
+    A fit that goes on from the value before stays on its side of a kink. So where a track reaches
+    95 percent the other unknowns are fitted from elsewhere as well, and a lower misfit met there is
+    followed both ways.
     """
-    unknowns = np.repeat(np.fromiter(which, dtype=int), 2)
-    outward = np.tile([-1.0, 1.0], len(unknowns) // 2)
-    count, n = len(unknowns), len(point)
-    every = np.arange(count)
     errors = np.sqrt(np.diagonal(covariance))
     wide = np.minimum(problem.high - problem.low, problem.scale)
     first = np.where(np.isfinite(errors), np.minimum(_RISE * errors, wide), _FIRST * wide)
-    ways = np.where(np.isfinite(errors), covariance / errors**2, 0.0).T[unknowns]
+    ways = np.where(np.isfinite(errors), covariance / errors**2, 0.0).T
     ways = np.where(np.isfinite(ways), ways, 0.0)
-    bound = np.where(outward > 0.0, problem.high[unknowns], problem.low[unknowns])
-    held = np.arange(n) == unknowns[:, np.newaxis]
 
     start = minimise(problem, point[np.newaxis])
     begin = math.sqrt(max(0.0, start.chi_squared[0] - chi_squared))
     # To either side by itself: the answer may be at a kink.
     _, changes, moves = problem.neighbours(point[np.newaxis])
     toward = np.where(moves == 0.0, 0.0, changes / moves)[:, 0] @ problem.misfit(start.outputs[0])
-    climbs = 2.0 * toward[np.where(outward > 0.0, 0, 1), unknowns]
-    at, value, rise = np.tile(point, (count, 1)), point[unknowns].copy(), np.full(count, begin)
-    step, least = first[unknowns].copy(), _SHORTEST * first[unknowns]
-    tracks = [[(value[k], begin, climbs[k])] for k in range(count)]
-    edge, live = np.zeros(count, dtype=bool), value != bound
-    lowest, where = float(chi_squared), point
+    begins = [
+        _Begin(j, way, bound, point, begin, 2.0 * slope, first[j], ways[j], _RISE)
+        for j in which
+        for way, bound, slope in (
+            (-1.0, problem.low[j], toward[1, j]),
+            (1.0, problem.high[j], toward[0, j]),
+        )
+    ]
+    tracks, least = _follow(problem, chi_squared, begins)
+    sides = [
+        Side(*track.along, float(one.bound), track.at_edge)
+        for one, track in zip(begins, tracks, strict=True)
+    ]
+    asked = {k: track.reached for k, track in enumerate(tracks) if track.reached}
+    for _ in range(_MOST_VALLEYS):
+        if not asked:
+            break
+        places = Ends(*map(np.concatenate, zip(*asked.values(), strict=True)))
+        held = np.array([begins[k].unknown for k in asked])
+        lower = beside(problem, places, held)
+        rises = np.sqrt(np.maximum(0.0, lower.chi_squared - chi_squared))
+        climbs = _climbs(problem, lower, held)
+        left = lower.chi_squared < places.chi_squared - _LOWER
+        owners, turned = [], []
+        for i, k in enumerate(asked):
+            if left[i]:
+                step = first[begins[k].unknown]
+                out = begins[k]._replace(
+                    point=lower.points[i], rise=rises[i], climb=climbs[i], way=0.0 * point
+                )
+                back = out._replace(
+                    outward=-out.outward, bound=point[out.unknown], step=_FINE * step, aim=_FINE
+                )
+                owners.append(k)
+                turned += [out, back]
+        tracks, met = _follow(problem, chi_squared, turned)
+        least = min(least, met, key=lambda one: one[0])
+        asked = {}
+        for k, out, back in zip(owners, tracks[::2], tracks[1::2], strict=True):
+            along = np.concatenate([back.along[:, :0:-1], out.along], axis=1)
+            valley = Side(*along, sides[k].bound, out.at_edge)
+            sides[k] = sides[k]._replace(valleys=(*sides[k].valleys, valley))
+            if out.reached:
+                asked[k] = out.reached
+    both = {begins[k].unknown: (sides[k], sides[k + 1]) for k in range(0, len(begins), 2)}
+    return Found(both, *least)
+
+
+def _follow(
+    problem: Problem, chi_squared: float, begins: list[_Begin]
+) -> tuple[list[_Track], tuple[float, Any]]:
+    """The tracks from these beginnings, and the least misfit met and where.
+
+    A track that goes inward ends where the misfit no longer falls.
+    """
+    least = (math.inf, np.zeros(0))
+    if not begins:
+        return [], least
+    unknowns, outward, bound, at, rise, climbs, step, ways, aim = map(np.array, zip(*begins))
+    every = np.arange(len(begins))
+    value, shortest = at[every, unknowns], _SHORTEST * step
+    tracks = [[(value[k], rise[k], climbs[k])] for k in every]
+    reached: list[Ends | None] = [None] * len(begins)
+    held = np.arange(at.shape[1]) == unknowns[:, np.newaxis]
+    edge, live, inward = np.zeros(len(begins), dtype=bool), value != bound, aim < _RISE
     for _ in range(_MOST_STEPS):
         rows = every[live]
         if not rows.size:
@@ -130,11 +228,11 @@ def followed(
         guess[np.arange(rows.size), unknowns[rows]] = new
         ends = minimise(problem, guess, held=held[rows], close=_CLOSE, rounds=_ROUNDS)
         k = int(np.argmin(ends.chi_squared))
-        if ends.chi_squared[k] < lowest:
-            lowest, where = float(ends.chi_squared[k]), ends.points[k]
+        if ends.chi_squared[k] < least[0]:
+            least = (float(ends.chi_squared[k]), ends.points[k])
         found = np.sqrt(np.maximum(0.0, ends.chi_squared - chi_squared))
         climbed, climbs = found - rise[rows], _climbs(problem, ends, unknowns[rows])
-        short = step[rows] <= least[rows]
+        short = step[rows] <= shortest[rows]
         refused = np.isinf(found)
         good = ~refused & ((climbed <= _MOST_RISE) | short)
         edge[rows[refused & short]] = True
@@ -144,16 +242,56 @@ def followed(
             row, moved = rows[j], new[j] - value[rows[j]]
             tracks[row].append((new[j], found[j], climbs[j]))
             ways[row] = (ends.points[j] - at[row]) / moved
-            part = _RISE / climbed[j] if climbed[j] > 0.0 else _LONGER
+            went = -climbed[j] if inward[row] else climbed[j]
+            part = aim[row] / went if went > 0.0 else _LONGER
             step[row] = abs(moved) * min(max(part, 1.0 / _LONGER), _LONGER)
             at[row], value[row], rise[row] = ends.points[j], new[j], found[j]
-            live[row] = new[j] != bound[row] and found[j] < LEVELS[-1] - 0.01
-    both = []
-    for k, track in enumerate(tracks):
-        values, rises, slopes = np.array(track).T
-        both.append(Side(values, rises, slopes, float(bound[k]), bool(edge[k])))
-    sides = {int(unknowns[k]): (both[k], both[k + 1]) for k in range(0, count, 2)}
-    return Found(sides, lowest, where)
+            live[row] = new[j] != bound[row] and (
+                went > 0.0 if inward[row] else found[j] < LEVELS[-1] - 0.01
+            )
+            if found[j] >= _REACHED and not inward[row] and reached[row] is None:
+                reached[row] = Ends(*(part[j : j + 1] for part in ends))
+    return [
+        _Track(np.array(track).T, bool(at_edge), one)
+        for track, at_edge, one in zip(tracks, edge, reached, strict=True)
+    ], least
+
+
+def beside(problem: Problem, places: Ends, held: Any) -> Ends:
+    """The least misfit at each of these places with the unknown ``held`` there kept, from starts
+    around it: an infinite one where the model follows its slopes to all of them.
+    """
+    count, n = places.points.shape
+    found = Ends(*(part.copy() for part in places))
+    found.chi_squared[:] = math.inf
+    if n == 1:
+        return found
+    kept = np.arange(n) == held[:, np.newaxis]
+    scaled = np.where(kept[:, np.newaxis], 0.0, places.slopes * problem.scale)
+    _, size, direction = np.linalg.svd(np.where(np.isfinite(scaled), scaled, 0.0))
+    # In the directions of the slopes, as far as the misfit rises alike along each, or one scale;
+    # the last is that of what is kept.
+    far = np.ones((count, n))
+    far[:, : size.shape[1]] = np.minimum(1.0, _AWAY / np.maximum(size, _AWAY))
+    around = spread(_ELSEWHERE, -np.ones(n - 1), np.ones(n - 1))
+    moved = np.einsum("si,ki,kij->ksj", around, far[:, :-1], direction[:, :-1]) * problem.scale
+    moved = np.where(kept[:, np.newaxis], 0.0, moved)
+    starts = np.clip(places.points[:, np.newaxis] + moved, problem.low, problem.high)
+    moved = starts - places.points[:, np.newaxis]
+    outputs = problem.evaluate(starts.reshape(-1, n)).reshape(count, _ELSEWHERE, -1)
+    straight = places.outputs[:, np.newaxis] + np.einsum("kmn,ksn->ksm", places.slopes, moved)
+    off = np.linalg.norm(problem.wrapped(outputs - straight), axis=2)
+    which, start = np.nonzero(off > _DEPARTS)
+    if which.size:
+        ends = minimise(
+            problem, starts[which, start], held=kept[which], close=_CLOSE, rounds=_ROUNDS
+        )
+        for k in np.unique(which).tolist():
+            rows = np.flatnonzero(which == k)
+            row = rows[np.argmin(ends.chi_squared[rows])]
+            for part, of in zip(found, ends, strict=True):
+                part[k] = of[row]
+    return found
 
 
 def _climbs(problem: Problem, ends: Ends, unknowns: Any) -> Any:
