@@ -24,8 +24,8 @@ _MOST_RISE, _LONGER, _SHORTEST = 1.5, 4.0, 1e-3  # of steps, the last a part of 
 _MOST_STEPS = 24
 _CLOSE, _ROUNDS = 1e-2, 40  # of the fits again: chi-squared to 1e-4
 _FIRST = 0.125  # of its scale, for an unknown without a standard error
-# Sigma: where 95 percent counts as reached, and what is aimed at on the way back from another valley
-_REACHED, _FINE = 1.8, 0.3
+_REACHED = 1.8  # sigma, where 95 percent counts as reached
+_FINE = 0.3  # sigma, aimed at from one value to the next on the way back in another valley
 _MOST_VALLEYS = 4  # one beyond the other
 _ELSEWHERE, _AWAY = 12, 3.0  # places beside a fit to start from, and how far away [sigma] at most
 _DEPARTS = 0.1  # sigma: places where the model is nearer to its slopes need no search
@@ -130,6 +130,11 @@ class _Track(NamedTuple):
     at_edge: bool
     reached: Ends | None
 
+    def side(self, bound: float) -> Side:
+        """These values as a side that ends at this bound."""
+        values, rises, slopes = self.along
+        return Side(values, rises, slopes, float(bound), self.at_edge)
+
 
 def followed(
     problem: Problem, point: Any, chi_squared: float, covariance: Any, which: Iterable[int]
@@ -161,10 +166,7 @@ def followed(
         )
     ]
     tracks, least = _follow(problem, chi_squared, begins)
-    sides = [
-        Side(*track.along, float(one.bound), track.at_edge)
-        for one, track in zip(begins, tracks, strict=True)
-    ]
+    sides = [track.side(one.bound) for one, track in zip(begins, tracks, strict=True)]
     asked = {k: track.reached for k, track in enumerate(tracks) if track.reached}
     for _ in range(_MOST_VALLEYS):
         if not asked:
@@ -189,13 +191,13 @@ def followed(
                 turned += [out, back]
         tracks, met = _follow(problem, chi_squared, turned)
         least = min(least, met, key=lambda one: one[0])
-        asked = {}
-        for k, out, back in zip(owners, tracks[::2], tracks[1::2], strict=True):
-            along = np.concatenate([back.along[:, :0:-1], out.along], axis=1)
-            valley = Side(*along, sides[k].bound, out.at_edge)
+        for k, away, inward in zip(owners, tracks[::2], tracks[1::2], strict=True):
+            whole = np.concatenate([inward.along[:, :0:-1], away.along], axis=1)
+            valley = away._replace(along=whole).side(sides[k].bound)
             sides[k] = sides[k]._replace(valleys=(*sides[k].valleys, valley))
-            if out.reached:
-                asked[k] = out.reached
+        asked = {
+            k: track.reached for k, track in zip(owners, tracks[::2], strict=True) if track.reached
+        }
     both = {begins[k].unknown: (sides[k], sides[k + 1]) for k in range(0, len(begins), 2)}
     return Found(both, *least)
 
@@ -210,7 +212,9 @@ def _follow(
     least = (math.inf, np.zeros(0))
     if not begins:
         return [], least
-    unknowns, outward, bound, at, rise, climbs, step, ways, aim = map(np.array, zip(*begins))
+    unknowns, outward, bound, at, rise, climbs, step, ways, aim = map(
+        np.array, zip(*begins, strict=True)
+    )
     every = np.arange(len(begins))
     value, shortest = at[every, unknowns], _SHORTEST * step
     tracks = [[(value[k], rise[k], climbs[k])] for k in every]
