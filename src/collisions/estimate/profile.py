@@ -27,7 +27,8 @@ _FIRST = 0.125  # of its scale, for an unknown without a standard error
 _REACHED = 1.8  # sigma, where 95 percent counts as reached
 _FINE = 0.3  # sigma, aimed at from one value to the next on the way back in another valley
 _MOST_VALLEYS = 4  # one beyond the other
-_ELSEWHERE, _AWAY = 12, 3.0  # places beside a fit to start from, and how far away [sigma] at most
+_ELSEWHERE, _AWAY = 8, 3.0  # places beside a fit to start from, and how far away [sigma] at most
+_TRIED, _FIRST_ROUNDS = 4, 3  # of these: how many, and rounds until the best is chosen
 _DEPARTS = 0.1  # sigma: places where the model is nearer to its slopes need no search
 _LOWER = 0.05  # of chi-squared: what is lower by less is the same valley
 
@@ -285,16 +286,30 @@ def beside(problem: Problem, places: Ends, held: Any) -> Ends:
     outputs = problem.evaluate(starts.reshape(-1, n)).reshape(count, _ELSEWHERE, -1)
     straight = places.outputs[:, np.newaxis] + np.einsum("kmn,ksn->ksm", places.slopes, moved)
     off = np.linalg.norm(problem.wrapped(outputs - straight), axis=2)
-    which, start = np.nonzero(off > _DEPARTS)
-    if which.size:
-        ends = minimise(
-            problem, starts[which, start], held=kept[which], close=_CLOSE, rounds=_ROUNDS
-        )
-        for k in np.unique(which).tolist():
-            rows = np.flatnonzero(which == k)
-            row = rows[np.argmin(ends.chi_squared[rows])]
-            for part, of in zip(found, ends, strict=True):
-                part[k] = of[row]
+    high = np.sum(problem.misfit(outputs) ** 2, axis=2)
+    high = np.where(off > _DEPARTS, high, np.inf)
+    chosen = np.argsort(high, axis=1)[:, :_TRIED]
+    which, nth = np.nonzero(np.isfinite(np.take_along_axis(high, chosen, axis=1)))
+    if not which.size:
+        return found
+    tried = minimise(
+        problem,
+        starts[which, chosen[which, nth]],
+        held=kept[which],
+        close=_CLOSE,
+        rounds=_FIRST_ROUNDS,
+    )
+    lower = []
+    for k in np.unique(which).tolist():
+        rows = np.flatnonzero(which == k)
+        row = rows[np.argmin(tried.chi_squared[rows])]
+        if tried.chi_squared[row] < places.chi_squared[k] - _LOWER:
+            lower.append((k, row))
+    if lower:
+        into, rows = np.array(lower).T
+        ends = minimise(problem, tried.points[rows], held=kept[into], close=_CLOSE, rounds=_ROUNDS)
+        for part, of in zip(found, ends, strict=True):
+            part[into] = of
     return found
 
 
