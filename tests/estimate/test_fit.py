@@ -847,9 +847,19 @@ def eccentric_crash(speed_a, speed_b):
             "delta_v_b": (6.03742242, 0.24249392),
             "energy": (50537.65638824, 2424.93923455),
         },
+        {
+            "delta_v_a": (7.78923682, 0.27453302),
+            "delta_v_b": (9.48457118, 0.27453302),
+            "energy": (106365.07160201, 2745.33022897),
+        },
+        {
+            "delta_v_a": (5.69777828, 0.51255791),
+            "yaw_rate_a": (2.88387283, 0.17085264),
+            "course_b": (0.71192615, 0.05125579),
+        },
     ],
 )
-def test_ranges_reach_beyond_a_kink_where_chi_squared_is_lower_on_its_other_side(observed):
+def test_ranges_beyond_a_kink_end_where_chi_squared_rises_by_so_much(observed):
     """The least chi-squared over a fine grid of the other speed passes 3.84 above the best within
     3 percent of the width from each end.
     """

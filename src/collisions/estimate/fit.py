@@ -42,7 +42,7 @@ from .least_squares import (
     minimise,
     spread,
 )
-from .profile import Found, beside, followed, table
+from .profile import Found, followed, least_at, table
 
 _STARTS = 64
 _PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
@@ -433,7 +433,7 @@ class _Candidate:
         rises there, in sigma.
 
         The others follow within their bounds, first by the slopes here, then by those there; where
-        that is as in a linear model, they are fitted from elsewhere as well.
+        that is as in a linear model, they are fitted again.
         """
         covariance = self.determination_of(self.free).covariance
         known = np.isfinite(np.diagonal(covariance))
@@ -454,22 +454,20 @@ class _Candidate:
             -1, len(self.point)
         )
         within = np.clip(points, self.problem.low, self.problem.high)
-        outputs, original = self.problem.with_slopes(within)
+        outputs, slopes = self.problem.with_slopes(within)
         held = np.tile(which, 2)
         fixed = (
             ~self.free | (within != points) | (np.arange(len(self.point)) == held[:, np.newaxis])
         )
-        slopes = original * self.problem.scale
+        slopes = slopes * self.problem.scale
         slopes = np.where(fixed[:, np.newaxis] | ~np.isfinite(slopes), 0.0, slopes)
         misfit = self.problem.misfit(outputs)[..., np.newaxis]
         misfit = misfit - slopes @ (np.linalg.pinv(slopes, _FLAT_SHARE) @ misfit)
         total = np.sum(misfit**2, axis=(1, 2))
         straight = np.tile(_straight(far, self._rise(total)), 2)
         if np.any(straight):
-            # Those that are not are followed, which looks for other valleys where they lead.
-            parts = (within, outputs, original, total, straight)
-            lower = beside(self.problem, Ends(*(x[straight] for x in parts)), held[straight])
-            total[straight] = np.minimum(total[straight], lower.chi_squared)
+            # The slopes at one place do not tell of a kink beyond it.
+            total[straight] = least_at(self.problem, within[straight], held[straight])
         return far, self._rise(total)
 
     def _rise(self, chi_squared: Any) -> Any:

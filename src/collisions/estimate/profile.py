@@ -17,7 +17,8 @@ import numpy as np
 from ..uncertainty.normal import score_of_coverage
 from .least_squares import Ends, Problem, minimise, spread
 
-LEVELS = score_of_coverage(0.95) / 8.0 * np.arange(13)  # sigma; the ninth is that of 95 percent
+_AT_95 = 8
+LEVELS = score_of_coverage(0.95) / _AT_95 * np.arange(13)  # sigma
 SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
 _RISE = 0.98  # sigma, aimed at from one value to the next: two lead to 95 percent
 _MOST_RISE, _LONGER, _SHORTEST = 1.5, 4.0, 1e-3  # of steps, the last a part of the first
@@ -30,18 +31,22 @@ _MOST_VALLEYS = 4  # one beyond the other
 _ELSEWHERE, _AWAY = 8, 3.0  # places beside a fit to start from, and how far away [sigma] at most
 _TRIED, _FIRST_ROUNDS = 4, 3  # of these: how many, and rounds until the best is chosen
 _DEPARTS = 0.1  # sigma: places where the model is nearer to its slopes need no search
+_ALIKE = 0.02  # of the way, and sigma: ends this near each other need no fit in between
+_MOST_REFINED = 3  # fits in between
 _LOWER = 0.05  # of chi-squared: what is lower by less is the same valley
 
 
 class Side(NamedTuple):
     """Values on one side of the answer, outward, the rise of the misfit at each in sigma, and the
     slope of chi-squared there; beyond the last the model refuses if it is ``at_edge``. ``valleys``
-    are others in which the misfit is lower from some value on.
+    are others in which the misfit is lower from some value on. ``points`` are all unknowns at each
+    value.
     """
 
     values: Any
     rises: Any
     slopes: Any
+    points: Any
     bound: float
     at_edge: bool
     valleys: tuple[Side, ...] = ()
@@ -68,6 +73,31 @@ class Side(NamedTuple):
             return self.bound  # it goes on without a rise
         end = float(values[k] + slope * (level - rises[k]))
         return min(end, self.bound) if self.bound > self.values[0] else max(end, self.bound)
+
+    def in_doubt(self, level: float) -> tuple[float, int] | None:
+        """The furthest value with this rise and the place before it, if it is between places and a
+        straight line in the rise leads elsewhere.
+        """
+        inside = np.flatnonzero(self.rises <= level)
+        k = int(inside[-1]) if inside.size else len(self.values)
+        if k >= len(self.values) - 1:
+            return None
+        end, (low, high) = self._between(k, level), self.values[k : k + 2]
+        straight = low + (high - low) * (level - self.rises[k]) / (
+            self.rises[k + 1] - self.rises[k]
+        )
+        alike = abs(end - straight) <= _ALIKE * abs(end - self.values[0])
+        near = min(abs(self.rises[k : k + 2] - level)) <= _ALIKE
+        return None if alike or near else (end, k + 1)
+
+    def with_place(self, k: int, value: float, rise: float, slope: float, point: Any) -> Side:
+        """One place more, before place k."""
+        return self._replace(
+            values=np.insert(self.values, k, value),
+            rises=np.insert(self.rises, k, rise),
+            slopes=np.insert(self.slopes, k, slope),
+            points=np.insert(self.points, k, point, axis=0),
+        )
 
     def _between(self, k: int, level: float) -> float:
         """Where chi-squared reaches the level after value k, by the cubic of both ends and slopes;
@@ -123,18 +153,19 @@ class _Begin(NamedTuple):
 
 
 class _Track(NamedTuple):
-    """Values, rises and slopes of chi-squared along a track (3, k), whether the model refuses
-    beyond the last, and the fit that first reached 95 percent, if any.
+    """Values, rises and slopes of chi-squared along a track (3, k), and the points; whether the
+    model refuses beyond the last, and the fit that first reached 95 percent, if any.
     """
 
     along: Any
+    points: Any
     at_edge: bool
     reached: Ends | None
 
     def side(self, bound: float) -> Side:
         """These values as a side that ends at this bound."""
         values, rises, slopes = self.along
-        return Side(values, rises, slopes, float(bound), self.at_edge)
+        return Side(values, rises, slopes, self.points, float(bound), self.at_edge)
 
 
 def followed(
@@ -167,7 +198,7 @@ def followed(
         )
     ]
     tracks, least = _follow(problem, chi_squared, begins)
-    sides = [track.side(one.bound) for one, track in zip(begins, tracks, strict=True)]
+    pieces = [[track.side(one.bound)] for one, track in zip(begins, tracks, strict=True)]
     asked = {k: track.reached for k, track in enumerate(tracks) if track.reached}
     for _ in range(_MOST_VALLEYS):
         if not asked:
@@ -193,14 +224,45 @@ def followed(
         tracks, met = _follow(problem, chi_squared, turned)
         least = min(least, met, key=lambda one: one[0])
         for k, away, inward in zip(owners, tracks[::2], tracks[1::2], strict=True):
-            whole = np.concatenate([inward.along[:, :0:-1], away.along], axis=1)
-            valley = away._replace(along=whole).side(sides[k].bound)
-            sides[k] = sides[k]._replace(valleys=(*sides[k].valleys, valley))
+            along = np.concatenate([inward.along[:, :0:-1], away.along], axis=1)
+            points = np.concatenate([inward.points[:0:-1], away.points])
+            valley = away._replace(along=along, points=points)
+            pieces[k].append(valley.side(begins[k].bound))
         asked = {
             k: track.reached for k, track in zip(owners, tracks[::2], strict=True) if track.reached
         }
+    _refine(problem, chi_squared, begins, pieces)
+    sides = [main._replace(valleys=tuple(others)) for main, *others in pieces]
     both = {begins[k].unknown: (sides[k], sides[k + 1]) for k in range(0, len(begins), 2)}
     return Found(both, *least)
+
+
+def _refine(
+    problem: Problem, chi_squared: float, begins: list[_Begin], pieces: list[list[Side]]
+) -> None:
+    """Fits where the pieces of each side put the end of 95 percent, where that is in doubt."""
+    level = LEVELS[_AT_95]
+    for _ in range(_MOST_REFINED):
+        asked = [
+            (k, i, *doubt)
+            for k, side in enumerate(pieces)
+            for i, piece in enumerate(side)
+            if (doubt := piece.in_doubt(level))
+        ]
+        if not asked:
+            break
+        # From both sides, since there may be a kink in between.
+        starts = np.concatenate([pieces[k][i].points[n - 1 : n + 1] for k, i, _, n in asked])
+        held = np.repeat([begins[k].unknown for k, *_ in asked], 2)
+        starts[np.arange(len(held)), held] = np.repeat([end for _, _, end, _ in asked], 2)
+        kept = np.arange(starts.shape[1]) == held[:, np.newaxis]
+        ends = minimise(problem, starts, held=kept, close=_CLOSE, rounds=_ROUNDS)
+        climbs = _climbs(problem, ends, held)
+        for row, (k, i, end, n) in zip(range(0, len(held), 2), asked, strict=True):
+            row += int(np.argmin(ends.chi_squared[row : row + 2]))
+            rise = math.sqrt(max(0.0, ends.chi_squared[row] - chi_squared))
+            if math.isfinite(rise):
+                pieces[k][i] = pieces[k][i].with_place(n, end, rise, climbs[row], ends.points[row])
 
 
 def _follow(
@@ -219,6 +281,7 @@ def _follow(
     every = np.arange(len(begins))
     value, shortest = at[every, unknowns], _SHORTEST * step
     tracks = [[(value[k], rise[k], climbs[k])] for k in every]
+    visited = [[at[k].copy()] for k in every]
     reached: list[Ends | None] = [None] * len(begins)
     held = np.arange(at.shape[1]) == unknowns[:, np.newaxis]
     edge, live, inward = np.zeros(len(begins), dtype=bool), value != bound, aim < _RISE
@@ -246,6 +309,7 @@ def _follow(
         for j in np.flatnonzero(good).tolist():
             row, moved = rows[j], new[j] - value[rows[j]]
             tracks[row].append((new[j], found[j], climbs[j]))
+            visited[row].append(ends.points[j])
             ways[row] = (ends.points[j] - at[row]) / moved
             went = -climbed[j] if inward[row] else climbed[j]
             part = aim[row] / went if went > 0.0 else _LONGER
@@ -257,9 +321,18 @@ def _follow(
             if found[j] >= _REACHED and not inward[row] and reached[row] is None:
                 reached[row] = Ends(*(part[j : j + 1] for part in ends))
     return [
-        _Track(np.array(track).T, bool(at_edge), one)
-        for track, at_edge, one in zip(tracks, edge, reached, strict=True)
+        _Track(np.array(tracks[k]).T, np.array(visited[k]), bool(edge[k]), reached[k])
+        for k in every
     ], least
+
+
+def least_at(problem: Problem, points: Any, held: Any) -> Any:
+    """The least chi-squared with the unknown ``held`` in each of these points kept, from there and
+    from around it.
+    """
+    kept = np.arange(points.shape[1]) == held[:, np.newaxis]
+    here = minimise(problem, points, held=kept, close=_CLOSE, rounds=_ROUNDS)
+    return np.minimum(here.chi_squared, beside(problem, here, held).chi_squared)
 
 
 def beside(problem: Problem, places: Ends, held: Any) -> Ends:
