@@ -201,9 +201,9 @@ def fit(
             raise refused_everywhere(inputs.model, _STARTS, start, inputs.units, advice)
         searched = inputs.model
         if dearer is not None:
-            starts = _ends_to_refine(inputs, problem, ends)
+            starts, scout = _ends_to_refine(inputs, problem, ends), problem
             inputs, problem = dearer
-            problem = problem._replace(noise=problem.noise_near(starts[:_FOR_NOISE]))
+            problem = problem._replace(noise=problem.noise_near(starts[:_FOR_NOISE]), scout=scout)
             ends = minimise(problem, starts)
             if np.all(np.isinf(ends.chi_squared)):
                 raise NoSolutionError(

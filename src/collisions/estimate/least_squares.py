@@ -53,7 +53,8 @@ class Problem(NamedTuple):
     unknown may be expected to move, and ``size`` the length over which the model changes, which
     sets the steps of the slopes; without it, a guess from the scale. ``noise`` is how far outputs
     scatter from one neighbour to the next, as where a model integrates with steps of its own;
-    slopes are then taken over a part of ``reach``, the errors of the unknowns.
+    slopes are then taken over a part of ``reach``, the errors of the unknowns. ``scout`` is the
+    problem of a cheaper model, for where to look.
     """
 
     evaluate: Callable[[Any], Any]
@@ -65,6 +66,7 @@ class Problem(NamedTuple):
     size: Any = None
     noise: float = 0.0
     reach: Any = None
+    scout: Problem | None = None
 
     def wrapped(self, difference: Any) -> Any:
         """Differences of angles by the short way round, within half a turn."""

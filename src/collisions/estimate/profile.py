@@ -9,7 +9,7 @@ profile-likelihood-based confidence intervals", Applied Statistics 37 (1988) 87)
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,6 +24,7 @@ _RISE = 0.98  # sigma, aimed at from one value to the next: two lead to 95 perce
 _MOST_RISE, _LONGER, _SHORTEST = 1.5, 4.0, 1e-3  # of steps, the last a part of the first
 _MOST_STEPS = 24
 _CLOSE, _ROUNDS = 1e-2, 40  # of the fits again: chi-squared to 1e-4
+_LAST_ROUNDS = 10  # from a place that is near already, or along a kink without an end
 _FIRST = 0.125  # of its scale, for an unknown without a standard error
 _REACHED = 1.8  # sigma, where 95 percent counts as reached
 _FINE = 0.3  # sigma, aimed at from one value to the next on the way back in another valley
@@ -73,6 +74,11 @@ class Side(NamedTuple):
             return self.bound  # it goes on without a rise
         end = float(values[k] + slope * (level - rises[k]))
         return min(end, self.bound) if self.bound > self.values[0] else max(end, self.bound)
+
+    def rise_at(self, value: float) -> float:
+        """The rise at a value, by straight lines from place to place."""
+        way = math.copysign(1.0, self.bound - self.values[0])
+        return float(np.interp(way * value, way * self.values, self.rises))
 
     def in_doubt(self, level: float) -> tuple[float, int] | None:
         """The furthest value with this rise and the place before it, if it is between places and a
@@ -221,7 +227,8 @@ def followed(
                 )
                 owners.append(k)
                 turned += [out, back]
-        tracks, met = _follow(problem, chi_squared, turned)
+        until = [side for k in owners for side in (None, pieces[k][0])]
+        tracks, met = _follow(problem, chi_squared, turned, until)
         least = min(least, met, key=lambda one: one[0])
         for k, away, inward in zip(owners, tracks[::2], tracks[1::2], strict=True):
             along = np.concatenate([inward.along[:, :0:-1], away.along], axis=1)
@@ -256,7 +263,7 @@ def _refine(
         held = np.repeat([begins[k].unknown for k, *_ in asked], 2)
         starts[np.arange(len(held)), held] = np.repeat([end for _, _, end, _ in asked], 2)
         kept = np.arange(starts.shape[1]) == held[:, np.newaxis]
-        ends = minimise(problem, starts, held=kept, close=_CLOSE, rounds=_ROUNDS)
+        ends = minimise(problem, starts, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
         climbs = _climbs(problem, ends, held)
         for row, (k, i, end, n) in zip(range(0, len(held), 2), asked, strict=True):
             row += int(np.argmin(ends.chi_squared[row : row + 2]))
@@ -266,11 +273,12 @@ def _refine(
 
 
 def _follow(
-    problem: Problem, chi_squared: float, begins: list[_Begin]
+    problem: Problem, chi_squared: float, begins: list[_Begin], until: Sequence[Side | None] = ()
 ) -> tuple[list[_Track], tuple[float, Any]]:
     """The tracks from these beginnings, and the least misfit met and where.
 
-    A track that goes inward ends where the misfit no longer falls.
+    A track inward, from another valley, goes ``until`` it is no lower than this side or no longer
+    falls.
     """
     least = (math.inf, np.zeros(0))
     if not begins:
@@ -315,9 +323,9 @@ def _follow(
             part = aim[row] / went if went > 0.0 else _LONGER
             step[row] = abs(moved) * min(max(part, 1.0 / _LONGER), _LONGER)
             at[row], value[row], rise[row] = ends.points[j], new[j], found[j]
-            live[row] = new[j] != bound[row] and (
-                went > 0.0 if inward[row] else found[j] < LEVELS[-1] - 0.01
-            )
+            live[row] = new[j] != bound[row] and found[j] < LEVELS[-1] - 0.01
+            if inward[row]:
+                live[row] &= went > 0.0 and found[j] < until[row].rise_at(new[j])
             if found[j] >= _REACHED and not inward[row] and reached[row] is None:
                 reached[row] = Ends(*(part[j : j + 1] for part in ends))
     return [
@@ -331,7 +339,7 @@ def least_at(problem: Problem, points: Any, held: Any) -> Any:
     from around it.
     """
     kept = np.arange(points.shape[1]) == held[:, np.newaxis]
-    here = minimise(problem, points, held=kept, close=_CLOSE, rounds=_ROUNDS)
+    here = minimise(problem, points, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
     return np.minimum(here.chi_squared, beside(problem, here, held).chi_squared)
 
 
@@ -345,6 +353,13 @@ def beside(problem: Problem, places: Ends, held: Any) -> Ends:
     if n == 1:
         return found
     kept = np.arange(n) == held[:, np.newaxis]
+    if problem.scout is not None:
+        here = minimise(problem.scout, places.points, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
+        seen = beside(problem.scout, here, held)
+        into = np.flatnonzero(seen.chi_squared < here.chi_squared - _LOWER)
+        if into.size:
+            _put(found, into, problem, seen.points[into], kept[into])
+        return found
     scaled = np.where(kept[:, np.newaxis], 0.0, places.slopes * problem.scale)
     _, size, direction = np.linalg.svd(np.where(np.isfinite(scaled), scaled, 0.0))
     # In the directions of the slopes, as far as the misfit rises alike along each, or one scale;
@@ -380,10 +395,15 @@ def beside(problem: Problem, places: Ends, held: Any) -> Ends:
             lower.append((k, row))
     if lower:
         into, rows = np.array(lower).T
-        ends = minimise(problem, tried.points[rows], held=kept[into], close=_CLOSE, rounds=_ROUNDS)
-        for part, of in zip(found, ends, strict=True):
-            part[into] = of
+        _put(found, into, problem, tried.points[rows], kept[into])
     return found
+
+
+def _put(found: Ends, into: Any, problem: Problem, starts: Any, kept: Any) -> None:
+    """Put where fits from these starts end, with what is kept, into these rows."""
+    ends = minimise(problem, starts, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
+    for part, of in zip(found, ends, strict=True):
+        part[into] = of
 
 
 def _climbs(problem: Problem, ends: Ends, unknowns: Any) -> Any:
