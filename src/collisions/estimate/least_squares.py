@@ -19,7 +19,7 @@ _CLOSE = 1e-8
 _CLOSE_ENOUGH = 1e-3
 # Of chi-squared, or absolute: a search that falls by less over so many rounds gets no further.
 _STALLED, _STALLED_ROUNDS = 1e-6, 10
-_FIRST_DAMPING, _MOST_DAMPING = 1e-2, 1e16
+_FIRST_DAMPING = 1e-2
 # of the largest slope: an unknown that changes less is damped like one that changes so much
 _LEAST_WEIGHT = 1e-3
 # of a slope; over so short a step a smooth model changes its own by less than a thousandth
@@ -223,8 +223,8 @@ def minimise(
     is never taken. What is ``held`` (as the starts) stays where it is.
 
     Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is
-    left, in the metric of the standard errors, is rounding; one that no step, however short, takes
-    lower, as at a jump or a refusal, has not.
+    left, in the metric of the standard errors, is rounding; one that no step down to the square of
+    ``close`` takes lower, as at a jump or a refusal, has not.
     """
     points = np.clip(starts, problem.low, problem.high)
     fixed = np.zeros(points.shape, dtype=bool) if held is None else held
@@ -245,7 +245,7 @@ def minimise(
         trial, foreseen, left[rows] = _step(
             problem, points[rows], outputs[rows], slopes[rows], damping[rows], fixed[rows]
         )
-        live = live & (left > close) & (damping <= _MOST_DAMPING)
+        live = live & (left > close) & (damping <= close**-2)
         going = live[rows]
         rows, trial, foreseen = rows[going], trial[going], foreseen[going]
         if not rows.size:
