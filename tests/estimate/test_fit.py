@@ -808,6 +808,83 @@ def test_a_kink_has_the_range_in_which_chi_squared_rises_by_less(coverage):
     assert found["x"].interval(coverage) == pytest.approx([-rise / 0.7, rise / 1.3], rel=0.02)
 
 
+def eccentric_crash(speed_a, speed_b):
+    """Delta-v of both, what A does after and where B goes, and the energy, in SI."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=-2.2, y=0.0, heading=0.0, vx=speed_a)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=2000.0, x=0.9, y=-0.8, heading=1.57, vy=speed_b)
+    impact = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.4, on_failure="nan")
+    return {
+        "delta_v_a": impact.a.delta_v,
+        "delta_v_b": impact.b.delta_v,
+        "yaw_rate_a": impact.a.after.yaw_rate,
+        "speed_a_after": impact.a.after.speed,
+        "course_a": impact.a.after.course,
+        "course_b": impact.b.after.course,
+        "energy": impact.energy_loss,
+    }
+
+
+@pytest.mark.parametrize(
+    "observed",
+    [
+        {
+            "yaw_rate_a": (5.31622568, 0.25688933),
+            "course_a": (0.30340881, 0.07706680),
+            "course_b": (0.83962289, 0.07706680),
+        },
+        {
+            "delta_v_b": (11.93736532, 0.73115143),
+            "yaw_rate_a": (4.39983253, 0.24371715),
+            "course_b": (0.82579399, 0.07311514),
+        },
+        {
+            "yaw_rate_a": (3.00151594, 0.18558965),
+            "speed_a_after": (7.67021852, 0.55676896),
+            "energy": (85545.85332497, 5567.68961155),
+        },
+        {
+            "delta_v_a": (5.29497419, 0.24249392),
+            "delta_v_b": (6.03742242, 0.24249392),
+            "energy": (50537.65638824, 2424.93923455),
+        },
+        {
+            "delta_v_a": (7.78923682, 0.27453302),
+            "delta_v_b": (9.48457118, 0.27453302),
+            "energy": (106365.07160201, 2745.33022897),
+        },
+        {
+            "delta_v_a": (5.69777828, 0.51255791),
+            "yaw_rate_a": (2.88387283, 0.17085264),
+            "course_b": (0.71192615, 0.05125579),
+        },
+    ],
+)
+def test_ranges_beyond_a_kink_end_where_chi_squared_rises_by_so_much(observed):
+    """The least chi-squared over a fine grid of the other speed passes 3.84 above the best within
+    3 percent of the width from each end.
+    """
+    found, _ = fitted(
+        lambda **speeds: {name: eccentric_crash(**speeds)[name] for name in observed},
+        {"speed_a": Interval(0, 40), "speed_b": Interval(0, 40)},
+        observed,
+    )
+    grid = np.linspace(0.0, 40.0, 8001)
+
+    def rise(name, value):
+        other = {"speed_a": "speed_b", "speed_b": "speed_a"}[name]
+        computed = eccentric_crash(**{name: np.full_like(grid, value), other: grid})
+        chi_squared = sum(
+            ((computed[row] - mean) / sigma) ** 2 for row, (mean, sigma) in observed.items()
+        )
+        return np.nanmin(chi_squared) - found.chi_squared
+
+    for name in found.names:
+        low, high = found[name].interval(0.95)
+        near = 0.03 * (high - low)
+        for end, way in ((low, -near), (high, near)):
+            assert rise(name, end - way) < score(0.95) ** 2 < rise(name, end + way)
+
+
 @pytest.mark.parametrize("coverage", [0.8, 0.95, 0.99])
 def test_a_model_that_bends_has_the_range_in_which_chi_squared_rises_by_less(coverage):
     """The square of 0.5 known to 0.15: its root, up to z errors of the square off; the standard

@@ -1245,7 +1245,9 @@ def test_a_reading_as_a_text_needs_the_unit_that_the_model_returns(study):
     readings = [("5", "1"), Normal("5", "1"), (5, "1"), Normal.between("4", "6", 0.95)]
     readings += [Interval("4", "6"), Censored(low="4")] if study is posterior else []
     for reading in readings:
-        with pytest.raises(col.UnitsError, match=r"observed\['dv'\] = '[451]' has no unit; .*'80 km/h'"):
+        with pytest.raises(
+            col.UnitsError, match=r"observed\['dv'\] = '[451]' has no unit; .*'80 km/h'"
+        ):
             study(_halved, prior, {"dv": reading}, **options)
     for model in (_halved, lambda v: {"dv": 0.5 * v}):
         found = study(model, prior, {"dv": (5, 1)}, **options)

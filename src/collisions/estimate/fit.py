@@ -42,7 +42,7 @@ from .least_squares import (
     minimise,
     spread,
 )
-from .profile import Found, followed, table
+from .profile import Found, followed, least_at, table
 
 _STARTS = 64
 _PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
@@ -199,11 +199,11 @@ def fit(
             )
             start = inputs.named(inputs.start)
             raise refused_everywhere(inputs.model, _STARTS, start, inputs.units, advice)
-        searched, cheap = inputs.model, problem
+        searched = inputs.model
         if dearer is not None:
-            starts = _ends_to_refine(inputs, problem, ends)
+            starts, scout = _ends_to_refine(inputs, problem, ends), problem
             inputs, problem = dearer
-            problem = problem._replace(noise=problem.noise_near(starts[:_FOR_NOISE]))
+            problem = problem._replace(noise=problem.noise_near(starts[:_FOR_NOISE]), scout=scout)
             ends = minimise(problem, starts)
             if np.all(np.isinf(ends.chi_squared)):
                 raise NoSolutionError(
@@ -212,8 +212,7 @@ def fit(
                     "fit(finer, unknowns, observed)",
                     code="refused",
                 )
-        scout = None if dearer is None else cheap
-        best, ends, found_of = _followed(inputs, problem, ends, dearer is None, scout)
+        best, ends, found_of = _followed(inputs, problem, ends, few=dearer is None)
         candidates = [best, *(one for one, _ in found_of[1:])]
         fits = []
         for one in candidates:
@@ -433,7 +432,8 @@ class _Candidate:
         """Two errors of each unknown up and down (2, n), within the bounds, and how far the misfit
         rises there, in sigma.
 
-        The others follow within their bounds, first by the slopes here, then by those there.
+        The others follow within their bounds, first by the slopes here, then by those there; where
+        that is as in a linear model, they are fitted again.
         """
         covariance = self.determination_of(self.free).covariance
         known = np.isfinite(np.diagonal(covariance))
@@ -455,17 +455,24 @@ class _Candidate:
         )
         within = np.clip(points, self.problem.low, self.problem.high)
         outputs, slopes = self.problem.with_slopes(within)
+        held = np.tile(which, 2)
         fixed = (
-            ~self.free
-            | (within != points)
-            | np.tile(np.arange(len(self.point)) == which[:, np.newaxis], (2, 1))
+            ~self.free | (within != points) | (np.arange(len(self.point)) == held[:, np.newaxis])
         )
         slopes = slopes * self.problem.scale
         slopes = np.where(fixed[:, np.newaxis] | ~np.isfinite(slopes), 0.0, slopes)
         misfit = self.problem.misfit(outputs)[..., np.newaxis]
         misfit = misfit - slopes @ (np.linalg.pinv(slopes, _FLAT_SHARE) @ misfit)
-        rise = np.sum(misfit**2, axis=(1, 2)) - self.chi_squared
-        return far, np.sqrt(np.maximum(rise, 0.0)).reshape(2, -1)
+        total = np.sum(misfit**2, axis=(1, 2))
+        straight = np.tile(_straight(far, self._rise(total)), 2)
+        if np.any(straight):
+            # The slopes at one place do not tell of a kink beyond it.
+            total[straight] = least_at(self.problem, within[straight], held[straight])
+        return far, self._rise(total)
+
+    def _rise(self, chi_squared: Any) -> Any:
+        """The rise of the misfit in sigma, up and down (2, n)."""
+        return np.sqrt(np.maximum(chi_squared - self.chi_squared, 0.0)).reshape(2, -1)
 
     @cached_property
     def at_a_kink(self) -> bool:
@@ -485,10 +492,7 @@ class _Candidate:
             return range(len(self.point))
         known = np.isfinite(self.errors)
         far, risen = self.moves
-        straight = np.all(far == _TWO_ERRORS, axis=0) & np.all(
-            abs(risen - far) <= _STRAIGHT * far, axis=0
-        )
-        return np.flatnonzero(known)[~straight]
+        return np.flatnonzero(known)[~_straight(far, risen)]
 
     @property
     def nonlinearity(self) -> float:
@@ -573,13 +577,18 @@ def _examined(inputs: _Inputs, problem: Problem, ends: Ends, k: int) -> _Candida
     return found
 
 
+def _straight(far: Any, risen: Any) -> Any:
+    """Which unknowns make the misfit rise as in a linear model, two errors up and down (2, n)."""
+    return np.all(far == _TWO_ERRORS, axis=0) & np.all(abs(risen - far) <= _STRAIGHT * far, axis=0)
+
+
 def _ended_at(ends: Ends, chi_squared: float) -> Any:
     """Which searches ended at a minimum of this misfit."""
     return ends.converged & (abs(ends.chi_squared - chi_squared) <= _SAME_CHI_SQUARED)
 
 
 def _followed(
-    inputs: _Inputs, problem: Problem, ends: Ends, few: bool, scout: Problem | None
+    inputs: _Inputs, problem: Problem, ends: Ends, few: bool
 ) -> tuple[_Candidate, Ends, list[tuple[_Candidate, Found]]]:
     """The best candidate, the ends of all searches, and the best and each rival with the profiles
     that its range needs.
@@ -594,7 +603,7 @@ def _followed(
         rivals = _rivals(best, ends)
         found = [
             (one, followed(one.problem, one.point, best.chi_squared, one.determination.covariance,
-             range(len(one.point)) if len(rivals) > 1 else best.bent, scout or one.problem))
+             range(len(one.point)) if len(rivals) > 1 else best.bent))
             for one in rivals
         ]  # fmt: skip
         lower = [one for _, one in found if one.lowest < best.chi_squared - _SAME_CHI_SQUARED]
@@ -636,8 +645,7 @@ def _with_profiles(fits: list[Fit], found: list[tuple[_Candidate, Found]]) -> di
     names = fits[0].names
     return {
         "profiles": {
-            names[j]: tuple(table([pair for _, one in found for pair in one.pairs(j)]))
-            for j in found[0][1].sides
+            names[j]: tuple(table([one.sides[j] for _, one in found])) for j in found[0][1].sides
         },
         "others": tuple(fits[1:]),
         "refuses_nearby": any(one.refused for _, one in found),

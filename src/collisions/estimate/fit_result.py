@@ -256,11 +256,11 @@ class Fit(SpeedsFound, Shown):
     unknown's variance that is due to the error of the observation. ``nonlinearity`` is the relative
     amount by which 1.96 standard errors are too narrow or too wide for 95 percent, judged by the
     rise of chi-squared when an unknown is moved by two standard errors (or to its bound) and the
-    others follow the slopes; NaN if the model refuses there. ``model_notes`` are the warnings of
-    this library while the model worked at the answer, which ``statements`` have too; with an
-    unknown that nothing determines, at each of its values with which a search ended there.
-    ``calls`` says how many cases were asked of each model: "model", and "finer" if one was given,
-    whose fit this then is.
+    others follow the slopes, or are fitted again where those look right; NaN if the model refuses
+    there. ``model_notes`` are the warnings of this library while the model worked at the answer,
+    which ``statements`` have too; with an unknown that nothing determines, at each of its values
+    with which a search ended there. ``calls`` says how many cases were asked of each model:
+    "model", and "finer" if one was given, whose fit this then is.
 
     ``profiles`` has, for unknowns whose range the slopes do not give, rows of a rise of the misfit
     in sigma with the least and the greatest value that has no more, the others fitted again,

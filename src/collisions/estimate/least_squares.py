@@ -19,7 +19,7 @@ _CLOSE = 1e-8
 _CLOSE_ENOUGH = 1e-3
 # Of chi-squared, or absolute: a search that falls by less over so many rounds gets no further.
 _STALLED, _STALLED_ROUNDS = 1e-6, 10
-_FIRST_DAMPING, _MOST_DAMPING = 1e-2, 1e16
+_FIRST_DAMPING = 1e-2
 # of the largest slope: an unknown that changes less is damped like one that changes so much
 _LEAST_WEIGHT = 1e-3
 # of a slope; over so short a step a smooth model changes its own by less than a thousandth
@@ -53,7 +53,8 @@ class Problem(NamedTuple):
     unknown may be expected to move, and ``size`` the length over which the model changes, which
     sets the steps of the slopes; without it, a guess from the scale. ``noise`` is how far outputs
     scatter from one neighbour to the next, as where a model integrates with steps of its own;
-    slopes are then taken over a part of ``reach``, the errors of the unknowns.
+    slopes are then taken over a part of ``reach``, the errors of the unknowns. ``scout`` is the
+    problem of a cheaper model, for where to look.
     """
 
     evaluate: Callable[[Any], Any]
@@ -65,6 +66,7 @@ class Problem(NamedTuple):
     size: Any = None
     noise: float = 0.0
     reach: Any = None
+    scout: Problem | None = None
 
     def wrapped(self, difference: Any) -> Any:
         """Differences of angles by the short way round, within half a turn."""
@@ -122,11 +124,11 @@ class Problem(NamedTuple):
         usable = each[np.isfinite(each)]
         return float(np.median(usable)) if usable.size else 0.0
 
-    def with_slopes(self, points: Any) -> tuple[Any, Any]:
+    def with_slopes(self, points: Any, held: Any = None) -> tuple[Any, Any]:
         """Outputs (k, m) and their derivatives (k, m, n) by differences, NaN where the model
-        refuses on both sides.
+        refuses on both sides; 0 by what is ``held`` (k, n).
         """
-        outputs, (above, below), (up, down) = self.neighbours(points)
+        outputs, (above, below), (up, down) = self.neighbours(points, held)
         return outputs, np.swapaxes((above - below) / (up - down), 1, 2)
 
     def jumps(self, point: Any) -> bool:
@@ -155,19 +157,24 @@ class Problem(NamedTuple):
         """Whether there is a kink or a jump at one point."""
         return bool(self.kinks(point[np.newaxis])[0])
 
-    def neighbours(self, points: Any) -> tuple[Any, Any, Any]:
+    def neighbours(self, points: Any, held: Any = None) -> tuple[Any, Any, Any]:
         """Outputs, by how much they change towards a neighbour above and below (2, k, n, m), and
         the moves (2, k, n, 1).
 
-        Where a bound or a refusal is in the way both are 0.
+        Where a bound or a refusal is in the way both are 0. Nothing is asked, and no change given,
+        for what is ``held`` (k, n).
         """
         count, n = points.shape
         step = self.steps(points)
         moved = np.clip(np.stack([points + step, points - step]), self.low, self.high)
         places = np.where(np.eye(n, dtype=bool), moved[..., np.newaxis], points[:, np.newaxis])
-        every = np.concatenate([points, places.reshape(-1, n)])
-        found = self.evaluate(every)
-        outputs, found = found[:count], found[count:].reshape(2, count, n, -1)
+        asked = np.ones((2, count, n), dtype=bool)
+        if held is not None:
+            asked &= ~held
+        answers = self.evaluate(np.concatenate([points, places[asked]]))
+        outputs = answers[:count]
+        found = np.tile(outputs[:, np.newaxis], (2, 1, n, 1))
+        found[asked] = answers[count:]
         changes = self.wrapped(found - outputs[:, np.newaxis])
         refused = np.any(np.isnan(changes), axis=3, keepdims=True)
         return (
@@ -216,16 +223,16 @@ def minimise(
     is never taken. What is ``held`` (as the starts) stays where it is.
 
     Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is
-    left, in the metric of the standard errors, is rounding; one that no step, however short, takes
-    lower, as at a jump or a refusal, has not.
+    left, in the metric of the standard errors, is rounding; one that no step down to the square of
+    ``close`` takes lower, as at a jump or a refusal, has not.
     """
     points = np.clip(starts, problem.low, problem.high)
-    outputs, slopes = problem.with_slopes(points)
+    fixed = np.zeros(points.shape, dtype=bool) if held is None else held
+    outputs, slopes = problem.with_slopes(points, fixed)
     cost = _cost(problem, outputs, slopes)
     live, left = np.isfinite(cost), np.full(len(points), np.inf)
     damping, growth = np.full(len(points), _FIRST_DAMPING), np.full(len(points), 2.0)
 
-    fixed = np.zeros(points.shape, dtype=bool) if held is None else held
     earlier = np.full(len(points), np.inf)
 
     for count in range(rounds):
@@ -238,12 +245,12 @@ def minimise(
         trial, foreseen, left[rows] = _step(
             problem, points[rows], outputs[rows], slopes[rows], damping[rows], fixed[rows]
         )
-        live = live & (left > close) & (damping <= _MOST_DAMPING)
+        live = live & (left > close) & (damping <= close**-2)
         going = live[rows]
         rows, trial, foreseen = rows[going], trial[going], foreseen[going]
         if not rows.size:
             break
-        found, steep = problem.with_slopes(trial)
+        found, steep = problem.with_slopes(trial, fixed[rows])
         new = _cost(problem, found, steep)
         better = (new < cost[rows]) & (foreseen > 0.0)
         taken, other = rows[better], rows[~better]
@@ -258,6 +265,8 @@ def minimise(
         growth[taken] = 2.0
         damping[other] *= growth[other]
         growth[other] *= 2.0
+    if held is not None and len(points):
+        slopes = np.where(held[:, np.newaxis], problem.with_slopes(points, ~held)[1], slopes)
     enough = max(close, _CLOSE_ENOUGH, _NOISY_STEP * problem.noise ** (2 / 3))
     return Ends(points, outputs, slopes, cost, left <= enough)
 

@@ -9,7 +9,7 @@ profile-likelihood-based confidence intervals", Applied Statistics 37 (1988) 87)
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,30 +17,49 @@ import numpy as np
 from ..uncertainty.normal import score_of_coverage
 from .least_squares import Ends, Problem, minimise, spread
 
-LEVELS = score_of_coverage(0.95) / 8.0 * np.arange(13)  # sigma; the ninth is that of 95 percent
+_AT_95 = 8
+LEVELS = score_of_coverage(0.95) / _AT_95 * np.arange(13)  # sigma
 SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
 _RISE = 0.98  # sigma, aimed at from one value to the next: two lead to 95 percent
 _MOST_RISE, _LONGER, _SHORTEST = 1.5, 4.0, 1e-3  # of steps, the last a part of the first
 _MOST_STEPS = 24
 _CLOSE, _ROUNDS = 1e-2, 40  # of the fits again: chi-squared to 1e-4
+_LAST_ROUNDS = 10  # from a place that is near already, or along a kink without an end
 _FIRST = 0.125  # of its scale, for an unknown without a standard error
-_BESIDE, _CLEARLY = 8, 0.05  # searches for another valley, and sigma by which it is lower
-_BACK = (0.8, 0.6, 0.4, 0.2)  # of the way from the answer to where another valley was met
+_REACHED = 1.8  # sigma, where 95 percent counts as reached
+_FINE = 0.3  # sigma, aimed at from one value to the next on the way back in another valley
+_MOST_VALLEYS = 4  # one beyond the other
+_ELSEWHERE, _AWAY = 8, 3.0  # places beside a fit to start from, and how far away [sigma] at most
+_TRIED, _FIRST_ROUNDS = 4, 3  # of these: how many, and rounds until the best is chosen
+_DEPARTS = 0.1  # sigma: places where the model is nearer to its slopes need no search
+_ALIKE = 0.02  # of the way, and sigma: ends this near each other need no fit in between
+_MOST_REFINED = 3  # fits in between
+_LOWER = 0.05  # of chi-squared: what is lower by less is the same valley
 
 
 class Side(NamedTuple):
     """Values on one side of the answer, outward, the rise of the misfit at each in sigma, and the
-    slope of chi-squared there; beyond the last the model refuses if it is ``at_edge``.
+    slope of chi-squared there; beyond the last the model refuses if it is ``at_edge``. ``valleys``
+    are others in which the misfit is lower from some value on. ``points`` are all unknowns at each
+    value.
     """
 
     values: Any
     rises: Any
     slopes: Any
+    points: Any
     bound: float
     at_edge: bool
+    valleys: tuple[Side, ...] = ()
 
     def reach(self, level: float) -> float:
-        """The furthest value with no more than this rise."""
+        """The furthest value with no more than this rise; NaN if there is none."""
+        ends = [one._end(level) for one in (self, *self.valleys)]
+        outward = max if self.bound > self.values[0] else min
+        return float(outward((x for x in ends if not math.isnan(x)), default=math.nan))
+
+    def _end(self, level: float) -> float:
+        """The furthest value with no more than this rise in this valley."""
         inside = np.flatnonzero(self.rises <= level)
         if not inside.size:
             return math.nan
@@ -55,6 +74,36 @@ class Side(NamedTuple):
             return self.bound  # it goes on without a rise
         end = float(values[k] + slope * (level - rises[k]))
         return min(end, self.bound) if self.bound > self.values[0] else max(end, self.bound)
+
+    def rise_at(self, value: float) -> float:
+        """The rise at a value, by straight lines from place to place."""
+        way = math.copysign(1.0, self.bound - self.values[0])
+        return float(np.interp(way * value, way * self.values, self.rises))
+
+    def in_doubt(self, level: float) -> tuple[float, int] | None:
+        """The furthest value with this rise and the place before it, if it is between places and a
+        straight line in the rise leads elsewhere.
+        """
+        inside = np.flatnonzero(self.rises <= level)
+        k = int(inside[-1]) if inside.size else len(self.values)
+        if k >= len(self.values) - 1:
+            return None
+        end, (low, high) = self._between(k, level), self.values[k : k + 2]
+        straight = low + (high - low) * (level - self.rises[k]) / (
+            self.rises[k + 1] - self.rises[k]
+        )
+        alike = abs(end - straight) <= _ALIKE * abs(end - self.values[0])
+        near = min(abs(self.rises[k : k + 2] - level)) <= _ALIKE
+        return None if alike or near else (end, k + 1)
+
+    def with_place(self, k: int, value: float, rise: float, slope: float, point: Any) -> Side:
+        """One place more, before place k."""
+        return self._replace(
+            values=np.insert(self.values, k, value),
+            rises=np.insert(self.rises, k, rise),
+            slopes=np.insert(self.slopes, k, slope),
+            points=np.insert(self.points, k, point, axis=0),
+        )
 
     def _between(self, k: int, level: float) -> float:
         """Where chi-squared reaches the level after value k, by the cubic of both ends and slopes;
@@ -75,16 +124,12 @@ class Side(NamedTuple):
         return float(start + low * width)
 
 
-_NOWHERE = Side(np.zeros(1), np.full(1, np.inf), np.zeros(1), 0.0, True)
-
-
 class Found(NamedTuple):
-    """Both sides of each unknown that was followed, by its place, those of other valleys of the
-    misfit that its range reaches into, and the least misfit met on the way.
+    """Both sides of each unknown that was followed, by its place, and the least misfit met on the
+    way.
     """
 
     sides: dict[int, tuple[Side, Side]]
-    valleys: dict[int, list[tuple[Side, Side]]]
     lowest: float
     at: Any
 
@@ -95,217 +140,270 @@ class Found(NamedTuple):
             side.at_edge and side.rises[-1] < 2.0 for both in self.sides.values() for side in both
         )
 
-    def pairs(self, unknown: int) -> list[tuple[Side, Side]]:
-        """All profiles of an unknown that was followed."""
-        return [self.sides[unknown], *self.valleys.get(unknown, ())]
 
-
-class _Row(NamedTuple):
-    """Where one side of one unknown is followed from: the point, the rise of the misfit there in
-    sigma and the slope of chi-squared.
+class _Begin(NamedTuple):
+    """Where a track begins: the unknown that is held, which way it goes and how far at most, what
+    is known there, the first step and how the others go with it, and the rise to aim at from one
+    value to the next.
     """
 
     unknown: int
     outward: float
-    at: Any
+    bound: float
+    point: Any
     rise: float
     climb: float
+    step: float
+    way: Any
+    aim: float
 
 
 class _Track(NamedTuple):
-    """One side as it was followed: value, rise and slope each, and whether the model refuses
-    beyond.
+    """Values, rises and slopes of chi-squared along a track (3, k), and the points; whether the
+    model refuses beyond the last, and the fit that first reached 95 percent, if any.
     """
 
-    steps: list[tuple[float, float, float]]
+    along: Any
+    points: Any
     at_edge: bool
+    reached: Ends | None
 
-
-class _Profiles:
-    """Follows profiles from a point, by the rise above a chi-squared, which is that of the best
-    answer. The covariance says where to look first.
-    """
-
-    def __init__(
-        self, problem: Problem, point: Any, chi_squared: float, covariance: Any, scout: Problem
-    ) -> None:
-        self.problem, self.point, self.chi_squared = problem, point, chi_squared
-        self.scout = scout
-        errors = np.sqrt(np.diagonal(covariance))
-        self.known = np.isfinite(errors)
-        wide = np.minimum(problem.high - problem.low, problem.scale)
-        self.first = np.where(self.known, np.minimum(_RISE * errors, wide), _FIRST * wide)
-        ways = np.where(self.known, covariance / errors**2, 0.0).T
-        self.ways = np.where(np.isfinite(ways), ways, 0.0)
-        self.lowest, self.where = float(chi_squared), point
-
-    def bound(self, row: _Row) -> float:
-        """The bound on this side."""
-        ends = self.problem.high if row.outward > 0.0 else self.problem.low
-        return float(ends[row.unknown])
-
-    def fitted(self, points: Any, unknowns: Any) -> tuple[Ends, Any, Any]:
-        """All but one unknown each fitted again, the rise of the misfit and its slope by that."""
-        held = np.arange(len(self.point)) == np.asarray(unknowns)[:, np.newaxis]
-        ends = minimise(self.problem, points, held=held, close=_CLOSE, rounds=_ROUNDS)
-        k = int(np.argmin(ends.chi_squared))
-        if ends.chi_squared[k] < self.lowest:
-            self.lowest, self.where = float(ends.chi_squared[k]), ends.points[k]
-        rises = np.sqrt(np.maximum(0.0, ends.chi_squared - self.chi_squared))
-        return ends, rises, _climbs(self.problem, ends, unknowns)
-
-    def rows(self, which: Iterable[int]) -> list[_Row]:
-        """Both sides of these unknowns, from the point.
-
-        To either side by itself: the answer may be at a kink.
-        """
-        start = minimise(self.problem, self.point[np.newaxis])
-        begin = math.sqrt(max(0.0, start.chi_squared[0] - self.chi_squared))
-        _, changes, moves = self.problem.neighbours(self.point[np.newaxis])
-        misfit = self.problem.misfit(start.outputs[0])
-        toward = np.where(moves == 0.0, 0.0, changes / moves)[:, 0] @ misfit
-        return [
-            _Row(k, outward, self.point, begin, 2.0 * toward[int(outward < 0.0), k])
-            for k in which
-            for outward in (-1.0, 1.0)
-        ]
-
-    def outward(self, rows: list[_Row]) -> list[_Track]:
-        """Follow these sides to their bounds, or until the misfit has risen enough."""
-        count = len(rows)
-        unknowns = np.array([row.unknown for row in rows], dtype=int)
-        outward = np.array([row.outward for row in rows])
-        at = np.array([row.at for row in rows]).reshape(count, len(self.point))
-        rise = np.array([row.rise for row in rows])
-        bound = np.array([self.bound(row) for row in rows])
-        value = at[np.arange(count), unknowns].copy()
-        ways, step = self.ways[unknowns].copy(), self.first[unknowns].copy()
-        least = _SHORTEST * step
-        tracks = [[(value[k], rise[k], row.climb)] for k, row in enumerate(rows)]
-        edge, live = np.zeros(count, dtype=bool), (value != bound) & (rise < LEVELS[-1] - 0.01)
-        every = np.arange(count)
-        for _ in range(_MOST_STEPS):
-            going = every[live]
-            if not going.size:
-                break
-            new = value[going] + outward[going] * step[going]
-            new = np.where(outward[going] * (new - bound[going]) >= 0.0, bound[going], new)
-            guess = at[going] + ways[going] * (new - value[going])[:, np.newaxis]
-            guess = np.clip(guess, self.problem.low, self.problem.high)
-            guess[np.arange(going.size), unknowns[going]] = new
-            ends, found, climbs = self.fitted(guess, unknowns[going])
-            climbed = found - rise[going]
-            short = step[going] <= least[going]
-            refused = np.isinf(found)
-            good = ~refused & ((climbed <= _MOST_RISE) | short)
-            edge[going[refused & short]] = True
-            live[going[refused & short]] = False
-            step[going[~good]] *= np.where(refused[~good], 0.5, _RISE / climbed[~good]).clip(
-                0.1, 0.6
-            )
-            for j in np.flatnonzero(good).tolist():
-                row, moved = going[j], new[j] - value[going[j]]
-                tracks[row].append((new[j], found[j], climbs[j]))
-                ways[row] = (ends.points[j] - at[row]) / moved
-                part = _RISE / climbed[j] if climbed[j] > 0.0 else _LONGER
-                step[row] = abs(moved) * min(max(part, 1.0 / _LONGER), _LONGER)
-                at[row], value[row], rise[row] = ends.points[j], new[j], found[j]
-                live[row] = new[j] != bound[row] and found[j] < LEVELS[-1] - 0.01
-        return [_Track(track, bool(edge[k])) for k, track in enumerate(tracks)]
-
-    def side(self, row: _Row, track: _Track) -> Side:
-        """One side as it was followed."""
-        values, rises, slopes = np.array(track.steps).T
-        return Side(values, rises, slopes, self.bound(row), track.at_edge)
-
-    def valleys(self, ends: dict[tuple[int, float], tuple[float, float]]) -> list[_Row]:
-        """Where the misfit has another valley beside a profile's: at these values, by unknown and
-        side, with their rises, searches from around find the others elsewhere for clearly less.
-        The ``scout`` searches, and where it ended the others are fitted again.
-
-        At a kink, as where a contact just sticks, one valley leads up on either side of it.
-        """
-        if not ends:
-            return []
-        away = 2.0 * self.first
-        starts, places = [], []
-        for (k, _), (value, _) in ends.items():
-            centre = self.point + self.ways[k] * (value - self.point[k])
-            around = centre + spread(_BESIDE, -away, away)
-            around = np.clip(around, self.problem.low, self.problem.high)
-            around[:, k] = value
-            starts.append(around)
-            places += [k] * _BESIDE
-        held = np.arange(len(self.point)) == np.asarray(places)[:, np.newaxis]
-        tried = minimise(
-            self.scout, np.concatenate(starts), held=held, close=_CLOSE, rounds=_ROUNDS
-        )
-        best = np.argmin(tried.chi_squared.reshape(-1, _BESIDE), axis=1)
-        points = tried.points.reshape(-1, _BESIDE, len(self.point))[np.arange(len(ends)), best]
-        found, rises, climbs = self.fitted(points, [k for k, _ in ends])
-        return [
-            _Row(k, outward, found.points[i], rises[i], climbs[i])
-            for i, ((k, outward), (_, rise)) in enumerate(ends.items())
-            if rises[i] < rise - _CLEARLY
-        ]
-
-    def inward(self, row: _Row) -> list[tuple[float, float, float]]:
-        """The way back from another valley towards the answer, outward again: values, rises and
-        slopes.
-        """
-        track, at = [], row.at
-        start = self.point[row.unknown]
-        for share in _BACK:
-            new = start + share * (row.at[row.unknown] - start)
-            guess = at.copy()
-            guess[row.unknown] = new
-            ends, rises, climbs = self.fitted(guess[np.newaxis], [row.unknown])
-            if not math.isfinite(rises[0]):
-                break
-            at = ends.points[0]
-            track.append((float(new), float(rises[0]), float(climbs[0])))
-        return track[::-1]
+    def side(self, bound: float) -> Side:
+        """These values as a side that ends at this bound."""
+        values, rises, slopes = self.along
+        return Side(values, rises, slopes, self.points, float(bound), self.at_edge)
 
 
 def followed(
-    problem: Problem,
-    point: Any,
-    chi_squared: float,
-    covariance: Any,
-    which: Iterable[int],
-    scout: Problem,
+    problem: Problem, point: Any, chi_squared: float, covariance: Any, which: Iterable[int]
 ) -> Found:
-    """The profiles of these unknowns from a point, and of those whose range reaches into another
-    valley of the misfit; the rise is above ``chi_squared``, which is that of the best answer.
+    """The profiles of these unknowns from a point, by the rise above ``chi_squared``, which is that
+    of the best answer. The covariance says where to look first.
 
-    ``scout`` is a problem with nearly the same answers, or the same, that costs less.
+    A fit that goes on from the value before stays on its side of a kink. So where a track reaches
+    95 percent the other unknowns are fitted from elsewhere as well, and a lower misfit met there is
+    followed both ways.
     """
-    profiles = _Profiles(problem, point, chi_squared, covariance, scout)
-    chosen = [int(k) for k in which]
-    # One unknown has no others to be found elsewhere, and where no range bends all lie in one.
-    several = len(point) > 1 and len(chosen) > 0
-    two: dict[tuple[int, float], tuple[float, float]] = {}
-    for k in np.flatnonzero(profiles.known).tolist():
-        if k not in chosen and several:
-            error = math.sqrt(covariance[k, k])
-            two |= {(k, way): (point[k] + 2.0 * way * error, 2.0) for way in (-1.0, 1.0)}
-    chosen += sorted({row.unknown for row in profiles.valleys(two)})
-    rows = profiles.rows(chosen)
-    both = [profiles.side(*one) for one in zip(rows, profiles.outward(rows), strict=True)]
-    sides = {row.unknown: (both[i - 1], both[i]) for i, row in enumerate(rows) if i % 2}
-    reached = {}
-    for row, side in zip(rows, both, strict=True):
-        value = side.reach(2.0)
-        if several and math.isfinite(value) and value != point[row.unknown]:
-            rise = 2.0 if side.rises[-1] >= 2.0 else float(side.rises[-1])
-            reached[row.unknown, row.outward] = value, rise
-    beside = profiles.valleys(reached)
-    valleys: dict[int, list[tuple[Side, Side]]] = {}
-    for row, track in zip(beside, profiles.outward(beside), strict=True):
-        side = profiles.side(row, track._replace(steps=profiles.inward(row) + track.steps))
-        pair = (_NOWHERE, side) if row.outward > 0.0 else (side, _NOWHERE)
-        valleys.setdefault(row.unknown, []).append(pair)
-    return Found(sides, valleys, profiles.lowest, profiles.where)
+    errors = np.sqrt(np.diagonal(covariance))
+    wide = np.minimum(problem.high - problem.low, problem.scale)
+    first = np.where(np.isfinite(errors), np.minimum(_RISE * errors, wide), _FIRST * wide)
+    ways = np.where(np.isfinite(errors), covariance / errors**2, 0.0).T
+    ways = np.where(np.isfinite(ways), ways, 0.0)
+
+    start = minimise(problem, point[np.newaxis])
+    begin = math.sqrt(max(0.0, start.chi_squared[0] - chi_squared))
+    # To either side by itself: the answer may be at a kink.
+    _, changes, moves = problem.neighbours(point[np.newaxis])
+    toward = np.where(moves == 0.0, 0.0, changes / moves)[:, 0] @ problem.misfit(start.outputs[0])
+    begins = [
+        _Begin(j, way, bound, point, begin, 2.0 * slope, first[j], ways[j], _RISE)
+        for j in which
+        for way, bound, slope in (
+            (-1.0, problem.low[j], toward[1, j]),
+            (1.0, problem.high[j], toward[0, j]),
+        )
+    ]
+    tracks, least = _follow(problem, chi_squared, begins)
+    pieces = [[track.side(one.bound)] for one, track in zip(begins, tracks, strict=True)]
+    asked = {k: track.reached for k, track in enumerate(tracks) if track.reached}
+    for _ in range(_MOST_VALLEYS):
+        if not asked:
+            break
+        places = Ends(*map(np.concatenate, zip(*asked.values(), strict=True)))
+        held = np.array([begins[k].unknown for k in asked])
+        lower = beside(problem, places, held)
+        rises = np.sqrt(np.maximum(0.0, lower.chi_squared - chi_squared))
+        climbs = _climbs(problem, lower, held)
+        left = lower.chi_squared < places.chi_squared - _LOWER
+        owners, turned = [], []
+        for i, k in enumerate(asked):
+            if left[i]:
+                step = first[begins[k].unknown]
+                out = begins[k]._replace(
+                    point=lower.points[i], rise=rises[i], climb=climbs[i], way=0.0 * point
+                )
+                back = out._replace(
+                    outward=-out.outward, bound=point[out.unknown], step=_FINE * step, aim=_FINE
+                )
+                owners.append(k)
+                turned += [out, back]
+        until = [side for k in owners for side in (None, pieces[k][0])]
+        tracks, met = _follow(problem, chi_squared, turned, until)
+        least = min(least, met, key=lambda one: one[0])
+        for k, away, inward in zip(owners, tracks[::2], tracks[1::2], strict=True):
+            along = np.concatenate([inward.along[:, :0:-1], away.along], axis=1)
+            points = np.concatenate([inward.points[:0:-1], away.points])
+            valley = away._replace(along=along, points=points)
+            pieces[k].append(valley.side(begins[k].bound))
+        asked = {
+            k: track.reached for k, track in zip(owners, tracks[::2], strict=True) if track.reached
+        }
+    _refine(problem, chi_squared, begins, pieces)
+    sides = [main._replace(valleys=tuple(others)) for main, *others in pieces]
+    both = {begins[k].unknown: (sides[k], sides[k + 1]) for k in range(0, len(begins), 2)}
+    return Found(both, *least)
+
+
+def _refine(
+    problem: Problem, chi_squared: float, begins: list[_Begin], pieces: list[list[Side]]
+) -> None:
+    """Fits where the pieces of each side put the end of 95 percent, where that is in doubt."""
+    level = LEVELS[_AT_95]
+    for _ in range(_MOST_REFINED):
+        asked = [
+            (k, i, *doubt)
+            for k, side in enumerate(pieces)
+            for i, piece in enumerate(side)
+            if (doubt := piece.in_doubt(level))
+        ]
+        if not asked:
+            break
+        # From both sides, since there may be a kink in between.
+        starts = np.concatenate([pieces[k][i].points[n - 1 : n + 1] for k, i, _, n in asked])
+        held = np.repeat([begins[k].unknown for k, *_ in asked], 2)
+        starts[np.arange(len(held)), held] = np.repeat([end for _, _, end, _ in asked], 2)
+        kept = np.arange(starts.shape[1]) == held[:, np.newaxis]
+        ends = minimise(problem, starts, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
+        climbs = _climbs(problem, ends, held)
+        for row, (k, i, end, n) in zip(range(0, len(held), 2), asked, strict=True):
+            row += int(np.argmin(ends.chi_squared[row : row + 2]))
+            rise = math.sqrt(max(0.0, ends.chi_squared[row] - chi_squared))
+            if math.isfinite(rise):
+                pieces[k][i] = pieces[k][i].with_place(n, end, rise, climbs[row], ends.points[row])
+
+
+def _follow(
+    problem: Problem, chi_squared: float, begins: list[_Begin], until: Sequence[Side | None] = ()
+) -> tuple[list[_Track], tuple[float, Any]]:
+    """The tracks from these beginnings, and the least misfit met and where.
+
+    A track inward, from another valley, goes ``until`` it is no lower than this side or no longer
+    falls.
+    """
+    least = (math.inf, np.zeros(0))
+    if not begins:
+        return [], least
+    unknowns, outward, bound, at, rise, climbs, step, ways, aim = map(
+        np.array, zip(*begins, strict=True)
+    )
+    every = np.arange(len(begins))
+    value, shortest = at[every, unknowns], _SHORTEST * step
+    tracks = [[(value[k], rise[k], climbs[k])] for k in every]
+    visited = [[at[k].copy()] for k in every]
+    reached: list[Ends | None] = [None] * len(begins)
+    held = np.arange(at.shape[1]) == unknowns[:, np.newaxis]
+    edge, live, inward = np.zeros(len(begins), dtype=bool), value != bound, aim < _RISE
+    for _ in range(_MOST_STEPS):
+        rows = every[live]
+        if not rows.size:
+            break
+        new = value[rows] + outward[rows] * step[rows]
+        new = np.where(outward[rows] * (new - bound[rows]) >= 0.0, bound[rows], new)
+        guess = at[rows] + ways[rows] * (new - value[rows])[:, np.newaxis]
+        guess = np.clip(guess, problem.low, problem.high)
+        guess[np.arange(rows.size), unknowns[rows]] = new
+        ends = minimise(problem, guess, held=held[rows], close=_CLOSE, rounds=_ROUNDS)
+        k = int(np.argmin(ends.chi_squared))
+        if ends.chi_squared[k] < least[0]:
+            least = (float(ends.chi_squared[k]), ends.points[k])
+        found = np.sqrt(np.maximum(0.0, ends.chi_squared - chi_squared))
+        climbed, climbs = found - rise[rows], _climbs(problem, ends, unknowns[rows])
+        short = step[rows] <= shortest[rows]
+        refused = np.isinf(found)
+        good = ~refused & ((climbed <= _MOST_RISE) | short)
+        edge[rows[refused & short]] = True
+        live[rows[refused & short]] = False
+        step[rows[~good]] *= np.where(refused[~good], 0.5, _RISE / climbed[~good]).clip(0.1, 0.6)
+        for j in np.flatnonzero(good).tolist():
+            row, moved = rows[j], new[j] - value[rows[j]]
+            tracks[row].append((new[j], found[j], climbs[j]))
+            visited[row].append(ends.points[j])
+            ways[row] = (ends.points[j] - at[row]) / moved
+            went = -climbed[j] if inward[row] else climbed[j]
+            part = aim[row] / went if went > 0.0 else _LONGER
+            step[row] = abs(moved) * min(max(part, 1.0 / _LONGER), _LONGER)
+            at[row], value[row], rise[row] = ends.points[j], new[j], found[j]
+            live[row] = new[j] != bound[row] and found[j] < LEVELS[-1] - 0.01
+            if inward[row]:
+                live[row] &= went > 0.0 and found[j] < until[row].rise_at(new[j])
+            if found[j] >= _REACHED and not inward[row] and reached[row] is None:
+                reached[row] = Ends(*(part[j : j + 1] for part in ends))
+    return [
+        _Track(np.array(tracks[k]).T, np.array(visited[k]), bool(edge[k]), reached[k])
+        for k in every
+    ], least
+
+
+def least_at(problem: Problem, points: Any, held: Any) -> Any:
+    """The least chi-squared with the unknown ``held`` in each of these points kept, from there and
+    from around it.
+    """
+    kept = np.arange(points.shape[1]) == held[:, np.newaxis]
+    here = minimise(problem, points, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
+    return np.minimum(here.chi_squared, beside(problem, here, held).chi_squared)
+
+
+def beside(problem: Problem, places: Ends, held: Any) -> Ends:
+    """The least misfit at each of these places with the unknown ``held`` there kept, from starts
+    around it: an infinite one where the model follows its slopes to all of them.
+    """
+    count, n = places.points.shape
+    found = Ends(*(part.copy() for part in places))
+    found.chi_squared[:] = math.inf
+    if n == 1:
+        return found
+    kept = np.arange(n) == held[:, np.newaxis]
+    if problem.scout is not None:
+        here = minimise(problem.scout, places.points, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
+        seen = beside(problem.scout, here, held)
+        into = np.flatnonzero(seen.chi_squared < here.chi_squared - _LOWER)
+        if into.size:
+            _put(found, into, problem, seen.points[into], kept[into])
+        return found
+    scaled = np.where(kept[:, np.newaxis], 0.0, places.slopes * problem.scale)
+    _, size, direction = np.linalg.svd(np.where(np.isfinite(scaled), scaled, 0.0))
+    # In the directions of the slopes, as far as the misfit rises alike along each, or one scale;
+    # the last is that of what is kept.
+    far = np.ones((count, n))
+    far[:, : size.shape[1]] = np.minimum(1.0, _AWAY / np.maximum(size, _AWAY))
+    around = spread(_ELSEWHERE, -np.ones(n - 1), np.ones(n - 1))
+    moved = np.einsum("si,ki,kij->ksj", around, far[:, :-1], direction[:, :-1]) * problem.scale
+    moved = np.where(kept[:, np.newaxis], 0.0, moved)
+    starts = np.clip(places.points[:, np.newaxis] + moved, problem.low, problem.high)
+    moved = starts - places.points[:, np.newaxis]
+    outputs = problem.evaluate(starts.reshape(-1, n)).reshape(count, _ELSEWHERE, -1)
+    straight = places.outputs[:, np.newaxis] + np.einsum("kmn,ksn->ksm", places.slopes, moved)
+    off = np.linalg.norm(problem.wrapped(outputs - straight), axis=2)
+    high = np.sum(problem.misfit(outputs) ** 2, axis=2)
+    high = np.where(off > _DEPARTS, high, np.inf)
+    chosen = np.argsort(high, axis=1)[:, :_TRIED]
+    which, nth = np.nonzero(np.isfinite(np.take_along_axis(high, chosen, axis=1)))
+    if not which.size:
+        return found
+    tried = minimise(
+        problem,
+        starts[which, chosen[which, nth]],
+        held=kept[which],
+        close=_CLOSE,
+        rounds=_FIRST_ROUNDS,
+    )
+    lower = []
+    for k in np.unique(which).tolist():
+        rows = np.flatnonzero(which == k)
+        row = rows[np.argmin(tried.chi_squared[rows])]
+        if tried.chi_squared[row] < places.chi_squared[k] - _LOWER:
+            lower.append((k, row))
+    if lower:
+        into, rows = np.array(lower).T
+        _put(found, into, problem, tried.points[rows], kept[into])
+    return found
+
+
+def _put(found: Ends, into: Any, problem: Problem, starts: Any, kept: Any) -> None:
+    """Put where fits from these starts end, with what is kept, into these rows."""
+    ends = minimise(problem, starts, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
+    for part, of in zip(found, ends, strict=True):
+        part[into] = of
 
 
 def _climbs(problem: Problem, ends: Ends, unknowns: Any) -> Any:
