@@ -386,3 +386,20 @@ def test_outliers_left_out_by_all_cases_together(method, seed):
 
     error = refused(cut, V, method=method, seed=seed, samples=2048)
     assert "no answer" in str(error)
+
+
+def test_an_output_that_is_mostly_0_may_end_an_iteration_differently_too():
+    """The middle half of its answers has no width by which to judge a difference of rounding."""
+
+    def model(x):
+        last = 1e-13 if np.size(x) > 10 else 0.0
+        return {"y": np.where(x > 0.9, 0.1 * x + last, 0.0)}
+
+    found = propagate(model, {"x": Uniform(0.0, 1.0)}, samples=256, seed=1)
+    assert 0.0 < found["y"].mean < 0.1
+
+    def mixing(x):
+        return {"y": np.where(x > 0.9, 0.1 * x + 1e-3 * np.mean(x), 0.0)}
+
+    with pytest.raises(col.InputError, match="mixes cases"):
+        propagate(mixing, {"x": Uniform(0.0, 1.0)}, samples=256, seed=1)

@@ -41,9 +41,9 @@ class ByPaths(Protocol):
 AnyModel: TypeAlias = Function | ByPaths
 
 _LOW_CASES = 4  # asked again together: as alone, a threshold of those few divides them
-# A share of the width of the middle half of the answers: an iteration that goes on until every
-# case has converged ends a little differently for one case. A smaller difference, whatever its
-# cause, changes no digit that anyone reads.
+# A share of the width of the middle half of the answers, or of all where that has none: an
+# iteration that goes on until every case has converged ends a little differently for one case. A
+# smaller difference, whatever its cause, changes no digit that anyone reads.
 _UNNOTICED = 1e-6
 _ROUNDINGS = 64.0 * float(
     np.finfo(np.float64).eps
@@ -523,6 +523,8 @@ def _agree(batched: float, single: float, answers: Any) -> bool:
         )  # a direction may come out at either end of its turn
     with np.errstate(all="ignore"):
         low, high = np.nanquantile(answers, (0.25, 0.75))
+        if low == high:  # as of a speed that is mostly 0
+            low, high = np.nanmin(answers), np.nanmax(answers)
         return bool(away <= roundings + (_UNNOTICED * high - _UNNOTICED * low))
 
 
