@@ -430,7 +430,7 @@ UNKNOWNS = PRIORS | {"restitution": Normal(0.1, 0.05), "friction": Normal(0.5, 0
 
 @pytest.mark.parametrize("seed", [4, *(pytest.param(k, marks=pytest.mark.slow) for k in (6, 7))])
 def test_a_fit_is_that_of_the_finer_model(seed):
-    """Value by value the same as from 64 starts of the finer model, for a tenth of its calls."""
+    """Value by value the same as from 64 starts of the finer model, for a fifth of its calls."""
     observed = evidence(np.random.default_rng(seed))
     with warnings.catch_warnings(record=True) as given:
         warnings.simplefilter("always")

@@ -269,6 +269,7 @@ def test_the_finding_and_the_derivation_say_what_the_call_warns_of():
         assert re.search(r"A: speed before:\*\* \d", answer)
         assert re.search(r"B: speed before:\*\* at least \d", answer)
         assert re.search(r"Energy lost:\*\* at least \d", answer)
+        assert "with the least slip" in page.partition("## Results")[2].partition("## ")[0]
         assert "13 percent" in answer
     assert "in this answer" in str(col.explain(found))
 

@@ -11,6 +11,7 @@ from typing import Any, Literal, TypeAlias, get_args
 
 from ..impact.impact import Impact
 from ..impact.inputs import PLACED
+from ..impact.reconstruction import as_bound
 from ..impact.run import error_of
 from ..kernels.contact_laws import RULES
 from ..messages.errors import InputError, Status
@@ -421,7 +422,8 @@ def impact_answers(page: Page, impact: Impact) -> Iterator[tuple[str, str, str]]
         )
         value = None if any(left_out) else attrgetter(name)(impact)
         if value is not None and (of == "contact" or not math.isnan(value)):
-            yield of, what, page.answer(name, value, kind)
+            text = page.answer(name, value, kind)
+            yield of, what, as_bound(impact.reconstruction, name, text)
 
 
 def _says_nothing(body: Vehicle, name: str) -> bool:

@@ -302,14 +302,25 @@ def side_of(origin: Reconstruction | None, path: str) -> Any:
     if not any(map(np.any, sides.values())):
         return 0
     parts = path.split(".")
+    own = sides.get(f"speed_{parts[0]}")
+    if own is not None and not np.any(own):
+        return 0  # the speed of this vehicle is known
     if parts[1:] == ["before", "speed"]:
-        return sides.get(f"speed_{parts[0]}", 0)
+        return own
     if path in _LOSSES:
         # Friction does more work over more slip.
         return reduce(np.maximum, map(np.abs, sides.values()))
     moves = parts[-1] in _OF_STATES or (parts[-1] == "course" and "before" not in parts)
     open_ = path in _OF_SLIP or parts[-1] in _OF_VEHICLES or (len(parts) == 3 and moves)
     return None if open_ else 0
+
+
+def as_bound(origin: Reconstruction | None, path: str, text: str) -> str:
+    """The text of a number of a single impact that was found, with which way the truth may lie."""
+    side = side_of(origin, path)
+    if side is None:
+        return f"{text} with the least slip"
+    return {1: "at least ", -1: "at most "}.get(side, "") + text
 
 
 def how_many(answers: float) -> str:

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from ..derivation.explain import kinds_of_answers, names_of_answers, words_of_answers
 from ..diagnostics.finding import Finding, is_note
 from ..impact.impact import Impact
-from ..impact.reconstruction import how_many, known_in_words, side_of
+from ..impact.reconstruction import as_bound, how_many, known_in_words
 from ..quantities.formatting import KIND_OF, Numbers
 from ..quantities.tables import as_sentence, label_of
 from ..reconstruct import Fit, MomentumSolution, Posterior
@@ -128,18 +128,10 @@ def _figures(
     for name in wanted:
         value = attrgetter(name)(result)
         if name not in spread.outputs and value is not None and math.isfinite(value):
-            text = _bound(result, name) + system.answer(float(value), kinds[name])
+            text = system.answer(float(value), kinds[name])
+            if isinstance(result, Impact):
+                text = as_bound(result.reconstruction, name, text)
             yield Figure(_begun(spread.names(words[name])), text, False)
-
-
-def _bound(result: Impact | MomentumSolution, name: str) -> str:
-    """What stands before a figure that is known from one side only, or not at all, as the contact
-    slid: "at least".
-    """
-    side = side_of(result.reconstruction, name) if isinstance(result, Impact) else 0
-    return (
-        "with the least slip " if side is None else {1: "at least ", -1: "at most "}.get(side, "")
-    )
 
 
 def _in_words(sentence: str) -> str:
