@@ -769,6 +769,31 @@ def test_what_is_met_at_the_contact_alone_is_a_wall_behind_it():
     assert depths.max() > 0.1
 
 
+def test_a_speed_that_is_known_from_one_side_is_marked_as_that():
+    """A, whose speed is known, is not."""
+    cars = (
+        col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=x, y=0.0, heading=0.0) for x in (-2.0, 2.0)
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        (found,) = reconstruct.speeds(
+            *cars,
+            course_a=0.0,
+            course_b=0.5 * math.pi,
+            restitution=0.1,
+            normal=0.0,
+            point=(0.0, 0.0),
+            friction=0.3,
+            delta_v_forward_a=-6.0,
+            delta_v_left_a=1.9,
+            slid="bound",
+        )
+    shown = [text.get_text() for text in plot.scene(found, units="si").texts]
+    assert any(re.match(r"A before: \d", text) for text in shown)
+    assert any(re.match(r"B before: at least \d", text) for text in shown)
+    assert any("with the least slip" in text for text in shown if text.startswith("B after"))
+
+
 def test_the_pivot_is_marked():
     axes = drawn("scene", "example 3")
     assert np.ravel(named(axes, "b.pivot").get_xydata()) == pytest.approx((0.0, 0.0))

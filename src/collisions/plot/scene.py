@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..impact.impact import Impact
+from ..impact.reconstruction import Reconstruction, as_bound
 from ..messages.errors import InputError
 from ..messages.hints import hinted
 from ..quantities.formatting import UnitSystem
@@ -172,6 +173,7 @@ def scene(
                 getattr(side, when),
                 when,
                 labels.factor("m/s") / speed_scale,
+                impact.reconstruction,
             )
     starts = [at if impact.point is not None or place is None else place for place in bodies]
     impulse_scale = picture.impulses(impact, starts, pins) if moment != "before" else 0.0
@@ -339,9 +341,19 @@ class Picture(Drawing):
         )
         self.label(pin, f"pivot of {'AB'[index]}", (0.0, -1.0), COLOURS[index], of=index)
 
-    def velocity(self, place: Place, index: int, state: Vehicle, when: str, share: float) -> None:
+    def velocity(
+        self,
+        place: Place,
+        index: int,
+        state: Vehicle,
+        when: str,
+        share: float,
+        origin: Reconstruction | None,
+    ) -> None:
         """The velocity before ends at the centre of mass, the one after starts there."""
-        text = f"{'AB'[index]} {when}: {self.labels.text(state.speed, 'm/s')}"
+        speed = self.labels.text(state.speed, "m/s")
+        speed = as_bound(origin, f"{SIDES[index]}.{when}.speed", speed)
+        text = f"{'AB'[index]} {when}: {speed}"
         if state.yaw_rate:
             text += (
                 f"\nyaw {self.labels.text(abs(state.yaw_rate), 'rad/s')} "
