@@ -8,7 +8,6 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
-from os import getpid
 from os.path import realpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -46,7 +45,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return code
     except BrokenPipeError:
         # Whoever reads the output has enough, as head has; Python would flush it again at the end.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        with open(os.devnull, "wb") as nowhere:
+            os.dup2(nowhere.fileno(), sys.stdout.fileno())
         return 141  # as shells have it
     except KeyboardInterrupt:
         print("stopped; nothing more was written", file=sys.stderr)
@@ -141,7 +141,7 @@ def _write(pages: dict[Path, str]) -> None:
                 raise IsADirectoryError(0, "Is a directory")
             if target.exists():
                 target.open("ab").close()  # whether it may be written
-            parts[target] = target.with_name(f"{target.name}.{getpid()}.part")
+            parts[target] = target.with_name(f"{target.name}.{os.getpid()}.part")
             parts[target].write_text(text, encoding="utf-8", newline="\n")
         for target, part in parts.items():
             part.replace(target)
