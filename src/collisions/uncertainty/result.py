@@ -46,7 +46,6 @@ from .normal import power_of_two
 from .probability import Again, Condition, holds, holds_of_one
 
 COVERAGE = 0.95
-_FOR_A_GAP = 4  # cases among which there must be one gap to count
 _MOST_BINS = 10000
 
 
@@ -565,8 +564,7 @@ class Sampled(Output):
     @derived(OWN_UNIT)
     def std_standard_error(self) -> Any:
         """Standard error of the standard deviation due to sampling."""
-        # Its divisor, one less than the cases, is that of independent ones; even points need none.
-        return math.hypot(self._error(deviation), 0.5 * self._std() / self._answered.size)
+        return self._error(deviation)
 
     @returns(OWN_UNIT)
     def quantile_standard_error(self, p: Any) -> Any:
@@ -575,11 +573,9 @@ class Sampled(Output):
 
         The standard error of the share of cases up to the quantile, times the slope of the
         quantiles there. How the quantiles differ between the sequences would tell less, because
-        each sequence is evenly spread in itself. Beside a jump of the answers, within two errors of
-        that share, it is at least half the way to the other side. Where some cases are known from
-        one side only, it is of the same values as the quantile, with these cases at infinity: NaN
-        where the quantile is infinite itself, and infinite where, within the error of its share,
-        it may be.
+        each sequence is evenly spread in itself. Where some cases are known from one side only, it
+        is of the same values as the quantile, with these cases at infinity: NaN where the quantile
+        is infinite itself, and infinite where, within the error of its share, it may be.
 
         Parameters
         ----------
@@ -701,10 +697,7 @@ class Sampled(Output):
         width = max(error, math.sqrt(share * (1.0 - share) / found.size))
         low, high = max(0.0, share - width), min(1.0, share + width)
         ends = _quantiles(found, (low, high))
-        return max(
-            error * float(ends[1] - ends[0]) / (high - low),
-            _beyond_a_gap(found, at, share - 2.0 * error, share + 2.0 * error),
-        )
+        return error * float(ends[1] - ends[0]) / (high - low)
 
     def _error(self, figure: Callable[[Any], Any]) -> Any:
         """The standard error of a figure, from how it differs between the independent sequences of
@@ -730,23 +723,6 @@ class Sampled(Output):
         ]
         middle, turn = average(self._answered), 2.0 * math.pi
         return [one + turn * np.rint((middle - np.nanmean(one)) / turn) for one in counted]
-
-
-def _beyond_a_gap(found: Any, at: float, low: float, high: float) -> float:
-    """Half the way from a quantile to the far side of a gap that makes up most of what lies between
-    two shares, 0 without one: a slope tells nothing of a jump, on the other side of which the
-    quantile may lie.
-    """
-    if not low < high:
-        return 0.0  # not known, as where values are too large to be squared
-    first = max(0, int(low * found.size))
-    last = min(found.size - 1, math.ceil(high * found.size))
-    if last - first < _FOR_A_GAP:
-        return 0.0
-    gaps = np.diff(found[first : last + 1])
-    if not np.max(gaps) > 0.5 * (found[last] - found[first]):
-        return 0.0
-    return 0.5 * float(max(found[last] - at, at - found[first]))
 
 
 def wraps_of(outputs: Mapping[str, Sampled]) -> dict[str, str]:
