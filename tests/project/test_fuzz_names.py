@@ -1605,7 +1605,7 @@ def test_simulated_travel(case: Case) -> None:
         moment = several if case.maybe(0.3) else case.value("duration")
         case.call("travel.SimulatedPath.at", found.at, moment)
         # A case of a batch that was refused, for its many steps at the latest, is NaN throughout.
-        refused = np.isnan(found.rest.x).any()
+        refused = np.isnan(found.x[0]).any()
         undefined = {f"Vehicle.{name}" for name in ("course", "kinetic_energy", "yaw_inertia")}
         case.look(found, None if refused else frozenset({"travel.SimulatedPath.marks"} | undefined))
         if case.maybe(0.2):
