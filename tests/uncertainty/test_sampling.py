@@ -5,6 +5,7 @@ against actual scatter.
 import json
 import math
 from pathlib import Path
+from statistics import NormalDist
 
 import mpmath as mp
 import numpy as np
@@ -568,3 +569,35 @@ def test_an_output_that_differs_by_rounding_alone_has_nothing_to_share(method):
     for shares in (found["same"].contributions, found["same"].total_contributions):
         assert all(math.isnan(share) for share in shares.values())
     assert found["sum"].contributions["x"] > 0.9
+
+
+@pytest.mark.parametrize(
+    ("method", "samples"), [("monte_carlo", 8192), ("quasi_random", 8192), ("quasi_random", 2048)]
+)
+def test_the_error_of_a_quantile_beside_a_jump_reaches_its_other_side(method, samples):
+    """Slightly more than the share of the quantile lies below the jump, known exactly from the
+    normal distribution of a sum.
+    """
+    share = 0.0255
+    jump = NormalDist().inv_cdf(share) * math.sqrt(3.0)
+    true = -20.0 + NormalDist().inv_cdf(0.025) * math.sqrt(3.0) / 100.0
+
+    def model(x, y, z):
+        total = x + y + z
+        return {"all": np.where(total < jump, -20.0, 2.0) + 0.01 * total}
+
+    held, inputs = 0, dict.fromkeys("xyz", Normal(0.0, 1.0))
+    for seed in range(40):
+        found = propagate(model, inputs, method=method, samples=samples, seed=seed)["all"]
+        held += abs(found.quantile(0.025) - true) <= 2.13 * found.quantile_standard_error(0.025)
+    assert held >= 34
+
+
+def test_the_error_of_a_standard_deviation_has_its_divisor():
+    """Of points so even that nothing else is off."""
+    for samples in (1024, 8192):
+        found = propagate(lambda x: {"x": x}, {"x": Uniform(0.0, 1.0)}, samples=samples, seed=1)[
+            "x"
+        ]
+        off = abs(found.std - math.sqrt(1.0 / 12.0))
+        assert off <= 2.0 * found.std_standard_error < 2e-3 * found.std

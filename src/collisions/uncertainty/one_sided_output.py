@@ -175,7 +175,7 @@ class OneSidedOutput(Sampled):
             return math.nan
         counted = self._counted(-1 if share < 0.5 else 1)
         error = self._like(self.name, counted)._quantile_error(share)
-        # Within the error of the share the quantile may be infinite.
+        # Within two errors of the share the quantile may be infinite.
         return math.inf if math.isnan(error) and 0.0 < share < 1.0 else error
 
     def _counted(self, side: int) -> Any:

@@ -46,6 +46,7 @@ from .normal import power_of_two
 from .probability import Again, Condition, holds, holds_of_one
 
 COVERAGE = 0.95
+_OF_A_JUMP = 4.0  # times the standard error: twice as far as two errors should reach
 _MOST_BINS = 10000
 
 
@@ -564,7 +565,8 @@ class Sampled(Output):
     @derived(OWN_UNIT)
     def std_standard_error(self) -> Any:
         """Standard error of the standard deviation due to sampling."""
-        return self._error(deviation)
+        # Its divisor, one less than the cases, is that of independent ones; even points need none.
+        return math.hypot(self._error(deviation), 0.5 * self._std() / self._answered.size)
 
     @returns(OWN_UNIT)
     def quantile_standard_error(self, p: Any) -> Any:
@@ -573,9 +575,11 @@ class Sampled(Output):
 
         The standard error of the share of cases up to the quantile, times the slope of the
         quantiles there. How the quantiles differ between the sequences would tell less, because
-        each sequence is evenly spread in itself. Where some cases are known from one side only, it
-        is of the same values as the quantile, with these cases at infinity: NaN where the quantile
-        is infinite itself, and infinite where, within the error of its share, it may be.
+        each sequence is evenly spread in itself. Beside a jump of the answers that lies within two
+        errors of that share, it is at least half the way to the other side. Where some cases are
+        known from one side only, it is of the same values as the quantile, with these cases at
+        infinity: NaN where the quantile is infinite itself, and infinite where, within two errors
+        of its share, it may be.
 
         Parameters
         ----------
@@ -697,7 +701,17 @@ class Sampled(Output):
         width = max(error, math.sqrt(share * (1.0 - share) / found.size))
         low, high = max(0.0, share - width), min(1.0, share + width)
         ends = _quantiles(found, (low, high))
-        return error * float(ends[1] - ends[0]) / (high - low)
+        within = found[slice(*np.searchsorted(found, ends))]
+        steps = error / (high - low) * np.diff(np.concatenate((ends[:1], within, ends[1:])))
+        by_slope = float(np.sum(steps))
+        # A slope tells nothing of a jump, on the other side of which the quantile may lie: what is
+        # two errors of the share away then lies farther off than the slope without its largest
+        # step explains.
+        ends = _quantiles(found, (max(0.0, share - 2.0 * error), min(1.0, share + 2.0 * error)))
+        far = float(max(ends[1] - at, at - ends[0]))
+        if far > _OF_A_JUMP * (by_slope - float(np.max(steps))):
+            return max(by_slope, 0.5 * far)
+        return by_slope
 
     def _error(self, figure: Callable[[Any], Any]) -> Any:
         """The standard error of a figure, from how it differs between the independent sequences of
