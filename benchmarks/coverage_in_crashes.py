@@ -59,6 +59,7 @@ DURATION_ERROR, GROUND_ERROR, LOCK_ERROR = (
 )  # share; of friction; of the locks of a car's braked wheels together
 FASTEST = 40.0  # m/s; before the evidence any speed up to this is as likely
 OF_TYRES = ("wheelbase", "track", "cornering", "height")
+ENDED = 10.0  # s after first contact, when none lasts any more
 STEPS = 20  # of a contact in time: within 0.1 % of those of 100
 LOST = 0.02  # of the samples: above, the range is of the others, and the route counts as refused
 COVERAGE = 0.998  # of the binomial interval of a share held
@@ -320,25 +321,25 @@ def by_one_recorder_alone(reading: Reading) -> Speeds:
     return by_components(reading, "a", "a", ratio_shown=True)
 
 
-def shown(reading: Reading, side: Any, label: str, duration: Any) -> Any:
-    """Size of delta-V that a recorder shows in axes that turn with its car, at its place.
+def shown(reading: Reading, side: Any, label: str, duration: Any) -> tuple[Any, Any]:
+    """Components of delta-V that a recorder shows at its place, of a contact that was not followed
+    in time: along the axes of its car as it is in the middle of the contact.
 
-    The turn itself does not change the size; the place adds the change of yaw rate and, ahead and
-    aside, the square of the yaw rate over time (Marine and Werner, SAE 980219), which grows
-    linearly here.
+    The place adds the change of yaw rate and, ahead and aside, the square of the yaw rate over time
+    (Marine and Werner, SAE 980219), which grows linearly here.
     """
     forward, left = reading.recorder[label]
     before, after = side.before.yaw_rate, side.after.yaw_rate
     square = duration * (before * before + before * after + after * after) / 3.0
-    return np.hypot(
+    return (
         side.delta_v_forward - (after - before) * left - square * forward,
         side.delta_v_left + (after - before) * forward - square * left,
     )
 
 
 class Evidence(NamedTuple):
-    """Size of both delta-V and motion after (speeds, courses and yaw rates) as evidence of a model:
-    ``eccentric``, and the contact in time as the finer one.
+    """What is seen of a crash as evidence of a model: ``eccentric``, and the contact in time as the
+    finer one.
     """
 
     model: Model
@@ -347,14 +348,33 @@ class Evidence(NamedTuple):
     finer: Model
 
 
-def evidence(reading: Reading) -> Evidence:
-    """What is known of a crash before, and what is seen of it."""
-    priors: dict[str, Any] = reading.known | {
+def priors(reading: Reading) -> dict[str, Any]:
+    """What is known of a crash before."""
+    unknowns: dict[str, Any] = reading.known | {
         "speed_a": Uniform(0.0, FASTEST),
         "speed_b": Uniform(0.0, FASTEST),
         "restitution": Uniform(*RESTITUTION),
         "friction": Uniform(*FRICTION),
     }
+    return unknowns | lasting(reading)
+
+
+def solved(reading: Reading, values: dict[str, Any], solver: Any, **settings: Any) -> Any:
+    """The impact of these values."""
+    return solver(
+        *cars(reading, values, {label: values[f"speed_{label}"] for label in "ab"}),
+        values["restitution"],
+        normal=values["normal"],
+        point=(values["x"], values["y"]),
+        friction=values["friction"],
+        **lasting(reading, values),
+        **settings,
+        on_failure="nan",
+    )
+
+
+def of_motion(reading: Reading) -> Evidence:
+    """Size of both delta-V, and motion after: speeds, courses and yaw rates."""
     observed: dict[str, Any] = {}
     for name, (value, error) in reading.motion.items():
         observed[name] = Normal(0.0 if "course" in name else value, error)
@@ -370,43 +390,75 @@ def evidence(reading: Reading) -> Evidence:
             found[f"course_{label}_after"] = np.angle(np.exp(1j * (side.after.course - read)))
             found[f"speed_{label}_after"] = side.after.speed
             found[f"yaw_rate_{label}_after"] = side.after.yaw_rate
-            found[f"delta_v_{label}"] = shown(reading, side, label, duration)
+            # The turn of the axes does not change the size.
+            found[f"delta_v_{label}"] = np.hypot(*shown(reading, side, label, duration))
         return found
 
-    def solved(values: dict[str, Any], solver: Any, **settings: Any) -> dict[str, Any]:
-        speeds = {label: values[f"speed_{label}"] for label in "ab"}
-        impact = solver(
-            *cars(reading, values, speeds),
-            values["restitution"],
-            normal=values["normal"],
-            point=(values["x"], values["y"]),
-            friction=values["friction"],
-            **lasting(reading, values),
-            **settings,
-            on_failure="nan",
-        )
-        return seen(impact, values.get("duration", 0.0))
-
     def model(**values: Any) -> dict[str, Any]:
-        return solved(values, col.eccentric)
+        return seen(solved(reading, values, col.eccentric), values.get("duration", 0.0))
 
     def finer(**values: Any) -> dict[str, Any]:
-        return solved(values, col.time_resolved, steps=STEPS)
+        impact = solved(reading, values, col.time_resolved, steps=STEPS)
+        return seen(impact, values.get("duration", 0.0))
 
-    return Evidence(model, priors | lasting(reading), observed, finer)
+    return Evidence(model, priors(reading), observed, finer)
 
 
-def asked(solver: Callable[..., Any], *arguments: Any, **settings: Any) -> Speeds:
-    """The ranges of both speeds; a warning that is about another unknown alone is left out."""
+def of_recorders(reading: Reading, recorders: str, speed: str = "") -> Evidence:
+    """Components of these recorders, and the speed that one of them tells."""
+    parts = [
+        (name, label, way)
+        for label in recorders
+        for way in ("forward", "left")
+        for name in (f"delta_v_{way}_{label}",)
+    ]
+    observed = {name: Normal(*reading.recorded[name]) for name, _, _ in parts}
+    unknowns = priors(reading)
+    for label in speed:
+        told = reading.recorded_speed[label]
+        unknowns[f"speed_{label}"] = Uniform(told - RECORDED_SPEED, told + RECORDED_SPEED)
+
+    def model(**values: Any) -> dict[str, Any]:
+        impact = solved(reading, values, col.eccentric)
+        duration = values.get("duration", 0.0)
+        read = {
+            label: dict(
+                zip(("forward", "left"), shown(reading, side, label, duration), strict=True)
+            )
+            for label, side in (("a", impact.a), ("b", impact.b))
+        }
+        return {name: read[label][way] for name, label, way in parts}
+
+    def finer(**values: Any) -> dict[str, Any]:
+        impact = solved(reading, values, col.time_resolved, steps=STEPS)
+        read = {}
+        for label, side in (("a", impact.a), ("b", impact.b)):
+            if label in recorders:
+                forward, left = reading.recorder[label]
+                # What it shows in the end, so long after first contact.
+                at_end = side.recorded(ENDED, forward=forward, left=left)
+                read[label] = dict(zip(("forward", "left"), at_end, strict=True))
+        return {name: read[label][way] for name, label, way in parts}
+
+    return Evidence(model, unknowns, observed, finer)
+
+
+def asked(
+    solver: Callable[..., Any], *arguments: Any, sought: str = "ab", **settings: Any
+) -> Speeds:
+    """The ranges of the speeds sought; a warning that is about another unknown alone is left
+    out.
+    """
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", col.CollisionsWarning)
         found = solver(*arguments, **settings)
+    speeds = {label: f"speed_{label}" for label in sought}
     for one in caught:
         # That restitution or friction rests on its prior, a true one, is nothing against a speed.
-        about_others = not {"speed_a", "speed_b"}.intersection(unsettled(found))
+        about_others = not set(speeds.values()).intersection(unsettled(found))
         if not (getattr(one.message, "code", "") in UNSETTLED and about_others):
             warnings.warn(one.message, stacklevel=2)
-    return {label: found[f"speed_{label}"].interval(0.95) for label in "ab"}
+    return {label: found[name].interval(0.95) for label, name in speeds.items()}
 
 
 UNSETTLED = ("undetermined", "told_by_bounds")  # codes: an unknown of which evidence tells nothing
@@ -420,25 +472,41 @@ def unsettled(found: Any) -> set[str]:
     return {name for one in left for name in one.unknowns} | set(found.told_by_bounds)
 
 
-def by_posterior(reading: Reading, *, in_time: bool = False) -> Speeds:
+def by_posterior(
+    reading: Reading, of: Evidence, *, in_time: bool = False, sought: str = "ab"
+) -> Speeds:
     """All of the evidence at once, by samples."""
-    model, unknowns, observed, finer = evidence(reading)
     return asked(
         reconstruct.posterior,
-        model,
-        unknowns,
-        observed,
-        finer=finer if in_time and reading.contact else None,
+        *of[:3],
+        sought=sought,
+        finer=of.finer if in_time and reading.contact else None,
         samples=max(512, 4 * reading.samples),
         seed=reading.seed,
     )
 
 
+def by_posterior_of_motion(reading: Reading, *, in_time: bool = False) -> Speeds:
+    """Size of both delta-V, and motion after."""
+    return by_posterior(reading, of_motion(reading), in_time=in_time)
+
+
+def by_posterior_of_one_recorder(reading: Reading, *, in_time: bool = False) -> Speeds:
+    """Components of A's recorder and the speed that it tells."""
+    evidence = of_recorders(reading, "a", "a")
+    return by_posterior(reading, evidence, in_time=in_time, sought="b")
+
+
+def by_posterior_of_both_recorders(reading: Reading, *, in_time: bool = False) -> Speeds:
+    """Components of both recorders."""
+    return by_posterior(reading, of_recorders(reading, "ab"), in_time=in_time)
+
+
 def by_fit(reading: Reading, *, in_time: bool = False) -> Speeds:
-    """The same evidence by weighted least squares."""
-    model, unknowns, observed, finer = evidence(reading)
-    settings = {"finer": finer} if in_time and reading.contact else {}
-    return asked(reconstruct.fit, model, unknowns, observed, **settings)
+    """Size of both delta-V, and motion after, by weighted least squares."""
+    of = of_motion(reading)
+    settings = {"finer": of.finer} if in_time and reading.contact else {}
+    return asked(reconstruct.fit, *of[:3], **settings)
 
 
 ROUTES: dict[str, Callable[[Reading], Speeds]] = {
@@ -447,10 +515,16 @@ ROUTES: dict[str, Callable[[Reading], Speeds]] = {
     "both recorders, stated to have stuck": by_both_recorders_stuck,
     "one recorder and its speed": by_one_recorder,
     "one recorder and its speed, friction=inf": by_one_recorder_alone,
-    "posterior of delta-V and motion after": by_posterior,
-    "the same with the contact in time as finer=": partial(by_posterior, in_time=True),
+    "posterior of delta-V and motion after": by_posterior_of_motion,
+    "the same with the contact in time as finer=": partial(by_posterior_of_motion, in_time=True),
     "fit of delta-V and motion after": by_fit,
     "fit with the contact in time as finer=": partial(by_fit, in_time=True),
+    "posterior of one recorder and its speed": by_posterior_of_one_recorder,
+    "posterior of one recorder and its speed, finer=": partial(
+        by_posterior_of_one_recorder, in_time=True
+    ),
+    "posterior of both recorders": by_posterior_of_both_recorders,
+    "posterior of both recorders, finer=": partial(by_posterior_of_both_recorders, in_time=True),
 }
 
 

@@ -15,7 +15,9 @@ import collisions as col
 import scenes
 from collisions import reconstruct
 from collisions.derivation import contact, explain, models, page, symbols
+from collisions.diagnostics import diagnose
 from collisions.impact.impact import build
+from collisions.travel import Tyres
 from derivation.test_derivation import (
     FITS,
     MOMENTA,
@@ -110,6 +112,21 @@ def test_a_wrong_answer_is_not_explained(name, field, form):
     assert not isinstance(error, ValueError)
     again = pickle.loads(pickle.dumps(error))
     assert (str(again), again.fields) == (str(error), error.fields)
+
+
+@pytest.mark.parametrize("field", ["tyre_impulse_x_a", "tyre_moment_b"])
+def test_an_answer_of_what_is_not_known_is_not_explained(field):
+    """Nor does a diagnosis take it for rounding."""
+    tyres = Tyres(0.7, 0.5, 2.7, 1.5)
+    impact = crossroads(friction=0.8, duration=0.1, tyres_a=tyres, tyres_b=tyres)
+    explain(impact)
+    lost = altered(impact, field, math.nan)
+    with pytest.raises(col.InternalError, match="defect of this library"):
+        explain(lost)
+    if "impulse" in field:
+        (found,) = [one for one in diagnose(lost) if one.code == "rounding"]
+        assert "cannot be compared" in found.sentence
+        assert "do not rely on this result" in found.sentence
 
 
 @pytest.mark.parametrize("form", ["text", "markdown"])

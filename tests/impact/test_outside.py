@@ -15,6 +15,7 @@ import collisions as col
 from collisions.derivation import explain
 from collisions.diagnostics import diagnose
 from collisions.reporting import report
+from collisions.travel import Tyres
 from reference import evaluate
 from scenes import PUSHED, cases, draw, solved, solved_together
 
@@ -49,6 +50,30 @@ def energy(vehicle):
 
 
 # --- Impulses from outside ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_what_parts_them_before_is_refused_with_tyres_too(law):
+    """Alone and in a batch: the tyres of a contact that there is not do nothing to it."""
+    speeds = np.linspace(1.0, 8.0, 8)
+    a, b = (
+        col.Vehicle(mass=1500, yaw_inertia=2600, vx=vx, x=x, y=y, heading=0.0)
+        for vx, x, y in ((speeds, -2.2, 0.0), (0.0, 2.2, 0.4))
+    )
+    more = {"point": (0.0, 0.2), "friction": 0.5, "law": law, "outside_a": (-6000.0, 0.0)}
+    tyres = {"duration": 0.1, "tyres_a": Tyres(0.7, 1.0, 2.7, 1.5)}
+    bare, found = (
+        col.eccentric(a, b, 0.1, normal=0.0, on_failure="nan", **more, **with_tyres)
+        for with_tyres in ({}, tyres)
+    )
+    parted = bare.status == col.Status.SEPARATING
+    assert np.any(parted)
+    assert not np.all(parted)
+    assert np.all(found.status[parted] == col.Status.SEPARATING)
+    assert np.all(np.isnan(found.a.delta_vx[parted]))
+    for solver in (col.eccentric, col.solve):
+        with pytest.raises(col.NoImpactError, match="part the bodies"):
+            solver(a.replace(vx=2.0), b, 0.1, normal=0.0, **more, **tyres)
 
 
 @pytest.mark.parametrize("law", LAWS)

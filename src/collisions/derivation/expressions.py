@@ -186,14 +186,17 @@ class Written(NamedTuple):
 
 
 class Expression:
-    """A formula: ``value`` in SI, ``size`` of its largest terms, and ``write``, its form for a pen.
+    """A formula: ``value`` in SI, ``size`` of its largest terms, whether it ``lacks`` a number that
+    is not known, and ``write``, its form for a pen.
 
     A term of 0 and a factor of 1 are not written, and one over the reciprocal of a quantity is the
     product with that quantity.
     """
 
-    def __init__(self, value: float, size: float) -> None:
+    def __init__(self, value: float, size: float, *parts: Expression) -> None:
         self.value, self.size = value, size
+        # A formula without a value may have lost it by itself, and not for want of a number.
+        self.lacks: bool = any(one.lacks for one in parts) if parts else math.isnan(value)
 
     def write(self, pen: Pen) -> Written:
         """The formula in the form that the pen writes."""
@@ -270,7 +273,7 @@ class Sum(Expression):
 
     def __init__(self, left: Expression, right: Expression, sign: float) -> None:
         self.left, self.right, self.sign = left, right, sign
-        super().__init__(left.value + sign * right.value, left.size + right.size)
+        super().__init__(left.value + sign * right.value, left.size + right.size, left, right)
 
     def write(self, pen: Pen) -> Written:
         left, right = self.left.write(pen), self.right.write(pen)
@@ -284,7 +287,7 @@ class Product(Expression):
 
     def __init__(self, left: Expression, right: Expression) -> None:
         self.left, self.right = left, right
-        super().__init__(left.value * right.value, left.size * right.size)
+        super().__init__(left.value * right.value, left.size * right.size, left, right)
 
     def write(self, pen: Pen) -> Written:
         left, right = self.left.write(pen), self.right.write(pen)
@@ -300,10 +303,10 @@ class Quotient(Expression):
     def __init__(self, over: Expression, under: Expression) -> None:
         self.over, self.under = over, under
         if under.value == 0.0:
-            super().__init__(math.nan, math.nan)
+            super().__init__(math.nan, math.nan, over, under)
         else:
             size = over.size / abs(under.value) * (under.size / abs(under.value))
-            super().__init__(over.value / under.value, size)
+            super().__init__(over.value / under.value, size, over, under)
 
     def write(self, pen: Pen) -> Written:
         over, under = self.over.write(pen), self.under.write(pen)
@@ -320,7 +323,7 @@ class Negative(Expression):
 
     def __init__(self, inner: Expression) -> None:
         self.inner = inner
-        super().__init__(0.0 - inner.value, inner.size)
+        super().__init__(0.0 - inner.value, inner.size, inner)
 
     def write(self, pen: Pen) -> Written:
         inner = self.inner.write(pen)
@@ -332,7 +335,7 @@ class Square(Expression):
 
     def __init__(self, inner: Expression) -> None:
         self.inner = inner
-        super().__init__(inner.value * inner.value, inner.size * inner.size)
+        super().__init__(inner.value * inner.value, inner.size * inner.size, inner)
 
     def write(self, pen: Pen) -> Written:
         inner = self.inner.write(pen)
@@ -357,7 +360,7 @@ class Function(Expression):
             if name in ("cos", "sin")
             else inner.size
         )
-        super().__init__(_FUNCTIONS[name](inner.value), size)
+        super().__init__(_FUNCTIONS[name](inner.value), size, inner)
 
     def write(self, pen: Pen) -> Written:
         if self.name in ("cos", "sin"):
@@ -387,7 +390,7 @@ class Direction(Expression):
 
     def __init__(self, x: Expression, y: Expression) -> None:
         self.x, self.y = x, y
-        super().__init__(math.atan2(y.value + 0.0, x.value), math.pi)
+        super().__init__(math.atan2(y.value + 0.0, x.value), math.pi, x, y)
 
     def write(self, pen: Pen) -> Written:
         # As calculators and computers have it, with the second component first.

@@ -350,6 +350,8 @@ def _share_apart(left: Expression, right: Expression, kind: str) -> float:
         return 0.0
     if math.isfinite(right.value) and not math.isfinite(left.value):
         return math.inf
+    if right.lacks and not math.isnan(left.value):
+        return math.inf  # a result of numbers that are not known
     if isinstance(right, Direction):
         # One direction has many angles.
         off = math.remainder(off, math.tau)

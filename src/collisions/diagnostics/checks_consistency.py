@@ -70,6 +70,13 @@ def momentum_energy(case: Case) -> Iterator[Measured]:
 )
 def rounding(case: ImpactCase) -> Iterator[Measured]:
     impact = case.answer
+    if math.isnan(impact.momentum_residual):
+        yield Measured(
+            math.inf,
+            "momentum before and after cannot be compared, because a number in it is not known or "
+            "larger than numbers can be: do not rely on this result",
+        )
+        return
     off = share(
         impact.momentum_residual, math.hypot(impact.normal_impulse, impact.tangential_impulse)
     )

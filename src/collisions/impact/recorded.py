@@ -93,16 +93,13 @@ def _at(times: Any, values: Any, at: Any) -> Any:
     return np.array([np.interp(*case) for case in zip(at, times.T, values.T, strict=True)])
 
 
-def curve_of(motions: Any, label: str) -> Curve:
-    """The curve of a vehicle among the numbers of a contact, SI: time, crush, and of A and of B
-    changes of velocity and yaw rate.
+def curve_of(motions: Any, label: str, engaged: Any) -> Curve:
+    """The curve of a vehicle among the numbers of a contact, SI: time, and of A and of B changes of
+    velocity and yaw rate; and when they were engaged the most.
     """
-    time, crush = motions[:2]
-    last = np.argmax(crush, axis=0)
-    engaged = np.take_along_axis(time, np.expand_dims(last, 0), axis=0)[0]
-    first = 2 if label == "a" else 5
+    first = 1 if label == "a" else 4
     vx, vy, yaw_rate = motions[first : first + 3]
-    return Curve(time, vx, vy, yaw_rate, engaged)
+    return Curve(motions[0], vx, vy, yaw_rate, engaged)
 
 
 def motions_of(rows: list[tuple[float, ...]], found: Passed, start: tuple[Any, ...]) -> Any:
@@ -116,7 +113,6 @@ def motions_of(rows: list[tuple[float, ...]], found: Passed, start: tuple[Any, .
     of = {name: columns[2 * count + at] for at, name in enumerate(Passing._fields)}
     return _in_si(
         of["time"],
-        of["crush"],
         of["deepest"][-1],
         [columns[at] for at in (0, 1, 2, count, count + 1, count + 2)],
         found,
@@ -125,7 +121,7 @@ def motions_of(rows: list[tuple[float, ...]], found: Passed, start: tuple[Any, .
 
 
 def _in_si(
-    time: Any, crush: Any, deepest: Any, motion: list[Any], found: Passed, start: tuple[Any, ...]
+    time: Any, deepest: Any, motion: list[Any], found: Passed, start: tuple[Any, ...]
 ) -> Any:
     """The same from columns without the start, which has to be put before them."""
     duration = found.duration / time[-1]
@@ -138,14 +134,7 @@ def _in_si(
     ]
     for at in (2, 5):
         changes[at] = changes[at] + start[at]
-    nothing = 0.0 * time[:1]
-    return np.array(
-        [
-            np.concatenate((nothing, time * duration)),
-            np.concatenate((nothing, crush * length)),
-            *changes,
-        ]
-    )
+    return np.array([np.concatenate((0.0 * time[:1], time * duration)), *changes])
 
 
 def start_of(inputs: Inputs, cut: Callable[[Any], Any]) -> tuple[Any, ...]:
@@ -205,13 +194,13 @@ def recorded(
     for start in range(0, len(answered), length):
         cases = answered[start : start + length]
         if length == 1:
-            motions = _followed_alone(inputs, partial(_one, case=int(cases[0]), cut=cut))
-            motions = None if motions is None else motions[..., np.newaxis]
+            followed = _followed_alone(inputs, partial(_one, case=int(cases[0]), cut=cut))
+            if followed is None:
+                continue
+            motions, engaged = followed[0][..., np.newaxis], np.array([followed[1]])
         else:
-            motions = _followed_together(inputs, partial(cut, cases=cases), len(cases))
-        if motions is None:
-            continue
-        curve = curve_of(motions, label)
+            motions, engaged = _followed_together(inputs, partial(cut, cases=cases), len(cases))
+        curve = curve_of(motions, label, engaged)
         where = cut(place[0], cases), cut(place[1], cases)
         curves = readings(curve, cut(body.heading, cases), where, axes, from_start)
         for i, case in enumerate(cases):
@@ -231,7 +220,9 @@ def _one(value: Any, case: int, cut: Callable[..., Any]) -> Any:
 
 
 def _followed_alone(inputs: Inputs, cut: Callable[[Any], Any]) -> Any:
-    """One case of plain floats; None where it has no answer by itself."""
+    """One case of plain floats, and when it was engaged the most; None where it has no answer by
+    itself.
+    """
     from ..kernels.time_resolved import Noted
     from .time_resolved_inputs import follow_case
 
@@ -239,11 +230,11 @@ def _followed_alone(inputs: Inputs, cut: Callable[[Any], Any]) -> Any:
     found = follow_case(inputs, cut, rows)
     if found.status > Status.ENERGY_GAIN or not rows:
         return None
-    return motions_of(rows, found, start_of(inputs, cut))
+    return motions_of(rows, found, start_of(inputs, cut)), found.engaged_time
 
 
 def _followed_together(inputs: Inputs, cut: Callable[[Any], Any], count: int) -> Any:
-    """Many cases as arrays, with every step kept."""
+    """Many cases as arrays, with every step kept, and when each was engaged the most."""
     from ..kernels import time_resolved as kernel
     from .time_resolved_inputs import kernel_arguments
 
@@ -252,7 +243,7 @@ def _followed_together(inputs: Inputs, cut: Callable[[Any], Any], count: int) ->
         found = kernel.time_resolved(
             **kernel_arguments(inputs, cut), run=partial(_kept_run, steps=steps), note=steps
         )
-        time, crush, *motion = steps.columns()
+        time, *motion = steps.columns()
         start = start_of(inputs, cut)
         # The tyres act for half a step more after the last one.
         ends = [
@@ -260,13 +251,13 @@ def _followed_together(inputs: Inputs, cut: Callable[[Any], Any], count: int) ->
             for label in "ab"
             for name in ("vx", "vy", "yaw_rate")
         ]
-        motions = _in_si(time, crush, np.max(crush, axis=0), motion, found, start)
+        motions = _in_si(time, steps.deepest, motion, found, start)
         past = np.arange(motions.shape[1])[:, np.newaxis] >= steps.count
-        for at, end in enumerate(ends, 2):
-            if at in (4, 7):
-                end = end + start[at - 2]
+        for at, end in enumerate(ends, 1):
+            if at in (3, 6):
+                end = end + start[at - 1]
             motions[at] = np.where(past, end, motions[at])
-        return motions
+        return motions, found.engaged_time
 
 
 class _Steps:
@@ -274,7 +265,8 @@ class _Steps:
 
     def __init__(self, cases: int) -> None:
         self.count = np.zeros(cases, dtype=np.intp)
-        self._kept = np.zeros((64, 8, cases))
+        self._kept = np.zeros((64, 7, cases))
+        self.deepest = np.zeros(cases)
 
     def begin(self, active: Any) -> None:
         """The active cases are followed anew from first contact."""
@@ -290,8 +282,9 @@ class _Steps:
         at = self.count[cases]
         if at.size and at.max() >= len(self._kept):
             self._kept = np.concatenate((self._kept, np.zeros_like(self._kept)))
-        parts = passing.time, passing.crush, *on_a[:3], *on_b[:3]
+        parts = passing.time, *on_a[:3], *on_b[:3]
         self._kept[at, :, cases] = np.array([part[cases] for part in parts]).T
+        self.deepest[cases] = passing.deepest[cases]
         self.count[cases] += 1
 
     def shift(self, some: Any, new: tuple[Any, ...], old: tuple[Any, ...]) -> None:
@@ -300,11 +293,14 @@ class _Steps:
         """
         cases = np.flatnonzero(some)
         end, was = (
-            np.array([passing.time, passing.crush, *on_a[:3], *on_b[:3]])[:, cases]
+            np.array([passing.time, *on_a[:3], *on_b[:3]])[:, cases]
             for on_a, on_b, passing in (new, old)
         )
         kept = self._kept[:, :, cases]
-        self._kept[:, :, cases] = kept + kept[:, :1] / was[0] * (end - was)
+        # A way over which no time passes is its end alone.
+        passed = np.where(was[0] > 0.0, kept[:, :1] / was[0], 1.0)
+        self._kept[:, :, cases] = kept + passed * (end - was)
+        self.deepest[cases] = new[2].deepest[cases]
 
     def columns(self) -> Any:
         """Numbers, steps and cases; beyond its end a case stays as it ended."""

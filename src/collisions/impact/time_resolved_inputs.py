@@ -285,19 +285,17 @@ def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
     bare = _alike(inputs, tyres_a=None, tyres_b=None, duration=None, given=None)
     first = solve(bare, True)
     pushes = {label: held_impulse(inputs, first, label) for label in "ab"}
-    outside: dict[str, Any] = {
-        name: tuple(
-            one + more
-            for one, more in zip(getattr(inputs, name) or NO_IMPULSE, pushes[name[-1]], strict=True)
-        )
-        for name in OUTSIDE
-    }
-    # A case that has no answer without tyres is refused for that.
     with np.errstate(all="ignore"):
+        # A case that has no answer without tyres is refused for that.
         refused = first.status > Status.ENERGY_GAIN
-        outside = {
-            name: tuple(select(refused, 0.0, part) for part in parts)
-            for name, parts in outside.items()
+        outside: dict[str, Any] = {
+            name: tuple(
+                own + select(refused, 0.0, more)
+                for own, more in zip(
+                    getattr(inputs, name) or NO_IMPULSE, pushes[name[-1]], strict=True
+                )
+            )
+            for name in OUTSIDE
         }
         if inputs.shape is not None:
             # As precise as what they are worked out from, and one for each case also where only
@@ -460,7 +458,7 @@ def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) 
             for part in (
                 (None, None)
                 if body.heading is None
-                else own_axes(curve_of(motions, label), body.heading)
+                else own_axes(curve_of(motions, label, found.engaged_time), body.heading)
             )
         ]
         found = found._replace(history=(*found.history, *own))
