@@ -2,6 +2,7 @@
 outside is found again from everything that may be known.
 """
 
+import math
 import random
 
 import numpy as np
@@ -119,3 +120,37 @@ def test_a_delta_v_that_tyres_alone_would_give_is_no_impact():
     with pytest.raises(col.NoSolutionError, match="tyres alone") as refused:
         reconstruct.inline_closing_speed(1500, 1300, 0.2, delta_v_a=0.5, duration=0.1, drag_a=0.7)
     assert refused.value.code == "contradictory"
+
+
+@pytest.mark.parametrize("restitution", [0.2, lambda closing: 0.2])
+@pytest.mark.parametrize("closing", [4.0, 12.0, 32.0])
+def test_the_size_of_a_delta_v_that_its_tyres_may_have_made(closing, restitution):
+    """A lorry that brakes is hit from behind: whether it ends faster or slower its size does not
+    say, and both closing speeds lead forwards to it.
+    """
+    lost = -0.7 * G * 20000.0 * 0.15
+    place = {"x": 0.0, "y": 0.0, "yaw_inertia": math.inf}
+
+    def delta_v(speed):
+        a = col.Vehicle(mass=1200, vx=8.0 + speed, **place)
+        b = col.Vehicle(mass=20000, vx=8.0, **place)
+        return col.eccentric(
+            a, b, 0.2, normal=0, point=(0, 0), friction=0, outside_b=(lost, 0)
+        ).b.delta_vx
+
+    seen = delta_v(closing)
+    known = {"delta_v_b": abs(seen), "duration": 0.15, "drag_b": 0.7}
+    if closing > 30.0:  # beyond what the tyres could do alone
+        assert seen > 0.0
+        found = reconstruct.inline_closing_speed(1200, 20000, restitution, **known)
+        assert found == pytest.approx(closing, rel=1e-12)
+        return
+    with pytest.raises(col.AmbiguousSolutionError, match="closing speeds of") as caught:
+        reconstruct.inline_closing_speed(1200, 20000, restitution, **known)
+    slow, fast = caught.value.solutions
+    assert slow == pytest.approx(closing, rel=1e-12)
+    assert delta_v(fast) == pytest.approx(-seen, rel=1e-12)
+    known["delta_v_b"] = np.array([abs(seen), 3.0])
+    with pytest.warns(col.CollisionsWarning, match="1 ambiguous"):
+        found = reconstruct.inline_closing_speed(1200, 20000, restitution, **known)
+    assert np.isnan(found).tolist() == [True, False]

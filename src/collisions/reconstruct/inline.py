@@ -98,7 +98,9 @@ def inline_closing_speed(
     InputError
         An argument that cannot be used, or a function whose value is outside 0 to 1.
     AmbiguousSolutionError
-        More than one closing speed agrees with the restitution function; all are in ``solutions``.
+        More than one closing speed agrees with the restitution function, or two with the delta-V of
+        B: its tyres may have slowed B by so much more than A pushed, or A have pushed by so much
+        more. All are in ``solutions``.
     NoSolutionError
         No closing speed fits.
 
@@ -140,18 +142,14 @@ def inline_closing_speed(
     )
     reader.close()
     cases = Cases.of(numbers)
+    say = Sentences(reader.texts.values())
     if callable(restitution):
-        return _with_function(
-            cases,
-            kind,
-            numbers,
-            RestitutionOf(restitution, cases),
-            Sentences(reader.texts.values()),
-        )
-    return _with_number(cases, kind, numbers)
+        return _with_function(cases, kind, numbers, RestitutionOf(restitution, cases), say)
+    return _with_number(cases, kind, numbers, say)
 
 
-def _closing_speed(kind: str, numbers: dict[str, Any]) -> Any:
+def _closing_speeds(kind: str, numbers: dict[str, Any]) -> tuple[Any, Any]:
+    """The closing speed, and a second one that fits as well, NaN where there is none."""
     values = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
     with np.errstate(all="ignore"):
         share_a, share_b, reduced, _ = shares(values["mass_a"], values["mass_b"])
@@ -164,35 +162,43 @@ def _closing_speed(kind: str, numbers: dict[str, Any]) -> Any:
                 )
                 for label in "ab"
             }
-            return _held_closing_speed(kind, values, share_a, share_b, reduced, slowed)
+            return _held_closing_speeds(kind, values, share_a, share_b, reduced, slowed)
         if kind == "energy_loss":
-            return losing_speed(values["energy_loss"] / reduced, values["restitution"])
-        if kind in PAIRS:
+            found = losing_speed(values["energy_loss"] / reduced, values["restitution"])
+        elif kind in PAIRS:
             masses = [values[name] / reduced for name in ("mass_a", "mass_b")]
             per_mass = energy_of_speeds(masses[0], values[kind], masses[1], values[PAIRS[kind]])
-            return losing_speed(per_mass, values["restitution"] if kind == "ees_a" else 0.0)
-        return changing_speed(
-            values[kind], share_a if kind == "delta_v_a" else share_b, values["restitution"]
-        )
+            found = losing_speed(per_mass, values["restitution"] if kind == "ees_a" else 0.0)
+        else:
+            found = changing_speed(
+                values[kind], share_a if kind == "delta_v_a" else share_b, values["restitution"]
+            )
+        return found, np.nan * found
 
 
-def _held_closing_speed(
+def _held_closing_speeds(
     kind: str, values: dict[str, Any], share_a: Any, share_b: Any, reduced: Any, slowed: Any
-) -> Any:
+) -> tuple[Any, Any]:
     """The same where tyres slow the vehicles by so much while the contact lasts.
 
     The impulse of the contact, per reduced mass, is (1 + e) c + k: it turns the closing speed c
     into the separation speed e c although tyres close the gap by -k, k = slowed B - slowed A. The
-    energy that it takes is its product with the mean of the closing speeds before and after.
+    energy that it takes is its product with the mean of the closing speeds before and after. A is
+    slowed by both, B pushed on by the contact alone: so the size of its delta-V may be that of
+    either sign.
     """
     e, more = values["restitution"], slowed["b"] - slowed["a"]
     if kind.startswith("delta_v"):
         by_contact = (
-            (values[kind] - slowed["a"]) / share_a
+            ((values[kind] - slowed["a"]) / share_a, np.nan)
             if kind == "delta_v_a"
-            else (values[kind] + slowed["b"]) / share_b
+            else tuple((slowed["b"] + sign * values[kind]) / share_b for sign in (1.0, -1.0))
         )
-        return np.where(by_contact > 0.0, (by_contact - more) / (1.0 + e), -1.0)
+        first, second = (
+            np.where(each > 0.0, (each - more) / (1.0 + e), -1.0) for each in by_contact
+        )
+        # Without a delta-V both are one.
+        return first, np.where((second > 0.0) & (second < first), second, np.nan)
     if kind == "energy_loss":
         energy = values[kind] / reduced
     else:
@@ -201,13 +207,19 @@ def _held_closing_speed(
     # Until a common velocity all of the approach is taken; restitution brings a part of it back.
     taken = 1.0 if kind.startswith("max_crush") else (1.0 - e) * (1.0 + e)
     half = 0.5 * more / (1.0 + e)
-    return np.sqrt(half * half + 2.0 * energy / taken) - half
+    found = np.sqrt(half * half + 2.0 * energy / taken) - half
+    return found, np.nan * found
 
 
 def _with_number(
-    cases: Cases, kind: str, numbers: dict[str, Any], found: Any = None, faults: Any = ()
+    cases: Cases,
+    kind: str,
+    numbers: dict[str, Any],
+    say: Sentences,
+    found: Any = None,
+    faults: Any = (),
 ) -> Value:
-    speed = _closing_speed(kind, numbers) if found is None else found
+    speed, other = _closing_speeds(kind, numbers) if found is None else (found, np.nan)
     status = cases.first_status(
         (
             *input_faults(numbers),
@@ -219,6 +231,7 @@ def _with_number(
             *faults,
             *drag_faults(numbers),
             (("duration" in numbers) & np.less_equal(speed, 0.0), Status.CONTRADICTORY),
+            (np.greater(other, 0.0), Status.AMBIGUOUS),
             (~cases.beyond(speed), Status.OK),
             (
                 kind in ("energy_loss", "ees_a") and np.equal(numbers["restitution"], 1.0),
@@ -228,6 +241,16 @@ def _with_number(
         )
     )
 
+    if cases.shape is None and status == Status.AMBIGUOUS:
+        both = cases.values(other), cases.values(speed)
+        slow, fast = say.apart(both, "speed")
+        raise AmbiguousSolutionError(
+            f"a delta-V of B of this size fits closing speeds of {slow}, at which its tyres slow "
+            f"B by more than A pushes it on, and of {fast}, at which A pushes it on by more; give "
+            "delta_v_a or an energy, or both speeds of B to reconstruct.central",
+            code="ambiguous",
+            solutions=both,
+        )
     if cases.shape is None and status != Status.OK:
         text = {
             Status.IMMOVABLE: "both masses are infinite; give at least one a finite mass",
@@ -258,32 +281,33 @@ def _with_function(
     cases: Cases, kind: str, numbers: dict[str, Any], function: RestitutionOf, say: Sentences
 ) -> Value:
     if cases.shape is None:
-        _with_number(cases, kind, numbers)  # refuses inputs that are wrong whatever the restitution
+        # Refuses inputs that are wrong whatever the restitution.
+        _with_number(cases, kind, numbers, say, _closing_speeds(kind, numbers)[0])
     shape = cases.shape or ()
     flat = {
         name: np.broadcast_to(np.asarray(value, dtype=np.float64), shape).reshape(-1)
         for name, value in numbers.items()
     }
 
-    def speed(e: Any, case: Any) -> Any:
-        return _closing_speed(
+    def speeds(e: Any, case: Any) -> tuple[Any, Any]:
+        return _closing_speeds(
             kind, {name: value[case] for name, value in flat.items()} | {"restitution": e}
         )
 
     def mismatch(e: Any, case: Any) -> list[Any]:
         # Both speeds of maximum crush give the closing speed without e.
-        return [function(speed(e, case) + 0.0 * e) - e]
+        return [function(speed + 0.0 * e) - e for speed in speeds(e, case)]
 
     count = math.prod(shape)
     found: list[set[float]] = [set() for _ in range(count)]
-    for case, _, e in crossings(mismatch, count):
-        found[case] |= {float(speed(np.float64(e), case))}
+    for case, which, e in crossings(mismatch, count):
+        found[case] |= {float(speeds(np.float64(e), case)[which])}
     each = [tuple(sorted(filter(math.isfinite, answers))) for answers in found]
     if cases.shape is not None:
         alone = np.array([answers[0] if answers else np.nan for answers in each]).reshape(shape)
         several = np.array([len(answers) > 1 for answers in each], dtype=bool).reshape(shape)
         faults = (several, Status.AMBIGUOUS), (np.isnan(alone), Status.CONTRADICTORY)
-        return _with_number(cases, kind, numbers, alone, faults)
+        return _with_number(cases, kind, numbers, say, alone, faults)
     (answers,) = each
     if not answers:
         function.complain()
