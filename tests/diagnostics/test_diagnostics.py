@@ -22,6 +22,7 @@ from collisions.diagnostics.case import MomentumCase, plain
 from collisions.diagnostics.numbers import percent
 from collisions.kernels import contact_laws
 from collisions.reporting import replay, report
+from collisions.travel import Tyres
 from scenes import FAMILIES, LAWS, RULES, draw, solved
 
 PACK = Path(__file__).resolve().parent.parent.parent / "validation"
@@ -45,6 +46,18 @@ def central(a=None, b=None, restitution=0.1, **contact):
     a = col.Vehicle(**{**CAR, "vx": 20.0, "vy": 8.0, "x": -2.2, "y": 0.0, **(a or {})})
     b = col.Vehicle(**{**OTHER, "vx": 0.0, "vy": 8.0, "x": 0.9, "y": 0.0, **(b or {})})
     return col.oblique_central(a, b, restitution, **{"normal": 0.0, "friction": 0.5, **contact})
+
+
+def in_line_with_tyres(speed):
+    """A into the rear of B, which stands with locked wheels."""
+    a, b = (
+        col.Vehicle(mass=1500, yaw_inertia=2600, vx=vx, x=x, y=0, heading=0, name=name)
+        for vx, x, name in ((speed, -2.2, "Hatch"), (0.0, 2.2, "Van"))
+    )
+    return col.eccentric(
+        a, b, 0.2, normal=0, point=(0, 0), friction=0.5, duration=0.1,
+        tyres_b=Tyres(0.7, 1, 2.7, 1.5),
+    )  # fmt: skip
 
 
 def of(code, impact, **options):
@@ -246,6 +259,10 @@ CASES = {
     "tyre_impulse": (
         lambda: (square(a={"vx": 3.0}), {}),
         lambda: (square(a={"vx": 3.0}), {"duration": "10 ms"}),
+    ),
+    "tyres_stop": (
+        lambda: (in_line_with_tyres(0.9), {}),
+        lambda: (in_line_with_tyres(9.0), {}),
     ),
     "instant": (
         lambda: (planar(0.2), {"duration": "200 ms"}),

@@ -311,6 +311,35 @@ def turned_normal_yaw(share):
     return off_the_wall(low)
 
 
+def stopped_by_its_tyres(share):
+    """A runs into B, of the same mass, which stands with locked wheels, e = 0: half of the speed v
+    goes over, less half of what the tyres take of B. Half-way 1 - cos 45 degrees of it has passed,
+    and at no moment do the tyres take more than twice the speed of B then.
+    """
+    whole, half = 0.7 * GRAVITY * 0.1, 1.0 - math.cos(0.25 * math.pi)
+
+    def taken(gained):
+        later = (4.0 / 6.0, half * gained), (1.0 / 6.0, gained)
+        return sum(weight * min(whole, 2.0 * speed) for weight, speed in later)
+
+    def lacking(v):
+        gained = 0.5 * (v - taken(0.5 * v))
+        return (5.0 / 6.0 * whole - taken(gained)) / gained
+
+    slow, fast = 0.1, 20.0
+    for _ in range(200):
+        middle = 0.5 * (slow + fast)
+        slow, fast = (middle, fast) if lacking(middle) > share else (slow, middle)
+    a, b = (
+        col.Vehicle(mass=1500, yaw_inertia=2600, vx=vx, x=x, y=0, heading=0)
+        for vx, x in ((slow, -2.0), (0.0, 2.0))
+    )
+    return col.eccentric(
+        a, b, 0.0, normal=0, point=(0, 0), friction=0, duration=0.1,
+        tyres_b=travel.Tyres(0.7, 1, 2.7, 1.5),
+    )  # fmt: skip
+
+
 def momentum_without_its_tyres(share):
     """A comes along x at 12 m/s, B along y at 10, both leave with (6, 5): what sliding tyres take
     of the momentum along x and along y in 0.1 s is by Simpson's rule, and in proportion to a drag.
@@ -452,6 +481,7 @@ ROWS = [
     Row("tyre_impulse", 0.25, OWN, lambda x: in_line(2.0 * 0.7 * GRAVITY * 0.1 / x)),
     Row("tyre_impulse", 0.25, OWN, lambda x: by_momentum((6.0, 0.8 * 0.07 * GRAVITY / x),
         (0.6 * 0.07 * GRAVITY / x, 5.0))),
+    Row("tyres_stop", 0.05, OWN, stopped_by_its_tyres),
     Row("instant", 0.1, MESSAGES, lambda x: reconstruct.central(
         1500.0, 1500.0, va=2.0 * 0.07 * GRAVITY / x, vb=0.0, restitution=0.0)),
     Row("instant", 0.1, MESSAGES, momentum_without_its_tyres),

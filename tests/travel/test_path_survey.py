@@ -252,13 +252,13 @@ def test_what_a_yaw_takes_from_the_drag_is_as_the_docstring_has_it(yaw, low, hig
     assert np.median(off) == pytest.approx(0.2 * yaw**2, abs=0.006)
 
 
-def followed(lock, yaw, crab, speed=12.0):
+def followed(lock, yaw, crab, speed=12.0, gyration=1.265):
     """How much too high the speed is that ``path`` reads from a motion of ``simulate``, and whether
     it warns.
     """
     car = col.Vehicle(
         mass=1500.0,
-        yaw_inertia=2400.0,
+        yaw_inertia=1500.0 * gyration**2,
         x=0.0,
         y=0.0,
         heading=crab,
@@ -288,8 +288,12 @@ def test_wheels_that_are_braked_less_are_warned_of_sooner(lock, most):
 
 def test_what_a_yaw_takes_from_the_drag_by_the_lock():
     """The docstring: 0.35 of the square with locked wheels, 0.3 to 0.9 with wheels that are braked;
-    at 0.45 the speed is 3.6 % and 3 to 7 % too high.
+    at 0.45 the speed is 3 to 5.5 %, by the radius of gyration, and 3 to 7 % too high.
     """
+    by_gyration = [followed(1.0, 0.45, 0.5, gyration=k)[0] for k in (1.2, 1.3, 1.4, 1.5)]
+    assert by_gyration == sorted(by_gyration)
+    assert 0.03 < by_gyration[0]
+    assert by_gyration[-1] < 0.055
     for lock, low, high, of in ((1.0, 0.33, 0.38, (0.034, 0.039)), (0.4, 0.3, 0.9, (0.03, 0.07))):
         offs = [followed(lock, 0.45, crab)[0] for crab in (0.0, 0.5, 1.0, 1.5, 2.0)]
         assert of[0] < min(offs)

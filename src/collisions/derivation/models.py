@@ -359,7 +359,8 @@ def _from_outside(page: Page, s: Symbols, levers: Sequence[Lever]) -> tuple[Expr
             )
             whence = (
                 "The tyres, by their mean force before, half-way through and after the contact "
-                f"times its duration{given} act as an impulse"
+                "times its duration, for no wheel more at any of these than stops half of the "
+                f"mass{given or ','} act as an impulse"
             )
         page.say(
             f"{whence} on {label}: {page.shown(j_x)}, {page.shown(j_y)}, with "

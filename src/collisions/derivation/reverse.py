@@ -412,7 +412,8 @@ def _planar(page: Page, s: Symbols, kind: str) -> None:
     if s.impact.inputs.tyres:
         page.say(
             "The tyres act meanwhile, with the mean of their force before, half-way through and "
-            "after the contact times its duration. That follows from the motions which are sought: "
+            "after the contact times its duration, for no wheel more at any of these than stops "
+            "half of the mass. That follows from the motions which are sought: "
             "those of the instant were refined, by Newton's method, until the contact with its "
             "tyres, solved forwards, ends in the motions after."
         )

@@ -8,10 +8,11 @@ import math
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from ..impact.impact import Impact
+from ..impact.impact import Impact, answer_of
 from ..impact.inputs import PLACED
 from ..impact.instant import neglected, tyres_acted
 from ..impact.reconstruction import Reconstruction, bounds_of, how_many, known_in_words
+from ..impact.time_resolved_inputs import held_impulse, whole_impulse
 from ..impact.vehicle_result import VehicleResult
 from ..reconstruct.found_again import components_apart
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
@@ -166,6 +167,34 @@ def tyre_impulse(case: Case) -> Iterator[Measured]:
         sentence = (
             f"tyres of {vehicle.who} {slide} give {how} {case.text(most, 'speed')}, "
             f"{percent(part)} of its delta-V of {case.text(vehicle.delta_v, 'speed')}"
+        )
+        yield Measured(part, sentence, label)
+
+
+@finding(
+    "impulse that tyres taken as an instant lack of their whole force, because they would stop the "
+    "vehicle, as a share of the momentum that it gains",
+    above(0.05),
+    "set here: half of what answers to one question may differ by",
+)
+def tyres_stop(case: ImpactCase) -> Iterator[Measured]:
+    impact = case.answer
+    if impact.pulse is not None:
+        return
+    for label, who, side in case.sides:
+        if label not in impact.inputs.tyres or math.isinf(side.before.mass):
+            continue
+        given, whole = (
+            impulse(impact.inputs, answer_of(impact), label)
+            for impulse in (held_impulse, whole_impulse)
+        )
+        lacks = math.hypot(whole[0] - given[0], whole[1] - given[1])
+        part = share(lacks, side.before.mass * side.delta_v)
+        sentence = (
+            f"tyres of {who}, which is slow, would stop it within the duration of the contact, and "
+            f"were given no more than that takes: {case.text(lacks, 'impulse')} less than their "
+            f"whole force, {percent(part)} of the momentum that the vehicle gains. Their impulse "
+            "is rough then: follow the contact in time, by time_resolved"
         )
         yield Measured(part, sentence, label)
 

@@ -15,10 +15,11 @@ import numpy as np
 from ..kernels.contact_laws import BRACH
 from ..kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE, select
 from ..kernels.status import Answer, Passed, Status, WithTyres
-from ..messages.errors import InputError, MissingInputError, ShapeError
+from ..messages.errors import InputError, MissingInputError, NoImpactError, ShapeError
 from ..quantities.attributes import read_only
 from ..quantities.directions import from_radians
 from ..quantities.reading import ArgumentReader, is_whole
+from ..quantities.tables import said
 from ..quantities.units import shown
 from ..vehicle.drag import GRAVITY, read_drag, read_duration
 from ..vehicle.tyres import Tyres, kernel_numbers, not_tyres
@@ -309,7 +310,19 @@ def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
                 )
                 for name, parts in outside.items()
             }
-    raw = solve(_alike(inputs, tyres_a=None, tyres_b=None, duration=None, **outside), False)
+    try:
+        raw = solve(_alike(inputs, tyres_a=None, tyres_b=None, duration=None, **outside), False)
+    except NoImpactError as error:
+        if inputs.shape is not None or first.status > Status.ENERGY_GAIN:
+            raise
+        speed = said(first.closing_speed, "speed", inputs.texts)
+        raise NoImpactError(
+            f"no impact: the vehicles approach at {speed}, and their tyres, by their mean force "
+            "over the duration, would part them before; that is too slow for tyres as an impulse: "
+            "follow the contact in time, by time_resolved",
+            code=error.code,
+            closing_speed=first.closing_speed,
+        ) from None
     with np.errstate(all="ignore"):
         return beside_tyres(inputs, raw, pushes)
 
@@ -352,7 +365,6 @@ def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any
     if tyres is None or body.heading is None:
         return NO_IMPULSE
     changes = [getattr(answer, f"delta_{name}_{label}") for name in ("vx", "vy", "yaw_rate")]
-    inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
     if inputs.shape is None:
         half = passed(inputs.restitution, 0.5)
     else:
@@ -361,7 +373,7 @@ def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any
             half = passed(inputs.restitution, 0.5)
     return impulse_of(
         tyres,
-        (body.mass, inertia, body.heading),
+        (body.mass, body.heading),
         (body.vx, body.vy, body.yaw_rate),
         changes,
         (half, inputs.duration),
@@ -369,20 +381,31 @@ def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any
     )
 
 
+# Of the duration: no wheel stops in so little.
+_LITTLE = 2.0**-20
+
+
+def whole_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, ...]:
+    """The same with the whole force of every wheel all the while, even if it would stop."""
+    duration: Any = inputs.duration
+    little = _alike(inputs, duration=_LITTLE * duration)
+    return tuple(part / _LITTLE for part in held_impulse(little, answer, label))
+
+
 def impulse_of(
     tyres: Tyres,
-    body: tuple[Any, Any, Any],
+    body: tuple[Any, Any],
     before: Sequence[Any],
     changes: Sequence[Any],
     times: tuple[Any, Any],
     *,
     single: bool,
 ) -> tuple[Any, Any, Any]:
-    """The same from mass, yaw inertia and heading of a body, its motion before and what the contact
-    changes of it, and of the times the share of the change at half of the duration, and that.
+    """The same from mass and heading of a body, its motion before and what the contact changes of
+    it, and of the times the share of the change at half of the duration, and that.
     """
-    mass, inertia, heading = body
-    numbers = [mass, inertia, *from_radians(heading), *before, *changes, *times, GRAVITY]
+    mass, heading = body
+    numbers = [mass, *from_radians(heading), *before, *changes, *times, GRAVITY]
     if single:
         own = kernel_numbers(tyres.named)
     else:

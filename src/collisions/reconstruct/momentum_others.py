@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 _FAST, _ONE_ANSWER = 8.0, 1e-3
 # Where it is begun: parts of twice what the tyres can change, as no answers are farther apart, and
 # directions.
-_PARTS, _DIRECTIONS = (0.2, 0.5, 1.0), 8
+_PARTS, _DIRECTIONS = (0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0), 16
 # And then between the answer and the farthest other.
-_BETWEEN = (0.2, 0.35, 0.5, 0.65, 0.8)
+_BETWEEN = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 
 
 class Other(NamedTuple):

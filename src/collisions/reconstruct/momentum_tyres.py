@@ -99,7 +99,7 @@ class Lasting(NamedTuple):
                 numbers = [float(number) for number in numbers]
             x, y, _ = impulse_of(
                 tyres,
-                (masses[label], math.inf, headings[label]),
+                (masses[label], headings[label]),
                 numbers[:3],
                 numbers[3:],
                 (PASSED_AT_HALF, self.duration),

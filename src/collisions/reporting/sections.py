@@ -89,8 +89,8 @@ _GEOMETRIES = {
 }
 _TYRES = (
     "their mean force before, half-way through and after the contact, times its duration, acts "
-    "as an impulse from outside; wheels roll, brake and steer, with the force that they have on "
-    "the way to rest."
+    "as an impulse from outside, for no wheel more than stops half of the mass; wheels "
+    "roll, brake and steer, with the force that they have on the way to rest."
 )
 _RANGE = (
     reference.RESTITUTION_FIT,

@@ -223,8 +223,9 @@ def path(
     In ``simulate``, which includes the yawing, the drag along the path is lower, by a fraction that
     grows as r**2, with r the yaw rate times 1.5 m over the speed, both at separation: 0.35 r**2
     with locked wheels, and with wheels that are braked 0.3 to 0.9 r**2, mostly 0.4 to 0.5. The
-    speed is too high by half of that: at r = 0.45 by 3.6 % with locked wheels, by 3 to 7 % with a
-    lock of 0.4, and at the limit of the warning by up to 8 % with any lock.
+    speed is too high by half of that: at r = 0.45 by 3 to 5.5 % with locked wheels, the more the
+    larger the radius of gyration (of the 0.35, it is 1.26 m), by 3 to 7 % with a lock of 0.4, and
+    at the limit of the warning by up to 8 % with any lock.
 
     Positions and headings are smoothed first, each by a weighted least-squares parabola about its
     point (local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829, here of degree 2): chords
