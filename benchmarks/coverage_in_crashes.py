@@ -60,6 +60,7 @@ DURATION_ERROR, GROUND_ERROR, LOCK_ERROR = (
 FASTEST = 40.0  # m/s; before the evidence any speed up to this is as likely
 OF_TYRES = ("wheelbase", "track", "cornering", "height")
 ENDED = 10.0  # s after first contact, when none lasts any more
+PARTS = 20  # of a contact that is taken as an instant, in which its recorders turn
 STEPS = 20  # of a contact in time: within 0.1 % of those of 100
 LOST = 0.02  # of the samples: above, the range is of the others, and the route counts as refused
 COVERAGE = 0.998  # of the binomial interval of a share held
@@ -337,6 +338,31 @@ def shown(reading: Reading, side: Any, label: str, duration: Any) -> tuple[Any, 
     )
 
 
+def summed(reading: Reading, side: Any, label: str, duration: Any, e: Any) -> tuple[Any, Any]:
+    """The same along axes that turn with the car, forward where it is engaged the most.
+
+    The force is that of a linear spring that unloads along a stiffer one: the impulse up to a time
+    is a quarter of a cosine until 1 / (1 + e) of the duration, and then a quarter of a sine.
+    """
+    centre = np.array((side.delta_v_forward, side.delta_v_left))
+    place = np.array(shown(reading, side, label, duration)) - centre
+    times = np.linspace(0.0, 1.0, PARTS + 1).reshape(-1, *[1] * np.ndim(e)) * (1.0 + e)
+    back = np.where(e > 0.0, np.clip(times - 1.0, 0.0, None) / np.where(e > 0.0, e, 1.0), 0.0)
+    pressed = 1.0 - np.cos(0.5 * math.pi * np.clip(times, 0.0, 1.0))
+    share = (pressed + e * np.sin(0.5 * math.pi * np.clip(back, 0.0, 1.0))) / (1.0 + e)
+    spin = side.before.yaw_rate + share * side.delta_yaw_rate
+    steps = 0.5 * (spin[1:] + spin[:-1]) * (duration / PARTS)
+    turned = np.concatenate((0.0 * steps[:1], np.cumsum(steps, axis=0)))
+    engaged = PARTS / (1.0 + e)
+    whole = np.minimum(np.floor(engaged), PARTS - 1.0).astype(np.intp)
+    low, high = (np.take_along_axis(turned, whole[None] + more, axis=0)[0] for more in (0, 1))
+    angle = 0.5 * (turned[1:] + turned[:-1]) - (low + (engaged - whole) * (high - low))
+    acted = np.diff(share, axis=0)
+    cos, sin = (np.sum(acted * function(angle), axis=0) for function in (np.cos, np.sin))
+    forward, left = centre
+    return cos * forward + sin * left + place[0], cos * left - sin * forward + place[1]
+
+
 class Evidence(NamedTuple):
     """What is seen of a crash as evidence of a model: ``eccentric``, and the contact in time as the
     finer one.
@@ -423,7 +449,11 @@ def of_recorders(reading: Reading, recorders: str, speed: str = "") -> Evidence:
         duration = values.get("duration", 0.0)
         read = {
             label: dict(
-                zip(("forward", "left"), shown(reading, side, label, duration), strict=True)
+                zip(
+                    ("forward", "left"),
+                    summed(reading, side, label, duration, values["restitution"]),
+                    strict=True,
+                )
             )
             for label, side in (("a", impact.a), ("b", impact.b))
         }
