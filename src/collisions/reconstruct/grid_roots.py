@@ -25,8 +25,8 @@ class Narrowing(NamedTuple):
     sign as well. A turning point where it is not above ``touching`` is one.
 
     ``near`` says how near 0 the mismatch has to come to be looked at: to so many times what it
-    changes in a cell there or beside it. With it all such cells are subdivided before, and only
-    what these show is looked at.
+    changes in a cell there or beside it. So many times as ``closer`` says, all such cells are
+    subdivided before, and only what these show is looked at.
     """
 
     largest: float
@@ -34,6 +34,7 @@ class Narrowing(NamedTuple):
     turns: int = _ROUNDS
     touching: float = -1.0
     near: float = np.inf
+    closer: int = 0
 
 
 def roots_on_grid(
@@ -61,12 +62,11 @@ def _roots_on_grid(
     values = values.reshape(-1, grid.size)
     row, of = np.divmod(np.arange(len(values)), max(cases.size, 1))
     lines = _Lines(row, cases[of], np.broadcast_to(grid, values.shape), values)
-    closer = how.near < np.inf
-    if closer:
-        lines = _closer(mismatch, lines, how.near)
+    for number in range(how.closer):
+        lines = _closer(mismatch, lines, how.near, min(number, 1))
     signs, known, size = np.sign(lines.values), np.isfinite(lines.values), abs(lines.values)
     # What is before the first cell of a part is looked at with the part there.
-    own = 1 if closer else 0
+    own = min(how.closer, 1)
     changes = abs(np.diff(lines.values))
 
     line, i = np.nonzero(_changes(signs)[:, own:])
@@ -75,7 +75,7 @@ def _roots_on_grid(
     line, i = np.nonzero(known[:, own:-1] != known[:, own + 1 :])
     i += own
     i, outside = np.where(known[line, i], (i, i + 1), (i + 1, i))
-    if closer:
+    if how.closer:
         # The last cell before the end; of one that is not there the end is looked at.
         last = np.clip(np.minimum(i, 2 * i - outside), 0, changes.shape[1] - 1)
         near = ~(size[line, i] > how.near * changes[line, last])
@@ -88,7 +88,7 @@ def _roots_on_grid(
     same = signs[:, :-1] * signs[:, 1:] > 0.0
     turning = same[:, :-1] & same[:, 1:]
     turning &= size[:, 1:-1] <= np.minimum(size[:, :-2], size[:, 2:])
-    if closer:
+    if how.closer:
         turning &= size[:, 1:-1] <= how.near * np.maximum(changes[:, :-1], changes[:, 1:])
     line, i = np.nonzero(turning)
     around, side = lines.brackets(line, i, i + 2), signs[line, i][:, np.newaxis]
@@ -126,8 +126,10 @@ class _Lines(NamedTuple):
         return _Brackets(self.row[line], self.case[line], *ends)
 
 
-def _closer(mismatch: _Mismatch, lines: _Lines, near: float) -> _Lines:
-    """The cells in which the mismatch may come to 0, each in pieces, with one more before it."""
+def _closer(mismatch: _Mismatch, lines: _Lines, near: float, own: int) -> _Lines:
+    """The cells in which the mismatch may come to 0, each in pieces, with one more before it; the
+    first of a line is ``own``.
+    """
     size = abs(lines.values)
     changes = abs(np.diff(lines.values))
     # A cell that reaches where there is no answer has what changes beside it alone.
@@ -135,7 +137,8 @@ def _closer(mismatch: _Mismatch, lines: _Lines, near: float) -> _Lines:
     most = np.fmax(np.fmax(padded[:, :-2], padded[:, 2:]), changes)
     least = np.fmin(size[:, :-1], size[:, 1:])
     # Between places without an answer nothing is looked for; one alone among them is.
-    line, i = np.nonzero(np.isfinite(least) & ~(least > near * most))
+    line, i = np.nonzero((np.isfinite(least) & ~(least > near * most))[:, own:])
+    i += own
     low, high = lines.places[line, i], lines.places[line, i + 1]
     part = _Brackets(lines.row[line], lines.case[line], low - (high - low) / _PIECES, high)
     return _Lines(part.row, part.case, *_sampled(mismatch, part, _PIECES + 1))

@@ -184,8 +184,8 @@ def speeds(
         needed without a speed or an energy: one that none of these leads to is missed, as
         ``.statements`` say. Beside a known speed and one other known value there is no such grid:
         the unknown speed is looked through both ways to 60 m/s, three times what both stand for or
-        twice the answers of the instant, whichever is most, in 64 steps each way, and 16 to a step
-        where an answer may be near; two answers within one of these may be missed.
+        twice the answers of the instant, whichever is most, in 64 steps each way, and 256 to a
+        step where an answer may be near; two answers within one of these may be missed.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional

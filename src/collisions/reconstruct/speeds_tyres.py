@@ -58,7 +58,7 @@ LINE_STEPS, LINE_REACH = 64, 60.0
 _TIMES_INSTANT = 2.0
 # Roots there are narrowed until they lead to an answer, which is then refined; a turning point as
 # near as this, as a share of the reach, may be one.
-_ON_LINE = Narrowing(np.inf, rounds=3, turns=7, touching=1e-7, near=2.0)
+_ON_LINE = Narrowing(np.inf, rounds=2, turns=6, touching=1e-7, near=2.0, closer=2)
 # Of the reach: what is missed by no more is met.
 _ROUNDING = 1e-14
 # Of so many of a case, of which the known values then say nothing, no more are tried.
