@@ -54,7 +54,7 @@ _STANDS_FOR_NONE = ("ees_b", "max_crush_speed_b")
 _PARTS = (0.1, 0.3, 0.6, 1.0, 1.5)
 # Beside a known speed the other is looked through in so many steps to either side, as far as this,
 # in m/s, and as so many times the fastest answer of the instant.
-LINE_STEPS, LINE_REACH = 64, 60.0
+_LINE_STEPS, _LINE_REACH = 64, 60.0
 _TIMES_INSTANT = 2.0
 # Roots there are narrowed until they lead to an answer, which is then refined; a turning point as
 # near as this, as a share of the reach, may be one.
@@ -514,7 +514,7 @@ def starts_on_line(
     """
     label = "b" if "speed_a" in known else "a"
     at = "ab".index(label)
-    reach = np.fmax(_PARTS[-1] * _most(inputs, known, shape), LINE_REACH)
+    reach = np.fmax(_PARTS[-1] * _most(inputs, known, shape), _LINE_REACH)
     for pair in instant:
         reach = np.fmax(reach, _TIMES_INSTANT * abs(pair[at]))
     fixed = np.broadcast_to(np.asarray(known[f"speed_{'ba'[at]}"], dtype=np.float64), shape)
@@ -539,7 +539,7 @@ def starts_on_line(
             # Of values that say nothing of the speed, what is missed is all rounding.
             return [np.where(abs(share) <= _ROUNDING, 0.0, share)]
 
-    grid = np.arange(-LINE_STEPS, LINE_STEPS + 1.0) / LINE_STEPS
+    grid = np.arange(-_LINE_STEPS, _LINE_STEPS + 1.0) / _LINE_STEPS
     found: list[list[float]] = [[] for _ in range(reaches.size)]
     for case, _, share in roots_on_grid(mismatch, reaches.size, grid, _ON_LINE):
         if len(found[case]) < _MOST_STARTS:
