@@ -467,7 +467,12 @@ def test_a_flat_answer_has_no_condition_that_looks_well():
     impact = col.eccentric(a, b, **contact, **lasts)
     known = {"course_a": 0.0, "course_b": "90 deg", "speed_a": 15.0, "delta_v_b": impact.b.delta_v}
     found = reconstruct.speeds(a, b, **contact, **known, **lasts)
-    assert min(one.reconstruction.condition for one in found) > 1e5
+    slid = [one for one in found if one.regime == "sliding"]
+    assert min(one.reconstruction.condition for one in slid) > 1e5
+    # One that stuck has this delta-V too.
+    for one in found:
+        again = col.eccentric(one.a.before, one.b.before, **contact, **lasts)
+        assert again.b.delta_v == pytest.approx(impact.b.delta_v, rel=1e-9)
     assert {"ill_conditioned", "not_unique"} <= {one.code for one in col.diagnose(found[0])}
 
 
@@ -633,3 +638,108 @@ def test_speeds_that_meet_more_than_is_needed_are_found_from_afar(case):
                 assert told == pytest.approx(shown[name], abs=1e-4)
     speeds = [(one.a.before.speed, one.b.before.speed) for one in found]
     assert any(one == pytest.approx(pair, rel=1e-4) for one in speeds)
+
+
+def along_b(impact, course):
+    """The speed of B along its course, below 0 backwards."""
+    return impact.b.before.vx * math.cos(course) + impact.b.before.vy * math.sin(course)
+
+
+def test_beside_a_known_speed_one_of_three_answers_is_not_left_out():
+    """A scan with ``eccentric`` shows three speeds of B; starts far from it led to two."""
+    a = col.Vehicle(
+        mass=1739.728238987327, yaw_inertia=1843.589103691465, x=-2.431587015788364,
+        y=0.6889392765171745, vx=20.18639496564865, vy=0.17436630524189667,
+        yaw_rate=2.7342645368280047, heading=-3.5324468260789894,
+    )  # fmt: skip
+    b = col.Vehicle(
+        mass=1181.1413979377498, yaw_inertia=2956.3723320257973, x=0.7038377971888874,
+        y=0.7618864948600468, vx=1.0342615328604339, vy=-4.884434474811593,
+        heading=0.7018162579774856,
+    )  # fmt: skip
+    contact = {
+        "normal": 0.7875946241225049, "point": (0.021419555680452507, 0.8792152124118517),
+        "friction": 0.7331170443149204, "restitution": 0.0, "duration": 0.14660781764445666,
+        "tyres_a": Tyres(
+            0.6667788748729144, 0.8600676280633616, 3.021976392522025, 1.5536354356052529,
+            steer=0.018320068367342568,
+        ),
+        "tyres_b": Tyres(
+            0.9842339296170557, 0.6958797254257115, 3.818503902761825, 1.9685143385088886
+        ),
+    }  # fmt: skip
+    lost = col.eccentric(a, b, **contact).energy_loss
+    assert lost == pytest.approx(140996.3279980885, rel=1e-12)
+    known = {"course_a": a.course, "course_b": b.course, "speed_a": a.speed}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        found = reconstruct.speeds(a, b, **known, energy_loss=lost, **contact)
+        batch = reconstruct.speeds(
+            a, b, **known, energy_loss=np.array([lost, 1.2 * lost, lost]), **contact
+        )
+    speeds = sorted(along_b(one, b.course) for one in found)
+    assert speeds == pytest.approx([-4.444446, 4.992734, 7.825806], abs=1e-6)
+    assert any("by a scan of the unknown speed" in text for text in found[0].statements)
+    for i in (0, 2):
+        both = sorted(float(along_b(one, b.course)[i]) for one in batch)
+        assert [one for one in both if math.isfinite(one)] == pytest.approx(speeds, rel=1e-9)
+
+
+def met_fast_or_slow(rng):
+    """Two cars as fast as on roads, either way, turning or not, and their contact."""
+    cars = []
+    for x, vx in ((rng.uniform(-3, -1), (0, 25)), (rng.uniform(0.5, 3), (-20, 5))):
+        mass = rng.uniform(700, 3000)
+        cars.append(
+            col.Vehicle(
+                mass=mass, yaw_inertia=mass * rng.uniform(1, 1.7) ** 2, x=x,
+                y=rng.uniform(-1.5, 1.5), vx=rng.uniform(*vx), vy=rng.uniform(-15, 15),
+                yaw_rate=rng.choice((0, rng.uniform(-3, 3))), heading=rng.uniform(-4, 4),
+            )
+        )  # fmt: skip
+    contact = {
+        "normal": rng.uniform(-0.8, 0.8), "restitution": rng.choice((0, 0.1, rng.uniform(0, 1))),
+        "point": (rng.uniform(-0.3, 0.3), rng.uniform(-1, 1)),
+        "friction": rng.choice((0, 0.4, math.inf, rng.uniform(0, 1.5))),
+        "duration": rng.uniform(0.05, 0.2),
+    }  # fmt: skip
+    for name in ("tyres_a", "tyres_b"):
+        contact[name] = Tyres(
+            rng.uniform(0.2, 1), rng.choice((0, 1, rng.uniform(0, 1))), rng.uniform(2, 4),
+            rng.uniform(1.2, 2), steer=rng.choice((0, rng.uniform(-0.5, 0.5))),
+        )  # fmt: skip
+    return *cars, contact
+
+
+@pytest.mark.filterwarnings("ignore::collisions.EnergyGainWarning")
+def test_beside_a_known_speed_no_answer_that_a_scan_shows_is_missed():
+    rng, met, several = random.Random(6), 0, 0
+    while met < 80:
+        a, b, contact = met_fast_or_slow(rng)
+        name = rng.choice(("energy_loss", "delta_v_a", "delta_v_b"))
+        try:
+            impact = col.eccentric(a, b, **contact)
+        except (col.NoImpactError, col.NoSolutionError):
+            continue
+        value, course = read(impact, name), b.course
+        if value < 0.1:
+            continue
+        met += 1
+        given = {**contact, name: value, "speed_a": a.speed}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.CollisionsWarning)
+            found = reconstruct.speeds(a, b, **given, course_a=a.course, course_b=course)
+        speeds = np.array([along_b(one, course) for one in found])
+        assert min(abs(speeds - b.speed)) < 1e-5 * (1.0 + b.speed)
+        for one in found:
+            again = col.eccentric(one.a.before, one.b.before, **contact)
+            assert read(again, name) == pytest.approx(value, rel=1e-6)
+        # With a step that no place of the search has.
+        tried = b.speed + np.arange(-40.0, 40.0, 0.0217)
+        moving = b.replace(vx=tried * math.cos(course), vy=tried * math.sin(course))
+        missed = read(col.eccentric(a, moving, **contact, on_failure="nan"), name) - value
+        (at,) = np.nonzero(missed[:-1] * missed[1:] < 0.0)
+        several += at.size > 1
+        for speed in 0.5 * (tried[at] + tried[at + 1]):
+            assert min(abs(speeds - speed)) < 0.02
+    assert several

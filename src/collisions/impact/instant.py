@@ -5,6 +5,7 @@ still leaves out with tyres.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +23,12 @@ LOOKED_FOR = (
     "answers are looked for from those of an instant without tyres and, unless components of "
     "delta-V alone are more than is needed, from a grid of other speeds; one that none of these "
     "leads to is missed"
+)
+# Of a known speed and one other known value.
+LOOKED_ALONG = (
+    "answers are looked for from those of an instant without tyres and by a scan of the unknown "
+    "speed, to 60 m/s both ways and further where what is known is large; one that lies beyond, or "
+    "that the steps of the scan do not tell from another or from a jump, is missed"
 )
 # Of readings of recorders away from the centre of mass, or in axes that turn.
 LOOKED_FOR_TURNS = (
@@ -109,6 +116,14 @@ def neglected(
     return Neglect(max(share for share in (tyres, motion) if math.isfinite(share)), sentence)
 
 
+def looked_for(known: Sequence[str]) -> str:
+    """How speeds with tyres were looked for, by the names of what was known, of which both EES, or
+    both speeds of maximum crush, are one.
+    """
+    along = len(known) == 2 and any(name.startswith("speed") for name in known)
+    return LOOKED_ALONG if along else LOOKED_FOR
+
+
 def tyres_acted(impact: Impact) -> bool:
     """Whether the tyres are in the answer: those given, or the drags that a reverse solver took."""
     origin = impact.reconstruction
@@ -164,7 +179,7 @@ def _motion_left_out(impact: Impact) -> tuple[str, ...]:
 def _looked_for(origin: Reconstruction) -> tuple[str, ...]:
     if origin.method == "planar":
         return (f"found with tyres: {LOOKED_AROUND}",)
-    return (f"found with tyres: {LOOKED_FOR}",)
+    return (f"found with tyres: {looked_for(origin.known)}",)
 
 
 def _worst(one: Any, other: Any) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES, Inputs, Law, check_flag, read_inputs
-from ..impact.instant import LOOKED_FOR
+from ..impact.instant import looked_for
 from ..impact.reconstruction import KNOWN
 from ..impact.recorded import Axes
 from ..impact.time_resolved_inputs import read_lasting
@@ -182,7 +182,10 @@ def speeds(
         ``slid``. Answers are looked for from those of an instant without tyres and from a grid of
         other speeds, but for readings at a recorder's place, a bound, and more components than are
         needed without a speed or an energy: one that none of these leads to is missed, as
-        ``.statements`` say.
+        ``.statements`` say. Beside a known speed and one other known value there is no such grid:
+        the unknown speed is looked through both ways to 60 m/s, three times what both stand for or
+        twice the answers of the instant, whichever is most, in 64 steps each way, and 256 to a
+        step where an answer may be near; two answers within one of these may be missed.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
@@ -308,7 +311,8 @@ def speeds(
     with np.errstate(all="ignore"):
         attempt = search.solved()
         if search.inputs.tyres:
-            state_of_study(f"speeds with tyres: {LOOKED_FOR}", "looked_for")
+            names = (*search.names, *(search.recorders.names if search.recorders else ()))
+            state_of_study(f"speeds with tyres: {looked_for(names)}", "looked_for")
             attempt = search.while_tyres_act(attempt)
             state_motion("speeds")
         else:

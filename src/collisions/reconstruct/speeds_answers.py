@@ -15,7 +15,7 @@ import numpy as np
 
 from ..impact.impact import Impact
 from ..impact.inputs import Inputs
-from ..impact.instant import LOOKED_FOR
+from ..impact.instant import looked_for
 from ..impact.reconstruction import Reconstruction, bounds_of
 from ..impact.run import error_of, warn_of_refusals
 from ..kernels.contact_laws import FRICTION
@@ -105,6 +105,7 @@ def answers_of(
     impacts: list[Impact] = []
     scenes: list[ComponentScene | None] = []
     backward, whose, turned = 0.0, "", nowhere
+    names = (*scene.names, *getattr(scene, "recorders", ()))
     for root, there in found or [(NO_ROOT, nowhere)]:
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
@@ -118,12 +119,12 @@ def answers_of(
                 raise error_of(
                     status,
                     f"no speeds were found with which a contact with these tyres has "
-                    f"{' and '.join(known)}: {LOOKED_FOR}. Give another known in place of one of "
-                    "these, check the courses and the normal, or take `reconstruct.posterior` with "
-                    "wide priors for the speeds, which looks everywhere",
+                    f"{' and '.join(known)}: {looked_for(names)}. Give another known in place of "
+                    "one of these, check the courses and the normal, or take "
+                    "`reconstruct.posterior` with wide priors for the speeds, which looks "
+                    "everywhere",
                 )
             raise _refusal(search, scene, status, say, ways.turned)
-        names = (*scene.names, *getattr(scene, "recorders", ()))
         origin = reconstruction(names, root.condition, count)
         own = scene.of_way(root.way) if isinstance(scene, ComponentScene) else None
         if own is not None:

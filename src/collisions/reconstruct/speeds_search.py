@@ -28,7 +28,7 @@ from .speeds_components import (
     friction_shown,
     together,
 )
-from .speeds_tyres import Attempt, in_balance, other_starts, speeds_with_tyres
+from .speeds_tyres import Attempt, in_balance, other_starts, speeds_with_tyres, starts_on_line
 
 
 class _Looked(NamedTuple):
@@ -263,7 +263,8 @@ class Search:
 
     def while_tyres_act(self, attempt: Attempt) -> Attempt:
         """With the roots of a contact in which the tyres act, in order, and where each is: those to
-        which the roots of the instant and other speeds lead.
+        which the roots of the instant and other speeds lead; beside a known speed and one other
+        known value those that a scan of the unknown speed shows.
 
         Roots that are in balance have the impulse of the tyres already: of a contact that stuck, or
         beside a known speed and more components than it needs. Of a case, all are tried with the
@@ -281,11 +282,20 @@ class Search:
             for label in "ab"
         }
         shape, unit = self.cases.shape or (), scene.speed_unit
-        starts = [
-            tuple(np.where(there, speed * unit, np.nan) for speed in (root.speed_a, root.speed_b))
+        starts: list[tuple[Any, Any]] = [
+            (
+                np.where(there, root.speed_a * unit, np.nan),
+                np.where(there, root.speed_b * unit, np.nan),
+            )
             for root, there in found
         ]
-        starts += other_starts(attempt.inputs, self.known, shape)
+        if knows_speed and len(self.names) == 2:
+            # Those that other starts lead to are on the line too.
+            of_line = attempt.ways_of_starts(len(found) + 1)[-1]
+            along = attempt.inputs_of_way(of_line)
+            starts += starts_on_line(along, directions, starts, self.known, shape)
+        else:
+            starts += other_starts(attempt.inputs, self.known, shape)
         if not starts:
             return attempt._replace(found=[])
         of_starts = attempt.ways_of_starts(len(starts))

@@ -3,7 +3,8 @@
 
 From components of delta-V they are found as without tyres, with the impulse of the tyres in the
 balance. It follows from the speeds that are found, so they are found again with it until it changes
-no more. All other pairs are found by Newton's method from those and from other speeds.
+no more. All other pairs are found by Newton's method from those and from other speeds: beside a
+known speed from where a scan of the other shows an answer.
 """
 
 from __future__ import annotations
@@ -12,11 +13,12 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..impact.inputs import Inputs
+from ..impact.inputs import Inputs, part_of
 from ..impact.models import ECCENTRIC
 from ..impact.run import solve_inputs
 from ..impact.time_resolved_inputs import held_impulse
@@ -26,6 +28,7 @@ from ..quantities.attributes import read_only
 from ..quantities.directions import from_radians
 from ..vehicle.vehicle import moved
 from .common import Cases
+from .grid_roots import Narrowing, roots_on_grid
 from .lasting import misses_of_impacts, settle, slopes_at
 from .speeds_algebra import EITHER, FREE, HELD, ROOT_TOL, Root, Scene
 from .speeds_components import ComponentScene, by_way
@@ -49,6 +52,17 @@ _STANDS_FOR_NONE = ("ees_b", "max_crush_speed_b")
 # Speeds that are tried beside those of the instant, as parts of what the known values stand for:
 # where tyres weigh much there are answers that have none there.
 _PARTS = (0.1, 0.3, 0.6, 1.0, 1.5)
+# Beside a known speed the other is looked through in so many steps to either side, as far as this,
+# in m/s, and as so many times the fastest answer of the instant.
+_LINE_STEPS, _LINE_REACH = 64, 60.0
+_TIMES_INSTANT = 2.0
+# Roots there are narrowed until they lead to an answer, which is then refined; a turning point as
+# near as this, as a share of the reach, may be one.
+_ON_LINE = Narrowing(np.inf, rounds=2, turns=6, touching=1e-7, near=2.0, closer=2)
+# Of the reach: what is missed by no more is met.
+_ROUNDING = 1e-14
+# Of so many of a case, of which the known values then say nothing, no more are tried.
+_MOST_STARTS = 16
 
 
 class Found(NamedTuple):
@@ -412,13 +426,7 @@ def speeds_with_tyres(
     start = [np.broadcast_to(np.asarray(speed, np.float64), shape) for speed in instant]
     speed = np.hypot(*start)
     sizes = [np.where(speed > 0.0, speed, 1.0)] * 2
-
-    def inputs_at(values: Sequence[Any]) -> Inputs:
-        a, b = (
-            moved(body, value * directions[label][0], value * directions[label][1], body.yaw_rate)
-            for label, body, value in zip("ab", (inputs.a, inputs.b), values, strict=True)
-        )
-        return replace(inputs, a=a, b=b, given=None, contact_velocity=None)
+    inputs_at = partial(_at_speeds, inputs, directions)
 
     def off(tried: Inputs, answer: Any) -> list[Any]:
         """The miss of each known value, as a share of its size."""
@@ -491,6 +499,58 @@ def speeds_with_tyres(
     return Found(values[0], values[1], settled, closing, sticks, None, misfit)
 
 
+def starts_on_line(
+    inputs: Inputs,
+    directions: Mapping[str, tuple[Any, Any]],
+    instant: Sequence[tuple[Any, Any]],
+    known: Mapping[str, Any],
+    shape: tuple[int, ...],
+) -> list[tuple[Any, Any]]:
+    """Speeds to begin from beside a known speed and one other known value: where the latter is met,
+    or all but met, along the speed that is not known.
+
+    That is looked through as far as other starts would go, and further. ``instant`` has the speeds
+    of each root of the instant.
+    """
+    label = "b" if "speed_a" in known else "a"
+    at = "ab".index(label)
+    reach = np.fmax(_PARTS[-1] * _most(inputs, known, shape), _LINE_REACH)
+    for pair in instant:
+        reach = np.fmax(reach, _TIMES_INSTANT * abs(pair[at]))
+    fixed = np.broadcast_to(np.asarray(known[f"speed_{'ba'[at]}"], dtype=np.float64), shape)
+    reaches, fixed_of = reach.ravel(), fixed.ravel()
+
+    def mismatch(at_share: Any, case: Any) -> list[Any]:
+        def take(value: Any) -> Any:
+            return read_only(np.broadcast_to(value, shape).ravel()[case])
+
+        part, own, along = (part_of(one, take) for one in (inputs, dict(known), dict(directions)))
+        pair = at_share * reaches[case], fixed_of[case]
+        tried = _at_speeds(part, along, pair if at == 0 else pair[::-1])
+        with quietly(), np.errstate(all="ignore"):
+            answer = solve_inputs(ECCENTRIC, tried, "nan")
+            (missed,) = (
+                one
+                for name, value in own.items()
+                if not name.startswith("speed")
+                for one in _missed(name, value, own, tried, answer, along)
+            )
+            share = missed / reaches[case]
+            # Of values that say nothing of the speed, what is missed is all rounding.
+            return [np.where(abs(share) <= _ROUNDING, 0.0, share)]
+
+    grid = np.arange(-_LINE_STEPS, _LINE_STEPS + 1.0) / _LINE_STEPS
+    found: list[list[float]] = [[] for _ in range(reaches.size)]
+    for case, _, share in roots_on_grid(mismatch, reaches.size, grid, _ON_LINE):
+        if len(found[case]) < _MOST_STARTS:
+            found[case].append(share * float(reaches[case]))
+    speeds = np.full((max(map(len, found), default=0), reaches.size), np.nan)
+    for case, of_case in enumerate(found):
+        speeds[: len(of_case), case] = of_case
+    pairs = [(speed.reshape(shape), fixed) for speed in speeds]
+    return pairs if at == 0 else [(other, speed) for speed, other in pairs]
+
+
 def other_starts(
     inputs: Inputs, known: Mapping[str, Any], shape: tuple[int, ...]
 ) -> list[tuple[Any, Any]]:
@@ -498,13 +558,7 @@ def other_starts(
 
     The largest is one and a half times what all known values together stand for.
     """
-    alone = [name for name in known if name not in _STANDS_FOR_NONE]
-    # Of an energy its relative error counts half in the speed that it stands for.
-    sizes = [
-        _as_speed(name, known[name], known, inputs) * (2.0 if name == "energy_loss" else 1.0)
-        for name in alone
-    ]
-    most = np.broadcast_to(np.asarray(2.0 * sum(sizes), dtype=np.float64), shape)
+    most = _most(inputs, known, shape)
     of_each = [
         [np.broadcast_to(np.asarray(known[f"speed_{label}"], dtype=np.float64), shape)]
         if f"speed_{label}" in known
@@ -512,6 +566,28 @@ def other_starts(
         for label in "ab"
     ]
     return [(one, other) for one in of_each[0] for other in of_each[1]]
+
+
+def _most(inputs: Inputs, known: Mapping[str, Any], shape: tuple[int, ...]) -> Any:
+    """Twice the speed that all known values together stand for."""
+    # Of an energy its relative error counts half in the speed that it stands for.
+    sizes = [
+        _as_speed(name, value, known, inputs) * (2.0 if name == "energy_loss" else 1.0)
+        for name, value in known.items()
+        if name not in _STANDS_FOR_NONE
+    ]
+    return np.broadcast_to(np.asarray(2.0 * sum(sizes), dtype=np.float64), shape)
+
+
+def _at_speeds(
+    inputs: Inputs, directions: Mapping[str, tuple[Any, Any]], values: Sequence[Any]
+) -> Inputs:
+    """The inputs with these speeds of A and B along their courses."""
+    a, b = (
+        moved(body, value * directions[label][0], value * directions[label][1], body.yaw_rate)
+        for label, body, value in zip("ab", (inputs.a, inputs.b), values, strict=True)
+    )
+    return replace(inputs, a=a, b=b, given=None, contact_velocity=None)
 
 
 def _contact(inputs: Inputs) -> tuple[Any, Any, Any]:
