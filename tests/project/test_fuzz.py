@@ -63,7 +63,9 @@ class Hung(BaseException):
 
 @contextlib.contextmanager
 def promptly() -> Any:
-    """Fails what has not ended within some seconds, where the system has an alarm to set."""
+    """Fails what has worked for some seconds without an end, where the system has an alarm to set:
+    of processor time, so that it does not depend on what else the machine does.
+    """
     # Windows has neither the alarm nor its signal.
     if (
         not hasattr(signal, "setitimer")
@@ -75,15 +77,15 @@ def promptly() -> Any:
     def ring(*_: Any) -> None:
         raise Hung
 
-    previous = signal.signal(signal.SIGALRM, ring)
-    signal.setitimer(signal.ITIMER_REAL, SECONDS)
+    previous = signal.signal(signal.SIGPROF, ring)
+    signal.setitimer(signal.ITIMER_PROF, SECONDS)
     try:
         yield
     except Hung:
-        raise AssertionError(f"still running after {SECONDS} s") from None
+        raise AssertionError(f"still running after {SECONDS} s of work") from None
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-        signal.signal(signal.SIGALRM, previous)
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, previous)
 
 
 def attempt(label: str, call: Any) -> Any:
