@@ -154,6 +154,17 @@ def test_each_model_has_what_it_can_be_moved_by():
     assert set(by_name(timed)) == {"point", "normal", "restitution", "friction"}
 
 
+def test_a_contact_in_time_is_not_moved_below_a_restitution_of_0():
+    """Nor where impulses may be incomplete, of which ``solve`` may take none."""
+    options = {"duration": 0.1, "drag": 0.7, "tolerance": "0.01 m/s", "incomplete": True}
+    answer = col.solve(A, B, 0.05, **CONTACT, **options)
+    assert answer.model == "time_resolved"
+    ends = [col.time_resolved(A, B, end, **CONTACT, duration=0.1, drag=0.7) for end in (0.0, 0.15)]
+    assert by_name(answer)["restitution"].delta_v_a == pytest.approx(
+        larger(answer, ends)["delta_v_a"], rel=1e-9
+    )
+
+
 def test_where_there_is_no_answer_it_says_so():
     """Turned by five degrees the bodies part."""
     answer = col.oblique_central(

@@ -139,8 +139,9 @@ def _of_inputs(case: ImpactCase) -> Iterator[Move]:
             turned.append({"normal": (c * nx - s * ny, s * nx + c * ny)})
         what = f"normal turned by {case.text(math.radians(TURN), 'angle')}"
         yield _solved(impact, "normal", what, turned)
-    least = e - OF_RESTITUTION if impact.inputs.incomplete else max(e - OF_RESTITUTION, 0.0)
-    least = max(least, -1.0 + 1e-9)
+    # Only an impulse can be incomplete.
+    lowest = -1.0 + 1e-9 if impact.inputs.incomplete and impact.pulse is None else 0.0
+    least = max(e - OF_RESTITUTION, lowest)
     ends = [{"restitution": end} for end in (least, min(e + OF_RESTITUTION, 1.0))]
     what = f"restitution {OF_RESTITUTION:g} more or less"
     yield _solved(impact, "restitution", what, ends)
