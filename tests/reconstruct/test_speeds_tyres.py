@@ -743,3 +743,25 @@ def test_beside_a_known_speed_no_answer_that_a_scan_shows_is_missed():
         for speed in 0.5 * (tried[at] + tried[at + 1]):
             assert min(abs(speeds - speed)) < 0.02
     assert several
+
+
+@pytest.mark.parametrize(
+    "known",
+    [
+        {"delta_v_forward_b": [], "delta_v_left_b": 2.0, "recorder_b": (0.5, 0.1)},
+        {"speed_a": [], "delta_v_b": 5.0},
+        {"speed_a": 10.0, "energy_loss": []},
+    ],
+)
+def test_a_batch_of_no_cases_has_none(known):
+    wheels = Tyres(0.7, 0.2, 2.7, 1.5)
+    a, b = (
+        col.Vehicle(mass=mass, yaw_inertia=2000.0, x=x, y=y, heading=heading)
+        for mass, x, y, heading in ((1500.0, -2.0, 0.3, 0.0), (1200.0, 0.9, -0.5, 1.4))
+    )
+    (found,) = reconstruct.speeds(
+        a, b, course_a=0.0, course_b=1.4, restitution=0.1, friction=0.5, normal=0.0,
+        point=(0.0, 0.0), duration=0.1, tyres_a=wheels, tyres_b=wheels,
+        **{name: np.array(value) if value == [] else value for name, value in known.items()},
+    )  # fmt: skip
+    assert found.status.shape == found.a.before.speed.shape == (0,)

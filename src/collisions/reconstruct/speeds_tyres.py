@@ -174,6 +174,8 @@ def in_balance(
                     )
                 if np.any(there):
                     kept.append(_Kept(root, there, last, held))
+    if not results:
+        return instant._replace(found=[])  # a batch of no cases
     kept, doubts = _best(kept, doubts)
     first = results[0]
     if not kept and all(one is first for one, _ in doubts):
