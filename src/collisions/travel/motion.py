@@ -187,6 +187,8 @@ def _rounded(width: Any) -> Any:
     place of rest of a scene that is turned, or that hardly differs, would be another.
     """
     if isinstance(width, float):
+        if math.isinf(width):
+            return width  # nothing bends the way
         part, power = math.frexp(width)
         return math.ldexp(math.floor(8.0 * part), power - 3)
     part, power = np.frexp(width)
