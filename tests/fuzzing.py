@@ -53,7 +53,7 @@ from collisions.scene.follow import Notice
 from collisions.scene.levels import Level
 from collisions.scene.required import Cost, Required
 from collisions.scene.run import Moved, Rests, Track
-from collisions.uncertainty.distribution import GivenUnit
+from collisions.uncertainty.distribution import GivenUnit, WithoutUnit
 from strategies import (
     EXTREMES,
     NEVER,
@@ -517,6 +517,7 @@ class Case(random.Random):
         if kind.__module__.partition(".")[0] == "collisions" and kind not in (
             col.Status,
             GivenUnit,
+            WithoutUnit,
             Texts,
         ):
             self._look_at(value, kind, documented, thorough)
