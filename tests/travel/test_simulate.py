@@ -1206,3 +1206,13 @@ def test_areas_may_have_dents_holes_and_a_closing_corner():
     spiked = [(-9, -9), (30, -9), (40, -9), (30, -9), (30, 9), (12, 0), (-9, 9)]
     for corners in (touching, spiked):
         assert travel.simulate(car, tyres, surfaces=[(corners, 0.2)]).x[-1] > bare.x[-1]
+
+
+def test_a_case_without_cornering_is_refused_beside_others():
+    """Alone in its batch, where it is followed as one case is, and beside one with an answer."""
+    car = col.Vehicle(mass=1500, yaw_inertia=2500, x=0.0, y=0.0, heading=0.3, vx=9.0, vy=2.0)
+    for cornering in ([-0.0], [-0.0, 9.5]):
+        tyres = travel.Tyres(0.7, 0.9, 2.7, 1.5, cornering=np.array(cornering))
+        with pytest.warns(col.CollisionsWarning, match="1 not_positive"):
+            found = travel.simulate(car, tyres)
+        assert np.isnan(found.x[-1]).tolist() == [True, False][: len(cornering)]

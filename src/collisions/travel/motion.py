@@ -188,7 +188,7 @@ def _rounded(width: Any) -> Any:
     """
     if isinstance(width, float):
         if math.isinf(width):
-            return width  # nothing bends the way
+            return width  # of a case that is refused
         part, power = math.frexp(width)
         return math.ldexp(math.floor(8.0 * part), power - 3)
     part, power = np.frexp(width)
