@@ -318,18 +318,18 @@ def stopped_by_its_tyres(share):
     """
     whole, half = 0.7 * GRAVITY * 0.1, 1.0 - math.cos(0.25 * math.pi)
 
-    def taken(gained):
+    def taken(gained, times):
         later = (4.0 / 6.0, half * gained), (1.0 / 6.0, gained)
-        return sum(weight * min(whole, 2.0 * speed) for weight, speed in later)
+        return sum(weight * min(whole, times * speed) for weight, speed in later)
 
-    def lacking(v):
-        gained = 0.5 * (v - taken(0.5 * v))
-        return (5.0 / 6.0 * whole - taken(gained)) / gained
+    def beyond(v):
+        gained = 0.5 * (v - taken(0.5 * v, 2.0))
+        return (5.0 / 6.0 * whole - taken(gained, 1.0)) / gained
 
     slow, fast = 0.1, 20.0
     for _ in range(200):
         middle = 0.5 * (slow + fast)
-        slow, fast = (middle, fast) if lacking(middle) > share else (slow, middle)
+        slow, fast = (middle, fast) if beyond(middle) > share else (slow, middle)
     a, b = (
         col.Vehicle(mass=1500, yaw_inertia=2600, vx=vx, x=x, y=0, heading=0)
         for vx, x in ((slow, -2.0), (0.0, 2.0))

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
+from ..impact.instant import LIMITED
 from ..quantities.formatting import KIND_OF, in_words, percent
 from ..quantities.tables import as_sentence
 from ..reconstruct import Fit, MomentumSolution
@@ -160,10 +161,9 @@ def momentum_assumption(solution: MomentumSolution) -> str:
     return (
         f"{found} While the contact lasts the tyres of {' and of '.join(labels)} act: the mean of "
         "their force before it, half-way through it and after it (Simpson's rule), times its "
-        "duration, is in the balance, for no wheel more at any of these than stops half "
-        "of the mass. That force follows from the velocities found, which were "
-        "found again with it until it changed no more. Before the contact no vehicle turns; "
-        "half-way through it 29 "
+        f"duration, is in the balance, {LIMITED}. That force follows from the velocities found, "
+        "which were found again with it until it changed no more. Before the contact no vehicle "
+        "turns; half-way through it 29 "
         f"percent of the change of velocity have passed, as in a plastic contact{unturned}."
     )
 

@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 
 from ..impact.impact import Impact, answer_of
+from ..impact.instant import LIMITED
 from .contact import Mobility, energy, impulses, kinetic_energies, velocity_after, velocity_before
 from .expressions import HALF, ZERO, Expression, total
 from .page import Page
@@ -359,8 +360,7 @@ def _from_outside(page: Page, s: Symbols, levers: Sequence[Lever]) -> tuple[Expr
             )
             whence = (
                 "The tyres, by their mean force before, half-way through and after the contact "
-                "times its duration, for no wheel more at any of these than stops half of the "
-                f"mass{given or ','} act as an impulse"
+                f"times its duration, {LIMITED}{given or ','} act as an impulse"
             )
         page.say(
             f"{whence} on {label}: {page.shown(j_x)}, {page.shown(j_y)}, with "

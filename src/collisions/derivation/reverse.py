@@ -11,6 +11,7 @@ from operator import attrgetter
 from typing import Any, NamedTuple
 
 from ..impact.impact import Impact
+from ..impact.instant import LIMITED
 from ..impact.reconstruction import (
     KNOWN,
     bounds_of,
@@ -412,8 +413,8 @@ def _planar(page: Page, s: Symbols, kind: str) -> None:
     if s.impact.inputs.tyres:
         page.say(
             "The tyres act meanwhile, with the mean of their force before, half-way through and "
-            "after the contact times its duration, for no wheel more at any of these than stops "
-            "half of the mass. That follows from the motions which are sought: "
+            f"after the contact times its duration, {LIMITED}. That follows from the motions which "
+            "are sought: "
             "those of the instant were refined, by Newton's method, until the contact with its "
             "tyres, solved forwards, ends in the motions after."
         )

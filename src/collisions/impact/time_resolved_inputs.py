@@ -357,9 +357,11 @@ def _alike(inputs: Inputs, **changes: Any) -> Inputs:
     return other
 
 
-def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any]:
+def held_impulse(
+    inputs: Inputs, answer: Any, label: str, stops: float | None = None
+) -> tuple[Any, Any, Any]:
     """Impulse of the tyres of one vehicle during the contact, and its moment about the centre of
-    mass.
+    mass; ``stops`` as for ``kernels.held``, where not as always.
     """
     tyres, body = inputs.tyres.get(label), getattr(inputs, label)
     if tyres is None or body.heading is None:
@@ -378,18 +380,8 @@ def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any
         changes,
         (half, inputs.duration),
         single=inputs.shape is None,
+        stops=stops,
     )
-
-
-# Of the duration: no wheel stops in so little.
-_LITTLE = 2.0**-20
-
-
-def whole_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, ...]:
-    """The same with the whole force of every wheel all the while, even if it would stop."""
-    duration: Any = inputs.duration
-    little = _alike(inputs, duration=_LITTLE * duration)
-    return tuple(part / _LITTLE for part in held_impulse(little, answer, label))
 
 
 def impulse_of(
@@ -400,12 +392,16 @@ def impulse_of(
     times: tuple[Any, Any],
     *,
     single: bool,
+    stops: float | None = None,
 ) -> tuple[Any, Any, Any]:
     """The same from mass and heading of a body, its motion before and what the contact changes of
     it, and of the times the share of the change at half of the duration, and that.
     """
+    from ..kernels import held as kernel
+
     mass, heading = body
     numbers = [mass, *from_radians(heading), *before, *changes, *times, GRAVITY]
+    numbers.append(kernel.STOPS if stops is None else stops)
     if single:
         own = kernel_numbers(tyres.named)
     else:
@@ -416,10 +412,8 @@ def impulse_of(
     settings = tyres.steered, tyres.transfers
     found = _held_function(*settings)(numbers) if single else None
     if found is None:
-        from ..kernels.held import held
-
         with np.errstate(all="ignore"):
-            found = held(
+            found = kernel.held(
                 *(value if single else np.asarray(value, np.float64) for value in numbers),
                 *settings,
             )

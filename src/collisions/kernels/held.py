@@ -22,11 +22,11 @@ class Held(NamedTuple):
 # By Simpson's rule: before the contact, at half of its time, and after it.
 _WEIGHTS = (1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0)
 # At none of these have the wheels of a vehicle more together than so many times what would stop it:
-# one that stops evenly has half of its speed on the mean. Of slow vehicles 1, 4 and no limit err by
-# more (tests/travel/test_tyres_in_contact.py).
+# one that stops evenly has half of its speed on the mean. Once, four times and no limit err by as
+# much or more (tests/travel/test_tyres_in_contact.py).
 STOPS = 2.0
 # The inputs of ``held`` before its settings, those of the tyres last.
-NUMBERS = 12 + len(Tyres._fields) - 1 + 4
+NUMBERS = 13 + len(Tyres._fields) - 1 + 4
 
 
 def held(*inputs: Any) -> Held:
@@ -34,16 +34,16 @@ def held(*inputs: Any) -> Held:
     wheels.
 
     The numbers are mass, cosine and sine of the heading, velocity and yaw rate before, their
-    changes, the share of the change at half of the time, the duration, gravity, and those of
-    ``Tyres`` with their four locks first. At each of the three moments no wheel has more than stops
-    half of the mass.
+    changes, the share of the change at half of the time, the duration, gravity, how many times
+    what would stop the vehicle its wheels have at most, and those of ``Tyres`` with their four
+    locks first.
     """
-    mass, cos, sin, vx, vy, spin, dvx, dvy, dw, half, duration, gravity, *rest = inputs
+    mass, cos, sin, vx, vy, spin, dvx, dvy, dw, half, duration, gravity, stops, *rest = inputs
     *numbers, steered, transfers = rest
     tyres = Tyres(tuple(numbers[:4]), *numbers[4:])
     wheels = Rolling(steered, transfers)
     body = scaled(Body(1.0 / mass, 0.0, 0.0, 0.0), (cos, sin), 1.0, 1.0, gravity, tyres)
-    body = body._replace(cap=STOPS * body.cap)
+    body = body._replace(cap=stops * body.cap)
     x: Any = 0.0
     y: Any = 0.0
     yaw: Any = 0.0

@@ -17,7 +17,7 @@ from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note, letter_of
 from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
-from ..impact.instant import found_with_tyres, neglected
+from ..impact.instant import LIMITED, found_with_tyres, neglected
 from ..impact.left_out import LeftOutVehicle, left_out
 from ..impact.models import BY_NAME
 from ..impact.reconstruction import number_of_text
@@ -89,8 +89,8 @@ _GEOMETRIES = {
 }
 _TYRES = (
     "their mean force before, half-way through and after the contact, times its duration, acts "
-    "as an impulse from outside, for no wheel more than stops half of the mass; wheels "
-    "roll, brake and steer, with the force that they have on the way to rest."
+    f"as an impulse from outside, {LIMITED}; wheels roll, brake and steer, with the force that "
+    "they have on the way to rest."
 )
 _RANGE = (
     reference.RESTITUTION_FIT,
