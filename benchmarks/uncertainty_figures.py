@@ -205,7 +205,8 @@ def cost(plt: Any, found: dict[str, Any]) -> Any:
         for times in (1, 3)
     ]
     ticks = [size for size in whole if low <= size <= high]
-    axes[0].set_xticks(ticks, [f"{size:,}".replace(",", " ") for size in ticks])
+    # Short, as the labels of whole numbers run into each other.
+    axes[0].set_xticks(ticks, [f"{size // 1000}k" if size >= 1000 else f"{size}" for size in ticks])
     axes[0].minorticks_off()
     figure.legend(handles=_handles(plt, trade=False), loc="upper center", ncols=5, frameon=False)
     figure.tight_layout(rect=(0, 0, 1, 0.92))

@@ -177,8 +177,9 @@ def tyre_impulse(case: Case) -> Iterator[Measured]:
     "impulse that the whole force of tyres would give in an instant beyond what stops the vehicle, "
     "as a share of the momentum that it gains",
     above(0.05),
-    "set here: half of the share that `model` allows; where it is less, nine in ten delta-V of "
-    "impacts at 1.5 to 12 m/s are within 10 percent of the contact in time at fixed places",
+    "set here: half of the share by which a simpler model may err; where it is less, nine in ten "
+    "delta-V of impacts at 1.5 to 12 m/s are within 10 percent of the contact in time at fixed "
+    "places",
 )
 def tyres_stop(case: ImpactCase) -> Iterator[Measured]:
     impact = case.answer
