@@ -546,9 +546,9 @@ ROUTES: dict[str, Callable[[Reading], Speeds]] = {
     "one recorder and its speed": by_one_recorder,
     "one recorder and its speed, friction=inf": by_one_recorder_alone,
     "posterior of delta-V and motion after": by_posterior_of_motion,
-    "the same with the contact in time as finer=": partial(by_posterior_of_motion, in_time=True),
+    "posterior of delta-V and motion after, finer=": partial(by_posterior_of_motion, in_time=True),
     "fit of delta-V and motion after": by_fit,
-    "fit with the contact in time as finer=": partial(by_fit, in_time=True),
+    "fit of delta-V and motion after, finer=": partial(by_fit, in_time=True),
     "posterior of one recorder and its speed": by_posterior_of_one_recorder,
     "posterior of one recorder and its speed, finer=": partial(
         by_posterior_of_one_recorder, in_time=True
