@@ -1796,3 +1796,30 @@ def test_a_body_that_is_all_but_fixed_is_explained(mass):
         col.linear_central(heavy.replace(vx=3.0), a.replace(vx=-0.1), 0.1),
     ):
         assert "Common velocity" in explain(impact)
+
+
+def test_what_tyres_do_is_told_apart_from_an_impulse_from_outside():
+    """The work in the balance is that of both, and the answers have each by its own name."""
+    wheels = col.travel.Tyres(0.7, [1, 0, 0.2, 0.1], 2.7, 1.5)
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.1, y=0.4, vx=15, heading=0.0)
+    b = col.Vehicle(mass=1250, yaw_inertia=1900, x=0.9, y=-0.8, vy=11, heading=1.5)
+    contact = {"normal": 0.1, "point": (0.0, 0.3), "friction": 0.5}
+    lasting = {"duration": 0.1, "tyres_a": wheels, "tyres_b": wheels}
+    both = col.eccentric(a, b, 0.1, **contact, **lasting, outside_a=(30, 20, 10))
+    text = explain(both, form="text", units="si")
+    for whence, label in (("of the tyres and from outside", "A"), ("of the tyres", "B")):
+        caption = f"Work of the impulse {whence} on {label}, at the mean of its velocities:"
+        work = re.search(rf"{caption}\n(?:.+\n)*?.*= (-?[\d.]+) J\n", text)[1]
+        side = both.a if label == "A" else both.b
+        assert float(work) == pytest.approx(side.outside_work - side.tyre_loss, abs=0.6)
+        lost = answer(text, label, "energy taken by the tyres")
+        assert lost == System("si").answer(side.tyre_loss, "energy", None)
+        stated = answer(text, label, "work of the impulse from outside")
+        assert stated == System("si").answer(side.outside_work, "energy", None)
+        assert f"Impulse {whence} on {label}, along the normal:" in text
+    assert text.count("with the impulse from outside that was given") == 1
+    tyres_alone = explain(col.eccentric(a, b, 0.1, **contact, **lasting), form="text", units="si")
+    assert "from outside" not in tyres_alone
+    alone = explain(col.eccentric(a, b, 0.1, **contact, outside_a=(30, 20)), form="text")
+    assert "Work of the impulse from outside on A" in alone
+    assert "tyres" not in alone

@@ -89,6 +89,8 @@ REFUSALS = [
         friction=0.0, normal=(0.6, 0.8), point=(3.0, 4.0)), ["pivot"]),
     ("singular_contact", lambda: col.eccentric(pinned(yaw_rate=1.0), col.Vehicle.barrier(), 0.1,
         friction=0.5, normal=(0.0, 1.0), point=(4.0, 1.0)), ["friction=0"]),
+    ("out_of_range", lambda: col.eccentric(STRIKING, STRUCK, 0.1, impulse_ratio=-1e101, **SCENE),
+        ["impulse_ratio", "from -1e100 to 1e100"]),
     ("ratio_jams", lambda: col.eccentric(JAMMED, col.Vehicle.barrier(), 0.1, impulse_ratio=-2.0,
         normal=0.0, point=(2.0, -1.5)), ["impulse_ratio = -2", "-"]),
     ("spinning", lambda: col.linear_central(car(vx=1.0, yaw_rate=0.1), STRUCK, 0.1),

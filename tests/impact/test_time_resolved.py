@@ -1191,6 +1191,16 @@ def test_refused_contacts():
     with pytest.raises(col.InputError) as caught:
         t_bone(duration=None, stiffness=1e-155, geometry="first_contact")
     assert caught.value.code == "out_of_range"
+    # The crush at the end, which is negative by then, is below all numbers.
+    with pytest.raises(col.InputError) as caught:
+        col.time_resolved(
+            col.Vehicle(mass=1500, vx=20, vy=1, yaw_inertia=2400, x=-2, y=0.4, heading=0.1),
+            col.Vehicle(mass=1200, vx=-3, yaw_inertia=1700, x=2, y=0, heading=3),
+            0.2, normal=0.1, point=(0, 0.4), friction=0.4, steps=25,
+                duration="2.1129693985116045e121 s",
+            tyres_b=col.travel.Tyres(0.7, 0.1, 2.7, 1.5),
+        )  # fmt: skip
+    assert caught.value.code == "out_of_range"
     with pytest.raises(col.InputError, match=r"case 1: .*duration"):
         t_bone(duration=np.array([0.1, -0.1]), on_failure="raise")
     with pytest.warns(

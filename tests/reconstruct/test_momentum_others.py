@@ -10,6 +10,7 @@ import warnings
 
 import numpy as np
 import pytest
+from scipy import optimize
 
 import collisions as col
 from collisions import reconstruct
@@ -228,3 +229,27 @@ def test_two_speeds_along_nearly_one_line_say_that_others_were_not_looked_for():
     assert "another pair may fit with the tyres, which was not looked for" in sentence
     wide, _ = answered(**{**known, "course_b_after": 1.0}, speed_a=12.4, speed_b=8.6)
     assert wide.statements == ()
+
+
+def test_a_course_of_a_slow_vehicle_beside_the_speed_of_another_says_that_others_may_fit():
+    """Two courses of A on one side have the same motions; one of them is not looked for."""
+    known = {
+        "mass_a": 1272.0, "mass_b": 2238.0, "heading_a": -0.6468, "heading_b": -2.1607,
+        "duration": 0.1416, "course_b": -2.1474, "speed_b": 3.8931, "speed_b_after": 3.3095,
+        "course_b_after": -1.9932, "course_a_after": -0.7662,
+        "tyres_a": Tyres(0.676, [0.055, 0.009, 0.041, 0.068], 2.7, 1.5),
+        "tyres_b": Tyres(0.706, [0.051, 0.0036, 0.067, 1.0], 2.7, 1.5),
+    }  # fmt: skip
+    found, _ = answered(**known, speed_a=4.7)
+    assert found.unknowns == ("speed_a_after", "course_a")
+
+    def off(course):
+        return answered(**known, course_a=course)[0].speed_a - 4.7
+
+    assert off(found.course_a) == pytest.approx(0.0, abs=1e-9)
+    other = optimize.brentq(off, -0.67, -0.66, xtol=1e-12)
+    assert off(other) == pytest.approx(0.0, abs=1e-9)
+    (sentence,) = found.statements
+    assert "with a vehicle as slow as here another pair may fit with the tyres" in sentence
+    fast, _ = answered(**{**known, "speed_b": 13.0, "speed_b_after": 12.0}, speed_a=14.0)
+    assert fast.statements == ()

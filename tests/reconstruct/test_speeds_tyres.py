@@ -765,3 +765,80 @@ def test_a_batch_of_no_cases_has_none(known):
         **{name: np.array(value) if value == [] else value for name, value in known.items()},
     )  # fmt: skip
     assert found.status.shape == found.a.before.speed.shape == (0,)
+
+
+@pytest.mark.parametrize("given", ["its friction", "friction=inf", "sliding stated"])
+def test_an_energy_beside_components_finds_a_contact_that_slid_with_tyres(given):
+    """The ratio that the components show is that of the contact alone, without what tyres do: with
+    that of an instant both speeds came out metres per second off.
+    """
+    rng, met = random.Random(12), 0
+    while met < 12:
+        (a, b), contact, wheels = drawn_apart(rng)
+        try:
+            truth = col.eccentric(a, b, 0.2, **contact, **wheels)
+        except col.NoSolutionError:
+            continue
+        if truth.regime != "sliding":
+            continue
+        met += 1
+        label = rng.choice("ab")
+        names = (f"delta_v_forward_{label}", f"delta_v_left_{label}", "energy_loss")
+        known = {name: read(truth, name) for name in names}
+        law = {"friction": contact["friction"] if given == "its friction" else math.inf}
+        law |= {"regime": "sliding"} if given == "sliding stated" else {}
+        answers = reconstruct.speeds(
+            a, b, course_a=a.course, course_b=b.course, restitution=0.2,
+            **contact | law, **wheels, **known,
+        )  # fmt: skip
+        off = [
+            max(abs(one.a.before.speed - a.speed), abs(one.b.before.speed - b.speed))
+            for one in answers
+        ]
+        assert min(off) < 1e-6
+
+
+def drawn_apart(rng):
+    """Two cars whose contact slides, and each wheel of theirs locked, braked or rolling."""
+    cars = [
+        col.Vehicle.from_speed(
+            mass=mass, yaw_inertia=mass * rng.uniform(1.3, 1.9), speed=rng.uniform(5.0, 25.0),
+            course=course, heading=course, x=x, y=rng.uniform(-0.6, 0.6),
+        )
+        for mass, course, x in (
+            (rng.uniform(1000, 2300), rng.uniform(-0.3, 0.3), rng.uniform(-2.0, -1.0)),
+            (rng.uniform(1000, 2300), rng.uniform(1.0, 2.4), rng.uniform(0.8, 2.0)),
+        )
+    ]  # fmt: skip
+    contact = {
+        "normal": rng.uniform(-0.5, 0.5),
+        "point": (0.0, rng.uniform(-0.2, 0.2)),
+        "friction": rng.uniform(0.05, 0.3),
+    }
+    wheels: dict[str, object] = {"duration": rng.uniform(0.05, 0.12)}
+    for label in "ab":
+        locks = [rng.choice((1.0, rng.uniform(0.0, 0.1), 0.4)) for _ in range(4)]
+        wheels[f"tyres_{label}"] = Tyres(rng.uniform(0.5, 0.8), locks, 2.7, 1.5)
+    return cars, contact, wheels
+
+
+def test_an_answer_beside_the_end_of_all_answers_is_found():
+    """The only one within 60 m/s lies in a step of the scan at whose other end there is none."""
+    a = col.Vehicle(
+        mass=2691.18, yaw_inertia=6110.07, x=-1.37786, y=0.0887, vx=0.29616, vy=1.04998,
+        heading=-0.51291,
+    )  # fmt: skip
+    b = col.Vehicle(
+        mass=1161.06, yaw_inertia=1525.22, x=0.60856, y=-0.13889, vx=-0.69983, vy=2.93722,
+        yaw_rate=0.59171, heading=-0.53151,
+    )  # fmt: skip
+    contact = {
+        "normal": 0.19864, "restitution": 0.1, "point": (0.21016, -0.86308), "friction": 0.53576,
+        "duration": 0.05026, "tyres_a": Tyres(0.85354, 0, 2.28022, 1.68052, steer=0.03284),
+        "tyres_b": Tyres(0.60452, 1, 3.30887, 1.7734),
+    }  # fmt: skip
+    energy = col.eccentric(a, b, **contact).energy_loss
+    (found,) = reconstruct.speeds(
+        a, b, course_a=a.course, course_b=b.course, speed_b=b.speed, energy_loss=energy, **contact
+    )
+    assert found.a.before.speed == pytest.approx(a.speed, rel=1e-9)

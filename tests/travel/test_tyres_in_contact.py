@@ -282,8 +282,10 @@ def test_the_impulse_with_tyres_is_between():
     assert np.median(left) < 1.0 / 3.0
 
 
-def slow_impacts(fastest, seed):
-    """Random impacts of a slow car with one that stands or goes slower, each locked or rolling."""
+def slow_impacts(fastest, seed, spin=0.0):
+    """Random impacts of a slow car with one that stands or goes slower, each locked or rolling, and
+    turning at up to ``spin``.
+    """
     draw, count = np.random.default_rng(seed).uniform, 400
     speed, course, other = (
         draw(fastest / 2, fastest, count),
@@ -293,11 +295,12 @@ def slow_impacts(fastest, seed):
     slower = speed * np.maximum(draw(-0.5, 0.5, count), 0.0)
     mass = draw(1000.0, 2000.0, (2, count))
     inertia = 1.7 * mass * draw(0.8, 1.2, (2, count))
+    turning = np.random.default_rng([seed, 1]).uniform(-spin, spin, (2, count))
     a, b = (
         col.Vehicle(
             mass=mass[at], yaw_inertia=inertia[at], x=x + draw(-0.4, 0.4, count),
             y=draw(-0.8, 0.8, count), heading=heading,
-            vx=fast * np.cos(heading), vy=fast * np.sin(heading),
+            vx=fast * np.cos(heading), vy=fast * np.sin(heading), yaw_rate=turning[at],
         )
         for at, (x, heading, fast) in enumerate(((-2.0, course, speed), (1.5, other, slower)))
     )  # fmt: skip
@@ -315,12 +318,18 @@ def slow_impacts(fastest, seed):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("fastest", "most"), [(3.0, 0.06), (6.0, 0.025), (12.0, 0.015)])
-def test_what_would_stop_a_slow_car_is_no_sharp_limit(fastest, most, monkeypatch):
-    """Against the contact in time at fixed places: the limit that is taken errs by less than half
-    or twice of it, and than none at all.
+@pytest.mark.parametrize(
+    ("fastest", "spin", "most"),
+    [
+        (3.0, 0.0, 0.06), (6.0, 0.0, 0.025), (12.0, 0.0, 0.015),
+        (3.0, 0.5, 0.08), (6.0, 0.5, 0.03), (12.0, 0.5, 0.015),
+    ],
+)  # fmt: skip
+def test_what_would_stop_a_slow_car_is_no_sharp_limit(fastest, spin, most, monkeypatch):
+    """Against the contact in time at fixed places: neither half nor twice of the limit that is
+    taken errs by a tenth less, nor none at all.
     """
-    scenes, contact = slow_impacts(fastest, seed=11)
+    scenes, contact = slow_impacts(fastest, seed=11, spin=spin)
     wanted = col.time_resolved(*scenes, **contact, geometry="fixed")
     errors = {}
     for stops in (1.0, held.STOPS, 4.0, 1e6):
@@ -333,14 +342,17 @@ def test_what_would_stop_a_slow_car_is_no_sharp_limit(fastest, most, monkeypatch
         errors[stops] = np.nanquantile(off, [0.5, 0.9])
     assert errors[2.0][0] < most
     for other in (1.0, 4.0, 1e6):
-        assert np.all(errors[2.0] <= 1.03 * errors[other])
+        assert np.all(errors[2.0] <= 1.1 * errors[other])
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("spin", [0.0, 0.5])
 @pytest.mark.parametrize("fastest", [3.0, 6.0, 12.0])
-def test_where_tyres_would_not_stop_a_vehicle_nine_in_ten_are_near_the_contact_in_time(fastest):
+def test_where_tyres_would_not_stop_a_vehicle_nine_in_ten_are_near_the_contact_in_time(
+    fastest, spin
+):
     """As the limit of the finding says; and of what it names fewer are."""
-    scenes, contact = slow_impacts(fastest, seed=12)
+    scenes, contact = slow_impacts(fastest, seed=12, spin=spin)
     wanted = col.time_resolved(*scenes, **contact, geometry="fixed")
     found = col.eccentric(*scenes, **contact)
     off, beyond = [], []
@@ -353,7 +365,9 @@ def test_where_tyres_would_not_stop_a_vehicle_nine_in_ten_are_near_the_contact_i
             held_impulse(found.inputs, answer_of(found), label, times) for times in (1.0, 1e6)
         )
         gained = one.before.mass * one.delta_v
-        beyond.append(np.hypot(whole[0] - stopping[0], whole[1] - stopping[1]) / gained)
+        x, y, turn = (more - less for more, less in zip(whole, stopping, strict=True))
+        radius = np.sqrt(one.before.yaw_inertia / one.before.mass)
+        beyond.append(np.maximum(np.hypot(x, y), abs(turn) / radius) / gained)
     near, silent = np.ravel(off) < 0.1, np.ravel(beyond) < LIMITS["tyres_stop"].default
     assert np.mean(near[silent]) > 0.9
     if fastest < 12.0:
@@ -394,14 +408,32 @@ def test_the_impulse_of_locked_wheels_by_hand():
     with pytest.raises(
         col.NoImpactError, match=r"approach at 0\.3 m/s.*by time_resolved"
     ) as caught:
-        col.eccentric(*slow, 0.0, **CONTACT, duration=0.3, tyres_a=locked, tyres_b=locked)
+        col.eccentric(*slow, 0.0, **CONTACT, duration=0.3, tyres_a=locked)
     assert caught.value.code == "separating"
+
+
+def test_tyres_hardly_turn_a_vehicle_round_that_the_contact_leaves_turning():
+    """A car that turns slowly on locked wheels is hit at its end, along a line through its centre:
+    in the contact in time its wheels stop it, and as an impulse they take energy.
+    """
+    a = col.Vehicle(mass=250, yaw_inertia=250, x=-3, y=0, vx=2, vy=0, heading=0)
+    b = col.Vehicle(mass=1500, yaw_inertia=2500, x=0, y=0, vx=0, vy=0, heading=0, yaw_rate=0.2)
+    contact = {
+        "normal": 0, "point": (-2, 0), "friction": 0.0, "duration": 0.1,
+        "tyres_b": Tyres(0.7, 1, 2.7, 1.5),
+    }  # fmt: skip
+    in_time = col.time_resolved(a, b, 0.1, geometry="fixed", **contact)
+    assert in_time.b.after.yaw_rate == pytest.approx(0.0, abs=1e-9)
+    impact = col.eccentric(a, b, 0.1, **contact)
+    assert abs(impact.b.after.yaw_rate) < 0.75 * b.yaw_rate
+    assert impact.b.tyre_loss > 0.0
+    assert [one.vehicle for one in col.diagnose(impact) if one.code == "tyres_stop"] == ["b"]
 
 
 @pytest.mark.parametrize(("speed", "found"), [(0.9, True), (2.0, True), (12.0, False)])
 def test_a_diagnosis_says_where_tyres_would_stop_a_vehicle(speed, found):
     """Of a car at rest with locked wheels, hit from behind so fast for 0.1 s, in which 0.7 g
-    take 0.69 m/s: half-way through it has about 0.3 of that speed.
+    take 0.69 m/s.
     """
     locked = Tyres(0.7, 1, 2.7, 1.5)
     a, b = car(speed, 0, -2.2, 0, 0), car(0.0, 0, 2.2, 0, 0)

@@ -442,12 +442,10 @@ def kinetic_energies(page: Page, s: Symbols, lost: Symbol | None = None) -> None
             if body.outside[2]:
                 moment = Symbol(rf"\mathrm{{M}}_{body.label}", body.outside[2], "angular momentum")
                 work = work + moment * (HALF * (body.spin() + body.spin(AFTER)))
-            caption = (
-                f"Work of the impulse from outside on {body.label}, at the mean of its velocities"
-            )
+            caption = f"Work of the {body.whence} on {body.label}, at the mean of its velocities"
             terms.append((1.0, page.let(caption, f"W_{body.label}", "energy", work)))
     before_first = sorted(terms, key=lambda term: -term[0])
-    with_work = ", with the work from outside" if any(body.outside for body in s.bodies) else ""
+    with_work = ", with that work" if any(body.outside for body in s.bodies) else ""
     page.equation(
         f"Check: kinetic energies before less those after (7){with_work}",
         lost or s.loss,

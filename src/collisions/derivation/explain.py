@@ -93,6 +93,7 @@ _SIDE = {
     "delta_yaw_rate": ("change of yaw rate", "yaw rate"),
     "pdof": ("PDOF (0 from ahead, positive clockwise)", "angle"),
     "outside_work": ("work of the impulse from outside", "energy"),
+    "tyre_loss": ("energy taken by the tyres", "energy"),
     "pivot_impulse_x": ("impulse of the pivot, along x", "impulse"),
     "pivot_impulse_y": ("impulse of the pivot, along y", "impulse"),
 }
@@ -416,6 +417,7 @@ def impact_answers(page: Page, impact: Impact) -> Iterator[tuple[str, str, str]]
             impact.model not in PLACED and name.endswith("yaw_rate"),
             impact.model == "linear_central" and name in _OF_FRICTION,
             impact.inputs.outside_a is None and ".outside" in name,
+            name.endswith(".tyre_loss") and not side.tyre_loss,
             side.before.pivot is None and ".pivot" in name,
             _says_nothing(side.before, name),
             name.endswith("after.course") and page.system.working(side.after.speed, "speed") == "0",

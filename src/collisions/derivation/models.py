@@ -351,13 +351,12 @@ def _from_outside(page: Page, s: Symbols, levers: Sequence[Lever]) -> tuple[Expr
         if body.outside is None:
             continue
         label, (j_x, j_y) = body.label, (body.pushed(axis) for axis in "xy")
+        what = body.whence.capitalize()
         whence = "From outside an impulse acts"
         if s.impact.inputs.tyres:
-            given = (
-                ""
-                if s.impact.inputs.outside_a is None
-                else ", with the impulse from outside that was given,"
-            )
+            given = ""
+            if "outside" in body.whence:
+                given = ", with the impulse from outside that was given,"
             whence = (
                 "The tyres, by their mean force before, half-way through and after the contact "
                 f"times its duration, {LIMITED}{given or ','} act as an impulse"
@@ -366,11 +365,9 @@ def _from_outside(page: Page, s: Symbols, levers: Sequence[Lever]) -> tuple[Expr
             f"{whence} on {label}: {page.shown(j_x)}, {page.shown(j_y)}, with "
             f"{page.shown(body.moment)}."
         )
+        page.equation(f"{what} on {label}, along the normal", body.pushed("n"), s.dot(j_x, j_y))
         page.equation(
-            f"Impulse from outside on {label}, along the normal", body.pushed("n"), s.dot(j_x, j_y)
-        )
-        page.equation(
-            f"Impulse from outside on {label}, along the tangent",
+            f"{what} on {label}, along the tangent",
             body.pushed("t"),
             s.cross(j_x, j_y),
         )

@@ -103,6 +103,15 @@ class Body:
             parts = x + side.tyre_impulse_x, y + side.tyre_impulse_y, yaw + side.tyre_moment
         return parts if any(parts) else None
 
+    @property
+    def whence(self) -> str:
+        """Where the impulse of ``outside`` is from, in words."""
+        side = self.side
+        if self.impact.pulse is not None or self.label.lower() not in self.impact.inputs.tyres:
+            return "impulse from outside"
+        given = any((side.outside_x, side.outside_y, side.outside_yaw))
+        return "impulse of the tyres and from outside" if given else "impulse of the tyres"
+
     def pushed(self, direction: str) -> Symbol:
         """Component "x", "y", "n" or "t" of the impulse from outside."""
         x, y, _ = self.outside or (0.0, 0.0, 0.0)

@@ -174,8 +174,8 @@ def tyre_impulse(case: Case) -> Iterator[Measured]:
 
 
 @finding(
-    "impulse that the whole force of tyres would give in an instant beyond what stops the vehicle, "
-    "as a share of the momentum that it gains",
+    "impulse that the whole force of tyres would give in an instant beyond half of what stops the "
+    "vehicle, or its turning, as a share of the momentum that it gains",
     above(0.05),
     "set here: half of the share by which a simpler model may err; where it is less, nine in ten "
     "delta-V of impacts at 1.5 to 12 m/s are within 10 percent of the contact in time at fixed "
@@ -188,16 +188,20 @@ def tyres_stop(case: ImpactCase) -> Iterator[Measured]:
     for label, who, side in case.sides:
         if label not in impact.inputs.tyres or math.isinf(side.before.mass):
             continue
-        stopping, whole = (
+        half, whole = (
             held_impulse(impact.inputs, answer_of(impact), label, times) for times in (1.0, _ALL)
         )
-        beyond = math.hypot(whole[0] - stopping[0], whole[1] - stopping[1])
-        part = share(beyond, side.before.mass * side.delta_v)
+        x, y, turn = (more - less for more, less in zip(whole, half, strict=True))
+        beyond = math.hypot(x, y)
+        # A moment at the radius of gyration.
+        turning = abs(turn) / math.sqrt(side.before.yaw_inertia / side.before.mass)
+        part = share(max(beyond, turning), side.before.mass * side.delta_v)
         sentence = (
-            f"tyres of {who}, which is slow, could stop it within the duration of the contact: "
-            f"their whole force would give {case.text(beyond, 'impulse')} beyond that, "
-            f"{percent(part)} of the momentum that the vehicle gains, and how much of it acts an "
-            "impulse only estimates: follow the contact in time, by time_resolved"
+            f"tyres of {who} could stop it, or its turning, within the duration of the contact: "
+            f"their whole force would give {case.text(beyond, 'impulse')} and "
+            f"{case.text(abs(turn), 'angular momentum')} beyond half of that, {percent(part)} of "
+            "the momentum that the vehicle gains, and how much of it acts an impulse only "
+            "estimates: follow the contact in time, by time_resolved"
         )
         yield Measured(part, sentence, label)
 

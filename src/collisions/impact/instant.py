@@ -19,7 +19,10 @@ from .left_out import LeftOut, left_out
 from .reconstruction import Reconstruction
 
 # Of the tyres of an impulse: how its kernel, ``held``, limits their force.
-LIMITED = "for no wheel more at any of these than would stop half of the vehicle's mass"
+LIMITED = (
+    "limited to what stops the vehicle from the faster of its motions before and after, a quarter "
+    "of its mass for each wheel"
+)
 # Of pairs of known values that are not the components of recorders.
 LOOKED_FOR = (
     "answers are looked for from those of an instant without tyres and, unless components of "

@@ -318,8 +318,8 @@ def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
         speed = said(first.closing_speed, "speed", inputs.texts)
         raise NoImpactError(
             f"no impact: the vehicles approach at {speed}, and their tyres, by their mean force "
-            "over the duration, would part them before; that is too slow for tyres as an impulse: "
-            "follow the contact in time, by time_resolved",
+            "over the duration, would part them before: follow the contact in time, by "
+            "time_resolved",
             code=error.code,
             closing_speed=first.closing_speed,
         ) from None

@@ -10,7 +10,7 @@ from functools import cache
 from math import inf
 from typing import Any, NamedTuple
 
-from .elementwise import FINITE, NOT_NEGATIVE, UNIT_INTERVAL, Domain, safe_divisor, select
+from .elementwise import NOT_NEGATIVE, RATIO, UNIT_INTERVAL, Domain, safe_divisor, select
 
 
 class Passage(NamedTuple):
@@ -268,7 +268,7 @@ RULES = {
     rule.name: rule
     for rule in (
         Rule(FRICTION, NOT_NEGATIVE, "friction (bound on the impulse ratio)", _coulomb, 0.2),
-        Rule(IMPULSE_RATIO, FINITE, "impulse ratio", _given_ratio, 0.1, least=-inf),
+        Rule(IMPULSE_RATIO, RATIO, "impulse ratio", _given_ratio, 0.1, least=-inf),
         Rule(
             CRITICAL_FRACTION, UNIT_INTERVAL, "critical fraction", _share_of_critical, 0.2, most=1.0
         ),

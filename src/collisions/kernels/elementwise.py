@@ -177,6 +177,12 @@ FINITE = Domain(
     # The sum is finite only if every number is: a single reading.
     lambda values: isfinite(np.add.reduce(values)),
 )
+# A tangential impulse so many times the normal one leaves none of that as a number.
+RATIO = Domain(
+    "from -1e100 to 1e100",
+    (*FINITE.faults, (lambda value: abs(value) > 1e100, Status.OUT_OF_RANGE)),
+    lambda values: bool(np.minimum.reduce(values) >= -1e100 and np.maximum.reduce(values) <= 1e100),
+)
 POSITIVE = Domain(
     "positive",
     (

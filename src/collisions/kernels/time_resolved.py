@@ -311,7 +311,9 @@ def _of_body(
 def _status(start: SetUp, found: dict[str, Any], converged: Any, end: Moving) -> Any:
     """How the contact went; of several reasons against it the first."""
     passing = end[2]
-    total = sum((0.0 * value for value in found.values()), start=0.0 * start.units.length)
+    # Of the pulse, the crush at the end; that of two bodies that part fast may overflow first.
+    checked = (*found.values(), passing.crush * start.units.length)
+    total = sum((0.0 * value for value in checked), start=0.0 * start.units.length)
     finite = total - total == 0.0
     # Levers in units of a contact that is so short overflow, and no start can be found then.
     reach = sum(

@@ -18,6 +18,7 @@ from ..kernels.elementwise import (
     INCOMPLETE,
     NOT_NEGATIVE,
     POSITIVE,
+    RATIO,
     RESTITUTION,
     UNIT_INTERVAL,
     Domain,
@@ -484,6 +485,8 @@ def _out_of_domain(
         must, hint = "finite", "; only mass, yaw_inertia and friction may be inf"
     elif status is Status.NOT_POSITIVE:
         must, hint = "> 0 (inf allowed)" if domain is POSITIVE else "> 0", ""
+    elif domain is RATIO:
+        hint = ""
     elif domain is NOT_NEGATIVE:
         must, hint = ">= 0 (inf allowed)", ": its direction is worked out, give the magnitude"
     elif domain is INCOMPLETE:

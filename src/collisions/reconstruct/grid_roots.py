@@ -136,8 +136,9 @@ def _closer(mismatch: _Mismatch, lines: _Lines, near: float, own: int) -> _Lines
     padded = np.pad(changes, ((0, 0), (1, 1)), constant_values=np.nan)
     most = np.fmax(np.fmax(padded[:, :-2], padded[:, 2:]), changes)
     least = np.fmin(size[:, :-1], size[:, 1:])
-    # Between places without an answer nothing is looked for; one alone among them is.
-    line, i = np.nonzero((np.isfinite(least) & ~(least > near * most))[:, own:])
+    # A cell where answers end is: they may fall as a root does, which no cell beside it shows.
+    ends = np.isfinite(size[:, :-1]) != np.isfinite(size[:, 1:])
+    line, i = np.nonzero((ends | (np.isfinite(least) & ~(least > near * most)))[:, own:])
     i += own
     low, high = lines.places[line, i], lines.places[line, i + 1]
     part = _Brackets(lines.row[line], lines.case[line], low - (high - low) / _PIECES, high)

@@ -74,24 +74,8 @@ def other_velocity(solution: MomentumSolution) -> Other | None:
         return None
     if label not in solution.tyres:
         return None
-    tyres = solution.tyres[label]
-    parts = ("speed", "course", "mass", "heading", "tyre_impulse_x", "tyre_impulse_y")
-    named = {part: getattr(solution, f"{part}_{label}") for part in parts}
-    for part in ("speed", "course", "yaw_rate"):
-        value = getattr(solution, f"{part}_{label}_after")
-        named[f"{part}_after"] = 0.0 if value is None else value
+    named, most, slow = _slow(solution, label)
     shape = np.broadcast_shapes(np.shape(solution.status), np.shape(solution.speed_a))
-    most = GRAVITY * tyres.friction * solution.duration
-    with np.errstate(invalid="ignore"):
-        after = _velocity(named["speed_after"], named["course_after"])
-        found = _velocity(named["speed"], named["course"])
-        half = np.hypot(
-            *(was + PASSED_AT_HALF * (now - was) for was, now in zip(found, after, strict=True))
-        )
-        # Half-way through the contact the wheels move with the turning of the vehicle too.
-        arm = np.hypot(tyres.wheelbase, tyres.track)
-        turning = PASSED_AT_HALF * abs(named["yaw_rate_after"]) * arm
-        slow = np.minimum(named["speed"], half - turning) < _FAST * most
     where = np.flatnonzero(np.broadcast_to(slow, shape))
     if not where.size:
         return None
@@ -101,7 +85,7 @@ def other_velocity(solution: MomentumSolution) -> Other | None:
 
     lasting = Lasting(
         take(solution.duration),
-        {label: part_of(tyres, take)},
+        {label: part_of(solution.tyres[label], take)},
         {label: take(named["yaw_rate_after"])},
     )
     x, y, apart = _others(
@@ -117,6 +101,41 @@ def other_velocity(solution: MomentumSolution) -> Other | None:
         return made.reshape(-1, *shape)
 
     return Other(whole(np.hypot(x, y)), whole(np.arctan2(y, x)), whole(apart))
+
+
+def tyres_may_turn(solution: MomentumSolution) -> bool:
+    """Whether, beside the speed of another, the course is sought of a vehicle that is so slow
+    before that other courses may fit, which are not looked for.
+    """
+    course = solution.unknowns[1]
+    label = course.split("_")[1]
+    if what_is_sought(solution) != "beside" or course.endswith("after"):
+        return False
+    return label in solution.tyres and bool(np.any(_slow(solution, label)[2]))
+
+
+def _slow(solution: MomentumSolution, label: str) -> tuple[dict[str, Any], Any, Any]:
+    """Numbers of the motion of a vehicle, what its tyres can change of its velocity, and where it
+    is so slow that their force turns with its velocity before.
+    """
+    tyres = solution.tyres[label]
+    parts = ("speed", "course", "mass", "heading", "tyre_impulse_x", "tyre_impulse_y")
+    named = {part: getattr(solution, f"{part}_{label}") for part in parts}
+    for part in ("speed", "course", "yaw_rate"):
+        value = getattr(solution, f"{part}_{label}_after")
+        named[f"{part}_after"] = 0.0 if value is None else value
+    most = GRAVITY * tyres.friction * solution.duration
+    with np.errstate(invalid="ignore"):
+        after = _velocity(named["speed_after"], named["course_after"])
+        found = _velocity(named["speed"], named["course"])
+        half = np.hypot(
+            *(was + PASSED_AT_HALF * (now - was) for was, now in zip(found, after, strict=True))
+        )
+        # Half-way through the contact the wheels move with the turning of the vehicle too.
+        arm = np.hypot(tyres.wheelbase, tyres.track)
+        turning = PASSED_AT_HALF * abs(named["yaw_rate_after"]) * arm
+        slow = np.minimum(named["speed"], half - turning) < _FAST * most
+    return named, most, slow
 
 
 def _others(lasting: Lasting, label: str, of: dict[str, Any], most: Any) -> tuple[Any, Any, Any]:

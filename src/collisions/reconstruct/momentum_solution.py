@@ -19,7 +19,7 @@ from ..quantities.tables import Cells, Part, Sentences, Summary, all_numbers, as
 from ..quantities.units import Value, to_quantity
 from ..vehicle.drag import USUAL_DURATION
 from ..vehicle.tyres import Tyres
-from .momentum_others import other_velocity
+from .momentum_others import other_velocity, tyres_may_turn
 from .momentum_tyres import neglected, what_is_sought
 from .momentum_vector import NEARLY_CANCELLING
 
@@ -198,18 +198,20 @@ class MomentumSolution(Shown):
         return () if found is None else (found.sentence,)
 
     def _may_have_others(self) -> bool:
-        """Whether small changes of the tyres' impulse move what was found so far that another pair
-        may fit, which is looked for where one velocity is sought alone.
+        """Whether another pair may fit, as small changes of the tyres' impulse move what was found
+        far, or that impulse turns with it; looked for are others of one velocity sought alone.
         """
         ill = np.asarray(self.condition) > NEARLY_CANCELLING
-        return what_is_sought(self) != "velocity" and bool(np.any(ill))
+        far = what_is_sought(self) != "velocity" and bool(np.any(ill))
+        return far or tyres_may_turn(self)
 
     def _not_looked_for(self) -> str:
         one, other = self.unknowns
+        why = "vehicle as slow" if tyres_may_turn(self) else "condition as large"
         return (
-            f"{one} and {other} are those to which the balance without tyres leads; with a "
-            "condition as large as here another pair may fit with the tyres, which was not looked "
-            "for, and other evidence has to tell"
+            f"{one} and {other} are those to which the balance without tyres leads; with a {why} "
+            "as here another pair may fit with the tyres, which was not looked for, and other "
+            "evidence has to tell"
         )
 
     def _texts(self) -> Iterable[Any]:

@@ -71,6 +71,8 @@ _STAYS = 1e-9
 # Of the closing speed and the slip.
 _INSIDE = 1e-12
 _REFINEMENTS = 3
+# Of a known value, to either side of it: central differences.
+_SHARE = 1e-5
 # What to write where the components show another ratio than the friction.
 RATIO_SHOWN = "Write `friction=inf, slid='bound'`, which takes the ratio that the components show"
 # What ``roots`` finds of every case.
@@ -123,6 +125,8 @@ class ComponentScene(Scene):
         # lie to both sides of those of one that stuck, so that a bound has none.
         self.reach: tuple[Any, ...] = (math.nan,) * 4
         self.no_side: Any = np.zeros((), dtype=bool)
+        # Where one that slid fits better, with another speed.
+        self.slides_better: Any = np.zeros((), dtype=bool)
         # Where a bound was asked for and sliding fits either way, so that it has no side.
         self.both_ways: Any = np.zeros((), dtype=bool)
         # Where a contact that sticks fits.
@@ -300,11 +304,14 @@ class ComponentScene(Scene):
         same speeds.
 
         A ratio that is within the accuracy of recorders ``near`` to the friction is not below it.
+        Without a friction a small ratio means that it stuck, as vehicles hardly slide at it, but
+        not beside a known speed with which one that slid fits better.
         """
-        if len(self.unknown) == 1:
-            self.leaves_slip = self.leaves_slip | self._slip_stays_open()
         bound = np.where(np.isinf(self.bound), MAY_SLIDE, self.bound)
         below = (size <= CLEARLY_BELOW * bound) & np.logical_not(near)
+        if len(self.unknown) == 1:
+            below = below & ~(np.isinf(self.bound) & self.slides_better)
+            self.leaves_slip = self.leaves_slip | self._slip_stays_open()
         decided = below | np.logical_not(self.leaves_slip)
         if self.slid:
             # Asked for a bound, what friction can decide is not enough where contacts slide.
@@ -504,32 +511,73 @@ class ComponentScene(Scene):
         slip = short / (short - ahead)
         # A hair inside the family, or rounding decides whether the impact solved forwards slides.
         slip = slip + np.sign(ratio * (ahead - short)) * _INSIDE * (abs(slip) + closing)
-        within: Any = None
-        if self.energy is not None:
-            way = np.sign(ratio * (ahead - short)) * closing
-            loss, more = (
-                self.observe(ratio, *self.speeds_at(closing, one)).energy_loss
-                for one in (slip, slip + way)
-            )
-            within = (self.energy - loss) / (more - loss)
-            slip, by_energy = slip + way * within, abs(way * self.energy / (more - loss))
-        speeds = self.speeds_at(closing, slip)
-        if within is None:
-            speeds = self.forwards(ratio, speeds)
-        _, effects, inverse, _ = self._linear_in(STICK)
-        momenta = self._seen_momenta(self.observe(ratio, *speeds))
-        moved = self._moved(inverse, effects, momenta)
-        if within is not None:
-            per_slip = [b - a for a, b in zip(*map(self._one_slip, (0.0, 1.0)), strict=True)]
-            moved = moved + np.maximum(*map(abs, per_slip)) * by_energy
+        if self.energy is None:
+            speeds = self.forwards(ratio, self.speeds_at(closing, slip))
+            _, effects, inverse, _ = self._linear_in(STICK)
+            momenta = self._seen_momenta(self.observe(ratio, *speeds))
+            moved = self._moved(inverse, effects, momenta)
+        else:
+            further = np.sign(ratio * (ahead - short)) * closing
+            places = slip, slip + further
+            slip = self._slip_that_loses(ratio, closing, places, self.energy)
+            within = (slip - places[0]) / further
+            speeds = self.speeds_at(closing, slip)
+            moved = self._moved_beside_an_energy(ratio, places)
         # However far the friction is from the ratio, the case has a bound; recorders must agree.
         agree = self._own_misfit() <= self.most
         usable = agree & np.isfinite(misfit) & (abs(ratio) > 0.0)
         usable = usable & pushed(self.observe(LAW, *speeds))
-        if within is not None:
+        if self.energy is not None:
             usable = usable & (within >= 0.0) & (misfit <= self.most)
         root = Root(*speeds, self.e, moved / abs(closing), np.where(usable, closing, np.nan))
         return root, np.where(usable, misfit, np.inf), np.full((), np.inf)
+
+    def _slip_that_loses(self, ratio: Any, closing: Any, places: Sequence[Any], energy: Any) -> Any:
+        """The slip at which a contact that slides at this ratio loses an energy, from the losses at
+        two other places: it is linear in the slip.
+        """
+        loss, more = (
+            self.observe(ratio, *self.speeds_at(closing, one)).energy_loss for one in places
+        )
+        return places[0] + (places[1] - places[0]) * ((energy - loss) / (more - loss))
+
+    def _moved_beside_an_energy(self, ratio: Any, places: Sequence[Any]) -> Any:
+        """How far relative errors of the momenta and the energy may move the speeds of a contact
+        that slid, by central differences: the momenta move the closing speed, and with it, and with
+        a ratio that they show, the slip that loses the energy.
+        """
+        of_friction = self._of_friction() if np.any(self.shows_friction) else None
+
+        def speeds(momenta: Sequence[Any], energy: Any) -> tuple[Any, Any]:
+            at = ratio
+            if of_friction is not None:
+                changes = (new - old for new, old in zip(momenta, self._momenta, strict=True))
+                change = np.sign(ratio) * dot(of_friction, list(changes))
+                at = ratio + np.where(self.shows_friction, change, 0.0)
+            once, twice = (
+                self._seen_momenta(self.observe(at, *self.speeds_at(one, 0.0 * one)))
+                for one in (np.ones(()), np.full((), 2.0))
+            )
+            effect = [more - less for more, less in zip(twice, once, strict=True)]
+            left = [momentum - less for momentum, less in zip(momenta, once, strict=True)]
+            closing = 1.0 + dot(effect, left) / dot(effect, effect)
+            return self.speeds_at(closing, self._slip_that_loses(at, closing, places, energy))
+
+        known = [*self._momenta, self.energy]
+        moved: Any = (0.0, 0.0)
+        for at, value in enumerate(known):
+            up, down = (
+                speeds(changed[:-1], changed[-1])
+                for changed in (
+                    [*known[:at], (1.0 + step) * value, *known[at + 1 :]]
+                    for step in (_SHARE, -_SHARE)
+                )
+            )
+            moved = [
+                before + abs(high - low) / (2.0 * _SHARE)
+                for before, high, low in zip(moved, up, down, strict=True)
+            ]
+        return np.maximum(*moved)
 
     def _one_slip(self, slip: float) -> tuple[Any, Any]:
         return self.speeds_at(np.ones(()), slip * np.ones(()))
@@ -805,8 +853,8 @@ class Shown(NamedTuple):
     """What components show of a contact: the friction in place of an infinite one, None where none
     is used; where a contact that slid fits as well as one that stuck, with other speeds; and to
     which side of those of the one that stuck each of those lies, NaN where that is not so; the
-    least and the greatest of those beside a known speed, with the ratio of each; and where they lie
-    to both sides.
+    least and the greatest of those beside a known speed, with the ratio of each; where they lie to
+    both sides; and where the best of them fits better than the one that stuck.
     """
 
     friction: Any = None
@@ -814,6 +862,7 @@ class Shown(NamedTuple):
     toward: tuple[Any, Any] = (math.nan, math.nan)
     reach: tuple[Any, ...] = (math.nan,) * 4
     no_side: Any = False
+    better: Any = False
 
 
 def friction_shown(
@@ -845,17 +894,19 @@ def friction_shown(
     if regime == "sliding":
         return Shown(ratio)
     stuck = kind(given, FRICTION, law, names, shape)
+    either = np.asarray(given.get(EITHER, 0.0) > 0.0)
     if not speeds:
-        return Shown(np.where(usable & stuck.loses_more(), shown, friction))
+        return Shown(np.where(usable & stuck.loses_more() & ~either, shown, friction))
     slid = kind({**given, FRICTION: ratio}, FRICTION, law, names, shape, False, "sliding")
     closing = sum(np.nan_to_num(root.closing) for root in stuck.roots())
     one, other, *_ = slid.roots()
     slides = usable & ((one.closing > 0.0) | (other.closing > 0.0)) & (slid.misfit < stuck.misfit)
-    settled = slides & (stuck.misfit > ACCURACY) & ~np.asarray(given.get(EITHER, 0.0) > 0.0)
+    settled = slides & (stuck.misfit > ACCURACY) & ~either
     (at,) = stuck.unknown
     move = slid.answer[at] - stuck.answer[at]
     least = _ONE_ANSWER * closing
     rises, falls = slides & (move > least), slides & (move < -least)
+    better = (rises | falls) & ~settled
     stuck_at = stuck.answer[at]
     of_stuck = kind(given, FRICTION, law, names, shape)
     low, high = of_stuck.fitting(STICK)
@@ -877,6 +928,7 @@ def friction_shown(
         (side, of_known) if at == 0 else (of_known, side),
         reach,
         rises & falls & ~settled,
+        better,
     )
 
 

@@ -93,8 +93,8 @@ class Search:
         )
         # The impulse of the tyres is then in the balance from which components tell that of the
         # contact.
-        with_energy = {"energy_loss", "ees_a"} & known.keys()
-        self._balanced = bool(inputs.tyres) and self.components and not with_energy
+
+        self._balanced = bool(inputs.tyres) and self.components
 
     def solved(self, changes: Mapping[str, Any] = {}, only: Mapping[str, Any] = {}) -> Attempt:
         """The scene and its roots, with some numbers changed, in balance with the tyres; ``only``
@@ -198,6 +198,7 @@ class Search:
         if isinstance(scene, ComponentScene):
             scene.leaves_slip = scene.leaves_slip | shown.fits_both
             scene.toward, scene.reach, scene.no_side = shown.toward, shown.reach, shown.no_side
+            scene.slides_better = shown.better
             scene.shows_friction = np.isinf(asked.rule_value) & (friction is not None)
         roots = scene.roots() if self.function is None else _with_function(scene, self.function)
         if isinstance(scene, ComponentScene) and np.any(np.isfinite(scene.slid_at)):
