@@ -234,7 +234,8 @@ def _note_arguments(
         signature = inspect.signature(function)
     if signature is None:
         return
-    for parameter, value in signature.bind(*args, **kwargs).arguments.items():
+    # What is required may be missing where nothing needs it, as in a batch of no cases.
+    for parameter, value in signature.bind_partial(*args, **kwargs).arguments.items():
         several = signature.parameters[parameter].kind is inspect.Parameter.VAR_KEYWORD
         _passed[name].update(value if several else (parameter,))
 
