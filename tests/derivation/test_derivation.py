@@ -1823,3 +1823,12 @@ def test_what_tyres_do_is_told_apart_from_an_impulse_from_outside():
     alone = explain(col.eccentric(a, b, 0.1, **contact, outside_a=(30, 20)), form="text")
     assert "Work of the impulse from outside on A" in alone
     assert "tyres" not in alone
+
+
+def test_an_impulse_whose_number_has_lost_digits_is_not_written_out():
+    light = col.Vehicle(mass=1e-305, vx=20.0, x=-2, y=0)
+    impact = col.linear_central(light, col.Vehicle(mass=1500, x=2, y=0), 0.1)
+    assert 0.0 < impact.normal_impulse < 1e-290
+    with pytest.raises(col.InputError, match="numbers so near 0 have lost digits") as refused:
+        explain(impact)
+    assert refused.value.code == "out_of_range"

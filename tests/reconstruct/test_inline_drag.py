@@ -154,3 +154,16 @@ def test_the_size_of_a_delta_v_that_its_tyres_may_have_made(closing, restitution
     with pytest.warns(col.CollisionsWarning, match="1 ambiguous"):
         found = reconstruct.inline_closing_speed(1200, 20000, restitution, **known)
     assert np.isnan(found).tolist() == [True, False]
+
+
+@pytest.mark.parametrize("restitution", [0.2, lambda speed: 0.2], ids=["number", "function"])
+def test_a_delta_v_of_b_that_its_tyres_or_a_give_is_said_to_be_that(restitution):
+    with pytest.raises(col.AmbiguousSolutionError, match="its tyres slow B by more") as both:
+        reconstruct.inline_closing_speed(
+            1500, 1300, restitution, delta_v_b="1 km/h", duration="100 ms", drag_b=0.7
+        )
+    # The impulse of the contact is what B changes by and what its tyres take, of either sign; from
+    # it comes (1 + e) times the closing speed and what the tyres open the gap by.
+    slowed, share = 0.7 * 9.80665 * 0.1, 1500 / 2800
+    expected = [((slowed + sign / 3.6) / share - slowed) / 1.2 for sign in (-1.0, 1.0)]
+    assert both.value.solutions == pytest.approx(tuple(expected), rel=1e-12)

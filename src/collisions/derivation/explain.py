@@ -40,6 +40,8 @@ from .wheels import tyre_inputs
 
 Form: TypeAlias = Literal["markdown", "text"]
 _Ranges: TypeAlias = dict[str, tuple[float, float]]
+# In N*s: products of it with lengths and speeds keep all their digits.
+_LEAST_IMPULSE = 1e-290
 # In standard deviations: how far an answer may differ from the mean of its propagation.
 _OFF_CENTRE = 0.1
 # The hint for a result that is a bare number.
@@ -178,7 +180,8 @@ def explain(
     ShapeError
         A batch: explain one case of it.
     InputError, NoImpactError, NoSolutionError
-        An argument that cannot be used, or an impact that was refused (the status says why).
+        An argument that cannot be used, or an impact that was refused (the status says why), or
+        whose normal impulse is so near 0 (1e-290 N*s) that its numbers have lost digits.
     InternalError
         The result and a formula for it contradict each other, by more than 1e-3 of the largest
         term: a defect of the library, of which neither the result nor its derivation may be used.
@@ -235,8 +238,7 @@ def explain(
         momentum(page, impact)
     else:
         page.title("The impact, step by step")
-        _energy_gain(page, impact.status, impact.energy_loss)
-        _impact(page, impact)
+        _with_gain(page, impact)
     _notes(page, uncertainty, of_impact=not isinstance(impact, Fit))
     return page.text()
 
@@ -250,6 +252,14 @@ def _run(run: Run, units: UnitSystem | None, form: Form) -> Document:
 
 
 def _with_gain(page: Page, impact: Impact) -> None:
+    if 0.0 < abs(impact.normal_impulse) < _LEAST_IMPULSE:
+        raise InputError(
+            f"explain cannot write out an impact with a normal impulse of "
+            f"{impact.normal_impulse:.3g} N*s: numbers so near 0 have lost digits, and their "
+            "formulas do not hold; give masses and speeds of vehicles",
+            code="out_of_range",
+            argument="impact",
+        )
     _energy_gain(page, impact.status, impact.energy_loss)
     _impact(page, impact)
 

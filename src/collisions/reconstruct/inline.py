@@ -242,15 +242,7 @@ def _with_number(
     )
 
     if cases.shape is None and status == Status.AMBIGUOUS:
-        both = cases.values(other), cases.values(speed)
-        slow, fast = say.apart(both, "speed")
-        raise AmbiguousSolutionError(
-            f"a delta-V of B of this size fits closing speeds of {slow}, at which its tyres slow "
-            f"B by more than A pushes it on, and of {fast}, at which A pushes it on by more; give "
-            "delta_v_a or an energy, or both speeds of B to reconstruct.central",
-            code="ambiguous",
-            solutions=both,
-        )
+        raise _either_way((cases.values(other), cases.values(speed)), say)
     if cases.shape is None and status != Status.OK:
         text = {
             Status.IMMOVABLE: "both masses are infinite; give at least one a finite mass",
@@ -277,6 +269,18 @@ def _with_number(
     return answer
 
 
+def _either_way(both: tuple[Any, ...], say: Sentences) -> AmbiguousSolutionError:
+    """B slowed by its tyres or pushed on by A, at the slower and the faster closing speed."""
+    slow, fast = say.apart(both, "speed")
+    return AmbiguousSolutionError(
+        f"a delta-V of B of this size fits closing speeds of {slow}, at which its tyres slow B by "
+        f"more than A pushes it on, and of {fast}, at which A pushes it on by more; give delta_v_a "
+        "or an energy, or both speeds of B to reconstruct.central",
+        code="ambiguous",
+        solutions=both,
+    )
+
+
 def _with_function(
     cases: Cases, kind: str, numbers: dict[str, Any], function: RestitutionOf, say: Sentences
 ) -> Value:
@@ -300,8 +304,10 @@ def _with_function(
 
     count = math.prod(shape)
     found: list[set[float]] = [set() for _ in range(count)]
+    ways = set()
     for case, which, e in crossings(mismatch, count):
         found[case] |= {float(speeds(np.float64(e), case)[which])}
+        ways.add(which)
     each = [tuple(sorted(filter(math.isfinite, answers))) for answers in found]
     if cases.shape is not None:
         alone = np.array([answers[0] if answers else np.nan for answers in each]).reshape(shape)
@@ -314,6 +320,8 @@ def _with_function(
         raise NoSolutionError(
             "no closing speed has the restitution that leads to it", code="contradictory"
         )
+    if len(answers) == len(ways) == 2:
+        raise _either_way(answers, say)
     if len(answers) > 1:
         raise AmbiguousSolutionError(
             "the function of restitution is met at closing speeds of "
