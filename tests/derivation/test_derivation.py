@@ -1832,3 +1832,16 @@ def test_an_impulse_whose_number_has_lost_digits_is_not_written_out():
     with pytest.raises(col.InputError, match="numbers so near 0 have lost digits") as refused:
         explain(impact)
     assert refused.value.code == "out_of_range"
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize("near", [-1.2, 2.0])
+def test_a_course_all_but_in_line_is_written_out(near):
+    """Of a speed so large what is left across the line is less than the rounding of the angle."""
+    solution = reconstruct.momentum(
+        39583.0, 3129.27, course_a=2.69619, speed_a=5.49733, course_a_after=1.23026,
+        speed_a_after=25.6599, speed_b=4e38, course_b_after=-1.15282, course_near=near,
+    )  # fmt: skip
+    assert solution.unknowns == ("speed_b_after", "course_b")
+    text = explain(solution, form="text", units="si")
+    assert "Velocity of B before across" in text

@@ -200,10 +200,10 @@ def test_an_interrupt_returns_what_is_done(monkeypatch, method, threads, where):
     (warning,) = [record.message for record in caught]
     assert (warning.code, warning.fields["done"]) == ("interrupted", found.samples)
     assert found.interrupted
-    # Two threads may begin their blocks in another order than they were given.
-    assert found.samples in (
-        (1500,) if where == "progress" or threads == 1 else (500, 1000, 1500, 2000)
-    )
+    # Two threads may begin their blocks in another order than they were given, and the other one
+    # may go on until this one is heard.
+    known = where == "progress" or threads == 1
+    assert found.samples in ((1500,) if known else range(500, 5000, 500))
     assert not whole.interrupted
     for name in found:
         assert found[name].values.tobytes() == whole[name].values[: found.samples].tobytes()

@@ -242,10 +242,12 @@ def _speed_and_course(page: Page, m: _Momenta) -> None:
         "the one nearer to what was stated is taken."
     )
     turn = course.value - axis.value
-    across = Symbol(f"v_{{{of}n}}", speed.value * math.sin(turn), "speed")
+    # Of both parts the rounding is that of the whole.
+    whole = abs(speed.value)
+    across = Symbol(f"v_{{{of}n}}", speed.value * math.sin(turn), "speed", size=whole)
     left, mass = _others(m, other, "sin", axis)
     page.equation(f"Velocity of {of} {when} across {page.symbol(axis)}", across, left / mass)
-    along = Symbol(f"v_{{{of}t}}", speed.value * math.cos(turn), "speed")
+    along = Symbol(f"v_{{{of}t}}", speed.value * math.cos(turn), "speed", size=whole)
     page.equation(
         f"Velocity of {of} {when} along {page.symbol(axis)}",
         along,
