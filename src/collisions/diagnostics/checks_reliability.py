@@ -199,9 +199,9 @@ def tyres_stop(case: ImpactCase) -> Iterator[Measured]:
         sentence = (
             f"tyres of {who} could stop it, or its turning, within the duration of the contact: "
             f"their whole force would give {case.text(beyond, 'impulse')} and "
-            f"{case.text(abs(turn), 'angular momentum')} beyond half of that, {percent(part)} of "
-            "the momentum that the vehicle gains, and how much of it acts an impulse only "
-            "estimates: follow the contact in time, by time_resolved"
+            f"{case.text(abs(turn), 'angular momentum')} more than half of what stops them, "
+            f"{percent(part)} of the momentum that the vehicle gains, and how much of it acts an "
+            "impulse only estimates: follow the contact in time, by time_resolved"
         )
         yield Measured(part, sentence, label)
 
