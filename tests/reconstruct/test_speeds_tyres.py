@@ -777,7 +777,7 @@ def test_an_energy_beside_components_finds_a_contact_that_slid_with_tyres(given)
         (a, b), contact, wheels = drawn_apart(rng)
         try:
             truth = col.eccentric(a, b, 0.2, **contact, **wheels)
-        except col.NoSolutionError:
+        except (col.NoImpactError, col.NoSolutionError):
             continue
         if truth.regime != "sliding":
             continue
@@ -796,6 +796,27 @@ def test_an_energy_beside_components_finds_a_contact_that_slid_with_tyres(given)
             for one in answers
         ]
         assert min(off) < 1e-6
+
+
+def test_an_energy_beside_a_component_of_either_vehicle_misses_no_answer_with_tyres():
+    """With a known friction; the balance of the tyres by itself leads to other speeds in some."""
+    rng = random.Random(31)
+    for _ in range(40):
+        (a, b), contact, wheels = drawn_apart(rng)
+        try:
+            truth = col.eccentric(a, b, 0.2, **contact, **wheels)
+        except (col.NoImpactError, col.NoSolutionError):
+            continue
+        names = ("delta_v_forward_a", "delta_v_left_b", "energy_loss")
+        answers = reconstruct.speeds(
+            a, b, course_a=a.course, course_b=b.course, restitution=0.2, **contact, **wheels,
+            **{name: read(truth, name) for name in names},
+        )  # fmt: skip
+        off = [
+            max(abs(one.a.before.speed - a.speed), abs(one.b.before.speed - b.speed))
+            for one in answers
+        ]
+        assert min(off) < 1e-5
 
 
 def drawn_apart(rng):

@@ -93,7 +93,6 @@ class Search:
         )
         # The impulse of the tyres is then in the balance from which components tell that of the
         # contact.
-
         self._balanced = bool(inputs.tyres) and self.components
 
     def solved(self, changes: Mapping[str, Any] = {}, only: Mapping[str, Any] = {}) -> Attempt:
@@ -268,14 +267,16 @@ class Search:
         known value those that a scan of the unknown speed shows.
 
         Roots that are in balance have the impulse of the tyres already: of a contact that stuck, or
-        beside a known speed and more components than it needs. Of a case, all are tried with the
-        friction of its first.
+        beside a known speed or an energy and more components than it needs. Of a case, all are
+        tried with the friction of its first.
         """
         knows_speed = any(name.startswith("speed") for name in self.known)
+        knows_energy = bool({"energy_loss", "ees_a"} & self.known.keys())
         # A place of a recorder and its axes are in the balance alone, and so is a bound, which has
         # an end of a family where no speed is known.
         alone = self.recorders is None and (knows_speed if self.slid else True)
-        if self._balanced and not (alone and (len(self.known) == 2 or knows_speed)):
+        knows_more = len(self.known) == 2 or knows_speed or knows_energy
+        if self._balanced and not (alone and knows_more):
             return attempt
         scene, found = attempt.scene, attempt.found
         directions = {
@@ -316,16 +317,20 @@ class Search:
             len(found) if more else 0,
         )
         fits = answer.settled
+        rooted = np.any([there for _, there in found] or [False], axis=0)
         if self._balanced and not (more or knows_speed):
             # Of the contacts that stick, where it is known that this one did.
             fits = fits & answer.sticks
             if self.regime is None:
-                fits = fits & np.any([there for _, there in found] or [False], axis=0)
+                fits = fits & rooted
         elif self.regime is not None:
             # Other starts may lead to a contact that ended otherwise than was stated.
             so = np.broadcast_to(answer.sticks == (self.regime == "sticking"), fits.shape).copy()
             so[: len(found)] = True
             fits = fits & so
+        if self._balanced and knows_energy:
+            # Without a friction they have that of a root, if it slid.
+            fits = fits & (np.isfinite(attempt.inputs.rule_value) | rooted)
         if answer.misfit is not None:
             fits = fits & (answer.misfit <= CONTRADICTION)
             fits, least = _best_of(answer.misfit, fits)
