@@ -863,3 +863,28 @@ def test_an_answer_beside_the_end_of_all_answers_is_found():
         a, b, course_a=a.course, course_b=b.course, speed_b=b.speed, energy_loss=energy, **contact
     )
     assert found.a.before.speed == pytest.approx(a.speed, rel=1e-9)
+
+
+@pytest.mark.parametrize("label", ["a", "b"])
+@pytest.mark.parametrize("given", [{}, {"friction": math.inf, "regime": "sliding"}])
+def test_beside_a_speed_the_condition_is_known_with_tyres(label, given):
+    """Other starts lead to the same answer, and do not take its condition away."""
+    a = col.Vehicle.from_speed(
+        mass=2296, yaw_inertia=4454.24, x=-1.724, y=-0.538, heading=0.17, speed=8.8, course=0.17
+    )
+    b = col.Vehicle.from_speed(
+        mass=1555, yaw_inertia=2254.75, x=1.803, y=0.191, heading=1.621, speed=14.15, course=1.621
+    )
+    contact = {
+        "normal": 0.186, "point": (0.153, -0.125), "friction": 0.446, "restitution": 0.304,
+        "duration": 0.064, "tyres_a": Tyres(0.421, 1, 2.71, 1.45),
+        "tyres_b": Tyres(0.773, [0.091, 0.027, 0.084, 0.086], 2.81, 1.51, cornering=8.758),
+    }  # fmt: skip
+    truth = col.eccentric(a, b, **contact)
+    names = (f"delta_v_forward_{label}", f"delta_v_left_{label}")
+    (found,) = reconstruct.speeds(
+        a, b, course_a=a.course, course_b=b.course, speed_a=8.8, **contact | given,
+        **{name: read(truth, name) for name in names},
+    )  # fmt: skip
+    assert found.b.before.speed == pytest.approx(14.15, rel=1e-9)
+    assert 1.0 < found.reconstruction.condition < 100.0

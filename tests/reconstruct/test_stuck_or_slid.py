@@ -759,23 +759,53 @@ def test_a_batch_beside_a_speed_has_the_sides_of_its_cases():
             assert side == alone.reconstruction.one_sided["speed_b"]
 
 
-def test_beside_a_speed_a_bound_is_given_where_the_one_that_stuck_goes_backwards():
-    """A crash at 11.1 m/s, with readings off by some percent."""
-    a = col.Vehicle(
-        mass=1847.729571, yaw_inertia=3528.311724, x=0, y=0, heading=-0.07836, yaw_rate=0.053004
-    )
-    b = col.Vehicle(
-        mass=2082.78471, yaw_inertia=4551.805123, x=3.704804, y=0.38907, heading=4.419801,
-        yaw_rate=0.241927,
+def test_beside_a_speed_there_is_no_bound_where_the_one_that_stuck_goes_backwards():
+    """Two crashes, at 11.1 m/s with readings off by some percent, and at 22.39 m/s with exact ones:
+    the speeds of those that slid rise from backwards to faster forwards, so that a size has no
+    side.
+    """
+    noisy = (
+        col.Vehicle(
+            mass=1847.729571, yaw_inertia=3528.311724, x=0, y=0, heading=-0.07836,
+            yaw_rate=0.053004,
+        ),
+        col.Vehicle(
+            mass=2082.78471, yaw_inertia=4551.805123, x=3.704804, y=0.38907, heading=4.419801,
+            yaw_rate=0.241927,
+        ),
     )  # fmt: skip
-    with pytest.warns(col.OutOfRangeWarning, match="speed of B came out"):
-        (found,) = speeds(
-            a, b, course_a=-0.10367, course_b=4.413577, restitution=0.308045, normal=-0.307991,
-            point=(1.732086, 0.163863), speed_a=11.788906, delta_v_forward_b=-1.595525,
-            delta_v_left_b=6.128532, friction=math.inf, slid="bound",
-        )  # fmt: skip
-    assert found.regime == "sticking"
-    assert found.reconstruction.one_sided["speed_b"] != 0
+    exact = (
+        col.Vehicle(mass=1167, yaw_inertia=1680.48, x=-1.527, y=-0.512, heading=0.293),
+        col.Vehicle(
+            mass=2235, yaw_rate=-0.392, yaw_inertia=3486.6, x=1.911, y=-0.341, heading=-1.79819
+        ),
+    )
+    where = {"normal": -0.228, "point": (0.09, 0.005), "restitution": 0.117}
+    courses = {"course_a": 0.293, "course_b": 4.485}
+    truth = col.eccentric(
+        *(
+            one.replace(vx=fast * math.cos(course), vy=fast * math.sin(course))
+            for one, fast, course in zip(exact, (23.59, 22.39), courses.values(), strict=True)
+        ),
+        friction=0.084,
+        **where,
+    )
+    readings = {
+        "delta_v_forward_a": truth.a.delta_v_forward, "delta_v_left_a": truth.a.delta_v_left,
+        "speed_a": 23.59,
+    }  # fmt: skip
+    for cars, known in (
+        (noisy, {
+            "course_a": -0.10367, "course_b": 4.413577, "restitution": 0.308045,
+            "normal": -0.307991, "point": (1.732086, 0.163863), "speed_a": 11.788906,
+            "delta_v_forward_b": -1.595525, "delta_v_left_b": 6.128532,
+        }),
+        (exact, {**where, **courses, **readings}),
+    ):  # fmt: skip
+        with pytest.raises(col.AmbiguousSolutionError, match="B would go backwards") as open_:
+            speeds(*cars, **known, friction=math.inf, slid="bound")
+        assert [one.regime for one in open_.value.solutions] == ["sticking", "sliding"]
+    assert open_.value.solutions[1].b.before.speed == pytest.approx(22.39, rel=1e-9)
 
 
 def crashes_beside_a_speed(count):

@@ -351,6 +351,12 @@ class ComponentScene(Scene):
             )
             known = (sticks & decided) | np.logical_not(self.leaves_slip)
             self.sides = np.where(known, 0.0, first), np.where(known, 0.0, second)
+            if len(self.unknown) == 1:
+                # A size has no side where a speed rises from backwards to faster forwards.
+                (at,) = self.unknown
+                speed, fastest = (one, other)[at], self.reach[1]
+                turns = (speed < 0.0) & (self.sides[at] > 0.0) & ~(fastest <= -speed)
+                self.ambiguous = self.ambiguous | (sticks & turns)
 
     def fitting(self, regime: Any) -> tuple[Any, Any]:
         """Beside a known speed, the least and the greatest other one at which a contact of this

@@ -332,8 +332,21 @@ class Search:
             # Without a friction they have that of a root, if it slid.
             fits = fits & (np.isfinite(attempt.inputs.rule_value) | rooted)
         if answer.misfit is not None:
-            fits = fits & (answer.misfit <= CONTRADICTION)
-            fits, least = _best_of(answer.misfit, fits)
+            misfit = answer.misfit
+            if more and knows_energy and isinstance(scene, ComponentScene):
+                # A root that sticks may lose another energy than is known.
+                own = [scene.of_way(root.way).misfit for root, _ in found]
+                own += [0.0] * (len(starts) - len(found))
+                misfit = np.maximum(misfit, np.stack(np.broadcast_arrays(*own, misfit[0])[:-1]))
+            fits = fits & (misfit <= CONTRADICTION)
+            fits, least = _best_of(misfit, fits)
+            for i in range(len(found)):
+                # What other starts lead back to a root has its condition.
+                apart = sum(
+                    abs(speed[len(found) :] - speed[i])
+                    for speed in (answer.speed_a, answer.speed_b)
+                )
+                fits[len(found) :] &= ~(fits[i] & (apart <= ROOT_TOL * answer.closing[i]))
             if isinstance(scene, ComponentScene):
                 for one in [scene, *scene.ways]:
                     one.misfit = np.where(np.isfinite(least), least, one.misfit)
