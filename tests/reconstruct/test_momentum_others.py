@@ -253,3 +253,9 @@ def test_a_course_of_a_slow_vehicle_beside_the_speed_of_another_says_that_others
     assert "with a vehicle as slow as here another pair may fit with the tyres" in sentence
     fast, _ = answered(**{**known, "speed_b": 13.0, "speed_b_after": 12.0}, speed_a=14.0)
     assert fast.statements == ()
+    # A case whose numbers overflow leaves the other as it is, without a warning of numpy's.
+    long, _ = answered(**known | {"duration": np.array([known["duration"], 1.7e308])}, speed_a=4.7)
+    assert long.course_a[0] == pytest.approx(found.course_a, rel=1e-12)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert long.statements == (sentence,)

@@ -124,8 +124,9 @@ def _slow(solution: MomentumSolution, label: str) -> tuple[dict[str, Any], Any, 
     for part in ("speed", "course", "yaw_rate"):
         value = getattr(solution, f"{part}_{label}_after")
         named[f"{part}_after"] = 0.0 if value is None else value
-    most = GRAVITY * tyres.friction * solution.duration
-    with np.errstate(invalid="ignore"):
+    # Refused cases of a batch are looked at like all others.
+    with np.errstate(all="ignore"):
+        most = GRAVITY * tyres.friction * solution.duration
         after = _velocity(named["speed_after"], named["course_after"])
         found = _velocity(named["speed"], named["course"])
         half = np.hypot(
