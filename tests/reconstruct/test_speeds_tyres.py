@@ -888,3 +888,40 @@ def test_beside_a_speed_the_condition_is_known_with_tyres(label, given):
     )  # fmt: skip
     assert found.b.before.speed == pytest.approx(14.15, rel=1e-9)
     assert 1.0 < found.reconstruction.condition < 100.0
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ("delta_v_forward_a", "delta_v_left_a", "energy_loss"),
+        ("delta_v_forward_a", "delta_v_left_b", "energy_loss"),
+        ("speed_a", "delta_v_forward_a", "delta_v_left_a"),
+    ],
+)
+def test_the_condition_of_more_than_is_needed_is_that_of_the_whole_call_with_tyres(names):
+    """By finite differences of each known value, with the tyres worked out again each time."""
+    rng, met = random.Random(8), 0
+    while met < 6:
+        (a, b), contact, wheels = drawn_apart(rng)
+        try:
+            truth = col.eccentric(a, b, 0.2, **contact, **wheels)
+        except (col.NoImpactError, col.NoSolutionError):
+            continue
+        met += 1
+        courses = {"course_a": a.course, "course_b": b.course, "restitution": 0.2}
+        known = {name: read(truth, name) for name in names}
+
+        def found(known, a=a, b=b, rest=courses | contact | wheels):
+            answers = reconstruct.speeds(a, b, **rest, **known)
+            return min(answers, key=lambda one: abs(one.b.before.speed - b.speed))
+
+        sought = "b" if "speed_a" in known else "ab"
+        moved = np.zeros(len(sought))
+        for name, value in known.items():
+            up, down = (found({**known, name: value * (1.0 + step)}) for step in (1e-5, -1e-5))
+            moved += [
+                abs(getattr(up, side).before.speed - getattr(down, side).before.speed) / 2e-5
+                for side in sought
+            ]
+        condition = found(known).reconstruction.condition
+        assert condition == pytest.approx(max(moved) / truth.closing_speed, rel=0.02)

@@ -318,31 +318,30 @@ def slow_impacts(fastest, seed, spin=0.0):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("fastest", "spin", "most"),
-    [
-        (3.0, 0.0, 0.06), (6.0, 0.0, 0.025), (12.0, 0.0, 0.015),
-        (3.0, 0.5, 0.08), (6.0, 0.5, 0.03), (12.0, 0.5, 0.015),
-    ],
-)  # fmt: skip
-def test_what_would_stop_a_slow_car_is_no_sharp_limit(fastest, spin, most, monkeypatch):
-    """Against the contact in time at fixed places: neither half nor twice of the limit that is
-    taken errs by a tenth less, nor none at all.
+def test_what_stops_a_slow_car_limits_its_tyres_best(monkeypatch):
+    """Against the contact in time at fixed places, on the geometric mean over slow impacts without
+    and with vehicles that turn before: half and twice of the limit err by more, and none does.
     """
-    scenes, contact = slow_impacts(fastest, seed=11, spin=spin)
-    wanted = col.time_resolved(*scenes, **contact, geometry="fixed")
-    errors = {}
-    for stops in (1.0, held.STOPS, 4.0, 1e6):
-        monkeypatch.setattr(held, "STOPS", stops)
-        found = col.eccentric(*scenes, **contact)
-        off = [
-            np.hypot(one.delta_vx - other.delta_vx, one.delta_vy - other.delta_vy) / other.delta_v
-            for one, other in ((found.a, wanted.a), (found.b, wanted.b))
-        ]
-        errors[stops] = np.nanquantile(off, [0.5, 0.9])
-    assert errors[2.0][0] < most
-    for other in (1.0, 4.0, 1e6):
-        assert np.all(errors[2.0] <= 1.1 * errors[other])
+    most = {
+        (3.0, 0.0): 0.06, (6.0, 0.0): 0.025, (12.0, 0.0): 0.015,
+        (3.0, 0.5): 0.08, (6.0, 0.5): 0.03, (12.0, 0.5): 0.015,
+    }  # fmt: skip
+    errors = {1.0: [], held.STOPS: [], 4.0: [], 1e6: []}
+    for (fastest, spin), median in most.items():
+        scenes, contact = slow_impacts(fastest, seed=31, spin=spin)
+        wanted = col.time_resolved(*scenes, **contact, geometry="fixed")
+        for stops, of_stops in errors.items():
+            monkeypatch.setattr(held, "STOPS", stops)
+            found = col.eccentric(*scenes, **contact)
+            off = [
+                np.hypot(one.delta_vx - other.delta_vx, one.delta_vy - other.delta_vy)
+                / other.delta_v
+                for one, other in ((found.a, wanted.a), (found.b, wanted.b))
+            ]
+            of_stops.append(np.nanquantile(off, [0.5, 0.9]))
+        assert errors[2.0][-1][0] < median
+    means = {stops: np.exp(np.mean(np.log(of_stops))) for stops, of_stops in errors.items()}
+    assert min(means, key=means.get) == 2.0, means
 
 
 @pytest.mark.slow

@@ -25,8 +25,8 @@ _WEIGHTS = (1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0)
 # On the mean the wheels of a vehicle have together no more than what stops it from the faster of
 # its motions before and after: at each of these moments no more than so many times what would stop
 # it then, times the faster over the sum of both. That is twice for one that the contact sets in
-# motion, once for one that it leaves as it is. Neither half nor twice as much nor no limit errs by
-# a tenth less (tests/travel/test_tyres_in_contact.py).
+# motion, once for one that it leaves as it is. On the mean of slow impacts half as much, twice as
+# much and no limit err by more (tests/travel/test_tyres_in_contact.py).
 STOPS = 2.0
 # The inputs of ``held`` before its settings, those of the tyres last.
 NUMBERS = 13 + len(Tyres._fields) - 1 + 4

@@ -320,7 +320,7 @@ def _with_function(
         raise NoSolutionError(
             "no closing speed has the restitution that leads to it", code="contradictory"
         )
-    if len(answers) == len(ways) == 2:
+    if len(answers) == len(ways) == 2:  # one of either sign
         raise _either_way(answers, say)
     if len(answers) > 1:
         raise AmbiguousSolutionError(

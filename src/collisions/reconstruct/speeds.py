@@ -185,7 +185,7 @@ def speeds(
         ``.statements`` say. Beside a known speed and one other known value there is no such grid:
         the unknown speed is looked through both ways to 60 m/s, three times what both stand for or
         twice the answers of the instant, whichever is most, in 64 steps each way, and 256 to a
-        step where an answer may be near; two answers within one of these may be missed.
+        step where an answer may be near; two answers between two of the 64 may be missed.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional

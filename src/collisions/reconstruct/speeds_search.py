@@ -341,7 +341,7 @@ class Search:
             fits = fits & (misfit <= CONTRADICTION)
             fits, least = _best_of(misfit, fits)
             for i in range(len(found)):
-                # What other starts lead back to a root has its condition.
+                # What other starts lead back to is that root, with its condition.
                 apart = sum(
                     abs(speed[len(found) :] - speed[i])
                     for speed in (answer.speed_a, answer.speed_b)
@@ -353,8 +353,10 @@ class Search:
                     one.may_slide = one.may_slide & np.any(fits[: len(found)], axis=0)
         roots = []
         for i in range(len(starts)):
-            instant = found[i][0] if i < len(found) else NO_ROOT
-            condition = instant.condition if answer.condition is None else answer.condition[i]
+            condition = answer.condition[i]
+            if more and i < len(found) and attempt.shows:
+                # That of a root has what the ratio adds that the components show.
+                condition = np.fmax(condition, found[i][0].condition)
             roots.append(
                 Root(
                     answer.speed_a[i] / unit,

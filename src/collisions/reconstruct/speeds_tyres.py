@@ -67,8 +67,8 @@ _MOST_STARTS = 16
 
 class Found(NamedTuple):
     """Speeds of A and B along their courses, where they have what was known, the closing speed,
-    where the contact sticks, the condition, None where it is that of the instant, and by how much
-    of the impulse the components are missed that are more than is needed, None where none is.
+    where the contact sticks, the condition, and by how much of the impulse the components are
+    missed that are more than is needed, None where none is.
     """
 
     speed_a: Any
@@ -461,20 +461,10 @@ def speeds_with_tyres(
 
     def equations(tried: Inputs, answer: Any) -> list[Any]:
         left = off(tried, answer)
-        met = [one for one, alone in zip(left, exact, strict=True) if alone]
-        if not met:
-            return [
-                sum(row[i] * one for row, one in zip(rows, left, strict=True)) for i in range(2)
-            ]
-        # Along what leaves the exact one as it is.
-        x, y = rows[exact.index(True)]
-        size = np.hypot(x, y)
-        rest = sum(
-            (row[1] * x - row[0] * y) / size * one
-            for row, one, alone in zip(rows, left, exact, strict=True)
-            if not alone
-        )
-        return [*met, rest][:2]
+        return [
+            sum(part * one for part, one in zip(parts, left, strict=True))
+            for parts in _met_together(rows, exact)
+        ]
 
     values, settled = start, np.False_
     for _ in range(_TURNED):
@@ -497,8 +487,76 @@ def speeds_with_tyres(
         )
     )
     impulse = np.hypot(answer.normal_impulse, answer.tangential_impulse)
-    misfit = left * (inputs.a.mass + inputs.b.mass) / impulse
-    return Found(values[0], values[1], settled, closing, sticks, None, misfit)
+    both = inputs.a.mass + inputs.b.mass
+    weights = [
+        _as_speed(name, value, known, inputs)
+        * (1.0 if alone else getattr(inputs, name[-1]).mass / both)
+        / sizes[0]
+        for (name, value), alone in zip(
+            ((name, value) for name, value in known.items() if name not in _STANDS_FOR_NONE),
+            exact,
+            strict=True,
+        )
+    ]
+    sought = [at for at, label in enumerate("ab") if f"speed_{label}" not in known]
+    condition = _growth(slopes_at(missed, values, sizes), exact, weights, sought, closing)
+    return Found(values[0], values[1], settled, closing, sticks, condition, left * both / impulse)
+
+
+def _met_together(rows: Sequence[Sequence[Any]], exact: Sequence[bool]) -> list[list[Any]]:
+    """Of more known values than are sought the two equations that are met, each by the parts of
+    what is missed: those of least squares, or the values that are ``exact`` and, along what leaves
+    the first of these as it is, all others.
+
+    ``rows`` say how what is missed of each changes with both speeds.
+    """
+    if not any(exact):
+        return [[row[i] for row in rows] for i in range(2)]
+    first = exact.index(True)
+    met = [
+        [1.0 if i == at else 0.0 for i in range(len(rows))]
+        for at, alone in enumerate(exact)
+        if alone
+    ]
+    x, y = rows[first]
+    size = np.hypot(x, y)
+    rest = [
+        0.0 if alone else (row[1] * x - row[0] * y) / size
+        for row, alone in zip(rows, exact, strict=True)
+    ]
+    return [*met, rest][:2]
+
+
+def _growth(
+    rows: Sequence[Sequence[Any]],
+    exact: Sequence[bool],
+    weights: Sequence[Any],
+    sought: Sequence[int],
+    closing: Any,
+) -> Any:
+    """The condition of more known values than are sought: how far relative errors of all of them,
+    which count with these weights, may move the speeds that are sought, in closing speeds.
+    """
+    with np.errstate(all="ignore"):
+        met = _met_together(rows, exact)
+        (p, q), (r, s) = (
+            [sum(part * row[j] for part, row in zip(parts, rows, strict=True)) for j in range(2)]
+            for parts in met
+        )
+        determinant = p * s - q * r
+        inverse = ((s, -q), (-r, p))
+        moved: Any = 0.0
+        for at in sought:
+            one, other = inverse[at]
+            moved = np.maximum(
+                moved,
+                sum(
+                    abs(one * first + other * second) * weight
+                    for first, second, weight in zip(*met, weights, strict=True)
+                ),
+            )
+        found = moved / abs(determinant * closing)
+        return np.where(np.isfinite(found), found, np.inf)
 
 
 def starts_on_line(
