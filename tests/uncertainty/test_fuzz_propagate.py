@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 import collisions as col
@@ -196,6 +196,8 @@ def test_one_argument_of_any_kind(call: dict[str, Any], data: Any) -> None:
                 st.just(given_value).filter(lambda value: not _is_narrow(value)), st.just(1e30)
             )
         )
+    # What a callback of the caller raises is the caller's own.
+    assume(name != "progress" or not callable(given_value))
     call[name] = given_value
     if name == "inputs" and isinstance(given_value, dict):
         call["model"] = lambda **inputs: {
