@@ -1825,6 +1825,19 @@ def test_what_tyres_do_is_told_apart_from_an_impulse_from_outside():
     assert "tyres" not in alone
 
 
+def test_a_vehicle_without_tyres_is_not_said_to_have_some():
+    """Beside one with tyres, one that an impulse from outside acts on alone."""
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2, y=0, vx=15, heading=0.0)
+    b = col.Vehicle(mass=1300, yaw_inertia=2100, x=2, y=0.5, vx=-3, vy=6, heading=2.0)
+    wheels = col.travel.Tyres(0.7, 0.3, 2.7, 1.5)
+    lasting = {"duration": 0.1, "tyres_a": wheels, "outside_b": (350, -170)}
+    impact = col.eccentric(a, b, 0.1, normal=0.1, point=(0.1, 0.2), friction=0.5, **lasting)
+    text = " ".join(explain(impact, form="text", units="si").split())
+    assert "From outside an impulse acts on B: " in text
+    assert "act as an impulse on A: " in text
+    assert "act as an impulse on B" not in text
+
+
 def test_an_impulse_whose_number_has_lost_digits_is_not_written_out():
     light = col.Vehicle(mass=1e-305, vx=20.0, x=-2, y=0)
     impact = col.linear_central(light, col.Vehicle(mass=1500, x=2, y=0), 0.1)

@@ -353,7 +353,7 @@ def _from_outside(page: Page, s: Symbols, levers: Sequence[Lever]) -> tuple[Expr
         label, (j_x, j_y) = body.label, (body.pushed(axis) for axis in "xy")
         what = body.whence.capitalize()
         whence = "From outside an impulse acts"
-        if s.impact.inputs.tyres:
+        if "tyres" in body.whence:
             given = ""
             if "outside" in body.whence:
                 given = ", with the impulse from outside that was given,"

@@ -421,7 +421,7 @@ def _planar(page: Page, s: Symbols, kind: str) -> None:
         for body in levers:
             if body.outside is not None:
                 page.say(
-                    f"Their impulse on {body.label}: {page.shown(body.pushed('x'))}, "
+                    f"The {body.whence} on {body.label}: {page.shown(body.pushed('x'))}, "
                     f"{page.shown(body.pushed('y'))}, with {page.shown(body.moment)}."
                 )
     for body in levers:
