@@ -332,3 +332,11 @@ def test_both_answers_have_the_record_of_the_call_that_decides(wheels):
     for one in caught.value.solutions:
         page = str(col.report(one, form="markdown"))
         assert str(col.report(reporting.replay(page), form="markdown")) == page
+
+
+def test_a_momentum_that_underflows_is_refused():
+    """Mass times speed is 0 in double precision, so its course is nothing to be found."""
+    known = {"mass_a": 300.0, "mass_b": 5e-324, "speed_a": 1.0, "speed_b": 0.5, "together": True}
+    with pytest.raises(col.NoSolutionError) as refused:
+        reconstruct.momentum(**known, course_a=0.0, course_a_after=0.0)
+    assert refused.value.code == "contradictory"

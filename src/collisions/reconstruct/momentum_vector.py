@@ -149,7 +149,8 @@ class Beside:
         cosine, sine = self._turn
         c, s = one.course.direction
         by_speed = -one.sign / one.mass
-        by_course = -other.sign / (other.mass * other.speed)
+        # A momentum that underflows moves with nothing.
+        by_course = np.divide(-other.sign, other.mass * other.speed)
         rows: Rows = {self.speed_of: {}, course: {}}
         for name, (x, y) in inputs.items():
             along, across = c * x + s * y, c * y - s * x
