@@ -838,6 +838,15 @@ def test_the_text_is_that_of_any_editor():
             read_text(data)
 
 
+@pytest.mark.parametrize("text", ["x = {}{}", "{} = 1", "[{}]\nx = 1"])
+@pytest.mark.parametrize("depth", [900, 3000])
+def test_what_is_nested_too_deeply_is_refused(text, depth):
+    """Lists in lists, and keys and heads of tables of many parts."""
+    parts = ("[" * depth, "]" * depth) if "{}{}" in text else (".".join("a" * depth),)
+    with pytest.raises(CaseError, match="is nested too deeply"):
+        read_text(text.format(*parts).encode())
+
+
 @pytest.mark.parametrize(
     ("marked", "said", "in_a_file"),
     [

@@ -273,6 +273,7 @@ def read_text(data: bytes) -> Case:
             "utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig"
         )
         document = tomllib.loads(text, parse_float=_float)
+        reader = Reader(document)
     except UnicodeDecodeError:
         raise CaseError(("", "is no text in UTF-8; save it with this encoding")) from None
     except RecursionError:
@@ -281,7 +282,7 @@ def read_text(data: bytes) -> Case:
         ) from None
     except ValueError as error:
         raise CaseError(_not_toml(text, str(error))) from None
-    return Reader(document).case()
+    return reader.case()
 
 
 def _float(text: str) -> float:
