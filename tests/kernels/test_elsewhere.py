@@ -253,6 +253,24 @@ def test_a_contact_that_starts_without_slip_has_the_derivative_by_it(jax):
         assert slope == pytest.approx((ends[1] - ends[0]) / 2e-4, rel=1e-4)
 
 
+def test_friction_from_zero_on_has_the_derivative_of_a_slip_that_turns_round(jax):
+    """The levers turn the slip round without friction as well as with a little."""
+    a = Body(1459.0, 3026.0, 21.6, -1.7, 0.4, -2.0, 0.15)
+    b = Body(1195.0, 2683.0, 0.0, -2.9, -1.0, 2.0, 0.0)
+
+    def solve(friction):
+        contact = Contact(0.91, (1.0, 0.0), friction, (-0.28, -0.38))
+        return eccentric(Problem(contact, a, b), "friction", "stronge")
+
+    assert solve(0.0).slip_before > 0.0 > solve(0.0).slip_after
+    for output in ("normal_impulse", "tangential_impulse", "energy_loss"):
+        difference = (getattr(solve(1e-7), output) - getattr(solve(0.0), output)) / 1e-7
+        slope = float(
+            jax.grad(lambda friction, output=output: getattr(solve(friction), output))(0.0)
+        )
+        assert slope == pytest.approx(difference, rel=1e-3)
+
+
 def test_the_extra_installs_what_is_tried_here():
     """And the page names it."""
     project = PAGE.parents[1] / "pyproject.toml"

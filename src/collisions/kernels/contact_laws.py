@@ -183,7 +183,7 @@ def energetic_contact(
     )
     closing_at_stop = c - yields * slip_stop_impulse
     through = closing_at_stop <= -select(restitution < 0.0, 0.0, restitution) * c
-    slides = (yields > 0.0) & (through | never | (friction == 0.0))
+    slides = (yields > 0.0) & (through | never)
     compressing = (closing_at_stop > 0.0) & (slides ^ True)
     per_c = select(yields == 0.0, 1.0, yields)
 
@@ -257,7 +257,7 @@ def energetic_contact(
         slip_after=(forward * slip_left - back * after) * unit,
         loss_n=lost * unit * unit,
         loss_t=by_friction * unit * unit,
-        sticks=(slides | reversing) ^ True,
+        sticks=(slides | reversing | (friction == 0.0)) ^ True,
     )
 
 
