@@ -116,16 +116,6 @@ def test_a_text_of_what_was_not_given_is_refused():
         read(record)
 
 
-def test_a_record_of_an_earlier_version_has_texts_alone():
-    """They have to be readable, and of their kind."""
-    record = found("central").to_dict()
-    del record["results"]["reconstruction"]["given"]
-    assert read(record).reconstruction.given is None
-    record["inputs"]["known"]["vb_after"] = "60 km"
-    with pytest.raises(col.InputError, match=r"vb_after was given as .60 km., which is not its"):
-        read(record)
-
-
 def test_a_unit_that_only_its_own_registry_knows_is_left_out():
     """Its text could not be read again; its number is there."""
     own = pint.UnitRegistry()

@@ -1128,20 +1128,6 @@ def test_texts_that_a_reverse_solver_was_given_must_come_out(solver, name, text,
         replay(tampered(page, lambda r: r["impact"]["inputs"]["known"].update({name: text})))
 
 
-def test_a_text_in_a_record_of_an_earlier_version_must_come_out():
-    """There is no number beside it, but that of the answer."""
-    page = report(solved_backwards()["central"], form="markdown")
-
-    def change(record, text="40 mph"):
-        del record["impact"]["results"]["reconstruction"]["given"]
-        record["impact"]["inputs"]["known"]["vb_after"] = text
-
-    said = "vb_after was given as '40 mph', but the velocity of B after is 16.540"
-    with pytest.raises(col.InputError, match=said):
-        replay(tampered(page, change))
-    replay(tampered(page, lambda record: change(record, "37 mph")))
-
-
 def test_a_number_that_four_figures_do_not_hold_is_shown_in_full():
     """What somebody typed; a number that was worked out has its digits in the record."""
     shown = rows(

@@ -522,7 +522,7 @@ def refusal(call):
             10,
             {"drag": 0.02, "grade": -0.05},
             "contradictory",
-            "square of its speed before would be -5.88399 m2/s2",
+            "from rest already to 2.42569 m/s, and is to end at 0 m/s; the square of its speed",
         ),
         (
             [5, 10],
@@ -559,6 +559,27 @@ def test_the_refusal_says_by_how_much():
     assert error.fields["missing"] == pytest.approx(
         1.0 - 2 * travel.GRAVITY * 0.03 * 10, rel=16 * EPS
     )
+
+
+def test_refusals_have_the_units_of_the_inputs():
+    """A speed in mph and a height in feet come back as such."""
+    slope = {"drag": 0.1, "grade": -0.2}
+    survey = [("0 ft", "0 ft"), ("20 ft", "0 ft")], ["0 deg", "10 deg"]
+    for ask, said in (
+        (lambda: travel.speed("30 ft", **slope), "already to 9.47321 mph, and is to end at 0 mph"),
+        (lambda: travel.path(*survey, friction=0.1, lock=1, grade=-0.5), "already to 15.4697 mph"),
+        (
+            lambda: travel.distance("30 mph", drag=0.1, end_speed="40 mph"),
+            "end_speed 40 mph is above speed 30 mph",
+        ),
+        (lambda: travel.distance("30 mph", **slope, end_speed="20 mph"), "never slows to 20 mph"),
+        (lambda: travel.distance("30 mph", drag=0.0, end_speed="30 mph"), "keeps its 30 mph over"),
+        (
+            lambda: travel.Tyres(0.7, 0, "9 ft", "5 ft", height="9 ft"),
+            "height is 9 ft, and from 3.12 ft on a wheel lifts off",
+        ),
+    ):
+        assert said in str(refusal(ask))
 
 
 def test_all_wrong_arguments_are_named_at_once():

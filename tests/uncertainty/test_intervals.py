@@ -15,6 +15,7 @@ from collisions.uncertainty import (
     Interval,
     LogNormal,
     Normal,
+    OneSided,
     Samples,
     Triangular,
     Uniform,
@@ -168,11 +169,15 @@ def test_a_distribution_without_bounds(unbounded):
 def test_nothing_uncertain():
     """Refused by every method, with what to take."""
     for method in ("first_order", "quasi_random"):
-        for inputs in ({"x": 1.0}, {"x": Interval(0.0, 1.0)}):
+        for value, advice in (
+            (1.0, r"write Normal\(mean, sd\)"),
+            (OneSided(1.0, 1), r"write Normal\(mean, sd\)"),
+            (Interval(0.0, 1.0), "of intervals alone take method='interval'"),
+        ):
             with pytest.raises(
-                col.InputError, match=r"needs an input with a distribution.*method='interval'"
+                col.InputError, match=f"needs an input with a distribution.*{advice}"
             ) as caught:
-                propagate(lambda x: {"y": x}, inputs, method=method)
+                propagate(lambda x: {"y": x}, {"x": value}, method=method)
             assert caught.value.code == "nothing_uncertain"
     with pytest.raises(col.InputError, match="needs an input with bounds") as caught:
         propagate(lambda x: {"y": x}, {"x": 1.0}, method="interval")

@@ -36,7 +36,7 @@ _VELOCITIES = ("va", "vb", "va_after", "vb_after")
 class Evidence(NamedTuple):
     """Something that a reverse solver was given besides masses, geometry and contact.
 
-    ``number`` is in SI, None of what is no number or was kept by no earlier version; ``text`` as it
+    ``number`` is in SI, None of what is no number; ``text`` as it
     was given, if with a unit; ``answer`` the same number of the impact that was found, if it has
     one.
     """
@@ -65,7 +65,7 @@ def evidence_of(impact: Impact) -> list[Evidence]:
     if origin is None:
         return []
     texts: Mapping[str, Any] = impact.inputs.given or {}
-    numbers = _as_found(impact, texts) if origin.given is None else origin.given
+    numbers = origin.given
     still = [label for label in "ab" if math.isinf(getattr(impact.inputs, label).mass)]
     found = []
     for name in dict.fromkeys([*numbers, *texts, *origin.known]):
@@ -77,36 +77,13 @@ def evidence_of(impact: Impact) -> list[Evidence]:
         known, text, number = KNOWN[name], texts.get(name), numbers.get(name)
         if number is None and text is not None:
             number = number_of_text(text, name)
-        elif number is None and origin.given is not None and "_axes_" not in name:
+        elif number is None and "_axes_" not in name:
             # The place of a recorder, whose parts are there, and the delta-V of the centre of mass,
             # to which its readings were carried over.
             continue
         answer = float(attrgetter(known.path)(impact)) if known.path else None
         found.append(Evidence(name, known.what, known.kind, number, text, answer))
     return found
-
-
-def _as_found(impact: Impact, texts: Mapping[str, Any]) -> dict[str, float]:
-    """What a record of an earlier version does not say of the numbers that were given, as the
-    answer has it.
-    """
-    origin = impact.reconstruction
-    names: list[str] = [] if origin is None else list(origin.known)
-    for label in "ab":
-        after = f"{label}_after"
-        by_speed = {f"{after}.speed", f"{after}.course"} <= texts.keys()
-        motion = ("speed", "course") if by_speed else ("vx", "vy")
-        if origin is not None and origin.method == "planar":
-            names += (f"{after}.{name}" for name in (*motion, "yaw_rate"))
-        elif origin is not None and origin.method == "speeds":
-            names.append(f"course_{label}")
-    numbers = {
-        name: float(attrgetter(KNOWN[name].path)(impact))
-        for name in names
-        if name in KNOWN and KNOWN[name].path
-    }
-    # A vehicle at rest has no course.
-    return {name: number for name, number in numbers.items() if math.isfinite(number)}
 
 
 def found_inputs(impact: Impact) -> set[str]:

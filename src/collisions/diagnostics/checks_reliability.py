@@ -47,10 +47,7 @@ def near_collinear(case: Case) -> Iterator[Measured]:
         origin = case.answer.reconstruction
         if origin is None or not _from_components(origin) or len(origin.found) < 2:
             return
-        given = origin.given or {}
-        if not {"course_a", "course_b"} <= given.keys():
-            return  # a record of an earlier version
-        one, other = given["course_a"], given["course_b"]
+        one, other = origin.given["course_a"], origin.given["course_b"]
         of = "course_a and course_b"
         then = "small errors of delta-V and of the courses move both speeds far"
     # Exactly ten degrees still count, even where rounding makes them more.
@@ -121,7 +118,7 @@ def speed_backwards(case: Case) -> Iterator[Measured]:
         along = {name: getattr(case.answer, name) for name in names}
     else:
         origin = case.answer.reconstruction
-        given = {} if origin is None else origin.given or {}
+        given = {} if origin is None else origin.given
         along = {}
         for label, _, side in case.sides:
             course = given.get(f"course_{label}")

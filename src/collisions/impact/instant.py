@@ -144,7 +144,7 @@ def found_from_readings(impact: Impact) -> tuple[str, ...]:
         return ()
     lasts = impact.inputs.duration
     if lasts is None:
-        lasts = (origin.given or {}).get("recorder_duration", 0.0)
+        lasts = origin.given.get("recorder_duration", 0.0)
     if not np.any(np.greater(lasts, 0.0)):
         return ()
     return (f"found from readings away from the centre of mass: {LOOKED_FOR_TURNS}",)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import reduce
 from typing import Any, NamedTuple
 
@@ -58,10 +58,10 @@ class Reconstruction:
     found : tuple of str
         What was found of the state before and of the contact, by name: "speed_a", "speed_b", and
         where they were sought "course_a", "yaw_rate_a", "restitution", "friction" and so on.
-    given : dict of str to float or array, optional
+    given : dict of str to float or array
         Numbers of ``known``, and of the courses or motions that came with them, as they were given
         [SI]. A reading of a recorder away from the centre of mass is "reading_forward_a" and so
-        on. None in a record of an earlier version, which has only the texts.
+        on.
 
         .. versionadded:: 0.2.0
     duration, drag_a, drag_b : float or array [s, -, -], optional
@@ -76,7 +76,7 @@ class Reconstruction:
     regime: str | None = None
     one_sided: Mapping[str, Any] | None = None
     found: tuple[str, ...] = ()
-    given: Mapping[str, Any] | None = None
+    given: Mapping[str, Any] = field(default_factory=dict)
     duration: Value | None = None
     drag_a: Value | None = None
     drag_b: Value | None = None
@@ -217,16 +217,14 @@ def number_beside(origin: Reconstruction, name: str) -> Any:
     batch; None where there is none.
     """
     own = KNOWN[name].path.partition("reconstruction.")[2]
-    return getattr(origin, own) if own else (origin.given or {}).get(name)
+    return getattr(origin, own) if own else origin.given.get(name)
 
 
 def reads_as(text: str, name: str, origin: Reconstruction) -> bool:
-    """Whether a text that a reverse solver was given is the number beside it, but for rounding; in
-    a record of an earlier version, which has no numbers, whether it can be read.
-    """
+    """Whether a text that a reverse solver was given is the number beside it, but for rounding."""
     read, number = number_of_text(text, name), number_beside(origin, name)
     if read is None or number is None:
-        return read is not None and origin.given is None
+        return False
     numbers = np.asarray(number)
     # Beside arrays of float32 a number is rounded to their digits.
     within = 1e-6 if numbers.dtype == np.float32 else 1e-12

@@ -35,7 +35,6 @@ from .reconstruction import (
     KNOWN,
     AsRecorded,
     Reconstruction,
-    found_from,
     number_beside,
     reads_as,
 )
@@ -274,8 +273,6 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
     known = tuple(str(name) for name in found["known"])
     condition, answers = read_only(read_strict(found["condition"])), _count(found["answers"])
     method = str(found["method"])
-    # A record of an earlier version has neither what was found nor the numbers that were given.
-    names = found.get("found", found_from(method, known))
     return AsRecorded(
         method=method,
         known=known,
@@ -284,8 +281,8 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
         contact_velocity=velocity,
         regime=_stated(found.get("regime")),
         one_sided=_sides(found.get("one_sided")),
-        found=tuple(str(name) for name in names),
-        given=_given_numbers(found.get("given")),
+        found=tuple(str(name) for name in found["found"]),
+        given=_given_numbers(found["given"]),
         **{
             name: read_only(read_strict(found.get(name)))
             for name in ("duration", "drag_a", "drag_b")
@@ -293,10 +290,8 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
     )
 
 
-def _given_numbers(found: Any) -> dict[str, Any] | None:
+def _given_numbers(found: Any) -> dict[str, Any]:
     """The numbers that a reverse solver was given, by name."""
-    if found is None:
-        return None
     if not isinstance(found, Mapping):
         raise bad_record(f"{shown(found)} is not what a reverse solver was given, by name")
     numbers = {str(name): read_strict(value) for name, value in found.items()}

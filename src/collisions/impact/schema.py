@@ -142,7 +142,6 @@ def impact_schema() -> dict[str, Any]:
             "pulse": _fields(Pulse, _RESULTS),
             "reconstruction": closed(
                 {f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)},
-                [f.name for f in fields(Reconstruction) if f.name not in _LATER],
             ),
         },
     }
@@ -279,8 +278,6 @@ _LISTED = {
     "refused": _each({"type": "boolean"}),
     "pdof_clock": {"anyOf": [{"type": "integer", "minimum": 1, "maximum": 12}, _VALUE, NULL]},
 }
-# What a record of an earlier version lacks.
-_LATER = ("found", "given")
 _RECONSTRUCTION = {
     "method": TEXT,
     "known": {"type": "array", "items": TEXT},
@@ -295,6 +292,6 @@ _RECONSTRUCTION = {
         ]
     },
     "found": {"type": "array", "items": TEXT},
-    "given": {"anyOf": [{"type": "object", "additionalProperties": _VALUE}, NULL]},
+    "given": {"type": "object", "additionalProperties": _VALUE},
     **{name: {"anyOf": [_VALUE, NULL]} for name in ("duration", "drag_a", "drag_b")},
 }

@@ -258,7 +258,9 @@ def _answer(
         given = {name: numbers[name] for name in known}
         velocity = () if held else (found.closing, 0.0 * found.closing)
         names = (*known, "contact_duration", "drag_a", "drag_b") if held else known
-        origin = cases.reconstruction("central", names, condition, count, velocity, where, given)
+        origin = cases.reconstruction(
+            "central", names, condition, count, velocity, where, given=given
+        )
         drags = {name: cases.values(arrays[name]) for name in _DRAGS if held}
         return replace(origin, **drags)
 

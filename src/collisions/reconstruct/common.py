@@ -262,7 +262,8 @@ class Cases(NamedTuple):
         answers: Any,
         velocity: Sequence[Any] = (),
         where: Any = True,
-        given: Mapping[str, Any] | None = None,
+        *,
+        given: Mapping[str, Any],
         also: Sequence[str] = (),
     ) -> Reconstruction:
         """The ``Reconstruction`` with closing speed and slip if they are known; numbers are NaN
@@ -277,7 +278,7 @@ class Cases(NamedTuple):
             answers=self.counts(answers),
             contact_velocity=(found[0], found[1]) if found else None,
             found=(*found_from(method, known), *also),
-            given=given and {name: _kept(number) for name, number in given.items()},
+            given={name: _kept(number) for name, number in given.items()},
         )
 
     def one(self, found: Any, index: tuple[int, ...]) -> float:

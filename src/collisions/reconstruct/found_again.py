@@ -76,8 +76,7 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
         return
     again = _again(impact, origin)
     if again is None:
-        if origin.given is not None:
-            yield "what it says was given to its reverse solver does not lead to its speeds"
+        yield "what it says was given to its reverse solver does not lead to its speeds"
         return
     # Of a restitution that was a function of the impact the record has the number only.
     by_function = origin.method == "speeds" and "restitution" in origin.found
@@ -92,6 +91,10 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             f"its inputs give a condition of {again.condition:.6g}, and it says "
             f"{origin.condition:.6g}"
         )
+    unsaid = origin.given.keys() ^ again.given.keys()
+    if unsaid:
+        does = "says" if unsaid & origin.given.keys() else "does not say"
+        yield f"it {does} what {min(unsaid)} was given to its reverse solver"
     if origin.known != again.known:
         yield (
             f"its reconstruction was given {', '.join(origin.known)}, and solving again takes "
@@ -170,9 +173,8 @@ def _again(impact: Impact, origin: Reconstruction) -> Reconstruction | None:
         except CollisionsError as error:
             # Several answers, or the ends of a range of them.
             found = error.solutions
-        except TypeError:
-            # A known value that the method does not take; such a record was refused above, or is of
-            # an older version.
+        except (TypeError, LookupError):
+            # A known value that the method does not take, or half of one.
             continue
         near += [
             one.reconstruction
@@ -186,11 +188,9 @@ def _again(impact: Impact, origin: Reconstruction) -> Reconstruction | None:
 
 
 def _solved_again(impact: Impact, origin: Reconstruction, regime: Any) -> tuple[Any, ...]:
-    """The reverse solver's answers to the numbers that it was given; of an earlier version, whose
-    records have no such numbers, to what the impact shows of them.
-    """
+    """The reverse solver's answers to the numbers that it was given."""
     paths = _AS_RESULTS | {name: known.path for name, known in KNOWN.items() if known.path}
-    inputs, given = impact.inputs, dict(origin.given or {})
+    inputs, given = impact.inputs, dict(origin.given)
     shown = {name: attrgetter(paths[name])(impact) for name in origin.known if name in paths}
     # A recorder reads in place of the delta-V of the centre of mass.
     shown |= {

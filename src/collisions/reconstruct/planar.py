@@ -321,7 +321,7 @@ def _answer(
     ) -> Reconstruction:
         velocity = () if inputs.tyres else velocity
         return cases.reconstruction(
-            "planar", (kind, rule), condition, count, velocity, where, known
+            "planar", (kind, rule), condition, count, velocity, where, given=known
         )
 
     def inputs_of(motions: Sequence[Any], restitution: Any, keep: Any) -> Inputs:

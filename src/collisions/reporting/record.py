@@ -76,8 +76,6 @@ _READ_AGAIN = 2e-9
 _OTHER_MACHINE = 1e-6
 # Sentences, which another version may word differently.
 _SENTENCES = ("choice.reason", "].sentence")
-# What a record of an earlier version lacks.
-_LATER = ("reconstruction.found", "reconstruction.given")
 
 
 def record(impact: Result, options: Mapping[str, Any], uncertainty: Propagation | None) -> str:
@@ -444,8 +442,7 @@ def _differences(recorded: Any, found: Any, name: str, off: float) -> Iterator[s
         for key in dict.fromkeys([*found, *recorded]):
             path = f"{name}.{key}" if name else str(key)
             if key not in recorded:
-                if path not in _LATER:
-                    yield f"{path}, which is missing"
+                yield f"{path}, which is missing"
             elif key not in found:
                 yield f"{path}, which no impact has"
             elif not path.endswith(_SENTENCES):

@@ -22,6 +22,7 @@ from ..quantities.attribute_stubs import RunOutQuantities
 from ..quantities.attributes import Shown, derived, hypot, in_units_of, math_or_numpy
 from ..quantities.directions import angle_of
 from ..quantities.reading import ArgumentReader
+from ..quantities.tables import Sentences
 from ..quantities.units import Input, Pair, Texts, Value, texts_of
 from ..vehicle.drag import one_value, read_friction
 from ..vehicle.tyres import LOCKS, Tyres, kernel_numbers, lifts, not_tyres, refuse_lifting
@@ -289,7 +290,7 @@ def path(
     reader.close()
     if tyres is not None:
         for mu in frictions:
-            refuse_lifting(wheels, mu)
+            refuse_lifting(wheels, mu, texts_of(tyres.given))
     placed: dict[str, Any] = {f"points[{i}]": place for i, place in enumerate(places or ())}
     arguments = {
         "headings": [angle.value for angle in headed],
@@ -310,7 +311,8 @@ def path(
     )
 
     wheeled = None if tyres is None else (tyres, flat)
-    ground = _Ground(frictions, locks, grades, wheeled, rotating)
+    say = Sentences(texts_of(surveyed))
+    ground = _Ground(frictions, locks, grades, wheeled, rotating, say)
     run_out = partial(_run_out, ground=ground, end=end, window=length)
     with np.errstate(all="ignore"):
         turned = [
@@ -347,7 +349,8 @@ def path(
 
 class _Ground(NamedTuple):
     """What slows a vehicle on each segment: friction, lock, grade; tyres with their numbers, if
-    given, in place of the lock; and what the rotation of the wheels adds to the mass.
+    given, in place of the lock; what the rotation of the wheels adds to the mass; and how an error
+    writes its numbers.
     """
 
     frictions: Sequence[Any]
@@ -355,6 +358,7 @@ class _Ground(NamedTuple):
     grades: Sequence[Any]
     tyres: tuple[Tyres, dict[str, Any]] | None
     rotating: Any
+    say: Sentences
 
 
 def _run_out(
@@ -381,9 +385,8 @@ def _run_out(
     drags = _drags(ground, crabs, turns, lengths)
     heavier = _heavier(ground, crabs)
     after = heavier[-1] * end
-    speeds = speeds_along(
-        lengths, [drag + rise for drag, rise in zip(drags, ground.grades, strict=True)], after, _leg
-    )
+    drops = [drag + rise for drag, rise in zip(drags, ground.grades, strict=True)]
+    speeds = speeds_along(lengths, drops, after, _leg, ground.say)
     speeds = [speed / more for speed, more in zip(speeds, heavier, strict=True)]
     durations = durations_along(lengths, ground.grades, speeds)
     times = list(accumulate(durations, initial=0.0))

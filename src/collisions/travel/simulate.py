@@ -461,7 +461,7 @@ def prepared(
     if until is not None:
         named["until"] = until
     for friction in ground.values():
-        refuse_lifting(wheels, friction)
+        refuse_lifting(wheels, friction, texts_of(tyres.given))
     unknown = _brakes_unknown(wheels, bool(areas))
     if unknown is True:
         raise InputError(

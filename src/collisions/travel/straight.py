@@ -12,7 +12,8 @@ from ..kernels.elementwise import select
 from ..messages.errors import NoSolutionError, ShapeError
 from ..messages.hints import hinted
 from ..quantities.reading import ArgumentReader
-from ..quantities.units import Input, Value
+from ..quantities.tables import Sentences
+from ..quantities.units import Input, Value, texts_of
 from ..vehicle.drag import GRAVITY, read_drag
 from .surfaces import (
     Segments,
@@ -163,7 +164,7 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
         drop = slowing + slope
         change = start - end
         if isinstance(drop, float) and isinstance(change, float):
-            _check_ends(start, end, drop)
+            _check_ends(start, end, drop, Sentences(texts_of(reader.texts)))
         # A change that the ground works against would need a negative distance.
         fits = (
             ((change > 0.0) & (drop > 0.0))
@@ -245,19 +246,21 @@ def _over_surfaces(
     reader.close()
     arguments = {"end_speed": [end], "distance": lengths, "drag": drags, "grade": grades}
     ((end,), lengths, drags, grades), named, shape = in_one_precision(arguments)
-    segment = "distance[{}]" if listed else "distance"
+    segment, say = "distance[{}]" if listed else "distance", Sentences(texts_of(reader.texts))
     with np.errstate(all="ignore"):
         drops = [slowing + slope for slowing, slope in zip(drags, grades, strict=True)]
         found: Value = _answer(
-            figure(lengths, grades, speeds_along(lengths, drops, end, segment.format)), named, shape
+            figure(lengths, grades, speeds_along(lengths, drops, end, segment.format, say)),
+            named,
+            shape,
         )
     return found
 
 
-def _check_ends(start: float, end: float, drop: float) -> None:
+def _check_ends(start: float, end: float, drop: float, say: Sentences) -> None:
     """Raise if one speed does not lead to the other."""
     if start > end and drop <= 0.0:
-        what = "stops" if end == 0.0 else f"slows to {end:.6g} m/s"
+        what = "stops" if end == 0.0 else f"slows to {say(end, 'speed')}"
         raise NoSolutionError(
             f"the vehicle never {what}: drag + grade is {drop:.6g}, which does not slow it; "
             "correct the sign of the grade, or the drag",
@@ -265,14 +268,14 @@ def _check_ends(start: float, end: float, drop: float) -> None:
         )
     if start < end and drop >= 0.0:
         raise NoSolutionError(
-            f"end_speed {end:.6g} m/s is above speed {start:.6g} m/s, and drag + grade is "
-            f"{drop:.6g}, which does not speed the vehicle up; exchange the two, or correct the "
+            f"end_speed {say(end, 'speed')} is above speed {say(start, 'speed')}, and drag + grade "
+            f"is {drop:.6g}, which does not speed the vehicle up; exchange the two, or correct the "
             "sign of the grade",
             code="contradictory",
         )
     if start == end and drop == 0.0:
         raise NoSolutionError(
-            f"drag + grade is 0, so the vehicle keeps its {start:.6g} m/s over any distance",
+            f"drag + grade is 0, so the vehicle keeps its {say(start, 'speed')} over any distance",
             code="any_distance",
         )
 

@@ -21,6 +21,7 @@ from ..messages.errors import (
 from ..messages.warning import warn_of_cases
 from ..quantities.attributes import hypot, math_or_numpy, read_only
 from ..quantities.reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
+from ..quantities.tables import Sentences
 from ..quantities.units import Input
 from ..vehicle.drag import GRAVITY, one_value
 
@@ -116,10 +117,14 @@ def in_one_precision(
 
 
 def speeds_along(
-    lengths: Sequence[Any], drops: Sequence[Any], end: Any, name: Callable[[int], str]
+    lengths: Sequence[Any],
+    drops: Sequence[Any],
+    end: Any,
+    name: Callable[[int], str],
+    say: Sentences,
 ) -> list[Any]:
     """Speed at every point, start to end, chained backward; NaN in the cases of a batch that
-    contradict themselves.
+    contradict themselves. ``name`` and ``say`` write a segment and a number for an error.
     """
     speeds = [end]
     for i in range(len(lengths) - 1, -1, -1):
@@ -132,7 +137,7 @@ def speeds_along(
         # A vehicle that nothing slows does not come to rest, unless it has not moved.
         before = select((drops[i] <= 0.0) & (after == 0.0) & (lengths[i] > 0.0), math.nan, before)
         if isinstance(before, float) and not math.isfinite(before):
-            raise _contradiction(name(i), drops[i], after, gained)
+            raise _contradiction(name(i), drops[i], after, gained, say)
         speeds.append(before)
     return speeds[::-1]
 
@@ -144,7 +149,9 @@ def _root(value: Any) -> Any:
     return np.sqrt(value)
 
 
-def _contradiction(where: str, drop: float, after: float, gained: float) -> CollisionsError:
+def _contradiction(
+    where: str, drop: float, after: float, gained: float, say: Sentences
+) -> CollisionsError:
     """Why no speed before a segment leads to the speed after it."""
     if drop > 0.0 or math.isinf(gained):
         return out_of_range()
@@ -158,8 +165,8 @@ def _contradiction(where: str, drop: float, after: float, gained: float) -> Coll
     missing = (after - gained) * (after + gained)
     return NoSolutionError(
         f"{where}: drag + grade is {drop:.6g}, so the vehicle speeds up there, from rest already "
-        f"to {gained:.6g} m/s, and is to end at {after:.6g} m/s; the square of its speed before "
-        f"would be {missing:.6g} m2/s2. Correct the sign of the grade, the drag, or the end_speed",
+        f"to {say(gained, 'speed')}, and is to end at {say(after, 'speed')}; the square of its "
+        "speed before would be negative. Correct the sign of the grade, the drag, or the end_speed",
         code="contradictory",
         missing=missing,
     )

@@ -308,7 +308,9 @@ def _propagated(
             for name, value in stated.items()
             if isinstance(value, Statement) and name in whole.fixed
         ]
-        advice = "; of intervals alone take `method='interval'`"
+        advice = "; write `Normal(mean, sd)` or another of collisions.uncertainty"
+        if intervals:
+            advice = "; of intervals alone take `method='interval'`"
         if censored:
             advice = (
                 f"; {censored[0]} is a reading with a bound, which is evidence for "

@@ -28,7 +28,8 @@ from ..quantities.attributes import Shown, read_only
 from ..quantities.reading import ArgumentReader, at_least_zero, warn_if_large
 from ..quantities.refusals import must_be
 from ..quantities.settings import Default, in_si
-from ..quantities.units import Input, Texts, Value, shown, texts_of
+from ..quantities.tables import Sentences
+from ..quantities.units import Input, Texts, Value, texts_of
 from .drag import one_value, read_friction
 
 WHEELS = ("front left", "front right", "rear left", "rear right")
@@ -149,7 +150,7 @@ class Tyres(Shown):
             if value is not None:
                 warn_if_large(value, read[name], _LIKELY[name], name, "metres", "cm", "in")
         reader.close()
-        refuse_lifting(read, read["friction"])
+        refuse_lifting(read, read["friction"], texts_of(reader.texts))
         _set(self, read, Texts(reader.texts))
 
     def replace(self, **changes: Any) -> Tyres:
@@ -310,7 +311,7 @@ def could_lift(friction: Any, height: Any, wheelbase: Any, track: Any) -> Any:
         )
 
 
-def refuse_lifting(tyres: Mapping[str, Any], friction: Any) -> None:
+def refuse_lifting(tyres: Mapping[str, Any], friction: Any, texts: Iterable[Any]) -> None:
     """Refuses a single height at which a wheel would lift off; of a batch that is said case by case
     where it is used.
     """
@@ -320,9 +321,11 @@ def refuse_lifting(tyres: Mapping[str, Any], friction: Any) -> None:
     ):
         return
     if lifts(tyres, friction):
+        say = Sentences(texts)
         most = 0.5 / (friction * math.hypot(1.0 / tyres["wheelbase"], 1.0 / tyres["track"]))
         raise InputError(
-            f"height is {shown(tyres['height'])} m, and from {most:.3g} m on a wheel lifts off "
+            f"height is {say(tyres['height'], 'length')}, and from {say(most, 'length', 3)} on a "
+            "wheel lifts off "
             f"where a friction of {friction:g} is used between the axes of the vehicle, which "
             "might then tip over: that is not followed here; correct it, or leave height out",
             code="wheel_lifts",
