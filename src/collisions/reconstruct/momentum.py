@@ -467,7 +467,11 @@ class _Known(NamedTuple):
             return {}
         return self.lasting.impulses(
             {label: self.numbers[f"mass_{label}"] for label in "ab"},
-            {label: self.numbers.get(f"heading_{label}") for label in "ab"},
+            {
+                label: self.angles[name].radians
+                for label in "ab"
+                if (name := f"heading_{label}") in self.angles
+            },
             self.velocities(speeds),
             self.cases.shape is None,
         )

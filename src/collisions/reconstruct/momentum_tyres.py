@@ -95,11 +95,13 @@ class Lasting(NamedTuple):
             before, after = velocities[f"speed_{label}"], velocities[f"speed_{label}_after"]
             changes = [now - was for was, now in zip(before, after, strict=True)]
             numbers = [*before, 0.0, *changes, self.yaw_rates.get(label, 0.0)]
+            body = masses[label], headings[label]
             if single:
                 numbers = [float(number) for number in numbers]
+                body = float(body[0]), float(body[1])
             x, y, _ = impulse_of(
                 tyres,
-                (masses[label], headings[label]),
+                body,
                 numbers[:3],
                 numbers[3:],
                 (PASSED_AT_HALF, self.duration),
