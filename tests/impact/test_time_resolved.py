@@ -1334,6 +1334,14 @@ def test_where_time_is_no_candidate():
         assert choice.model == "eccentric"
         assert choice.reason.endswith(f"; time_resolved takes friction, and {rule} was given")
         assert list(choice.errors) == ["linear_central", "oblique_central"]
+    for law in ("kudlich-slibar", "stronge"):
+        asked = {**where, "duration": 0.1, "friction": 0.5, "law": law}
+        impact = col.solve(a, b, 0.1, **asked)
+        assert impact.model == "eccentric"
+        wanted = f"; time_resolved has a law of its own, and {law} was given"
+        assert impact.choice.reason.endswith(wanted)
+        del asked["duration"]
+        assert impact.b.delta_v == col.eccentric(a, b, 0.1, **asked).b.delta_v
     pinned = col.Vehicle(mass=1000.0, yaw_inertia=1300.0, x=0.5, y=2.0, pivot=(0.5, -2.0))
     assert (
         "takes no body with a pivot"

@@ -229,6 +229,8 @@ def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelCh
     why = ""
     if inputs.rule != FRICTION:
         why = f"{_IN_TIME} takes friction, and {inputs.rule} was given"
+    elif inputs.law != BRACH:
+        why = f"{_IN_TIME} has a law of its own, and {inputs.law} was given"
     elif too_much := TIME_RESOLVED.beyond(inputs):
         why = f"{_IN_TIME} takes no {_said(too_much[0])[1]}"
     elif np.any(np.less(inputs.restitution, 0.0)):

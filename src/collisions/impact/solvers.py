@@ -588,10 +588,11 @@ def required_model(
     With ``duration``, a contact of that duration with tyres of that drag is a fourth candidate,
     ``time_resolved``, and the one against which all are measured; for this it is followed roughly,
     in 25 steps. The errors of the models that take no time then include what they leave out.
-    ``time_resolved`` needs ``friction``, and takes no pivot, no impulse from outside and no
-    restitution below 0; otherwise it is not a candidate, and the reason says so, as it does where
-    it has no answer. Where the 25 steps find no start or no end of the contact, which more steps
-    may find, it is required whatever the tolerance.
+    ``time_resolved`` needs ``friction``, has a law of its own, which stands in for "brach"
+    alone, and takes no pivot, no impulse from outside and no restitution below 0; otherwise it
+    is not a candidate, and the reason says so, as it does where it has no answer. Where the 25
+    steps find no start or no end of the contact, which more steps may find, it is required
+    whatever the tolerance.
 
     Parameters
     ----------
