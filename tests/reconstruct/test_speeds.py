@@ -613,10 +613,10 @@ def sensitivity(ask, known):
     they move most.
     """
     step, moved = 1e-4, np.zeros(2)
+    # Those of both vehicles are wrong together.
+    pairs = {f"{name}_a": (f"{name}_a", f"{name}_b") for name in ("max_crush_speed", "ees")}
     names = [
-        ("max_crush_speed_a", "max_crush_speed_b") if kind == "max_crush_speed_a" else (kind,)
-        for kind in known
-        if kind != "max_crush_speed_b"
+        pairs.get(kind, (kind,)) for kind in known if kind not in ("max_crush_speed_b", "ees_b")
     ]
     middle = ask(**known)
     for group in names:
@@ -642,7 +642,8 @@ def steep(closing):
 @pytest.mark.slow
 @pytest.mark.parametrize("restitution", [0.1, steep], ids=["number", "steep"])
 @pytest.mark.parametrize("pair", [("speed_a", "delta_v_b"), ("speed_b", "energy_loss"),
-    ("speed_a", "crush"), ("delta_v_b", "energy_loss")], ids="-".join)  # fmt: skip
+    ("speed_a", "crush"), ("speed_b", "ees"), ("delta_v_b", "ees"),
+    ("delta_v_b", "energy_loss")], ids="-".join)  # fmt: skip
 def test_the_condition_is_that_of_the_whole_call(pair, restitution):
     """With finite differences of answers, whose curvature leaves 1e-8 and rounding 1e-12 / 1e-4 of
     them: to 1e-5.

@@ -736,20 +736,28 @@ def test_a_warning_of_a_batch_says_of_how_many_cases():
         assert together[code].startswith(f"{count} of 4 cases: ")
 
 
+@pytest.mark.parametrize("energy", ["energy_loss", "ees"])
 @pytest.mark.parametrize("friction", ["as it was", math.inf])
-def test_the_condition_beside_an_energy_is_that_of_the_whole_call(friction):
-    """Of contacts that slid: both speeds are moved by each known value, by finite differences."""
+def test_the_condition_beside_an_energy_is_that_of_the_whole_call(friction, energy):
+    """Of contacts that slid: both speeds are moved by each known value, by finite differences, and
+    by the EES of both together.
+    """
     met = 0
     for a, b, e, contact, impact in slid_hits():
         known = {
             "delta_v_forward_a": impact.a.delta_v_forward,
             "delta_v_left_a": impact.a.delta_v_left,
-            "energy_loss": impact.energy_loss,
+            energy: impact.energy_loss if energy == "energy_loss" else 1.0,
         }
+        of_both = dict(zip(("ees_a", "ees_b"), impact.ees(0.4), strict=True))
         courses = {"course_a": impact.a.before.course, "course_b": impact.b.before.course}
         given = contact | ({} if friction != math.inf else {"friction": math.inf})
 
-        def found(known, a=a, b=b, e=e, rest=courses | given, wanted=impact):
+        def found(known, a=a, b=b, e=e, rest=courses | given, wanted=impact, of_both=of_both):
+            known = dict(known)
+            share = known.pop("ees", 1.0)
+            if energy == "ees":
+                known |= {name: share * value for name, value in of_both.items()}
             answers = speeds(a, b, restitution=e, **rest, **known)
             return min(answers, key=lambda one: abs(one.a.before.speed - wanted.a.before.speed))
 
@@ -764,6 +772,33 @@ def test_the_condition_beside_an_energy_is_that_of_the_whole_call(friction):
         assert condition == pytest.approx(max(moved) / impact.closing_speed, rel=1e-4)
         met += 1
     assert met > 15
+
+
+def test_beside_an_energy_a_contact_that_stuck_has_the_condition_of_one_that_slid():
+    """Where no friction is known: a little more energy makes it slide, and moves both speeds."""
+    a = body(26.74, 0.002, mass=2420, yaw_inertia=1723, x=-0.1, y=-4.05, heading=0.0)
+    b = body(18.33, -0.624, mass=1100, yaw_inertia=3888, x=3.52, y=-3.83, heading=-0.62)
+    contact = {"normal": 0.097, "point": (2.128, -4.493)}
+    hit = col.eccentric(a, b, 0.155, friction=0.684, **contact)
+    assert hit.regime == "sticking"
+
+    def found(energy=1.0, forward=1.0, left=1.0):
+        (one,) = speeds(
+            a, b, course_a=0.002, course_b=-0.624, restitution=0.155, friction=math.inf,
+            energy_loss=energy * hit.energy_loss,
+            delta_v_forward_a=forward * hit.a.delta_v_forward,
+            delta_v_left_a=left * hit.a.delta_v_left, **contact,
+        )  # fmt: skip
+        return one
+
+    moved = 0.0
+    for changed in ({"energy": 1.001}, {"forward": 0.999}, {"left": 0.999}):
+        more = found(**changed)
+        assert more.regime == "sliding"
+        moved += abs(more.b.before.speed - hit.b.before.speed) / 0.001
+    condition = found().reconstruction.condition
+    assert found().regime == "sticking"
+    assert condition > 0.98 * moved / hit.closing_speed
 
 
 @cache

@@ -1128,6 +1128,17 @@ def test_texts_that_a_reverse_solver_was_given_must_come_out(solver, name, text,
         replay(tampered(page, lambda r: r["impact"]["inputs"]["known"].update({name: text})))
 
 
+@pytest.mark.filterwarnings("ignore::collisions.SuspectUnitsWarning")
+def test_a_normal_without_a_unit_is_the_angle_of_the_normal():
+    """A record cannot say that "5 deg" was given as a bare 1.0, nor as another angle."""
+    for normal in ("5 deg", 7.0):
+        page = report(crash(golf(), normal=normal), form="markdown")
+        forged = tampered(page, lambda r: r["impact"]["inputs"].update({"bare_normal": 1.0}))
+        with pytest.raises(col.InputError, match="bare_normal is not the angle of its normal"):
+            replay(forged)
+    assert replay(page).inputs.bare_normal == 7.0
+
+
 def test_a_number_that_four_figures_do_not_hold_is_shown_in_full():
     """What somebody typed; a number that was worked out has its digits in the record."""
     shown = rows(

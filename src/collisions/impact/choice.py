@@ -538,9 +538,9 @@ def _reason(choice: ModelChoice, system: Numbers = _SI) -> str:
     model, accepted = _NAMES[which], f", and {speed(tolerance)} is accepted"
     fullest = _LAST if timed else ECCENTRIC
     if which != fullest:
-        how = "over this duration it errs" if timed else "it errs"
+        how = "over this duration it errs by about" if timed else "it errs by"
         others = f"; {would(0)}" if which and not timed else ""
-        return f"{model}: {how} by {speed(errors[which])}{accepted}{others}"
+        return f"{model}: {how} {speed(errors[which])}{accepted}{others}"
     nearest = errors[fullest - 1]
     if tolerance == 0.0:
         why = f"a tolerance of 0 asks for the {'fullest' if timed else 'full'} model"

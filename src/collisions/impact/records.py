@@ -199,9 +199,7 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
         a, b = (vehicle_of_record(found[label], refused and origin is not None) for label in "ab")
         given: dict[str, Any] = _texts(found["known"], origin)
         if found["bare_normal"] is not None:
-            reader = ArgumentReader()
-            given["normal"] = reader.number(read_strict(found["bare_normal"]), "", "bare_normal")
-            reader.close()
+            given["normal"] = _bare_normal(found)
         numbers = {
             name: read_strict(found[name])
             for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS)
@@ -224,6 +222,22 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
     except Exception as error:
         raise bad_record(f"{type(error).__name__} {error}") from error
     return inputs, "nan" if refused else None, origin, status
+
+
+def _bare_normal(found: Mapping[str, Any]) -> Any:
+    """The angle that the normal was given as, a number, which must have its direction."""
+    reader = ArgumentReader()
+    bare = reader.number(read_strict(found["bare_normal"]), "", "bare_normal")
+    reader.close()
+    text = isinstance(found["normal"], str)
+    normal: Any = None if text else read_strict(found["normal"])
+    near = 1e-9 * (1.0 + np.abs(bare))
+    if text or not all(
+        np.all(np.abs(np.subtract(turned, part)) <= near)
+        for turned, part in zip((np.cos(bare), np.sin(bare)), normal, strict=True)
+    ):
+        raise bad_record("its bare_normal is not the angle of its normal")
+    return bare
 
 
 def _check_texts(found: Mapping[str, Any], inputs: Inputs, results: Mapping[str, Any]) -> None:

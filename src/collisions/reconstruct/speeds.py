@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -179,7 +179,8 @@ def speeds(
         The wheels that act on the ground meanwhile, as for ``eccentric``. A known delta-V has their
         part in it, which is taken to pass as that of the contact does where axes turn; known
         energies are those of the contact, and not taken together with a recorder, axes or
-        ``slid``. Answers are looked for from those of an instant without tyres and from a grid of
+        ``slid``, nor with components and ``friction=inf`` unless the contact is stated to have
+        stuck, as several fit, each with another ratio. Answers are looked for from those of an instant without tyres and from a grid of
         other speeds, but for readings at a recorder's place, a bound, and more components than are
         needed without a speed or an energy: one that none of these leads to is missed, as
         ``.statements`` say. Beside a known speed and one other known value there is no such grid:
@@ -376,6 +377,8 @@ def _read(given: dict[str, Any]) -> tuple[Search, dict[str, Any]]:
     function = None
     with np.errstate(all="ignore"):
         _refuse_combinations(inputs, known, bool(components), callable(restitution))
+        if times and components and given["regime"] != "sticking":
+            _refuse_open_ratio(inputs, known)
         if callable(restitution):
             function = RestitutionOf(restitution, cases, -1.0 if given["incomplete"] else 0.0)
     told = known | {
@@ -448,6 +451,23 @@ def _refuse_with_tyres(given: dict[str, Any]) -> None:
                 code="bad_combination",
                 argument=name,
             )
+
+
+def _refuse_open_ratio(inputs: Inputs, known: Mapping[str, Any]) -> None:
+    """Refuse an energy beside components where tyres act and no friction limits the ratio.
+
+    Tyres turn with the speeds that are sought, so that components and an energy fit several
+    contacts, each with a ratio of its own, and nothing tells which it was.
+    """
+    energies = [name for name in ("energy_loss", "ees_a") if name in known]
+    if energies and inputs.rule == FRICTION and np.any(np.isinf(inputs.rule_value)):
+        raise InputError(
+            f"friction=inf, components of delta-V, {energies[0]} and tyres cannot be taken "
+            "together, as several contacts fit, each with another ratio of the impulse; give the "
+            f"friction, a speed in place of {energies[0]}, or `regime='sticking'` if it stuck",
+            code="bad_combination",
+            argument="friction",
+        )
 
 
 def taken_to_stick(impact: Impact) -> bool:

@@ -187,6 +187,8 @@ class Scene:
     ) -> None:
         self.rule, self.law, self.names, self.shape, self.plain = rule, law, names, shape, plain
         self.kinds = tuple(_OBSERVED_AS.get(name, name) for name in names)
+        # Observed as squares of what was given, whose relative errors are half of theirs.
+        self.squares = frozenset(_OBSERVED_AS[name] for name in names if name in _OBSERVED_AS)
         number: Callable[[Any], Any] = float if plain else partial(np.asarray, dtype=np.float64)
         self.given = {name: number(value) for name, value in given.items()}
         masses = np.minimum(self.given["a.mass"], self.given["b.mass"])
@@ -555,7 +557,7 @@ class Scene:
         """
         (j11, j21), (j12, j22) = by_a, by_b
         d1, d2 = (
-            (2.0 if kind in ("squared_impulse", "absorbed_energy") else 1.0) * abs(target)
+            (2.0 if kind in self.squares else 1.0) * abs(target)
             for kind, target in self.targets.items()
         )
         moved = np.maximum(abs(d1 * j22) + abs(d2 * j12), abs(d2 * j11) + abs(d1 * j21))

@@ -570,8 +570,9 @@ class ComponentScene(Scene):
             return self.speeds_at(closing, self._slip_that_loses(at, closing, places, energy))
 
         known = [*self._momenta, self.energy]
+        powers = [1.0] * len(self._momenta) + [2.0 if "energy_loss" in self.squares else 1.0]
         moved: Any = (0.0, 0.0)
-        for at, value in enumerate(known):
+        for at, (value, power) in enumerate(zip(known, powers, strict=True)):
             up, down = (
                 speeds(changed[:-1], changed[-1])
                 for changed in (
@@ -580,7 +581,7 @@ class ComponentScene(Scene):
                 )
             )
             moved = [
-                before + abs(high - low) / (2.0 * _SHARE)
+                before + power * abs(high - low) / (2.0 * _SHARE)
                 for before, high, low in zip(moved, up, down, strict=True)
             ]
         return np.maximum(*moved)
@@ -591,9 +592,16 @@ class ComponentScene(Scene):
     def _losing(self, root: Root, misfit: Any, left: Any) -> tuple[Root, Any, Any]:
         """A contact that sticks, with what the known energy differs from its loss.
 
-        An energy goes as the square of the impulse, of which all misfits are shares.
+        An energy goes as the square of the impulse, of which all misfits are shares. Where no
+        friction is known, a little more energy makes it a contact that slid, whose speeds move far
+        more: the condition is the greater of both.
         """
-        loss = self.observe(STICK, *root[:2]).energy_loss
+        here = self.observe(STICK, *root[:2])
+        loss = here.energy_loss
+        if np.any(self.shows_friction):
+            slid = self._end(here.tangential / here.normal)[0].condition
+            condition = np.where(self.shows_friction, np.fmax(root.condition, slid), root.condition)
+            root = root._replace(condition=condition)
         whole = np.maximum(misfit, 0.5 * abs(self.energy / loss - 1.0))
         fits = whole <= self.most
         root = root._replace(closing=np.where(fits, root.closing, np.nan))

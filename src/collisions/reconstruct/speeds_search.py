@@ -328,9 +328,6 @@ class Search:
             so = np.broadcast_to(answer.sticks == (self.regime == "sticking"), fits.shape).copy()
             so[: len(found)] = True
             fits = fits & so
-        if self._balanced and knows_energy:
-            # Without a friction they have that of a root, if it slid.
-            fits = fits & (np.isfinite(attempt.inputs.rule_value) | rooted)
         if answer.misfit is not None:
             misfit = answer.misfit
             if more and knows_energy and isinstance(scene, ComponentScene):

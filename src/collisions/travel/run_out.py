@@ -205,8 +205,8 @@ def path(
     OutOfRangeWarning
         More than a quarter turn between two points, where one crab angle stands for all of it.
         Without ``tyres``, a yaw rate at separation above 0.5 times the speed over 1.5 m, or, with a
-        ``lock`` below 0.4, above 0.3 + lock/2 times it: the speed comes out up to 8 % too high
-        there, and beyond it soon more.
+        ``lock`` below 0.4, above 0.3 + lock/2 times it: the speed comes out 4 to 9 % too high
+        there, in single ones by up to 12 %, and beyond it soon more.
     SuspectUnitsWarning
         A bare friction above 1.5, grade beyond 0.5 or heading beyond a turn, which is probably in
         another unit.
@@ -226,7 +226,8 @@ def path(
     with locked wheels, and with wheels that are braked 0.3 to 0.9 r**2, mostly 0.4 to 0.5. The
     speed is too high by half of that: at r = 0.45 by 3 to 5.5 % with locked wheels, the more the
     larger the radius of gyration (of the 0.35, it is 1.26 m), by 3 to 7 % with a lock of 0.4, and
-    at the limit of the warning by up to 8 % with any lock.
+    at the limit of the warning mostly by 4 to 9 % with any lock, for a large radius of gyration by
+    up to 12 %.
 
     Positions and headings are smoothed first, each by a weighted least-squares parabola about its
     point (local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829, here of degree 2): chords
@@ -585,7 +586,7 @@ def _warn_of_fast_yaw(yaw_rate: Any, speed: Any, lock: Any) -> None:
             OutOfRangeWarning(
                 f"the yaw alone makes the wheels slip at more than {_MOST_YAW:g} of the speed at "
                 f"separation (with a lock below {_FULL_LOCK:g}, {_YAW_OF_ROLLING:g} + lock/2), "
-                "which the drag here leaves out: the speed may be 8 % too high there, more beyond; "
+                "which the drag here leaves out: the speed may be 9 % too high there, more beyond; "
                 "travel.simulate has the slip of each wheel",
                 code="fast_yaw",
                 cases=int(np.count_nonzero(fast)),
