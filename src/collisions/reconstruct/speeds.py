@@ -178,15 +178,16 @@ def speeds(
     tyres_a, tyres_b : travel.Tyres, optional
         The wheels that act on the ground meanwhile, as for ``eccentric``. A known delta-V has their
         part in it, which is taken to pass as that of the contact does where axes turn; known
-        energies are those of the contact, and not taken together with a recorder, axes or
-        ``slid``, nor with components and ``friction=inf`` unless the contact is stated to have
-        stuck, as several fit, each with another ratio. Answers are looked for from those of an instant without tyres and from a grid of
-        other speeds, but for readings at a recorder's place, a bound, and more components than are
-        needed without a speed or an energy: one that none of these leads to is missed, as
-        ``.statements`` say. Beside a known speed and one other known value there is no such grid:
-        the unknown speed is looked through both ways to 60 m/s, three times what both stand for or
-        twice the answers of the instant, whichever is most, in 64 steps each way, and 256 to a
-        step where an answer may be near; two answers between two of the 64 may be missed.
+        energies are those of the contact, and not taken together with a recorder, axes or ``slid``,
+        nor with components and ``friction=inf`` unless the contact is stated to have stuck, as
+        several fit, each with another ratio. Answers are looked for from those of an instant
+        without tyres and from a grid of other speeds, but for readings at a recorder's place, a
+        bound, and more components than are needed without a speed or an energy: one that none of
+        these leads to is missed, as ``.statements`` say. Beside a known speed and one other known
+        value there is no such grid: the unknown speed is looked through both ways to 60 m/s, three
+        times what both stand for or twice the answers of the instant, whichever is most, in 64
+        steps each way, and 256 to a step where an answer may be near; two answers between two of
+        the 64 may be missed.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
