@@ -286,6 +286,61 @@ def test_a_record_without_what_was_given_is_refused(known):
             replay(tampered(page, in_part))
 
 
+CRUSH = dict(
+    zip(("max_crush_speed_a", "max_crush_speed_b"), CRASH.max_crush_speeds(0.4), strict=True)
+)
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize(
+    "known",
+    [
+        EES | {"speed_b": 9.0},
+        EES | {"delta_v_a": CRASH.a.delta_v},
+        CRUSH | {"speed_b": 9.0},
+        {"energy_loss": CRASH.energy_loss, "speed_b": 9.0},
+        {"energy_loss": CRASH.energy_loss, "delta_v_a": CRASH.a.delta_v},
+        {"speed_b": 9.0, "delta_v_b": CRASH.b.delta_v},
+        RECORDER,
+    ],
+    ids=lambda known: "-".join(known),
+)
+def test_what_was_given_is_found_again_from_a_report(known):
+    found = of_speeds(**known)
+    assert replay(report(found, form="markdown", figures=False)) == found
+    assert col.explain(col.Impact.from_dict(found.to_dict()), form="text")
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize("shown", [False, True], ids=["friction known", "friction shown"])
+def test_what_was_given_beside_a_car_that_stands_is_found_again(shown):
+    """It has no course, so that no angle between courses is asked for."""
+    a, b = A.replace(vx=12.0), B.replace(vy=0.0)
+    place = {"normal": 0.1, "point": (-0.3, -0.5), "friction": 0.25}
+    end = col.eccentric(a, b, 0.1, **place)
+    known = {f"delta_v_{way}_a": getattr(end.a, f"delta_v_{way}") for way in ("forward", "left")}
+    asked = place | ({"friction": math.inf, "regime": "sliding"} if shown else {})
+    (found,) = reconstruct.speeds(
+        a, b, course_a=0.0, course_b=None, speed_b=0.0, restitution=0.1, **asked, **known
+    )
+    assert found.a.before.speed == pytest.approx(12.0)
+    assert replay(report(found, form="markdown", figures=False)) == found
+    assert "near_collinear" not in {one.code for one in col.diagnose(found)}
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_an_energy_that_sticking_does_not_lose_is_found_again():
+    """Within what components may differ by."""
+    end = col.eccentric(A, B, 0.1, **PLACE | {"friction": 2.0})
+    assert end.regime == "sticking"
+    known = {f"delta_v_{way}_a": getattr(end.a, f"delta_v_{way}") for way in ("forward", "left")}
+    for share in (0.9, 1.1):
+        found = of_speeds(
+            **known, energy_loss=share * end.energy_loss, friction=math.inf, regime="sticking"
+        )
+        assert replay(report(found, form="markdown", figures=False)) == found
+
+
 @pytest.mark.parametrize(
     ("changed", "said"),
     [

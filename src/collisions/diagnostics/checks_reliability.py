@@ -47,6 +47,8 @@ def near_collinear(case: Case) -> Iterator[Measured]:
         origin = case.answer.reconstruction
         if origin is None or not _from_components(origin) or len(origin.found) < 2:
             return
+        if not {"course_a", "course_b"} <= origin.given.keys():
+            return  # one that stands needs no course
         one, other = origin.given["course_a"], origin.given["course_b"]
         of = "course_a and course_b"
         then = "small errors of delta-V and of the courses move both speeds far"

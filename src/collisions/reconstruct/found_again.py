@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from operator import attrgetter
 from typing import Any, get_args
 
@@ -34,6 +34,7 @@ _APART = {
 _METHODS = ("central", "planar", "speeds")
 _MOTION = ("vx", "vy", "yaw_rate")
 _AS_ARGUMENTS = {"contact_duration": "duration"}
+_OF_B = ("ees_b", "max_crush_speed_b")
 _AS_RESULTS = {"restitution": "restitution"} | dict.fromkeys(RULES, "inputs.rule_value")
 
 
@@ -127,8 +128,8 @@ def components_apart(impact: Impact) -> tuple[float, str] | None:
     with warnings.catch_warnings(record=True) as caught, in_si():
         warnings.simplefilter("always")
         try:
-            _solved_again(impact, origin, None)
-        except (CollisionsError, TypeError):
+            _solved_again(impact, origin)
+        except (CollisionsError, TypeError, LookupError):
             return None  # as in _again
     for one in (each.message for each in caught):
         if isinstance(one, CollisionsWarning) and one.code in _APART:
@@ -163,13 +164,18 @@ def _again(impact: Impact, origin: Reconstruction) -> Reconstruction | None:
     worked out again.
     """
     near: list[Reconstruction] = []
-    # A record of planar does not say whether it was asked how the contact ended.
-    asked = (None, *get_args(Regime)) if origin.method == "planar" else (None,)
-    for regime in asked:
+    # A record does not say all that was asked: of planar, how the contact ended, and of speeds,
+    # for answers forwards alone.
+    asked: Sequence[dict[str, Any]] = ({},)
+    if origin.method == "planar":
+        asked = [{"regime": regime} for regime in (None, *get_args(Regime))]
+    elif origin.method == "speeds":
+        asked = [{"forward_only": only} for only in (False, True)]
+    for options in asked:
         try:
             with warnings.catch_warnings(), in_si():
                 warnings.simplefilter("ignore")
-                found = _solved_again(impact, origin, regime)
+                found = _solved_again(impact, origin, **options)
         except CollisionsError as error:
             # Several answers, or the ends of a range of them.
             found = error.solutions
@@ -187,21 +193,23 @@ def _again(impact: Impact, origin: Reconstruction) -> Reconstruction | None:
     return max(near, key=lambda one: one.answers == origin.answers, default=None)
 
 
-def _solved_again(impact: Impact, origin: Reconstruction, regime: Any) -> tuple[Any, ...]:
+def _solved_again(impact: Impact, origin: Reconstruction, **options: Any) -> tuple[Any, ...]:
     """The reverse solver's answers to the numbers that it was given."""
     paths = _AS_RESULTS | {name: known.path for name, known in KNOWN.items() if known.path}
     inputs, given = impact.inputs, dict(origin.given)
-    shown = {name: attrgetter(paths[name])(impact) for name in origin.known if name in paths}
-    # A recorder reads in place of the delta-V of the centre of mass.
-    shown |= {
-        name: given[reading]
-        for name in shown
-        if (reading := name.replace("delta_v", "reading")) in given
-    }
-    known = {name: given.get(name, value) for name, value in shown.items()}
     recorded = {name for name in origin.known if name.startswith("recorder_")}
-    if not known.keys() | recorded >= set(origin.known) or (recorded and not given):
+    known: dict[str, Any] = {}
+    for name in set(origin.known) - recorded:
+        # A recorder reads in place of the delta-V of the centre of mass.
+        reading = name.replace("delta_v", "reading")
+        known[name] = next(
+            (given[one] for one in (reading, name) if one in given),
+            attrgetter(paths[name])(impact) if name in paths else None,
+        )
+    if None in known.values():
         return ()
+    # Of what was known of both vehicles A's name stands for both.
+    known |= {name: given[name] for name in _OF_B if name in given}
     contact: dict[str, Any] = {"normal": inputs.normal, "point": inputs.point}
     contact |= {"law": inputs.law or BRACH, "incomplete": inputs.incomplete}
     wheels = {name: getattr(inputs, name) for name in ("duration", *TYRES)}
@@ -220,20 +228,18 @@ def _solved_again(impact: Impact, origin: Reconstruction, regime: Any) -> tuple[
             )
             for label in "ab"
         )
-        return (planar(after_a, after_b, regime=regime, **known, **contact, **wheels),)
+        return (planar(after_a, after_b, **known, **contact, **wheels, **options),)
     if any(name.startswith(("delta_v_forward", "delta_v_left")) for name in known):
         slid = None if origin.one_sided is None else "bound"
         contact |= {"regime": origin.regime, "slid": slid}
     if recorded:
         contact |= _recorders(given, recorded)
         wheels["duration"] = given.get("recorder_duration", inputs.duration)
-    bodies = {
-        f"course_{label}": given.get(f"course_{label}", getattr(inputs, label).course)
-        for label in "ab"
-    }
+    # One that stands needs no course.
+    bodies = {name: given.get(name) for name in ("course_a", "course_b")}
     # A friction that was found was given as infinite, or as one that may have been greater.
     rule_value = given.get(FRICTION, math.inf) if FRICTION in origin.found else inputs.rule_value
-    more: dict[str, Any] = {**bodies, **contact, **known, inputs.rule: rule_value}
+    more: dict[str, Any] = {**bodies, **contact, **known, **options, inputs.rule: rule_value}
     return speeds(inputs.a, inputs.b, restitution=inputs.restitution, **more, **wheels)
 
 

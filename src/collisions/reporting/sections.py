@@ -337,7 +337,12 @@ def contradicted(impact: Impact) -> Iterator[str]:
         "angle": COMES_OUT + together,
         **dict.fromkeys(("time", "number"), COMES_OUT),
     }
-    for one in evidence_of(impact):
+    evidence = evidence_of(impact)
+    if impact.regime == "sticking" and any("forward" in one.name for one in evidence):
+        # Beside components an energy of a contact that stuck is met as well as they agree with it;
+        # it goes as the square of the impulse.
+        allowed["energy"] = 2.0 * _RECORDED * abs(impact.energy_loss)
+    for one in evidence:
         unit = SI_UNITS[one.kind]
         by_text = None if one.text is None else number_of_text(one.text, one.name)
         for given, as_given in ((by_text, repr(one.text)), (one.number, f"{one.number!r} {unit}")):
