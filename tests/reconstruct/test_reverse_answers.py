@@ -329,6 +329,62 @@ def test_what_was_given_beside_a_car_that_stands_is_found_again(shown):
 
 
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_a_record_cannot_say_that_another_ending_was_stated():
+    """Nor that one was where components did not ask for it; and its condition is a number."""
+    slid = col.eccentric(A, B, 0.1, **PLACE | {"friction": 0.3})
+    known = {f"delta_v_{way}_a": getattr(slid.a, f"delta_v_{way}") for way in ("forward", "left")}
+    (stated,) = reconstruct.speeds(
+        A, B, **COURSES | {"friction": math.inf}, **known, regime="sticking"
+    )
+    for found, changes in (
+        (stated, ({"regime": None}, {"regime": "sliding"}, {"condition": None})),
+        (of_speeds(speed_b=9.0, delta_v_a=CRASH.a.delta_v), ({"regime": "sticking"},)),
+        (of_central(), ({"regime": "sliding"},)),
+    ):
+        page = report(found, form="markdown", figures=False)
+        assert replay(page) == found
+        for changed in changes:
+
+            def forged(record, changed=changed):
+                record["impact"]["results"]["reconstruction"].update(changed)
+
+            with pytest.raises(col.InputError):
+                replay(tampered(page, forged))
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_what_was_asked_in_other_ways_is_found_again():
+    """Motions after by speed and course, a restitution that was a function, and courses that are
+    one, where a contact slid at the ratio that components show.
+    """
+    after = (
+        col.Vehicle.from_speed(
+            mass=mass, yaw_inertia=inertia, x=x, y=y, heading=heading, speed=speed, course=course,
+            yaw_rate=rate,
+        )
+        for mass, inertia, x, y, heading, speed, course, rate in (
+            (1500, 2500, -1.9, -0.3, "5 deg", "30 km/h", "10 deg", "20 deg/s"),
+            (1300, 2100, 1.1, 0.9, "90 deg", "45 km/h", "60 deg", "-10 deg/s"),
+        )
+    )  # fmt: skip
+    place = {"normal": "17 deg", "point": ("0.1 m", "20 cm")}
+    found = [reconstruct.planar(*after, **place, restitution=0.1, friction=0.05)]
+    found += reconstruct.speeds(
+        A, B, **COURSES | {"restitution": lambda g: 0.4 * math.exp(-g / 10.0)}, speed_b=9.0,
+        delta_v_a=CRASH.a.delta_v,
+    )  # fmt: skip
+    ahead = B.replace(vx=5.0, vy=0.0)
+    end = col.eccentric(A, ahead, 0.1, **PLACE | {"friction": 0.1})
+    known = {f"delta_v_{way}_a": getattr(end.a, f"delta_v_{way}") for way in ("forward", "left")}
+    (along,) = reconstruct.speeds(
+        A, ahead, **COURSES | {"course_b": 0.0, "friction": math.inf}, speed_b=5.0, **known
+    )
+    assert along.a.before.speed == pytest.approx(15.0)
+    for one in [*found, along]:
+        assert replay(report(one, form="markdown", figures=False)) == one
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_an_energy_that_sticking_does_not_lose_is_found_again():
     """Within what components may differ by."""
     end = col.eccentric(A, B, 0.1, **PLACE | {"friction": 2.0})

@@ -231,7 +231,7 @@ def _bare_normal(found: Mapping[str, Any]) -> Any:
     reader.close()
     text = isinstance(found["normal"], str)
     normal: Any = None if text else read_strict(found["normal"])
-    near = 1e-9 * (1.0 + np.abs(bare))
+    near = 1e-6 * (1.0 + np.abs(bare))  # the digits of float32
     if text or not all(
         np.all(np.abs(np.subtract(turned, part)) <= near)
         for turned, part in zip((np.cos(bare), np.sin(bare)), normal, strict=True)
@@ -285,7 +285,10 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
     if found is None:
         return None
     known = tuple(str(name) for name in found["known"])
-    condition, answers = read_only(read_strict(found["condition"])), _count(found["answers"])
+    condition: Any = read_only(read_strict(found["condition"]))
+    answers = _count(found["answers"])
+    if not isinstance(condition, (float, int, np.ndarray)):
+        raise bad_record(f"its condition is {shown(found['condition'])}, which is no number")
     method = str(found["method"])
     return AsRecorded(
         method=method,

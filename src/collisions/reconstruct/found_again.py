@@ -87,14 +87,17 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             f"solving it again finds {', '.join(found) or 'nothing'}, and it says "
             f"{', '.join(origin.found) or 'nothing'}"
         )
-    if not math.isclose(again.condition, origin.condition, rel_tol=_SAME_CONDITION):
+    # A function adds to the condition how steep it is.
+    same = by_function or math.isclose(again.condition, origin.condition, rel_tol=_SAME_CONDITION)
+    if not same:
         yield (
             f"its inputs give a condition of {again.condition:.6g}, and it says "
             f"{origin.condition:.6g}"
         )
-    unsaid = origin.given.keys() ^ again.given.keys()
+    said = {_along_axes(name) for name in origin.given}
+    unsaid = said ^ {_along_axes(name) for name in again.given}
     if unsaid:
-        does = "says" if unsaid & origin.given.keys() else "does not say"
+        does = "says" if unsaid & said else "does not say"
         yield f"it {does} what {min(unsaid)} was given to its reverse solver"
     if origin.known != again.known:
         yield (
@@ -108,6 +111,11 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
                 f"its reconstruction has a {name} of {stands}, and its solver was given "
                 f"{'none' if found_with is None else found_with}"
             )
+    if again.regime != origin.regime:
+        yield (
+            f"its inputs say that the contact was stated to be {again.regime or 'neither'}, and it "
+            f"says {origin.regime or 'neither'}"
+        )
     if again.answers != origin.answers:
         yield f"its inputs have {again.answers} answers, and it says {origin.answers}"
     if again.one_sided != origin.one_sided:
@@ -115,6 +123,11 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             f"its inputs leave the speeds known by {again.one_sided or 'both sides'}, and it says "
             f"{origin.one_sided or 'both sides'}"
         )
+
+
+def _along_axes(name: str) -> str:
+    """The name of a motion after that stands for a speed and a course after."""
+    return name.replace("_after.speed", "_after.vx").replace("_after.course", "_after.vy")
 
 
 def components_apart(impact: Impact) -> tuple[float, str] | None:

@@ -629,10 +629,10 @@ class ComponentScene(Scene):
 
     def shown_ratio(self) -> Any:
         """The impulse ratio that the components show by themselves; NaN if they do not."""
-        root, _, _ = self._solved(STICK)
-        stuck = self.observe(STICK, *root[:2])
-        flat = self._linear_in(STICK)[3]
-        return np.where(flat, np.nan, stuck.tangential / stuck.normal)
+        columns = [list(parts) for parts in zip(*self._axes, strict=True)]
+        rows, flat = pseudoinverse(columns, [abs(part) for column in columns for part in column])
+        normal, tangential = (dot(row, self._momenta) for row in rows)
+        return np.where(flat, np.nan, tangential / normal)
 
     def friction_differs(self) -> Any:
         """Where a friction beside a known speed is further from the ratio of the components alone
