@@ -287,7 +287,7 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
     known = tuple(str(name) for name in found["known"])
     condition: Any = read_only(read_strict(found["condition"]))
     answers = _count(found["answers"])
-    if not isinstance(condition, (float, int, np.ndarray)):
+    if np.asarray(condition).dtype.kind not in "fi":
         raise bad_record(f"its condition is {shown(found['condition'])}, which is no number")
     method = str(found["method"])
     return AsRecorded(
