@@ -36,9 +36,8 @@ _VELOCITIES = ("va", "vb", "va_after", "vb_after")
 class Evidence(NamedTuple):
     """Something that a reverse solver was given besides masses, geometry and contact.
 
-    ``number`` is in SI, None of what is no number; ``text`` as it
-    was given, if with a unit; ``answer`` the same number of the impact that was found, if it has
-    one.
+    ``number`` is in SI, None of what is no number; ``text`` as it was given, if with a unit;
+    ``answer`` the same number of the impact that was found, if it has one.
     """
 
     name: str

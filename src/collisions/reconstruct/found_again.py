@@ -112,9 +112,10 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
                 f"{'none' if found_with is None else found_with}"
             )
     if again.regime != origin.regime:
+        ways = (origin.regime or "open", again.regime or "open")
         yield (
-            f"its inputs say that the contact was stated to be {again.regime or 'neither'}, and it "
-            f"says {origin.regime or 'neither'}"
+            f"it says that how the contact ended was {ways[0]}, and solving it again takes it as "
+            f"{ways[1]}"
         )
     if again.answers != origin.answers:
         yield f"its inputs have {again.answers} answers, and it says {origin.answers}"

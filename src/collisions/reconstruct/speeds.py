@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
@@ -361,11 +360,6 @@ def _read(given: dict[str, Any]) -> tuple[Search, dict[str, Any]]:
         )
         for label in "ab"
     }
-    for label, other in ("ab", "ba"):
-        if given[f"course_{label}"] is None:
-            # Of a vehicle that stands any will do; along the other's, both would lie on one line.
-            right = 90.0 if courses[other].in_degrees else 0.5 * math.pi
-            courses[label] = courses[other]._replace(value=courses[other].value + right)
     check_flag(reader, "forward_only", given["forward_only"])
     inputs = _read_inputs(reader, given, known, courses, times)
     numbers = {

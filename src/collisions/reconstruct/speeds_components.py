@@ -627,11 +627,18 @@ class ComponentScene(Scene):
         size = np.hypot(here.normal, here.tangential)
         return np.maximum(*(self._of(label, left) for label in "ab")) / size
 
-    def shown_ratio(self) -> Any:
-        """The impulse ratio that the components show by themselves; NaN if they do not."""
+    def _impulse_shown(self) -> tuple[Any, Any, Any, Any]:
+        """The impulse along normal and tangent that the components show by themselves, as rows of
+        their momenta and as numbers; and where they do not.
+        """
         columns = [list(parts) for parts in zip(*self._axes, strict=True)]
         rows, flat = pseudoinverse(columns, [abs(part) for column in columns for part in column])
         normal, tangential = (dot(row, self._momenta) for row in rows)
+        return rows, normal, tangential, flat
+
+    def shown_ratio(self) -> Any:
+        """The impulse ratio that the components show by themselves; NaN if they do not."""
+        _, normal, tangential, flat = self._impulse_shown()
         return np.where(flat, np.nan, tangential / normal)
 
     def friction_differs(self) -> Any:
@@ -641,9 +648,7 @@ class ComponentScene(Scene):
         stated = self.rule == FRICTION and self.stated is None and len(self.unknown) == 1
         if not stated or len(self.components) < 2:
             return np.zeros((), dtype=bool)
-        columns = [list(parts) for parts in zip(*self._axes, strict=True)]
-        rows, flat = pseudoinverse(columns, [abs(part) for column in columns for part in column])
-        normal, tangential = (dot(row, self._momenta) for row in rows)
+        _, normal, tangential, flat = self._impulse_shown()
         apart = abs(abs(tangential) - self.bound * normal) / np.hypot(normal, tangential)
         return np.isfinite(self.bound) & np.logical_not(flat) & (apart > ACCURACY)
 
@@ -675,9 +680,7 @@ class ComponentScene(Scene):
 
     def _of_friction(self) -> list[Any]:
         """What the momenta change the friction by that they show."""
-        columns = [list(parts) for parts in zip(*self._axes, strict=True)]
-        rows, _ = pseudoinverse(columns, [abs(part) for column in columns for part in column])
-        normal, tangential = (dot(row, self._momenta) for row in rows)
+        rows, normal, tangential, _ = self._impulse_shown()
         ratio = tangential / normal
         return [np.sign(ratio) * (t - ratio * n) / normal for n, t in zip(*rows, strict=True)]
 

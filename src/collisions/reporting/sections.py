@@ -50,7 +50,7 @@ from .words import Names
 _TOGETHER = 0.02
 # Components of delta-V are measured: if more are given than are needed, they are met only as well
 # as they agree.
-_RECORDED = 0.3
+_COMPONENTS, _RECORDED = ("delta_v_forward", "delta_v_left"), 0.3
 # The state before by its words among the results, as its names in ``notes``.
 _BEFORE = {
     "velocity before, along x": "vx",
@@ -338,7 +338,9 @@ def contradicted(impact: Impact) -> Iterator[str]:
         **dict.fromkeys(("time", "number"), COMES_OUT),
     }
     evidence = evidence_of(impact)
-    if impact.regime == "sticking" and any("forward" in one.name for one in evidence):
+    if impact.regime == "sticking" and any(
+        one.name.startswith((*_COMPONENTS, "reading")) for one in evidence
+    ):
         # Beside components an energy of a contact that stuck is met as well as they agree with it;
         # it goes as the square of the impulse.
         allowed["energy"] = 2.0 * _RECORDED * abs(impact.energy_loss)
@@ -351,7 +353,7 @@ def contradicted(impact: Impact) -> Iterator[str]:
             # A speed may come out negative, with the opposite course; at rest there is no course.
             apart = given - one.answer
             apart = math.remainder(apart, math.pi) if one.kind == "angle" else apart
-            measured = one.name.startswith(("delta_v_forward", "delta_v_left"))
+            measured = one.name.startswith(_COMPONENTS)
             if abs(apart) > (
                 _RECORDED * max(side.delta_v for side in sides) if measured else allowed[one.kind]
             ):

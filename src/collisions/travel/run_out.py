@@ -586,8 +586,8 @@ def _warn_of_fast_yaw(yaw_rate: Any, speed: Any, lock: Any) -> None:
             OutOfRangeWarning(
                 f"the yaw alone makes the wheels slip at more than {_MOST_YAW:g} of the speed at "
                 f"separation (with a lock below {_FULL_LOCK:g}, {_YAW_OF_ROLLING:g} + lock/2), "
-                "which the drag here leaves out: the speed may be 9 % too high there, more beyond; "
-                "travel.simulate has the slip of each wheel",
+                "which the drag here leaves out: the speed may be 4 to 12 % too high there, more "
+                "beyond; travel.simulate has the slip of each wheel",
                 code="fast_yaw",
                 cases=int(np.count_nonzero(fast)),
             ),

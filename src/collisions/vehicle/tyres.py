@@ -325,9 +325,9 @@ def refuse_lifting(tyres: Mapping[str, Any], friction: Any, texts: Iterable[Any]
         most = 0.5 / (friction * math.hypot(1.0 / tyres["wheelbase"], 1.0 / tyres["track"]))
         raise InputError(
             f"height is {say(tyres['height'], 'length')}, and from {say(most, 'length', 3)} on a "
-            "wheel lifts off "
-            f"where a friction of {friction:g} is used between the axes of the vehicle, which "
-            "might then tip over: that is not followed here; correct it, or leave height out",
+            f"wheel lifts off where a friction of {friction:g} is used between the axes of the "
+            "vehicle, which might then tip over: that is not followed here; correct it, or leave "
+            "height out",
             code="wheel_lifts",
             argument="height",
         )
