@@ -1988,6 +1988,10 @@ def test_a_speed_that_was_found_is_no_input():
     assert one.sentence.startswith("vehicle A was found to go at")
     assert one.sentence.endswith("; check what was given")
     assert other.sentence == "vehicle A goes at 130 m/s before; were km/h or mph meant?"
+    texts = reconstruct.central(1500.0, 1200.0, va="110 mph", vb="0 mph", restitution=0.1)
+    assert of("suspect_speed", texts)[0].sentence == (
+        "vehicle A goes at 110.0 mph before; check its unit"
+    )
 
 
 def test_a_yaw_rate_that_was_found_is_no_input():
@@ -2002,7 +2006,11 @@ def test_a_yaw_rate_that_was_found_is_no_input():
         *after, normal=0.0, point=(0.0, 0.0), restitution=forward.restitution, impulse_ratio=ratio
     )
     (finding,) = of("suspect_yaw_rate", back)
-    assert finding.sentence.startswith("vehicle A was found to turn at 40 rad/s")
+    assert finding.sentence.startswith("vehicle A was found to turn at 2292 degrees/s")
+    texts = square(a={"yaw_rate": "2000 deg/s"})
+    assert of("suspect_yaw_rate", texts)[0].sentence == (
+        "vehicle A turns at 2000 degrees/s before; check its unit"
+    )
 
 
 def test_tyres_of_a_pinned_body_are_an_estimate():

@@ -599,6 +599,18 @@ def test_every_record_validates(name):
     VALIDATOR.validate(strict(col.Impact.from_dict(record)))
 
 
+def test_a_batch_with_a_normal_that_is_no_angle_has_a_record():
+    """Its case is refused, and the record is read back without a warning of numpy."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, vx=10.0, x=-2.0, y=0.0)
+    b = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=2.0, y=0.0)
+    contact = {"point": (0.0, 0.0), "friction": 0.3, "on_failure": "nan"}
+    for kind in (np.float32, np.float64):
+        normal = np.array([0.0, math.inf], kind)
+        impact = col.eccentric(a, b, 0.1, normal=normal, **contact)
+        assert list(impact.ok) == [True, False]
+        assert col.Impact.from_dict(strict(impact)) == impact
+
+
 def test_records_together_reach_every_part_of_the_schema():
     """Each result is somewhere a number, somewhere a batch, and each that may be missing is
     somewhere missing.

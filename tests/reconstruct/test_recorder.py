@@ -618,6 +618,16 @@ def test_a_record_that_begins_before_or_after_its_zero_has_the_same_duration():
         assert pulse.duration == pytest.approx(0.11, rel=1e-9), start
 
 
+def test_a_table_that_begins_one_step_late_counts_from_time_0():
+    """And one that begins later, with some delta-V already, is refused."""
+    shape = -10.0 * haversine(TIME)
+    late = recorded_pulse(TIME[1:], shape[1:], polarity="ISO 8855")
+    assert late.duration == pytest.approx(0.11, rel=1e-9)
+    with pytest.raises(col.InputError, match="the samples before it are not there") as caught:
+        recorded_pulse(TIME[2:], shape[2:], polarity="ISO 8855")
+    assert caught.value.code == "bad_pulse"
+
+
 def test_samples_before_the_pulse_begins_are_no_part_of_its_duration():
     """A record may begin before its time zero, or with zeros after it."""
     for start, begins in ((-0.05, 0.0), (0.0, 0.06)):

@@ -890,32 +890,40 @@ def test_beside_a_speed_the_condition_is_known_with_tyres(label, given):
     assert 1.0 < found.reconstruction.condition < 100.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "names",
     [
         ("delta_v_forward_a", "delta_v_left_a", "energy_loss"),
         ("delta_v_forward_a", "delta_v_left_b", "energy_loss"),
         ("speed_a", "delta_v_forward_a", "delta_v_left_a"),
+        ("delta_v_forward_a", "delta_v_left_a"),
+        ("delta_v_forward_a", "delta_v_left_b"),
+        ("delta_v_a", "energy_loss"),
+        ("speed_a", "delta_v_forward_b"),
+        ("speed_b", "energy_loss"),
     ],
 )
-def test_the_condition_of_more_than_is_needed_is_that_of_the_whole_call_with_tyres(names):
+def test_the_condition_is_that_of_the_whole_call_with_tyres(names):
     """By finite differences of each known value, with the tyres worked out again each time."""
     rng, met = random.Random(8), 0
-    while met < 6:
+    while met < 3:
         (a, b), contact, wheels = drawn_apart(rng)
         try:
             truth = col.eccentric(a, b, 0.2, **contact, **wheels)
+            known = {name: read(truth, name) for name in names}
+            courses = {"course_a": a.course, "course_b": b.course, "restitution": 0.2}
+
+            def found(known, a=a, b=b, rest=courses | contact | wheels):
+                answers = reconstruct.speeds(a, b, **rest, **known)
+                return min(answers, key=lambda one: abs(one.b.before.speed - b.speed))
+
+            condition = found(known).reconstruction.condition
         except (col.NoImpactError, col.NoSolutionError):
+            # Two components alone do not hold one that slid.
             continue
         met += 1
-        courses = {"course_a": a.course, "course_b": b.course, "restitution": 0.2}
-        known = {name: read(truth, name) for name in names}
-
-        def found(known, a=a, b=b, rest=courses | contact | wheels):
-            answers = reconstruct.speeds(a, b, **rest, **known)
-            return min(answers, key=lambda one: abs(one.b.before.speed - b.speed))
-
-        sought = "b" if "speed_a" in known else "ab"
+        sought = "b" if "speed_a" in known else "a" if "speed_b" in known else "ab"
         moved = np.zeros(len(sought))
         for name, value in known.items():
             up, down = (found({**known, name: value * (1.0 + step)}) for step in (1e-5, -1e-5))
@@ -923,5 +931,4 @@ def test_the_condition_of_more_than_is_needed_is_that_of_the_whole_call_with_tyr
                 abs(getattr(up, side).before.speed - getattr(down, side).before.speed) / 2e-5
                 for side in sought
             ]
-        condition = found(known).reconstruction.condition
         assert condition == pytest.approx(max(moved) / truth.closing_speed, rel=0.02)

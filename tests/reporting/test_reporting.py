@@ -2039,6 +2039,8 @@ B = col.Vehicle(mass=1200.0, yaw_inertia=1800.0, vy=9.0, x=0.9, y=-1.0, heading=
     [
         {"condition": 2.0},
         {"condition": 50.0},
+        {"condition": []},
+        {"answers": 10**400},
         {"answers": 99},
         {"method": "guess"},
         {"known": ["restitution", "energy_loss", "va"]},

@@ -138,6 +138,12 @@ def test_what_cannot_be_is_refused(distance, given, error, code):
     assert refused.value.code == code
 
 
+@pytest.mark.parametrize(("unit", "said"), [("", "before 1 m,"), (" ft", "before 1 ft,")])
+def test_a_refusal_has_the_units_of_the_inputs(unit, said):
+    with pytest.raises(col.NoSolutionError, match=said):
+        travel.throw_bounds(f"1{unit}" if unit else 1.0, friction=0.7, height=f"1{unit}" if unit else 1.0)
+
+
 def test_what_no_float_holds_is_refused():
     """After the question whether another unit was meant."""
     with (

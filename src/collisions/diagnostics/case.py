@@ -47,7 +47,7 @@ class Damage(NamedTuple):
 
 class VehicleFigures(NamedTuple):
     """The quantities that every result has for a vehicle, and its name in a sentence; mass and
-    speed are those before.
+    speed are those before. ``speed_has_unit`` says whether that speed was given with one.
     """
 
     who: str
@@ -56,6 +56,7 @@ class VehicleFigures(NamedTuple):
     delta_v: float
     pdof: float | None
     heading: float | None
+    speed_has_unit: bool
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -113,6 +114,7 @@ class MomentumCase(_Case):
             label: VehicleFigures(
                 f"vehicle {label.upper()}",
                 *(getattr(self.answer, f"{name}_{label}") for name in names),
+                isinstance((self.answer.given or {}).get(f"speed_{label}"), str),
             )
             for label in "ab"
         }
@@ -156,6 +158,7 @@ class ImpactCase(_Case):
                 side.delta_v,
                 side.pdof,
                 side.before.heading,
+                any(name in (side.before.given or {}) for name in ("speed", "vx", "vy")),
             )
             for label, who, side in self.sides
         }

@@ -51,9 +51,12 @@ def suspect_heavy(case: Case) -> Iterator[Measured]:
 def suspect_speed(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
         who, speed = vehicle.who, abs(vehicle.speed)
+        fast = case.text(speed, "speed")
         sentence = f"{who} goes at {speed:.6g} m/s before; were km/h or mph meant?"
         if f"speed_{label}" in case.answer.found:
-            sentence = f"{who} was found to go at {speed:.6g} m/s before; check what was given"
+            sentence = f"{who} was found to go at {fast} before; check what was given"
+        elif vehicle.speed_has_unit:
+            sentence = f"{who} goes at {fast} before; check its unit"
         yield Measured(speed, sentence, label)
 
 
@@ -65,9 +68,12 @@ def suspect_speed(case: Case) -> Iterator[Measured]:
 def suspect_yaw_rate(case: ImpactCase) -> Iterator[Measured]:
     for label, who, side in case.sides:
         rate = side.before.yaw_rate
+        quick = case.text(rate, "yaw rate")
         sentence = f"{who} turns at {rate:.6g} rad/s before; were degrees/s meant?"
         if f"yaw_rate_{label}" in case.answer.found:
-            sentence = f"{who} was found to turn at {rate:.6g} rad/s before; check what was given"
+            sentence = f"{who} was found to turn at {quick} before; check what was given"
+        elif "yaw_rate" in (side.before.given or {}):
+            sentence = f"{who} turns at {quick} before; check its unit"
         yield Measured(abs(rate), sentence, label)
 
 

@@ -229,13 +229,17 @@ def _bare_normal(found: Mapping[str, Any]) -> Any:
     reader = ArgumentReader()
     bare = reader.number(read_strict(found["bare_normal"]), "", "bare_normal")
     reader.close()
-    text = isinstance(found["normal"], str)
-    normal: Any = None if text else read_strict(found["normal"])
-    near = 1e-6 * (1.0 + np.abs(bare))  # the digits of float32
-    if text or not all(
-        np.all(np.abs(np.subtract(turned, part)) <= near)
-        for turned, part in zip((np.cos(bare), np.sin(bare)), normal, strict=True)
-    ):
+    fits = not isinstance(found["normal"], str)
+    if fits:
+        # To the digits of float32. The angle of a refused case may have no direction.
+        with np.errstate(invalid="ignore"):
+            near = 1e-6 * (1.0 + np.abs(bare))
+            turned = np.cos(bare), np.sin(bare)
+            fits = all(
+                np.all((np.abs(np.subtract(one, part)) <= near) | ~np.isfinite(bare))
+                for one, part in zip(turned, read_strict(found["normal"]), strict=True)
+            )
+    if not fits:
         raise bad_record("its bare_normal is not the angle of its normal")
     return bare
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from numbers import Real
 from operator import attrgetter
 from typing import Any, get_args
 
@@ -69,7 +70,10 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
     if strange:
         yield f"its reconstruction was given {strange[0]!r}, which {origin.method} does not take"
         return
-    if not float(origin.condition) >= 0.0 or not float(origin.answers) >= 1.0:
+    if not all(
+        isinstance(value, Real) and value >= least
+        for value, least in ((origin.condition, 0.0), (origin.answers, 1))
+    ):
         yield (
             f"its reconstruction has a condition of {origin.condition} and {origin.answers} "
             "answers, which no solution has"

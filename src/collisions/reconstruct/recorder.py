@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -50,8 +50,8 @@ class RecordedPulse(Shown):
     (``reference.RECORDER_ACCURACY``): a tenth of each component, and at least half the step in
     which it is reported. A record that stops before the pulse has ended is a lower bound: its
     components say how far delta-V had come. ``duration`` is the time from the last sample before
-    delta-V begins to change to the largest resultant. ``time``, ``forward`` and ``left`` are the
-    samples.
+    delta-V begins to change, or from time 0 where the first sample is one step later and has some
+    already, to the largest resultant. ``time``, ``forward`` and ``left`` are the samples.
     ``place`` is where the recorder sits, ahead of the centre of mass and to its left, if that was
     given; all numbers are the readings there, which ``speeds(..., recorder_a=pulse.place)``
     carries over to the centre of mass.
@@ -226,7 +226,8 @@ def recorded_pulse(
     ------
     InputError
         An argument or a file that cannot be used, or delta-V that is not 0 when the event begins:
-        a first sample at time 0 or before it may be off by the step of a recorder, 1 km/h.
+        a first sample at time 0 or before it may be off by the step of a recorder, 1 km/h. Where
+        the first is later and has some delta-V, more than one step after time 0.
 
     Warns
     -----
@@ -327,7 +328,7 @@ def recorded_pulse(
     found = RecordedPulse(
         delta_v_forward=float(ahead[at]),
         delta_v_left=None if aside is None else float(aside[at]),
-        duration=float(times[at] - times[_begun(parts.values())]),
+        duration=float(times[at] - _begin(times, parts)),
         ended=ended,
         polarity=polarity,
         time=read_only(times),
@@ -415,10 +416,24 @@ def _cut(times: Any, size: float) -> str:
     )
 
 
-def _begun(parts: Iterable[Any]) -> int:
-    """The last sample before delta-V changes for the first time; the first where it never does."""
-    changed = np.any([part != part[0] for part in parts], axis=0)
-    return max(int(np.argmax(changed)) - 1, 0)
+def _begin(times: Any, parts: Mapping[str, Any]) -> float:
+    """When delta-V begins to change: the last sample before it does, the first where it never does;
+    or time 0, from which it counts, where the first sample is later and has some.
+    """
+    changed = np.any([part != part[0] for part in parts.values()], axis=0)
+    last = max(int(np.argmax(changed)) - 1, 0)
+    if last > 0 or times[0] <= 0.0 or not any(part[0] for part in parts.values()):
+        return float(times[last])
+    if times[0] > (times[1] - times[0]) * (1.0 + 1e-9):
+        name = next(name for name, part in parts.items() if part[0])
+        raise InputError(
+            f"{name} begins with {3.6 * parts[name][0]:.3g} km/h at {times[0]:.3g} s, and the "
+            "samples before it are not there; delta-V counts from 0 at time 0, when the event "
+            "begins: give all samples, or that of time 0",
+            code="bad_pulse",
+            argument=name,
+        )
+    return 0.0
 
 
 def _ended(times: Any, size: Any, at: int) -> bool:

@@ -438,26 +438,20 @@ def speeds_with_tyres(
             for part in _missed(name, value, known, tried, answer, directions)
         ]
 
+    by_name = {name: value for name, value in known.items() if name not in _STANDS_FOR_NONE}
+    exact = [not name.startswith(("delta_v_forward", "delta_v_left")) for name in by_name]
+    sought = [at for at, label in enumerate("ab") if f"speed_{label}" not in known]
+    weights = [_as_speed(name, value, known, inputs) / sizes[0] for name, value in by_name.items()]
+
     missed = misses_of_impacts(inputs_at, off)
     rows = slopes_at(missed, start, sizes)
     if len(rows) == 2:
-        # As many as are sought.
+        # As many as are sought, each of which is met.
         values, settled = settle(missed, start, sizes)
-        slopes = slopes_at(missed, values, sizes)
         closing, sticks, _ = _contact(inputs_at(values))
-        weights = [
-            _as_speed(name, value, known, inputs)
-            for name, value in known.items()
-            if name not in _STANDS_FOR_NONE
-        ]
-        condition = _condition(slopes, sizes, weights, closing)
+        slopes = slopes_at(missed, values, sizes)
+        condition = _condition(slopes, [True, True], weights, sought, closing)
         return Found(values[0], values[1], settled, closing, sticks, condition)
-
-    exact = [
-        not name.startswith(("delta_v_forward", "delta_v_left"))
-        for name in known
-        if name not in _STANDS_FOR_NONE
-    ]
 
     def equations(tried: Inputs, answer: Any) -> list[Any]:
         left = off(tried, answer)
@@ -488,18 +482,7 @@ def speeds_with_tyres(
     )
     impulse = np.hypot(answer.normal_impulse, answer.tangential_impulse)
     both = inputs.a.mass + inputs.b.mass
-    weights = [
-        _as_speed(name, value, known, inputs)
-        * (1.0 if alone else getattr(inputs, name[-1]).mass / both)
-        / sizes[0]
-        for (name, value), alone in zip(
-            ((name, value) for name, value in known.items() if name not in _STANDS_FOR_NONE),
-            exact,
-            strict=True,
-        )
-    ]
-    sought = [at for at, label in enumerate("ab") if f"speed_{label}" not in known]
-    condition = _growth(slopes_at(missed, values, sizes), exact, weights, sought, closing)
+    condition = _condition(slopes_at(missed, values, sizes), exact, weights, sought, closing)
     return Found(values[0], values[1], settled, closing, sticks, condition, left * both / impulse)
 
 
@@ -527,15 +510,15 @@ def _met_together(rows: Sequence[Sequence[Any]], exact: Sequence[bool]) -> list[
     return [*met, rest][:2]
 
 
-def _growth(
+def _condition(
     rows: Sequence[Sequence[Any]],
     exact: Sequence[bool],
     weights: Sequence[Any],
     sought: Sequence[int],
     closing: Any,
 ) -> Any:
-    """The condition of more known values than are sought: how far relative errors of all of them,
-    which count with these weights, may move the speeds that are sought, in closing speeds.
+    """How far relative errors of all known values, which count with these weights, may move the
+    speeds that are sought, in closing speeds; infinite where the known values do not hold them.
     """
     with np.errstate(all="ignore"):
         met = _met_together(rows, exact)
@@ -657,24 +640,10 @@ def _contact(inputs: Inputs) -> tuple[Any, Any, Any]:
     return answer.closing_speed, answer.sticks, answer
 
 
-def _condition(
-    slopes: Sequence[Sequence[Any]], sizes: Sequence[Any], weights: Sequence[Any], closing: Any
-) -> Any:
-    """The growth of relative errors of what was known in the speeds, in closing speeds: by the
-    inverse of how the known values change with the speeds; infinite where they do not.
-    """
-    with np.errstate(all="ignore"):
-        (p, q), (r, s) = (
-            [part * size for part, size in zip(row, sizes, strict=True)] for row in slopes
-        )
-        determinant = p * s - q * r
-        moved = (abs(s) + abs(r)) * weights[0] + (abs(q) + abs(p)) * weights[1]
-        found = moved / abs(determinant * closing)
-        return np.where(np.isfinite(found), found, np.inf)
-
-
 def _as_speed(name: str, value: Any, known: Mapping[str, Any], inputs: Inputs) -> Any:
-    """What a known value changes by, as a speed, where it changes by the whole of itself."""
+    """What the miss of a known value changes by, as a speed, where it changes by the whole of
+    itself.
+    """
     masses = inputs.a.mass, inputs.b.mass
     if name == "energy_loss":
         return 0.5 * np.sqrt(2.0 * abs(value) / np.minimum(*masses))
@@ -682,6 +651,8 @@ def _as_speed(name: str, value: Any, known: Mapping[str, Any], inputs: Inputs) -
         other = known[f"{name[:-1]}b"]
         energy = energy_of_speeds(masses[0], value, masses[1], other)
         return np.sqrt(2.0 * energy / np.minimum(*masses))
+    if name.startswith(("delta_v_forward", "delta_v_left")):
+        return _part_of_impulse(inputs, name) * abs(value)
     return abs(value)
 
 
@@ -705,9 +676,7 @@ def _missed(
             return [np.hypot(dvx, dvy) - value]
         c, s = from_radians(body.heading)
         along = c * dvx + s * dvy if "forward" in name else c * dvy - s * dvx
-        # A part of the impulse, as a speed of both together.
-        weight = body.mass / (tried.a.mass + tried.b.mass)
-        return [weight * (along - value)]
+        return [_part_of_impulse(tried, name) * (along - value)]
     if name in _STANDS_FOR_NONE:
         return []
     lost = answer.energy_loss
@@ -721,3 +690,8 @@ def _missed(
     # Energies as the speeds that they stand for.
     light = np.minimum(tried.a.mass, tried.b.mass)
     return [np.sqrt(2.0 * np.maximum(lost, 0.0) / light) - np.sqrt(2.0 * value / light)]
+
+
+def _part_of_impulse(inputs: Inputs, name: str) -> Any:
+    """What makes a component of delta-V a part of the impulse, as a speed of both together."""
+    return getattr(inputs, name[-1]).mass / (inputs.a.mass + inputs.b.mass)

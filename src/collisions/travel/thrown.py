@@ -15,7 +15,8 @@ from ..messages.hints import hinted
 from ..quantities.attributes import hypot, math_or_numpy
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.refusals import must_be
-from ..quantities.units import Input, Value
+from ..quantities.tables import Sentences
+from ..quantities.units import Input, Value, texts_of
 from ..vehicle.drag import GRAVITY, one_value, read_friction
 from .surfaces import in_one_precision, out_of_range, read_length, settle
 
@@ -94,7 +95,8 @@ def throw_speed(distance: Input, *, friction: Input, angle: Input, height: Input
         # A throw at the edge slides by rounding alone.
         slides = found * cos >= rubbed * falls * (1.0 - _ROUNDING)
         off = [("bad_angle", abs(up) >= _QUARTER)]
-        answer: Value = _settled(found, named, shape, (far, rubbed, slides), off)
+        say = Sentences(texts_of(reader.texts))
+        answer: Value = _settled(found, named, shape, (far, rubbed, slides), off, say)
     return answer
 
 
@@ -155,7 +157,8 @@ def throw_bounds(distance: Input, *, friction: Input, height: Input = 0.0) -> tu
         greatest = _level(far, rubbed, high)
         slides = far >= 2.0 * rubbed * high * (1.0 - _ROUNDING)
         both = greatest / math_or_numpy(rubbed).hypot(1.0, rubbed), greatest
-        bounds: tuple[Value, Value] = _settled(both, named, shape, (far, rubbed, slides), [])
+        say = Sentences(texts_of(reader.texts))
+        bounds: tuple[Value, Value] = _settled(both, named, shape, (far, rubbed, slides), [], say)
     return bounds
 
 
@@ -206,6 +209,7 @@ def _settled(
     shape: tuple[int, ...] | None,
     ground: tuple[Any, Any, Any],
     checks: list[tuple[str, Any]],
+    say: Sentences,
 ) -> Any:
     """The answer; a single one that is none is refused, in a batch it is NaN and counted."""
     distance, friction, slides = ground
@@ -228,9 +232,9 @@ def _settled(
         raise out_of_range()
     if not slides:
         raise NoSolutionError(
-            f"a body that was thrown so came down steeply enough to stop where it landed, before "
-            f"{distance:.6g} m, and these equations are for one that slides; check distance, "
-            "friction, height and angle",
+            "a body that was thrown so came down steeply enough to stop where it landed, before "
+            f"{say(distance, 'length')}, and these equations are for one that slides; check "
+            "distance, friction, height and angle",
             code="stops_at_landing",
         )
     return found
