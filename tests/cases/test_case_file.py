@@ -70,6 +70,7 @@ def run(capsys, *arguments):
 LONG = 100_000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "form",
     [
@@ -212,6 +213,7 @@ TYRES_OF_A = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", ["eccentric", "solve", "time_resolved"])
 def test_tyres_stand_in_a_table_below_that_of_their_solver(solver):
     text = ECCENTRIC.replace("[eccentric]", f"[{solver}]") + TYRES_OF_A.format(solver)
@@ -385,6 +387,7 @@ def test_fit_of_what_was_observed():
     assert "a.vx" in answers(read_text(text.encode())).text()
 
 
+@pytest.mark.slow
 def test_posterior_of_what_was_observed():
     """A flat prior cut by a reading and by a bound: the mean of a normal distribution, truncated;
     in closed form.
@@ -409,6 +412,7 @@ def test_posterior_of_what_was_observed():
     assert json.dumps(answers(read_text(text.encode())).to_dict(), allow_nan=False)
 
 
+@pytest.mark.slow
 def test_report_of_a_posterior(tmp_path, capsys):
     """From a file to a page in one command: what was found, observed and known before, what is
     known exactly, figures.
@@ -671,6 +675,7 @@ def test_what_is_wrong_inside_a_function_is_named_with_its_table(distance):
     assert line.startswith("reconstruct.momentum.speed_a_after.travel.speed.distance: ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["paper_example_3", "intersection_with_recorder", "us_units", "run_out"]
 )
@@ -961,6 +966,7 @@ def test_a_range_of_directions_in_degrees_is_no_suspect_number():
     assert answers(read_text(text.encode())).warnings == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("file", "wanted"),
     [
@@ -1417,6 +1423,7 @@ OBSERVED = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reading", OBSERVED)
 @pytest.mark.parametrize("study", ["posterior", "fit"])
 def test_a_reading_as_a_text_needs_its_unit(study, reading):
@@ -1486,6 +1493,7 @@ def test_a_wrong_key_of_a_study_is_answered_with_keys_that_a_file_may_have(study
         assert not {"finer", "finer_samples"} & {*listed}
 
 
+@pytest.mark.slow
 def test_output_that_nobody_reads_ends_quietly(tmp_path):
     """As in `| head`, which closes the pipe when it has enough."""
     file = tmp_path / "case.toml"
@@ -1506,6 +1514,7 @@ SLID = (
 )
 
 
+@pytest.mark.slow
 def test_what_is_known_from_one_side_has_a_range_with_one_end():
     """As `propagate` gives the same model with `OneSided`; what more slip leaves as it is has two
     ends, and what it changes by nobody knows how much is refused.

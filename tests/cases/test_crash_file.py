@@ -403,6 +403,7 @@ def test_the_schema_has_the_arguments_of_each_table() -> None:
     assert set(tables["scene"]["properties"]) == set(OF_SCENE)
 
 
+@pytest.mark.slow
 def test_a_refusal_within_another_is_in_the_words_of_the_file() -> None:
     """The reason that the scene gives stands in that of the posterior."""
     text = ROW.replace('at = "touch"\n', "at = 0\n").replace('"50 km/h"', '"40 km/h .. 60 km/h"')

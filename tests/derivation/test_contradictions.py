@@ -129,6 +129,7 @@ def test_an_answer_of_what_is_not_known_is_not_explained(field):
         assert "do not rely on this result" in found.sentence
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["text", "markdown"])
 @pytest.mark.parametrize(("name", "field"), MUTATED)
 def test_a_rough_answer_has_the_formulas_number_beside_it(name, field, form):
@@ -267,6 +268,7 @@ def check_ordinary(count, monkeypatch):
     return done, len(shares)
 
 
+@pytest.mark.slow
 def test_ordinary_impacts_agree(monkeypatch):
     done, compared = check_ordinary(1, monkeypatch)
     assert done > 50

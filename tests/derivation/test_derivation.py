@@ -1404,6 +1404,7 @@ def test_a_symbol_has_one_value(monkeypatch):
             )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_every_symbol_of_a_forward_derivation_is_given_or_derived_before(name):
     """Nothing comes from nowhere: what stands right of an equals sign was left of one before, or in

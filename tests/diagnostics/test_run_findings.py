@@ -58,6 +58,7 @@ def test_limits_count_for_every_impact() -> None:
     assert not {one.code for one in found} & set(codes)
 
 
+@pytest.mark.slow
 def test_evidence_of_one_impact_is_refused() -> None:
     run = three_cars()
     with pytest.raises(col.InputError, match=r"diagnose\(run.impacts\[0\], crush_energy=...\)"):

@@ -247,6 +247,7 @@ def same_table(ours, table):
             ), (row["case"], row["quantity"], level)
 
 
+@pytest.mark.slow
 def test_the_impacts_of_the_page_are_predicted_again(blind, committed):
     compare = blind["compare"]
     predicted = blind["predict"].predictions(["impact", "impact with tyres"])

@@ -96,6 +96,7 @@ def test_a_failed_comparison_fails_the_example(tmp_path):
     assert "all checks passed" not in done.stdout
 
 
+@pytest.mark.slow
 def test_readme_shows_real_output():
     """Every Python block of the README gives the output printed under it."""
     with warnings.catch_warnings():

@@ -80,6 +80,7 @@ def same(ours, committed, where=""):
         assert ours == committed, where
 
 
+@pytest.mark.slow
 def test_the_committed_file_is_what_the_runner_gives(again, found):
     """Every case solved again."""
     same(again, found)

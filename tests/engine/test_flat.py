@@ -92,6 +92,7 @@ def drawn(rng, rule, law, pinned, odd):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("model", "rule", "law", "pinned"), SETTINGS)
 def test_the_bits_are_those_of_the_kernel(model, rule, law, pinned):
     """Cars, extreme ratios and odd numbers; what the function leaves to the kernel is never a plain
@@ -121,6 +122,7 @@ def test_the_bits_are_those_of_the_kernel(model, rule, law, pinned):
     assert left > 10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 def test_extreme_scenes_answer_alike(family, monkeypatch):
     """The families of the promises through the solver, with the flat functions and without."""

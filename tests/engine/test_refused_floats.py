@@ -42,6 +42,7 @@ def cases(rule, law, count):
         yield read_inputs("eccentric", (*bodies, *contact, values, law))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("rule", "law"),
     [

@@ -30,6 +30,7 @@ def rows(count: int, seed: int = 1) -> np.ndarray:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("flags", list(itertools.product((False, True), repeat=4)))
 @pytest.mark.parametrize("count", [1, 17, 200, 5000])
 def test_a_step_has_the_same_bits(flags, count):

@@ -92,6 +92,7 @@ threads=8)["found"].mean)
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FIRST)
 def test_threads_of_a_fresh_process(name):
     """All threads find the same, that of one thread alone, and none an error of a registry that is

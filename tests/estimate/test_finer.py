@@ -146,6 +146,7 @@ TWO = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", TWO)
 def test_two_unknowns_by_quadrature(case):
     model, finer, observed = TWO[case]
@@ -158,6 +159,7 @@ def test_two_unknowns_by_quadrature(case):
             assert one.low <= found[name].values.min() <= found[name].values.max() <= one.high
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "finer"),
     [
@@ -183,6 +185,7 @@ def test_samples_where_only_the_finer_model_answers_are_said(model, finer):
     assert any("where only the finer model has an answer" in one for one in found.statements)
 
 
+@pytest.mark.slow
 def test_a_posterior_far_from_the_first_one():
     """Eight deviations between the two, and only some way there: what is found is right, or said
     not to be.
@@ -196,6 +199,7 @@ def test_a_posterior_far_from_the_first_one():
     assert "islands_disagree" in codes or abs(found.log_evidence - log_evidence) < 0.5
 
 
+@pytest.mark.slow
 def test_three_unknowns_by_brute_force():
     """Speeds before an inline impact and its restitution; the finer model loses 8 % to the tyres,
     more at low speeds.
@@ -520,6 +524,7 @@ def test_finer_models_of_a_fit_that_are_none(finer, kind, code, text):
 # --- the run
 
 
+@pytest.mark.slow
 def test_a_seed_makes_it_reproducible_for_any_number_of_threads():
     options = {"samples": 1024, "seed": 7, "finer": finer_side}
     one, _ = sampled(side, SIDE, READINGS, **options)
@@ -532,6 +537,7 @@ def test_a_seed_makes_it_reproducible_for_any_number_of_threads():
     assert "The figures are those of the finer model, called" in said
 
 
+@pytest.mark.slow
 def test_calls_are_all_cases_that_either_model_was_asked():
     """But for those that are asked again, to see whether the model answers case by case."""
     asked = {"model": 0, "finer": 0}
@@ -652,6 +658,7 @@ def test_a_way_that_does_not_end_is_refused(monkeypatch):
     assert refused.value.code == "too_far"
 
 
+@pytest.mark.slow
 def test_a_censored_reading_with_an_error():
     """Against the finer model alone: nothing of it is softened."""
     observed = {"v": Censored(low=18.0, error=0.5), "w": (4.5, 0.5)}

@@ -118,6 +118,7 @@ def test_chi_squared_without_freedom_is_nan():
     assert math.isnan(chi_squared_tail(1.0, 0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("with_priors", [False, True])
 def test_linear_models_follow_the_normal_equations(seed, with_priors):
@@ -688,6 +689,7 @@ def test_a_rival_that_the_evidence_rules_out_is_none():
     ] == pytest.approx(2.0)
 
 
+@pytest.mark.slow
 def test_sliding_or_sticking():
     """Friction just below the critical 0.418: the evidence fits sliding, and nearly as well any
     friction that sticks.
@@ -824,6 +826,7 @@ def eccentric_crash(speed_a, speed_b):
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "observed",
     [
@@ -988,6 +991,7 @@ def test_slopes_that_vanish_close_by_are_refused(unknown):
     assert refused.value.code == "no_convergence"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "bounds", "observed"),
     [

@@ -268,6 +268,7 @@ def central(speed_a, speed_b):
     return {"delta_v_a": impact.a.delta_v, "vx_b": impact.b.after.vx}
 
 
+@pytest.mark.slow
 def test_an_impact_against_quadrature():
     """Two speeds, one log-normal, one triangular, by the midpoint rule on 1,000 x 1,000 equally
     likely cells.
@@ -438,6 +439,7 @@ def test_the_evidence_of_few_samples_is_not_too_high():
 # --- what it says
 
 
+@pytest.mark.slow
 def test_contradictory_evidence_says_so():
     """Two readings six errors apart, and a reading far beyond its prior."""
     _, codes = sampled(
@@ -659,6 +661,7 @@ def test_shown_and_read_again():
     assert caught.value.code == "no_shares"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "condition",
     [
@@ -1126,6 +1129,7 @@ def test_the_unit_of_a_result_is_that_of_what_the_function_returns():
             found.with_result("before", col.travel.speed, unit, **given)
 
 
+@pytest.mark.slow
 def test_results_follow_from_results_and_share_no_draws():
     _, more = braking()
     drag = Normal(0.7, 0.05)
@@ -1144,6 +1148,7 @@ def test_results_follow_from_results_and_share_no_draws():
     assert carried["a"].unit == "m/s"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("change", "kind", "code"),
     [

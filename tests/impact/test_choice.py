@@ -92,6 +92,7 @@ def actual_error(model, a, b, contact):
     return worst
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.EnergyGainWarning")
 @pytest.mark.parametrize("law", LAWS)
 def test_predicted_errors_are_the_errors_made(law):
@@ -262,6 +263,7 @@ def square_from_behind(angle, dtype=None, **changes):
 TURNED = np.radians(np.arange(0.0, 360.0, 5.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("friction", [0.0, 0.5, math.inf])
 def test_rounding_of_a_turned_scene_asks_for_no_yaw_inertia(friction, law):

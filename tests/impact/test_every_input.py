@@ -287,6 +287,7 @@ def test_what_only_decided_on_the_model_is_said(name, tolerance):
     assert not printed(page.partition("## Record")[0], parts(one))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("law", "rule"), CONTACTS)
 @pytest.mark.parametrize("solver", ["oblique_central", "eccentric", "solve"])
 def test_the_value_of_a_rule_is_used_and_said(solver, law, rule):
@@ -298,6 +299,7 @@ def test_the_value_of_a_rule_is_used_and_said(solver, law, rule):
     check_said(found, rule, (one,), beside)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("name", BODY)
 def test_every_number_of_a_vehicle_is_used_or_refused(solver, name):

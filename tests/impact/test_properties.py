@@ -566,6 +566,7 @@ def test_the_names_of_the_bodies_change_nothing(
         )
 
 
+@pytest.mark.slow
 @every_law
 @every_model
 @crossed
@@ -637,6 +638,7 @@ def in_us_units(body: Body, form: Any) -> dict[str, Any]:
     return {name: form(value, US[name][0]) for name, value in fields.items()}
 
 
+@pytest.mark.slow
 @every_law
 @physics
 @given(data=st.data())
@@ -739,6 +741,7 @@ def test_a_central_line_of_impact_without_friction_needs_no_levers(law: str, dat
     assert one.a.delta_yaw_rate == one.b.delta_yaw_rate == 0.0
 
 
+@pytest.mark.slow
 @every_law
 @physics
 @given(data=st.data())
@@ -819,6 +822,7 @@ def test_kudlich_slibar_sticking_does_not_know_the_normal(constraint: str, data:
     assert math.hypot(x1 - x2, y1 - y2) <= impulse_error(one) + impulse_error(two)
 
 
+@pytest.mark.slow
 @every_constraint
 @crossed
 @given(data=st.data())
@@ -880,6 +884,7 @@ def test_the_laws_agree_without_friction_and_without_restitution(
     )
 
 
+@pytest.mark.slow
 @physics
 @given(data=st.data())
 def test_the_laws_differ_where_a_contact_sticks_and_restores(data: Any) -> None:

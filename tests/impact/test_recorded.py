@@ -112,6 +112,7 @@ def test_a_short_contact_gives_what_the_place_gains_at_once():
 TYRES = travel.Tyres(0.7, 0.4, 2.7, 1.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [3, 60])
 @pytest.mark.parametrize(
     "options",
@@ -148,6 +149,7 @@ def test_every_case_of_a_batch_is_that_of_the_case_alone(count, options):
         np.testing.assert_array_equal(one, row[0])
 
 
+@pytest.mark.slow
 def test_few_steps_of_a_contact_that_turns_are_read_alike_together_and_alone():
     """In some the deepest step is not the one at which the places given are passed."""
     rng = np.random.default_rng(7)

@@ -968,6 +968,7 @@ every_call = pytest.mark.parametrize(
 )
 
 
+@pytest.mark.slow
 @every_call
 def test_every_output_of_a_refused_case(name: str) -> None:
     """Each number of the call spoilt in turn, all in one batch; refused exactly where the case
@@ -1059,6 +1060,7 @@ def test_many_cases_and_float32(name: str, kind: Any) -> None:
                     )
 
 
+@pytest.mark.slow
 @every_call
 def test_a_single_case_that_is_not_to_raise(name: str) -> None:
     """With on_failure="nan" a refused case alone is as one of a batch."""

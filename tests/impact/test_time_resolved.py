@@ -742,6 +742,7 @@ def test_answers_do_not_depend_on_the_unit(power):
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("drag", [0.0, 0.7])
 def test_how_near_the_start_is_found(monkeypatch, drag):
     """Against the start that leads to the places given to 1e-9: delta-V by 0.002 m/s in the median,
@@ -903,6 +904,7 @@ def test_precisions_and_empty_batches():
     assert isinstance(t_bone(a=col.Vehicle(**A | {"vx": np.array(20.0)})).b.delta_v, float)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "kind",
     [

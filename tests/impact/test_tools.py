@@ -209,6 +209,7 @@ def test_every_answer_can_be_copied_and_pickled(name):
     assert equal(copy.deepcopy(answer), answer)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*FORWARD, *OTHERS])
 def test_every_answer_crosses_to_a_spawned_process_and_back(process, name):
     """The copy that comes back was made by an interpreter that had to import what it needs by
@@ -331,6 +332,7 @@ def test_labels_are_those_that_type_checkers_know():
     assert set(get_args(inputs.ModelName)) == set(BY_NAME) - {"solve"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FORWARD)
 def test_a_column_asked_for_is_that_of_the_whole_table(name):
     """Each by itself, whatever else of the impact was worked out."""
@@ -361,6 +363,7 @@ def test_columns_asked_for_by_what_cannot_be_gone_through_are_refused():
     ]
 
 
+@pytest.mark.slow
 def test_contacts_in_time_hold_the_bits_of_the_whole_in_blocks_of_more_than_128():
     """As the page for tool authors says: up to 128 cases are followed one by one, and their last
     digits may differ.
@@ -589,6 +592,7 @@ def test_the_schema_is_one():
     assert col.impact_schema() is not SCHEMA
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FORWARD)
 def test_every_record_validates(name):
     """Every solver, alone and in a batch, forward and backward, refused cases among them."""
@@ -642,6 +646,7 @@ def changed(path, value):
     return record
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("path", "value"),
     [

@@ -59,6 +59,7 @@ def runge_kutta(scene, steps):
             return (len(states) - 2 + part) * step, *(before + part * (state - before))[:2], most
 
 
+@pytest.mark.slow
 def test_an_integration_that_knows_no_corner_comes_to_the_same():
     """To what the smoothed friction and the last step leave: 1e-3 each."""
     rng = random.Random(7)
@@ -77,6 +78,7 @@ def test_an_integration_that_knows_no_corner_comes_to_the_same():
     assert {"sliding", "sticking"} <= seen
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", ["traffic", "barrier", "A pinned", "inertia x 1e-12..1e12"])
 def test_it_is_brach_where_the_slip_goes_on_to_the_end(family):
     """With the same way to slide, by 16 eps of the spread; and without friction."""
@@ -96,6 +98,7 @@ def test_it_is_brach_where_the_slip_goes_on_to_the_end(family):
     assert slid > 10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 def test_it_never_gains_energy(family):
     """Both losses are sums of terms that are not negative, and together the difference of the
@@ -157,6 +160,7 @@ def test_the_end_of_compression_is_that_of_the_plastic_impact():
         assert impact.common_velocity == pytest.approx(speeds[0], abs=1e-11)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "pushed",
     [{}, {"outside_a": (400.0, -200.0, 100.0), "outside_b": (-300.0, 100.0)}],

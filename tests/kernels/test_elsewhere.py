@@ -41,6 +41,7 @@ def same(found, wanted):
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("library", ["jax", "array_api_strict"])
 @pytest.mark.parametrize(("kernel", "settings", "count"), KERNELS)
 def test_the_bits_are_those_of_numpy(kernel, settings, count, library, request):
@@ -58,6 +59,7 @@ def test_the_bits_are_those_of_numpy(kernel, settings, count, library, request):
             same(kernel(*map(asarray, cases), *settings), kernel(*cases, *settings))
 
 
+@pytest.mark.slow
 def test_compiled_and_over_many_cases(jax):
     """``jit`` may contract a product and a sum, which moves the last digits; ``vmap`` of one case
     is a batch.
@@ -86,6 +88,7 @@ def test_compiled_and_over_many_cases(jax):
             )
 
 
+@pytest.mark.slow
 def test_derivatives(jax):
     """Of a linear impact in closed form; of an eccentric one as differences of the same kernel give
     them.
@@ -236,6 +239,7 @@ def test_every_derivative_of_an_answer_is_that_of_the_answer(jax, rule, law, cen
     assert compared > 500
 
 
+@pytest.mark.slow
 def test_a_contact_that_starts_without_slip_has_the_derivative_by_it(jax):
     """Sticking, "stronge" goes smoothly through a slip of 0."""
     contact = Contact(0.3, (1.0, 0.0), 0.9, (0.0, 0.0))
@@ -281,6 +285,7 @@ def test_the_extra_installs_what_is_tried_here():
     assert "collisions[elsewhere]" in PAGE.read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_the_page_shows_what_comes_out(jax):
     """Its code is run here, because the pages are built without JAX."""
     found = doctest.testfile(str(PAGE), module_relative=False, encoding="utf-8")

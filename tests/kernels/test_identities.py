@@ -273,6 +273,7 @@ def bodies(scene: Scene, answer: Answer, impact: col.Impact) -> Any:
         yield side, sign, r, float(half.r), of_v, of_w
 
 
+@pytest.mark.slow
 def test_eq_10_ratio_of_the_impulses() -> None:
     """e is the restitution impulse over the compression impulse, and both make the whole."""
     assert len(eccentric()) > 50

@@ -472,6 +472,7 @@ def sized(rng: random.Random, rule: str, most: float) -> tuple[Scene, float]:
 unsuspected = pytest.mark.filterwarnings("ignore::collisions.SuspectUnitsWarning")
 
 
+@pytest.mark.slow
 @unsuspected
 @pytest.mark.parametrize("rule", RULES)
 def test_the_promises_hold_over_the_range(rule: str) -> None:
@@ -491,6 +492,7 @@ def test_the_promises_hold_over_the_range(rule: str) -> None:
         check(found, measure)
 
 
+@pytest.mark.slow
 @unsuspected
 @pytest.mark.parametrize("rule", RULES)
 def test_what_overflows_is_refused(rule: str) -> None:
@@ -650,6 +652,7 @@ def test_linear_central_keeps_its_promises(way: str) -> None:
 # --- The switch between sticking and sliding ------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 def test_values_are_continuous_across_the_stick_slide_switch(law: str) -> None:
     """With the friction within 2 ulp of the critical ratio the label is anybody's, the values keep

@@ -265,6 +265,7 @@ def test_every_letter_of_a_picture_can_be_read(picture, case):
     assert not set(labels) & set("$\\{}")
 
 
+@pytest.mark.slow
 def test_a_power_of_ten_stands_at_the_end_of_its_axis():
     heavy = col.Vehicle(mass=40_000.0, vx=20.0)
     for mass, power in ((40_000.0, "×10⁶"), (1500.0, ""), (1e-8, "×10⁻⁶")):
@@ -1382,6 +1383,7 @@ def test_lines_of_the_impulse_plane_are_those_of_the_reference(family, law):
         plt.close(axes.figure)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", IMPACTS)
 def test_the_answer_is_where_the_lines_put_it(case):
     impact, system = IMPACTS[case], UNITS[case]
@@ -1537,6 +1539,7 @@ def test_an_energy_gain_is_not_warned_of_again():
 # Force against time
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", IMPACTS)
 def test_areas_are_the_impulses(case):
     """To rounding, from the corners that were drawn; their ratio is the restitution."""
@@ -1646,6 +1649,7 @@ def test_a_duration_in_milliseconds_is_suspected():
 # Energy
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", IMPACTS)
 def test_bars_are_the_energies_and_what_came_in_went_out(case):
     impact, system = IMPACTS[case], UNITS[case]
@@ -2066,6 +2070,7 @@ def test_evidence_that_cannot_be_drawn(two_speeds):
         assert refused.value.code == code
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("units", SYSTEMS)
 def test_the_way_to_rest_is_drawn_where_it_was(units):
     """Way, marks and both outlines in the units of the axes; the one at rest is filled and stands
@@ -2135,6 +2140,7 @@ def test_a_way_that_cannot_be_drawn_and_one_without_length():
         assert caught.value.code == code
 
 
+@pytest.mark.slow
 def test_a_label_is_placed_as_if_the_whole_picture_were_searched():
     # The search ends early where what lies farther away cannot cost less; here every cell is tried.
     generator = random.Random(7)

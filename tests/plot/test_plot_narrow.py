@@ -28,6 +28,7 @@ def drawn(picture, speed_b):
     return axes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed_b", ["10 mph", "-45 mph"])
 def test_the_numbers_along_a_narrow_axis_stand_apart(speed_b):
     axes = drawn(plot.momentum, speed_b)
@@ -42,6 +43,7 @@ def test_the_numbers_along_a_narrow_axis_stand_apart(speed_b):
         assert left.x1 + 2.0 < right.x0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("picture", [plot.momentum, plot.scene])
 @pytest.mark.parametrize("speed_b", ["10 mph", "-45 mph"])
 def test_no_label_stands_on_the_axis(picture, speed_b):

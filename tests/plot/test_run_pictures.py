@@ -125,6 +125,7 @@ def test_the_timeline_has_the_speeds_on_either_side_of_each_contact() -> None:
     assert axes.get_ylim()[1] * MPH > max(run.scene.movers["Camry"].vehicle.speed, 0.0)
 
 
+@pytest.mark.slow
 def test_names_of_contacts_stand_apart_in_the_timeline() -> None:
     """Five cars in a row that meet within a fraction of the time, in a wide and a narrow figure."""
     row = {"normal": 0, "model": "linear_central", "at": "touch", "restitution": 0.3}

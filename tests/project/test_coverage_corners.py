@@ -87,6 +87,7 @@ def test_a_pivot_needs_the_whole_model(speed):
     )
 
 
+@pytest.mark.slow
 def test_a_record_of_solve_is_read_before_solve_was_ever_used():
     """In a fresh interpreter, where the record is all there is."""
     inputs = {**CONTACT, "tolerance": 1.0}

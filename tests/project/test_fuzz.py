@@ -39,6 +39,7 @@ from strategies import (
     values,
 )
 
+pytestmark = pytest.mark.slow
 EXAMPLES = int(os.environ.get("COLLISIONS_FUZZ", "0"))
 SECONDS = 60.0
 BUSY = 1e100  # beyond this, products of two numbers may leave the range of floats
@@ -456,7 +457,6 @@ MODELS = ("linear_central", "oblique_central", "eccentric")
 every_model = pytest.mark.parametrize("model", MODELS)
 
 
-@pytest.mark.slow
 @examples(3)
 @given(
     some_of((*BODY, "pivot")),
@@ -473,7 +473,6 @@ def test_a_vehicle_of_anything(fields: dict[str, Any], name: Any, how: int) -> N
         look_at_vehicle(vehicle)
 
 
-@pytest.mark.slow
 @examples()
 @given(some_of(("speed", "course", "mass", "yaw_rate", "vx", "heading")))
 def test_a_vehicle_from_any_speed_and_course(fields: dict[str, Any]) -> None:
@@ -538,7 +537,6 @@ def test_a_solver_of_any_numbers(model: str, data: Any) -> None:
         look_at_impact(impact)
 
 
-@pytest.mark.slow
 @every_model
 @examples(2)
 @given(data=st.data())
@@ -845,7 +843,6 @@ def test_a_case_of_a_batch_is_the_case_alone(model: str, data: Any) -> None:
                 )
 
 
-@pytest.mark.slow
 @every_model
 @examples()
 @given(data=st.data())

@@ -121,6 +121,7 @@ def test_a_fault_is_seen(line, fault):
     assert [text for _, text in faults(line)] == ([] if fault is None else [fault])
 
 
+@pytest.mark.slow
 def test_no_module_leaves_encoding_or_line_ends_to_the_system():
     """Of all files that the package reads or writes as text."""
     modules = sorted(SOURCE.rglob("*.py"))

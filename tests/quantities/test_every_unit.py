@@ -645,6 +645,7 @@ SINGLE = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize("form", [as_text, as_quantity, as_batch])
 @pytest.mark.parametrize("name", IDS)

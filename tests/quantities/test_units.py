@@ -164,6 +164,7 @@ def test_quantities_of_several_registries_mix(ureg):
     assert vehicle.vx == pytest.approx(30 * EXACT["mph"], rel=1e-15)
 
 
+@pytest.mark.slow
 def test_registries_that_define_a_unit_differently_stay_apart():
     """A factor kept for one registry is not used for another in which the same name means something
     else.
@@ -228,6 +229,7 @@ def decimal_registry():
     pint.set_application_registry(before)
 
 
+@pytest.mark.slow
 def test_quantities_of_a_registry_that_counts_in_decimal():
     """Its Quantities hold Decimals, or floats that it cannot convert itself; also in arrays, pairs
     and outlines.
@@ -264,6 +266,7 @@ def test_quantities_of_a_registry_that_counts_in_decimal():
     assert findings[0] == findings[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", ["1e400", "sNaN"])
 def test_decimals_that_no_float_can_hold_are_refused(number):
     """Alone and in an array."""
@@ -274,6 +277,7 @@ def test_decimals_that_no_float_can_hold_are_refused(number):
         )
 
 
+@pytest.mark.slow
 def test_an_application_registry_that_counts_in_decimal(decimal_registry):
     """Texts are read, .q gives what the registry can convert, and what came out goes in again."""
     a = col.Vehicle(mass="1.1 tonne", vx="90 km/h", heading="30 deg")
@@ -317,6 +321,7 @@ print(json.dumps(found))
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", ["1", "2", "3"])
 def test_a_registry_that_passes_over_upper_and_lower_case(seed):
     """What is written in its own case is that unit; sets of names, in an order of chance, made "kg"

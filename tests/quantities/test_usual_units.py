@@ -73,6 +73,7 @@ def readings(text):
     yield outcome(Normal, text, text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "text",
     [*(f"0.7 {written}".strip() for written in USUAL if written not in REORDERED), *OTHER_TEXTS],
@@ -108,6 +109,7 @@ def solved():
 """
 
 
+@pytest.mark.slow
 def test_the_first_impact_from_texts_makes_no_registry():
     code = FIRST + (
         "impact = solved()\n"
@@ -120,6 +122,7 @@ def test_the_first_impact_from_texts_makes_no_registry():
     assert number == again
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", ["0.03 fortnight*m/s", "80 kg", "3 m/s/deg"])
 def test_another_unit_and_a_refusal_are_of_pint(text):
     code = (
@@ -129,6 +132,7 @@ def test_another_unit_and_a_refusal_are_of_pint(text):
     assert in_a_process(code) == ["True"]
 
 
+@pytest.mark.slow
 def test_a_registry_of_the_caller_stands_above_the_table():
     code = (
         "import pint\nfeet = lambda: col.Vehicle(mass='1 kg', x='1 ft').x\nprint(feet())\n"
@@ -138,6 +142,7 @@ def test_a_registry_of_the_caller_stands_above_the_table():
     assert in_a_process(code) == ["0.30479999999999996", "2.0"]
 
 
+@pytest.mark.slow
 def test_threads_read_usual_and_other_units_at_once():
     code = FIRST + (
         "from concurrent.futures import ThreadPoolExecutor\n"
@@ -149,6 +154,7 @@ def test_threads_read_usual_and_other_units_at_once():
     assert in_a_process(code) == ["10.0", "10.16"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("of", ["new", "--version"])
 def test_the_command_imports_only_what_it_prints(of):
     code = (

@@ -309,6 +309,7 @@ def test_the_condition_is_that_of_the_exact_equations(names):
     assert compared >= COUNT // 4
 
 
+@pytest.mark.slow
 @extremes
 def test_a_badly_posed_question_says_so():
     """Speeds of 60 m/s that differ by 1e-9: a relative error of a velocity is 1e10 times larger in
@@ -350,6 +351,7 @@ def lost(names, mass_a, mass_b, e):
     return None
 
 
+@pytest.mark.slow
 @extremes
 @pytest.mark.parametrize("e", [0.0, 1.0])
 @pytest.mark.parametrize("family", ["traffic", "barrier a", "barrier b"])

@@ -57,6 +57,7 @@ def crashes():
     return [integrated(rng, 400) for _ in range(12)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("names", list(combinations(KNOWN, 3)), ids="-".join)
 def test_an_integrated_motion_is_found_again_from_any_three_values(crashes, names):
     """The pulse is integrated to 1e-9; a condition of some tens makes 1e-6 of it."""
@@ -124,6 +125,7 @@ HELD = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("names", list(combinations(KNOWN, 3)), ids="-".join)
 @pytest.mark.parametrize("e", [0.0, 1.0])
 def test_the_edges_of_restitution_are_found_again(names, e):
@@ -212,6 +214,7 @@ def test_a_batch_answers_as_its_cases(crashes):
         assert found.reconstruction.condition[i] == alone.reconstruction.condition
 
 
+@pytest.mark.slow
 def test_what_was_given_is_shown_and_a_record_finds_it_again():
     impact = reconstruct.central(
         1100, 950, va="80 km/h", vb=0.0, energy_loss="105 kJ", duration="100 ms", drag_b=0.7

@@ -571,6 +571,7 @@ def test_the_low_speed_delta_v():
     ).a.delta_v == pytest.approx(5 / 3.6, rel=1e-13)
 
 
+@pytest.mark.slow
 def test_closing_speed_of_forward_impacts():
     """Every kind of knowledge of random in-line impacts gives their closing speed again, barriers
     too.
@@ -635,6 +636,7 @@ def test_a_function_is_met_more_than_once():
     assert (type(error), error.code) == (col.NoSolutionError, "contradictory")
 
 
+@pytest.mark.slow
 def test_a_function_in_a_batch_of_inline_impacts():
     """As one by one; where two closing speeds fit, none does, or an input is wrong, the case is NaN
     and counted.
@@ -852,6 +854,7 @@ def crush_exactly(gaps, depths, a, b):
         return total
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [2, 3, 4, 6, 11])
 def test_any_number_of_depths(count):
     """Against the integral, with one width and with a list; every term is positive, so some eps for

@@ -100,6 +100,7 @@ def peak(function, size):
     return most / size, answer
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["brach", "kudlich-slibar"])
 @pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("kind", KNOWN)
@@ -150,6 +151,7 @@ def test_planar_refuses_the_first_case_wherever_it_is(monkeypatch):
         planar(*after, restitution=0.2, impulse_ratio=ratio, on_failure="raise", **contact)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["restitution", "energy_loss"])
 def test_planar_with_tyres_in_parts_has_the_bits_of_the_whole(monkeypatch, kind):
     """Also beside a friction of 0 or without end, of which some origins leave a singular matrix."""
@@ -258,6 +260,7 @@ def assert_speeds_alike(monkeypatch, law, rule, names, **given):
     return whole
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["brach", "kudlich-slibar"])
 @pytest.mark.parametrize("rule", ["friction", "critical_fraction"])
 @pytest.mark.parametrize("names", PAIRS, ids="-".join)
@@ -267,6 +270,7 @@ def test_speeds_in_parts_have_the_bits_of_the_whole(monkeypatch, law, rule, name
     assert 200 < np.count_nonzero(first.ok) < first.status.size
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", ["friction", "inf"])
 @pytest.mark.parametrize(("names", "branch"), COMPONENTS)
 def test_speeds_from_components_in_parts_have_the_bits_of_the_whole(

@@ -193,6 +193,7 @@ def test_every_pair_of_unknowns(family, pair):
                 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pair", PAIRS, ids="+".join)
 def test_round_trip(pair):
     """A scene that was made forward comes back: what the rounding of its own speeds and courses is
@@ -243,6 +244,7 @@ def test_outside_impulse():
             assert abs(getattr(again, name) - getattr(found, name)) <= 2 * bound
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pair", PAIRS, ids="+".join)
 @pytest.mark.parametrize("model", ["oblique_central", "eccentric"])
 def test_what_a_forward_solver_gave(model, pair):
@@ -378,6 +380,7 @@ def inputs_of(scene, pair, together):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("pair", "together"), [(p, False) for p in PAIRS] + [(p, True) for p in TOGETHER_PAIRS]
 )

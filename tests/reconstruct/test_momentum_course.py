@@ -165,6 +165,7 @@ def test_a_course_missed_out_is_still_asked_for():
     assert caught.value.code == "too_many_knowns"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("label", ["a", "b_after"])
 def test_pages_findings_and_records_have_it(label):
     found = reconstruct.momentum(1200, 1800, **without(label), heading_b=0.1)

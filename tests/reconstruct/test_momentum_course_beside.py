@@ -76,6 +76,7 @@ def test_an_impact_of_the_forward_solver_is_found_again(speed, course):
     assert found.condition == pytest.approx(condition, rel=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize(("speed", "course"), PAIRS)
 def test_without_course_near_both_fit_or_the_other_one_goes_backwards(speed, course):
@@ -127,6 +128,7 @@ def test_by_hand():
     assert speeds == pytest.approx([7.0, 13.0], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_common_course_after_beside_a_speed_before():
     common = (MASSES["a"] * 15.0 + MASSES["b"] * 11.0j) / sum(MASSES.values())
     given = {"course_a": 0.0, "course_b": "90 deg", "speed_b": 11.0, "together": True}
@@ -183,6 +185,7 @@ def test_what_is_left_out_is_what_a_small_push_moves():
     assert changes["course_a"] == pytest.approx(pushed.course_a - found.course_a, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_with_tyres_its_own_equations_are_met():
     """All wheels locked: their friction against the motion, by Simpson's rule."""
@@ -269,6 +272,7 @@ def test_course_near_has_to_decide_something():
         momentum(without("a", "a"), course_near=0.1)
 
 
+@pytest.mark.slow
 def test_pages_and_findings_have_it():
     found = momentum(without("b", "a"), course_near="5 deg", heading_b=0.1)
     assert not [one for one in col.diagnose(found) if one.code == "near_collinear"]

@@ -191,6 +191,7 @@ def test_what_an_instant_leaves_out_of_vehicles_that_stay_together(given):
     assert ("course of A after would be" in sentence) == (given == "velocities")
 
 
+@pytest.mark.slow
 def test_speeds_that_do_not_settle_are_refused():
     """Few degrees apart, the courses turn a change of the tyres' force into a larger one."""
     wheels = Tyres(0.7, 1.0, 2.7, 1.5)

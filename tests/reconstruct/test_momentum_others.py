@@ -100,6 +100,7 @@ def others_of(sentence):
     ]
 
 
+@pytest.mark.slow
 def test_what_is_said_to_fit_does():
     """With it stated before, the same motions come after."""
     checked = 0
@@ -130,6 +131,7 @@ def test_what_is_said_to_fit_does():
     assert checked >= 60
 
 
+@pytest.mark.slow
 def test_the_truth_is_among_those_that_are_said_to_fit():
     """Whether it is the farthest or lies between the answer and that."""
     checked = 0

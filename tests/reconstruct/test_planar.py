@@ -204,6 +204,7 @@ def test_there_and_back(family, law, rule):
     assert answered >= (5 if law == "brach" else 20)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KNOWN)
 @pytest.mark.parametrize("family", ["traffic", "B pinned"])
 def test_a_batch_is_as_its_cases(family, kind):
@@ -849,6 +850,7 @@ def test_a_contact_velocity_that_is_none_is_no_record():
         assert caught.value.code == "bad_record"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["closing_speed", "energy_loss"])
 @pytest.mark.parametrize("rule", ["friction", "critical_fraction"])
 @pytest.mark.parametrize("law", LAWS)

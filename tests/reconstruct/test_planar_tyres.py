@@ -216,6 +216,7 @@ def test_a_batch_refuses_what_cannot_be():
     assert np.isnan(many.a.before.vx).tolist() == [False, True, True]
 
 
+@pytest.mark.slow
 def test_distributions_go_through():
     end = known_ends()
 
@@ -239,6 +240,7 @@ def test_distributions_go_through():
     assert high - low < 0.2 * A.speed
 
 
+@pytest.mark.slow
 def test_it_is_explained_reported_and_recorded():
     end = known_ends()
     wheels = WHEELS | {"duration": "101.3 ms"}
@@ -327,6 +329,7 @@ def crashes(count, seed):
     return a, b, rng.uniform(0.02, 0.4, count), contact
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("known", ["closing_speed", "restitution", "energy_loss"])
 def test_what_is_answered_while_tyres_act_is_what_was(known):
     """Several motions before may end in the same motions, as a tyre pulls to one side or the other
@@ -390,6 +393,7 @@ def test_every_motion_that_ends_so_is_among_the_solutions():
     assert all(text in str(raised.value) for text in [*told, "of 0 rad/s (A) and 0 rad/s (B)"])
 
 
+@pytest.mark.slow
 def test_what_it_still_leaves_out_is_the_motion_that_the_contact_in_time_has():
     """The share that it states, against the contact in time with moving and with fixed places."""
     one = col.Vehicle(mass=1500, yaw_inertia=2600, vx=14.0, x=-2.0, y=0.4, heading=0.1)
@@ -437,6 +441,7 @@ BEYOND_WHEELS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["restitution", "closing_speed"])
 def test_motions_before_are_found_from_the_fold_of_the_instant(kind):
     """Each ends so by ``eccentric``, and the crash is among them."""

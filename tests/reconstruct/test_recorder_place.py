@@ -104,6 +104,7 @@ def test_a_recorder_half_a_metre_ahead_was_taken_for_the_centre_of_mass():
     assert mph(found) == pytest.approx([30.0, 25.0], rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axes", ["turning", "fixed"])
 @pytest.mark.parametrize("labels", ["a", "b", "ab"])
 def test_readings_lead_back_to_a_crash_in_which_tyres_act(axes, labels):
@@ -130,6 +131,7 @@ def test_readings_lead_back_to_a_crash_in_which_tyres_act(axes, labels):
         assert "as its recorder reads it" in page or "place of the recorder" in page
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "known",
     [{"speed_a": 17.4, "friction": math.inf}, {"friction": 0.717}],
@@ -216,6 +218,7 @@ def test_readings_with_tyres_come_out_of_a_batch_as_alone():
         assert pair == pytest.approx([one.a.before.speed, one.b.before.speed], rel=1e-11)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axes", ["turning", "fixed"])
 @pytest.mark.parametrize("place", [(0.0, 0.0), (0.5, 0.0), (-0.9, 0.4), (1.5, -0.6)])
 @pytest.mark.parametrize(
@@ -351,6 +354,7 @@ def test_all_speeds_with_the_readings_at_a_place_are_given(case, forward_only):
 
 
 # Seeds of crashes that slid, whose components alone show other ratios as well.
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 2])
 def test_the_ratio_that_readings_show_is_that_of_the_crash(seed):
     """Where the components alone may mean several impulses, the known speed says which it was."""
@@ -371,6 +375,7 @@ def test_the_ratio_that_readings_show_is_that_of_the_crash(seed):
         assert found.regime == "sliding"
 
 
+@pytest.mark.slow
 def test_in_a_study_with_an_uncertain_place():
     reading = read(crash().a, (0.5, 0.0), 0.1)
 
@@ -405,6 +410,7 @@ def test_from_a_record_to_the_speeds():
     assert mph(found) == pytest.approx([30.0, 25.0], abs=2e-4)
 
 
+@pytest.mark.slow
 def test_pages_and_records_say_that_readings_were_carried_over():
     """The result has the delta-V of the centre of mass, so the texts of the readings, which are
     other numbers, are not held against it.

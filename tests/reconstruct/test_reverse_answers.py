@@ -208,6 +208,7 @@ def rows(page):
     return {row[1]: row[2].removesuffix(" |") for row in found if row[0] == "| evidence"}
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_all_that_was_known_stands_on_the_page_with_its_number():
     """Floats too, in the units of the page: 8 m/s are 17.90 mph; and no value is the answer's."""
@@ -258,6 +259,7 @@ def test_what_is_stated_of_an_input_stands_beside_it():
     assert "km/h (95 %)" in page
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize("known", [{"speed_b": 9.0, "delta_v_a": CRASH.a.delta_v}, RECORDER])
 def test_a_record_without_what_was_given_is_refused(known):
@@ -291,6 +293,7 @@ CRUSH = dict(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize(
     "known",
@@ -422,6 +425,7 @@ def test_a_text_that_is_not_its_number_is_refused():
         replay(tampered(page, change))
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize(
     "changed",

@@ -772,6 +772,7 @@ def test_refusals(code, kind, changes, words):
     assert type(pickle.loads(pickle.dumps(caught.value))) is type(caught.value)
 
 
+@pytest.mark.slow
 def test_a_function_is_refused_as_its_number():
     """A constant function is the number: nothing fits, though with another restitution any slip
     would.
@@ -893,6 +894,7 @@ ELASTIC = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loss", [0.0, 1e-12, 5e-10])
 @pytest.mark.parametrize("known", [{"speed_a": 20.0}, {"delta_v_a": 20.0},
     {"max_crush_speed_a": 5.0, "max_crush_speed_b": 5.0}],

@@ -736,6 +736,7 @@ def test_a_warning_of_a_batch_says_of_how_many_cases():
         assert together[code].startswith(f"{count} of 4 cases: ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("energy", ["energy_loss", "ees"])
 @pytest.mark.parametrize("friction", ["as it was", math.inf])
 def test_the_condition_beside_an_energy_is_that_of_the_whole_call(friction, energy):

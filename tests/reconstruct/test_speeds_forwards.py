@@ -103,6 +103,7 @@ def slow_crash(rng):
             return cars, both, met, friction, impact
 
 
+@pytest.mark.slow
 def test_the_truth_is_within_every_bound():
     """Also where only its friction is known to be less, alone and in a batch, and with forward_only
     alike; the impact found has the readings, by the forward solver and its own friction.
@@ -142,6 +143,7 @@ def test_the_truth_is_within_every_bound():
     assert at_rest > 5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [FRICTION, 0.5, math.inf], ids=str)
 def test_a_slow_car_is_not_said_to_be_faster_than_it_was(friction):
     """At rest is the least that is known of it; records, pages and ranges have that."""
@@ -236,6 +238,7 @@ def test_a_family_that_goes_backwards_as_a_whole():
             speeds(*cars, **turned, **given, forward_only=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_a_contact_that_slid_has_the_readings_at_a_place_too(seed):
     """Of a refusal, which gives both; its bounds are those of ``slid="bound"``. Against stepping
@@ -342,6 +345,7 @@ def with_tyres(case):
     return cars, both, met, {name: shown[name] for name in known}, rest
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:(?s).*to stick, the contact needs an impulse ratio")
 @pytest.mark.parametrize("friction", [math.inf, 0.85], ids=str)
 @pytest.mark.parametrize("case", WITH_TYRES)
@@ -373,6 +377,7 @@ def test_what_goes_forwards_is_found_with_tyres(case, friction):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:(?s).*taken to stick at an impulse ratio", "ignore:(?s).*to st")
 def test_a_batch_with_one_answer_and_with_two_is_its_cases():
     cars, _, met, known, rest = with_tyres("both recorders")
@@ -393,6 +398,7 @@ def test_a_batch_with_one_answer_and_with_two_is_its_cases():
     assert set(counts) == {1, 2}
 
 
+@pytest.mark.slow
 def test_a_ratio_far_below_the_friction_is_not_said_to_slide():
     """From readings at a place: the crash, which stuck, is the answer or among those of a refusal,
     which says that sliding at the friction fits within the accuracy of recorders.

@@ -181,6 +181,7 @@ def apart_from_truth(found):
     return max(abs(found.a.before.speed - A.speed), abs(found.b.before.speed - B.speed))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("names", PAIRS, ids=lambda names: "-".join(names))
 def test_speeds_takes_tyres(names):
     friction = {"friction": math.inf} if names[0] in COMPONENTS else {}
@@ -218,6 +219,7 @@ def test_speeds_takes_tyres(names):
     assert len(instants[0].statements) == 1
 
 
+@pytest.mark.slow
 def test_an_answer_is_explained_reported_and_recorded():
     end = ended()
     (found, *_) = asked({"speed_b": B.speed, "delta_v_a": end.a.delta_v}, duration="101.3 ms")
@@ -284,6 +286,7 @@ def test_an_energy_beside_readings_is_refused_with_tyres(beside, argument):
         asked({name: known[name] for name in COMPONENTS[:2]}, tyres_a=None, tyres_b=None)
 
 
+@pytest.mark.slow
 def test_what_leaves_open_whether_it_stuck_has_both_answers_with_tyres():
     known = {name: read(ended(friction=math.inf), name) for name in COMPONENTS[:2]}
     with pytest.raises(col.AmbiguousSolutionError, match="stuck or slid") as open_:
@@ -295,6 +298,7 @@ def test_what_leaves_open_whether_it_stuck_has_both_answers_with_tyres():
     assert apart_from_truth(slid) < 0.1
 
 
+@pytest.mark.slow
 def test_a_contact_that_slid_with_tyres_has_a_bound_that_the_truth_lies_beyond():
     """Forward answers that slid: each speed is on the side that is said, of the bound."""
     rng, met = random.Random(45), 0
@@ -327,6 +331,7 @@ def test_a_contact_that_slid_with_tyres_has_a_bound_that_the_truth_lies_beyond()
         assert found.normal_impulse == pytest.approx(impact.normal_impulse, rel=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "names",
     [
@@ -375,6 +380,7 @@ def test_no_speeds_of_a_forward_answer_are_missed(names):
         assert without  # Else nothing here needed more than the instant.
 
 
+@pytest.mark.slow
 def test_components_of_a_contact_that_stuck_may_have_several_answers_with_tyres():
     """Three pairs of speeds have these components by ``eccentric``; the instant leads to the last
     alone.
@@ -408,6 +414,7 @@ def test_components_of_a_contact_that_stuck_may_have_several_answers_with_tyres(
         assert both.a.before.speed == pytest.approx(one.a.before.speed, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_no_speeds_of_a_contact_that_stuck_are_missed():
     """From both components of one vehicle."""
     rng, met = random.Random(54), 0
@@ -476,6 +483,7 @@ def test_a_flat_answer_has_no_condition_that_looks_well():
     assert {"ill_conditioned", "not_unique"} <= {one.code for one in col.diagnose(found[0])}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("locks", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
 def test_contacts_at_the_edge_between_stuck_and_slid_have_an_answer(locks):
     """Forward impacts that slid, less and less: their components and A's speed lead back to each.
@@ -521,6 +529,7 @@ def test_contacts_at_the_edge_between_stuck_and_slid_have_an_answer(locks):
     assert 0 < np.count_nonzero(side) < side.size
 
 
+@pytest.mark.slow
 def test_beside_a_speed_a_case_is_the_same_alone_in_a_batch_and_with_a_bound():
     """Components that differ are met by least squares, whatever the other cases leave open."""
     wheels = Tyres(0.7, 0.3, 2.7, 1.5)
@@ -607,6 +616,7 @@ MET_FROM_AFAR = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", MET_FROM_AFAR)
 def test_speeds_that_meet_more_than_is_needed_are_found_from_afar(case):
     """The contact slid, and where the instant without tyres leads to misses what was known."""
@@ -711,6 +721,7 @@ def met_fast_or_slow(rng):
     return *cars, contact
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.EnergyGainWarning")
 def test_beside_a_known_speed_no_answer_that_a_scan_shows_is_missed():
     rng, met, several = random.Random(6), 0, 0
@@ -767,6 +778,7 @@ def test_a_batch_of_no_cases_has_none(known):
     assert found.status.shape == found.a.before.speed.shape == (0,)
 
 
+@pytest.mark.slow
 def test_an_energy_beside_components_finds_a_contact_that_slid_with_tyres():
     """The ratio that the components show is that of the contact alone, without what tyres do: with
     that of an instant both speeds came out metres per second off. Without its friction several
@@ -798,6 +810,7 @@ def test_an_energy_beside_components_finds_a_contact_that_slid_with_tyres():
         assert min(off) < 1e-6
 
 
+@pytest.mark.slow
 def test_an_energy_beside_a_component_of_either_vehicle_misses_no_answer_with_tyres():
     """With a known friction; the balance of the tyres by itself leads to other speeds in some."""
     rng = random.Random(31)
@@ -865,6 +878,7 @@ def test_an_answer_beside_the_end_of_all_answers_is_found():
     assert found.a.before.speed == pytest.approx(a.speed, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("label", ["a", "b"])
 @pytest.mark.parametrize("given", [{}, {"friction": math.inf, "regime": "sliding"}])
 def test_beside_a_speed_the_condition_is_known_with_tyres(label, given):

@@ -102,6 +102,7 @@ def test_a_stated_contact_is_taken_at_its_word_and_the_doubt_is_said():
     assert "may_slide" not in {one.code for one in diagnose(quiet)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [math.inf, 1.0, 0.6, 0.5, 0.45, 0.3])
 def test_no_friction_says_10_8_mph_in_silence(friction):
     """Whatever friction is given: refused, or a warning, or a bound that the truth keeps."""
@@ -119,6 +120,7 @@ def test_no_friction_says_10_8_mph_in_silence(friction):
     assert mph(bound)[1] < 25.0
 
 
+@pytest.mark.slow
 def test_what_settles_it():
     """A speed, if it is one that the slip shows in; a friction that is less than the ratio, or more
     than twice it.
@@ -160,6 +162,7 @@ def test_what_settles_it():
         assert found.reconstruction.one_sided == {"speed_a": 0, "speed_b": 0}
 
 
+@pytest.mark.slow
 def test_an_energy_settles_it():
     """What sliding costs beyond the loss of a contact that stuck tells how far it slid: from
     energies of the forward solver, and of both EES.
@@ -198,6 +201,7 @@ def test_an_energy_settles_it():
     assert moved < 0.01 * true.reconstruction.condition * true.closing_speed
 
 
+@pytest.mark.slow
 def test_sides_are_those_of_what_is_open():
     """With a speed that settles it, asked for a bound or not: nothing is one-sided."""
     rng = np.random.default_rng(9)
@@ -253,6 +257,7 @@ def test_a_friction_that_differs_is_counted_in_batches_and_studies_too():
     assert raised == []
 
 
+@pytest.mark.slow
 def test_the_finding_and_the_derivation_say_what_the_call_warns_of():
     """Also read from a record, and with recorders away from the centres of mass."""
     with pytest.warns(col.IllConditionedWarning) as caught:
@@ -347,6 +352,7 @@ def solved(cars, both, known, friction):
         return None
 
 
+@pytest.mark.slow
 def test_the_family_begins_at_the_bound():
     """Against the forward solver: beyond the bound, on the side that is named, every pair of speeds
     gives the same components; before it none does, or a car goes backwards. The true speeds lie on
@@ -402,6 +408,7 @@ def test_a_batch_is_its_cases():
     assert left.reconstruction.answers.tolist() == [0, 0, 2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "known",
     [
@@ -560,6 +567,7 @@ def test_silent_ranges_hold_whether_it_stuck_or_slid(route):
         assert np.mean(found) >= least, (regime, np.mean(found), len(found))
 
 
+@pytest.mark.slow
 def test_a_friction_that_the_components_contradict_says_to_leave_it_to_them():
     """A contact that slid at 0.02, told by A's components and its speed, with 0.05 to 0.9 stated.
 
@@ -625,6 +633,7 @@ def either_way(factor, **options):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [0.15, math.inf])
 @pytest.mark.parametrize("factor", [0.98, 1.0, 1.01, 1.02, 1.05])
 def test_a_bound_of_which_the_direction_is_not_known_is_not_stated(factor, friction):
@@ -835,6 +844,7 @@ def crashes_beside_a_speed(count):
     return found
 
 
+@pytest.mark.slow
 def test_one_that_stuck_with_a_misfit_does_not_silence_one_that_slid_without():
     """Forward crashes, exact readings: the truth is the answer or one of those that are offered."""
     slid = ambiguous = 0
@@ -882,6 +892,7 @@ def moved_forwards(impact, sought, cars, known):
     return sum(abs(row * [known[one] for one in read])) + abs(row @ slopes[2]) * known[given]
 
 
+@pytest.mark.slow
 def test_beside_a_speed_the_condition_has_the_error_of_the_ratio_that_is_shown():
     grows = []
     for impact, sought, cars, known in crashes_beside_a_speed(120):
@@ -899,6 +910,7 @@ def test_beside_a_speed_the_condition_has_the_error_of_the_ratio_that_is_shown()
     assert max(grows) > 1.5
 
 
+@pytest.mark.slow
 def test_beside_a_speed_a_bound_lies_on_the_side_of_the_one_that_slid():
     """The truth is the bound or lies where that says."""
     open_ = 0

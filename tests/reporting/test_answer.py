@@ -364,6 +364,7 @@ def test_a_page_is_filed_under_case_author_and_date():
             report(crash(), figures=False, **{name: 7})
 
 
+@pytest.mark.slow
 def test_figures_are_numbered():
     """From the one beside the answer on, without a gap, also on a page of several results."""
     pages = (report(crash()), report([crash(), crash()]))
@@ -391,6 +392,7 @@ def test_a_fit_and_a_posterior_answer_with_their_intervals():
     assert high == pytest.approx(10.98, abs=0.1)
 
 
+@pytest.mark.slow
 def test_what_follows_from_a_posterior_stands_first_in_the_answer():
     """v0^2 = v1^2 + 2 g drag d, in the units of the page, and below it from what."""
     likely = reconstruct.posterior(
@@ -471,6 +473,7 @@ def crossed():
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["markdown", "html"])
 def test_a_case_of_several_results_is_one_page(form):
     known = spread()
@@ -498,6 +501,7 @@ def test_a_case_of_several_results_is_one_page(form):
     assert page.count("is an equation of it.") == 1
 
 
+@pytest.mark.slow
 def test_figures_of_several_results_have_ids_of_their_own():
     page = report([crossed(), crash()], units="us")
     ids = re.findall(r'<[^<>]*\bid="([^"]*)"', page)

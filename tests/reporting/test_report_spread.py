@@ -80,6 +80,7 @@ def test_a_bare_input_is_in_the_units_of_the_page_where_it_may_be_that_of_the_im
         assert f"{mean:g}" in stated
 
 
+@pytest.mark.slow
 def test_figures_of_bare_numbers_have_the_unit_of_the_result():
     """A model that returns SI floats: the figures are in mph as the tables are, not in m/s without
     a unit.

@@ -217,6 +217,7 @@ def rows(page):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["html", "markdown"])
 @pytest.mark.parametrize("name", IMPACTS)
 def test_a_report_made_of_what_a_report_holds_is_the_same(name, form, impacts):
@@ -384,6 +385,7 @@ def test_given_as_is_explained_where_it_stands(units, other):
     assert (", given as 54 km/h" in page, "“Given as”" in page) == (other, other)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("units", ["si", "metric", "us"])
 @pytest.mark.parametrize("name", ["eccentric", "oblique", "pinned", "example 2", "solve, linear"])
 def test_results_are_those_of_explain(name, units, impacts):
@@ -690,6 +692,7 @@ def test_an_uncertainty_of_another_case_is_seen():
     assert re.search(r"Polo: delta-V, \d+\.\d+ \S+ in this impact, lies outside", text)
 
 
+@pytest.mark.slow
 def test_intervals_and_local_methods():
     interval = spread("b.delta_v", restitution=uncertainty.Interval(0.05, 0.15))
     ranges = report(crash(), form="markdown", uncertainty=interval)
@@ -707,6 +710,7 @@ def test_intervals_and_local_methods():
     assert any("Not drawn: " in text for text in pictured.of("p"))
 
 
+@pytest.mark.slow
 def test_figures_show_this_impact(impacts):
     drawn = Page(
         report(impacts["eccentric"], units="metric", outline_a=(4.2, 1.8), outline_b=(4.0, 1.7))
@@ -734,6 +738,7 @@ def test_every_letter_of_a_figure_can_be_read(name, impacts):
     assert not set("".join(printed)) & set("$\\{}")
 
 
+@pytest.mark.slow
 def test_figures_leave_nothing_open_and_the_least_are_two(impacts):
     import matplotlib.pyplot as plt
 
@@ -752,6 +757,7 @@ def test_without_matplotlib_the_rest_is_there(impacts, monkeypatch):
     assert replay(text) == impacts["eccentric"]
 
 
+@pytest.mark.slow
 def test_importing_it_does_not_import_matplotlib_or_pint():
     code = "import sys, collisions.reporting; assert not {'matplotlib', 'pint'} & set(sys.modules)"
     environment = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
@@ -822,6 +828,7 @@ def test_refusals_of_impacts():
         assert caught.value.code == "not_an_impact"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("change", "said"),
     [
@@ -907,6 +914,7 @@ def test_results_of_a_record_must_be_those_of_its_inputs(change, said):
     )
 
 
+@pytest.mark.slow
 def test_a_number_beyond_floats_is_no_number_of_the_record():
     """JSON holds whole numbers of any size; wherever one stands it is refused, and named as what
     the inputs do not give.
@@ -947,6 +955,7 @@ def test_what_is_no_report_is_refused(text, code):
         assert "options are none" not in str(caught.value)
 
 
+@pytest.mark.slow
 def test_a_unit_of_another_registry_is_kept_as_it_was_written():
     registry = pint.UnitRegistry()
     registry.define("slugfest = 14.6 kg")
@@ -1019,6 +1028,7 @@ def test_the_schema_is_a_new_dict_in_every_part():
     assert json.dumps(impact_schema()) == written
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", ["in_texts", "solved", "of a batch"])
 def test_texts_go_with_the_impact(make):
     """Through solve, pickle, record and a case of a batch; the impact is that of its numbers."""
@@ -1638,6 +1648,7 @@ def momentum_of(name):
         return MOMENTA[name]()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["html", "markdown"])
 @pytest.mark.parametrize("name", MOMENTA)
 def test_planar_momentum_has_a_report_that_can_be_made_again(name, form):
@@ -1659,6 +1670,7 @@ def test_planar_momentum_has_a_report_that_can_be_made_again(name, form):
         assert page.index("Energy gain of") < page.index("Inputs")
 
 
+@pytest.mark.slow
 def test_inputs_and_answers_of_planar_momentum_are_shown():
     """The answers are those of explain, the sensitivities those of the solution with its units."""
     solution = crossed()
@@ -1689,6 +1701,7 @@ def test_inputs_and_answers_of_planar_momentum_are_shown():
     assert "A: speed before" in Page(page).of("caption")
 
 
+@pytest.mark.slow
 def test_samples_drawn_together_are_told_without_shares():
     """A joint group has all variance; bare numbers are SI, and in the unit of the page where their
     input is the impact's.
@@ -1794,6 +1807,7 @@ def test_a_fit_has_a_report(form):
     assert caught.value.code == "no_record"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["outline_a", "share_a", "drag", "duration", "limits", "crush_energy", "damage_pdof_a"]
 )
@@ -1824,6 +1838,7 @@ def test_an_outline_of_momentum_is_refused_whatever_it_is(outline):
         report(found, outline_a=outline)
 
 
+@pytest.mark.slow
 def test_each_vehicle_has_one_table_and_the_evidence_is_not_called_stated():
     """Rows of A and B may alternate; the evidence is computed."""
     found = col.reconstruct.momentum(
@@ -2034,6 +2049,7 @@ A = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, vx=12.0, x=-2.0, y=0.6, heading
 B = col.Vehicle(mass=1200.0, yaw_inertia=1800.0, vy=9.0, x=0.9, y=-1.0, heading=math.pi / 2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "changed",
     [
@@ -2078,6 +2094,7 @@ def _found_from_recorders():
     )
 
 
+@pytest.mark.slow
 def test_each_number_that_a_record_was_given_leads_to_its_speeds():
     """Whatever of them is changed, the record is refused."""
     tried = 0

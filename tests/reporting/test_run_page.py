@@ -89,6 +89,7 @@ def test_every_vehicle_has_its_state_at_the_start() -> None:
     assert "| B | course | none: it stands |" in bare
 
 
+@pytest.mark.slow
 def test_ranges_stand_under_words_and_not_under_paths() -> None:
     run = three_cars()
     inputs = {
@@ -184,6 +185,7 @@ def leaves(part: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, .
         yield path, part
 
 
+@pytest.mark.slow
 def test_every_number_of_the_impacts_in_a_record_is_held_against_the_scene() -> None:
     """The inputs of an impact, which follow from the scene, as well as what came of it."""
     run = coasting()
@@ -242,6 +244,7 @@ def test_html_of_what_moves_on_and_has_a_name_like_markup() -> None:
     assert "slowed by" in page
 
 
+@pytest.mark.slow
 def test_options_of_one_impact_are_refused_together() -> None:
     with pytest.raises(col.CollisionsError) as caught:
         col.report(
@@ -260,6 +263,7 @@ def test_options_of_one_impact_are_refused_together() -> None:
         col.report(many)
 
 
+@pytest.mark.slow
 def test_a_propagation_of_the_scene_has_its_ranges_in_the_answer() -> None:
     """What was asked for comes first, with its range; the inputs are printed as stated."""
     run = slid()
@@ -364,6 +368,7 @@ def test_a_place_that_nothing_gives_is_not_known() -> None:
     assert "**B at the start:** standing" in page
 
 
+@pytest.mark.slow
 def test_html_has_both_figures_or_says_how_to_have_them(monkeypatch: pytest.MonkeyPatch) -> None:
     run = slid()
     assert col.report(run).count("<svg") == 2

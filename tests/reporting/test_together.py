@@ -50,6 +50,7 @@ def box(page):
     return page.split("\n## Answer\n")[1].split("\n## ")[0]
 
 
+@pytest.mark.slow
 def test_the_answer_has_the_speeds_and_the_ranges_of_the_delta_v(found, run):
     """In line, with equal masses: (1 + e) / 2 of the speed, at each sample."""
     page = col.report([found, run], form="markdown")
@@ -74,6 +75,7 @@ def test_what_was_found_is_marked_among_what_was_given(found, run):
     assert "| A (Rover) | velocity along x | 31.0 mph, set for this run |" in page
 
 
+@pytest.mark.slow
 def test_the_picture_is_the_whole_way_with_the_measured_places(found, run):
     page = col.report([found, run])
     first = page.index("<figure>")
@@ -238,6 +240,7 @@ def leaning() -> Scene:
     return Scene(movers=movers, contacts=[hit])
 
 
+@pytest.mark.slow
 def test_what_was_warned_of_the_samples_stands_in_the_answer():
     """How many samples are followed through each other, beside what the run itself shows; on the
     page of the posterior alone it follows the answer.

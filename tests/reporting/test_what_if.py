@@ -129,6 +129,7 @@ def test_every_output_is_that_of_the_public_functions():
     assert answered > 150
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "which",
     ["linear", "oblique", "eccentric", "ratio", "pinned", "wall", "solve", "kudlich-slibar"],

@@ -113,6 +113,7 @@ def test_every_case_of_a_batch_is_as_it_is_alone(seed: int) -> None:
     assert len({one.pairs for one in alone.values()}) > 1
 
 
+@pytest.mark.slow
 def test_all_places_of_rest_are_followed_at_once_and_are_those_of_each_alone(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -186,6 +187,7 @@ def test_over_areas_a_case_of_a_batch_rests_where_it_does_alone(
                 assert abs(found - getattr(alone.rest[name], part)) <= 1e-9, (i, name, part)
 
 
+@pytest.mark.slow
 def test_cars_that_stop_on_an_edge_do_so_in_a_batch_and_alone() -> None:
     """Straight, and turning onto it; some up to the last digits before or beyond it."""
     friction, speed, edge = 0.7, 12.0, 1.35
@@ -214,6 +216,7 @@ def test_cars_that_stop_on_an_edge_do_so_in_a_batch_and_alone() -> None:
             assert alone.x - place[i] - way == pytest.approx(longer, abs=2e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize("rules", [slice(0, 1), slice(1, 2), slice(0, 0)], ids=["AB", "BC", "none"])
 def test_what_limits_a_case_is_that_of_the_case_alone(rules: slice) -> None:

@@ -94,6 +94,7 @@ def test_samples_are_those_of_the_impact_and_of_cases_of_a_batch() -> None:
             assert many[one].m_as("m/s")[i] == pytest.approx(value, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_samples_of_a_curve_are_evidence_of_speeds_and_of_the_duration() -> None:
     true = {"A.vx": 14.0, "contacts[0].duration": 0.1}
     paths = [path("B", time, part) for time in TIMES for part in ("forward", "left")]
@@ -152,6 +153,7 @@ def test_a_contact_of_an_instant_has_no_curve(model: dict[str, Any]) -> None:
         crash(**model).as_model([], ["impacts[0].a.recorded(50 ms).left"])
 
 
+@pytest.mark.slow
 def test_only_contacts_in_time_are_within_a_tolerance_of_a_curve() -> None:
     found = crash().required({path("B", 0.05, "left"): "0.5 m/s"})
     assert found.level.contacts == "in time"

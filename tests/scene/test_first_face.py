@@ -34,6 +34,7 @@ def engaged(deep: float, aside: float, speeds: tuple[float, float], turn: float 
     return Scene(movers=movers, contacts=[Contact("A", "B", **RULE)])
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.OutOfRangeWarning")
 @pytest.mark.parametrize("turn", [0.0, 2.3])
 def test_going_straight_back_the_face_that_parts_first(turn: float) -> None:
@@ -90,6 +91,7 @@ def scene_of(states: dict[str, dict[str, float]], **contact: Any) -> Scene:
     return Scene(movers=movers, contacts=[Contact("A", "B", **RULE, **contact)])
 
 
+@pytest.mark.slow
 def test_at_a_time_and_from_the_start_it_is_the_face_of_the_touch() -> None:
     """The same contact said in three ways: so long after the touch, at that time, and at 0 of a
     scene that starts with the states there.

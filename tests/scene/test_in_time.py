@@ -122,6 +122,7 @@ def test_a_short_contact_is_that_of_stronges_impulse() -> None:
     assert off[2] < 5e-3
 
 
+@pytest.mark.slow
 def test_the_way_through_a_contact_is_continuous_and_the_account_closes() -> None:
     base = three_cars().scene
     hits = [contact.replace(model=None, duration=0.1) for contact in base.contacts]
@@ -143,6 +144,7 @@ def test_the_way_through_a_contact_is_continuous_and_the_account_closes() -> Non
     np.testing.assert_equal(replayed.to_columns(), run.to_columns())
 
 
+@pytest.mark.slow
 def test_cases_of_a_batch_equal_single_runs() -> None:
     base = three_cars().scene
     hits = [contact.replace(model=None, duration=0.1) for contact in base.contacts]

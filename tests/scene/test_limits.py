@@ -97,6 +97,7 @@ def test_a_contact_at_a_time_is_that_of_a_touch_half_a_second_before(later, note
     assert run.times[0] == pytest.approx(0.5 + later)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("after", [0.05, 0.2, 0.4, 0.6])
 @pytest.mark.parametrize(
     ("push", "hold"), [(0.02, 1.0), (0.02, 0.3), (0.5, 0.5)], ids=["pushes", "presses", "parts"]
@@ -123,6 +124,7 @@ def test_a_fly_that_hits_one_of_two_in_contact_changes_nothing(push, hold, after
         assert run.rest[name].y == pytest.approx(alone.rest[name].y, abs=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize("described", [True, False])
 def test_two_that_come_nearer_for_longer_than_is_looked_at_are_refused(described: bool) -> None:

@@ -72,6 +72,7 @@ def paths_of(name: str, wheel: str, points: Any) -> list[str]:
     return [f"{name}.marks.{wheel}.distance({x!r}, {y!r})" for x, y in points.tolist()]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wheel", WHEELS)
 def test_a_distance_is_that_to_the_nearest_place_of_the_track(wheel: str) -> None:
     """Of a wheel that is locked, which marks all the way; on the side that the next steps of the
@@ -143,6 +144,7 @@ def test_a_batch_has_the_distances_of_its_cases(case: int) -> None:
     assert found == pytest.approx(alone, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_wheels_that_leave_no_mark_have_no_distance() -> None:
     """One case is an error, and a batch NaN; where another contact gives tyres, they mark."""
     rolling = spun(lock=0.1, vx=10.0, vy=0.0, yaw_rate=0.0, heading=0.0)
@@ -310,6 +312,7 @@ def surveyed(scene: Scene, sigma: float, seed: int) -> dict[str, Normal]:
     return found
 
 
+@pytest.mark.slow
 def test_fit_finds_the_speed_that_left_the_marks() -> None:
     """Of a car that slides straight on, whose way from its speed is known in closed form."""
     scene = spun(vy=0.0, yaw_rate=0.0, heading=0.2)

@@ -398,6 +398,7 @@ def test_the_speed_of_what_stands_is_refused_as_an_unknown_whatever_its_unit(spe
         propagate(crash, both | {"Jetta.speed": Uniform("1 m", "2 m")}, outputs=["Jetta.rest.y"])
 
 
+@pytest.mark.slow
 def test_a_number_that_is_not_given_yet_has_the_unit_of_what_it_is() -> None:
     """The height of tyres moves the load to the front wheels; without it there is none."""
     car = col.Vehicle(mass=1500, yaw_inertia=2600, x=0, y=0, heading=0.3, vx=15)
@@ -439,6 +440,7 @@ def test_a_study_without_an_answer_names_the_causes_by_their_number() -> None:
     assert "stands" not in listed
 
 
+@pytest.mark.slow
 def test_a_refusal_has_numbers_in_the_units_of_the_priors() -> None:
     crash = crossing().replace({"contacts[0].normal": "180 deg"})
     with pytest.raises(col.NoSolutionError, match=r"among them Explorer.vx = 42\.5 mph"):

@@ -642,6 +642,7 @@ def test_what_is_no_argument_was_not_given(name: Any) -> None:
         assert refused.value.argument == "name"
 
 
+@pytest.mark.slow
 def test_two_that_graze_each_other_for_years_are_given_up() -> None:
     """What turns and nothing slows is struck by a car, which comes to rest beside it: their corners
     touch at every turn, while a drift of 1e-8 m/s parts them.

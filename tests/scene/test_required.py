@@ -51,6 +51,7 @@ def test_levels_are_the_same_crash_from_the_cheapest_to_the_finest() -> None:
     assert found.costs[-1].within
 
 
+@pytest.mark.slow
 def test_the_differences_are_those_of_runs_of_the_draws() -> None:
     """By hand: each level is propagated for the same draws; 31 of 32 do not exceed the figure."""
     scene = crash()
@@ -124,6 +125,7 @@ def test_a_level_is_a_model_with_the_inputs_of_its_scene() -> None:
     assert cheap.results() == cheap.given.results()
 
 
+@pytest.mark.slow
 def test_draws_without_an_answer_count_against_a_level() -> None:
     """A truck that is reached on rolling wheels only: the level by drag has no second contact."""
     a = col.Vehicle(mass=1500, yaw_inertia=2600, vx=12, x=-2.2, y=0, heading=0)
@@ -214,6 +216,7 @@ def driven_through() -> Scene:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("unknowns", [None, {"A.speed": Normal(15.0, 1.0)}])
 def test_the_levels_say_that_vehicles_are_driven_through_each_other(unknowns: Any) -> None:
     """As `propagate` says it of the same draws; what one level has by its drag is stated alone."""

@@ -130,6 +130,7 @@ def test_a_study_counts_the_cases_in_which_an_impact_is_another() -> None:
     assert delta_v_of_middle(TURN + 1e-9) < low < high < delta_v_of_middle(25.0)
 
 
+@pytest.mark.slow
 def test_evidence_is_not_matched_with_another_vehicle_in_silence() -> None:
     """10 m/s read on the front car: by its contact the speed comes back, and by the number of its
     impact the result says which vehicles that is.
@@ -219,6 +220,7 @@ def test_the_time_between_two_events() -> None:
     assert end["end - times[0]"] == end["end"] - end["times[0]"]
 
 
+@pytest.mark.slow
 def test_the_ees_of_a_vehicle_has_its_share_of_the_energy_lost() -> None:
     """By hand: the energy lost is (1 - e^2) m u^2 / 2 with the reduced mass."""
     a, b = MASSES["rear"], MASSES["middle"]

@@ -218,6 +218,7 @@ def test_what_a_drag_cannot_stop_is_refused_or_is_a_case_without_an_answer() -> 
         assert standing(np.array([1.0])).status.tolist() == ["never_stops"]
 
 
+@pytest.mark.slow
 def test_a_car_that_rolls_on_after_a_contact_is_where_its_speed_takes_it() -> None:
     """On wheels that nothing brakes: after its slip has faded, evenly on; it has no rest."""
 

@@ -358,6 +358,7 @@ def test_energy_closes_on_any_ground(slope: tuple[object, object], slowed: objec
         assert abs(closes) < share * energy["before"]
 
 
+@pytest.mark.slow
 def test_energy_closes_over_areas_of_other_friction() -> None:
     """Wheels come to edges one by one, at each of which the power jumps."""
     rng = np.random.default_rng(5)
@@ -387,6 +388,7 @@ def test_energy_closes_over_areas_of_other_friction() -> None:
     assert max(missed) < 1e-5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lasts", [{"model": "eccentric"}, {}], ids=["tyres", "in time"])
 def test_energy_closes_where_contacts_last(lasts: dict[str, str]) -> None:
     """The ground takes nothing of its own while a contact lasts, and all of it from its end on."""
@@ -450,6 +452,7 @@ def test_outlines_of_vehicles_without_a_place_are_only_for_pictures() -> None:
         Scene(movers=movers, contacts=[touching]).run()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("speed", "drag"), [(0.2, 0.0), (0.1, 0.0), (0.2, 7e-4)])
 def test_a_depth_that_takes_long_to_reach_is_reached(speed: float, drag: float) -> None:
     """Two in line whose gap is 0.7 m, by kinematics; alone and beside one that is quick."""
@@ -482,6 +485,7 @@ def test_two_that_stop_before_they_are_so_deep_have_no_contact_there() -> None:
         Scene(movers={"A": a, "B": b}, contacts=[hit]).run()
 
 
+@pytest.mark.slow
 def test_a_depth_of_which_it_is_not_known_whether_it_is_reached_is_refused() -> None:
     """At 0.021 m/s the 30 m would take 1,430 s, of which 1,000 are looked at; never replaced."""
 

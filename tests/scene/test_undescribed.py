@@ -57,6 +57,7 @@ def codes(run: Run) -> list[str]:
     return [one.code for one in run.findings]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("at", ["touch", 0.0])
 def test_a_batch_counts_the_cases_of_single_runs(at: str | float) -> None:
     expected = reaches()
@@ -91,6 +92,7 @@ def test_a_pair_with_a_contact_at_a_time_may_touch_again() -> None:
     assert said.startswith("in 2 of 3 cases of the scene two vehicles touch")
 
 
+@pytest.mark.slow
 def test_every_study_says_it() -> None:
     """Propagation, posterior, fit, levels and a comparison of accounts; as a statement too."""
     scene, rest = in_line(), in_line(14.0).run().rest["B"].x
@@ -236,6 +238,7 @@ def counted(said: list[Any]) -> dict[str, int]:
     return found
 
 
+@pytest.mark.slow
 def test_each_finding_of_single_runs_is_counted_in_batches_and_studies() -> None:
     """Of 240 cases one by one: every code that there is comes, and each is counted."""
     rng, total = np.random.default_rng(8), Counter[str]()

@@ -275,6 +275,7 @@ def followed(lock, yaw, crab, speed=12.0, gyration=1.265):
     return run.speed / speed - 1.0, "fast_yaw" in [one.message.code for one in given]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("lock", "most"), [(0.1, 0.35), (0.2, 0.4), (0.4, 0.5), (1.0, 0.5)])
 def test_wheels_that_are_braked_less_are_warned_of_sooner(lock, most):
     """Below the limit the speed is less than 8 % too high with any lock; the yaw rate that is read
@@ -324,6 +325,7 @@ def test_how_far_a_speed_is_off_at_the_limit_of_the_warning():
     assert 0.08 < max(silent) < 0.12
 
 
+@pytest.mark.slow
 def test_what_a_yaw_takes_from_the_drag_by_the_lock():
     """The docstring: 0.35 of the square with locked wheels, 0.3 to 0.9 with wheels that are braked;
     at 0.45 the speed is 3 to 5.5 %, by the radius of gyration, and 3 to 7 % too high.

@@ -353,6 +353,7 @@ def test_wheels_that_turn_lengthen_a_straight_run_by_what_they_weigh(lock, rotat
     assert locked.rest.x == pytest.approx(lock * whole, rel=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_wheels_that_turn_against_an_integration_without_a_term_left_out(name):
     """The rotation of the wheels, iterated until it is consistent: what it adds to the way is a
@@ -457,6 +458,7 @@ def test_what_slides_on_down_a_slope_is_followed_until_a_time():
     assert path.end.vx == pytest.approx(14.0 + push * 2.0, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_places_and_velocities_on_the_way(name):
     """Against the same integration: within 2 mm and 1 mrad beside the promise, and velocities
@@ -487,6 +489,7 @@ def test_places_and_velocities_on_the_way(name):
     assert path.at("0 s").vx == pytest.approx(vx)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_the_tyres_take_the_energy_that_there_was(name):
     """The work of the forces along the path that was found is the kinetic energy, which never
@@ -649,6 +652,7 @@ def test_time_and_place_of_a_skid_on_an_inclined_plane(rise, course):
     assert many.rest.x[0] == pytest.approx(place[0], abs=near)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rise", [0.05, 0.1, 0.2])
 def test_a_turning_car_on_a_slope(rise):
     """A spun car with a jammed wheel, over ice on the slope, against scipy's integration: the rates
@@ -737,6 +741,7 @@ def test_a_braked_wheel_that_stands_does_not_chatter():
     assert most < 1000
 
 
+@pytest.mark.slow
 def test_all_cases_of_a_long_run_keep_the_promise(request):
     """The default tolerance against a hundred times tighter steps, with and without areas."""
     generator = np.random.default_rng(11)
@@ -885,6 +890,7 @@ def test_a_batch_is_its_cases_and_refused_ones_are_nan():
     assert np.isnan(path.time[:, :, 2:]).all()
 
 
+@pytest.mark.slow
 def test_last_digits_of_the_start_hardly_move_the_rest_over_areas():
     """By no more than they grow in the motion itself. In some cases wheels come to an edge to the
     last digit; in the last ones steps near rest, away from all edges, passed the digits on.
@@ -914,6 +920,7 @@ def test_last_digits_of_the_start_hardly_move_the_rest_over_areas():
     assert np.abs(np.subtract(*rests)).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_a_case_rests_at_the_same_place_in_a_large_batch_and_alone():
     """In arrays, in floats, and in floats from where few cases are left, the numbers are the same:
     in two of these cases a last digit decides on which step a wheel comes to an edge.
@@ -1156,6 +1163,7 @@ def test_a_motion_of_a_batch_is_asked_at_one_time_for_each_case(times):
     assert (found.value.code, found.value.argument) == ("bad_shape", "time")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lock", [[1, 0.05, 0.05, 0.05], [0.3, 0.02, 0.02, 0.02]])
 @pytest.mark.parametrize("count", [1, 40])
 def test_a_motion_that_keeps_its_direction_on_the_vehicle_ends_along_an_arc(

@@ -835,6 +835,7 @@ def slide(
     return np.array(states), np.array([heading(i * step) for i in range(steps + 1)])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lock", [0.0, 0.3, 1.0])
 def test_a_body_integrated_forward_is_found_backward(lock):
     """Without smoothing the error falls fourfold when the points are twice as many, and is small

@@ -455,6 +455,7 @@ SOLVERS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_records_batches_and_balances(solver):
     """A record is solved again to the same, a batch is its cases, energies and momenta balance, the
@@ -540,6 +541,7 @@ def test_cases_that_differ_by_their_tyres_alone(solver):
     assert len(columns["a.tyre_moment"]) == 3
 
 
+@pytest.mark.slow
 def test_more_cases_than_a_block(monkeypatch):
     """Blocks of arrays have the same tyres as floats, on two threads as on one."""
     speeds = np.linspace(3.0, 12.0, 40)

@@ -487,6 +487,7 @@ def wrapped_normal(sd):
     return math.sqrt(variance), quantile, 1.0 + 2.0 * float(np.sum((-1.0) ** k * size))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("middle", [180.0, 30.0, -100.0, 179.0])
 @pytest.mark.parametrize("sd", [5.0, 40.0, 70.0])
 @pytest.mark.parametrize("method", ["quasi_random", "latin_hypercube", "monte_carlo"])

@@ -103,6 +103,7 @@ def rippled(share):
     return lambda q: float(np.mean(stats.norm.cdf(q / (1.0 + share * np.sin(phase)))))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "finer", "inputs", "exact", "within"),
     [

@@ -74,6 +74,7 @@ def by_central(value, **more):
     return found.b.after.vx
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("solve", "mean"),
     [(by_momentum, 8.0), (by_speeds, 6.0), (by_planar, 6.0), (by_central, 12.0)],

@@ -282,6 +282,7 @@ TRUNCATED = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("mean", "sd", "low", "high"), TRUNCATED)
 def test_moments_of_a_truncated_normal(mean, sd, low, high):
     """Weights and density are good to 4 roundings each near the mode, where all the weight is; a
@@ -311,6 +312,7 @@ def test_half_normal():
     assert half.kurtosis == pytest.approx(3 + 8 * (pi - 3) / (pi - 2) ** 2, rel=32 * EPS)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("mean", "sd", "low", "high"),
     [

@@ -74,6 +74,7 @@ def partly_open(samples, seed, method="quasi_random"):
     )["x"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "samples", "seeds", "shares"),
     [

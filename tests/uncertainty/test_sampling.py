@@ -206,6 +206,7 @@ def values_of(**options):
     return b"".join(result[name].values.tobytes() for name in result)
 
 
+@pytest.mark.slow
 @every_method
 def test_threads_and_blocks_change_no_bit(method, monkeypatch):
     """One to three threads, blocks that do and do not fit the sequences, and blocks of one case."""
@@ -415,6 +416,7 @@ def test_joint_samples_stay_row_by_row():
     assert len(set(zip(apart["drag"], apart["speed"], strict=True))) == 16
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("one", "other"),
     [
@@ -504,6 +506,7 @@ def test_inputs_that_go_together_share_a_contribution(method):
     assert found.total_contributions == pytest.approx(expected, abs=0.06)
 
 
+@pytest.mark.slow
 def test_contributions_of_a_real_scene():
     """Against the variance of the means of 50 slices of each input, of 400,000 cases drawn by
     numpy.

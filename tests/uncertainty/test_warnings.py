@@ -104,6 +104,7 @@ def test_one_output_by_itself_says_how_many_cases_it_leaves_out():
     plt.close("all")
 
 
+@pytest.mark.slow
 def test_the_caption_of_its_figure_in_a_report_says_so_too():
     def model(v):
         a, b = col.Vehicle(mass=1500.0, vx=v), col.Vehicle(mass=1200.0, vx=5.0)
@@ -169,6 +170,7 @@ def of_code(found, code):
     return note
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("threads", [1, 3])
 def test_a_loop_over_single_cases_is_given_no_share(threads):
     """How many calls warned is counted; of how many cases, nobody knows."""
@@ -189,6 +191,7 @@ def test_a_loop_over_single_cases_is_given_no_share(threads):
     assert "negative_speed" in {one.message.code for one in caught}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("threads", [1, 3])
 def test_the_same_cases_as_arrays_are_counted_once_however_often_they_are_asked(threads):
     """Two calls for the same cases: those where either warns, not the sum of both."""
@@ -209,6 +212,7 @@ def test_the_same_cases_as_arrays_are_counted_once_however_often_they_are_asked(
     assert note.statement.startswith(f"{sum(below)} of 40000 cases ({100.0 * share:.3g} %): ")
 
 
+@pytest.mark.slow
 def test_a_model_of_both_kinds_says_what_is_sure():
     """Arrays for all cases, and single calls for some: at least those, and the calls."""
     below, alone = [], []
