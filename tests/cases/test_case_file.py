@@ -703,6 +703,7 @@ def test_the_examples_have_their_published_answers():
     )
 
 
+@pytest.mark.slow
 def test_the_command(tmp_path, capsys):
     """Its output in each form, the units, and the exit codes."""
     file = tmp_path / "case.toml"

@@ -194,6 +194,7 @@ def test_points_of_a_mark_are_observed_by_their_paths() -> None:
     assert "no wheel 'left'; write one of front_left" in problems(wrong)[0]
 
 
+@pytest.mark.slow
 def test_what_was_observed_leads_back_by_fit_or_posterior() -> None:
     fit = answers(read_text((SOUGHT + OBSERVED + "[fit]\n").encode()))
     (found,) = fit.results

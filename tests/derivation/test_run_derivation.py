@@ -20,6 +20,7 @@ def steps(page: str) -> str:
     return re.sub(r"^#+ ", "", body, flags=re.MULTILINE).strip()
 
 
+@pytest.mark.slow
 def test_each_impact_is_derived_as_it_is_alone() -> None:
     run = three_cars()
     whole = col.explain(run, units="metric")

@@ -22,6 +22,7 @@ def tables():
     return coverage_tables
 
 
+@pytest.mark.slow
 def test_the_table_is_made_of_the_numbers_that_were_written(tables):
     """Every cell of every route; the exact binomial interval of what held."""
     stats = pytest.importorskip("scipy.stats")

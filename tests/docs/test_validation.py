@@ -86,6 +86,7 @@ def test_the_committed_file_is_what_the_runner_gives(again, found):
     same(again, found)
 
 
+@pytest.mark.slow
 def test_the_comparison_with_the_file_can_fail(again, found):
     """A computed figure that is another in its eighth digit, or a missing case, is noticed."""
     changed = json.loads(json.dumps(found))

@@ -139,6 +139,7 @@ def test_single_precision_angles_in_degrees():
     assert col.Impact.from_dict(impact.to_dict()) == impact
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "law",
     [

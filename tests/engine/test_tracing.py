@@ -118,6 +118,7 @@ def compare(kernel, settings, inputs, dtype, length):
                 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dtype", [np.float64, pytest.param(np.float32, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("kernel", "settings", "count"), list(programs()))
 def test_the_bits_are_those_of_the_kernel(kernel, settings, count, dtype):

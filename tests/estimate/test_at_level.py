@@ -33,6 +33,7 @@ def crash() -> Scene:
 STRUCK = "contacts[0].impact.B.delta_v"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("tolerance", "asked"),
     [

@@ -432,6 +432,7 @@ def test_the_same_answer_as_the_finer_model_alone_on_twelve_problems():
 UNKNOWNS = PRIORS | {"restitution": Normal(0.1, 0.05), "friction": Normal(0.5, 0.15)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [4, *(pytest.param(k, marks=pytest.mark.slow) for k in (6, 7))])
 def test_a_fit_is_that_of_the_finer_model(seed):
     """Value by value the same as from 64 starts of the finer model, for a fifth of its calls."""

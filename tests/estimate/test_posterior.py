@@ -310,6 +310,7 @@ def test_an_impact_against_quadrature():
     assert not codes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("unknowns", [2, pytest.param(5, marks=pytest.mark.slow)])
 def test_two_separate_modes_keep_their_weights(unknowns):
     """A density of two normals 40 deviations apart, 0.8 and 0.2: as the product of a reading of |x|

@@ -233,6 +233,7 @@ def test_an_input_is_used_or_refused(solver, law, rule, name):
     check_said(found, name, parts(one), beside)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("label", ["a", "b"])
 @pytest.mark.parametrize("name", TYRES.named)
 @pytest.mark.parametrize(

@@ -289,6 +289,7 @@ def test_the_contact_impulse_has_no_moment_about_the_contact(
         assert abs(float(orbital + spun - moment)) <= allowed, name
 
 
+@pytest.mark.slow
 @every_law
 @every_model
 @crossed
@@ -343,6 +344,7 @@ def test_the_work_on_the_two_bodies_sums_to_the_loss(
 # --- The contact ----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @every_law
 @every_model
 @crossed
@@ -384,6 +386,7 @@ def test_at_the_end_of_compression_the_contact_does_not_close(
     assert impact.compression_impulse * whole == pytest.approx(impact.normal_impulse, rel=4 * EPS)
 
 
+@pytest.mark.slow
 @every_law
 @every_model
 @crossed

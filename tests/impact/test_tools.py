@@ -852,6 +852,7 @@ def in_own_units(a=None, b=None, **contact):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "what",
     [

@@ -176,6 +176,7 @@ def scenes(rule, rng, count=40):
     return np.array(found).T
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("rule", "law"),
     [
@@ -257,6 +258,7 @@ def test_a_contact_that_starts_without_slip_has_the_derivative_by_it(jax):
         assert slope == pytest.approx((ends[1] - ends[0]) / 2e-4, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_friction_from_zero_on_has_the_derivative_of_a_slip_that_turns_round(jax):
     """The levers turn the slip round without friction as well as with a little."""
     a = Body(1459.0, 3026.0, 21.6, -1.7, 0.4, -2.0, 0.15)

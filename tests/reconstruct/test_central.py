@@ -657,6 +657,7 @@ REFUSED = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("code", "masses", "known", "said"),
     REFUSED,

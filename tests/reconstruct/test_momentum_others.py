@@ -183,6 +183,7 @@ def test_a_batch_counts_the_cases():
     assert batch.statements == alone.statements
 
 
+@pytest.mark.slow
 def test_a_study_counts_the_samples():
     known, given, *_ = next(
         one for one in MISSED if [message.code for message in one[4]] == ["another_fits"]

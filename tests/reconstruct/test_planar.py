@@ -751,6 +751,7 @@ def exact_origin(a, b, e, point, ratio, digits=60):
     return closing, pn, slip_after - apart(moved)[1], slip_after, energy[0] - energy[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "kind",
     [pytest.param(kind, marks=() if kind == "restitution" else pytest.mark.slow) for kind in KNOWN],

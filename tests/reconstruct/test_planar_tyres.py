@@ -149,6 +149,7 @@ def test_one_scene_is_found_again_and_differs_from_the_instant():
     assert found.reconstruction.answers == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["closing_speed", "energy_loss"])
 def test_a_plastic_contact_is_found_with_a_restitution_of_0(kind):
     end = col.eccentric(A, B, 0.0, **CONTACT, **WHEELS)
@@ -175,6 +176,7 @@ def test_a_barrier_and_a_pinned_body():
     assert begins_so(found, end) < 1e-9
 
 
+@pytest.mark.slow
 def test_a_batch_has_the_answers_of_its_cases():
     durations = np.array([0.05, 0.1, 0.14])
     tyres = Tyres(np.array([0.4, 0.6, 0.8]), 1.0, 2.7, 1.5)

@@ -181,6 +181,7 @@ def test_without_angles_the_bits_are_those_of_python(which):
     assert (wanted["status"] == col.Status.OK).sum() > 100
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "impact",
     [

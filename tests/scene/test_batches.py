@@ -144,6 +144,7 @@ def test_all_places_of_rest_are_followed_at_once_and_are_those_of_each_alone(
         assert calls == [60]
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize(
     ("seed", "duration", "cases"),

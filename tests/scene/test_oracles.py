@@ -183,6 +183,7 @@ def test_overlaps_are_those_of_polygons_cut_edge_by_edge() -> None:
     assert compared > 50
 
 
+@pytest.mark.slow
 def test_overlaps_are_those_of_shapely() -> None:
     """Of outlines that are no rectangles too: area, centre and how far apart they are."""
     shapely = pytest.importorskip("shapely", reason="shapely is not installed (extra: test)")

@@ -89,6 +89,7 @@ def test_a_contact_that_comes_again_has_its_first_impact() -> None:
     assert columns["impacts[2].b.delta_v_forward"] == [run.impacts[2].b.delta_v_forward]
 
 
+@pytest.mark.slow
 def test_an_impact_by_its_number_is_that_of_the_scene_as_written_or_nothing() -> None:
     path = "impacts[0].b.delta_v"
     speeds = np.array([14.0, 20.0, 24.0])

@@ -152,6 +152,7 @@ SLOWED: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("touch", [True, False])
 @pytest.mark.parametrize("slope", [(-0.12, 0.0), (0.03, 0.06)])
 @pytest.mark.parametrize(("one", "other"), [*itertools.combinations_with_replacement(SLOWED, 2)])

@@ -324,6 +324,7 @@ def scene(number):
     return (vx, vy, w, 0.0, 0.0, float(generator.normal())), tyres, surfaces, slope
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "number", [*range(12), *(pytest.param(i, marks=pytest.mark.slow) for i in range(12, 300))]
 )

@@ -164,6 +164,7 @@ def test_progress_towards_a_tolerance():
     assert [done for done, _ in seen] == sorted(done for done, _ in seen)
 
 
+@pytest.mark.slow
 @every_method
 @pytest.mark.parametrize("threads", [1, 2])
 @pytest.mark.parametrize("where", ["progress", "model"])

@@ -192,6 +192,7 @@ CRASH = {
 }
 
 
+@pytest.mark.slow
 def test_a_crash_with_tyres_as_the_finer_model_alone():
     """Means, deviations and the ends of the 95 % range, within their standard errors and far closer
     than the model without tyres.
