@@ -112,9 +112,9 @@ class MomentumCase(_Case):
         names = ("mass", "speed", "delta_v", "pdof", "heading")
         return {
             label: VehicleFigures(
-                f"vehicle {label.upper()}",
-                *(getattr(self.answer, f"{name}_{label}") for name in names),
-                isinstance((self.answer.given or {}).get(f"speed_{label}"), str),
+                who=f"vehicle {label.upper()}",
+                **{name: getattr(self.answer, f"{name}_{label}") for name in names},
+                speed_has_unit=isinstance((self.answer.given or {}).get(f"speed_{label}"), str),
             )
             for label in "ab"
         }
@@ -158,7 +158,9 @@ class ImpactCase(_Case):
                 side.delta_v,
                 side.pdof,
                 side.before.heading,
-                any(name in (side.before.given or {}) for name in ("speed", "vx", "vy")),
+                speed_has_unit=any(
+                    name in (side.before.given or {}) for name in ("speed", "vx", "vy")
+                ),
             )
             for label, who, side in self.sides
         }

@@ -7,7 +7,6 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from numbers import Real
 from operator import attrgetter
 from typing import Any, get_args
 
@@ -71,7 +70,7 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
         yield f"its reconstruction was given {strange[0]!r}, which {origin.method} does not take"
         return
     if not all(
-        isinstance(value, Real) and value >= least
+        isinstance(value, float | int) and value >= least
         for value, least in ((origin.condition, 0.0), (origin.answers, 1))
     ):
         yield (

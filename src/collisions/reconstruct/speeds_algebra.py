@@ -552,15 +552,20 @@ class Scene:
         return larger(*offs)
 
     def _condition(self, by_a: Sequence[Any], by_b: Sequence[Any], closing: Any) -> Any:
-        """Condition: the factor by which relative input errors grow in the speeds, taken relative
-        to the closing speed.
+        """Condition: the factor by which relative input errors grow in the speeds that are sought,
+        taken relative to the closing speed.
         """
         (j11, j21), (j12, j22) = by_a, by_b
         d1, d2 = (
             (2.0 if kind in self.squares else 1.0) * abs(target)
             for kind, target in self.targets.items()
         )
-        moved = np.maximum(abs(d1 * j22) + abs(d2 * j12), abs(d2 * j11) + abs(d1 * j21))
+        by_speed = {
+            "speed_a": abs(d1 * j22) + abs(d2 * j12),
+            "speed_b": abs(d2 * j11) + abs(d1 * j21),
+        }
+        sought = [one for name, one in by_speed.items() if name not in self.targets]
+        moved = np.maximum.reduce(np.broadcast_arrays(*sought))
         return moved / abs((j11 * j22 - j12 * j21) * closing)
 
     def _closing_if_reproduced(self, speed_a: Any, speed_b: Any, slopes: Sequence[Any]) -> Any:

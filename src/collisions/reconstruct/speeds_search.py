@@ -28,7 +28,14 @@ from .speeds_components import (
     friction_shown,
     together,
 )
-from .speeds_tyres import Attempt, in_balance, other_starts, speeds_with_tyres, starts_on_line
+from .speeds_tyres import (
+    Attempt,
+    in_balance,
+    other_starts,
+    speeds_beside_an_energy,
+    speeds_with_tyres,
+    starts_on_line,
+)
 
 
 class _Looked(NamedTuple):
@@ -308,7 +315,9 @@ class Search:
             ended = scene.of_way(of_starts[0]).ended
         begins = np.stack([np.stack(np.broadcast_arrays(*start)) for start in starts], axis=1)
         more = self._balanced and len(self.known) > 2
-        answer = speeds_with_tyres(
+        beside_energy = more and knows_energy and not knows_speed
+        look = speeds_beside_an_energy if beside_energy else speeds_with_tyres
+        answer = look(
             inputs,
             directions,
             (begins[0], begins[1]),
@@ -330,11 +339,6 @@ class Search:
             fits = fits & so
         if answer.misfit is not None:
             misfit = answer.misfit
-            if more and knows_energy and isinstance(scene, ComponentScene):
-                # A root that sticks may lose another energy than is known.
-                own = [scene.of_way(root.way).misfit for root, _ in found]
-                own += [0.0] * (len(starts) - len(found))
-                misfit = np.maximum(misfit, np.stack(np.broadcast_arrays(*own, misfit[0])[:-1]))
             fits = fits & (misfit <= CONTRADICTION)
             fits, least = _best_of(misfit, fits)
             for i in range(len(found)):

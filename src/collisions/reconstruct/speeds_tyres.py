@@ -31,7 +31,7 @@ from .common import Cases
 from .grid_roots import Narrowing, roots_on_grid
 from .lasting import misses_of_impacts, settle, slopes_at
 from .speeds_algebra import EITHER, FREE, HELD, ROOT_TOL, Root, Scene
-from .speeds_components import ComponentScene, by_way
+from .speeds_components import COMPONENTS, ComponentScene, by_way
 
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
 # it has not settled; and how often it is worked out. Nearly all cases need fewer than 20.
@@ -439,9 +439,15 @@ def speeds_with_tyres(
         ]
 
     by_name = {name: value for name, value in known.items() if name not in _STANDS_FOR_NONE}
-    exact = [not name.startswith(("delta_v_forward", "delta_v_left")) for name in by_name]
+    exact = [name not in COMPONENTS for name in by_name]
     sought = [at for at, label in enumerate("ab") if f"speed_{label}" not in known]
-    weights = [_as_speed(name, value, known, inputs) / sizes[0] for name, value in by_name.items()]
+    # By how much of the size the miss of each changes with the whole of it.
+    weights = [
+        (_part_of_impulse(inputs, name) if name in COMPONENTS else 1.0)
+        * _as_speed(name, value, known, inputs)
+        / sizes[0]
+        for name, value in by_name.items()
+    ]
 
     missed = misses_of_impacts(inputs_at, off)
     rows = slopes_at(missed, start, sizes)
@@ -484,6 +490,33 @@ def speeds_with_tyres(
     both = inputs.a.mass + inputs.b.mass
     condition = _condition(slopes_at(missed, values, sizes), exact, weights, sought, closing)
     return Found(values[0], values[1], settled, closing, sticks, condition, left * both / impulse)
+
+
+def speeds_beside_an_energy(
+    inputs: Inputs,
+    directions: Mapping[str, tuple[Any, Any]],
+    instant: tuple[Any, Any],
+    known: Mapping[str, Any],
+    shape: tuple[int, ...],
+    kept: int,
+) -> Found:
+    """As ``speeds_with_tyres``, from components and an energy: as without tyres, one that slid
+    loses that energy, and of one that stuck the components alone tell the speeds, while the energy
+    is a reading that its loss is held against.
+    """
+    slid = speeds_with_tyres(inputs, directions, instant, known, shape, kept)
+    parts = {name: value for name, value in known.items() if name in COMPONENTS}
+    stuck = speeds_with_tyres(inputs, directions, instant, parts, shape, kept)
+    *_, answer = _contact(_at_speeds(inputs, directions, (stuck.speed_a, stuck.speed_b)))
+    (name,) = known.keys() - parts.keys() - set(_STANDS_FOR_NONE)
+    energy = _energy(name, known[name], known, inputs)
+    with np.errstate(all="ignore"):
+        # An energy goes as the square of the impulse, of which all misfits are shares.
+        off = 0.5 * abs(energy / answer.energy_loss - 1.0)
+    stuck = stuck._replace(misfit=np.fmax(0.0 if stuck.misfit is None else stuck.misfit, off))
+    there = stuck.settled & stuck.sticks
+    slid = slid._replace(settled=slid.settled & ~slid.sticks)
+    return Found(*(np.where(there, one, other) for one, other in zip(stuck, slid, strict=True)))
 
 
 def _met_together(rows: Sequence[Sequence[Any]], exact: Sequence[bool]) -> list[list[Any]]:
@@ -641,18 +674,12 @@ def _contact(inputs: Inputs) -> tuple[Any, Any, Any]:
 
 
 def _as_speed(name: str, value: Any, known: Mapping[str, Any], inputs: Inputs) -> Any:
-    """What the miss of a known value changes by, as a speed, where it changes by the whole of
-    itself.
-    """
-    masses = inputs.a.mass, inputs.b.mass
-    if name == "energy_loss":
-        return 0.5 * np.sqrt(2.0 * abs(value) / np.minimum(*masses))
-    if name.startswith(("ees", "max_crush")):
-        other = known[f"{name[:-1]}b"]
-        energy = energy_of_speeds(masses[0], value, masses[1], other)
-        return np.sqrt(2.0 * energy / np.minimum(*masses))
-    if name.startswith(("delta_v_forward", "delta_v_left")):
-        return _part_of_impulse(inputs, name) * abs(value)
+    """What a known value changes by, as a speed, where it changes by the whole of itself."""
+    if name == "energy_loss" or name.startswith(("ees", "max_crush")):
+        light = np.minimum(inputs.a.mass, inputs.b.mass)
+        # An energy goes as the square of an EES or of a speed of maximum crush.
+        power = 0.5 if name == "energy_loss" else 1.0
+        return power * np.sqrt(2.0 * _energy(name, value, known, inputs) / light)
     return abs(value)
 
 
@@ -680,18 +707,23 @@ def _missed(
     if name in _STANDS_FOR_NONE:
         return []
     lost = answer.energy_loss
-    if name.startswith("ees"):
-        value = energy_of_speeds(tried.a.mass, value, tried.b.mass, known["ees_b"])
-    elif name.startswith("max_crush"):
-        value = energy_of_speeds(tried.a.mass, value, tried.b.mass, known["max_crush_speed_b"])
+    if name.startswith("max_crush"):
         absorbed = 0.5 * answer.closing_speed * answer.compression_impulse
         # An incomplete contact absorbs until it ends.
         lost = np.where(tried.restitution < 0.0, answer.energy_loss_normal, absorbed)
     # Energies as the speeds that they stand for.
+    energy = _energy(name, value, known, tried)
     light = np.minimum(tried.a.mass, tried.b.mass)
-    return [np.sqrt(2.0 * np.maximum(lost, 0.0) / light) - np.sqrt(2.0 * value / light)]
+    return [np.sqrt(2.0 * np.maximum(lost, 0.0) / light) - np.sqrt(2.0 * energy / light)]
 
 
 def _part_of_impulse(inputs: Inputs, name: str) -> Any:
     """What makes a component of delta-V a part of the impulse, as a speed of both together."""
     return getattr(inputs, name[-1]).mass / (inputs.a.mass + inputs.b.mass)
+
+
+def _energy(name: str, value: Any, known: Mapping[str, Any], inputs: Inputs) -> Any:
+    """The energy that is known, or that known EES or speeds of maximum crush stand for."""
+    if name == "energy_loss":
+        return abs(value)
+    return energy_of_speeds(inputs.a.mass, value, inputs.b.mass, known[f"{name[:-1]}b"])
