@@ -219,7 +219,7 @@ def test_all_that_was_known_stands_on_the_page_with_its_number():
     assert shown["delta-V to the left of A, as its recorder reads it"].startswith("3.355 mph")
     assert shown["recorder of A, ahead of the centre of mass"].startswith("1.640 ft")
     assert shown["duration of the contact, in which recorders turn"] == "0.09 s, given as 90 ms"
-    assert shown["in axes that turn with the car"] == "stated"
+    assert shown["axes that turn with the car"] == "stated"
     assert not any(what.startswith("place of the recorder") for what in shown)
     assert not any("kept only" in value for value in shown.values())
     assert report(replay(page), **options(page)) == page

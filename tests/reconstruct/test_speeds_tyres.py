@@ -1009,3 +1009,42 @@ def test_tyres_that_hold_nothing_change_nothing(names, stuck):
             assert other.reconstruction.condition == pytest.approx(
                 one.reconstruction.condition, rel=1e-3
             )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tyres", [False, True], ids=["instant", "tyres"])
+def test_beside_an_energy_one_that_slid_is_not_said_to_have_stuck_in_silence(tyres):
+    """With its own friction and ordinary errors of the recorder and of the energy: where one that
+    stuck fits too, the call is ambiguous, with both in its solutions.
+    """
+    rng, slid, open_ = random.Random(77), 0, 0
+    while slid + open_ < (30 if tyres else 200):
+        (a, b), contact, wheels = drawn_apart(rng)
+        more = wheels if tyres else {}
+        try:
+            truth = col.eccentric(a, b, 0.2, **contact, **more)
+        except (col.NoImpactError, col.NoSolutionError):
+            continue
+        if truth.regime != "sliding":
+            continue
+        known = {
+            name: read(truth, name) * rng.gauss(1.0, 0.03)
+            for name in ("delta_v_forward_a", "delta_v_left_a", "energy_loss")
+        }
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            try:
+                answers = reconstruct.speeds(
+                    a, b, course_a=a.course, course_b=b.course, restitution=0.2, **known, **contact,
+                    **more,
+                )  # fmt: skip
+            except col.AmbiguousSolutionError as error:
+                open_ += 1
+                assert {one.regime for one in error.solutions} <= {"sticking", "sliding"}
+                continue
+            except col.NoSolutionError:
+                continue
+        slid += 1
+        regimes = {one.regime for one in answers}
+        assert "sliding" in regimes or caught, (a, b, contact, known)
+    assert slid > open_

@@ -20,8 +20,10 @@ from ..impact.reconstruction import (
     number_of_text,
 )
 from ..kernels.central import shares
+from ..kernels.reverse import energy_of_speeds
 from ..quantities.tables import as_sentence
 from ..reconstruct.found_again import components_apart
+from ..reconstruct.speeds_components import COMPONENTS
 from .expressions import HALF, ONE, ZERO, Expression, root
 from .models import Lever, impulse_in_scene_axes
 from .page import Page
@@ -135,13 +137,33 @@ def state_before(page: Page, s: Symbols) -> None:
         _speeds(page, s, origin.known)
     for sentence in s.impact.statements:
         page.say(as_sentence(sentence))
-    page.say("What follows is the same impact solved forwards; it must reproduce what was known.")
+    readings = [
+        (one.number, one.answer)
+        for one in evidence_of(s.impact)
+        if one.name in (*COMPONENTS, "energy_loss")
+    ]
+    readings += [(_known_energy(s.impact), s.loss.value)] if "ees_a" in origin.known else []
+    agree = all(
+        given is None
+        or found is None
+        or math.isclose(given, found, rel_tol=COMES_OUT, abs_tol=COMES_OUT)
+        for given, found in readings
+    )
+    as_well = "" if agree else ", as well as the readings agree with each other"
+    page.say(
+        "What follows is the same impact solved forwards; it must reproduce what was known"
+        f"{as_well}."
+    )
     if any(name.startswith("recorder_") for name in origin.known):
         page.say(
             "Delta-V is there that of the centre of mass in the axes of the heading given. "
             "Readings of a recorder away from it, or in axes that turn, differ from that, and are "
             "not worked out again."
         )
+        for label in "ab":
+            read = any(name in COMPONENTS and name[-1] == label for name in origin.known)
+            if read and f"recorder_{label}" not in origin.known:
+                page.say(f"The recorder of {label.upper()} is taken at the centre of mass.")
 
 
 def what_was_known(page: Page, impact: Impact) -> None:
@@ -425,7 +447,7 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
     if s.impact.inputs.tyres:
         page.say(
             "Then they were refined, by Newton's method, until the contact with its tyres, solved "
-            "forwards, has what was known; delta-V is that of contact and tyres."
+            "forwards, meets what was known so; delta-V is that of contact and tyres."
         )
     for body in s.bodies:
         label = body.label
@@ -451,8 +473,17 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
         ("energy_loss", "energy lost"),
         ("ees_a", "energy of both EES, the one lost"),
     ):
-        if name in known:
+        if name not in known:
+            continue
+        given = _known_energy(s.impact)
+        if math.isclose(given, s.loss.value, rel_tol=COMES_OUT):
             page.say(f"The {what}, known: {page.shown(s.loss)}.")
+        else:
+            page.say(
+                f"The {what.partition(',')[0]} was given as {page.number(given, 'energy')}. The "
+                "contact stuck, so that the components of delta-V alone tell its speeds, and it "
+                f"loses {page.shown(s.loss)}."
+            )
     if "max_crush_speed_a" in known:
         absorbed = Symbol("E_c", s.impact.energy_absorbed, "energy")
         page.equation(
@@ -460,3 +491,14 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
             absorbed,
             HALF * s.closing * s.compression,
         )
+
+
+def _known_energy(impact: Impact) -> float:
+    """The energy that ``speeds`` was given, or that both EES stand for."""
+    origin = impact.reconstruction
+    assert origin is not None
+    given = origin.given
+    if "ees_a" not in given:
+        return float(given["energy_loss"])
+    masses = impact.inputs.a.mass, impact.inputs.b.mass
+    return float(energy_of_speeds(masses[0], given["ees_a"], masses[1], given["ees_b"]))

@@ -134,8 +134,8 @@ KNOWN = {
     "contact_duration": Known(
         "duration of the contact with its tyres", "time", "reconstruction.duration", _CENTRAL
     ),
-    "recorder_axes_turning": Known("in axes that turn with the car", "angle", "", ("speeds",)),
-    "recorder_axes_fixed": Known("in axes of the heading, which stay", "angle", "", ("speeds",)),
+    "recorder_axes_turning": Known("axes that turn with the car", "angle", "", ("speeds",)),
+    "recorder_axes_fixed": Known("axes of the heading, which stay", "angle", "", ("speeds",)),
     "recorder_duration": Known(
         "duration of the contact, in which recorders turn", "time", "", ("speeds",)
     ),
@@ -175,7 +175,8 @@ for _label in "ab":
             f"delta-V to the left{_of}", "speed", f"{_label}.delta_v_left", _speeds
         ),
         f"recorder_{_label}": Known(
-            f"place of the recorder{_of}, from which they are carried over to the centre of mass",
+            f"place of the recorder{_of}, from which readings are carried over to the centre of "
+            "mass",
             "length",
             "",
             _speeds,

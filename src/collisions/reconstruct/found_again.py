@@ -265,7 +265,7 @@ def _recorders(given: Mapping[str, float], names: Collection[str]) -> dict[str, 
     found: dict[str, Any] = {
         name: (given[f"recorder_forward_{name[-1]}"], given[f"recorder_left_{name[-1]}"])
         for name in ("recorder_a", "recorder_b")
-        if f"recorder_forward_{name[-1]}" in given
+        if name in names and f"recorder_forward_{name[-1]}" in given
     }
     axes = [name.removeprefix("recorder_axes_") for name in names if "_axes_" in name]
     return found | ({"axes": axes[0]} if axes else {})

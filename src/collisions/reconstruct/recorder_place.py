@@ -51,16 +51,19 @@ _LOOKS, _FOUND, _ONE = 10, 1e-7, 1e-5
 
 
 class Recorders(NamedTuple):
-    """Numbers of the recorders by name, the vehicles they are of, and whether their axes turn."""
+    """Numbers of the recorders by name, the vehicles they are of, whether their axes turn, and of
+    which the place was given: others are taken at the centre of mass.
+    """
 
     numbers: dict[str, Any]
     labels: str
     turning: bool
+    placed: str
 
     @property
     def names(self) -> tuple[str, ...]:
         """Their names among what was known."""
-        places = [f"recorder_{label}" for label in self.labels]
+        places = [f"recorder_{label}" for label in self.placed]
         return (*places, "recorder_axes_turning" if self.turning else "recorder_axes_fixed")
 
 
@@ -118,7 +121,7 @@ def read_recorders(
             continue
         names = f"{name}[0]", f"{name}[1]"
         numbers |= zip(names, read_place(reader, (place[0], place[1]), names), strict=True)
-    return Recorders(numbers, with_components, turning)
+    return Recorders(numbers, with_components, turning, "".join(sorted(given)))
 
 
 class Turning(NamedTuple):

@@ -114,6 +114,8 @@ def answers_of(
                 sticks = any(np.any(one.ambiguous & one.sticks) for one in scene.ways or [scene])
                 if np.any(scene.both_ways) and not sticks:
                     raise _slid_either_way(scene, known, say, ways.one_way)
+                if scene.energy is not None:
+                    raise _either_beside_an_energy(scene, known, say, ways.again)
                 raise _stuck_or_slid(scene, known, say, ways.again)
             if inputs.tyres and status == Status.CONTRADICTORY:
                 raise error_of(
@@ -358,6 +360,33 @@ def _stuck_or_slid(
         "`|. Both answers are in .solutions|`",
         code=Status.AMBIGUOUS.label,
         ratio=abs(ratios[0]),
+        solutions=(*stuck, *slid),
+    )
+
+
+def _either_beside_an_energy(
+    scene: ComponentScene,
+    known: dict[str, Any],
+    say: Sentences,
+    again: Callable[..., tuple[Impact, ...]],
+) -> AmbiguousSolutionError:
+    """The error for a single case in which components and an energy fit one that stuck and one that
+    slid.
+    """
+    stuck, slid = (again(regime=regime) for regime in ("sticking", "sliding"))
+    one, other = (
+        ", or ".join(
+            _alone([_along(impact, label, scene) for label in "ab"], say) for impact in impacts
+        )
+        for impacts in (stuck, slid)
+    )
+    return AmbiguousSolutionError(
+        f"{' and '.join(known)} do not tell whether the contact stuck or slid with "
+        f"`friction={float(scene.bound):.4g}`: both fit within {ACCURACY:.0%} of the impulse, the "
+        f"stated accuracy of recorders. If it stuck, {one}; if it slid, {other}. Write "
+        "`regime='sticking'` or `regime='sliding'` if you know which, or give one of the speeds"
+        "`|. Both answers are in .solutions|`",
+        code=Status.AMBIGUOUS.label,
         solutions=(*stuck, *slid),
     )
 

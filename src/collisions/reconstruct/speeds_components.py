@@ -58,6 +58,10 @@ MAY_SLIDE = INTER_VEHICLE_FRICTION.low
 # Speeds of a contact that stuck and of one that slid that differ by no more, of the closing speed,
 # are one answer.
 _ONE_ANSWER = 1e-3
+# Of the impulse: what misses its known values by no more, as by their last digits, meets them.
+_EXACT = 1e-4
+# Of an energy, which goes as the square of an impulse: how much more it may have been.
+MOST_ENERGY = 1.0 + 2.0 * ACCURACY
 # Beside a known speed, readings within their accuracy lead from the one to the other nearly always.
 # What lies beyond those with which a contact sticks by more, of the closing speed, is another one.
 _BEYOND = 0.1
@@ -77,6 +81,21 @@ _SHARE = 1e-5
 RATIO_SHOWN = "Write `friction=inf, slid='bound'`, which takes the ratio that the components show"
 # What ``roots`` finds of every case.
 _FOUND = ("misfit", "ended", "ratio", "may_slide", "leaves_slip", "both_ways")
+
+
+def fit_either(
+    misfits: Sequence[Any], stuck: Sequence[Any], slid: Sequence[Sequence[Any]], closing: Any
+) -> Any:
+    """Whether a contact that stuck and one that slid, which miss what is known by these shares of
+    the impulse, both fit within the accuracy of recorders, neither exactly, and speeds of the
+    latter, of which there may be several pairs, are far from those of the former.
+    """
+    fit = np.maximum(*misfits) <= ACCURACY
+    exact = np.minimum(*misfits) <= _EXACT
+    apart = [abs(one - own) for pair in slid for one, own in zip(pair, stuck, strict=True)]
+    far = np.fmax.reduce(np.broadcast_arrays(*apart)) > _BEYOND * closing
+    either: Any = fit & ~exact & far
+    return either
 
 
 class ComponentScene(Scene):
@@ -131,6 +150,8 @@ class ComponentScene(Scene):
         self.both_ways: Any = np.zeros((), dtype=bool)
         # Where a contact that sticks fits.
         self.sticks: Any = np.zeros((), dtype=bool)
+        # Beside an energy: where one that stuck and one that slid fit with different speeds.
+        self.either: Any = np.zeros((), dtype=bool)
         # Where the friction is the ratio that the components show.
         self.shows_friction: Any = np.zeros((), dtype=bool)
         # The friction of a contact that may have stuck, where going forwards it must have slid.
@@ -185,7 +206,11 @@ class ComponentScene(Scene):
         sticks, backwards = self._sticks(regimes, tried), np.zeros((), dtype=bool)
         if self.energy is not None:
             sliding = [self._end(regime) for regime in regimes if not isinstance(regime, str)]
-            tried = [self._losing(*one) for one in tried] + sliding
+            tried = [self._losing(*one) for one in tried]
+            if self.rule == FRICTION and self.stated is None and not self.held:
+                # With tyres those are compared in which they have settled.
+                self.either = self._either(regimes, tried, sliding)
+            tried += sliding
             open_slip = np.full((), np.inf)
         elif self.slid:
             tried, edges, sticks, backwards = self._bounded(
@@ -205,7 +230,7 @@ class ComponentScene(Scene):
         if self.rule == FRICTION:
             self._weigh(sticks, open_slip <= ACCURACY, found, best)
         self.both_ways = self.both_ways & self.leaves_slip
-        self.ambiguous = self.ambiguous | self.both_ways
+        self.ambiguous = self.ambiguous | self.both_ways | self.either
         return [
             root._replace(closing=np.where(here, root.closing, np.nan))
             for root, here in zip(found, best, strict=True)
@@ -527,14 +552,19 @@ class ComponentScene(Scene):
             places = slip, slip + further
             slip = self._slip_that_loses(ratio, closing, places, self.energy)
             within = (slip - places[0]) / further
-            speeds = self.speeds_at(closing, slip)
+            # With less energy than the least of this friction it is the end of the family that is
+            # nearest. At a ratio that components show that is the one that stuck.
+            least = (within < 0.0) & np.isfinite(self.bound) & ~self.shows_friction
+            speeds = self.speeds_at(closing, np.where(least, places[0], slip))
+            off = 0.5 * abs(self.energy / self.observe(ratio, *speeds).energy_loss - 1.0)
+            misfit = np.where(least, np.maximum(misfit, off), misfit)
             moved = self._moved_beside_an_energy(ratio, places)
         # However far the friction is from the ratio, the case has a bound; recorders must agree.
         agree = self._own_misfit() <= self.most
         usable = agree & np.isfinite(misfit) & (abs(ratio) > 0.0)
         usable = usable & pushed(self.observe(LAW, *speeds))
         if self.energy is not None:
-            usable = usable & (within >= 0.0) & (misfit <= self.most)
+            usable = usable & (least | (within >= 0.0)) & (misfit <= self.most)
         root = Root(*speeds, self.e, moved / abs(closing), np.where(usable, closing, np.nan))
         return root, np.where(usable, misfit, np.inf), np.full((), np.inf)
 
@@ -606,6 +636,33 @@ class ComponentScene(Scene):
         fits = whole <= self.most
         root = root._replace(closing=np.where(fits, root.closing, np.nan))
         return root, np.where(fits, whole, np.inf), left
+
+    def _either(
+        self,
+        regimes: Sequence[Any],
+        stuck: Sequence[tuple[Root, Any, Any]],
+        sliding: Sequence[tuple[Root, Any, Any]],
+    ) -> Any:
+        """Whether one that stuck and one that slid at the friction given both fit the components
+        and the energy within the accuracy of recorders, neither exactly, and the latter reaches
+        further within it.
+
+        At the ratio that components show one that slid is no other: it begins at the one that
+        stuck, and their energy says how far it slid.
+        """
+        assert self.energy is not None
+        with_more = copy(self)
+        with_more.energy = MOST_ENERGY * self.energy
+        either: Any = np.zeros((), dtype=bool)
+        ways = [one for one in regimes if one is not STICK]
+        for regime, (own, own_misfit, _) in zip(regimes, stuck, strict=False):
+            if regime is not STICK:
+                continue
+            for way, (root, misfit, _) in zip(ways, sliding, strict=True):
+                reached = with_more._end(way)[0]
+                slid = root[:2], reached[:2]
+                either = either | fit_either((own_misfit, misfit), own[:2], slid, own.closing)
+        return either & np.isfinite(self.bound) & ~self.shows_friction
 
     def loses_more(self) -> Any:
         """Whether the known energy is more than a contact that stuck loses."""

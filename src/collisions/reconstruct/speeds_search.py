@@ -325,6 +325,8 @@ class Search:
             (len(starts), *shape),
             len(found) if more else 0,
         )
+        if beside_energy and self.regime is None:
+            scene.ambiguous = scene.ambiguous | answer.either
         fits = answer.settled
         rooted = np.any([there for _, there in found] or [False], axis=0)
         if self._balanced and not (more or knows_speed):

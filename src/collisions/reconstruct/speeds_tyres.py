@@ -31,7 +31,7 @@ from .common import Cases
 from .grid_roots import Narrowing, roots_on_grid
 from .lasting import misses_of_impacts, settle, slopes_at
 from .speeds_algebra import EITHER, FREE, HELD, ROOT_TOL, Root, Scene
-from .speeds_components import COMPONENTS, ComponentScene, by_way
+from .speeds_components import COMPONENTS, MOST_ENERGY, ComponentScene, by_way, fit_either
 
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
 # it has not settled; and how often it is worked out. Nearly all cases need fewer than 20.
@@ -67,8 +67,9 @@ _MOST_STARTS = 16
 
 class Found(NamedTuple):
     """Speeds of A and B along their courses, where they have what was known, the closing speed,
-    where the contact sticks, the condition, and by how much of the impulse the components are
-    missed that are more than is needed, None where none is.
+    where the contact sticks, the condition, by how much of the impulse the components are missed
+    that are more than is needed, None where none is, and in which cases one that stuck and one that
+    slid fit either way.
     """
 
     speed_a: Any
@@ -78,6 +79,7 @@ class Found(NamedTuple):
     sticks: Any
     condition: Any
     misfit: Any = None
+    either: Any = False
 
 
 class Attempt(NamedTuple):
@@ -516,7 +518,29 @@ def speeds_beside_an_energy(
     stuck = stuck._replace(misfit=np.fmax(0.0 if stuck.misfit is None else stuck.misfit, off))
     there = stuck.settled & stuck.sticks
     slid = slid._replace(settled=slid.settled & ~slid.sticks)
-    return Found(*(np.where(there, one, other) for one, other in zip(stuck, slid, strict=True)))
+    both = zip(stuck[:-1], slid[:-1], strict=True)
+    merged = Found(*(np.where(there, one, other) for one, other in both))
+    more = MOST_ENERGY if name == "energy_loss" else math.sqrt(MOST_ENERGY)
+    lost = {one: more * np.asarray(value) for one, value in known.items() if one not in parts}
+    start = slid.speed_a, slid.speed_b
+    reached = speeds_with_tyres(inputs, directions, start, {**known, **lost}, shape)
+    # The best of each. One that lost more fits too where none loses as little.
+    own, *own_speeds, closing = _with_least(there, stuck, stuck.closing)
+    other, *speeds = _with_least(slid.settled, slid)
+    more_misfit, *more_speeds = _with_least(reached.settled & ~reached.sticks, reached)
+    misfits = own, np.fmin(other, more_misfit)
+    either = fit_either(misfits, own_speeds, (speeds, more_speeds), closing)
+    return merged._replace(either=either)
+
+
+def _with_least(there: Any, found: Found, *more: Any) -> list[Any]:
+    """Of several starts of a case the least misfit of those that are there, infinite for none, and
+    the speeds and what ``more`` is asked for where it is, NaN for none.
+    """
+    misfit = np.where(there & np.isfinite(found.misfit), found.misfit, np.inf)
+    at = np.argmin(misfit, axis=0)[np.newaxis]
+    values = [np.where(there, one, np.nan) for one in (found.speed_a, found.speed_b, *more)]
+    return [np.take_along_axis(one, at, axis=0)[0] for one in (misfit, *values)]
 
 
 def _met_together(rows: Sequence[Sequence[Any]], exact: Sequence[bool]) -> list[list[Any]]:
