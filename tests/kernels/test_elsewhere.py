@@ -277,6 +277,18 @@ def test_friction_from_zero_on_has_the_derivative_of_a_slip_that_turns_round(jax
         assert slope == pytest.approx(difference, rel=1e-3)
 
 
+@pytest.mark.parametrize("law", ["brach", "kudlich-slibar", "stronge"])
+def test_without_friction_the_energy_lost_has_its_derivative(jax, law):
+    a = Body(1500.0, 2400.0, 13.9, 0.0, 0.0, -2.0, 0.4)
+    b = Body(1200.0, 1700.0, 0.0, 11.1, 0.0, 0.8, -1.2)
+
+    def lost(friction):
+        contact = Contact(0.1, (1.0, 0.0), friction, (0.0, 0.0))
+        return eccentric(Problem(contact, a, b), "friction", law).energy_loss
+
+    assert float(jax.grad(lost)(0.0)) == pytest.approx((lost(1e-6) - lost(0.0)) / 1e-6, rel=1e-5)
+
+
 def test_the_extra_installs_what_is_tried_here():
     """And the page names it."""
     project = PAGE.parents[1] / "pyproject.toml"

@@ -471,3 +471,27 @@ def test_a_motion_before_that_was_not_found_is_not_said_to_be_none():
     assert said.startswith("no motion before was found")
     assert "is missed" in said
     assert "reconstruct.posterior" in said
+
+
+@pytest.mark.parametrize("kind", ["restitution", "closing_speed", "energy_loss"])
+@pytest.mark.parametrize(
+    ("law", "friction"), [("brach", 0.05), ("kudlich-slibar", 0.05), ("kudlich-slibar", 0.8)]
+)
+def test_tyres_that_hold_nothing_leave_the_condition(kind, law, friction):
+    """Of one that stuck as of one that slid."""
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.0, y=0.0, vx=14.0, heading=0.1)
+    b = col.Vehicle(mass=1300, yaw_inertia=2000, x=2.0, y=0.8, vx=2.0, vy=11.0, heading=1.4)
+    contact = {"normal": 0.0, "point": (0.0, 0.4), "friction": friction, "law": law}
+    truth = col.eccentric(a, b, 0.1, **contact)
+    assert truth.regime == ("sticking" if friction > 0.5 else "sliding")
+    nothing = Tyres(1e-9, 0.0, 2.7, 1.5)
+    known = {kind: getattr(truth, kind)}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        one, other = (
+            reconstruct.planar(
+                truth.a.after, truth.b.after, regime=truth.regime, **known, **contact, **more
+            )
+            for more in ({}, {"duration": 0.1, "tyres_a": nothing})
+        )
+    assert other.reconstruction.condition == pytest.approx(one.reconstruction.condition, rel=1e-6)

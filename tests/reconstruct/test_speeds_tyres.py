@@ -1017,7 +1017,7 @@ def test_beside_an_energy_one_that_slid_is_not_said_to_have_stuck_in_silence(tyr
     """With its own friction and ordinary errors of the recorder and of the energy: where one that
     stuck fits too, the call is ambiguous, with both in its solutions.
     """
-    rng, slid, open_ = random.Random(77), 0, 0
+    rng, slid, open_, both = random.Random(77), 0, 0, set()
     while slid + open_ < (30 if tyres else 200):
         (a, b), contact, wheels = drawn_apart(rng)
         more = wheels if tyres else {}
@@ -1040,7 +1040,7 @@ def test_beside_an_energy_one_that_slid_is_not_said_to_have_stuck_in_silence(tyr
                 )  # fmt: skip
             except col.AmbiguousSolutionError as error:
                 open_ += 1
-                assert {one.regime for one in error.solutions} <= {"sticking", "sliding"}
+                both |= {one.regime for one in error.solutions}
                 continue
             except col.NoSolutionError:
                 continue
@@ -1048,3 +1048,4 @@ def test_beside_an_energy_one_that_slid_is_not_said_to_have_stuck_in_silence(tyr
         regimes = {one.regime for one in answers}
         assert "sliding" in regimes or caught, (a, b, contact, known)
     assert slid > open_
+    assert both == {"sticking", "sliding"}

@@ -445,9 +445,10 @@ def left_out(
       elastic; with a constant force it would be c T/(2 (1 + e)). At separation 2 (1 - e) c T/pi of
       it is left;
     - the tyre impulse is drag x weight x T times the mean over time of the direction opposite to
-      the motion of the centre of mass. It moves delta-V together with the response of the contact
-      to it, as ``outside_a`` and ``outside_b`` do: restitution still ends the impact with e times
-      the closing speed. In line against a wall, nothing of it is left;
+      the motion of the centre of mass, taken at a few moments, so that it is rough where a vehicle
+      nearly stops or turns back meanwhile. It moves delta-V together with the response of the
+      contact to it, as ``outside_a`` and ``outside_b`` do: restitution still ends the impact with e
+      times the closing speed. In line against a wall, nothing of it is left;
     - for the geometry, positions and angles follow from the displacement and the rotation up to any
       moment, before that of the impact or after it; the contact point moves with the mean of the
       two places that met, the normal turns with the mean of the rotations; with a fixed body the

@@ -10,7 +10,7 @@ from functools import cache
 from math import inf
 from typing import Any, NamedTuple
 
-from .elementwise import NOT_NEGATIVE, RATIO, UNIT_INTERVAL, Domain, safe_divisor, select
+from .elementwise import NOT_NEGATIVE, RATIO, UNIT_INTERVAL, Domain, larger, safe_divisor, select
 
 
 class Passage(NamedTuple):
@@ -345,11 +345,11 @@ def energy_losses(
     loss_n = 0.5 * (1.0 - restitution) * (closing * normal)
     loss_t = 0.0 - 0.5 * tangential * slip_sum
     if impulse_work is not None:
-        # Every term is >= 0: the compression impulse's own work, and friction over the slip left at
-        # the end of compression.
-        loss = (0.5 * (1.0 - restitution) * impulse_work + abs(tangential * slip_change)) / (
-            1.0 + restitution
-        )
+        # Every term is >= 0: the compression impulse's own work, and friction, against which the
+        # slip goes that is left at the end of compression. Written so, it has its derivative where
+        # there is no friction.
+        rubbed = larger(0.0 - tangential * slip_change, 0.0)
+        loss = (0.5 * (1.0 - restitution) * impulse_work + rubbed) / (1.0 + restitution)
         return loss_n, loss_t, loss, False
     loss = loss_n + loss_t
     scale = loss_n + abs(tangential) * (abs(slip_before) + abs(slip_after))

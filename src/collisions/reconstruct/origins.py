@@ -301,6 +301,17 @@ class End:
         """The closing speed, where it or the restitution is known."""
         return self.known if self.kind == "closing_speed" else self.separation / self.known
 
+    def condition_of(self, sticks: Any, e: Any) -> Any:
+        """How far a relative error of what is known in place of the velocities, and of the motions
+        after, grows in those before, for this restitution.
+
+        One that sticks returns the whole velocity times it, so that the slip before is known by it
+        alone.
+        """
+        by_restitution = abs(1.0 + 1.0 / e)
+        along = {"closing_speed": 1.0, "energy_loss": 2.0}.get(self.kind, by_restitution)
+        return np.where(sticks, by_restitution, along)
+
     def _along(self, regime: str, ratio: Any) -> Origin:
         """The origin for a given impulse ratio."""
         resistance = self.resistance(ratio)
@@ -321,12 +332,12 @@ class End:
             )
             normal = impulse / length
             closing = resistance * normal - self.separation
-            e, condition = self.separation / closing, 2.0
+            e = self.separation / closing
         else:
             closing = self._closing()
             normal = (closing + self.separation) / resistance
             e = self.separation / self.known if self.kind == "closing_speed" else self.known
-            condition = 1.0 if self.kind == "closing_speed" else (1.0 + e) / abs(e)
+        condition = self.condition_of(False, e)
         if self.rule == CRITICAL_FRACTION:
             # The slip after is this part of the slip before.
             left = abs(1.0 - self.bound * (1.0 - LAWS[self.law].sticking_slip(e)))
@@ -356,7 +367,7 @@ class End:
             regime,
             *impulse,
             1.0 / inverse,
-            abs(factor),
+            self.condition_of(True, 1.0 / inverse),
             (closing, 0.0 - self.slip * inverse),
             possible,
         )

@@ -558,9 +558,14 @@ def _refined(origin: Origin, end: End, inputs: Inputs, shape: tuple[int, ...]) -
         fits = fits & (e >= -_NO_RESTITUTION)
         e = np.where((e < 0.0) & (e >= -_NO_RESTITUTION), 0.0, e)
     regime: Any = origin.regime
+    condition = origin.condition
     if end.rule == FRICTION:
         how = np.where(answer.sticks, "sticking", "sliding")
         regime = np.where(end.bound == 0.0, "frictionless", how)
+        # Tyres may have turned the regime of the instant.
+        with np.errstate(all="ignore"):
+            condition = end.condition_of(regime == "sticking", e)
+    conditions = np.broadcast_to(condition, fits.shape)
     parts = iter(values)
     still = np.broadcast_to(0.0 * speed, fits.shape)
     one, other = (
@@ -573,6 +578,7 @@ def _refined(origin: Origin, end: End, inputs: Inputs, shape: tuple[int, ...]) -
             regime=regimes[at] if shape else str(regimes[at]),
             motions=(tuple(part[at] for part in one), tuple(part[at] for part in other)),
             restitution=e[at],
+            condition=conditions[at],
             fits=fits[at],
         )
         for at in range(_STARTS + 1)

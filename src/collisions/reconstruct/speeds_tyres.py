@@ -481,11 +481,17 @@ def speeds_with_tyres(
         settled = np.concatenate((np.isfinite(values[0][:kept]), settled[kept:]))
     tried = inputs_at(values)
     closing, sticks, answer = _contact(tried)
-    left = np.sqrt(
-        sum(
-            (one * sizes[0]) ** 2
-            for one, alone in zip(off(tried, answer), exact, strict=True)
-            if not alone
+    # As ``ComponentScene`` has it: of each vehicle, the greater counts.
+    left = np.maximum(
+        *(
+            np.sqrt(
+                sum(
+                    (one * sizes[0]) ** 2
+                    for one, name in zip(off(tried, answer), by_name, strict=True)
+                    if name in COMPONENTS and name[-1] == label
+                )
+            )
+            for label in "ab"
         )
     )
     impulse = np.hypot(answer.normal_impulse, answer.tangential_impulse)
