@@ -1438,6 +1438,7 @@ def test_a_reading_as_a_text_needs_its_unit(study, reading):
     assert solved(f'{text}[{study}]\n[observed]\n"a.delta_v" = "7 m/s +/- 1 m/s"\n') is not bare
 
 
+@pytest.mark.slow
 def test_a_reading_of_a_plain_number_needs_no_unit():
     """A restitution has none, and may be in percent."""
     text = REAR_END.replace('"80 km/h"', '"50 km/h +/- 10 km/h"').replace("0.4", '"0.1 .. 0.5"')

@@ -176,6 +176,7 @@ OBSERVED = '[observed]\n"A.rest.x" = "-0.11 m +/- 0.3 m"\n"B.rest.x" = "8.15 m +
 SOUGHT = ROW.replace('"50 km/h"', '"10 mph .. 90 mph"').replace("= 0.1", '= "0.05 .. 0.3"')
 
 
+@pytest.mark.slow
 def test_points_of_a_mark_are_observed_by_their_paths() -> None:
     """A car that skids straight on, whose front left wheel is 0.75 m from its middle."""
     tyres = "[mover.tyres]\nfriction = 0.7\nlock = 1\nwheelbase = 2.6\ntrack = 1.5\n"
@@ -316,6 +317,7 @@ def test_an_impact_by_its_number_is_that_of_the_file_as_written() -> None:
     assert found.propagation.failed == 0
 
 
+@pytest.mark.slow
 def test_the_command_plays_a_scene(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file, page = tmp_path / "crash.toml", tmp_path / "crash.html"
     file.write_text(ROW, encoding="utf-8")

@@ -32,6 +32,7 @@ def test_each_impact_is_derived_as_it_is_alone() -> None:
         at = found
 
 
+@pytest.mark.slow
 def test_the_ledger_adds_up_as_it_is_printed() -> None:
     run = three_cars()
     page = col.explain(run, units="us", form="text")

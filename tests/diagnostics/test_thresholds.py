@@ -1519,6 +1519,7 @@ def test_a_local_method_is_compared_at_both_ends_of_95_percent(sign):
     assert caught[0].message.fields["differences"]["y"] == pytest.approx(0.2 / 1.017, abs=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cases", [2, 9000])
 @pytest.mark.parametrize("plain", [True, False])
 @pytest.mark.parametrize("kind", [np.float32, np.float64])

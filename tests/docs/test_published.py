@@ -58,6 +58,7 @@ def test_worked_example(case):
     held(comparisons(case))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "way", BACKWARDS, ids=lambda way: f"{way.case} {way.kind[:3]} {way.solve.__name__}"
 )

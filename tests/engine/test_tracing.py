@@ -246,6 +246,7 @@ def scene(size, dtype=np.float64):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 @pytest.mark.parametrize(("rule", "law"), LAW_RULES)
 def test_large_batches_hold_the_answers_of_small_ones(rule, law, dtype):

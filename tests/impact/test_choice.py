@@ -123,6 +123,7 @@ def test_predicted_errors_are_the_errors_made(law):
     assert compared > 300
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.EnergyGainWarning")
 @pytest.mark.parametrize("law", LAWS)
 def test_the_tolerance_holds_and_every_model_is_chosen(law):
@@ -714,6 +715,7 @@ def test_threads_change_nothing():
     assert one.choice == two.choice
 
 
+@pytest.mark.slow
 def test_a_large_batch_takes_no_copies_of_its_arrays():
     """30 arrays of 30 blocks go in and come out; beyond what is kept, scratch of a few blocks, and
     no array of all cases is made.
@@ -752,6 +754,7 @@ def test_two_threads_share_the_scratch_that_a_batch_may_take():
     assert most - kept < 9 * 2**20
 
 
+@pytest.mark.slow
 def test_what_solve_wrote_is_read_in_a_new_process():
     """A record and a pickle of it, with no more than the package imported."""
     a, b = col.Vehicle(mass=1.0, vx=1.0, x=-1.0, y=0.0), col.Vehicle(mass=1.0, x=1.0, y=0.0)

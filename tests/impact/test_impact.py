@@ -473,6 +473,7 @@ ONE_DEGREE = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", ONE_DEGREE)
 @pytest.mark.parametrize(
     "rule",

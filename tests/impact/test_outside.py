@@ -123,6 +123,7 @@ def test_what_parts_them_before_is_refused(law, push):
     assert many.b.outside_x[1] == push
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize(
     "family",
@@ -337,6 +338,7 @@ def test_left_out_hands_the_tyres_over():
     assert many.outside_b[0] == pytest.approx(np.array([-500.0, -1000.0]) * pull, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 def test_explained_and_reported(law):
     rng = random.Random(law)
@@ -635,6 +637,7 @@ def low_speed(law, count, seed, e):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("e", [(0.0, 1.0), (-0.9, 0.0)])
 def test_a_case_by_itself_ends_as_in_a_batch(law, e):

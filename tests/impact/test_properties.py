@@ -313,6 +313,7 @@ def test_energy_is_accounted_for(model: str, constraint: str, law: str, data: An
     assert abs(left - impact.energy_loss) <= allowed
 
 
+@pytest.mark.slow
 @every_law
 @every_model
 @crossed
@@ -365,6 +366,7 @@ def test_restitution_holds_between_the_contact_points(
     assert impact.separation_speed == scene.restitution * impact.closing_speed
 
 
+@pytest.mark.slow
 @every_law
 @every_model
 @crossed
@@ -415,6 +417,7 @@ def test_the_impulse_stays_in_the_friction_cone(
         assert impact.tangential_impulse * left <= 0.0
 
 
+@pytest.mark.slow
 @crossing(PLANAR)
 @crossed
 @given(data=st.data())
@@ -436,6 +439,7 @@ def test_no_energy_is_gained(model: str, constraint: str, data: Any) -> None:
 # --- One scene, described in several ways ---------------------------------------------------------
 
 
+@pytest.mark.slow
 @every_law
 @crossing([pair for pair in MODELS if "pinned" not in pair[1]])
 @crossed
@@ -494,6 +498,7 @@ def turned(scene: Scene, c: float, s: float) -> Scene:
     )
 
 
+@pytest.mark.slow
 @every_law
 @crossing(PLANAR)
 @crossed
@@ -511,6 +516,7 @@ def test_a_quarter_turn_of_the_scene_changes_nothing(
     )
 
 
+@pytest.mark.slow
 @every_law
 @pytest.mark.parametrize(
     "constraint", [pytest.param(name, marks=marks(name)) for name in ("free", "A fixed", "B fixed")]
@@ -538,6 +544,7 @@ def test_any_turn_of_the_scene_changes_nothing(
     )
 
 
+@pytest.mark.slow
 @every_law
 @every_model
 @crossed
@@ -730,6 +737,7 @@ def along_the_normal(data: Any, law: str, value: float) -> Scene:
     return scene
 
 
+@pytest.mark.slow
 @every_law
 @physics
 @given(data=st.data())
@@ -773,6 +781,7 @@ def test_friction_on_a_lever_along_the_normal_turns_the_bodies(law: str, data: A
         )
 
 
+@pytest.mark.slow
 @every_law
 @pytest.mark.parametrize(
     "constraint", [pytest.param(name, marks=marks(name)) for name in ("free", "A fixed", "B fixed")]
@@ -813,6 +822,7 @@ def scene_impulse(impact: col.Impact) -> tuple[float, float]:
     return impact.b.impulse_x, impact.b.impulse_y
 
 
+@pytest.mark.slow
 @every_constraint
 @crossed
 @given(data=st.data())
@@ -859,6 +869,7 @@ def test_brach_sticking_knows_the_normal(constraint: str, data: Any) -> None:
     assert math.hypot(x1 - x2, y1 - y2) > 100 * error
 
 
+@pytest.mark.slow
 @crossing(PLANAR)
 @crossed
 @given(data=st.data())

@@ -77,6 +77,7 @@ def read(record):
         return col.Impact.from_dict(record)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", REVERSE)
 def test_a_text_that_is_not_its_number_is_refused(name):
     """Another number, another kind, no unit, or none that can be read: whatever text it is."""
@@ -116,6 +117,7 @@ def test_a_text_of_what_was_not_given_is_refused():
         read(record)
 
 
+@pytest.mark.slow
 def test_a_unit_that_only_its_own_registry_knows_is_left_out():
     """Its text could not be read again; its number is there."""
     own = pint.UnitRegistry()

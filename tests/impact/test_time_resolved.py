@@ -860,6 +860,7 @@ def test_blocks_threads_and_progress():
     assert np.all(np.diff(once.b.delta_v) > 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("geometry", ["maximum_engagement", "first_contact"])
 @pytest.mark.parametrize("drag", [0.0, 0.7])
 @pytest.mark.parametrize("least", [0, 2, 32])

@@ -277,6 +277,7 @@ def test_friction_from_zero_on_has_the_derivative_of_a_slip_that_turns_round(jax
         assert slope == pytest.approx(difference, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["brach", "kudlich-slibar", "stronge"])
 def test_without_friction_the_energy_lost_has_its_derivative(jax, law):
     a = Body(1500.0, 2400.0, 13.9, 0.0, 0.0, -2.0, 0.4)

@@ -99,6 +99,7 @@ def test_tracks_marks_surfaces_and_contacts_are_those_of_the_run() -> None:
     assert "friction 0.3" in texts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("units", "name"), [("us", "ft"), ("si", "m")])
 def test_the_scale_bar_is_as_long_as_it_says(units: Any, name: str) -> None:
     axes = plot.scene(three_cars(), units=units)

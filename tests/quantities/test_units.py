@@ -522,6 +522,7 @@ def test_a_kilopond_is_never_a_thousand():
         assert col.Vehicle(mass=1500, vx="10 kilopond*s/kg").vx == pytest.approx(98.0665, rel=1e-15)
 
 
+@pytest.mark.slow
 def test_a_mil_of_the_caller():
     """One who gives it a name of its own, and says how many go to the turn, is understood."""
     ureg = pint.UnitRegistry()

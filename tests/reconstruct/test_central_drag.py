@@ -183,6 +183,7 @@ def test_of_two_answers_with_tyres_neither_is_left_out():
         assert bounce.restitution == pytest.approx(0.07 * G / 20.0, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_every_way_of_finding_it_can_be_derived(crashes):
     """``explain`` raises where an equation has two sides that differ."""
     mass, truth, held = crashes[0]

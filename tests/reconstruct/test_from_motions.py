@@ -117,6 +117,7 @@ def test_more_speed_than_there_was():
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("e", [0.0, 1.0])
 def test_rounding_is_no_warning(e):
     """The velocities after are rounded; what that makes of 0 or 1 is not outside. Warnings are

@@ -7,6 +7,7 @@ import math
 import random
 import re
 import warnings
+from functools import cache
 
 import numpy as np
 import pytest
@@ -56,6 +57,7 @@ def velocity(answer, label):
     return speed * math.cos(course), speed * math.sin(course)
 
 
+@cache
 def missed():
     """The drawn truths with what was sought, the answer, its warnings and how far it is off."""
     found = []
@@ -79,12 +81,10 @@ def missed():
     return found
 
 
-MISSED = missed()
-
-
+@pytest.mark.slow
 def test_no_other_velocity_is_missed_in_silence():
-    assert len(MISSED) >= 15
-    said = [[message.code for message in warned] for _, _, _, _, warned, _ in MISSED]
+    assert len(missed()) >= 15
+    said = [[message.code for message in warned] for _, _, _, _, warned, _ in missed()]
     assert all({"another_fits", "momenta_cancel"} & set(codes) for codes in said)
     assert sum("another_fits" in codes for codes in said) >= 15
 
@@ -104,7 +104,7 @@ def others_of(sentence):
 def test_what_is_said_to_fit_does():
     """With it stated before, the same motions come after."""
     checked = 0
-    for known, given, label, answer, warned, _ in MISSED:
+    for known, given, label, answer, warned, _ in missed():
         others = [message for message in warned if message.code == "another_fits"]
         if not others:
             continue
@@ -135,7 +135,7 @@ def test_what_is_said_to_fit_does():
 def test_the_truth_is_among_those_that_are_said_to_fit():
     """Whether it is the farthest or lies between the answer and that."""
     checked = 0
-    for _, _, _, answer, warned, off in MISSED:
+    for _, _, _, answer, warned, off in missed():
         if any(message.code == "another_fits" for message in warned):
             (sentence,) = answer.statements
             assert min(abs(one[2] - off) for one in others_of(sentence)) < 1e-3
@@ -168,9 +168,10 @@ def test_of_three_that_fit_the_one_between_is_said_too():
     assert [one[1] for one in near] == [pytest.approx(truth["course_a"], abs=1e-4)]
 
 
+@pytest.mark.slow
 def test_a_batch_counts_the_cases():
     known, given, label, _, _, _ = next(
-        one for one in MISSED if any(w.code == "another_fits" for w in one[4])
+        one for one in missed() if any(w.code == "another_fits" for w in one[4])
     )
     name = "speed_a_after"
     # A fast vehicle, whose tyres hold it nowhere, beside the slow one.
@@ -186,7 +187,7 @@ def test_a_batch_counts_the_cases():
 @pytest.mark.slow
 def test_a_study_counts_the_samples():
     known, given, *_ = next(
-        one for one in MISSED if [message.code for message in one[4]] == ["another_fits"]
+        one for one in missed() if [message.code for message in one[4]] == ["another_fits"]
     )
 
     def model(mass_a):
@@ -234,6 +235,7 @@ def test_two_speeds_along_nearly_one_line_say_that_others_were_not_looked_for():
     assert wide.statements == ()
 
 
+@pytest.mark.slow
 def test_a_course_of_a_slow_vehicle_beside_the_speed_of_another_says_that_others_may_fit():
     """Two courses of A on one side have the same motions; one of them is not looked for."""
     known = {

@@ -126,6 +126,7 @@ def forward(rng):
     return impact, known
 
 
+@pytest.mark.slow
 def test_the_forward_answer_is_found_again():
     """The forward solver takes the force from the motions of an impact without tyres, this one from
     those with them: what is left of their effect is a tenth of it.
@@ -191,6 +192,7 @@ def test_distributions_go_through():
     assert 0.1 * moved < high - low < moved
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["duration", "yaw_rate_a_after", *ROLLING.named])
 def test_every_number_is_used_and_said(name):
     arguments = {

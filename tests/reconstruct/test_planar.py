@@ -649,6 +649,7 @@ def test_a_batch_counts_the_slips_that_may_be_none():
         planar(*after, restitution=0.2, **{**STUCK, "friction": 0.3})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["closing_speed", "energy_loss"])
 def test_a_plastic_end_in_written_digits_is_answered(kind):
     """The contact points may seem to approach still; the answer is the start to the digits of the

@@ -138,6 +138,7 @@ def known_ends(**changes):
     return col.eccentric(A, B, 0.1531, **(CONTACT | WHEELS | changes))
 
 
+@pytest.mark.slow
 def test_one_scene_is_found_again_and_differs_from_the_instant():
     end = known_ends()
     found = reconstruct.planar(end.a.after, end.b.after, restitution=0.1531, **CONTACT, **WHEELS)
@@ -473,6 +474,7 @@ def test_a_motion_before_that_was_not_found_is_not_said_to_be_none():
     assert "reconstruct.posterior" in said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["restitution", "closing_speed", "energy_loss"])
 @pytest.mark.parametrize(
     ("law", "friction"), [("brach", 0.05), ("kudlich-slibar", 0.05), ("kudlich-slibar", 0.8)]

@@ -179,6 +179,7 @@ def test_speeds_to_which_only_their_own_tyres_lead_are_found(known):
         assert list(shown) == pytest.approx(list(readings.values()), abs=1e-5)
 
 
+@pytest.mark.slow
 def test_a_contact_that_sticks_only_with_its_own_tyres_is_found():
     """Without them, or with those of cars that go forwards, it takes more than the friction."""
     wheels = {
@@ -207,6 +208,7 @@ def test_a_contact_that_sticks_only_with_its_own_tyres_is_found():
     assert pair == pytest.approx((8.22, 13.3), abs=1e-3)
 
 
+@pytest.mark.slow
 def test_readings_with_tyres_come_out_of_a_batch_as_alone():
     wheels = {"duration": np.array([0.06, 0.12]), "tyres_a": Tyres(0.7, 1.0, 2.7, 1.5)}
     place = {"recorder_b": (0.4, 0.1)}

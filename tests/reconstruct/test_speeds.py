@@ -413,6 +413,7 @@ def falling(closing):
     return 0.05 + 0.45 * math.exp(-closing / 6.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "pair",
     [
@@ -492,6 +493,7 @@ def published(closing):
     return col.reference.restitution(closing, outside="refuse")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "function",
     [
@@ -1161,6 +1163,7 @@ def test_a_share_of_the_critical_ratio_at_no_speed():
         assert caught.value.code == "contradictory"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", [{"friction": 0.5}, {"critical_fraction": 0.6}])
 @pytest.mark.parametrize(
     "pair",
@@ -1240,6 +1243,7 @@ def test_units_single_precision_and_records():
     assert all(root.a.before.vx.dtype == np.float32 for root in single)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turned", [0.0, math.pi / 2, -math.pi / 2, 0.7])
 @pytest.mark.parametrize("known", ["delta_v_a", "delta_v_b", "crush", "energy_loss"])
 @pytest.mark.parametrize("law", LAWS)

@@ -368,6 +368,7 @@ def test_a_sliding_contact_takes_the_impulse_along_its_friction():
     speeds(a, b, **given, **inside, regime="sticking")
 
 
+@pytest.mark.slow
 def test_no_speed_fits_the_components_better():
     """With one speed known, against a scan of the other by the forward solver: stuck, slid, or on
     the edge between both.

@@ -208,6 +208,7 @@ def test_a_refusal_says_that_the_contact_that_stuck_goes_backwards():
     assert f"speed of B is at most {slid.b.before.speed:.6g} m/s" in told["may_slide"]
 
 
+@pytest.mark.slow
 def test_a_family_that_goes_backwards_as_a_whole():
     """With the course of a car turned about whose speed rises: it is negative and falls, which is
     said, and its size rises.

@@ -253,6 +253,7 @@ def test_what_speeds_cannot_use_with_tyres_is_refused():
         asked(known, duration=None)
 
 
+@pytest.mark.slow
 def test_a_speed_beside_components_is_met_exactly():
     """As without tyres, readings that disagree with it by their errors leave it as it was given."""
     end = ended()
@@ -573,6 +574,7 @@ def test_beside_a_speed_a_case_is_the_same_alone_in_a_batch_and_with_a_bound():
     assert math.isnan(both[1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slid", [None, "bound"])
 def test_a_speed_and_one_component_of_a_contact_that_slid_lead_back_to_it(slid):
     wheels = Tyres(0.7, 0.3, 2.7, 1.5)

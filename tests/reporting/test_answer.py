@@ -67,6 +67,7 @@ def test_the_range_of_a_figure_stands_first_with_two_figures_of_its_half_width()
     assert "No range is stated for these figures" not in text
 
 
+@pytest.mark.slow
 def test_a_range_that_is_open_on_one_side_is_a_range():
     """Nothing asks for what was given."""
 

@@ -33,6 +33,7 @@ def refused(function: Callable[[Any], Any], given: Any) -> str:
     return str(error.value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", WHOLE)
 def test_what_takes_a_run_says_so(name: str) -> None:
     run = coasting()

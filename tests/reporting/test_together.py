@@ -63,6 +63,7 @@ def test_the_answer_has_the_speeds_and_the_ranges_of_the_delta_v(found, run):
     assert re.search(r"\| PDOF of the Seat .* \| 180 ± |\| closing speed \| .* mph \|", page)
 
 
+@pytest.mark.slow
 def test_what_was_found_is_marked_among_what_was_given(found, run):
     page = col.report([found, run], form="markdown", units="us")
     mean = found["the speed"].mean / MPH
@@ -184,6 +185,7 @@ def test_the_run_may_stand_first_and_other_results_beside_both(found, run):
     assert "- **A: delta-V:** " in box(page)
 
 
+@pytest.mark.slow
 def test_a_speed_with_its_course_marks_both_parts_of_the_velocity():
     """Of a vehicle whose speed was found, along 10 degrees, and the normal of its contact."""
     start = scene().replace({"Rover.course": "10 deg"})

@@ -76,6 +76,7 @@ def test_a_sample_is_what_accelerometers_at_the_place_of_the_recorder_add_up_to(
     assert most > 0.5  # m/s, from where the recorders sit
 
 
+@pytest.mark.slow
 def test_samples_are_those_of_the_impact_and_of_cases_of_a_batch() -> None:
     speeds = np.array([12.0, 16.0, 13.0])
     paths = [path("B", time, "left") for time in TIMES]

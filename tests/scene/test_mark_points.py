@@ -287,6 +287,7 @@ def test_points_may_have_units_or_be_an_array() -> None:
     assert list(plain) == ["A.marks.front_left.distance(3.0 m, 2.5 m)"]
 
 
+@pytest.mark.slow
 def test_a_distance_is_a_result_wherever_one_is_asked_for() -> None:
     scene = crash()
     path = "B.marks.front_left.distance(4 m, 4 m)"

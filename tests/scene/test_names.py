@@ -99,6 +99,7 @@ def test_a_path_or_number_that_cannot_be_is_refused(path: str, value: Any, says:
         crash().replace({path: value})
 
 
+@pytest.mark.slow
 def test_a_run_comes_back_from_its_record_to_the_bit() -> None:
     run = crash().run()
     record = json.loads(json.dumps(run.to_dict(), allow_nan=False))
@@ -193,6 +194,7 @@ def test_a_batch_is_every_case_by_itself() -> None:
         assert batch.paths["Camry"].x[40, i] == pytest.approx(one.paths["Camry"].x[40], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_cases_of_a_batch_go_in_orders_of_their_own() -> None:
     row = {"normal": 0.0, "model": "linear_central", "at": "touch", "restitution": 0.2}
     middle = np.array([5.5, 8.5, 5.5, 8.5, 100.0])

@@ -356,6 +356,7 @@ def test_a_bare_prior_has_the_unit_of_its_input() -> None:
     assert found["Explorer.vx"].mean == pytest.approx(found.inputs()["Explorer.vx"].mean)
 
 
+@pytest.mark.slow
 def test_what_stands_is_said_where_its_motion_is_asked_for() -> None:
     """And of no parked car, whose motion nobody asks for."""
     asked = "contacts[0].impact.Jetta.before.speed"

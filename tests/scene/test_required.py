@@ -154,6 +154,7 @@ def test_draws_without_an_answer_count_against_a_level() -> None:
     )
 
 
+@pytest.mark.slow
 def test_it_is_shown_and_recorded() -> None:
     found = crash().required({"A.rest.x": "1 ft", "A.rest.heading": "5 deg"}, UNKNOWNS)
     text = str(found.summary("us"))
@@ -187,6 +188,7 @@ def test_what_cannot_be_is_refused(given: Any, code: str, says: str) -> None:
     assert caught.value.code == code
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("names", "outputs"), [(["A.vx"], 1e38), ("A.vx", ["A.rest.x"])])
 def test_a_model_takes_lists_of_paths(names: Any, outputs: Any) -> None:
     for model in (crash(), crash().required({"A.rest.x": 1.0}).level):

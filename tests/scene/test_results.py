@@ -62,6 +62,7 @@ FRONT, MID = "contacts[1].impact.front.delta_v_forward", "contacts[0].impact.mid
 ASKED: dict[str, Any] = {"samples": 256, "seed": 1}
 
 
+@pytest.mark.slow
 def test_a_path_by_contact_follows_its_vehicles_whatever_the_order() -> None:
     speeds = np.array([13.0, 15.0, 17.0, 19.0, 24.0])
     times = ["contacts[0].impact.time", "contacts[1].impact.time"]
@@ -149,6 +150,7 @@ def test_evidence_is_not_matched_with_another_vehicle_in_silence() -> None:
     assert best["rear.vx"].value == pytest.approx(22.0, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_levels_are_compared_by_the_same_impact() -> None:
     path = "impacts[0].b.delta_v"
     with pytest.warns(col.CollisionsWarning, match="another than that of rear and middle"):
@@ -157,6 +159,7 @@ def test_levels_are_compared_by_the_same_impact() -> None:
     assert row().required({FRONT: "1 m/s"}, RANGE).answered == 32
 
 
+@pytest.mark.slow
 def test_an_impact_that_is_no_certain_one_is_refused_with_its_contacts() -> None:
     # As written the rear car stands, and comes to no contact.
     for path, written in (

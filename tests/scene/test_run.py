@@ -168,6 +168,7 @@ def test_a_drag_that_cannot_be_leaves_its_case_without_an_answer(drag: float, co
     assert math.isnan(run.at(0.1)["A"].x[1])
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings(NO_ANSWER)
 @pytest.mark.parametrize(
     ("name", "wrong", "code"),
@@ -292,6 +293,7 @@ def test_the_order_of_contacts_is_held_to_case_by_case() -> None:
         assert wrong.run().status.tolist() == ["other_order"] * 2
 
 
+@pytest.mark.slow
 def test_a_contact_without_end_leaves_its_case_without_an_answer() -> None:
     walls = {
         name: Mover(col.Vehicle.barrier(x=x, y=0.0, heading=0.0), outline=OUTLINE)

@@ -68,6 +68,7 @@ def test_a_spring_between_two_on_a_slope(rise: float) -> None:
     assert abs(after["A"].vx - impact.a.after.vx) == pytest.approx(abs(pull) * lasts, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "given",
     [

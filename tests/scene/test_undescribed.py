@@ -171,6 +171,7 @@ def test_touches_that_are_passed_over_are_counted_too() -> None:
         assert len(said_of) == 1
 
 
+@pytest.mark.slow
 def test_impulses_at_the_deepest_are_counted_too() -> None:
     """A clips a corner of B, by which some do not come as deep as was asked for."""
 

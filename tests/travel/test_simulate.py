@@ -549,6 +549,7 @@ def in_closed_form(vx, friction, strips):
     return low
 
 
+@pytest.mark.slow
 def test_straight_skids_over_strips_in_closed_form():
     """400 random ones, in one batch and some alone: to a hundred-thousandth of the way, where the
     promise is a thousandth.
@@ -1195,6 +1196,7 @@ def test_a_motion_that_keeps_its_direction_on_the_vehicle_ends_along_an_arc(
     assert np.max(np.abs(arc.at(late).heading - stepped.at(late).heading)) < 1e-4
 
 
+@pytest.mark.slow
 def test_areas_may_have_dents_holes_and_a_closing_corner():
     """A ring around a hole, its sides there and back along one line, as one list of corners."""
     car = col.Vehicle(mass=1500, yaw_inertia=2500, x=0, y=0, heading=0, vx=10, vy=0)

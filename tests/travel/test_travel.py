@@ -179,6 +179,7 @@ def test_downhill_beyond_the_drag_the_condition_is_all_that_is_lost(d, f, g, end
     )
 
 
+@pytest.mark.slow
 @run_often
 @given(speeds, speeds, drags, grades)
 def test_distance_keeps_its_digits(one, other, f, g):

@@ -53,6 +53,7 @@ def spun(lock, degrees, friction=0.7, ground=0.7, load=1.0):
     return (x * along + y * across) / SPEED, x, y
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("lock", "degrees", "share"),
     [

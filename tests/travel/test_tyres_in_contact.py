@@ -214,6 +214,7 @@ def changes(impact):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_against_scipy(name):
     """Within 0.5 % of delta-V at the usual 100 steps; the same with 400 steps to a

@@ -235,6 +235,7 @@ def test_cases_without_an_answer_are_counted_in_every_row():
     assert "without an answer" not in str(whole.summary())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["first_order", "second_order", "quasi_random"])
 def test_the_share_without_an_answer_is_of_the_cases_drawn(method):
     """Not of those for derivatives too, of which twenty inputs take hundreds; exact by the normal

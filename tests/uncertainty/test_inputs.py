@@ -351,6 +351,7 @@ def test_moments_of_a_lognormal(mean, sd, low, high):
     assert abs(found.kurtosis - kurtosis) <= 160 * EPS * kurtosis
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("low", "mode", "high"),
     [(0.6, 0.7, 0.75), (0, 0, 1), (-3, 5, 5), (-1.0, 0.0, 1.0), (100, 100.1, 900)],

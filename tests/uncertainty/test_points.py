@@ -92,6 +92,7 @@ def test_a_sheet_of_the_latin_hypercube_has_one_point_in_every_share(length):
     assert np.array_equal(shares, np.broadcast_to(np.arange(length)[:, None], shares.shape))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("length", [64, 512, 4096])
 def test_every_beginning_of_the_lattice_has_two_points_in_every_other_share(length):
     """A shifted lattice has one point in each of n shares of every row; the fold lays two of them,
