@@ -925,6 +925,9 @@ def test_the_condition_is_that_of_the_whole_call_with_tyres(names):
     rng, met = random.Random(8), 0
     while met < 3:
         (a, b), contact, wheels = drawn_apart(rng)
+        if set(names) <= set(COMPONENTS):
+            # Components alone do not hold one that slid.
+            contact["friction"] = 0.9
         try:
             truth = col.eccentric(a, b, 0.2, **contact, **wheels)
             known = {name: read(truth, name) for name in names}
@@ -939,7 +942,6 @@ def test_the_condition_is_that_of_the_whole_call_with_tyres(names):
 
             condition = found(known).reconstruction.condition
         except (col.NoImpactError, col.NoSolutionError):
-            # Two components alone do not hold one that slid.
             continue
         met += 1
         sought = "b" if "speed_a" in known else "a" if "speed_b" in known else "ab"
@@ -1051,3 +1053,52 @@ def test_beside_an_energy_one_that_slid_is_not_said_to_have_stuck_in_silence(tyr
         assert "sliding" in regimes or caught, (a, b, contact, known)
     assert slid > open_
     assert both == {"sticking", "sliding"}
+
+
+def test_a_family_that_slides_either_way_with_tyres_is_told_so():
+    """The way in doubt says that it may have slid either way, and not the first of its ways."""
+    a = col.Vehicle(
+        mass=2297.87932585118, yaw_inertia=4097.223757007686, vx=1.4910420055679954,
+        vy=0.24320579303414497, x=-1.7278054892208838, y=0.05200229955909852,
+        heading=0.1616874155052443,
+    )  # fmt: skip
+    b = col.Vehicle(
+        mass=1276.7603459456102, yaw_inertia=2259.055821749676, vx=-1.0939322780379372,
+        vy=1.3728211399093753, x=1.9754623426023685, y=0.4011965865997328,
+        heading=2.243613473594908,
+    )  # fmt: skip
+    locks = (
+        (1.0, 0.023968110718606564, 0.4, 0.4),
+        (0.03148337939738334, 1.0, 0.09017901432985659, 3.0202047351157724e-05),
+    )
+    with pytest.raises(col.AmbiguousSolutionError, match="in which direction the contact slid"):
+        reconstruct.speeds(
+            a, b, course_a=a.course, course_b=b.course, restitution=0.2,
+            normal=-0.21156011733357438, point=(0.0, 0.13085821417700827),
+            friction=0.11535437067332155, delta_v_forward_a=-1.287925506855398,
+            delta_v_left_b=-0.9759016373868096, duration=0.09021306001782423,
+            tyres_a=Tyres(0.6734464678573435, locks[0], 2.7, 1.5),
+            tyres_b=Tyres(0.7936661865110097, locks[1], 2.7, 1.5),
+            regime="sliding", slid="bound",
+        )  # fmt: skip
+
+
+@pytest.mark.parametrize("factor", [0.9, 1.0, 1.1])
+def test_against_a_wall_with_tyres_an_energy_moves_no_speed(factor):
+    """A wall has no delta-V, and all of the impulse is that of the vehicle."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, vx=12.0, x=-2.0, y=0.1, heading=0.0, name="A")
+    wall = col.Vehicle(mass=math.inf, yaw_inertia=math.inf, x=0.5, y=0.0)
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.9}
+    wheels = {"duration": 0.1, "tyres_a": Tyres(0.7, 0.4, 2.7, 1.5)}
+    truth = col.eccentric(a, wall, 0.1, **contact, **wheels)
+    assert truth.regime == "sticking"
+    known = {name: read(truth, name) for name in COMPONENTS[:2]}
+    with warnings.catch_warnings():
+        # The courses lie on one line.
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        (found,) = reconstruct.speeds(
+            a, wall, course_a=0.0, course_b=1.0, restitution=0.1, **known,
+            energy_loss=factor * truth.energy_loss, **contact, **wheels,
+        )  # fmt: skip
+    assert found.speed_a == pytest.approx(12.0, abs=1e-6)
+    assert found.speed_b == pytest.approx(0.0, abs=1e-6)

@@ -479,10 +479,13 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
         if math.isclose(given, s.loss.value, rel_tol=COMES_OUT):
             page.say(f"The {what}, known: {page.shown(s.loss)}.")
         else:
+            stuck = (
+                "The contact stuck, so that the components of delta-V alone tell its speeds, and it"
+            )
             page.say(
-                f"The {what.partition(',')[0]} was given as {page.number(given, 'energy')}. The "
-                "contact stuck, so that the components of delta-V alone tell its speeds, and it "
-                f"loses {page.shown(s.loss)}."
+                f"The {what.partition(',')[0]} was given as {page.number(given, 'energy')}. "
+                f"{stuck if s.impact.regime == 'sticking' else 'This impact'} loses "
+                f"{page.shown(s.loss)}."
             )
     if "max_crush_speed_a" in known:
         absorbed = Symbol("E_c", s.impact.energy_absorbed, "energy")

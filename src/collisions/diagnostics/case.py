@@ -89,6 +89,13 @@ class _Case:
         )
 
 
+def _speed_has_unit(vehicle: Vehicle) -> bool:
+    """Whether its speed, or every component but 0, was given with a unit."""
+    given: Mapping[str, Any] = vehicle.given or {}
+    parts = {"vx": vehicle.vx, "vy": vehicle.vy}
+    return "speed" in given or all(name in given or not value for name, value in parts.items())
+
+
 @cache
 def _format(kind: str, units: str) -> tuple[float, int | None, str]:
     """Scale, decimals and unit of a kind; angles get one decimal more than in a result, because
@@ -158,9 +165,7 @@ class ImpactCase(_Case):
                 side.delta_v,
                 side.pdof,
                 side.before.heading,
-                speed_has_unit=any(
-                    name in (side.before.given or {}) for name in ("speed", "vx", "vy")
-                ),
+                speed_has_unit=_speed_has_unit(side.before),
             )
             for label, who, side in self.sides
         }

@@ -422,7 +422,10 @@ def _begin(times: Any, parts: Mapping[str, Any]) -> float:
     """
     changed = np.any([part != part[0] for part in parts.values()], axis=0)
     last = max(int(np.argmax(changed)) - 1, 0)
-    if last > 0 or times[0] <= 0.0 or not any(part[0] for part in parts.values()):
+    first = max(abs(part[0]) for part in parts.values())
+    # An offset of a recorder stays as it is for some samples.
+    offset = last > 0 and first <= RECORDER_RESOLUTION.high * (1.0 + 1e-9)
+    if times[0] <= 0.0 or first == 0.0 or offset:
         return float(times[last])
     if times[0] > (times[1] - times[0]) * (1.0 + 1e-9):
         name = next(name for name, part in parts.items() if part[0])

@@ -33,7 +33,15 @@ from ..vehicle.vehicle import moved
 from .common import ASK_ALONE, Cases, input_faults, run_forward, split_texts
 from .lasting import tyre_faults
 from .speeds_algebra import NO_ROOT, ROOT_TOL, Root, Scene
-from .speeds_components import ACCURACY, CLEARLY_BELOW, MAY_SLIDE, RATIO_SHOWN, ComponentScene
+from .speeds_components import (
+    ACCURACY,
+    CLEARLY_BELOW,
+    COMPONENTS,
+    MAY_SLIDE,
+    MOST_ENERGY,
+    RATIO_SHOWN,
+    ComponentScene,
+)
 from .speeds_search import Search
 from .speeds_tyres import Attempt
 
@@ -111,8 +119,9 @@ def answers_of(
         if isinstance(status, int) and status != Status.OK:
             say = Sentences(inputs.texts)
             if status == Status.AMBIGUOUS and isinstance(scene, ComponentScene):
-                sticks = any(np.any(one.ambiguous & one.sticks) for one in scene.ways or [scene])
-                if np.any(scene.both_ways) and not sticks:
+                ways_of = [one for one in scene.ways or [scene] if np.any(one.ambiguous)]
+                sticks = any(np.any(one.sticks) for one in ways_of)
+                if any(np.any(one.both_ways) for one in [scene, *ways_of]) and not sticks:
                     raise _slid_either_way(scene, known, say, ways.one_way)
                 if scene.energy is not None:
                     raise _either_beside_an_energy(scene, known, say, ways.again)
@@ -373,21 +382,34 @@ def _either_beside_an_energy(
     """The error for a single case in which components and an energy fit one that stuck and one that
     slid.
     """
-    stuck, slid = (again(regime=regime) for regime in ("sticking", "sliding"))
-    one, other = (
+    more = {
+        name: (MOST_ENERGY if name == "energy_loss" else math.sqrt(MOST_ENERGY)) * value
+        for name, value in known.items()
+        if name not in COMPONENTS
+    }
+    answers: list[tuple[Impact, ...]] = []
+    for changes in ({"regime": "sticking"}, {"regime": "sliding"}, {"regime": "sliding", **more}):
+        answers.append(())
+        with suppress(CollisionsError):
+            # One may fit with more energy alone.
+            answers[-1] = again(**changes)
+    told = [
         ", or ".join(
             _alone([_along(impact, label, scene) for label in "ab"], say) for impact in impacts
         )
-        for impacts in (stuck, slid)
-    )
+        for impacts in answers
+    ]
+    percent = f"{100.0 * (MOST_ENERGY - 1.0):.0f} percent"
+    with_more = f"with an energy {percent} greater, {told[2]}" if told[2] else ""
+    if_slid = " and, ".join(one for one in (told[1], with_more) if one) or "others"
     return AmbiguousSolutionError(
         f"{' and '.join(known)} do not tell whether the contact stuck or slid with "
         f"`friction={float(scene.bound):.4g}`: both fit within {ACCURACY:.0%} of the impulse, the "
-        f"stated accuracy of recorders. If it stuck, {one}; if it slid, {other}. Write "
-        "`regime='sticking'` or `regime='sliding'` if you know which, or give one of the speeds"
-        "`|. Both answers are in .solutions|`",
+        f"stated accuracy of recorders, which are {percent} of an energy. If it stuck, {told[0]}; "
+        f"if it slid, {if_slid}. Write `regime='sticking'` or `regime='sliding'` if you know "
+        "which, or give one of the speeds`|. These answers are in .solutions|`",
         code=Status.AMBIGUOUS.label,
-        solutions=(*stuck, *slid),
+        solutions=tuple(impact for impacts in answers for impact in impacts),
     )
 
 

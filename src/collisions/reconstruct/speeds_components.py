@@ -84,17 +84,15 @@ _FOUND = ("misfit", "ended", "ratio", "may_slide", "leaves_slip", "both_ways")
 
 
 def fit_either(
-    misfits: Sequence[Any], stuck: Sequence[Any], slid: Sequence[Sequence[Any]], closing: Any
+    misfit: Any, least: Any, stuck: Sequence[Any], slid: Sequence[Sequence[Any]], closing: Any
 ) -> Any:
-    """Whether a contact that stuck and one that slid, which miss what is known by these shares of
-    the impulse, both fit within the accuracy of recorders, neither exactly, and speeds of the
-    latter, of which there may be several pairs, are far from those of the former.
+    """Whether a contact that stuck, which misses what is known by this share of the impulse, fits
+    within the accuracy of recorders, and speeds of one that slid, in pairs, NaN where they do not
+    fit, are far from its own; but not where the ``least`` that any misses is nothing.
     """
-    fit = np.maximum(*misfits) <= ACCURACY
-    exact = np.minimum(*misfits) <= _EXACT
     apart = [abs(one - own) for pair in slid for one, own in zip(pair, stuck, strict=True)]
     far = np.fmax.reduce(np.broadcast_arrays(*apart)) > _BEYOND * closing
-    either: Any = fit & ~exact & far
+    either: Any = (misfit <= ACCURACY) & (least > _EXACT) & far
     return either
 
 
@@ -552,19 +550,14 @@ class ComponentScene(Scene):
             places = slip, slip + further
             slip = self._slip_that_loses(ratio, closing, places, self.energy)
             within = (slip - places[0]) / further
-            # With less energy than the least of this friction it is the end of the family that is
-            # nearest. At a ratio that components show that is the one that stuck.
-            least = (within < 0.0) & np.isfinite(self.bound) & ~self.shows_friction
-            speeds = self.speeds_at(closing, np.where(least, places[0], slip))
-            off = 0.5 * abs(self.energy / self.observe(ratio, *speeds).energy_loss - 1.0)
-            misfit = np.where(least, np.maximum(misfit, off), misfit)
+            speeds = self.speeds_at(closing, slip)
             moved = self._moved_beside_an_energy(ratio, places)
         # However far the friction is from the ratio, the case has a bound; recorders must agree.
         agree = self._own_misfit() <= self.most
         usable = agree & np.isfinite(misfit) & (abs(ratio) > 0.0)
         usable = usable & pushed(self.observe(LAW, *speeds))
         if self.energy is not None:
-            usable = usable & (least | (within >= 0.0)) & (misfit <= self.most)
+            usable = usable & (within >= 0.0) & (misfit <= self.most)
         root = Root(*speeds, self.e, moved / abs(closing), np.where(usable, closing, np.nan))
         return root, np.where(usable, misfit, np.inf), np.full((), np.inf)
 
@@ -651,18 +644,29 @@ class ComponentScene(Scene):
         stuck, and their energy says how far it slid.
         """
         assert self.energy is not None
+        (stuck_at,) = (at for at, regime in enumerate(regimes) if regime is STICK)
+        own, own_misfit, _ = stuck[stuck_at]
         with_more = copy(self)
         with_more.energy = MOST_ENERGY * self.energy
+        further = [with_more._end(regime) for regime in regimes if regime is not STICK]
+        # One that loses more fits too, also where none loses as little.
+        exact = np.fmin.reduce(np.broadcast_arrays(own_misfit, *(one[1] for one in sliding)))
         either: Any = np.zeros((), dtype=bool)
-        ways = [one for one in regimes if one is not STICK]
-        for regime, (own, own_misfit, _) in zip(regimes, stuck, strict=False):
-            if regime is not STICK:
-                continue
-            for way, (root, misfit, _) in zip(ways, sliding, strict=True):
-                reached = with_more._end(way)[0]
-                slid = root[:2], reached[:2]
-                either = either | fit_either((own_misfit, misfit), own[:2], slid, own.closing)
+        for pair in zip(sliding, further, strict=True):
+            here = [misfit <= ACCURACY for _, misfit, _ in pair]
+            slid = [
+                [np.where(fits, speed, np.nan) for speed in root[:2]]
+                for (root, _, _), fits in zip(pair, here, strict=True)
+            ]
+            slid = [self._ahead(speeds) for speeds in slid]
+            either = either | fit_either(own_misfit, exact, self._ahead(own[:2]), slid, own.closing)
         return either & np.isfinite(self.bound) & ~self.shows_friction
+
+    def _ahead(self, speeds: Sequence[Any]) -> list[Any]:
+        """These speeds, NaN where one goes backwards and only those forwards are asked for."""
+        first, second = speeds
+        ahead = np.minimum(first, second) >= 0.0 if self.forward_only else True
+        return [np.where(ahead, one, np.nan) for one in speeds]
 
     def loses_more(self) -> Any:
         """Whether the known energy is more than a contact that stuck loses."""

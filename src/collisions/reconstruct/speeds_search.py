@@ -315,16 +315,14 @@ class Search:
             ended = scene.of_way(of_starts[0]).ended
         begins = np.stack([np.stack(np.broadcast_arrays(*start)) for start in starts], axis=1)
         more = self._balanced and len(self.known) > 2
-        beside_energy = more and knows_energy and not knows_speed
-        look = speeds_beside_an_energy if beside_energy else speeds_with_tyres
-        answer = look(
-            inputs,
-            directions,
-            (begins[0], begins[1]),
-            self.known,
-            (len(starts), *shape),
-            len(found) if more else 0,
-        )
+        beside_energy = more and knows_energy and not knows_speed and self.regime != "sliding"
+        arguments = inputs, directions, (begins[0], begins[1]), self.known, (len(starts), *shape)
+        kept = found if more else []
+        if beside_energy and isinstance(scene, ComponentScene):
+            misfits = [scene.of_way(root.way).misfit for root, _ in kept]
+            answer = speeds_beside_an_energy(*arguments, misfits)
+        else:
+            answer = speeds_with_tyres(*arguments, len(kept))
         if beside_energy and self.regime is None:
             scene.ambiguous = scene.ambiguous | answer.either
         fits = answer.settled
@@ -340,9 +338,8 @@ class Search:
             so[: len(found)] = True
             fits = fits & so
         if answer.misfit is not None:
-            misfit = answer.misfit
-            fits = fits & (misfit <= CONTRADICTION)
-            fits, least = _best_of(misfit, fits)
+            fits = _best_of(answer.misfit, fits & (answer.worst <= CONTRADICTION))
+            least = np.min(np.where(fits, answer.worst, np.inf), axis=0)
             for i in range(len(found)):
                 # What other starts lead back to is that root, with its condition.
                 apart = sum(
@@ -490,11 +487,11 @@ def in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple[
     ]
 
 
-def _best_of(misfit: Any, fits: Any) -> tuple[Any, Any]:
-    """Of what was found from several starts, all that fit exactly, or else the one that fits best,
-    and by how much that misses.
+def _best_of(misfit: Any, fits: Any) -> Any:
+    """Of what was found from several starts, all that fit exactly, or else the one that fits
+    best.
     """
     misfit = np.where(fits, misfit, np.inf)
     least = np.min(misfit, axis=0)
     best = np.arange(len(misfit)).reshape(-1, *[1] * np.ndim(least)) == np.argmin(misfit, axis=0)
-    return fits & np.where(least <= ROOT_TOL, misfit <= ROOT_TOL, best), least
+    return fits & np.where(least <= ROOT_TOL, misfit <= ROOT_TOL, best)

@@ -31,7 +31,14 @@ from .common import Cases
 from .grid_roots import Narrowing, roots_on_grid
 from .lasting import misses_of_impacts, settle, slopes_at
 from .speeds_algebra import EITHER, FREE, HELD, ROOT_TOL, Root, Scene
-from .speeds_components import COMPONENTS, MOST_ENERGY, ComponentScene, by_way, fit_either
+from .speeds_components import (
+    ACCURACY,
+    COMPONENTS,
+    MOST_ENERGY,
+    ComponentScene,
+    by_way,
+    fit_either,
+)
 
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
 # it has not settled; and how often it is worked out. Nearly all cases need fewer than 20.
@@ -68,8 +75,8 @@ _MOST_STARTS = 16
 class Found(NamedTuple):
     """Speeds of A and B along their courses, where they have what was known, the closing speed,
     where the contact sticks, the condition, by how much of the impulse the components are missed
-    that are more than is needed, None where none is, and in which cases one that stuck and one that
-    slid fit either way.
+    that are more than is needed, in all and of the vehicle that is missed by more, None where none
+    is, and in which cases one that stuck and one that slid fit either way.
     """
 
     speed_a: Any
@@ -79,6 +86,7 @@ class Found(NamedTuple):
     sticks: Any
     condition: Any
     misfit: Any = None
+    worst: Any = None
     either: Any = False
 
 
@@ -481,23 +489,21 @@ def speeds_with_tyres(
         settled = np.concatenate((np.isfinite(values[0][:kept]), settled[kept:]))
     tried = inputs_at(values)
     closing, sticks, answer = _contact(tried)
-    # As ``ComponentScene`` has it: of each vehicle, the greater counts.
-    left = np.maximum(
-        *(
-            np.sqrt(
-                sum(
-                    (one * sizes[0]) ** 2
-                    for one, name in zip(off(tried, answer), by_name, strict=True)
-                    if name in COMPONENTS and name[-1] == label
-                )
-            )
-            for label in "ab"
+    of_vehicles = [
+        sum(
+            (one * sizes[0]) ** 2
+            for one, name in zip(off(tried, answer), by_name, strict=True)
+            if name in COMPONENTS and name[-1] == label
         )
-    )
+        for label in "ab"
+    ]
     impulse = np.hypot(answer.normal_impulse, answer.tangential_impulse)
-    both = inputs.a.mass + inputs.b.mass
+    per_impulse = _mass_of_both(inputs) / impulse
     condition = _condition(slopes_at(missed, values, sizes), exact, weights, sought, closing)
-    return Found(values[0], values[1], settled, closing, sticks, condition, left * both / impulse)
+    misfit, worst = (
+        np.sqrt(one) * per_impulse for one in (sum(of_vehicles), np.maximum(*of_vehicles))
+    )
+    return Found(values[0], values[1], settled, closing, sticks, condition, misfit, worst)
 
 
 def speeds_beside_an_energy(
@@ -506,36 +512,52 @@ def speeds_beside_an_energy(
     instant: tuple[Any, Any],
     known: Mapping[str, Any],
     shape: tuple[int, ...],
-    kept: int,
+    kept: Sequence[Any],
 ) -> Found:
     """As ``speeds_with_tyres``, from components and an energy: as without tyres, one that slid
     loses that energy, and of one that stuck the components alone tell the speeds, while the energy
     is a reading that its loss is held against.
+
+    ``kept`` has the misfits of the first starts, which are answers already: one that stuck may be
+    taken for one that slid where it takes all of the friction, and loses another energy.
     """
-    slid = speeds_with_tyres(inputs, directions, instant, known, shape, kept)
+    count = len(kept)
+    slid = speeds_with_tyres(inputs, directions, instant, known, shape, count)
+    if count:
+        own_misfit = np.stack(np.broadcast_arrays(*kept, slid.misfit[0])[:-1])
+        for part in (slid.misfit, slid.worst):
+            part[:count] = np.fmax(part[:count], own_misfit)
     parts = {name: value for name, value in known.items() if name in COMPONENTS}
-    stuck = speeds_with_tyres(inputs, directions, instant, parts, shape, kept)
+    stuck = speeds_with_tyres(inputs, directions, instant, parts, shape, count)
+    there = stuck.settled & stuck.sticks
+    # From a root that slid it has come to another one.
+    there[:count] &= slid.sticks[:count]
     *_, answer = _contact(_at_speeds(inputs, directions, (stuck.speed_a, stuck.speed_b)))
     (name,) = known.keys() - parts.keys() - set(_STANDS_FOR_NONE)
     energy = _energy(name, known[name], known, inputs)
     with np.errstate(all="ignore"):
         # An energy goes as the square of the impulse, of which all misfits are shares.
         off = 0.5 * abs(energy / answer.energy_loss - 1.0)
-    stuck = stuck._replace(misfit=np.fmax(0.0 if stuck.misfit is None else stuck.misfit, off))
-    there = stuck.settled & stuck.sticks
+    stuck = stuck._replace(
+        **{
+            part: np.fmax(0.0 if (one := getattr(stuck, part)) is None else one, off)
+            for part in ("misfit", "worst")
+        }
+    )
     slid = slid._replace(settled=slid.settled & ~slid.sticks)
+    # Of one start that which fits better.
+    better = there & ~(slid.settled & (slid.misfit < stuck.misfit))
     both = zip(stuck[:-1], slid[:-1], strict=True)
-    merged = Found(*(np.where(there, one, other) for one, other in both))
+    merged = Found(*(np.where(better, one, other) for one, other in both))
     more = MOST_ENERGY if name == "energy_loss" else math.sqrt(MOST_ENERGY)
     lost = {one: more * np.asarray(value) for one, value in known.items() if one not in parts}
-    start = slid.speed_a, slid.speed_b
-    reached = speeds_with_tyres(inputs, directions, start, {**known, **lost}, shape)
-    # The best of each. One that lost more fits too where none loses as little.
+    reached = speeds_with_tyres(inputs, directions, instant, {**known, **lost}, shape)
+    # The best of each. One that loses more fits too, also where none loses as little.
     own, *own_speeds, closing = _with_least(there, stuck, stuck.closing)
-    other, *speeds = _with_least(slid.settled, slid)
-    more_misfit, *more_speeds = _with_least(reached.settled & ~reached.sticks, reached)
-    misfits = own, np.fmin(other, more_misfit)
-    either = fit_either(misfits, own_speeds, (speeds, more_speeds), closing)
+    other, *speeds = _with_least(slid.settled & (slid.worst <= ACCURACY), slid)
+    there_too = reached.settled & ~reached.sticks & (reached.worst <= ACCURACY)
+    _, *more_speeds = _with_least(there_too, reached)
+    either = fit_either(own, np.fmin(own, other), own_speeds, (speeds, more_speeds), closing)
     return merged._replace(either=either)
 
 
@@ -543,7 +565,7 @@ def _with_least(there: Any, found: Found, *more: Any) -> list[Any]:
     """Of several starts of a case the least misfit of those that are there, infinite for none, and
     the speeds and what ``more`` is asked for where it is, NaN for none.
     """
-    misfit = np.where(there & np.isfinite(found.misfit), found.misfit, np.inf)
+    misfit = np.where(there & np.isfinite(found.worst), found.worst, np.inf)
     at = np.argmin(misfit, axis=0)[np.newaxis]
     values = [np.where(there, one, np.nan) for one in (found.speed_a, found.speed_b, *more)]
     return [np.take_along_axis(one, at, axis=0)[0] for one in (misfit, *values)]
@@ -749,7 +771,13 @@ def _missed(
 
 def _part_of_impulse(inputs: Inputs, name: str) -> Any:
     """What makes a component of delta-V a part of the impulse, as a speed of both together."""
-    return getattr(inputs, name[-1]).mass / (inputs.a.mass + inputs.b.mass)
+    return getattr(inputs, name[-1]).mass / _mass_of_both(inputs)
+
+
+def _mass_of_both(inputs: Inputs) -> Any:
+    """The mass of both vehicles, without one that is infinite, whose delta-V is none."""
+    masses = inputs.a.mass, inputs.b.mass
+    return sum(np.where(np.isinf(mass), 0.0, mass) for mass in masses)
 
 
 def _energy(name: str, value: Any, known: Mapping[str, Any], inputs: Inputs) -> Any:
