@@ -190,6 +190,8 @@ class Search:
     ) -> _Looked:
         """The same of the impulse at which readings that may mean several begin."""
         asked, shape = self.inputs, some.shape or ()
+        # Of these cases, which may be a part of all.
+        without = np.isinf(own.get(FRICTION, 0.0))
         if FREE in own:
             own = {**own, FRICTION: np.where(own[FREE] > 0.0, math.inf, own[FRICTION])}
         friction, shown = None, Shown()
@@ -205,7 +207,7 @@ class Search:
             scene.leaves_slip = scene.leaves_slip | shown.fits_both
             scene.toward, scene.reach, scene.no_side = shown.toward, shown.reach, shown.no_side
             scene.slides_better = shown.better
-            scene.shows_friction = np.isinf(asked.rule_value) & (friction is not None)
+            scene.shows_friction = without & (friction is not None)
         roots = scene.roots() if self.function is None else _with_function(scene, self.function)
         if isinstance(scene, ComponentScene) and np.any(np.isfinite(scene.slid_at)):
             slid_at = np.where(np.isfinite(scene.slid_at), scene.slid_at, own[FRICTION])
